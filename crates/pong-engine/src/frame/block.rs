@@ -5,10 +5,12 @@ use crate::frame::broad_phase::candidate_pairs::{
     CandidatePairs, Reach, SUPERCHUNK, Traversal, chunks_in_reach,
 };
 use crate::frame::broad_phase::chunk::{Chunk, ChunksOfA};
+use crate::frame::broad_phase::lone_element::LoneElement;
 use crate::frame::forces::ElementsOfA;
+use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::input::{Block, PairContext, Round};
 use crate::frame::narrow_phase::element_pair::ChunkCandidates;
-use crate::frame::narrow_phase::testers::{Target, test_deferred};
+use crate::frame::narrow_phase::testers::{Target, test_deferred, test_lone};
 use crate::frame::worker_context::WorkerContext;
 use crate::frame::{forces, load_sharing};
 use crate::report::{FrameCounts, Laps, Timed, Untimed, Work};
@@ -62,7 +64,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         let motion = input.motions[block.slot as usize].of(block.direction);
         let context = PairContext::new(round, block.direction, motion);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
-        let WorkerContext { arena, scratch, candidates, carried, deferred, found, shared, out } = worker;
+        let WorkerContext { arena, scratch, candidates, lone, carried, deferred, found, shared, out } = worker;
         let room = "sealing has sized the arena";
         let tree_b = &context.body_b.tree;
         let mut batches_b = arena.list(tree_b.batches.len()).expect(room);
@@ -72,41 +74,20 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         let mut found = ChunkCandidates::new(found, deferred);
         let meets_triangles = batches_b.iter().any(|batch| batch.kind == PrimitiveKind::Triangle);
         let chunks_of_a = ChunksOfA::new(context.body_a, batch_a, &motion.x_ba, meets_triangles);
-        let mut traversal = Traversal::NONE;
         for group in block.first / SUPERCHUNK..block.end.div_ceil(SUPERCHUNK) {
             let near =
                 chunks_in_reach(simd, &context, &block, group, &batches_b, &mut reach, &mut out.counts);
             let alone = near & lone_chunk(batch_a, group);
             let whole = candidates.gather(simd, &reach, near & !alone, &mut out.counts);
             laps.lap(Work::BroadPhase, &mut out.times);
-            // These go through the trees by themselves, one by one.
-            let (near, by_themselves) =
-                if whole { (candidates.chunks() | alone, alone) } else { (near, near) };
+            let near = if whole { candidates.chunks() | alone } else { near };
             for lane in lanes(near) {
-                let by_itself = by_themselves >> lane & 1 == 1;
-                if by_itself {
-                    traversal = Traversal::new(lane, alone >> lane & 1 == 1);
-                }
                 let chunk = chunks_of_a.carry(simd, group * SUPERCHUNK + (lane * LANES) as u32, carried);
-                loop {
-                    let mut through = true;
-                    if by_itself {
-                        through = candidates.go_on(simd, &mut traversal, &reach, &chunk, &mut out.counts);
-                        laps.lap(Work::BroadPhase, &mut out.times);
-                    }
-                    test_chunk(
-                        simd,
-                        &context,
-                        &chunk,
-                        &reach,
-                        (candidates, lane),
-                        &mut found,
-                        &mut out.counts,
-                    );
-                    laps.lap(Work::NarrowPhase, &mut out.times);
-                    if through {
-                        break;
-                    }
+                let at = AtChunk { context: &context, chunk: &chunk, reach: &reach, lane };
+                if alone >> lane & 1 == 1 {
+                    at.test_element(simd, lone, &mut found, out, &mut laps);
+                } else {
+                    at.test_all(simd, (candidates, whole), &mut found, out, &mut laps);
                 }
                 if found.overflowed {
                     out.demand.overflowed = true;
@@ -136,36 +117,96 @@ fn lone_chunk(batch: &Batch, group: u32) -> LaneBits {
     LaneBits::from(is_one) << (last / LANES as u32 % LANES as u32)
 }
 
-/// Tests a chunk of A, carried into B's frame, against the elements of B that it may touch: those that were gathered for its
-/// group, or those on its own traversal through the trees.
-#[inline(always)]
-fn test_chunk<S: Simd>(
-    simd: S,
-    context: &PairContext<'_>,
-    chunk: &Chunk<'_>,
-    reach: &[Reach<'_>],
-    (candidates, lane): (&CandidatePairs, usize),
-    found: &mut ChunkCandidates<'_>,
-    counts: &mut FrameCounts,
-) {
-    let pairs = candidates.pairs();
-    for number in candidates.of(lane) {
-        let candidate = &pairs[number];
-        let batch = reach[candidate.reach as usize].batch;
-        // Read again for every candidate: most chunks have one or two, and a compiler that fetches all boxes ahead of the
-        // loop moves more numbers than they need.
-        compiler_fence(Ordering::SeqCst);
-        let mut near = 1;
-        if chunk.items.len() > 1 {
-            near = chunk.reach(simd, &candidate.box_b);
-        }
-        if near != 0 {
-            let item_b = context.body_b.tree.items[(batch.items.start + candidate.place) as usize];
-            let target = Target { context, item_b, kind_b: batch.kind };
-            target.test_lanes(simd, chunk, near, found, counts);
+/// A chunk of A, carried into B's frame, and the batches of B that its group reaches.
+struct AtChunk<'a> {
+    context: &'a PairContext<'a>,
+    chunk: &'a Chunk<'a>,
+    reach: &'a [Reach<'a>],
+    /// Which chunk of its group it is.
+    lane: usize,
+}
+
+impl AtChunk<'_> {
+    /// Tests the chunk against the elements of B that it may touch: those that were gathered for its group or, if there was
+    /// no room for `whole` groups, those on its own traversal through the trees.
+    #[inline(always)]
+    fn test_all<S: Simd>(
+        &self,
+        simd: S,
+        (candidates, whole): (&mut CandidatePairs, bool),
+        found: &mut ChunkCandidates<'_>,
+        out: &mut ContactBuffer,
+        laps: &mut impl Laps,
+    ) {
+        let mut traversal = Traversal::new(self.lane);
+        loop {
+            let mut through = true;
+            if !whole {
+                through = candidates.go_on(simd, &mut traversal, self.reach, &mut out.counts);
+                laps.lap(Work::BroadPhase, &mut out.times);
+            }
+            self.test_candidates(simd, candidates, found, &mut out.counts);
+            laps.lap(Work::NarrowPhase, &mut out.times);
+            if through {
+                break;
+            }
         }
     }
-    if found.has_deferred() {
-        test_deferred(context, *chunk, found, counts);
+
+    #[inline(always)]
+    fn test_candidates<S: Simd>(
+        &self,
+        simd: S,
+        candidates: &CandidatePairs,
+        found: &mut ChunkCandidates<'_>,
+        counts: &mut FrameCounts,
+    ) {
+        let Self { context, chunk, reach, lane } = *self;
+        let pairs = candidates.pairs();
+        for number in candidates.of(lane) {
+            let candidate = &pairs[number];
+            let batch = reach[candidate.reach as usize].batch;
+            // Read again for every candidate: most chunks have one or two, and a compiler that fetches all boxes ahead of the
+            // loop moves more numbers than they need.
+            compiler_fence(Ordering::SeqCst);
+            let near = chunk.reach(simd, &candidate.box_b);
+            if near != 0 {
+                let item_b = context.body_b.tree.items[(batch.items.start + candidate.place) as usize];
+                let target = Target { context, item_b, kind_b: batch.kind };
+                target.test_lanes(simd, chunk, near, found, counts);
+            }
+        }
+        if found.has_deferred() {
+            test_deferred(context, *chunk, found, counts);
+        }
+    }
+
+    /// Tests an element by itself, the only one of the chunk, against the elements of B on its own way through the trees.
+    #[inline(always)]
+    fn test_element<S: Simd>(
+        &self,
+        simd: S,
+        lone: &mut LoneElement,
+        found: &mut ChunkCandidates<'_>,
+        out: &mut ContactBuffer,
+        laps: &mut impl Laps,
+    ) {
+        let Self { context, chunk, reach, lane } = *self;
+        for Reach { batch, .. } in reach.iter().filter(|reach| reach.holds_for(lane)) {
+            lone.begin(chunk, &batch.boxes);
+            loop {
+                let through = lone.go_on(simd, &batch.boxes, &mut out.counts);
+                laps.lap(Work::BroadPhase, &mut out.times);
+                test_lone(simd, context, chunk, (batch, lone.places()), found, &mut out.counts);
+                laps.lap(Work::NarrowPhase, &mut out.times);
+                if through {
+                    break;
+                }
+            }
+        }
+        if found.has_deferred() {
+            test_deferred(context, *chunk, found, &mut out.counts);
+            laps.lap(Work::NarrowPhase, &mut out.times);
+        }
     }
 }

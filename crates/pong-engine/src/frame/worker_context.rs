@@ -2,6 +2,7 @@
 
 use crate::frame::broad_phase::candidate_pairs::CandidatePairs;
 use crate::frame::broad_phase::chunk::ChunkSpace;
+use crate::frame::broad_phase::lone_element::LoneElement;
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::load_sharing::solver::SharedContact;
 use crate::frame::narrow_phase::candidate::ContactCandidate;
@@ -19,6 +20,7 @@ pub(crate) struct WorkerContext {
     /// For one solution among contacts of one key.
     pub scratch: Arena,
     pub(crate) candidates: CandidatePairs,
+    pub(crate) lone: LoneElement,
     /// A chunk of A in B's frame.
     pub(crate) carried: ChunkSpace,
     pub(crate) deferred: DeferredPairs,
@@ -45,6 +47,7 @@ impl WorkerContext {
             arena: Arena::with_capacity(sealed.limits.arena_bytes),
             scratch: Arena::with_capacity(sealed.limits.scratch_bytes),
             candidates: CandidatePairs::new(),
+            lone: LoneElement::NONE,
             carried: ChunkSpace::new(),
             deferred: DeferredPairs::default(),
             found: Table::with_capacity(sealed.limits.found, ContactCandidate::NOTHING),

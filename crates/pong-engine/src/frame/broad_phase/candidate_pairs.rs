@@ -1,12 +1,12 @@
 //! Which elements of B the chunks of A may touch: B's trees are asked for eight chunks at once.
 
-use crate::frame::broad_phase::chunk::{Chunk, LaneBoxes, WideBox};
+use crate::frame::broad_phase::chunk::{LaneBoxes, WideBox};
 use crate::frame::input::{Block, PairContext};
 use crate::report::FrameCounts;
 use pong_arena::{List, Table};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::Batch;
-use pong_model::box_tree::{BoxNode, Child, NarrowBall, NarrowBox, NarrowBoxes, lanes};
+use pong_model::box_tree::{BoxNode, Child, NarrowBox, NarrowBoxes, lanes};
 
 /// Elements whose boxes are carried together: eight chunks of eight.
 pub(crate) const SUPERCHUNK: u32 = (LANES * LANES) as u32;
@@ -18,7 +18,7 @@ const CANDIDATE_PAIRS_MAX: usize = 1024;
 const WORDS: usize = CANDIDATE_PAIRS_MAX / LANES;
 
 /// Nodes that can wait at once: a tree of 2³¹ elements has eleven levels, each leaves at most seven waiting.
-const DEPTH_MAX: usize = 80;
+pub(crate) const DEPTH_MAX: usize = 80;
 
 /// A batch of B, and the boxes around eight chunks of A as its tree sees them.
 #[derive(Clone, Copy)]
@@ -27,6 +27,14 @@ pub(crate) struct Reach<'a> {
     boxes: NarrowBoxes,
     /// The chunks that reach the batch at all.
     met: LaneBits,
+}
+
+impl Reach<'_> {
+    /// Whether a chunk reaches anything of the batch.
+    #[inline(always)]
+    pub fn holds_for(&self, lane: usize) -> bool {
+        self.met >> lane & 1 == 1 && !self.batch.boxes.nodes.is_empty()
+    }
 }
 
 /// Which chunks of a group reach any batch of B.
@@ -76,7 +84,7 @@ pub(crate) struct CandidatePair {
     pub reach: u32,
     /// Its place in the batch.
     pub place: u32,
-    /// Its box; anything in the pairs of an element of A by itself.
+    /// Its box.
     pub box_b: WideBox,
 }
 
@@ -242,7 +250,6 @@ impl CandidatePairs {
         simd: S,
         traversal: &mut Traversal,
         reach: &[Reach<'_>],
-        chunk: &Chunk<'_>,
         counts: &mut FrameCounts,
     ) -> bool {
         self.clear();
@@ -253,27 +260,18 @@ impl CandidatePairs {
             let Some(StackEntry { node, chunks }) = self.next_waiting() else {
                 let Some(next) = reach.get(traversal.next) else { return true };
                 traversal.next += 1;
-                if next.met >> traversal.lane & 1 == 1 && !next.batch.boxes.nodes.is_empty() {
-                    (traversal.query, traversal.ball) = if traversal.alone {
-                        chunk.first_narrowed(&next.batch.boxes)
-                    } else {
-                        (next.boxes.lane(traversal.lane), None)
-                    };
+                if next.holds_for(traversal.lane) {
+                    traversal.query = next.boxes.lane(traversal.lane);
                     self.wait(0, 1 << traversal.lane);
                 }
                 continue;
             };
             let tree = &reach[traversal.next - 1].batch.boxes;
             let node: &BoxNode = &tree.nodes[node as usize];
-            let mut met = node.boxes.met_by(simd, &traversal.query);
-            if let Some(ball) = &traversal.ball {
-                met &= node.boxes.near(simd, ball);
-            }
+            let met = node.boxes.met_by(simd, &traversal.query);
             counts.boxes_tested += 1;
             for lane_b in lanes(met) {
-                if let Some(pair) = self.note(traversal.next - 1, node.child(lane_b), chunks)
-                    && !traversal.alone
-                {
+                if let Some(pair) = self.note(traversal.next - 1, node.child(lane_b), chunks) {
                     pair.box_b.set(tree, &node.boxes, lane_b);
                 }
             }
@@ -312,21 +310,14 @@ impl Iterator for NumbersOfChunk<'_> {
 /// How far one chunk has got through the trees of B.
 pub(crate) struct Traversal {
     lane: usize,
-    /// Whether the chunk is one element, whose own box in B's frame is much tighter than its turned one.
-    alone: bool,
     /// The batch that comes next.
     next: usize,
     query: NarrowBox,
-    /// Around a ball, which lies within the box.
-    ball: Option<NarrowBall>,
 }
 
 impl Traversal {
-    /// Of nobody.
-    pub const NONE: Self = Self { lane: 0, alone: false, next: 0, query: NarrowBox::NOTHING, ball: None };
-
     /// From the start, for the chunk of a group.
-    pub fn new(lane: usize, alone: bool) -> Self {
-        Self { lane, alone, ..Self::NONE }
+    pub fn new(lane: usize) -> Self {
+        Self { lane, next: 0, query: NarrowBox::NOTHING }
     }
 }

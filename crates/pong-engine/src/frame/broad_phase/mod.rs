@@ -3,4 +3,5 @@
 pub(crate) mod blocks;
 pub(crate) mod candidate_pairs;
 pub(crate) mod chunk;
+pub(crate) mod lone_element;
 pub(crate) mod transformed;

@@ -11,7 +11,7 @@ use crate::report::FrameCounts;
 use pong_geometry::interference::ellipsoid_triangle::EllipsoidOnTriangles;
 use pong_geometry::primitive::PrimitiveKind::{self, Polyhedron, Triangle};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
-use pong_model::Item;
+use pong_model::{Batch, Item};
 use pong_model::box_tree::lanes;
 
 /// So many line segments near a polyhedron are asked together: fewer end sooner one by one.
@@ -35,9 +35,10 @@ impl<'a> Target<'a> {
         found: &mut ChunkCandidates<'_>,
         counts: &mut FrameCounts,
     ) {
-        if self.kind_b == Triangle && matches!(chunk.kind, PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid) {
+        if is_deferred(chunk.kind, self.kind_b) {
             counts.note_testers(chunk.kind, self.kind_b, near.count_ones(), 0);
-            return self.defer(chunk, near, found, counts);
+            let pairs = lanes(near).map(|lane| (lane, self.item_b));
+            return defer(self.context, chunk, pairs, found, counts);
         }
         let tested = near.count_ones();
         let near = self.not_separated(simd, chunk, near);
@@ -49,34 +50,6 @@ impl<'a> Target<'a> {
             }
         }
         counts.note_testers(chunk.kind, self.kind_b, tested, (found.seen - before) as u32);
-    }
-
-    /// Defers the tests of spheres or ellipsoids near a triangle until there are eight such pairs.
-    #[inline(always)]
-    fn defer(
-        &self,
-        chunk: &Chunk<'_>,
-        near: LaneBits,
-        found: &mut ChunkCandidates<'_>,
-        counts: &mut FrameCounts,
-    ) {
-        let (context, item_b) = (self.context, self.item_b);
-        let triangles = &context.body_b.triangles;
-        for lane in lanes(near) {
-            let deferred = &mut *found.deferred;
-            deferred.from[deferred.count()] = (lane as u8, item_b);
-            if chunk.kind == PrimitiveKind::Sphere {
-                let sphere = chunk.sphere(lane);
-                let thickness = thickness_for_sphere(context, item_b, &sphere);
-                deferred.spheres.add(&sphere, triangles, item_b.element, thickness);
-            } else if let Some(TransformedPrimitive::Ellipsoid(ellipsoid)) = chunk.carried(lane) {
-                let thickness = thickness_for_ellipsoid(context, item_b, ellipsoid);
-                deferred.ellipsoids.add(ellipsoid, triangles, item_b.element, thickness);
-            }
-            if deferred.count() == LANES {
-                test_deferred(context, *chunk, found, counts);
-            }
-        }
     }
 
     /// Most points, spheres and line segments near a polyhedron end here: apart by the plane of one face.
@@ -116,6 +89,61 @@ impl<'a> Target<'a> {
         match (test, a) {
             (Some(test), Some(a)) => test(&pair, a, found),
             (None, _) | (_, None) => registered::test(&pair, found),
+        }
+    }
+}
+
+/// Tests an element by itself, the only one of its chunk, against the elements at some places of a batch of B.
+#[inline(always)]
+pub(crate) fn test_lone<S: Simd>(
+    simd: S,
+    context: &PairContext<'_>,
+    chunk: &Chunk<'_>,
+    (batch, places): (&Batch, &[u32]),
+    found: &mut ChunkCandidates<'_>,
+    counts: &mut FrameCounts,
+) {
+    let items = &context.body_b.tree.items[batch.items.start as usize..batch.items.end as usize];
+    if is_deferred(chunk.kind, batch.kind) {
+        counts.note_testers(chunk.kind, batch.kind, places.len() as u32, 0);
+        let pairs = places.iter().map(|&place| (0, items[place as usize]));
+        return defer(context, chunk, pairs, found, counts);
+    }
+    for &place in places {
+        let target = Target { context, item_b: items[place as usize], kind_b: batch.kind };
+        target.test_lanes(simd, chunk, 1, found, counts);
+    }
+}
+
+/// Whether pairs of such kinds wait until there are eight of them.
+#[inline(always)]
+fn is_deferred(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
+    kind_b == Triangle && matches!(kind_a, PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid)
+}
+
+/// Defers the tests of spheres or ellipsoids of a chunk, by their lanes, near triangles until there are eight such pairs.
+#[inline(always)]
+fn defer(
+    context: &PairContext<'_>,
+    chunk: &Chunk<'_>,
+    pairs: impl Iterator<Item = (usize, Item)>,
+    found: &mut ChunkCandidates<'_>,
+    counts: &mut FrameCounts,
+) {
+    let triangles = &context.body_b.triangles;
+    for (lane, item_b) in pairs {
+        let deferred = &mut *found.deferred;
+        deferred.from[deferred.count()] = (lane as u8, item_b);
+        if chunk.kind == PrimitiveKind::Sphere {
+            let sphere = chunk.sphere(lane);
+            let thickness = thickness_for_sphere(context, item_b, &sphere);
+            deferred.spheres.add(&sphere, triangles, item_b.element, thickness);
+        } else if let Some(TransformedPrimitive::Ellipsoid(ellipsoid)) = chunk.carried(lane) {
+            let thickness = thickness_for_ellipsoid(context, item_b, ellipsoid);
+            deferred.ellipsoids.add(ellipsoid, triangles, item_b.element, thickness);
+        }
+        if deferred.count() == LANES {
+            test_deferred(context, *chunk, found, counts);
         }
     }
 }
