@@ -6,7 +6,7 @@ use crate::read::{SLIVER, smallest_height_share};
 use crate::triangle_topology::{self, MeshWarning};
 use crate::weld::Welder;
 use pong_geometry::Vec3;
-use pong_geometry::primitive::{MayPush, NO_NEIGHBOR, PrimitiveKind, TriangleRecord};
+use pong_geometry::primitive::{Lean, MayPush, NO_NEIGHBOR, PrimitiveKind, TriangleRecord};
 
 /// What is wrong with a polyhedron.
 #[derive(Clone, Debug, PartialEq)]
@@ -129,6 +129,7 @@ fn body_of(corners: &[[Vec3; 3]]) -> MovableGroup {
             neighbors: [NO_NEIGHBOR; 3],
             shell: 0,
             may_push: MayPush::ALL,
+            lean: Lean::ANY,
         });
     }
     let count = corners.len() as u32;

@@ -64,7 +64,8 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         let motion = input.motions[block.slot as usize].of(block.direction);
         let context = PairContext::new(round, block.direction, motion);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
-        let WorkerContext { arena, scratch, candidates, lone, carried, deferred, found, shared, out } = worker;
+        let WorkerContext { arena, scratch, candidates, lone, carried, deferred, found, shared, out } =
+            worker;
         let room = "sealing has sized the arena";
         let tree_b = &context.body_b.tree;
         let mut batches_b = arena.list(tree_b.batches.len()).expect(room);
@@ -197,7 +198,7 @@ impl AtChunk<'_> {
             loop {
                 let through = lone.go_on(simd, &batch.boxes, &mut out.counts);
                 laps.lap(Work::BroadPhase, &mut out.times);
-                test_lone(simd, context, chunk, (batch, lone.places()), found, &mut out.counts);
+                test_lone(simd, context, chunk, (batch, lone.bottoms()), found, &mut out.counts);
                 laps.lap(Work::NarrowPhase, &mut out.times);
                 if through {
                     break;

@@ -47,7 +47,15 @@ pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) ->
 /// be in A is less far from it than the margin of the projections.
 #[inline(always)]
 fn share_a_place(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
-    let nearest = t.zip_map(half_b, |t, half| if t > half { half } else if t < -half { -half } else { t });
+    let nearest = t.zip_map(half_b, |t, half| {
+        if t > half {
+            half
+        } else if t < -half {
+            -half
+        } else {
+            t
+        }
+    });
     let place_a = m.tr_mul(&(nearest - t)).abs();
     // NaN compares as not in A.
     (place_a.x <= half_a.x) & (place_a.y <= half_a.y) & (place_a.z <= half_a.z)

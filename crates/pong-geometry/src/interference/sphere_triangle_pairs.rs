@@ -9,7 +9,7 @@
 
 use super::triangle_lanes::{EightVectors, TriangleLanes, bit_of_each};
 use super::triangle_reach::{REACH_SLACK, SIDE_SLACK};
-use crate::primitive::{Sphere, TriangleSet};
+use crate::primitive::{Lean, Sphere, TriangleSet};
 use crate::simd::{LANES, LaneBits, Simd, run_at_level};
 
 /// By how much a product of two vectors exceeds zero, as a share of their lengths, before it points along for certain:
@@ -176,6 +176,9 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
     let radius_square = simd.mul(radius, radius);
     let span_square = simd.mul(span, span);
     let zero = simd.splat(0.0);
+    let lean = simd.load(&pairs.leans);
+    let leans_little = in_front & simd.bits(simd.below(lean, simd.splat(Lean::ANY.tangent())));
+    let leaning_square = simd.mul(height_square, simd.mul(lean, lean));
     for k in 0..3 {
         let (edge, arm, next_arm) = (&edges[k], &arms[k], &arms[(k + 1) % 3]);
         let edge_square = edge.dot(edge);
@@ -189,7 +192,11 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
         // The foot on the edge's line lies before its start or after its end.
         let (from_start, from_end) = (arm.dot(edge), next_arm.dot(edge));
         let beside = simd.bits(simd.below(from_start, zero)) | simd.bits(simd.below(zero, from_end));
-        features |= bit_of_each(&pairs.may_push, k) & !surely_within & !beside;
+        // Beyond the normals along which the edge pushes: over the other face.
+        let aside = simd.sub(beyond, side_slack);
+        let leans_more = simd.below(simd.mul(leaning_square, edge_square), simd.mul(aside, aside));
+        let over_other = leans_little & surely_beyond & simd.bits(leans_more);
+        features |= bit_of_each(&pairs.may_push, k) & !surely_within & !beside & !over_other;
         // Vertex `k`, at the start of edge `k` and the end of the one before.
         let before = &edges[(k + 2) % 3];
         let arm_square = arm.dot(arm);

@@ -25,6 +25,8 @@ pub(super) struct TriangleLanes {
     /// How far behind a triangle its centre may be and still be pushed to the front, m.
     pub thicknesses: [f64; LANES],
     pub may_push: [u8; LANES],
+    /// Tangents of [`Lean`](crate::primitive::Lean).
+    pub leans: [f64; LANES],
     pub count: usize,
 }
 
@@ -34,6 +36,7 @@ impl TriangleLanes {
         centers: NOTHING,
         thicknesses: [0.0; LANES],
         may_push: [0; LANES],
+        leans: [0.0; LANES],
         count: 0,
     };
 
@@ -48,6 +51,7 @@ impl TriangleLanes {
         put(&mut self.centers, lane, center);
         self.thicknesses[lane] = thickness;
         self.may_push[lane] = record.may_push.0;
+        self.leans[lane] = record.lean.tangent();
         self.count += 1;
         lane
     }

@@ -20,7 +20,7 @@ pub use polyhedron_parts::{
 };
 pub use round::{Bore, Capsule, Frustum};
 pub use simple::{LineSegment, Plane, Point, Ray, RayResponse};
-pub use triangles::{MayPush, NO_NEIGHBOR, TriangleRecord, TriangleSet};
+pub use triangles::{Lean, MayPush, NO_NEIGHBOR, TriangleRecord, TriangleSet};
 
 use crate::Vec3;
 

@@ -1,7 +1,7 @@
 //! All triangles of one movable group, sharing vertices, with their neighbours.
 //!
 //! Forty-four bytes per triangle: normals and edge planes are computed when they are needed; which edges and vertices
-//! may push at all is known. Edge `k` of a triangle runs from its vertex `k` to its vertex `k + 1` (mod 3).
+//! may push at all is known, and how far aside edges do. Edge `k` of a triangle runs from its vertex `k` to its vertex `k + 1` (mod 3).
 
 use crate::Vec3;
 
@@ -30,6 +30,8 @@ pub struct TriangleRecord {
     pub shell: u32,
     /// Which of its edges and vertices may push.
     pub may_push: MayPush,
+    /// How far aside its edges may push.
+    pub lean: Lean,
 }
 
 /// Which edges and vertices of a triangle may push, as
@@ -54,6 +56,36 @@ impl MayPush {
     #[inline]
     pub fn vertex(self, k: usize) -> bool {
         self.0 >> (3 + k) & 1 == 1
+    }
+}
+
+/// The greatest tangent of the angle between the normal of a triangle and a normal along which one of its edges may push,
+/// rounded up, as [`mark_pushing`](crate::interference::triangle_features::mark_pushing) tells. It decides no answer: where
+/// nothing is known an edge may push any way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Lean(u8);
+
+impl Lean {
+    /// Along the normal of the triangle alone: no edge pushes.
+    pub const NONE: Self = Self(0);
+    /// Any way.
+    pub const ANY: Self = Self(u8::MAX);
+
+    /// Steps of one.
+    const STEPS: f64 = 64.0;
+
+    /// Of a tangent of at least zero; a number that is none tells nothing.
+    pub fn of_tangent(tangent: f64) -> Self {
+        /// Far beyond rounding of two normals and of a height that is certainly not nothing, in steps.
+        const ROOM: f64 = 0.01;
+        let steps = (tangent * Self::STEPS * (1.0 + ROOM) + ROOM).ceil();
+        if steps < f64::from(u8::MAX) { Self(steps as u8) } else { Self::ANY }
+    }
+
+    /// The tangent.
+    #[inline]
+    pub fn tangent(self) -> f64 {
+        f64::from(self.0) / Self::STEPS
     }
 }
 

@@ -2,8 +2,8 @@
 #![allow(dead_code, unreachable_pub, missing_docs)]
 
 use pong_geometry::primitive::{
-    EdgePush, Ellipsoid, MayPush, NO_NEIGHBOR, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts,
-    PolyhedronVertex, RimEdge, TriangleRecord, TriangleSet,
+    EdgePush, Ellipsoid, Lean, MayPush, NO_NEIGHBOR, Polyhedron, PolyhedronEdge, PolyhedronFace,
+    PolyhedronParts, PolyhedronVertex, RimEdge, TriangleRecord, TriangleSet,
 };
 use pong_geometry::{Transform, Vec3};
 
@@ -278,6 +278,7 @@ pub fn triangle_set(vertices: Vec<Vec3>, triangles: &[[u32; 3]]) -> TriangleSet 
             neighbors: [across(t[0], t[1]), across(t[1], t[2]), across(t[2], t[0])],
             shell: 0,
             may_push: MayPush::ALL,
+            lean: Lean::ANY,
         })
         .collect();
     TriangleSet { vertices, triangles }

@@ -6,7 +6,7 @@ use pong_geometry::interference::Interference;
 use pong_geometry::interference::sphere_triangle::sphere_triangle;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
 use pong_geometry::primitive::{
-    EdgePush, MayPush, NO_NEIGHBOR, Polyhedron, Sphere, TriangleRecord, TriangleSet,
+    EdgePush, Lean, MayPush, NO_NEIGHBOR, Polyhedron, Sphere, TriangleRecord, TriangleSet,
 };
 use pong_geometry::{Transform, Vec3};
 
@@ -55,7 +55,8 @@ pub fn surface(vertices: Vec<Vec3>, triangles: &[[u32; 3]]) -> TriangleSet {
             owners.get(&(b, a)).copied().unwrap_or(NO_NEIGHBOR)
         };
         let neighbors = [0, 1, 2].map(across);
-        set.triangles.push(TriangleRecord { vertices: *t, neighbors, shell: 0, may_push: MayPush::ALL });
+        let (may_push, lean) = (MayPush::ALL, Lean::ANY);
+        set.triangles.push(TriangleRecord { vertices: *t, neighbors, shell: 0, may_push, lean });
     }
     set
 }

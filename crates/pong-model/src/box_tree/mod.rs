@@ -120,6 +120,12 @@ impl NarrowBall {
         let square = if size < FAR { wide * wide + f64::from(f32::MIN_POSITIVE) } else { f64::INFINITY };
         Self { center: [center.x as f32, center.y as f32, center.z as f32], square: square as f32 }
     }
+
+    /// Whether anything is beyond it.
+    #[inline]
+    pub fn is_bounded(&self) -> bool {
+        self.square < f32::INFINITY
+    }
 }
 
 /// A finite number of single precision that is not greater. What lies below them all, and what is no number, becomes the
@@ -178,7 +184,7 @@ impl NarrowBoxes {
         simd.boxes_met(&self.bounds, &query.low, &query.high)
     }
 
-    /// Which of the boxes a ball may reach.
+    /// Which of the boxes a ball may reach. Only one that is not bounded reaches empty boxes.
     #[inline(always)]
     pub fn near<S: Simd>(&self, simd: S, ball: &NarrowBall) -> LaneBits {
         simd.boxes_near(&self.bounds, &ball.center, ball.square)
@@ -220,7 +226,7 @@ impl BoxNode {
         if child & ELEMENT != 0 { Child::Element(child & !ELEMENT) } else { Child::Node(child) }
     }
 
-    /// Whether the boxes are those of elements.
+    /// Whether the boxes are those of elements: of all that are below, in their order.
     #[inline]
     pub fn is_bottom(&self) -> bool {
         self.children[0] & ELEMENT != 0

@@ -8,7 +8,7 @@ use crate::limits::out_of_range;
 use crate::model::PrimitiveInfo;
 use crate::ron_tree::{Node, Value};
 use pong_geometry::Vec3;
-use pong_geometry::primitive::{MayPush, NO_NEIGHBOR, TriangleRecord};
+use pong_geometry::primitive::{Lean, MayPush, NO_NEIGHBOR, TriangleRecord};
 
 /// A triangle whose smallest height is below this share of its longest edge is refused.
 pub(crate) const SLIVER: f64 = 1e-9;
@@ -119,6 +119,7 @@ fn add_triangles(
                     neighbors: [NO_NEIGHBOR; 3],
                     shell: 0,
                     may_push: MayPush::ALL,
+                    lean: Lean::ANY,
                 });
             }
             Err((rule, cause, cure)) => {

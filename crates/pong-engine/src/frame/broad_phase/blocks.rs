@@ -7,7 +7,6 @@ use crate::report::FrameCounts;
 use crate::scene::Scene;
 use crate::sealed::{Direction, Plan, Sealed};
 use pong_arena::List;
-use pong_geometry::Transform;
 use pong_geometry::bounding::{CarriedVolume, Volume};
 use pong_geometry::simd::LANES;
 use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBox};
@@ -76,14 +75,11 @@ struct Layout<'a, 'w> {
 }
 
 impl Layout<'_, '_> {
-    fn x_ba(&self) -> Transform {
-        self.input.motions[self.slot as usize].of(self.direction).x_ba
-    }
-
     /// Whether a volume of A reaches the root of B's tree.
     fn reaches_b(&mut self, volume: &Volume) -> bool {
         let root = &self.bodies.1.tree.nodes[0].volume;
-        let meets = self.sealed.volume_tests.overlap(volume, root, &self.x_ba());
+        let x_ba = &self.input.motions[self.slot as usize].of(self.direction).x_ba;
+        let meets = self.sealed.volume_tests.overlap(volume, root, x_ba);
         self.caller.out.counts.note_volumes(volume, root, meets);
         meets
     }
@@ -110,10 +106,13 @@ impl Layout<'_, '_> {
     /// Cuts the elements below a node of boxes into blocks; the children of a large node are first asked whether they
     /// reach B at all.
     fn cut(&mut self, boxes: &BoxTree, node: u32, element_ns: u32, block: Block) {
-        let at_most = (NODE_NS / element_ns).next_multiple_of(LANES as u32);
         let node: &BoxNode = &boxes.nodes[node as usize];
         let elements = node.elements.clone();
-        if elements.end - elements.start <= at_most || node.is_bottom() {
+        if node.is_bottom() {
+            return self.slice(elements, element_ns, block);
+        }
+        let at_most = (NODE_NS / element_ns).next_multiple_of(LANES as u32);
+        if elements.end - elements.start <= at_most {
             return self.slice(elements, element_ns, block);
         }
         for (lane, child) in node.children().enumerate() {
@@ -128,19 +127,24 @@ impl Layout<'_, '_> {
 
     /// Cuts consecutive elements into blocks, between groups of elements that are carried together.
     fn slice(&mut self, elements: Range<u32>, element_ns: u32, block: Block) {
+        let Range { start: mut first, end: past } = elements;
+        let of_group = |element: u32| (element / SUPERCHUNK) * SUPERCHUNK;
+        // Most are of one group, which is never cut: these need no division.
+        if past <= of_group(first) + SUPERCHUNK {
+            return self.add(Block { first, end: past, ..block }, element_ns);
+        }
         let step = (BLOCK_NS / element_ns).next_multiple_of(SUPERCHUNK).max(SUPERCHUNK);
-        let mut first = elements.start;
-        while first < elements.end {
-            let end = elements.end.min((first / SUPERCHUNK) * SUPERCHUNK + step);
-            self.add(Block { first, end, ..block }, u64::from(end - first) * u64::from(element_ns));
+        while first < past {
+            let end = past.min(of_group(first) + step);
+            self.add(Block { first, end, ..block }, element_ns);
             first = end;
         }
     }
 
-    fn add(&mut self, block: Block, cost: u64) {
+    fn add(&mut self, block: Block, element_ns: u32) {
         self.input.blocks.push(Block { leads: self.leads, ..block });
         self.leads = false;
-        *self.cost += cost;
+        *self.cost += u64::from(block.end - block.first) * u64::from(element_ns);
         if self.input.blocks.len() == ROUND {
             (self.work)(self.input, self.caller, *self.cost);
             self.input.blocks.clear();

@@ -65,11 +65,13 @@ pub(crate) fn chunks_in_reach<'a, S: Simd>(
     let mut any = 0;
     reach.clear();
     for &batch in batches_b {
-        let boxes = match &carried {
-            Some(carried) => carried.narrowed(simd, &batch.boxes),
-            None => NarrowBoxes::EVERYTHING,
+        let (boxes, met) = match &carried {
+            Some(carried) => {
+                let boxes = carried.narrowed(simd, &batch.boxes);
+                (boxes, boxes.met_by(simd, &batch.boxes.around) & in_block)
+            }
+            None => (NarrowBoxes::EVERYTHING, in_block),
         };
-        let met = boxes.met_by(simd, &batch.boxes.around) & in_block;
         any |= met;
         reach.push(Reach { batch, boxes, met }).expect("as much room as for batches");
     }

@@ -168,6 +168,11 @@ impl Chunk<'_> {
         (around, self.balls.map(|balls| balls.first_narrowed(tree)))
     }
 
+    #[inline(always)]
+    pub fn is_of_spheres(&self) -> bool {
+        self.kind == PrimitiveKind::Sphere
+    }
+
     /// The lanes that hold elements.
     #[inline]
     pub fn used(&self) -> LaneBits {

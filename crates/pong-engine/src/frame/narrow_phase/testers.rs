@@ -5,14 +5,15 @@ use super::on_triangle::{thickness_for_ellipsoid, thickness_for_sphere};
 use super::pair_table::{Test, ellipsoid_triangle, sphere_triangle, test_of};
 use super::registered;
 use crate::frame::broad_phase::chunk::Chunk;
+use crate::frame::broad_phase::lone_element::Bottom;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
 use crate::report::FrameCounts;
 use pong_geometry::interference::ellipsoid_triangle::EllipsoidOnTriangles;
 use pong_geometry::primitive::PrimitiveKind::{self, Polyhedron, Triangle};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
-use pong_model::{Batch, Item};
 use pong_model::box_tree::lanes;
+use pong_model::{Batch, Item};
 
 /// So many line segments near a polyhedron are asked together: fewer end sooner one by one.
 const WORTH_EIGHT: u32 = 3;
@@ -93,25 +94,31 @@ impl<'a> Target<'a> {
     }
 }
 
-/// Tests an element by itself, the only one of its chunk, against the elements at some places of a batch of B.
+/// Tests an element by itself, the only one of its chunk, against elements of a batch of B.
 #[inline(always)]
 pub(crate) fn test_lone<S: Simd>(
     simd: S,
     context: &PairContext<'_>,
     chunk: &Chunk<'_>,
-    (batch, places): (&Batch, &[u32]),
+    (batch, bottoms): (&Batch, &[Bottom]),
     found: &mut ChunkCandidates<'_>,
     counts: &mut FrameCounts,
 ) {
     let items = &context.body_b.tree.items[batch.items.start as usize..batch.items.end as usize];
     if is_deferred(chunk.kind, batch.kind) {
-        counts.note_testers(chunk.kind, batch.kind, places.len() as u32, 0);
-        let pairs = places.iter().map(|&place| (0, items[place as usize]));
-        return defer(context, chunk, pairs, found, counts);
+        let mut tested = 0;
+        for &Bottom { first, met } in bottoms {
+            let items = &items[first as usize..];
+            tested += met.count_ones();
+            defer(context, chunk, lanes(met).map(|lane| (0, items[lane])), found, counts);
+        }
+        return counts.note_testers(chunk.kind, batch.kind, tested, 0);
     }
-    for &place in places {
-        let target = Target { context, item_b: items[place as usize], kind_b: batch.kind };
-        target.test_lanes(simd, chunk, 1, found, counts);
+    for &Bottom { first, met } in bottoms {
+        for lane in lanes(met) {
+            let target = Target { context, item_b: items[first as usize + lane], kind_b: batch.kind };
+            target.test_lanes(simd, chunk, 1, found, counts);
+        }
     }
 }
 
