@@ -9,7 +9,8 @@ use oracle_support::{regular_plate, surface, surfaces};
 use pong_geometry::Vec3;
 use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
 use pong_geometry::interference::ellipsoid_triangle_pairs::EllipsoidTrianglePairs;
-use pong_geometry::interference::triangle_features::{TriangleContact, mark_pushing};
+use pong_geometry::interference::pushing_features::mark_pushing;
+use pong_geometry::interference::triangle_features::TriangleContact;
 use pong_geometry::primitive::{Ellipsoid, TriangleSet};
 use pong_geometry::simd::{LANES, Level, set_level};
 

@@ -4,13 +4,16 @@
 mod common;
 mod oracle_support;
 
-use common::Random;
-use oracle_support::{all_contacts, regular_plate, surfaces};
+use common::{Random, random_motion};
+use oracle_support::{
+    all_contacts, dented_ball, fan_plate, hilly_sheet, moved_surface, regular_plate, rounded_to_f32, surfaces,
+};
 use pong_geometry::Vec3;
 use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
+use pong_geometry::interference::pushing_features::mark_pushing;
 use pong_geometry::interference::sphere_triangle::{sphere_over_face, sphere_triangle};
 use pong_geometry::interference::sphere_triangle_pairs::{PairsTold, SphereTrianglePairs};
-use pong_geometry::interference::triangle_features::{TriangleContact, mark_pushing};
+use pong_geometry::interference::triangle_features::TriangleContact;
 use pong_geometry::primitive::{Ellipsoid, MayPush, Sphere, TriangleSet};
 use pong_geometry::simd::{LANES, Level, set_level};
 
@@ -152,4 +155,96 @@ fn marked_surfaces_push_as_unmarked_ones() {
         }
     }
     assert!(compared > 1000, "{compared}");
+}
+
+/// Curved a little or much, turned, moved and scaled, half of them rounded to single precision; marked.
+fn curved_surface(round: usize, random: &mut Random) -> TriangleSet {
+    let hill = [1e-6, 1e-3, 0.02, 0.1, 0.4][round % 5];
+    let set = match round % 3 {
+        0 => hilly_sheet(4, hill, random),
+        1 => dented_ball(5, 7, hill, random),
+        _ => {
+            let mut set = fan_plate(random);
+            set.vertices.iter_mut().for_each(|vertex| vertex.z = -hill * vertex.norm_squared());
+            set
+        }
+    };
+    let moved = moved_surface(&set, &random_motion(random, 3.0));
+    let mut set = if round.is_multiple_of(2) { rounded_to_f32(&moved) } else { moved };
+    let scale = f64::exp2([0.0, 10.0, -10.0][round % 7 % 3]);
+    set.vertices.iter_mut().for_each(|vertex| *vertex *= scale);
+    mark_pushing(&mut set);
+    set
+}
+
+/// Whether a pair of its own is told as one that may touch.
+fn is_told_near(sphere: &Sphere, set: &TriangleSet, triangle: u32) -> bool {
+    let mut pairs = SphereTrianglePairs::default();
+    pairs.add(sphere, set, triangle, sphere.radius);
+    pairs.take().near == 1
+}
+
+/// A centre straight over an edge or a vertex, on a mixture of the normals that meet there: up to one of them, and beside it
+/// by rounding. Whatever the edge or the vertex finds there is not left out.
+#[test]
+fn what_pushes_aside_is_not_left_out() {
+    const PARTS: [f64; 8] = [0.0, 1e-15, 1e-9, 1e-3, 0.3, 0.5, 1.0 - 1e-9, 1.0];
+    let mut random = Random(73);
+    let (mut edges, mut vertices) = (0, 0);
+    for round in 0..60 {
+        let set = curved_surface(round, &mut random);
+        for (t, record) in set.triangles.iter().enumerate() {
+            for k in 0..3 {
+                let corners = set.corners(t as u32);
+                let (start, end) = (corners[k], corners[(k + 1) % 3]);
+                let size = (end - start).norm();
+                let height = size * 10.0_f64.powf(random.between(-3.0, 0.0));
+                let radius = height * random.between(1.001, 1.1);
+                let neighbor = record.neighbors[k];
+                let other = if neighbor == u32::MAX { t as u32 } else { neighbor };
+                let any = (random.bits() % set.triangles.len() as u64) as u32;
+                for part in PARTS {
+                    let mean = set.normal(t as u32) * (1.0 - part) + set.normal(other) * part;
+                    let place = start + (end - start) * random.between(0.1, 0.9);
+                    let over_edge = Sphere { center: place + mean.normalize() * height, radius };
+                    let mixed = mean + set.normal(any) * (random.between(0.0, 0.3) * part);
+                    let over_vertex = Sphere { center: start + mixed.normalize() * height, radius };
+                    for (sphere, found) in [(over_edge, &mut edges), (over_vertex, &mut vertices)] {
+                        for triangle in [t as u32, other] {
+                            let contacts = contacts(&sphere, &set, triangle, radius);
+                            let is_aside = |c: &&TriangleContact| !c.interference.feature.is_face();
+                            *found += contacts.iter().filter(is_aside).count();
+                            assert!(
+                                contacts.is_empty() || is_told_near(&sphere, &set, triangle),
+                                "round {round}, triangle {triangle}, {sphere:?}: {contacts:?}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+    println!("{edges} contacts of edges, {vertices} of vertices");
+    assert!(edges > 5000 && vertices > 500);
+}
+
+/// On a surface that is curved a little, a ball that is pressed into it is tested against few triangles that find nothing.
+#[test]
+fn most_neighbours_of_the_face_below_are_left_out() {
+    let mut random = Random(74);
+    let (mut told, mut touching) = (0, 0);
+    for _ in 0..20 {
+        let mut set = hilly_sheet(10, 0.02, &mut random);
+        mark_pushing(&mut set);
+        for _ in 0..50 {
+            let center = Vec3::new(random.between(-0.6, 0.6), random.between(-0.6, 0.6), 0.33);
+            let sphere = Sphere { center, radius: 0.35 };
+            for t in 0..set.triangles.len() as u32 {
+                told += u32::from(is_told_near(&sphere, &set, t));
+                touching += u32::from(!contacts(&sphere, &set, t, sphere.radius).is_empty());
+            }
+        }
+    }
+    println!("{told} told near, {touching} touch");
+    assert!(touching > 1000 && f64::from(told) < 1.3 * f64::from(touching));
 }

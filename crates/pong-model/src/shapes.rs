@@ -129,7 +129,8 @@ fn body_of(corners: &[[Vec3; 3]]) -> MovableGroup {
             neighbors: [NO_NEIGHBOR; 3],
             shell: 0,
             may_push: MayPush::ALL,
-            lean: Lean::ANY,
+            edge_lean: Lean::ANY,
+            vertex_lean: Lean::ANY,
         });
     }
     let count = corners.len() as u32;

@@ -5,7 +5,7 @@
 use crate::model::MovableGroup;
 use crate::pieces::Sets;
 use crate::t_junctions;
-use pong_geometry::interference::triangle_features::mark_pushing;
+use pong_geometry::interference::pushing_features::mark_pushing;
 use pong_geometry::primitive::{NO_NEIGHBOR, PrimitiveKind, TriangleRecord, TriangleSet};
 use std::collections::BTreeSet;
 

@@ -23,6 +23,7 @@ pub mod point_ellipsoid;
 pub mod point_plane;
 pub mod point_polyhedron;
 pub mod point_sphere;
+pub mod pushing_features;
 pub mod ray_bore;
 pub mod ray_plane;
 pub mod ray_polyhedron;

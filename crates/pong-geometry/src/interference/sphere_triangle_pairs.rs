@@ -165,7 +165,8 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
     let in_front = simd.below(simd.mul(slack, normal_size), height);
     let thickness = simd.load(&pairs.thicknesses);
     let reach = simd.add(simd.select(in_front, radius, simd.larger(radius, thickness)), slack);
-    let reach_square = simd.mul(simd.mul(reach, reach), normal.dot(&normal));
+    let normal_square = normal.dot(&normal);
+    let reach_square = simd.mul(simd.mul(reach, reach), normal_square);
     let height_square = simd.mul(height, height);
     let side_slack = simd.mul(simd.splat(2.0 * SIDE_SLACK), simd.mul(simd.mul(span, span), normal_size));
     let within_slack = simd.sub(simd.splat(0.0), side_slack);
@@ -176,9 +177,13 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
     let radius_square = simd.mul(radius, radius);
     let span_square = simd.mul(span, span);
     let zero = simd.splat(0.0);
-    let lean = simd.load(&pairs.leans);
-    let leans_little = in_front & simd.bits(simd.below(lean, simd.splat(Lean::ANY.tangent())));
-    let leaning_square = simd.mul(height_square, simd.mul(lean, lean));
+    let (edge_lean, vertex_lean) = (simd.load(&pairs.edge_leans), simd.load(&pairs.vertex_leans));
+    let any_lean = simd.splat(Lean::ANY.tangent());
+    let edges_lean_little = in_front & simd.bits(simd.below(edge_lean, any_lean));
+    let vertices_lean_little = in_front & simd.bits(simd.below(vertex_lean, any_lean));
+    // Squares of how far from an edge, and from a vertex, a centre can be that it pushes, times that of the normal.
+    let edge_reach = simd.mul(height_square, simd.mul(edge_lean, edge_lean));
+    let vertex_reach = simd.add(height_square, simd.mul(height_square, simd.mul(vertex_lean, vertex_lean)));
     for k in 0..3 {
         let (edge, arm, next_arm) = (&edges[k], &arms[k], &arms[(k + 1) % 3]);
         let edge_square = edge.dot(edge);
@@ -192,10 +197,10 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
         // The foot on the edge's line lies before its start or after its end.
         let (from_start, from_end) = (arm.dot(edge), next_arm.dot(edge));
         let beside = simd.bits(simd.below(from_start, zero)) | simd.bits(simd.below(zero, from_end));
-        // Beyond the normals along which the edge pushes: over the other face.
+        // Over the other face: beyond all normals along which the edge pushes.
         let aside = simd.sub(beyond, side_slack);
-        let leans_more = simd.below(simd.mul(leaning_square, edge_square), simd.mul(aside, aside));
-        let over_other = leans_little & surely_beyond & simd.bits(leans_more);
+        let leans_more = simd.below(simd.mul(edge_reach, edge_square), simd.mul(aside, aside));
+        let over_other = edges_lean_little & surely_beyond & simd.bits(leans_more);
         features |= bit_of_each(&pairs.may_push, k) & !surely_within & !beside & !over_other;
         // Vertex `k`, at the start of edge `k` and the end of the one before.
         let before = &edges[(k + 2) % 3];
@@ -206,7 +211,9 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
             & simd.bits(simd.below(least, simd.mul(from_start, from_start)))
             | simd.bits(simd.below(past, zero)) & simd.bits(simd.below(least, simd.mul(past, past)));
         let aside = simd.bits(simd.at_least(arm_square, radius_square)) | along;
-        features |= bit_of_each(&pairs.may_push, 3 + k) & !aside;
+        let leans_more = simd.bits(simd.below(vertex_reach, simd.mul(arm_square, normal_square)));
+        let over_other = vertices_lean_little & leans_more;
+        features |= bit_of_each(&pairs.may_push, 3 + k) & !aside & !over_other;
     }
     let near = used & !far & (!in_front | face | features);
     PairsTold { near, over_face: near & in_front & within & !features }

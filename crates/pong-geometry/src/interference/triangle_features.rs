@@ -15,7 +15,7 @@
 
 use super::{Feature, FeatureKind, Interference};
 use crate::Vec3;
-use crate::primitive::{Lean, MayPush, NO_NEIGHBOR, TriangleSet};
+use crate::primitive::{NO_NEIGHBOR, TriangleSet};
 use std::cell::OnceCell;
 
 /// Two faces count as convex only if the sine of the angle between them exceeds this: rounding in a unit normal
@@ -154,49 +154,6 @@ impl TriangleView {
     pub fn owns_edge(&self, set: &TriangleSet, k: usize) -> bool {
         let neighbor = set.triangles[self.index as usize].neighbors[k];
         neighbor == NO_NEIGHBOR || self.index < neighbor
-    }
-}
-
-/// Tells every triangle of a set which of its edges and vertices may push, and how far aside: the edges that it owns and that
-/// are not silent, and the vertices whose fans it is the lowest of. All others are tested for nothing.
-pub fn mark_pushing(set: &mut TriangleSet) {
-    for triangle in 0..set.triangles.len() as u32 {
-        let (may_push, lean) = may_push(set, triangle);
-        let record = &mut set.triangles[triangle as usize];
-        (record.may_push, record.lean) = (may_push, lean);
-    }
-}
-
-fn may_push(set: &TriangleSet, triangle: u32) -> (MayPush, Lean) {
-    let view = TriangleView::new(set, triangle);
-    let (mut bits, mut lean) = (0, Lean::NONE);
-    for k in 0..3 {
-        let leans =
-            if view.owns_edge(set, k) { lean_of_edge(&view, &view.classify_edge(set, k)) } else { None };
-        bits |= u8::from(leans.is_some()) << k;
-        lean = lean.max(leans.unwrap_or(Lean::NONE));
-        let is_lowest = || {
-            let mut lowest = triangle;
-            walk_fan_while(set, triangle, k, |t, _| {
-                lowest = lowest.min(t);
-                lowest == triangle
-            });
-            lowest == triangle
-        };
-        bits |= u8::from(view.may_own_vertex(set, k) && is_lowest()) << (3 + k);
-    }
-    (MayPush(bits), lean)
-}
-
-/// How far aside an edge of a triangle may push; `None` if it never does.
-fn lean_of_edge(view: &TriangleView, edge: &EdgeClass) -> Option<Lean> {
-    match edge {
-        EdgeClass::Silent { .. } => None,
-        EdgeClass::Free => Some(Lean::ANY),
-        EdgeClass::Convex { normal, .. } => {
-            let (sine, cosine) = (view.normal.cross(normal).norm(), view.normal.dot(normal));
-            Some(if cosine > 0.0 { Lean::of_tangent(sine / cosine) } else { Lean::ANY })
-        }
     }
 }
 

@@ -26,7 +26,8 @@ pub(super) struct TriangleLanes {
     pub thicknesses: [f64; LANES],
     pub may_push: [u8; LANES],
     /// Tangents of [`Lean`](crate::primitive::Lean).
-    pub leans: [f64; LANES],
+    pub edge_leans: [f64; LANES],
+    pub vertex_leans: [f64; LANES],
     pub count: usize,
 }
 
@@ -36,7 +37,8 @@ impl TriangleLanes {
         centers: NOTHING,
         thicknesses: [0.0; LANES],
         may_push: [0; LANES],
-        leans: [0.0; LANES],
+        edge_leans: [0.0; LANES],
+        vertex_leans: [0.0; LANES],
         count: 0,
     };
 
@@ -44,6 +46,7 @@ impl TriangleLanes {
     #[inline(always)]
     pub fn add(&mut self, center: &Vec3, set: &TriangleSet, triangle: u32, thickness: f64) -> usize {
         let lane = self.count;
+        assert!(lane < LANES, "there may be eight");
         let record = &set.triangles[triangle as usize];
         for (corner, &vertex) in self.corners.iter_mut().zip(&record.vertices) {
             put(corner, lane, &set.vertices[vertex as usize]);
@@ -51,7 +54,8 @@ impl TriangleLanes {
         put(&mut self.centers, lane, center);
         self.thicknesses[lane] = thickness;
         self.may_push[lane] = record.may_push.0;
-        self.leans[lane] = record.lean.tangent();
+        self.edge_leans[lane] = record.edge_lean.tangent();
+        self.vertex_leans[lane] = record.vertex_lean.tangent();
         self.count += 1;
         lane
     }

@@ -1,7 +1,7 @@
 //! All triangles of one movable group, sharing vertices, with their neighbours.
 //!
 //! Forty-four bytes per triangle: normals and edge planes are computed when they are needed; which edges and vertices
-//! may push at all is known, and how far aside edges do. Edge `k` of a triangle runs from its vertex `k` to its vertex `k + 1` (mod 3).
+//! may push at all is known, and how far aside. Edge `k` of a triangle runs from its vertex `k` to its vertex `k + 1` (mod 3).
 
 use crate::Vec3;
 
@@ -31,11 +31,13 @@ pub struct TriangleRecord {
     /// Which of its edges and vertices may push.
     pub may_push: MayPush,
     /// How far aside its edges may push.
-    pub lean: Lean,
+    pub edge_lean: Lean,
+    /// How far aside its vertices may push.
+    pub vertex_lean: Lean,
 }
 
 /// Which edges and vertices of a triangle may push, as
-/// [`mark_pushing`](crate::interference::triangle_features::mark_pushing) tells. It decides no answer: where nothing is
+/// [`mark_pushing`](crate::interference::pushing_features::mark_pushing) tells. It decides no answer: where nothing is
 /// known every feature is tested.
 ///
 /// Bit `k` is edge `k`, bit `3 + k` vertex `k`.
@@ -59,14 +61,14 @@ impl MayPush {
     }
 }
 
-/// The greatest tangent of the angle between the normal of a triangle and a normal along which one of its edges may push,
-/// rounded up, as [`mark_pushing`](crate::interference::triangle_features::mark_pushing) tells. It decides no answer: where
-/// nothing is known an edge may push any way.
+/// The greatest tangent of the angle between the normal of a triangle and a normal along which one of its features may push,
+/// rounded up, as [`mark_pushing`](crate::interference::pushing_features::mark_pushing) tells. It decides no answer: where
+/// nothing is known it may push any way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Lean(u8);
 
 impl Lean {
-    /// Along the normal of the triangle alone: no edge pushes.
+    /// Nothing pushes.
     pub const NONE: Self = Self(0);
     /// Any way.
     pub const ANY: Self = Self(u8::MAX);

@@ -278,7 +278,8 @@ pub fn triangle_set(vertices: Vec<Vec3>, triangles: &[[u32; 3]]) -> TriangleSet 
             neighbors: [across(t[0], t[1]), across(t[1], t[2]), across(t[2], t[0])],
             shell: 0,
             may_push: MayPush::ALL,
-            lean: Lean::ANY,
+            edge_lean: Lean::ANY,
+            vertex_lean: Lean::ANY,
         })
         .collect();
     TriangleSet { vertices, triangles }

@@ -56,7 +56,16 @@ pub fn surface(vertices: Vec<Vec3>, triangles: &[[u32; 3]]) -> TriangleSet {
         };
         let neighbors = [0, 1, 2].map(across);
         let (may_push, lean) = (MayPush::ALL, Lean::ANY);
-        set.triangles.push(TriangleRecord { vertices: *t, neighbors, shell: 0, may_push, lean });
+        let (edge_lean, vertex_lean) = (lean, lean);
+        let vertices = *t;
+        set.triangles.push(TriangleRecord {
+            vertices,
+            neighbors,
+            shell: 0,
+            may_push,
+            edge_lean,
+            vertex_lean,
+        });
     }
     set
 }

@@ -119,7 +119,8 @@ fn add_triangles(
                     neighbors: [NO_NEIGHBOR; 3],
                     shell: 0,
                     may_push: MayPush::ALL,
-                    lean: Lean::ANY,
+                    edge_lean: Lean::ANY,
+                    vertex_lean: Lean::ANY,
                 });
             }
             Err((rule, cause, cure)) => {

@@ -1,0 +1,89 @@
+//! Which edges and vertices of a triangle surface may push at all, and how far aside. Known once for a surface, it spares most
+//! pairs of a ball and a triangle their test; it decides no answer.
+
+use super::triangle_features::{EdgeClass, TriangleView, walk_fan_while};
+use crate::primitive::{Lean, MayPush, TriangleSet};
+
+/// Tells every triangle of a set which of its edges and vertices may push, and how far aside: the edges that it owns and that
+/// are not silent, and the vertices whose fans it is the lowest of. All others are tested for nothing.
+pub fn mark_pushing(set: &mut TriangleSet) {
+    for triangle in 0..set.triangles.len() as u32 {
+        let marks = Marks::of(set, triangle);
+        let record = &mut set.triangles[triangle as usize];
+        record.may_push = MayPush(marks.bits);
+        (record.edge_lean, record.vertex_lean) = (marks.edge_lean, marks.vertex_lean);
+    }
+}
+
+struct Marks {
+    /// As in [`MayPush`].
+    bits: u8,
+    edge_lean: Lean,
+    vertex_lean: Lean,
+}
+
+impl Marks {
+    fn of(set: &TriangleSet, triangle: u32) -> Self {
+        let view = TriangleView::new(set, triangle);
+        let mut marks = Self { bits: 0, edge_lean: Lean::NONE, vertex_lean: Lean::NONE };
+        for k in 0..3 {
+            if let Some(lean) = lean_of_edge(set, &view, k) {
+                marks.bits |= 1 << k;
+                marks.edge_lean = marks.edge_lean.max(lean);
+            }
+            if let Some(lean) = lean_of_vertex(set, &view, k) {
+                marks.bits |= 1 << (3 + k);
+                marks.vertex_lean = marks.vertex_lean.max(lean);
+            }
+        }
+        marks
+    }
+}
+
+/// How far aside edge `k` of a triangle may push: up to the normal of the other face. `None` if it is not its own, or silent.
+fn lean_of_edge(set: &TriangleSet, view: &TriangleView, k: usize) -> Option<Lean> {
+    if !view.owns_edge(set, k) {
+        return None;
+    }
+    match view.classify_edge(set, k) {
+        EdgeClass::Silent { .. } => None,
+        EdgeClass::Free => Some(Lean::ANY),
+        EdgeClass::Convex { normal, .. } => {
+            let (sine, cosine) = (view.normal.cross(&normal).norm(), view.normal.dot(&normal));
+            Some(if cosine > 0.0 { Lean::of_tangent(sine / cosine) } else { Lean::ANY })
+        }
+    }
+}
+
+/// How far aside a vertex may push at most; `None` if another triangle of its fan is lower.
+///
+/// It pushes along n + w tan φ, with n the normal of this triangle and w a unit vector in its plane, only if no edge u of the
+/// fan has a part along that. Seen along n, let an edge fall by the slope s and run along the unit vector u: then
+/// tan φ (w·u) ≤ s. If the edges go round the vertex, each to the left of the one before, w lies between two of them, and
+/// w·u of one is at least the cosine of half the angle between these two.
+fn lean_of_vertex(set: &TriangleSet, view: &TriangleView, corner: usize) -> Option<Lean> {
+    /// A triangle wider than that, seen along the normal, tells nothing.
+    const HALF_ANGLE_COSINE_MIN: f64 = 0.1;
+    if !view.may_own_vertex(set, corner) {
+        return None;
+    }
+    let (apex, normal) = (view.corners[corner], view.normal);
+    let (mut is_lowest, mut goes_round) = (true, true);
+    let (mut slope, mut square) = (0.0_f64, 1.0_f64);
+    let fan = walk_fan_while(set, view.index, corner, |t, at| {
+        is_lowest &= t >= view.index;
+        let corners = set.corners(t);
+        let edges = [corners[(at + 1) % 3] - apex, corners[(at + 2) % 3] - apex];
+        let falls = edges.map(|edge| -normal.dot(&edge));
+        let flat = [edges[0] + normal * falls[0], edges[1] + normal * falls[1]];
+        let lengths = flat.map(|edge| edge.norm());
+        goes_round &= lengths[0] > 0.0 && lengths[1] > 0.0 && normal.dot(&flat[0].cross(&flat[1])) > 0.0;
+        if goes_round {
+            slope = slope.max(falls[0] / lengths[0]).max(falls[1] / lengths[1]);
+            square = square.min(0.5 + 0.5 * flat[0].dot(&flat[1]) / (lengths[0] * lengths[1]));
+        }
+        is_lowest
+    })?;
+    let is_told = goes_round && !fan.open && square > HALF_ANGLE_COSINE_MIN * HALF_ANGLE_COSINE_MIN;
+    Some(if is_told { Lean::of_tangent(slope / square.sqrt()) } else { Lean::ANY })
+}
