@@ -83,9 +83,11 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
             laps.lap(Work::BroadPhase, &mut out.times);
             let near = if whole { candidates.chunks() | alone } else { near };
             for lane in lanes(near) {
-                let chunk = chunks_of_a.carry(simd, group * SUPERCHUNK + (lane * LANES) as u32, carried);
+                let first = group * SUPERCHUNK + (lane * LANES) as u32;
+                let is_alone = alone >> lane & 1 == 1;
+                let chunk = chunks_of_a.carry(simd, (first, is_alone), carried);
                 let at = AtChunk { context: &context, chunk: &chunk, reach: &reach, lane };
-                if alone >> lane & 1 == 1 {
+                if is_alone {
                     at.test_element(simd, lone, &mut found, out, &mut laps);
                 } else {
                     at.test_all(simd, (candidates, whole), &mut found, out, &mut laps);

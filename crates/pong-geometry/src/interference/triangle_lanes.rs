@@ -25,8 +25,9 @@ pub(super) struct TriangleLanes {
     /// How far behind a triangle its centre may be and still be pushed to the front, m.
     pub thicknesses: [f64; LANES],
     pub may_push: [u8; LANES],
-    /// Tangents of [`Lean`](crate::primitive::Lean).
+    /// Tangents of [`Lean`](crate::primitive::Lean), without a unit.
     pub edge_leans: [f64; LANES],
+    /// Likewise, without a unit.
     pub vertex_leans: [f64; LANES],
     pub count: usize,
 }

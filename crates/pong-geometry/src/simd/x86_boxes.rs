@@ -22,14 +22,15 @@ fn boxes_met(avx: Avx, boxes: &EightBoxes, low: &[f32; 3], high: &[f32; 3]) -> L
 #[inline(always)]
 fn boxes_near(avx: Avx, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits {
     let [least, greatest] = boxes;
-    let mut distance_square = avx._mm256_setzero_ps();
-    for axis in 0..3 {
+    let square_along = |axis: usize| -> __m256 {
         let place = avx._mm256_set1_ps(place[axis]);
         let before = avx._mm256_sub_ps(cast(least[axis]), place);
         let after = avx._mm256_sub_ps(place, cast(greatest[axis]));
         let beside = avx._mm256_max_ps(avx._mm256_max_ps(before, after), avx._mm256_setzero_ps());
-        distance_square = avx._mm256_add_ps(distance_square, avx._mm256_mul_ps(beside, beside));
-    }
+        avx._mm256_mul_ps(beside, beside)
+    };
+    let across = avx._mm256_add_ps(square_along(0), square_along(1));
+    let distance_square = avx._mm256_add_ps(across, square_along(2));
     let near = avx._mm256_cmp_ps::<_CMP_LE_OQ>(distance_square, avx._mm256_set1_ps(square));
     avx._mm256_movemask_ps(near) as LaneBits
 }

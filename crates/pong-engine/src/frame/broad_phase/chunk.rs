@@ -75,9 +75,15 @@ impl<'a> ChunksOfA<'a> {
         Self { kind: batch.kind, body, batch, items, x_ba, meets_triangles }
     }
 
-    /// Carries the chunk that begins with the element `first` of the batch, a multiple of eight.
+    /// Carries the chunk that begins with the element `first` of the batch, a multiple of eight. Where it is an element `alone`
+    /// that is a point or a sphere, nobody asks for boxes.
     #[inline(always)]
-    pub fn carry<'l, S: Simd>(&self, simd: S, first: u32, space: &'l mut ChunkSpace) -> Chunk<'l>
+    pub fn carry<'l, S: Simd>(
+        &self,
+        simd: S,
+        (first, alone): (u32, bool),
+        space: &'l mut ChunkSpace,
+    ) -> Chunk<'l>
     where
         'a: 'l,
     {
@@ -93,7 +99,9 @@ impl<'a> ChunksOfA<'a> {
                 balls.centers.carry_in(simd, x_ba, centers);
                 radii = &balls.radii;
                 own_centers = Some(&balls.centers);
-                boxes.set_to_balls(simd, centers, radii);
+                if !alone {
+                    boxes.set_to_balls(simd, centers, radii);
+                }
             }
             (None, Some(rods)) => {
                 rods.ends[0].carry_in(simd, x_ba, &mut ends[0]);
@@ -112,7 +120,7 @@ impl<'a> ChunksOfA<'a> {
             }
         }
         let balls = match kind {
-            PrimitiveKind::Sphere if meets_triangles => Some(balls.set(centers, radii)),
+            PrimitiveKind::Sphere if meets_triangles && !alone => Some(balls.set(centers, radii)),
             PrimitiveKind::Ellipsoid if meets_triangles => Some(balls.set_around(carried)),
             _ => None,
         };
@@ -160,17 +168,38 @@ impl Chunk<'_> {
         }
     }
 
-    /// The box around the first element, and the ball if there is one, as a tree sees them.
+    /// Whether the elements are points or spheres.
     #[inline(always)]
-    pub fn first_narrowed(&self, tree: &BoxTree) -> (NarrowBox, Option<NarrowBall>) {
-        let LaneBoxes { low: [x, y, z], high: [u, v, w] } = self.boxes;
-        let around = tree.narrowed(&Vec3::new(x[0], y[0], z[0]), &Vec3::new(u[0], v[0], w[0]));
-        (around, self.balls.map(|balls| balls.first_narrowed(tree)))
+    pub fn is_of_balls(&self) -> bool {
+        self.own_centers.is_some()
     }
 
+    /// The box around an element alone, as a tree sees it.
     #[inline(always)]
-    pub fn is_of_spheres(&self) -> bool {
-        self.kind == PrimitiveKind::Sphere
+    pub fn lone_box(&self, tree: &BoxTree) -> NarrowBox {
+        if self.is_of_balls() {
+            let (center, radius) = self.lone_sphere();
+            return tree.narrowed(&center.add_scalar(-radius), &center.add_scalar(radius));
+        }
+        let LaneBoxes { low: [x, y, z], high: [u, v, w] } = self.boxes;
+        tree.narrowed(&Vec3::new(x[0], y[0], z[0]), &Vec3::new(u[0], v[0], w[0]))
+    }
+
+    /// A ball around an element alone, as a tree sees it: for points, spheres, and ellipsoids that may meet triangles.
+    #[inline(always)]
+    pub fn lone_ball(&self, tree: &BoxTree) -> Option<NarrowBall> {
+        if self.is_of_balls() {
+            let (center, radius) = self.lone_sphere();
+            return Some(tree.narrowed_ball(&center, radius));
+        }
+        self.balls.map(|balls| balls.first_narrowed(tree))
+    }
+
+    /// Centre and radius, with room for rounding, m.
+    #[inline(always)]
+    fn lone_sphere(&self) -> (Vec3, f64) {
+        let Sphere { center, radius } = self.sphere(0);
+        (center, radius_with_room(&center, radius))
     }
 
     /// The lanes that hold elements.
@@ -351,10 +380,7 @@ impl LaneBoxes {
 impl LaneBalls {
     #[inline(always)]
     fn set(&mut self, centers: &Lanes, radii: &[f64; LANES]) -> &Self {
-        let with_room = |lane: usize| {
-            let size = centers.x[lane].abs() + centers.y[lane].abs() + centers.z[lane].abs();
-            radii[lane] + margin(size + radii[lane])
-        };
+        let with_room = |lane: usize| radius_with_room(&centers.get(lane), radii[lane]);
         self.centers = [centers.x, centers.y, centers.z];
         self.first_radius = with_room(0);
         for (lane, square) in self.squares.iter_mut().enumerate() {
@@ -413,6 +439,12 @@ fn square_outside<S: Simd>(simd: S, x: S::Eight, low: S::Eight, high: S::Eight) 
     let outside = simd.select(simd.below(zero, below), below, zero);
     let outside = simd.select(simd.below(outside, above), above, outside);
     simd.mul(outside, outside)
+}
+
+/// The radius of a ball with room for rounding, m.
+#[inline(always)]
+fn radius_with_room(center: &Vec3, radius: f64) -> f64 {
+    radius + margin(center.x.abs() + center.y.abs() + center.z.abs() + radius)
 }
 
 /// Room for rounding in coordinates of this size, m.

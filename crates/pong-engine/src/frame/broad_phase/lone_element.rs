@@ -26,7 +26,7 @@ pub(crate) struct LoneElement {
 #[derive(Clone, Copy, Debug)]
 enum Query {
     Box(NarrowBox),
-    /// A sphere: its box would say no more.
+    /// A point or a sphere: its box would say no more.
     Ball(NarrowBall),
     /// An ellipsoid, which is in both.
     BoxAndBall(NarrowBox, NarrowBall),
@@ -44,12 +44,11 @@ pub(crate) struct Bottom {
 impl Query {
     #[inline(always)]
     fn new(chunk: &Chunk<'_>, tree: &BoxTree) -> Self {
-        let (around, ball) = chunk.first_narrowed(tree);
-        match ball {
+        match chunk.lone_ball(tree) {
             // A ball that is near everything is near empty boxes, too.
-            Some(ball) if chunk.is_of_spheres() && ball.is_bounded() => Self::Ball(ball),
-            Some(ball) => Self::BoxAndBall(around, ball),
-            None => Self::Box(around),
+            Some(ball) if chunk.is_of_balls() && ball.is_bounded() => Self::Ball(ball),
+            Some(ball) => Self::BoxAndBall(chunk.lone_box(tree), ball),
+            None => Self::Box(chunk.lone_box(tree)),
         }
     }
 
