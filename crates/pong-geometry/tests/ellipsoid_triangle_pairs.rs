@@ -117,7 +117,9 @@ fn pairs_that_are_left_out_find_nothing() {
                 for level in Level::available() {
                     set_level(level);
                     let mut pairs = EllipsoidTrianglePairs::default();
-                    drawn.iter().for_each(|(e, t, thickness)| pairs.add(e, &scaled, *t, *thickness));
+                    for (place, (e, t, thickness)) in drawn.iter().enumerate() {
+                        assert_eq!(pairs.add(e, &scaled, *t, *thickness), place);
+                    }
                     let near = pairs.take();
                     assert_eq!(pairs.count(), 0);
                     assert!(used == LANES || near >> used == 0);

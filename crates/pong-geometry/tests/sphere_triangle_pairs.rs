@@ -72,9 +72,9 @@ fn pairs_that_are_left_out_find_nothing() {
                 for level in Level::available() {
                     set_level(level);
                     let mut pairs = SphereTrianglePairs::default();
-                    drawn
-                        .iter()
-                        .for_each(|(sphere, t, thickness)| pairs.add(sphere, &scaled, *t, *thickness));
+                    for (place, (sphere, t, thickness)) in drawn.iter().enumerate() {
+                        assert_eq!(pairs.add(sphere, &scaled, *t, *thickness), place);
+                    }
                     let PairsTold { near, over_face } = pairs.take();
                     assert_eq!(pairs.count(), 0);
                     assert_eq!(over_face & !near, 0);

@@ -54,10 +54,10 @@ impl EllipsoidTrianglePairs {
         self.lanes.count = 0;
     }
 
-    /// Adds a pair, of which there may be eight. `thickness` as in
+    /// Adds a pair, of which there may be eight; answers its place. `thickness` as in
     /// [`ellipsoid_triangle`](super::ellipsoid_triangle::ellipsoid_triangle).
     #[inline]
-    pub fn add(&mut self, ellipsoid: &Ellipsoid, set: &TriangleSet, triangle: u32, thickness: f64) {
+    pub fn add(&mut self, ellipsoid: &Ellipsoid, set: &TriangleSet, triangle: u32, thickness: f64) -> usize {
         let lane = self.lanes.add(&ellipsoid.center, set, triangle, thickness);
         let semi_axes = &ellipsoid.semi_axes;
         for axis in 0..3 {
@@ -65,6 +65,7 @@ impl EllipsoidTrianglePairs {
             self.shrink[axis][lane] = 1.0 / (semi_axes[axis] * semi_axes[axis]);
         }
         (self.smallest[lane], self.largest[lane]) = (semi_axes.min(), semi_axes.max());
+        lane
     }
 
     /// Tells which pairs may touch, a bit for each in their order; then there are none.

@@ -43,12 +43,13 @@ impl SphereTrianglePairs {
         self.lanes.count = 0;
     }
 
-    /// Adds a pair, of which there may be eight. `thickness` as in
+    /// Adds a pair, of which there may be eight; answers its place. `thickness` as in
     /// [`sphere_triangle`](super::sphere_triangle::sphere_triangle).
     #[inline(always)]
-    pub fn add(&mut self, sphere: &Sphere, set: &TriangleSet, triangle: u32, thickness: f64) {
+    pub fn add(&mut self, sphere: &Sphere, set: &TriangleSet, triangle: u32, thickness: f64) -> usize {
         let lane = self.lanes.add(&sphere.center, set, triangle, thickness);
         self.radii[lane] = sphere.radius;
+        lane
     }
 
     /// Tells the pairs apart; then there are none.

@@ -140,16 +140,18 @@ fn defer(
     let triangles = &context.body_b.triangles;
     for (lane, item_b) in pairs {
         let deferred = &mut *found.deferred;
-        deferred.from[deferred.count()] = (lane as u8, item_b);
-        if chunk.kind == PrimitiveKind::Sphere {
+        let place = if chunk.kind == PrimitiveKind::Sphere {
             let sphere = chunk.sphere(lane);
             let thickness = thickness_for_sphere(context, item_b, &sphere);
-            deferred.spheres.add(&sphere, triangles, item_b.element, thickness);
+            deferred.spheres.add(&sphere, triangles, item_b.element, thickness)
         } else if let Some(TransformedPrimitive::Ellipsoid(ellipsoid)) = chunk.carried(lane) {
             let thickness = thickness_for_ellipsoid(context, item_b, ellipsoid);
-            deferred.ellipsoids.add(ellipsoid, triangles, item_b.element, thickness);
-        }
-        if deferred.count() == LANES {
+            deferred.ellipsoids.add(ellipsoid, triangles, item_b.element, thickness)
+        } else {
+            continue;
+        };
+        deferred.from[place] = (lane as u8, item_b);
+        if place + 1 == LANES {
             test_deferred(context, *chunk, found, counts);
         }
     }
