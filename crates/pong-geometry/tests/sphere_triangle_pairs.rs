@@ -6,7 +6,8 @@ mod oracle_support;
 
 use common::{Random, random_motion};
 use oracle_support::{
-    all_contacts, dented_ball, fan_plate, hilly_sheet, moved_surface, regular_plate, rounded_to_f32, surfaces,
+    all_contacts, dented_ball, fan_plate, hilly_sheet, moved_surface, regular_plate, rounded_to_f32, surface,
+    surfaces,
 };
 use pong_geometry::Vec3;
 use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
@@ -157,12 +158,25 @@ fn marked_surfaces_push_as_unmarked_ones() {
     assert!(compared > 1000, "{compared}");
 }
 
+/// A pyramid without a base, of so many sides that fall by a slope.
+fn pyramid(sides: u32, slope: f64, random: &mut Random) -> TriangleSet {
+    let corner = |k: u32, turn: f64| {
+        let angle = (f64::from(k) + turn) / f64::from(sides) * std::f64::consts::TAU;
+        Vec3::new(angle.cos(), angle.sin(), -slope)
+    };
+    let mut vertices = vec![Vec3::zeros()];
+    vertices.extend((0..sides).map(|k| corner(k, random.between(-0.2, 0.2)) * random.between(0.7, 1.4)));
+    let side = |k: u32| [0, 1 + k, 1 + (k + 1) % sides];
+    surface(vertices, &(0..sides).map(side).collect::<Vec<_>>())
+}
+
 /// Curved a little or much, turned, moved and scaled, half of them rounded to single precision; marked.
 fn curved_surface(round: usize, random: &mut Random) -> TriangleSet {
     let hill = [1e-6, 1e-3, 0.02, 0.1, 0.4][round % 5];
-    let set = match round % 3 {
+    let set = match round % 4 {
         0 => hilly_sheet(4, hill, random),
         1 => dented_ball(5, 7, hill, random),
+        2 => pyramid(3 + round as u32 % 9, 2.0 * hill, random),
         _ => {
             let mut set = fan_plate(random);
             set.vertices.iter_mut().for_each(|vertex| vertex.z = -hill * vertex.norm_squared());
@@ -202,15 +216,19 @@ fn what_pushes_aside_is_not_left_out() {
                 let radius = height * random.between(1.001, 1.1);
                 let neighbor = record.neighbors[k];
                 let other = if neighbor == u32::MAX { t as u32 } else { neighbor };
-                let any = (random.bits() % set.triangles.len() as u64) as u32;
+                // Of the triangles around the vertex.
+                let around = (0..set.triangles.len() as u32)
+                    .filter(|&t| set.triangles[t as usize].vertices.contains(&record.vertices[k]))
+                    .collect::<Vec<_>>();
                 for part in PARTS {
                     let mean = set.normal(t as u32) * (1.0 - part) + set.normal(other) * part;
                     let place = start + (end - start) * random.between(0.1, 0.9);
                     let over_edge = Sphere { center: place + mean.normalize() * height, radius };
-                    let mixed = mean + set.normal(any) * (random.between(0.0, 0.3) * part);
+                    let any = around[random.bits() as usize % around.len()];
+                    let mixed = mean * (1.0 - part) + set.normal(any) * part;
                     let over_vertex = Sphere { center: start + mixed.normalize() * height, radius };
                     for (sphere, found) in [(over_edge, &mut edges), (over_vertex, &mut vertices)] {
-                        for triangle in [t as u32, other] {
+                        for triangle in [t as u32, other, any] {
                             let contacts = contacts(&sphere, &set, triangle, radius);
                             let is_aside = |c: &&TriangleContact| !c.interference.feature.is_face();
                             *found += contacts.iter().filter(is_aside).count();

@@ -74,12 +74,12 @@ fn lean_of_vertex(set: &TriangleSet, view: &TriangleView, corner: usize) -> Opti
         is_lowest &= t >= view.index;
         let corners = set.corners(t);
         let edges = [corners[(at + 1) % 3] - apex, corners[(at + 2) % 3] - apex];
-        let falls = edges.map(|edge| -normal.dot(&edge));
-        let flat = [edges[0] + normal * falls[0], edges[1] + normal * falls[1]];
+        let flat = edges.map(|edge| edge - normal * normal.dot(&edge));
         let lengths = flat.map(|edge| edge.norm());
-        goes_round &= lengths[0] > 0.0 && lengths[1] > 0.0 && normal.dot(&flat[0].cross(&flat[1])) > 0.0;
+        goes_round &= normal.dot(&flat[0].cross(&flat[1])) > 0.0;
         if goes_round {
-            slope = slope.max(falls[0] / lengths[0]).max(falls[1] / lengths[1]);
+            // The other edge is that of the next triangle.
+            slope = slope.max(-normal.dot(&edges[0]) / lengths[0]);
             square = square.min(0.5 + 0.5 * flat[0].dot(&flat[1]) / (lengths[0] * lengths[1]));
         }
         is_lowest
