@@ -165,7 +165,7 @@ fn pyramid(sides: u32, slope: f64, random: &mut Random) -> TriangleSet {
         Vec3::new(angle.cos(), angle.sin(), -slope)
     };
     let mut vertices = vec![Vec3::zeros()];
-    vertices.extend((0..sides).map(|k| corner(k, random.between(-0.2, 0.2)) * random.between(0.7, 1.4)));
+    vertices.extend((0..sides).map(|k| corner(k, random.between(-0.3, 0.3)) * random.between(0.7, 1.4)));
     let side = |k: u32| [0, 1 + k, 1 + (k + 1) % sides];
     surface(vertices, &(0..sides).map(side).collect::<Vec<_>>())
 }
@@ -205,7 +205,7 @@ fn what_pushes_aside_is_not_left_out() {
     const PARTS: [f64; 8] = [0.0, 1e-15, 1e-9, 1e-3, 0.3, 0.5, 1.0 - 1e-9, 1.0];
     let mut random = Random(73);
     let (mut edges, mut vertices) = (0, 0);
-    for round in 0..60 {
+    for round in 0..240 {
         let set = curved_surface(round, &mut random);
         for (t, record) in set.triangles.iter().enumerate() {
             for k in 0..3 {
