@@ -42,16 +42,6 @@ fn state(i: usize, frame: usize) -> State {
     }
 }
 
-/// A contact in words, to the last bit.
-fn told(world: &World) -> Vec<String> {
-    let number = |x: &f64| format!("{:016x}", x.to_bits());
-    let contact = |contact: &pong_engine::Contact| {
-        let vectors = [&contact.force, &contact.normal, &contact.point];
-        vectors.iter().flat_map(|v| v.iter()).map(number).collect::<Vec<_>>().join(" ")
-    };
-    world.contacts().iter().map(contact).collect()
-}
-
 #[test]
 fn each_pair_finds_what_it_finds_alone() {
     let (mut many, interfaces) = world_of(COUNT, 500);

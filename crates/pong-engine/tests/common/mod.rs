@@ -53,6 +53,16 @@ impl Rig {
     }
 }
 
+/// Every contact in words, to the last bit.
+pub fn told(world: &World) -> Vec<String> {
+    let number = |x: &f64| format!("{:016x}", x.to_bits());
+    let contact = |contact: &pong_engine::Contact| {
+        let vectors = [&contact.force, &contact.normal, &contact.point];
+        vectors.iter().flat_map(|v| v.iter()).map(number).collect::<Vec<_>>().join(" ")
+    };
+    world.contacts().iter().map(contact).collect()
+}
+
 /// A state at rest.
 pub fn at(position: Vec3, q: Quat) -> State {
     State { position: position.into(), orientation: [q.w, q.i, q.j, q.k], ..State::identity() }

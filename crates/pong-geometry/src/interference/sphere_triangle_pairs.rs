@@ -22,11 +22,16 @@ const ALONG_SLACK: f64 = 2e-9;
 pub struct SphereTrianglePairs {
     lanes: TriangleLanes,
     radii: [f64; LANES],
+    /// Tangents of [`Lean`], without a unit.
+    edge_leans: [f64; LANES],
+    /// Likewise, without a unit.
+    vertex_leans: [f64; LANES],
 }
 
 impl Default for SphereTrianglePairs {
     fn default() -> Self {
-        Self { lanes: TriangleLanes::NONE, radii: [0.0; LANES] }
+        let nothing = [0.0; LANES];
+        Self { lanes: TriangleLanes::NONE, radii: nothing, edge_leans: nothing, vertex_leans: nothing }
     }
 }
 
@@ -48,7 +53,10 @@ impl SphereTrianglePairs {
     #[inline(always)]
     pub fn add(&mut self, sphere: &Sphere, set: &TriangleSet, triangle: u32, thickness: f64) -> usize {
         let lane = self.lanes.add(&sphere.center, set, triangle, thickness);
+        let record = &set.triangles[triangle as usize];
         self.radii[lane] = sphere.radius;
+        self.edge_leans[lane] = record.edge_lean.tangent();
+        self.vertex_leans[lane] = record.vertex_lean.tangent();
         lane
     }
 
@@ -145,6 +153,7 @@ fn size<S: Simd>(simd: S, x: S::Eight) -> S::Eight {
 /// Names as in [`InReach`](super::triangle_reach::InReach), whose comparisons come first.
 #[inline(always)]
 fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
+    let (edge_lean, vertex_lean) = (simd.load(&pairs.edge_leans), simd.load(&pairs.vertex_leans));
     let (used, radii) = (pairs.lanes.used(), &pairs.radii);
     let pairs = &pairs.lanes;
     let corners = [
@@ -178,7 +187,6 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
     let radius_square = simd.mul(radius, radius);
     let span_square = simd.mul(span, span);
     let zero = simd.splat(0.0);
-    let (edge_lean, vertex_lean) = (simd.load(&pairs.edge_leans), simd.load(&pairs.vertex_leans));
     let any_lean = simd.splat(Lean::ANY.tangent());
     let edges_lean_little = in_front & simd.bits(simd.below(edge_lean, any_lean));
     let vertices_lean_little = in_front & simd.bits(simd.below(vertex_lean, any_lean));

@@ -25,10 +25,6 @@ pub(super) struct TriangleLanes {
     /// How far behind a triangle its centre may be and still be pushed to the front, m.
     pub thicknesses: [f64; LANES],
     pub may_push: [u8; LANES],
-    /// Tangents of [`Lean`](crate::primitive::Lean), without a unit.
-    pub edge_leans: [f64; LANES],
-    /// Likewise, without a unit.
-    pub vertex_leans: [f64; LANES],
     pub count: usize,
 }
 
@@ -38,8 +34,6 @@ impl TriangleLanes {
         centers: NOTHING,
         thicknesses: [0.0; LANES],
         may_push: [0; LANES],
-        edge_leans: [0.0; LANES],
-        vertex_leans: [0.0; LANES],
         count: 0,
     };
 
@@ -55,8 +49,6 @@ impl TriangleLanes {
         put(&mut self.centers, lane, center);
         self.thicknesses[lane] = thickness;
         self.may_push[lane] = record.may_push.0;
-        self.edge_leans[lane] = record.edge_lean.tangent();
-        self.vertex_leans[lane] = record.vertex_lean.tangent();
         self.count += 1;
         lane
     }

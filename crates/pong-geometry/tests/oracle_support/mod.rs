@@ -55,16 +55,13 @@ pub fn surface(vertices: Vec<Vec3>, triangles: &[[u32; 3]]) -> TriangleSet {
             owners.get(&(b, a)).copied().unwrap_or(NO_NEIGHBOR)
         };
         let neighbors = [0, 1, 2].map(across);
-        let (may_push, lean) = (MayPush::ALL, Lean::ANY);
-        let (edge_lean, vertex_lean) = (lean, lean);
-        let vertices = *t;
         set.triangles.push(TriangleRecord {
-            vertices,
+            vertices: *t,
             neighbors,
             shell: 0,
-            may_push,
-            edge_lean,
-            vertex_lean,
+            may_push: MayPush::ALL,
+            edge_lean: Lean::ANY,
+            vertex_lean: Lean::ANY,
         });
     }
     set
