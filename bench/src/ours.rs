@@ -6,13 +6,14 @@ use crate::peer::PairPeer;
 use pong_geometry::extension::Extensions;
 use pong_geometry::interference::{
     Feature, Interference, ball_bore::ball_bore, ball_round::ball_capsule, ball_round::ball_frustum,
-    capsule_edge::ConvexEdge, capsule_edge::capsule_edge, ellipsoid_plane::ellipsoid_plane,
-    ellipsoid_polyhedron::ellipsoid_polyhedron, ellipsoid_triangle::ellipsoid_triangle,
-    line_segment_plane::line_segment_plane, line_segment_polyhedron::line_segment_polyhedron,
-    point_ellipsoid::point_ellipsoid, point_plane::point_plane, point_polyhedron::point_below_face,
-    point_polyhedron::shallowest_face, point_sphere::point_sphere, ray_bore::ray_bore, ray_plane::RayHit,
-    ray_plane::ray_plane, ray_polyhedron::ray_polyhedron, ray_round::ray_capsule, ray_round::ray_ellipsoid,
-    ray_round::ray_frustum, ray_round::ray_sphere, ray_triangle::ray_triangle, round_plane::capsule_plane,
+    capsule_edge::ConvexEdge, capsule_edge::capsule_edge, capsule_polyhedron::CapsuleAtPiece,
+    ellipsoid_plane::ellipsoid_plane, ellipsoid_polyhedron::ellipsoid_polyhedron,
+    ellipsoid_triangle::ellipsoid_triangle, line_segment_plane::line_segment_plane,
+    line_segment_polyhedron::line_segment_polyhedron, point_ellipsoid::point_ellipsoid,
+    point_plane::point_plane, point_polyhedron::point_below_face, point_polyhedron::shallowest_face,
+    point_sphere::point_sphere, ray_bore::ray_bore, ray_plane::RayHit, ray_plane::ray_plane,
+    ray_polyhedron::ray_polyhedron, ray_round::ray_capsule, ray_round::ray_ellipsoid, ray_round::ray_frustum,
+    ray_round::ray_sphere, ray_triangle::ray_triangle, round_plane::capsule_plane,
     round_plane::frustum_plane, sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
     sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
     sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
@@ -524,21 +525,10 @@ fn ball(point: &Point) -> Sphere {
 
 /// The balls at the ends, and the edges that the axis crosses between them.
 fn capsule_on_hull(a: &Capsule, b: &Polyhedron) -> Option<Interference> {
-    let edges = b.edges.iter().enumerate().filter_map(|(index, edge)| {
-        let push = edge.push.as_ref()?;
-        let edge = ConvexEdge {
-            ends_b: edge.vertices.map(|vertex| b.vertices[vertex as usize].position),
-            normals_b: push.normals,
-            outwards_b: Some(push.outwards),
-            feature: Feature::edge(index),
-        };
-        capsule_edge(a, &edge).filter(|crossing| crossing.depth < a.radius)
-    });
-    let heights = |end: usize| b.faces.iter().map(move |face| face.height(&a.ends[end]));
-    if heights(0).zip(heights(1)).any(|(one, other)| one.min(other) >= a.radius) {
-        return None;
-    }
-    deepest(balls(a).iter().map(|ball| sphere_on_hull(ball, b)).chain(edges.map(Some)))
+    let at_hull = CapsuleAtPiece::new(a, b)?;
+    let mut found = deepest(balls(a).iter().map(|ball| sphere_on_hull(ball, b)));
+    at_hull.each_crossing(|crossing| found = deepest([found, Some(*crossing)]));
+    found
 }
 
 fn capsule_on_triangle(a: &Capsule, b: &MovableGroup) -> Option<Interference> {

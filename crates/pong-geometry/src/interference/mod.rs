@@ -8,6 +8,7 @@ pub mod ball_bore;
 pub mod ball_round;
 mod behind_triangle;
 pub mod capsule_edge;
+pub mod capsule_polyhedron;
 mod circles;
 pub mod ellipsoid_math;
 pub mod ellipsoid_plane;

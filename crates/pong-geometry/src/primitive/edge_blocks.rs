@@ -148,6 +148,18 @@ impl EightBoxes {
         Self { low: eight(&boxes, |b| b.0), high: eight(&boxes, |b| b.1) }
     }
 
+    /// Which boxes meet another one, from its least to its greatest coordinates.
+    #[inline(always)]
+    pub fn meet<S: Simd>(&self, simd: S, [low, high]: &[Vec3; 2]) -> LaneBits {
+        let mut met = LaneBits::MAX;
+        for axis in 0..3 {
+            let above = simd.at_least(simd.load(&self.high[axis]), simd.splat(low[axis]));
+            let below = simd.at_least(simd.splat(high[axis]), simd.load(&self.low[axis]));
+            met &= simd.bits(simd.and(above, below));
+        }
+        met
+    }
+
     /// Which boxes may hold a point that is nearer to `p` than `reach` (m).
     #[inline(always)]
     pub fn near<S: Simd>(&self, simd: S, p: &Splat<S>, reach: f64) -> LaneBits {

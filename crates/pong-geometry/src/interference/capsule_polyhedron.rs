@@ -1,0 +1,267 @@
+//! Capsule (A) – a piece of a body (B): the convex edges that the axis crosses between the capsule's ends, and that push it
+//! (docs/theory.md, 2.8). What the balls at the ends touch is a matter of spheres.
+//!
+//! An edge above which the axis passes pushes if it is less deep than the radius. One below which the axis has sunk is a way out
+//! if that is the shortest: no face and no other edge is nearer. So no edge farther from the axis than the radius, or than the
+//! nearest face, has any part in the answer. These are told eight edges at a time; the rest are worked out one by one.
+
+use super::capsule_edge::{ConvexEdge, capsule_edge};
+use super::round_surface::ROUNDING;
+use super::{Feature, Interference};
+use crate::Vec3;
+use crate::primitive::{Capsule, EdgeBlock, FacePlanes, Polyhedron};
+use crate::simd::{LANES, LaneBits, Numbers, Simd, Splat, Vectors, is_moderate, run_at_level};
+
+/// A capsule that no face keeps away from a piece.
+#[derive(Clone, Copy, Debug)]
+pub struct CapsuleAtPiece<'a> {
+    capsule: &'a Capsule,
+    polyhedron: &'a Polyhedron,
+    /// How high above the highest face the lower end of the axis is, m; negative below it.
+    top: f64,
+}
+
+impl<'a> CapsuleAtPiece<'a> {
+    /// `None` if the capsule is in front of a face, or no more than touches it: then it touches nothing.
+    #[inline]
+    pub fn new(capsule: &'a Capsule, polyhedron: &'a Polyhedron) -> Option<Self> {
+        let top = run_at_level!(highest_of_lower_end(capsule: Capsule, polyhedron: Polyhedron) -> f64);
+        (top < capsule.radius).then_some(Self { capsule, polyhedron, top })
+    }
+
+    /// Hands over what each edge that pushes measures, in the order of the edges.
+    pub fn each_crossing(&self, mut visit: impl FnMut(&Interference)) {
+        let mut shortest = None;
+        self.each_near(&mut |crossing| {
+            let is_over = crossing.depth < self.capsule.radius;
+            if is_over || self.leaves_by(crossing, *shortest.get_or_insert_with(|| self.shortest_way_out())) {
+                visit(crossing);
+            }
+        });
+    }
+
+    /// What rounding makes of a depth, m.
+    fn rounding(&self) -> f64 {
+        ROUNDING * self.capsule.ends[0].amax().max(self.capsule.ends[1].amax())
+    }
+
+    /// Of the ways that take an axis out of the piece the shortest, past a face or over an edge, m.
+    #[cold]
+    fn shortest_way_out(&self) -> f64 {
+        let mut shortest = self.capsule.radius - self.top;
+        self.each_near(&mut |crossing| {
+            if crossing.depth >= self.capsule.radius {
+                shortest = shortest.min(crossing.depth);
+            }
+        });
+        shortest
+    }
+
+    /// Whether an axis that has sunk below an edge is in the piece there, and nothing is a shorter way out, but for rounding: of an
+    /// axis along a face that face and the edges around it are as short.
+    fn leaves_by(&self, crossing: &Interference, shortest: f64) -> bool {
+        let place = crossing.deepest_b + crossing.normal_b * self.capsule.radius;
+        let rounding = self.rounding();
+        crossing.depth <= shortest + rounding
+            && self.polyhedron.faces.iter().all(|face| face.height(&place) <= rounding)
+    }
+
+    /// What the edges measure that are near enough to have a part in the answer, in their order.
+    fn each_near(&self, visit: &mut dyn FnMut(&Interference)) {
+        for first in (0..self.polyhedron.edges.len()).step_by(SomeEdges::COUNT) {
+            SomeEdges::near(self, first).each(|index| {
+                if let Some(crossing) = self.crossing(index) {
+                    visit(&crossing);
+                }
+            });
+        }
+    }
+
+    /// What an edge measures; `None` if it does not push, or there is none of this number.
+    fn crossing(&self, index: usize) -> Option<Interference> {
+        let edge = self.polyhedron.edges.get(index)?;
+        let push = edge.push.as_ref()?;
+        let edge = ConvexEdge {
+            ends_b: edge.vertices.map(|vertex| self.polyhedron.vertices[vertex as usize].position),
+            normals_b: push.normals,
+            outwards_b: Some(push.outwards),
+            feature: Feature::edge(index),
+        };
+        capsule_edge(self.capsule, &edge)
+    }
+}
+
+/// The height of the lower end of the axis above the face that it is highest above, m.
+#[inline(always)]
+fn highest_of_lower_end<S: Simd>(simd: S, capsule: &Capsule, polyhedron: &Polyhedron) -> f64 {
+    let ends = [Splat::new(simd, &capsule.ends[0]), Splat::new(simd, &capsule.ends[1])];
+    let mut top = simd.splat(f64::NEG_INFINITY);
+    for block in &polyhedron.planes().blocks {
+        let [first, second] = [block.heights(simd, &ends[0]), block.heights(simd, &ends[1])];
+        let lower = simd.select(simd.below(first, second), first, second);
+        top = simd.larger(lower, top);
+    }
+    simd.largest(top)
+}
+
+/// Some of the edges of a piece.
+struct SomeEdges {
+    /// Those from here on.
+    first: usize,
+    bits: [u64; Self::WORDS],
+}
+
+impl SomeEdges {
+    const WORDS: usize = 8;
+    const COUNT: usize = Self::WORDS * u64::BITS as usize;
+
+    /// Of so many edges from `first` on those near enough to have a part in the answer, and perhaps some more.
+    fn near(at: &CapsuleAtPiece<'_>, first: usize) -> Self {
+        let [one, other] = &at.capsule.ends;
+        if !(at.polyhedron.planes().moderate && is_moderate(one) && is_moderate(other)) {
+            return Self { first, bits: [u64::MAX; Self::WORDS] };
+        }
+        let (query, polyhedron) = (Query::new(at), at.polyhedron);
+        let (query, first) = (&query, &first);
+        run_at_level!(near_in(query: Query, polyhedron: Polyhedron, first: usize) -> SomeEdges)
+    }
+
+    #[inline(always)]
+    fn mark(&mut self, edge: usize) {
+        let place = edge.wrapping_sub(self.first);
+        if place < Self::COUNT {
+            self.bits[place / u64::BITS as usize] |= 1 << (place % u64::BITS as usize);
+        }
+    }
+
+    /// In their order.
+    fn each(self, mut visit: impl FnMut(usize)) {
+        for (word, mut bits) in self.bits.into_iter().enumerate() {
+            while bits != 0 {
+                visit(self.first + word * u64::BITS as usize + bits.trailing_zeros() as usize);
+                bits &= bits - 1;
+            }
+        }
+    }
+}
+
+/// What edges are asked.
+struct Query {
+    /// The axis, m.
+    ends: [Vec3; 2],
+    /// Edges that the axis crosses farther away have no part in the answer, m.
+    reach: f64,
+    /// Nor have those beside an end of which it passes farther away, m.
+    beside: f64,
+}
+
+impl Query {
+    /// Far beyond rounding, as a share of the size of the numbers.
+    const SLACK: f64 = 1e-9;
+
+    fn new(at: &CapsuleAtPiece<'_>) -> Self {
+        let Capsule { ends: [one, other], radius } = at.capsule;
+        let diameter = at.polyhedron.planes().wall_slack / FacePlanes::WALL_TOLERANCE;
+        let slack = Self::SLACK * (one.amax() + other.amax() + radius + diameter);
+        let sunk = at.rounding() - at.top;
+        Self { ends: at.capsule.ends, reach: radius.max(sunk) + slack, beside: radius + slack }
+    }
+}
+
+#[inline(always)]
+fn near_in<S: Simd>(simd: S, query: &Query, polyhedron: &Polyhedron, first: &usize) -> SomeEdges {
+    let mut near = SomeEdges { first: *first, bits: [0; SomeEdges::WORDS] };
+    let axis = Axis::new(simd, query);
+    let [one, other] = &query.ends;
+    let reach = Vec3::repeat(query.reach);
+    let around = [one.inf(other) - reach, one.sup(other) + reach];
+    let edges = polyhedron.edge_blocks();
+    for (boxes, blocks) in edges.boxes.iter().zip(edges.blocks.chunks(LANES)) {
+        let mut met = boxes.meet(simd, &around);
+        while met != 0 {
+            // Boxes beyond the last repeat it; so do edges in a block, which are marked twice.
+            let Some(block) = blocks.get(met.trailing_zeros() as usize) else { break };
+            let mut marked = axis.near(block);
+            while marked != 0 {
+                near.mark(block.index[marked.trailing_zeros() as usize] as usize);
+                marked &= marked - 1;
+            }
+            met &= met - 1;
+        }
+    }
+    near
+}
+
+/// The axis of a capsule, eight times.
+struct Axis<S: Simd> {
+    simd: S,
+    start: Vectors<S>,
+    along: Vectors<S>,
+    /// The square of its length, m².
+    length_square: Numbers<S>,
+    /// Squares of the query's, m².
+    reach_square: Numbers<S>,
+    beside_square: Numbers<S>,
+}
+
+impl<S: Simd> Axis<S> {
+    #[inline(always)]
+    fn new(simd: S, query: &Query) -> Self {
+        let [one, other] = &query.ends;
+        let along = Vectors::splat(simd, &(other - one));
+        Self {
+            simd,
+            start: Vectors::splat(simd, one),
+            along,
+            length_square: along.norm_squared(),
+            reach_square: Numbers::splat(simd, query.reach * query.reach),
+            beside_square: Numbers::splat(simd, query.beside * query.beside),
+        }
+    }
+
+    /// Which edges of a block are near enough.
+    #[inline(always)]
+    fn near(&self, block: &EdgeBlock) -> LaneBits {
+        self.crosses(block) | self.passes_beside(&block.first) | self.passes_beside(&block.second)
+    }
+
+    /// Whether a share of something is between its ends.
+    #[inline(always)]
+    fn is_inside(&self, share: Numbers<S>) -> S::Mask {
+        self.simd.and(share.all(0.0).below(share), share.below(share.all(1.0)))
+    }
+
+    /// Which edges it crosses between the ends of both, in the numbers of [`capsule_edge`]: of nearly parallel ones the places
+    /// are noise, and it must be the same.
+    #[inline(always)]
+    fn crosses(&self, block: &EdgeBlock) -> LaneBits {
+        /// Of the distance from place to place, whatever of it is along the edge: far beyond rounding.
+        const NOISE: f64 = 1e-18;
+        const WIDER: f64 = 1.0 + 1e-6;
+        let simd = self.simd;
+        let (first, along) = (Vectors::load(simd, &block.first), Vectors::load(simd, &block.along));
+        let between = first - self.start;
+        let across = self.along.cross(along);
+        let square = across.norm_squared();
+        let at = between.cross(along).dot(across).over(square);
+        let on_edge = between.cross(self.along).dot(across).over(square);
+        let apart = (self.start + self.along * at) - (first + along * on_edge);
+        let height = across.dot(apart);
+        let reach = self.reach_square * square.all(WIDER) + apart.norm_squared() * square.all(NOISE);
+        let inside = simd.and(self.is_inside(at), self.is_inside(on_edge));
+        // So short that the quotients are none: not told here.
+        let least = square.all(f64::MIN_POSITIVE);
+        let untold = simd.and(square.all(0.0).below(square), square.below(least));
+        simd.bits(simd.and(inside, (reach * square).at_least(height * height))) | simd.bits(untold)
+    }
+
+    /// Which places it passes near enough, between its ends.
+    #[inline(always)]
+    fn passes_beside(&self, places: &[[f64; LANES]; 3]) -> LaneBits {
+        let simd = self.simd;
+        let places = Vectors::load(simd, places);
+        let at = (places - self.start).dot(self.along).over(self.length_square);
+        let square = (self.start + self.along * at - places).norm_squared();
+        simd.bits(simd.and(self.is_inside(at), self.beside_square.at_least(square)))
+    }
+}
