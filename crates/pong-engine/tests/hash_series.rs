@@ -30,7 +30,7 @@ const KNOWN: [(&str, u64, u64); 9] = [
     ("crowd", 0xee17569e16ff56ad, 0x6900a47b22bdebb9),
     ("bowl", 0x776b53145068c012, 0xf1abfd87a2c723bd),
     ("swarm", 0x5156d1ac5d6af9a2, 0xd8314b1dec02f0d1),
-    ("round", 0x6cf3fdf5100b1f3d, 0x3313dff8b8f30893),
+    ("round", 0xceaff3b414ca0f51, 0x2936bf3c7188ae9c),
 ];
 
 /// A scene run by the caller alone, with what is needed to go on from any frame.

@@ -365,6 +365,30 @@ fn a_rod_sunk_in_along_the_axis_of_a_cone_is_held_at_the_wide_end() {
     }
 }
 
+/// A rod that lies across a coin, past its rim on both sides: the two faces of the coin are the ends of what overlaps, each as deep
+/// as the radius reaches past it, though the axis is outside of both.
+#[test]
+fn a_rod_across_a_coin_is_held_by_both_faces() {
+    let mut random = Random::new(10, 0, 0);
+    let (radius, thickness) = (0.1, 0.01);
+    for _ in 0..500 {
+        let mut faces = [Vec3::zeros(), Vec3::new(0.0, 0.0, -thickness)];
+        if random.chance(0.5) {
+            faces.reverse();
+        }
+        let coin = Frustum::new(faces, [0.05; 2]);
+        let depth = random.between(1.1 * thickness, 0.05);
+        let (across, height) = (random.across(&Vec3::z()), Vec3::new(0.0, 0.0, radius - depth));
+        let ends = [height - across * random.between(0.2, 0.9), height + across * random.between(0.2, 0.9)];
+        let x = random_motion(&mut random, 3.0);
+        let rod = Capsule { ends, radius }.carried(&x);
+        let (force, _) = wrench(&Solid::Frustum(coin.carried(&x)).touch(&rod), &x.translation);
+        // U = ¼(δ² + δ₀²δ₁²/δ²), with δ₁ = δ at the near face and δ₀ at the far one.
+        let expected = x.vector(&Vec3::z()) * (0.5 * (depth + depth - thickness));
+        assert!((force - expected).norm() < 1e-12, "{depth}: {force} for {expected}");
+    }
+}
+
 /// An axis that goes through the end of another leaves it across both, and that turns with the two.
 #[test]
 fn an_axis_through_the_end_of_another_leaves_across_both() {

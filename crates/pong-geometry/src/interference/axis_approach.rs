@@ -26,8 +26,8 @@ pub(crate) trait RoundSolid {
     /// Where a segment is nearest, or how it leaves the solid.
     fn approach(&self, segment: &[Vec3; 2]) -> Approach;
 
-    /// The same of what the solid ends in: a ball or a disc.
-    fn approach_end(&self, end: usize, segment: &[Vec3; 2]) -> Approach;
+    /// The same of what the solid ends in: a ball or a disc. `None` if that is certainly farther away than `reach` (m).
+    fn approach_end(&self, end: usize, segment: &[Vec3; 2], reach: f64) -> Option<Approach>;
 
     /// From end 0 to end 1, of any length.
     fn axis(&self) -> Vec3;
@@ -44,7 +44,7 @@ impl RoundSolid for Capsule {
         Approach { distance, normal_b, place_b: at, feature }
     }
 
-    fn approach_end(&self, end: usize, segment: &[Vec3; 2]) -> Approach {
+    fn approach_end(&self, end: usize, segment: &[Vec3; 2], _reach: f64) -> Option<Approach> {
         let center = self.ends[end];
         let place = nearest_on_segment(&center, segment);
         let arm = place - center;
@@ -54,12 +54,12 @@ impl RoundSolid for Capsule {
         } else {
             (arm / distance).normalize()
         };
-        Approach {
+        Some(Approach {
             distance: distance - self.radius,
             normal_b: normal,
             place_b: place,
             feature: Feature::WHOLE,
-        }
+        })
     }
 
     fn axis(&self) -> Vec3 {
@@ -129,17 +129,32 @@ impl RoundSolid for Frustum {
     fn approach(&self, segment: &[Vec3; 2]) -> Approach {
         /// Relative: a segment this close is taken to be inside; a disc has no inside that a distance could tell.
         const INSIDE: f64 = 1e-13;
-        let (place, nearest) = least_on_segment(segment, |place| of_frustum(place, self));
-        let scale = self.length.max(self.radii[0]).max(self.radii[1]);
-        if nearest.distance > INSIDE * scale {
+        let inside = INSIDE * self.length.max(self.radii[0]).max(self.radii[1]);
+        let (place, nearest) = least_on_segment(segment, inside, |place| of_frustum(place, self));
+        if nearest.distance > inside {
             let Nearest { distance, normal_b, feature } = nearest;
             return Approach { distance, normal_b, place_b: place, feature };
         }
         WayOut::new(segment, self).shortest()
     }
 
-    fn approach_end(&self, end: usize, segment: &[Vec3; 2]) -> Approach {
-        self.disc(end).approach(segment)
+    fn approach_end(&self, end: usize, segment: &[Vec3; 2], reach: f64) -> Option<Approach> {
+        /// Of the size of the numbers: far beyond rounding.
+        const SLACK: f64 = 1e-9;
+        let (center, disc) = (self.ends[end], self.disc(end));
+        let [one, other] = segment.map(|place| self.axis.dot(&(place - center)));
+        let slack = SLACK * (segment[0].amax() + segment[1].amax() + center.amax() + reach);
+        if one.min(other) > reach + slack || one.max(other) < -reach - slack {
+            return None;
+        }
+        if one * other < 0.0 {
+            // Where a segment goes through a disc a search along it would crawl.
+            let through = segment[0] + (segment[1] - segment[0]) * (one / divisor(one - other));
+            if (through - center).norm() < disc.radii[0] - slack {
+                return Some(WayOut::new(segment, &disc).shortest());
+            }
+        }
+        Some(disc.approach(segment))
     }
 
     fn axis(&self) -> Vec3 {
@@ -147,43 +162,63 @@ impl RoundSolid for Frustum {
     }
 }
 
-/// The place of a segment that is nearest to a convex solid, or deepest in it: the distance is convex along the segment, and its
-/// slope is the part of the normal along it.
-fn least_on_segment(segment: &[Vec3; 2], nearest: impl Fn(&Vec3) -> Nearest) -> (Vec3, Nearest) {
+/// The place of a segment that is nearest to a convex solid: the distance is convex along the segment, and its slope is the part of
+/// the normal along it. Any place that is no farther than `enough` (m) will do.
+fn least_on_segment(segment: &[Vec3; 2], enough: f64, nearest: impl Fn(&Vec3) -> Nearest) -> (Vec3, Nearest) {
     /// Relative to the segment: a slope this small is none.
     const FLAT: f64 = 4.0 * f64::EPSILON;
-    const STEPS: usize = 100;
     let along = segment[1] - segment[0];
     let flat = FLAT * along.norm();
     let at = |share: f64| {
         let place = segment[0] + along * share;
-        let found = nearest(&place);
-        (place, found, found.normal_b.dot(&along))
+        (place, nearest(&place))
     };
-    let (mut low, mut high) = ((0.0, at(0.0)), (1.0, at(1.0)));
-    if low.1.2 >= -flat {
-        return (low.1.0, low.1.1);
+    let slope_of = |found: &Nearest| found.normal_b.dot(&along);
+    let [first, last] = [at(0.0), at(1.0)];
+    let [falls, rises] = [slope_of(&first.1), slope_of(&last.1)];
+    if falls >= -flat || first.1.distance <= enough {
+        return first;
     }
-    if high.1.2 <= flat {
-        return (high.1.0, high.1.1);
+    if rises <= flat || last.1.distance <= enough {
+        return last;
     }
+    at(sign_change([falls, rises], |share| {
+        let found = at(share).1;
+        let slope = slope_of(&found);
+        if slope.abs() <= flat || found.distance <= enough { 0.0 } else { slope }
+    }))
+}
+
+/// Where between 0 and 1 something changes from not positive to positive, or is zero: by secants. The end that stays for a second
+/// time counts half from then on (the Illinois rule).
+fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
+    // Three for each bit of a number.
+    const STEPS: usize = 160;
+    let (mut from, mut to) = ((0.0, first), (1.0, last));
+    let (mut before, mut was_above, mut widths) = (f64::INFINITY, None, [f64::INFINITY; 2]);
     for step in 0..STEPS {
-        let ((from, (.., falls)), (to, (.., rises))) = (low, high);
-        let width = to - from;
-        // Where the slope jumps a secant crawls: every third step halves.
-        let secant = (from - falls * width / (rises - falls)).clamp(from + 0.01 * width, to - 0.01 * width);
-        let share = if step % 3 == 2 { 0.5 * (from + to) } else { secant };
-        if width <= f64::EPSILON {
+        let width = to.0 - from.0;
+        if width <= 2.0 * f64::EPSILON {
             break;
         }
-        let found = at(share);
-        if found.2.abs() <= flat {
-            return (found.0, found.1);
+        // Where it bends sharply secants crawl.
+        let crawls = width > 0.5 * std::mem::replace(&mut widths[step % 2], width);
+        let secant = if crawls { 0.5 } else { -from.1 / divisor(to.1 - from.1) };
+        let share = (from.0 + width * secant).clamp(from.0 + f64::EPSILON, to.0 - f64::EPSILON);
+        let value = at(share);
+        if value == 0.0 || (share - before).abs() <= f64::EPSILON {
+            return share;
         }
-        *(if found.2 < 0.0 { &mut low } else { &mut high }) = (share, found);
+        let is_above = value > 0.0;
+        let stays = if was_above == Some(is_above) { 0.5 } else { 1.0 };
+        if is_above {
+            (to, from.1) = ((share, value), stays * from.1);
+        } else {
+            (from, to.1) = ((share, value), stays * to.1);
+        }
+        (before, was_above) = (share, Some(is_above));
     }
-    let best = if low.1.1.distance <= high.1.1.distance { low.1 } else { high.1 };
-    (best.0, best.1)
+    0.5 * (from.0 + to.0)
 }
 
 /// How a segment that is in a frustum leaves it by the least translation.
@@ -268,16 +303,47 @@ impl<'a> WayOut<'a> {
         any_perpendicular(along)
     }
 
-    /// The direction between three that follow each other in which the way is shortest, by halving.
+    /// The direction between three that follow each other in which the way is shortest.
     fn least_near(&self, along: &Vec3, [before, middle, after]: [Vec3; 3]) -> Vec3 {
-        const STEPS: usize = 52;
+        /// Of a direction that is one of the three but for rounding either will do.
+        const SLACK: f64 = 1e-9;
         let (mut low, mut high) =
             if self.slope(along, &middle) > 0.0 { (before, middle) } else { (middle, after) };
-        for _ in 0..STEPS {
-            let between = (low + high).normalize();
-            *(if self.slope(along, &between) > 0.0 { &mut high } else { &mut low }) = between;
+        let turn = |from: &Vec3, to: &Vec3| along.dot(&from.cross(to));
+        for jump in self.jumps(along).into_iter().flatten() {
+            let [one, other] = self.farthest(&jump).map(|place| self.slope_at(along, &jump, &place));
+            let is_least = one.min(other) <= 0.0 && one.max(other) >= 0.0;
+            if is_least && turn(&before, &jump) > -SLACK && turn(&jump, &after) > -SLACK {
+                return jump;
+            }
+            if !is_least && turn(&low, &jump) > 0.0 && turn(&jump, &high) > 0.0 {
+                *(if one > 0.0 { &mut high } else { &mut low }) = jump;
+            }
         }
-        (low + high).normalize()
+        let at = |share: f64| (low + (high - low) * share).normalize();
+        at(sign_change([&low, &high].map(|way| self.slope(along, way)), |share| {
+            self.slope(along, &at(share))
+        }))
+    }
+
+    /// Across the segment the directions in which both ends of the solid are as far out: where the slope jumps.
+    fn jumps(&self, along: &Vec3) -> [Option<Vec3>; 2] {
+        let across = self.frustum.axis - along * along.dot(&self.frustum.axis);
+        let length = across.norm();
+        // Of a solid along the segment both ends are as far out everywhere, or nowhere.
+        if length <= ROUNDING {
+            return [None; 2];
+        }
+        // Once more: what rounding leaves along the segment is much of a short part.
+        let toward = across / length;
+        let toward = (toward - along * along.dot(&toward)).normalize();
+        let share = self.frustum.wall[0] / length;
+        let aside = 1.0 - share * share;
+        if aside <= 0.0 {
+            return [None; 2];
+        }
+        let sideways = along.cross(&toward) * aside.sqrt();
+        [1.0, -1.0].map(|sign| Some((toward * share + sideways * sign).normalize()))
     }
 
     /// The place of each end of the solid that is farthest along a unit vector.
@@ -292,7 +358,12 @@ impl<'a> WayOut<'a> {
     fn slope(&self, along: &Vec3, normal: &Vec3) -> f64 {
         let [one, other] = self.farthest(normal);
         let farther = if normal.dot(&one) >= normal.dot(&other) { one } else { other };
-        along.cross(normal).dot(&(farther - self.segment[0]))
+        self.slope_at(along, normal, &farther)
+    }
+
+    /// The same of one end of the solid, with its place that is farthest out.
+    fn slope_at(&self, along: &Vec3, normal: &Vec3, farthest: &Vec3) -> f64 {
+        along.cross(normal).dot(&(farthest - self.segment[0]))
     }
 
     /// How far along the segment the solid is touched on the shortest way out across it. The end of the solid that is farther out

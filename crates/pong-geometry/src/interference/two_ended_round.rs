@@ -48,7 +48,8 @@ fn two_ended(ends: &[Vec3; 2], radius: f64, solid: &impl RoundSolid) -> EndConta
     let at_end = |end: usize| {
         let own = pressed(&ends[end], radius, &solid.nearest(end, ends));
         let end_of_solid = if same_way { end } else { 1 - end };
-        let other = touched(&solid.approach_end(end_of_solid, ends), radius);
+        let approach = solid.approach_end(end_of_solid, ends, radius);
+        let other = approach.and_then(|approach| touched(&approach, radius));
         let deeper = match (own, other) {
             (Some(own), Some(other)) if other.depth > own.depth => Some(other),
             (None, other) => other,
