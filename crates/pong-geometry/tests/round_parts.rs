@@ -389,6 +389,32 @@ fn a_rod_across_a_coin_is_held_by_both_faces() {
     }
 }
 
+/// A rod along an end face of a cylinder or a cone, past its rim on both sides and its axis inside, leaves over that face: it is held
+/// over the middle of what overlaps, however the two are turned.
+#[test]
+fn a_rod_sunk_in_along_an_end_face_is_held_over_its_middle() {
+    let mut random = Random::new(11, 0, 0);
+    for case in 0..5000 {
+        let mut ends = [Vec3::new(0.0, 0.0, -1.0), Vec3::zeros()];
+        let mut radii = [[0.3, 0.3], [0.4, 0.2]][case % 2];
+        if random.chance(0.5) {
+            ends.reverse();
+            radii.reverse();
+        }
+        let (sunk, beside) = (random.between(0.01, 0.04), random.between(-0.1, 0.1));
+        let along = random.across(&Vec3::z());
+        let middle = along.cross(&Vec3::z()) * beside - Vec3::z() * sunk;
+        let rod_ends = [-random.between(0.35, 0.9), random.between(0.35, 0.9)].map(|at| middle + along * at);
+        let x = random_motion(&mut random, 3.0);
+        let rod = Capsule { ends: rod_ends, radius: 0.02 }.carried(&x);
+        let contacts = Solid::Frustum(Frustum::new(ends, radii).carried(&x)).touch(&rod);
+        let Interference { depth, normal_b, deepest_b, .. } = contacts[2].expect("past the rim").interference;
+        assert!((depth - sunk - rod.radius).abs() < 1e-12, "case {case}: {depth} for {sunk}");
+        let held = deepest_b + normal_b * rod.radius;
+        assert!((held - x.point(&middle)).norm() < 1e-9, "case {case}: {held}, not {}", x.point(&middle));
+    }
+}
+
 /// An axis that goes through the end of another leaves it across both, and that turns with the two.
 #[test]
 fn an_axis_through_the_end_of_another_leaves_across_both() {

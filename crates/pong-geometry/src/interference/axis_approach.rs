@@ -368,8 +368,11 @@ impl<'a> WayOut<'a> {
 
     /// How far along the segment the solid is touched on the shortest way out across it. The end of the solid that is farther out
     /// is. Where both are as far, that is on the wall between them, where the way out does not tend to turn; of a segment along the
-    /// wall in the middle of what overlaps.
+    /// wall in the middle of what overlaps, and so of one along an end face.
     fn travelled(&self, along: &Vec3, normal: &Vec3, rounding: f64) -> f64 {
+        if let Some(end) = self.faced_end(normal) {
+            return self.middle_over(end, along);
+        }
         let places = self.farthest(normal);
         let [height, other_height] = places.map(|place| normal.dot(&place));
         let [at, other] = places.map(|place| along.dot(&(place - self.segment[0])));
@@ -384,6 +387,27 @@ impl<'a> WayOut<'a> {
         }
         let share = (first / divisor(first - last)).clamp(0.0, 1.0);
         (at + (other - at) * share).clamp(0.0, length)
+    }
+
+    /// The end of the solid whose face a unit vector is normal to, but for rounding: all places of the face are as far out.
+    fn faced_end(&self, normal: &Vec3) -> Option<usize> {
+        /// Wider than the directions between which the search for the axis stops.
+        const LEAST: f64 = 1e-10;
+        let along_axis = self.frustum.axis.dot(normal);
+        let is_faced = (normal - self.frustum.axis * along_axis).norm() <= LEAST;
+        is_faced.then_some(usize::from(along_axis > 0.0))
+    }
+
+    /// How far along the segment the middle of what is over the face of an end lies, of a segment along that face.
+    fn middle_over(&self, end: usize, along: &Vec3) -> f64 {
+        let (center, radius) = (self.frustum.ends[end], self.frustum.radii[end]);
+        let [one, other] = self.segment;
+        let foot = along.dot(&(center - one));
+        let arm = one + along * foot - center;
+        let beside = arm - self.frustum.axis * self.frustum.axis.dot(&arm);
+        let half = (radius * radius - beside.norm_squared()).max(0.0).sqrt();
+        let length = along.dot(&(other - one));
+        0.5 * ((foot - half).clamp(0.0, length) + (foot + half).clamp(0.0, length))
     }
 
     /// Of a segment along the wall both ends are last out, though rounding may say that one of them alone is.
