@@ -187,7 +187,7 @@ fn no_edge_that_pushes_is_left_out() {
                 }
                 2 => tally.check(&Capsule { ends: capsule.ends.map(half), ..capsule }, &piece, name),
                 _ => {
-                    let size = [1e-5, 1e4][random.below(2)];
+                    let size = [1e-5, 1e4, 1e61, 1e80][random.below(4)];
                     let x = random_motion(&mut random, 3.0);
                     let Capsule { ends, radius } = capsule.carried(&x);
                     let large = Capsule { ends: ends.map(|end| end * size), radius: radius * size };

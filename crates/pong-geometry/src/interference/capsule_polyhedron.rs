@@ -10,7 +10,7 @@ use super::round_surface::ROUNDING;
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Capsule, EdgeBlock, FacePlanes, Polyhedron};
-use crate::simd::{LANES, LaneBits, Numbers, Simd, Splat, Vectors, is_moderate, run_at_level};
+use crate::simd::{LANES, LaneBits, Numbers, Simd, Splat, Vectors, run_at_level};
 
 /// A capsule that no face keeps away from a piece.
 #[derive(Clone, Copy, Debug)]
@@ -117,12 +117,7 @@ impl SomeEdges {
 
     /// Of so many edges from `first` on those near enough to have a part in the answer, and perhaps some more.
     fn near(at: &CapsuleAtPiece<'_>, first: usize) -> Self {
-        let [one, other] = &at.capsule.ends;
-        if !(at.polyhedron.planes().moderate && is_moderate(one) && is_moderate(other)) {
-            return Self { first, bits: [u64::MAX; Self::WORDS] };
-        }
-        let (query, polyhedron) = (Query::new(at), at.polyhedron);
-        let (query, first) = (&query, &first);
+        let (query, polyhedron, first) = (&Query::new(at), at.polyhedron, &first);
         run_at_level!(near_in(query: Query, polyhedron: Polyhedron, first: usize) -> SomeEdges)
     }
 
