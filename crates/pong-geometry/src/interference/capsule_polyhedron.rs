@@ -163,6 +163,7 @@ impl Query {
     }
 }
 
+/// Of the edges in boxes that a box about the axis meets, as wide as the reach, those near enough.
 #[inline(always)]
 fn near_in<S: Simd>(simd: S, query: &Query, polyhedron: &Polyhedron, first: &usize) -> SomeEdges {
     let mut near = SomeEdges { first: *first, bits: [0; SomeEdges::WORDS] };
