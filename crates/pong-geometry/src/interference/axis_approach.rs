@@ -1,6 +1,7 @@
 //! How near the axis of a two-ended body comes to a round solid, and which way it leaves it soonest (docs/theory.md, 2.8).
 
 use super::Feature;
+use super::circles::Circle;
 use super::round_surface::{Nearest, ROUNDING, nearest_on_segment, of_capsule, of_frustum};
 use crate::primitive::{Capsule, Frustum};
 use crate::{Vec3, any_perpendicular, divisor};
@@ -305,7 +306,7 @@ impl<'a> WayOut<'a> {
 
     /// The direction between three that follow each other in which the way is shortest.
     fn least_near(&self, along: &Vec3, [before, middle, after]: [Vec3; 3]) -> Vec3 {
-        /// Of a direction that is one of the three but for rounding either will do.
+        /// The sine of the angle to one of the three, far beyond rounding: a direction that is one of them counts as between.
         const SLACK: f64 = 1e-9;
         let (mut low, mut high) =
             if self.slope(along, &middle) > 0.0 { (before, middle) } else { (middle, after) };
@@ -327,12 +328,12 @@ impl<'a> WayOut<'a> {
     }
 
     /// Across the segment the directions in which both ends of the solid are as far out: where the slope jumps.
-    fn jumps(&self, along: &Vec3) -> [Option<Vec3>; 2] {
+    fn jumps(&self, along: &Vec3) -> Option<[Vec3; 2]> {
         let across = self.frustum.axis - along * along.dot(&self.frustum.axis);
         let length = across.norm();
         // Of a solid along the segment both ends are as far out everywhere, or nowhere.
         if length <= ROUNDING {
-            return [None; 2];
+            return None;
         }
         // Once more: what rounding leaves along the segment is much of a short part.
         let toward = across / length;
@@ -340,10 +341,10 @@ impl<'a> WayOut<'a> {
         let share = self.frustum.wall[0] / length;
         let aside = 1.0 - share * share;
         if aside <= 0.0 {
-            return [None; 2];
+            return None;
         }
         let sideways = along.cross(&toward) * aside.sqrt();
-        [1.0, -1.0].map(|sign| Some((toward * share + sideways * sign).normalize()))
+        Some([1.0, -1.0].map(|sign| (toward * share + sideways * sign).normalize()))
     }
 
     /// The place of each end of the solid that is farthest along a unit vector.
@@ -370,8 +371,8 @@ impl<'a> WayOut<'a> {
     /// is. Where both are as far, that is on the wall between them, where the way out does not tend to turn; of a segment along the
     /// wall in the middle of what overlaps, and so of one along an end face.
     fn travelled(&self, along: &Vec3, normal: &Vec3, rounding: f64) -> f64 {
-        if let Some(end) = self.faced_end(normal) {
-            return self.middle_over(end, along);
+        if let Some(middle) = self.middle_over_face(along, normal) {
+            return middle;
         }
         let places = self.farthest(normal);
         let [height, other_height] = places.map(|place| normal.dot(&place));
@@ -389,25 +390,18 @@ impl<'a> WayOut<'a> {
         (at + (other - at) * share).clamp(0.0, length)
     }
 
-    /// The end of the solid whose face a unit vector is normal to, but for rounding: all places of the face are as far out.
-    fn faced_end(&self, normal: &Vec3) -> Option<usize> {
-        /// Wider than the directions between which the search for the axis stops.
-        const LEAST: f64 = 1e-10;
-        let along_axis = self.frustum.axis.dot(normal);
-        let is_faced = (normal - self.frustum.axis * along_axis).norm() <= LEAST;
-        is_faced.then_some(usize::from(along_axis > 0.0))
-    }
-
-    /// How far along the segment the middle of what is over the face of an end lies, of a segment along that face.
-    fn middle_over(&self, end: usize, along: &Vec3) -> f64 {
-        let (center, radius) = (self.frustum.ends[end], self.frustum.radii[end]);
+    /// How far along the segment the middle of what is over an end face lies, if the face is square to a unit vector, and the segment
+    /// so along it: all places of the face are as far out.
+    fn middle_over_face(&self, along: &Vec3, normal: &Vec3) -> Option<f64> {
         let [one, other] = self.segment;
-        let foot = along.dot(&(center - one));
-        let arm = one + along * foot - center;
-        let beside = arm - self.frustum.axis * self.frustum.axis.dot(&arm);
-        let half = (radius * radius - beside.norm_squared()).max(0.0).sqrt();
+        let end = usize::from(self.frustum.axis.dot(normal) > 0.0);
+        let (center_b, radius) = (self.frustum.ends[end], self.frustum.radii[end]);
+        let arm = one - center_b;
+        let face = Circle { center_b, axis_b: self.frustum.axis, radius };
+        let chord = face.chord(normal, along, &(arm - along * along.dot(&arm)))?;
         let length = along.dot(&(other - one));
-        0.5 * ((foot - half).clamp(0.0, length) + (foot + half).clamp(0.0, length))
+        let [first, last] = chord.map(|place| along.dot(&(place - one)).clamp(0.0, length));
+        Some(0.5 * (first + last))
     }
 
     /// Of a segment along the wall both ends are last out, though rounding may say that one of them alone is.

@@ -231,7 +231,8 @@ impl<S: Simd> Axis<S> {
     /// are noise, and it must be the same.
     #[inline(always)]
     fn crosses(&self, block: &EdgeBlock) -> LaneBits {
-        /// Of the distance from place to place, whatever of it is along the edge: far beyond rounding.
+        /// Far beyond rounding, both as shares of squares: of that of the distance from place to place, whatever of it is along
+        /// the edge, and of that of the reach, so that the two together are more than their sum was.
         const NOISE: f64 = 1e-18;
         const WIDER: f64 = 1.0 + 1e-6;
         let simd = self.simd;
