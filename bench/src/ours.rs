@@ -424,9 +424,9 @@ impl<M: Movers> Pass<'_, M> {
             let mut spheres = [SPHERE; LANES];
             for (lane, sphere) in spheres.iter_mut().enumerate().take(answers.len()) {
                 *sphere = self.movers.sphere(LANES * chunk + lane);
-                pairs.add(sphere, b, 0, RADIUS);
+                pairs.add(sphere, 0, RADIUS);
             }
-            let told = pairs.take_in(simd);
+            let told = pairs.take_in(simd, b);
             for (lane, (a, answer)) in spheres.iter().zip(answers).enumerate() {
                 let found = match [told.near, told.over_face].map(|bits| bits >> lane & 1 == 1) {
                     [false, _] => None,

@@ -118,9 +118,9 @@ fn pairs_that_are_left_out_find_nothing() {
                     set_level(level);
                     let mut pairs = EllipsoidTrianglePairs::default();
                     for (place, (e, t, thickness)) in drawn.iter().enumerate() {
-                        assert_eq!(pairs.add(e, &scaled, *t, *thickness), place);
+                        assert_eq!(pairs.add(e, *t, *thickness), place);
                     }
-                    let near = pairs.take();
+                    let near = pairs.take(&scaled);
                     assert_eq!(pairs.count(), 0);
                     assert!(used == LANES || near >> used == 0);
                     for (lane, found) in expected.iter().enumerate() {
@@ -150,11 +150,11 @@ fn what_is_no_number_is_not_left_out() {
         axes: nalgebra::Matrix3::identity(),
         semi_axes: Vec3::repeat(0.1),
     };
-    pairs.add(&Ellipsoid { center: Vec3::repeat(f64::NAN), ..ball }, &set, 0, 0.1);
-    pairs.add(&Ellipsoid { axes: ball.axes * f64::NAN, ..ball }, &set, 0, 0.1);
+    pairs.add(&Ellipsoid { center: Vec3::repeat(f64::NAN), ..ball }, 0, 0.1);
+    pairs.add(&Ellipsoid { axes: ball.axes * f64::NAN, ..ball }, 0, 0.1);
     assert_eq!(pairs.count(), 2);
-    assert_eq!(pairs.take(), 3);
-    pairs.add(&ball, &set, 0, 0.1);
+    assert_eq!(pairs.take(&set), 3);
+    pairs.add(&ball, 0, 0.1);
     pairs.clear();
-    assert_eq!((pairs.count(), pairs.take()), (0, 0));
+    assert_eq!((pairs.count(), pairs.take(&set)), (0, 0));
 }

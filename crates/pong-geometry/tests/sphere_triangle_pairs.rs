@@ -74,9 +74,9 @@ fn pairs_that_are_left_out_find_nothing() {
                     set_level(level);
                     let mut pairs = SphereTrianglePairs::default();
                     for (place, (sphere, t, thickness)) in drawn.iter().enumerate() {
-                        assert_eq!(pairs.add(sphere, &scaled, *t, *thickness), place);
+                        assert_eq!(pairs.add(sphere, *t, *thickness), place);
                     }
-                    let PairsTold { near, over_face } = pairs.take();
+                    let PairsTold { near, over_face } = pairs.take(&scaled);
                     assert_eq!(pairs.count(), 0);
                     assert_eq!(over_face & !near, 0);
                     assert!(used == LANES || near >> used == 0);
@@ -109,13 +109,13 @@ fn pairs_are_counted_and_forgotten() {
     let mut pairs = SphereTrianglePairs::default();
     let touching = Sphere { center: set.corners(0)[0], radius: 0.1 };
     for count in 1..=3 {
-        pairs.add(&touching, &set, 0, 0.1);
+        pairs.add(&touching, 0, 0.1);
         assert_eq!(pairs.count(), count);
     }
     pairs.clear();
-    assert_eq!((pairs.count(), pairs.take().near), (0, 0));
-    pairs.add(&touching, &set, 0, 0.1);
-    assert_eq!(pairs.take().near, 1);
+    assert_eq!((pairs.count(), pairs.take(&set).near), (0, 0));
+    pairs.add(&touching, 0, 0.1);
+    assert_eq!(pairs.take(&set).near, 1);
 }
 
 /// A pair with a number that is none is tested.
@@ -123,9 +123,9 @@ fn pairs_are_counted_and_forgotten() {
 fn what_is_no_number_is_not_left_out() {
     let set = regular_plate(2);
     let mut pairs = SphereTrianglePairs::default();
-    pairs.add(&Sphere { center: Vec3::repeat(f64::NAN), radius: 0.1 }, &set, 0, 0.1);
-    pairs.add(&Sphere { center: Vec3::zeros(), radius: f64::NAN }, &set, 0, 0.1);
-    assert_eq!(pairs.take(), PairsTold { near: 3, over_face: 0 });
+    pairs.add(&Sphere { center: Vec3::repeat(f64::NAN), radius: 0.1 }, 0, 0.1);
+    pairs.add(&Sphere { center: Vec3::zeros(), radius: f64::NAN }, 0, 0.1);
+    assert_eq!(pairs.take(&set), PairsTold { near: 3, over_face: 0 });
 }
 
 /// Marking which features may push changes no contact of any sphere or ellipsoid.
@@ -194,8 +194,8 @@ fn curved_surface(round: usize, random: &mut Random) -> TriangleSet {
 /// Whether a pair of its own is told as one that may touch.
 fn is_told_near(sphere: &Sphere, set: &TriangleSet, triangle: u32) -> bool {
     let mut pairs = SphereTrianglePairs::default();
-    pairs.add(sphere, set, triangle, sphere.radius);
-    pairs.take().near == 1
+    pairs.add(sphere, triangle, sphere.radius);
+    pairs.take(set).near == 1
 }
 
 /// A centre straight over an edge or a vertex, on a mixture of the normals that meet there: up to one of them, and beside it

@@ -8,13 +8,18 @@ use crate::frame::broad_phase::chunk::{Chunk, ChunksOfA};
 use crate::frame::broad_phase::lone_element::LoneElement;
 use crate::frame::forces::ElementsOfA;
 use crate::frame::forces::contact_buffer::ContactBuffer;
+use crate::frame::input::motion::Motion;
 use crate::frame::input::{Block, PairContext, Round};
+use crate::frame::load_sharing::solver::SharedContact;
+use crate::frame::lone_blocks::LoneBlocks;
 use crate::frame::narrow_phase::element_pair::ChunkCandidates;
-use crate::frame::narrow_phase::testers::{Target, test_deferred, test_lone};
+use crate::frame::narrow_phase::lone_pairs::{LonePair, narrow_down, test_lone};
+use crate::frame::narrow_phase::testers::{Target, test_deferred};
 use crate::frame::worker_context::WorkerContext;
 use crate::frame::{forces, load_sharing};
 use crate::report::{FrameCounts, Laps, Timed, Untimed, Work};
-use crate::sealed::Direction;
+use crate::sealed::{Direction, Plan, Sealed};
+use pong_arena::{Arena, Table};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
 use pong_model::Batch;
@@ -30,17 +35,79 @@ pub(crate) fn arena_bytes(nodes: usize, batches: usize) -> usize {
     batches * (size_of::<&Batch>() + size_of::<Reach<'_>>()) + nodes * size_of::<u32>() + PIECES * GRAIN
 }
 
-/// Runs some blocks; what they find goes to the context of the thread. Neighbours are run as one: to begin a block takes as long
-/// as to test a few elements. Where no clock was lent, there is no trace of one either.
+/// Runs some blocks; what they find goes to the context of the thread. Those of one element by itself go several together, and
+/// neighbours are run as one: to begin a block takes as long as to test a few elements.
 pub(crate) fn run_blocks(round: &Round<'_>, blocks: Range<usize>, worker: &mut WorkerContext) {
-    let clock = round.input.clock.0;
-    for block in joined(&round.input.blocks[blocks]) {
-        worker.arena.reset();
-        let worker = &mut *worker;
-        match clock {
-            None => simd::run(BlockWork { round, block, worker, laps: Untimed }),
-            Some(now) => simd::run(BlockWork { round, block, worker, laps: Timed::start(now) }),
+    let mut left = &round.input.blocks[blocks];
+    while let Some(first) = left.first() {
+        let alike = left.iter().take_while(|block| block.is_lone == first.is_lone).count();
+        let (now, later) = left.split_at(alike);
+        left = later;
+        if first.is_lone && alike > 1 {
+            run_lone(round, now, worker);
+        } else {
+            joined(now).for_each(|block| run_block(round, block, worker));
         }
+    }
+}
+
+/// Where no clock was lent, there is no trace of one either.
+fn run_block(round: &Round<'_>, block: Block, worker: &mut WorkerContext) {
+    worker.arena.reset();
+    match round.input.clock.0 {
+        None => simd::run(BlockWork { round, block, worker, laps: Untimed }),
+        Some(now) => simd::run(BlockWork { round, block, worker, laps: Timed::start(now) }),
+    }
+}
+
+/// Blocks of one element each.
+fn run_lone(round: &Round<'_>, blocks: &[Block], worker: &mut WorkerContext) {
+    let mut left = blocks;
+    while let Some((&first, rest)) = left.split_first() {
+        let worker = &mut *worker;
+        let done = match round.input.clock.0 {
+            None => simd::run(LoneBlocks { round, blocks: left, worker, laps: Untimed }),
+            Some(now) => simd::run(LoneBlocks { round, blocks: left, worker, laps: Timed::start(now) }),
+        };
+        left = match done {
+            0 => {
+                run_block(round, first, worker);
+                rest
+            }
+            _ => &left[done..],
+        };
+    }
+}
+
+/// By which tests a block is worked off, and the motion of its pair.
+#[inline(always)]
+pub(crate) fn plan_of<'a>(round: &Round<'a>, block: &Block) -> (&'a Plan, &'a Motion) {
+    let Round { sealed, input, .. } = *round;
+    let Direction { group_pair, flipped } = block.direction;
+    let plan = sealed.group_pairs[group_pair as usize].plans[flipped as usize];
+    (&sealed.plans[plan as usize], input.motions[block.slot as usize].of(block.direction))
+}
+
+/// Shares out and works out what was found for a chunk of A; then nothing is found.
+#[inline(always)]
+pub(crate) fn finish_chunk(
+    (context, sealed): (&PairContext<'_>, &Sealed),
+    chunk: &Chunk<'_>,
+    found: &mut ChunkCandidates<'_>,
+    (scratch, shared, out): (&mut Arena, &mut Table<SharedContact>, &mut ContactBuffer),
+    laps: &mut impl Laps,
+) {
+    if found.overflowed {
+        out.demand.overflowed = true;
+        out.demand.at_once = out.demand.at_once.max(found.seen);
+    }
+    if !found.list.is_empty() {
+        let shared = load_sharing::assign_weights(context, chunk.kind, found.list, shared, scratch);
+        out.demand.unshared |= shared.is_err();
+        laps.lap(Work::LoadSharing, &mut out.times);
+        forces::compute_forces(context, sealed, (ElementsOfA::of(chunk), found.list), out);
+        found.clear();
+        laps.lap(Work::Forces, &mut out.times);
     }
 }
 
@@ -57,11 +124,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { round, block, worker, mut laps } = self;
-        let Round { sealed, input, .. } = *round;
-        let Direction { group_pair, flipped } = block.direction;
-        let plan = sealed.group_pairs[group_pair as usize].plans[flipped as usize];
-        let plan = &sealed.plans[plan as usize];
-        let motion = input.motions[block.slot as usize].of(block.direction);
+        let (plan, motion) = plan_of(round, &block);
         let context = PairContext::new(round, block.direction, motion);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
         let WorkerContext { arena, scratch, candidates, lone, carried, deferred, found, shared, out } =
@@ -85,26 +148,14 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
             for lane in lanes(near) {
                 let first = group * SUPERCHUNK + (lane * LANES) as u32;
                 let is_alone = alone >> lane & 1 == 1;
-                let chunk = chunks_of_a.carry(simd, (first, is_alone), carried);
+                let chunk = chunks_of_a.carry(simd, (first, is_alone), &mut carried[0]);
                 let at = AtChunk { context: &context, chunk: &chunk, reach: &reach, lane };
                 if is_alone {
-                    at.test_element(simd, lone, &mut found, out, &mut laps);
+                    at.test_element(simd, &mut lone[0], &mut found, out, &mut laps);
                 } else {
                     at.test_all(simd, (candidates, whole), &mut found, out, &mut laps);
                 }
-                if found.overflowed {
-                    out.demand.overflowed = true;
-                    out.demand.at_once = out.demand.at_once.max(found.seen);
-                }
-                if !found.list.is_empty() {
-                    let shared =
-                        load_sharing::assign_weights(&context, batch_a.kind, found.list, shared, scratch);
-                    out.demand.unshared |= shared.is_err();
-                    laps.lap(Work::LoadSharing, &mut out.times);
-                    forces::compute_forces(&context, sealed, (ElementsOfA::of(&chunk), found.list), out);
-                    found.clear();
-                    laps.lap(Work::Forces, &mut out.times);
-                }
+                finish_chunk((&context, round.sealed), &chunk, &mut found, (scratch, shared, out), &mut laps);
             }
         }
         laps.lap(Work::BroadPhase, &mut out.times);
@@ -196,20 +247,13 @@ impl AtChunk<'_> {
     ) {
         let Self { context, chunk, reach, lane } = *self;
         for Reach { batch, .. } in reach.iter().filter(|reach| reach.holds_for(lane)) {
+            let pair = LonePair { context, chunk, batch };
             lone.begin(chunk, &batch.boxes);
-            loop {
-                let through = lone.go_on(simd, &batch.boxes, &mut out.counts);
-                laps.lap(Work::BroadPhase, &mut out.times);
-                test_lone(simd, context, chunk, (batch, lone.bottoms()), found, &mut out.counts);
-                laps.lap(Work::NarrowPhase, &mut out.times);
-                if through {
-                    break;
-                }
-            }
-        }
-        if found.has_deferred() {
-            test_deferred(context, *chunk, found, &mut out.counts);
-            laps.lap(Work::NarrowPhase, &mut out.times);
+            lone.go_on(simd, &batch.boxes);
+            laps.lap(Work::BroadPhase, &mut out.times);
+            let one = std::slice::from_mut(&mut *lone);
+            narrow_down(&[Some(pair)], one, found.deferred, &mut out.counts);
+            test_lone(simd, pair, lone, found, out, laps);
         }
     }
 }

@@ -7,6 +7,7 @@ mod energy;
 mod forces;
 mod input;
 pub(crate) mod load_sharing;
+mod lone_blocks;
 pub(crate) mod narrow_phase;
 mod near_pairs;
 mod output;

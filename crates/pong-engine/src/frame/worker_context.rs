@@ -5,6 +5,7 @@ use crate::frame::broad_phase::chunk::ChunkSpace;
 use crate::frame::broad_phase::lone_element::LoneElement;
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::load_sharing::solver::SharedContact;
+use crate::frame::lone_blocks::LONE_MAX;
 use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::frame::narrow_phase::element_pair::DeferredPairs;
 use crate::sealed::Sealed;
@@ -20,9 +21,10 @@ pub(crate) struct WorkerContext {
     /// For one solution among contacts of one key.
     pub scratch: Arena,
     pub(crate) candidates: CandidatePairs,
-    pub(crate) lone: LoneElement,
-    /// A chunk of A in B's frame.
-    pub(crate) carried: ChunkSpace,
+    /// The ways of elements by themselves that go down trees together.
+    pub(crate) lone: [LoneElement; LONE_MAX],
+    /// Chunks of A in B's frame: the first, or one for each element by itself.
+    pub(crate) carried: [ChunkSpace; LONE_MAX],
     pub(crate) deferred: DeferredPairs,
     /// What contact testers find for a chunk.
     pub(crate) found: Table<ContactCandidate>,
@@ -35,7 +37,7 @@ impl WorkerContext {
     /// Bytes of what does not grow with the contacts of a frame, the arenas aside: with room for so many interferences of one
     /// chunk.
     pub fn table_bytes(found: usize) -> usize {
-        ChunkSpace::BYTES + found * Self::BYTES_PER_FOUND
+        LONE_MAX * ChunkSpace::BYTES + found * Self::BYTES_PER_FOUND
     }
 
     /// Bytes of one interference of a chunk.
@@ -47,8 +49,8 @@ impl WorkerContext {
             arena: Arena::with_capacity(sealed.limits.arena_bytes),
             scratch: Arena::with_capacity(sealed.limits.scratch_bytes),
             candidates: CandidatePairs::new(),
-            lone: LoneElement::NONE,
-            carried: ChunkSpace::new(),
+            lone: [LoneElement::NONE; LONE_MAX],
+            carried: [(); LONE_MAX].map(|()| ChunkSpace::new()),
             deferred: DeferredPairs::default(),
             found: Table::with_capacity(sealed.limits.found, ContactCandidate::NOTHING),
             shared: Table::with_capacity(sealed.limits.found, SharedContact::NOTHING),

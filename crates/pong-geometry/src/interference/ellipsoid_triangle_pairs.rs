@@ -57,8 +57,8 @@ impl EllipsoidTrianglePairs {
     /// Adds a pair, of which there may be eight; answers its place. `thickness` as in
     /// [`ellipsoid_triangle`](super::ellipsoid_triangle::ellipsoid_triangle).
     #[inline]
-    pub fn add(&mut self, ellipsoid: &Ellipsoid, set: &TriangleSet, triangle: u32, thickness: f64) -> usize {
-        let lane = self.lanes.add(&ellipsoid.center, set, triangle, thickness);
+    pub fn add(&mut self, ellipsoid: &Ellipsoid, triangle: u32, thickness: f64) -> usize {
+        let lane = self.lanes.add(&ellipsoid.center, triangle, thickness);
         let semi_axes = &ellipsoid.semi_axes;
         for axis in 0..3 {
             put(&mut self.widen[axis], lane, &(ellipsoid.axes.column(axis) * semi_axes[axis]));
@@ -68,9 +68,13 @@ impl EllipsoidTrianglePairs {
         lane
     }
 
-    /// Tells which pairs may touch, a bit for each in their order; then there are none.
+    /// Tells which pairs may touch, a bit for each in their order, whose triangles are of a set; then there are none.
     #[inline]
-    pub fn take(&mut self) -> LaneBits {
+    pub fn take(&mut self, set: &TriangleSet) -> LaneBits {
+        if self.lanes.count == 0 {
+            return 0;
+        }
+        self.lanes.fetch(set);
         let near = may_touch(self);
         self.clear();
         near

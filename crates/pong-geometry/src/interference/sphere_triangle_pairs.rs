@@ -51,18 +51,19 @@ impl SphereTrianglePairs {
     /// Adds a pair, of which there may be eight; answers its place. `thickness` as in
     /// [`sphere_triangle`](super::sphere_triangle::sphere_triangle).
     #[inline(always)]
-    pub fn add(&mut self, sphere: &Sphere, set: &TriangleSet, triangle: u32, thickness: f64) -> usize {
-        let lane = self.lanes.add(&sphere.center, set, triangle, thickness);
-        let record = &set.triangles[triangle as usize];
+    pub fn add(&mut self, sphere: &Sphere, triangle: u32, thickness: f64) -> usize {
+        let lane = self.lanes.add(&sphere.center, triangle, thickness);
         self.radii[lane] = sphere.radius;
-        self.edge_leans[lane] = record.edge_lean.tangent();
-        self.vertex_leans[lane] = record.vertex_lean.tangent();
         lane
     }
 
-    /// Tells the pairs apart; then there are none.
+    /// Tells the pairs apart, whose triangles are of a set; then there are none.
     #[inline]
-    pub fn take(&mut self) -> PairsTold {
+    pub fn take(&mut self, set: &TriangleSet) -> PairsTold {
+        if self.count() == 0 {
+            return PairsTold { near: 0, over_face: 0 };
+        }
+        self.fetch(set);
         let told = tell(self);
         self.clear();
         told
@@ -70,10 +71,21 @@ impl SphereTrianglePairs {
 
     /// [`take`](Self::take) within a kernel.
     #[inline(always)]
-    pub fn take_in<S: Simd>(&mut self, simd: S) -> PairsTold {
+    pub fn take_in<S: Simd>(&mut self, simd: S, set: &TriangleSet) -> PairsTold {
+        self.fetch(set);
         let told = tell_in(simd, self);
         self.clear();
         told
+    }
+
+    #[inline(always)]
+    fn fetch(&mut self, set: &TriangleSet) {
+        self.lanes.fetch(set);
+        for (lane, &triangle) in self.lanes.triangles.iter().enumerate() {
+            let record = &set.triangles[triangle as usize];
+            self.edge_leans[lane] = record.edge_lean.tangent();
+            self.vertex_leans[lane] = record.vertex_lean.tangent();
+        }
     }
 }
 

@@ -16,7 +16,7 @@ pub(super) fn put(vectors: &mut EightVectors, lane: usize, v: &Vec3) {
     (vectors[0][lane], vectors[1][lane], vectors[2][lane]) = (v.x, v.y, v.z);
 }
 
-/// Up to eight triangles, each with the centre of what may touch it.
+/// Up to eight triangles of a set, each with the centre of what may touch it.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(super) struct TriangleLanes {
@@ -25,6 +25,7 @@ pub(super) struct TriangleLanes {
     /// How far behind a triangle its centre may be and still be pushed to the front, m.
     pub thicknesses: [f64; LANES],
     pub may_push: [u8; LANES],
+    pub triangles: [u32; LANES],
     pub count: usize,
 }
 
@@ -34,23 +35,43 @@ impl TriangleLanes {
         centers: NOTHING,
         thicknesses: [0.0; LANES],
         may_push: [0; LANES],
+        triangles: [0; LANES],
         count: 0,
     };
 
-    /// One more, of which there may be eight; answers its lane.
+    /// One more, of which there may be eight; answers its lane. Nothing is read of the triangle yet.
     #[inline(always)]
-    pub fn add(&mut self, center: &Vec3, set: &TriangleSet, triangle: u32, thickness: f64) -> usize {
+    pub fn add(&mut self, center: &Vec3, triangle: u32, thickness: f64) -> usize {
         let lane = self.count;
         assert!(lane < LANES, "there may be eight");
-        let record = &set.triangles[triangle as usize];
-        for (corner, &vertex) in self.corners.iter_mut().zip(&record.vertices) {
-            put(corner, lane, &set.vertices[vertex as usize]);
-        }
         put(&mut self.centers, lane, center);
         self.thicknesses[lane] = thickness;
-        self.may_push[lane] = record.may_push.0;
+        self.triangles[lane] = triangle;
         self.count += 1;
         lane
+    }
+
+    /// Reads the triangles: all records, then all corners. Each is likely to come from a slow memory, and a record says where
+    /// its corners are: side by side they wait once.
+    #[inline(always)]
+    pub fn fetch(&mut self, set: &TriangleSet) {
+        // Lanes without a triangle get one that is read anyway: a loop over all lanes takes no decisions.
+        for lane in self.count..LANES {
+            self.triangles[lane] = self.triangles[0];
+        }
+        let mut vertices = [[0; LANES]; 3];
+        for lane in 0..LANES {
+            let record = &set.triangles[self.triangles[lane] as usize];
+            for (of_corner, vertex) in vertices.iter_mut().zip(record.vertices) {
+                of_corner[lane] = vertex;
+            }
+            self.may_push[lane] = record.may_push.0;
+        }
+        for (corner, vertices) in self.corners.iter_mut().zip(&vertices) {
+            for (lane, &vertex) in vertices.iter().enumerate() {
+                put(corner, lane, &set.vertices[vertex as usize]);
+            }
+        }
     }
 
     /// The lanes that hold one.

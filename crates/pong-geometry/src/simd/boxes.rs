@@ -1,11 +1,11 @@
-//! Eight boxes in single precision against a box or a ball.
+//! Eight boxes in single precision against a box or a ball, and what is in those that it meets.
 
 use super::lanes::{LANES, LaneBits};
 
 /// Eight boxes, coordinate by coordinate: the least by axis, then the greatest.
 pub type EightBoxes = [[[f32; LANES]; 3]; 2];
 
-/// Which of eight boxes share a place with another box.
+/// Which of eight boxes share a place with another box, and what they hold.
 pub trait BoxSimd: Copy {
     /// Bit `i` is set unless box `i` lies apart from the box between `low` and `high` along an axis. Comparisons with
     /// a NaN find nothing apart.
@@ -13,6 +13,10 @@ pub trait BoxSimd: Copy {
 
     /// Bit `i` is set unless the square of the distance from a place to box `i` exceeds `square`. A NaN is no distance.
     fn boxes_near(self, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits;
+
+    /// Those of eight numbers whose bits are set, in their order, from the first place on. What follows them has no
+    /// meaning.
+    fn packed(self, values: &[u32; LANES], bits: LaneBits) -> [u32; LANES];
 }
 
 #[cfg(test)]
@@ -40,6 +44,32 @@ mod tests {
         fn run<S: Simd>(self, simd: S) -> LaneBits {
             simd.boxes_near(self.0, &self.1, self.2)
         }
+    }
+
+    struct Packed<'a>(&'a [u32; LANES], LaneBits);
+
+    impl Kernel for Packed<'_> {
+        type Output = [u32; LANES];
+
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) -> [u32; LANES] {
+            simd.packed(self.0, self.1)
+        }
+    }
+
+    #[test]
+    fn numbers_whose_bits_are_set_come_first_and_in_order() {
+        let values = [7, u32::MAX, 0, 1 << 31, 5, 5, 12, 3];
+        for bits in 0..=LaneBits::MAX {
+            let expected: Vec<u32> =
+                (0..LANES).filter(|lane| bits >> lane & 1 == 1).map(|lane| values[lane]).collect();
+            for level in Level::available() {
+                set_level(level);
+                let packed = run(Packed(&values, bits));
+                assert_eq!(packed[..expected.len()], expected, "{level:?} {bits:#b}");
+            }
+        }
+        set_level(Level::best());
     }
 
     /// Every level says what the plain comparisons say, bounds that are equal, infinite or no number included.

@@ -141,4 +141,14 @@ impl BoxSimd for Portable {
         }
         near
     }
+
+    #[inline(always)]
+    fn packed(self, values: &[u32; LANES], bits: LaneBits) -> [u32; LANES] {
+        let (mut packed, mut count) = ([0; LANES], 0);
+        for (lane, &value) in values.iter().enumerate() {
+            packed[count] = value;
+            count += usize::from(bits >> lane & 1);
+        }
+        packed
+    }
 }

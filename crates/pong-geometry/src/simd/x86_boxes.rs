@@ -1,7 +1,7 @@
 //! x86-64: eight boxes in one register of single precision numbers, at both levels.
 
 use super::boxes::{BoxSimd, EightBoxes};
-use super::lanes::LaneBits;
+use super::lanes::{LANES, LaneBits};
 use super::x86::{Avx2, Avx512};
 use pulp::cast;
 use pulp::core_arch::x86::Avx;
@@ -35,6 +35,24 @@ fn boxes_near(avx: Avx, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> La
     avx._mm256_movemask_ps(near) as LaneBits
 }
 
+/// For every set of lanes their numbers in order, a byte each from the lowest on.
+static NUMBERS: [u64; 1 << LANES] = {
+    let mut numbers = [0; 1 << LANES];
+    let mut bits = 0;
+    while bits < numbers.len() {
+        let (mut lane, mut count) = (0, 0);
+        while lane < LANES {
+            if bits >> lane & 1 == 1 {
+                numbers[bits] |= (lane as u64) << (8 * count);
+                count += 1;
+            }
+            lane += 1;
+        }
+        bits += 1;
+    }
+    numbers
+};
+
 impl BoxSimd for Avx2 {
     #[inline(always)]
     fn boxes_met(self, boxes: &EightBoxes, low: &[f32; 3], high: &[f32; 3]) -> LaneBits {
@@ -44,6 +62,13 @@ impl BoxSimd for Avx2 {
     #[inline(always)]
     fn boxes_near(self, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits {
         boxes_near(self.0.avx, boxes, place, square)
+    }
+
+    #[inline(always)]
+    fn packed(self, values: &[u32; LANES], bits: LaneBits) -> [u32; LANES] {
+        let avx2 = self.0.avx2;
+        let numbers = avx2._mm256_cvtepu8_epi32(cast([NUMBERS[usize::from(bits)], 0]));
+        cast(avx2._mm256_permutevar8x32_epi32(cast(*values), numbers))
     }
 }
 
@@ -56,5 +81,10 @@ impl BoxSimd for Avx512 {
     #[inline(always)]
     fn boxes_near(self, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits {
         boxes_near(self.0.avx, boxes, place, square)
+    }
+
+    #[inline(always)]
+    fn packed(self, values: &[u32; LANES], bits: LaneBits) -> [u32; LANES] {
+        cast(self.0.avx512f._mm256_maskz_compress_epi32(bits, cast(*values)))
     }
 }

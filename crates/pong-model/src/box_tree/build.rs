@@ -34,11 +34,13 @@ impl BoxTree {
             nodes: Vec::new(),
             around: NarrowBox::NOTHING,
             is_bounded: false,
+            levels: 0,
         };
         if !elements.is_empty() {
             let bottoms = elements.len().div_ceil(WIDTH);
             tree.nodes.reserve_exact(bottoms + bottoms / 2 + 2);
-            tree.around = tree.add_node(elements, 0, levels_above(bottoms)).1;
+            tree.levels = levels_above(bottoms);
+            tree.around = tree.add_node(elements, 0, tree.levels).1;
             tree.nodes.shrink_to_fit();
             let mut bounds = tree.around.low.iter().chain(&tree.around.high);
             tree.is_bounded = bounds.all(|bound| bound.abs() < f32::MAX);

@@ -74,6 +74,8 @@ pub struct BoxTree {
     pub around: NarrowBox,
     /// Whether every element has a bound in each direction.
     pub is_bounded: bool,
+    /// Levels of nodes above the bottom nodes, which are all at the same depth.
+    pub levels: u32,
 }
 
 impl NarrowBox {
@@ -224,6 +226,13 @@ impl BoxNode {
     pub fn child(&self, lane: usize) -> Child {
         let child = self.children[lane];
         if child & ELEMENT != 0 { Child::Element(child & !ELEMENT) } else { Child::Node(child) }
+    }
+
+    /// The nodes in some of the boxes, in the boxes' order, from the first place on; what follows them has no meaning. Not for a
+    /// bottom node.
+    #[inline(always)]
+    pub fn nodes_in<S: Simd>(&self, simd: S, boxes: LaneBits) -> [u32; WIDTH] {
+        simd.packed(&self.children, boxes)
     }
 
     /// Whether the boxes are those of elements: of all that are below, in their order.

@@ -99,7 +99,7 @@ fn nothing_that_a_ball_reaches_is_missed() {
     assert!(reached > 1000 && seen <= reached + reached / 100, "{reached} {seen}");
 }
 
-/// Bottom nodes are full but for the last of a part, and every node bounds what is below it.
+/// Bottom nodes are full but for the last of a part, all at one depth, and every node bounds what is below it.
 #[test]
 fn nodes_are_full_and_hold_what_is_below() {
     let mut random = Random(3);
@@ -108,12 +108,13 @@ fn nodes_are_full_and_hold_what_is_below() {
         let tree = BoxTree::build(&mut elements);
         let bottoms = tree.nodes.iter().filter(|node| node.is_bottom());
         assert_eq!(bottoms.count(), count.div_ceil(WIDTH));
-        check(&tree, &tree.nodes[0], 0..count as u32);
+        check(&tree, (&tree.nodes[0], tree.levels), 0..count as u32);
     }
 }
 
-fn check(tree: &BoxTree, node: &BoxNode, expected: std::ops::Range<u32>) {
+fn check(tree: &BoxTree, (node, levels): (&BoxNode, u32), expected: std::ops::Range<u32>) {
     assert_eq!(node.elements, expected);
+    assert_eq!(node.is_bottom(), levels == 0);
     let mut next = expected.start;
     for (lane, child) in node.children().enumerate() {
         match child {
@@ -127,7 +128,7 @@ fn check(tree: &BoxTree, node: &BoxNode, expected: std::ops::Range<u32>) {
                 let around = below.fold(NarrowBox::NOTHING, |all, one| all.join(&one));
                 assert_eq!(around, child.boxes.around());
                 assert_eq!(around, node.boxes.lane(lane));
-                check(tree, child, next..child.elements.end);
+                check(tree, (child, levels - 1), next..child.elements.end);
                 next = child.elements.end;
             }
         }

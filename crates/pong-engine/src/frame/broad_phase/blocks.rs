@@ -95,9 +95,9 @@ impl Layout<'_, '_> {
         }
         for batch in batches.clone() {
             let Some(element_ns) = self.plan.element_ns(tree.batches[batch as usize].kind) else { continue };
-            let boxes = &tree.batches[batch as usize].boxes;
-            let (direction, slot) = (self.direction, self.slot);
-            let block = Block { direction, slot, leaf: node, batch, first: 0, end: 0, leads: false };
+            let Batch { boxes, items, .. } = &tree.batches[batch as usize];
+            let (direction, slot, is_lone) = (self.direction, self.slot, items.len() == 1);
+            let block = Block { direction, slot, leaf: node, batch, first: 0, end: 0, leads: false, is_lone };
             self.leads = true;
             self.cut(boxes, 0, element_ns, block);
         }
@@ -254,7 +254,16 @@ mod tests {
                     let end = (first / step + 1 + random.below(4) as u32) * step;
                     let direction = Direction { group_pair: 3, flipped: 1 };
                     let leads = number == 0;
-                    blocks.push(Block { direction, slot: 0, leaf: 2, batch, first, end, leads });
+                    blocks.push(Block {
+                        direction,
+                        slot: 0,
+                        leaf: 2,
+                        batch,
+                        first,
+                        end,
+                        leads,
+                        is_lone: false,
+                    });
                     first = if random.below(3) == 0 { end + LANES as u32 } else { end };
                 }
             }

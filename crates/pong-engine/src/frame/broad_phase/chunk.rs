@@ -4,7 +4,7 @@ use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use pong_arena::Table;
 use pong_geometry::bounding::RELATIVE_MARGIN;
 use pong_geometry::lanes::Lanes;
-use pong_geometry::primitive::{Capsule, LineSegment, Point, PrimitiveKind, Sphere};
+use pong_geometry::primitive::{Capsule, Ellipsoid, LineSegment, Point, PrimitiveKind, Sphere};
 use pong_geometry::simd::{LANES, LaneBits, Numbers, Simd};
 use pong_geometry::{Transform, Vec3};
 use pong_model::box_tree::{BoxTree, NarrowBall, NarrowBox, NarrowBoxes};
@@ -94,6 +94,8 @@ impl<'a> ChunksOfA<'a> {
         let mut radii = &[0.0; LANES];
         let mut own_centers = None;
         let chunk = first as usize / LANES;
+        // What was carried before stays where it is while a chunk goes by lane.
+        let mut each: &[TransformedPrimitive] = &[];
         match (batch.balls.get(chunk), batch.rods.get(chunk)) {
             (Some(balls), _) => {
                 balls.centers.carry_in(simd, x_ba, centers);
@@ -117,14 +119,15 @@ impl<'a> ChunksOfA<'a> {
                     let lanes = 0..items.len() as u32;
                     boxes.set_to_each(lanes.map(|lane| carried_box(&batch.boxes, first + lane, x_ba)));
                 }
+                each = carried;
             }
         }
         let balls = match kind {
             PrimitiveKind::Sphere if meets_triangles && !alone => Some(balls.set(centers, radii)),
-            PrimitiveKind::Ellipsoid if meets_triangles => Some(balls.set_around(carried)),
+            PrimitiveKind::Ellipsoid if meets_triangles => Some(balls.set_around(each)),
             _ => None,
         };
-        Chunk { kind, items, own_centers, centers, ends, radii, carried, boxes, balls }
+        Chunk { kind, items, own_centers, centers, ends, radii, carried: each, boxes, balls }
     }
 }
 
@@ -233,6 +236,15 @@ impl Chunk<'_> {
     #[inline(always)]
     fn ends_of(&self, lane: usize) -> [Vec3; 2] {
         [self.ends[0].get(lane), self.ends[1].get(lane)]
+    }
+
+    /// One ellipsoid of a chunk of ellipsoids; `None` in chunks of other kinds.
+    #[inline(always)]
+    pub fn ellipsoid(&self, lane: usize) -> Option<&Ellipsoid> {
+        match self.carried.get(lane) {
+            Some(TransformedPrimitive::Ellipsoid(ellipsoid)) => Some(ellipsoid),
+            _ => None,
+        }
     }
 
     /// One element of another kind; `None` for kinds that are never A in the table.

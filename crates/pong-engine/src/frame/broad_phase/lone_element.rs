@@ -1,25 +1,48 @@
 //! Which elements of B an element of A by itself may touch: its own box in B's frame, which is much tighter than the turned
 //! one of its chunk, or its ball, goes down the trees.
+//!
+//! Every step down waits for the one before: a node says where the next is. So the steps of one element leave most of a
+//! processor idle, and several elements go down together, in turns.
 
-use crate::frame::broad_phase::candidate_pairs::DEPTH_MAX;
 use crate::frame::broad_phase::chunk::Chunk;
-use crate::report::FrameCounts;
-use pong_geometry::simd::{LaneBits, Simd};
-use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBall, NarrowBox, lanes};
+use pong_geometry::simd::{LANES, LaneBits, Simd};
+use pong_model::box_tree::{BoxNode, BoxTree, NarrowBall, NarrowBox};
 
 /// Bottom nodes that there is room for; when it is used up their elements are tested before the next ones are looked for.
 const BOTTOMS_MAX: usize = 32;
 
+/// Levels of nodes of the deepest tree: of 2³¹ elements.
+const LEVELS_MAX: usize = 11;
+
+/// Nodes of one level whose children are looked for in one step.
+const AT_ONCE: usize = 8;
+
 /// The way of one element through one tree of B.
+///
+/// A step asks up to eight nodes of one level. The last ones that were found are asked first, so what is found is in the same
+/// order as if they were asked one by one.
 #[derive(Debug)]
 pub(crate) struct LoneElement {
     query: Query,
-    /// Nodes that wait: the first `depth` of them.
-    waiting: [u32; DEPTH_MAX],
-    depth: usize,
+    /// The level in hand, from the root down, and that of the bottom nodes.
+    level: usize,
+    bottom_level: usize,
+    /// Where the nodes of every level that wait stand, from the root's to those of the level in hand.
+    levels: [Waiting; LEVELS_MAX],
+    /// Nodes that wait: of every level as many as what is asked at once has children, since then none of that level waits.
+    nodes: [u32; LEVELS_MAX * AT_ONCE * LANES],
     /// What was found last: the first `count` of them, in the order in which they are tested.
     bottoms: [Bottom; BOTTOMS_MAX],
     count: usize,
+    /// Nodes asked that nobody has counted yet.
+    asked: u64,
+}
+
+/// Nodes of one level that wait.
+#[derive(Clone, Copy, Debug)]
+struct Waiting {
+    start: u32,
+    end: u32,
 }
 
 /// What boxes of a tree are compared with.
@@ -39,6 +62,8 @@ pub(crate) struct Bottom {
     pub first: u32,
     /// Those of it and the next ones that may be touched.
     pub met: LaneBits,
+    /// Triangles of them of which the face alone may push.
+    pub over_face: LaneBits,
 }
 
 impl Query {
@@ -66,54 +91,89 @@ impl LoneElement {
     /// On no way.
     pub const NONE: Self = Self {
         query: Query::Box(NarrowBox::NOTHING),
-        waiting: [0; DEPTH_MAX],
-        depth: 0,
-        bottoms: [Bottom { first: 0, met: 0 }; BOTTOMS_MAX],
+        level: 0,
+        bottom_level: 0,
+        levels: [Waiting { start: 0, end: 0 }; LEVELS_MAX],
+        nodes: [0; LEVELS_MAX * AT_ONCE * LANES],
+        bottoms: [Bottom { first: 0, met: 0, over_face: 0 }; BOTTOMS_MAX],
         count: 0,
+        asked: 0,
     };
 
     /// Begins at the root of a tree that is not empty, with the first element of a chunk.
     #[inline(always)]
     pub fn begin(&mut self, chunk: &Chunk<'_>, tree: &BoxTree) {
         self.query = Query::new(chunk, tree);
-        (self.waiting[0], self.depth) = (0, 1);
+        (self.level, self.bottom_level) = (0, tree.levels as usize);
+        (self.nodes[0], self.levels[0]) = (0, Waiting { start: 0, end: 1 });
+        (self.count, self.asked) = (0, 0);
     }
 
-    /// Goes on through the tree until it is through or there is no more room; whether it is through. What was found before is
-    /// gone.
+    /// Goes on until it is through or there is no more room. What was found before is gone.
     #[inline(always)]
-    pub fn go_on<S: Simd>(&mut self, simd: S, tree: &BoxTree, counts: &mut FrameCounts) -> bool {
-        let Self { query, waiting, depth, bottoms, count } = self;
-        let (mut found, mut looked_at) = (0, 0);
-        let through = loop {
-            let Some(top) = depth.checked_sub(1) else { break true };
-            if found == BOTTOMS_MAX {
-                break false;
+    pub fn go_on<S: Simd>(&mut self, simd: S, tree: &BoxTree) {
+        self.count = 0;
+        while self.step(simd, tree) {}
+    }
+
+    /// Whether nothing is left to be found.
+    #[inline(always)]
+    pub fn is_through(&self) -> bool {
+        self.level == 0 && self.levels[0].end == 0
+    }
+
+    /// One step; whether there was any to make: it may be through, or there may be no more room.
+    #[inline(always)]
+    pub fn step<S: Simd>(&mut self, simd: S, tree: &BoxTree) -> bool {
+        let level = self.level;
+        let Waiting { start, end } = self.levels[level];
+        let (waits, end) = ((end - start) as usize, end as usize);
+        if waits == 0 {
+            self.level = level.saturating_sub(1);
+            return level > 0;
+        }
+        let at_bottom = level == self.bottom_level;
+        let takes = waits.min(if at_bottom { BOTTOMS_MAX - self.count } else { AT_ONCE });
+        let left = end - takes;
+        self.levels[level].end = left as u32;
+        self.asked += takes as u64;
+        if at_bottom {
+            for place in (left..end).rev() {
+                let node = &tree.nodes[self.nodes[place] as usize];
+                let met = self.query.meets(simd, node);
+                self.bottoms[self.count] = Bottom { first: node.elements.start, met, over_face: 0 };
+                self.count += usize::from(met != 0);
             }
-            let node = &tree.nodes[waiting[top] as usize];
-            *depth = top;
-            looked_at += 1;
-            let met = query.meets(simd, node);
-            if node.is_bottom() {
-                bottoms[found] = Bottom { first: node.elements.start, met };
-                found += usize::from(met != 0);
-                continue;
-            }
-            for lane in lanes(met) {
-                if let Child::Node(below) = node.child(lane) {
-                    waiting[*depth] = below;
-                    *depth += 1;
-                }
-            }
-        };
-        counts.boxes_tested += looked_at;
-        *count = found;
-        through
+            return takes > 0;
+        }
+        let mut past = end;
+        for place in left..end {
+            let node = &tree.nodes[self.nodes[place] as usize];
+            let met = self.query.meets(simd, node);
+            // Eight places are written, whatever is found: which boxes are met follows no pattern that a processor could foresee.
+            self.nodes[past..past + LANES].copy_from_slice(&node.nodes_in(simd, met));
+            past += met.count_ones() as usize;
+        }
+        self.level = level + 1;
+        self.levels[level + 1] = Waiting { start: end as u32, end: past as u32 };
+        true
     }
 
     /// What was found last.
     #[inline(always)]
     pub fn bottoms(&self) -> &[Bottom] {
         &self.bottoms[..self.count]
+    }
+
+    /// The same, to be narrowed down.
+    #[inline(always)]
+    pub fn bottoms_mut(&mut self) -> &mut [Bottom] {
+        &mut self.bottoms[..self.count]
+    }
+
+    /// How many nodes were asked since this was asked last.
+    #[inline(always)]
+    pub fn take_asked(&mut self) -> u64 {
+        std::mem::take(&mut self.asked)
     }
 }

@@ -55,6 +55,8 @@ pub(crate) struct Block {
     pub end: u32,
     /// Whether it is the first of its batch that was laid out: what is asked once per batch is counted there.
     pub leads: bool,
+    /// Whether its element is the only one of its batch.
+    pub is_lone: bool,
 }
 
 impl<'a> EvaluationInput<'a> {

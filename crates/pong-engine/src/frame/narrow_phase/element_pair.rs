@@ -3,6 +3,7 @@
 use super::candidate::{CandidateStatus, ContactCandidate};
 use super::nearest_side::KnownSides;
 use super::side_of_entry::{EntryFace, PolyhedronEntry};
+use crate::frame::broad_phase::chunk::Chunk;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
 use crate::frame::input::motion::Motion;
@@ -11,8 +12,8 @@ use pong_arena::Table;
 use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::ellipsoid_triangle_pairs::EllipsoidTrianglePairs;
-use pong_geometry::interference::sphere_triangle_pairs::SphereTrianglePairs;
-use pong_geometry::primitive::{Capsule, Containment, PrimitiveKind, Sphere};
+use pong_geometry::interference::sphere_triangle_pairs::{PairsTold, SphereTrianglePairs};
+use pong_geometry::primitive::{Capsule, Containment, PrimitiveKind, Sphere, TriangleSet};
 use pong_geometry::simd::LANES;
 use pong_model::{Item, MovableGroup, PrimitiveInfo};
 
@@ -54,6 +55,25 @@ impl DeferredPairs {
     #[inline]
     pub fn count(&self) -> usize {
         self.spheres.count() + self.ellipsoids.count()
+    }
+
+    /// Adds the element of a chunk in a lane, a sphere or an ellipsoid, and a triangle, which has a thickness for it, m; answers
+    /// the pair's place.
+    #[inline(always)]
+    pub fn add(&mut self, chunk: &Chunk<'_>, lane: usize, triangle: u32, thickness: f64) -> usize {
+        match chunk.ellipsoid(lane) {
+            Some(ellipsoid) => self.ellipsoids.add(ellipsoid, triangle, thickness),
+            None => self.spheres.add(&chunk.sphere(lane), triangle, thickness),
+        }
+    }
+
+    /// Tells which of the pairs may touch, whose triangles are of a set; then there are none.
+    #[inline(always)]
+    pub fn tell(&mut self, set: &TriangleSet) -> PairsTold {
+        if self.ellipsoids.count() > 0 {
+            return PairsTold { near: self.ellipsoids.take(set), over_face: 0 };
+        }
+        self.spheres.take(set)
     }
 
     fn clear(&mut self) {

@@ -2,6 +2,7 @@
 
 pub(crate) mod candidate;
 pub(crate) mod element_pair;
+pub(crate) mod lone_pairs;
 mod nearest_side;
 mod on_triangle;
 pub(crate) mod pair_table;

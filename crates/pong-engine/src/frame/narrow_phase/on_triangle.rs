@@ -4,6 +4,7 @@ use super::candidate::CandidateStatus;
 use super::element_pair::{ChunkCandidates, ElementPair};
 use super::nearest_side::{KnownSides, Nearby};
 use super::side_of_entry::TriangleEntry;
+use crate::frame::broad_phase::chunk::Chunk;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
 use pong_geometry::Vec3;
@@ -118,4 +119,19 @@ fn is_set_down_in_front(
 #[inline]
 pub(crate) fn thickness_for_sphere(context: &PairContext<'_>, triangle: Item, sphere: &Sphere) -> f64 {
     context.body_b.primitives[triangle.primitive as usize].thickness.unwrap_or(sphere.radius)
+}
+
+/// How far behind a triangle the centre of the element of a chunk in a lane, a sphere or an ellipsoid, is still pushed to the
+/// front, m.
+#[inline(always)]
+pub(crate) fn thickness_for(
+    context: &PairContext<'_>,
+    chunk: &Chunk<'_>,
+    lane: usize,
+    triangle: Item,
+) -> f64 {
+    match chunk.ellipsoid(lane) {
+        Some(ellipsoid) => thickness_for_ellipsoid(context, triangle, ellipsoid),
+        None => thickness_for_sphere(context, triangle, &chunk.sphere(lane)),
+    }
 }

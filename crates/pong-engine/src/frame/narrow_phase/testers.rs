@@ -1,19 +1,17 @@
 //! Elements of A that may touch an element of B: which contact tester they go to, and eight at a time where that is quicker.
 
 use super::element_pair::{Ball, ChunkCandidates, ElementPair};
-use super::on_triangle::{thickness_for_ellipsoid, thickness_for_sphere};
+use super::on_triangle::thickness_for;
 use super::pair_table::{Test, ellipsoid_triangle, sphere_triangle, test_of};
 use super::registered;
 use crate::frame::broad_phase::chunk::Chunk;
-use crate::frame::broad_phase::lone_element::Bottom;
-use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
 use crate::report::FrameCounts;
 use pong_geometry::interference::ellipsoid_triangle::EllipsoidOnTriangles;
 use pong_geometry::primitive::PrimitiveKind::{self, Polyhedron, Triangle};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
+use pong_model::Item;
 use pong_model::box_tree::lanes;
-use pong_model::{Batch, Item};
 
 /// So many line segments near a polyhedron are asked together: fewer end sooner one by one.
 const WORTH_EIGHT: u32 = 3;
@@ -38,8 +36,7 @@ impl<'a> Target<'a> {
     ) {
         if is_deferred(chunk.kind, self.kind_b) {
             counts.note_testers(chunk.kind, self.kind_b, near.count_ones(), 0);
-            let pairs = lanes(near).map(|lane| (lane, self.item_b));
-            return defer(self.context, chunk, pairs, found, counts);
+            return defer(self.context, chunk, (near, self.item_b), found, counts);
         }
         let tested = near.count_ones();
         let near = self.not_separated(simd, chunk, near);
@@ -94,63 +91,25 @@ impl<'a> Target<'a> {
     }
 }
 
-/// Tests an element by itself, the only one of its chunk, against elements of a batch of B.
-#[inline(always)]
-pub(crate) fn test_lone<S: Simd>(
-    simd: S,
-    context: &PairContext<'_>,
-    chunk: &Chunk<'_>,
-    (batch, bottoms): (&Batch, &[Bottom]),
-    found: &mut ChunkCandidates<'_>,
-    counts: &mut FrameCounts,
-) {
-    let items = &context.body_b.tree.items[batch.items.start as usize..batch.items.end as usize];
-    if is_deferred(chunk.kind, batch.kind) {
-        let mut tested = 0;
-        for &Bottom { first, met } in bottoms {
-            let items = &items[first as usize..];
-            tested += met.count_ones();
-            defer(context, chunk, lanes(met).map(|lane| (0, items[lane])), found, counts);
-        }
-        return counts.note_testers(chunk.kind, batch.kind, tested, 0);
-    }
-    for &Bottom { first, met } in bottoms {
-        for lane in lanes(met) {
-            let target = Target { context, item_b: items[first as usize + lane], kind_b: batch.kind };
-            target.test_lanes(simd, chunk, 1, found, counts);
-        }
-    }
-}
-
 /// Whether pairs of such kinds wait until there are eight of them.
 #[inline(always)]
-fn is_deferred(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
+pub(super) fn is_deferred(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
     kind_b == Triangle && matches!(kind_a, PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid)
 }
 
-/// Defers the tests of spheres or ellipsoids of a chunk, by their lanes, near triangles until there are eight such pairs.
+/// Defers the tests of spheres or ellipsoids of a chunk, by their lanes, near a triangle until there are eight such pairs.
 #[inline(always)]
 fn defer(
     context: &PairContext<'_>,
     chunk: &Chunk<'_>,
-    pairs: impl Iterator<Item = (usize, Item)>,
+    (near, item_b): (LaneBits, Item),
     found: &mut ChunkCandidates<'_>,
     counts: &mut FrameCounts,
 ) {
-    let triangles = &context.body_b.triangles;
-    for (lane, item_b) in pairs {
-        let deferred = &mut *found.deferred;
-        let place = if chunk.kind == PrimitiveKind::Sphere {
-            let sphere = chunk.sphere(lane);
-            let thickness = thickness_for_sphere(context, item_b, &sphere);
-            deferred.spheres.add(&sphere, triangles, item_b.element, thickness)
-        } else if let Some(TransformedPrimitive::Ellipsoid(ellipsoid)) = chunk.carried(lane) {
-            let thickness = thickness_for_ellipsoid(context, item_b, ellipsoid);
-            deferred.ellipsoids.add(ellipsoid, triangles, item_b.element, thickness)
-        } else {
-            continue;
-        };
-        deferred.from[place] = (lane as u8, item_b);
+    for lane in lanes(near) {
+        let thickness = thickness_for(context, chunk, lane, item_b);
+        let place = found.deferred.add(chunk, lane, item_b.element, thickness);
+        found.deferred.from[place] = (lane as u8, item_b);
         if place + 1 == LANES {
             test_deferred(context, *chunk, found, counts);
         }
@@ -175,7 +134,7 @@ pub(crate) fn test_deferred(
 }
 
 fn test_spheres(context: &PairContext<'_>, chunk: &Chunk<'_>, found: &mut ChunkCandidates<'_>) {
-    let told = found.deferred.spheres.take();
+    let told = found.deferred.spheres.take(&context.body_b.triangles);
     for place in lanes(told.near) {
         let (lane, item_b) = found.deferred.from[place];
         let item_a = chunk.items[usize::from(lane)];
@@ -186,14 +145,12 @@ fn test_spheres(context: &PairContext<'_>, chunk: &Chunk<'_>, found: &mut ChunkC
 }
 
 fn test_ellipsoids(context: &PairContext<'_>, chunk: &Chunk<'_>, found: &mut ChunkCandidates<'_>) {
-    let near = found.deferred.ellipsoids.take();
+    let near = found.deferred.ellipsoids.take(&context.body_b.triangles);
     // Mostly several in a row are of one ellipsoid.
     let mut ready: Option<(u8, EllipsoidOnTriangles)> = None;
     for place in lanes(near) {
         let (lane, item_b) = found.deferred.from[place];
-        let Some(TransformedPrimitive::Ellipsoid(ellipsoid)) = chunk.carried(usize::from(lane)) else {
-            continue;
-        };
+        let Some(ellipsoid) = chunk.ellipsoid(usize::from(lane)) else { continue };
         let ready = match &mut ready {
             Some((of, ready)) if *of == lane => ready,
             other => &mut other.insert((lane, EllipsoidOnTriangles::new(ellipsoid))).1,

@@ -1,0 +1,142 @@
+//! Blocks of one element each, such as the wheels of a rover: several at a time.
+//!
+//! A step of one element waits for the step before: down a tree, from a triangle to its vertices, through the products that
+//! tell whether the two may touch. What several elements do in turns does not wait, and pairs of all of them fill the lanes.
+
+use crate::frame::block::{finish_chunk, plan_of};
+use crate::frame::broad_phase::blocks::batches_of_b;
+use crate::frame::broad_phase::chunk::{Chunk, ChunkSpace, ChunksOfA};
+use crate::frame::broad_phase::lone_element::LoneElement;
+use crate::frame::forces::contact_buffer::ContactBuffer;
+use crate::frame::input::{Block, PairContext, Round};
+use crate::frame::narrow_phase::element_pair::ChunkCandidates;
+use crate::frame::narrow_phase::lone_pairs::{LonePair, narrow_down, test_lone};
+use crate::frame::worker_context::WorkerContext;
+use crate::report::{Laps, Work};
+use pong_arena::Arena;
+use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::simd::{Kernel, LaneBits, Simd};
+use pong_model::Batch;
+use pong_model::box_tree::lanes;
+
+/// Elements that are worked off together, and their ways through trees: as many as there are lane bits.
+pub(crate) const LONE_MAX: usize = LaneBits::BITS as usize;
+
+/// Works off as many of some blocks of one element as go together; answers how many. None if the first has more trees to go
+/// down than there are ways.
+pub(crate) struct LoneBlocks<'a, L> {
+    pub round: &'a Round<'a>,
+    pub blocks: &'a [Block],
+    pub worker: &'a mut WorkerContext,
+    pub laps: L,
+}
+
+/// An element, carried into B's frame.
+struct Carried<'a> {
+    context: PairContext<'a>,
+    chunk: Chunk<'a>,
+}
+
+/// Elements and, of every way, which of them goes it and through which batch of B: the ways of one after those of another.
+struct Ways<'a> {
+    elements: [Option<Carried<'a>>; LONE_MAX],
+    ways: [Option<(usize, &'a Batch)>; LONE_MAX],
+    /// How many there are of each.
+    counts: (usize, usize),
+}
+
+impl<L: Laps> Kernel for LoneBlocks<'_, L> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> usize {
+        let Self { round, blocks, worker, mut laps } = self;
+        let WorkerContext { arena, scratch, lone, carried, deferred, found, shared, out, .. } = worker;
+        let mut all = Ways { elements: [const { None }; LONE_MAX], ways: [None; LONE_MAX], counts: (0, 0) };
+        all.carry(simd, (round, blocks), arena, carried, out);
+        let Ways { elements, ways, counts: (done, used) } = &all;
+        let mut pairs: [Option<LonePair<'_>>; LONE_MAX] = [None; LONE_MAX];
+        for (way, of) in ways[..*used].iter().enumerate() {
+            if let Some((element, batch)) = *of
+                && let Some(Carried { context, chunk }) = &elements[element]
+            {
+                lone[way].begin(chunk, &batch.boxes);
+                pairs[way] = Some(LonePair { context, chunk, batch });
+            }
+        }
+        let pairs = &pairs[..*used];
+        go_on_together(simd, lone, pairs);
+        laps.lap(Work::BroadPhase, &mut out.times);
+        let mut found = ChunkCandidates::new(found, deferred);
+        narrow_down(pairs, lone, found.deferred, &mut out.counts);
+        laps.lap(Work::NarrowPhase, &mut out.times);
+        let mut next = 0;
+        for (number, element) in elements[..*done].iter().enumerate() {
+            let Some(Carried { context, chunk }) = element else { continue };
+            while next < *used && ways[next].is_some_and(|(of, _)| of == number) {
+                if let Some(pair) = pairs[next] {
+                    test_lone(simd, pair, &mut lone[next], &mut found, out, &mut laps);
+                }
+                next += 1;
+            }
+            finish_chunk((context, round.sealed), chunk, &mut found, (scratch, shared, out), &mut laps);
+        }
+        *done
+    }
+}
+
+impl<'a> Ways<'a> {
+    /// Carries the elements of as many blocks as there are ways for, and finds the batches that each may touch.
+    #[inline(always)]
+    fn carry<'l: 'a, S: Simd>(
+        &mut self,
+        simd: S,
+        (round, blocks): (&Round<'l>, &[Block]),
+        arena: &mut Arena,
+        carried: &'l mut [ChunkSpace; LONE_MAX],
+        out: &mut ContactBuffer,
+    ) {
+        let room = "sealing has sized the arena";
+        let (mut done, mut used) = (0, 0);
+        for (block, space) in blocks.iter().zip(carried) {
+            let (plan, motion) = plan_of(round, block);
+            let context = PairContext::new(round, block.direction, motion);
+            let tree_b = &context.body_b.tree;
+            if used + tree_b.batches.len() > LONE_MAX {
+                break;
+            }
+            arena.reset();
+            let mut batches_b = arena.list(tree_b.batches.len()).expect(room);
+            let mut stack = arena.list(tree_b.nodes.len()).expect(room);
+            batches_of_b((&context, plan), block, &mut batches_b, &mut stack, &mut out.counts);
+            out.counts.boxes_tested += batches_b.len() as u64;
+            let mut meets_triangles = false;
+            for &batch in batches_b.iter() {
+                meets_triangles |= batch.kind == PrimitiveKind::Triangle;
+                self.ways[used] = Some((done, batch));
+                used += usize::from(!batch.boxes.nodes.is_empty());
+            }
+            let batch_a = &context.body_a.tree.batches[block.batch as usize];
+            let chunks_of_a = ChunksOfA::new(context.body_a, batch_a, &motion.x_ba, meets_triangles);
+            let chunk = chunks_of_a.carry(simd, (0, true), space);
+            self.elements[done] = Some(Carried { context, chunk });
+            done += 1;
+        }
+        self.counts = (done, used);
+    }
+}
+
+/// Goes down some trees, each with its element, in turns, until each is through or has no more room.
+#[inline(always)]
+fn go_on_together<S: Simd>(simd: S, lone: &mut [LoneElement; LONE_MAX], pairs: &[Option<LonePair<'_>>]) {
+    let mut going = LaneBits::MAX.checked_shr((LONE_MAX - pairs.len()) as u32).unwrap_or(0);
+    while going != 0 {
+        for way in lanes(going) {
+            let goes = match &pairs[way] {
+                Some(pair) => lone[way].step(simd, &pair.batch.boxes),
+                None => false,
+            };
+            going &= !(LaneBits::from(!goes) << way);
+        }
+    }
+}
