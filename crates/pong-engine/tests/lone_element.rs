@@ -11,7 +11,7 @@ use pong_testkit::ron::carried_box;
 
 const CELLS: usize = 40;
 
-/// An uneven sheet of `2 CELLS²` triangles, 4 m wide, in other axes; a thin one that goes through it; and a bed of as many
+/// An uneven sheet of `2 CELLS²` triangles, 4 m wide, in other axes; a thick one that goes through it; and a bed of as many
 /// boxes as there are cells in a quarter of it.
 fn ground(random: &mut Random, turn: &Quat, shift: &Vec3) -> String {
     let at = |i: usize, cells: usize| 4.0 * (i as f64 / cells as f64 - 0.5);
@@ -30,7 +30,7 @@ fn ground(random: &mut Random, turn: &Quat, shift: &Vec3) -> String {
     let triangles: Vec<[usize; 3]> = cells.flat_map(cell).collect();
     let mut all = vec![
         triangle_mesh("sheet", &sheet(), &triangles, ""),
-        triangle_mesh("thin sheet", &sheet(), &triangles, "thickness: 0.02,"),
+        triangle_mesh("thick sheet", &sheet(), &triangles, "thickness: 0.6,"),
     ];
     const BOXES: usize = CELLS / 2;
     for j in 0..BOXES {
@@ -56,6 +56,7 @@ fn elements() -> Vec<(&'static str, String)> {
         ("sphere", shape("Sphere", &format!("{center}, radius: 0.25"))),
         ("large sphere", shape("Sphere", &format!("{center}, radius: 30.0"))),
         ("ellipsoid", shape("Ellipsoid", &format!("{center}, semi_axes: (0.4, 0.3, 0.2)"))),
+        ("ellipsoid on edge", shape("Ellipsoid", &format!("{center}, semi_axes: (0.2, 0.3, 0.4)"))),
         ("large ellipsoid", shape("Ellipsoid", &format!("{center}, semi_axes: (20.0, 15.0, 9.0)"))),
         ("capsule", shape("Capsule", "ends: ((CENTER), (END)), radius: 0.2")),
         ("line segment", shape("LineSegment", "ends: ((CENTER), (END))")),
@@ -73,6 +74,7 @@ fn reach(name: &str) -> f64 {
         "sphere" => 0.25,
         "large sphere" => 30.0,
         "ellipsoid" | "capsule" => 0.2,
+        "ellipsoid on edge" => 0.4,
         "large ellipsoid" => 9.0,
         _ => 0.0,
     }
@@ -92,8 +94,9 @@ fn an_element_by_itself_finds_what_it_finds_among_others() {
         let (mut found, mut most) = (0, 0);
         for frame in 0..40 {
             let along = Vec3::new(random.between(-1.2, 1.2), random.between(-1.2, 1.2), 0.0);
-            // Now and then the centre is near the sheets, or behind them.
-            let deep = if frame % 4 == 0 { random.between(0.9, 1.1) * reach(name) } else { 0.0 };
+            // Now and then the centre is near the sheets, or as far behind them as it is large.
+            let deep =
+                reach(name) * [random.between(2.0, 2.2), random.between(0.9, 1.1), 0.0, 0.0][frame % 4];
             let height = reach(name) - deep + random.between(-0.04, 0.01);
             let tilt = Quat::from_scaled_axis(random.vector(0.01));
             let position = turn * (along + Vec3::z() * height) + shift;
@@ -120,7 +123,8 @@ fn elements_together_find_what_each_finds_alone() {
     let (turn, shift) = (random.rotation(), random.vector(3.0));
     let whole = ground(&mut random, &turn, &shift);
     let cut = whole.replacen("surface: \"s\",", "surface: \"s\", leaf_size: 300,", 1);
-    let grounds = [&whole, &cut, &ground(&mut random, &turn, &shift)];
+    let beside = shift + turn * Vec3::x() * 0.5;
+    let grounds = [&whole, &ground(&mut random, &turn, &beside), &cut];
     let kinds = elements();
     let (mut found, mut busiest) = (0, 0);
     let config = || Config { ledger: true, contact_capacity: Some(20_000), ..Config::default() };
@@ -134,15 +138,19 @@ fn elements_together_find_what_each_finds_alone() {
         (0..count).map(|number| Rig::with_config(config(), &model_of(number), ground_of(number))).collect();
 
     let mut builder = WorldBuilder::new(config());
-    let beds = grounds.map(|text| load(&mut builder, text));
-    let beds = [0, 1, 2].map(|bed| builder.create_object(beds[bed], &format!("bed {bed}")).unwrap());
-    let mut interfaces = Vec::new();
+    let mut objects = Vec::new();
     for number in 0..count {
         let of_element = load(&mut builder, &model_of(number));
-        let object = builder.create_object(of_element, &format!("element {number}")).unwrap();
-        builder.pair(object, beds[number / 2 % beds.len()]).unwrap();
-        interfaces.push(builder.scene().interface(object, "").unwrap());
+        objects.push(builder.create_object(of_element, &format!("element {number}")).unwrap());
     }
+    // After the elements: pairs with one ground are not side by side.
+    let beds = grounds.map(|text| load(&mut builder, text));
+    let beds = [0, 1, 2].map(|bed| builder.create_object(beds[bed], &format!("bed {bed}")).unwrap());
+    for (number, &object) in objects.iter().enumerate() {
+        builder.pair(object, beds[number / 2 % beds.len()]).unwrap();
+    }
+    let interfaces: Vec<_> =
+        objects.iter().map(|&object| builder.scene().interface(object, "").unwrap()).collect();
     let at_rest = beds.map(|bed| (builder.scene().interface(bed, "").unwrap(), State::identity()));
     let (mut together, _) = builder.seal().unwrap();
 
