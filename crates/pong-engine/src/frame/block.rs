@@ -52,6 +52,7 @@ pub(crate) fn run_blocks(round: &Round<'_>, blocks: Range<usize>, worker: &mut W
 }
 
 /// Where no clock was lent, there is no trace of one either.
+#[inline(always)]
 fn run_block(round: &Round<'_>, block: Block, worker: &mut WorkerContext) {
     worker.arena.reset();
     match round.input.clock.0 {

@@ -32,14 +32,14 @@ pub(crate) struct LoneBlocks<'a, L> {
 }
 
 /// An element, carried into B's frame.
-struct Carried<'a> {
+struct TransformedElement<'a> {
     context: PairContext<'a>,
     chunk: Chunk<'a>,
 }
 
 /// Elements and, of every way, which of them goes it and through which batch of B: the ways of one after those of another.
 struct Ways<'a> {
-    elements: [Option<Carried<'a>>; LONE_MAX],
+    elements: [Option<TransformedElement<'a>>; LONE_MAX],
     ways: [Option<(usize, &'a Batch)>; LONE_MAX],
     /// How many there are of each.
     counts: (usize, usize),
@@ -58,7 +58,7 @@ impl<L: Laps> Kernel for LoneBlocks<'_, L> {
         let mut pairs: [Option<LonePair<'_>>; LONE_MAX] = [None; LONE_MAX];
         for (way, of) in ways[..*used].iter().enumerate() {
             if let Some((element, batch)) = *of
-                && let Some(Carried { context, chunk }) = &elements[element]
+                && let Some(TransformedElement { context, chunk }) = &elements[element]
             {
                 lone[way].begin(chunk, &batch.boxes);
                 pairs[way] = Some(LonePair { context, chunk, batch });
@@ -72,7 +72,7 @@ impl<L: Laps> Kernel for LoneBlocks<'_, L> {
         laps.lap(Work::NarrowPhase, &mut out.times);
         let mut next = 0;
         for (number, element) in elements[..*done].iter().enumerate() {
-            let Some(Carried { context, chunk }) = element else { continue };
+            let Some(TransformedElement { context, chunk }) = element else { continue };
             while next < *used && ways[next].is_some_and(|(of, _)| of == number) {
                 if let Some(pair) = pairs[next] {
                     test_lone(simd, pair, &mut lone[next], &mut found, out, &mut laps);
@@ -119,7 +119,7 @@ impl<'a> Ways<'a> {
             let batch_a = &context.body_a.tree.batches[block.batch as usize];
             let chunks_of_a = ChunksOfA::new(context.body_a, batch_a, &motion.x_ba, meets_triangles);
             let chunk = chunks_of_a.carry(simd, (0, true), space);
-            self.elements[done] = Some(Carried { context, chunk });
+            self.elements[done] = Some(TransformedElement { context, chunk });
             done += 1;
         }
         self.counts = (done, used);

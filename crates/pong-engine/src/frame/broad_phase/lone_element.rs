@@ -21,28 +21,26 @@ const AT_ONCE: usize = 8;
 ///
 /// A step asks up to eight nodes of one level. The last ones that were found are asked first, so what is found is in the same
 /// order as if they were asked one by one.
+// In this order what most ways need is on few cache lines.
 #[derive(Debug)]
+#[repr(C, align(64))]
 pub(crate) struct LoneElement {
     query: Query,
     /// The level in hand, from the root down, and that of the bottom nodes.
-    level: usize,
-    bottom_level: usize,
-    /// Where the nodes of every level that wait stand, from the root's to those of the level in hand.
-    levels: [Waiting; LEVELS_MAX],
+    level: u32,
+    bottom_level: u32,
+    /// Nodes asked that nobody has counted yet.
+    asked: u32,
+    /// How many bottom nodes were found last.
+    count: u32,
+    /// Where the nodes of every level that wait begin and end, from the root's to those of the level in hand. Apart: what is
+    /// read together should have been written together.
+    starts: [u16; LEVELS_MAX],
+    ends: [u16; LEVELS_MAX],
     /// Nodes that wait: of every level as many as what is asked at once has children, since then none of that level waits.
     nodes: [u32; LEVELS_MAX * AT_ONCE * LANES],
-    /// What was found last: the first `count` of them, in the order in which they are tested.
+    /// What was found last, in the order in which they are tested.
     bottoms: [Bottom; BOTTOMS_MAX],
-    count: usize,
-    /// Nodes asked that nobody has counted yet.
-    asked: u64,
-}
-
-/// Nodes of one level that wait.
-#[derive(Clone, Copy, Debug)]
-struct Waiting {
-    start: u32,
-    end: u32,
 }
 
 /// What boxes of a tree are compared with.
@@ -93,7 +91,8 @@ impl LoneElement {
         query: Query::Box(NarrowBox::NOTHING),
         level: 0,
         bottom_level: 0,
-        levels: [Waiting { start: 0, end: 0 }; LEVELS_MAX],
+        starts: [0; LEVELS_MAX],
+        ends: [0; LEVELS_MAX],
         nodes: [0; LEVELS_MAX * AT_ONCE * LANES],
         bottoms: [Bottom { first: 0, met: 0, over_face: 0 }; BOTTOMS_MAX],
         count: 0,
@@ -104,8 +103,8 @@ impl LoneElement {
     #[inline(always)]
     pub fn begin(&mut self, chunk: &Chunk<'_>, tree: &BoxTree) {
         self.query = Query::new(chunk, tree);
-        (self.level, self.bottom_level) = (0, tree.levels as usize);
-        (self.nodes[0], self.levels[0]) = (0, Waiting { start: 0, end: 1 });
+        (self.level, self.bottom_level) = (0, tree.levels);
+        (self.nodes[0], self.starts[0], self.ends[0]) = (0, 0, 1);
         (self.count, self.asked) = (0, 0);
     }
 
@@ -119,32 +118,32 @@ impl LoneElement {
     /// Whether nothing is left to be found.
     #[inline(always)]
     pub fn is_through(&self) -> bool {
-        self.level == 0 && self.levels[0].end == 0
+        self.level == 0 && self.ends[0] == 0
     }
 
     /// One step; whether there was any to make: it may be through, or there may be no more room.
     #[inline(always)]
     pub fn step<S: Simd>(&mut self, simd: S, tree: &BoxTree) -> bool {
-        let level = self.level;
-        let Waiting { start, end } = self.levels[level];
-        let (waits, end) = ((end - start) as usize, end as usize);
+        let level = self.level as usize;
+        let (start, end) = (usize::from(self.starts[level]), usize::from(self.ends[level]));
+        let waits = end - start;
         if waits == 0 {
-            self.level = level.saturating_sub(1);
+            self.level = self.level.saturating_sub(1);
             return level > 0;
         }
-        let at_bottom = level == self.bottom_level;
-        let takes = waits.min(if at_bottom { BOTTOMS_MAX - self.count } else { AT_ONCE });
+        let at_bottom = self.level == self.bottom_level;
+        let takes = waits.min(if at_bottom { BOTTOMS_MAX - self.count as usize } else { AT_ONCE });
         let left = end - takes;
-        self.levels[level].end = left as u32;
-        self.asked += takes as u64;
+        self.ends[level] = left as u16;
+        self.asked += takes as u32;
         if at_bottom {
             for place in (left..end).rev() {
                 let node = &tree.nodes[self.nodes[place] as usize];
                 let met = self.query.meets(simd, node);
-                self.bottoms[self.count] = Bottom { first: node.elements.start, met, over_face: 0 };
-                self.count += usize::from(met != 0);
+                self.bottoms[self.count as usize] = Bottom { first: node.elements.start, met, over_face: 0 };
+                self.count += u32::from(met != 0);
             }
-            return takes > 0;
+            return level > 0 && takes > 0;
         }
         let mut past = end;
         for place in left..end {
@@ -154,26 +153,26 @@ impl LoneElement {
             self.nodes[past..past + LANES].copy_from_slice(&node.nodes_in(simd, met));
             past += met.count_ones() as usize;
         }
-        self.level = level + 1;
-        self.levels[level + 1] = Waiting { start: end as u32, end: past as u32 };
+        self.level += 1;
+        (self.starts[level + 1], self.ends[level + 1]) = (end as u16, past as u16);
         true
     }
 
     /// What was found last.
     #[inline(always)]
     pub fn bottoms(&self) -> &[Bottom] {
-        &self.bottoms[..self.count]
+        &self.bottoms[..self.count as usize]
     }
 
     /// The same, to be narrowed down.
     #[inline(always)]
     pub fn bottoms_mut(&mut self) -> &mut [Bottom] {
-        &mut self.bottoms[..self.count]
+        &mut self.bottoms[..self.count as usize]
     }
 
     /// How many nodes were asked since this was asked last.
     #[inline(always)]
     pub fn take_asked(&mut self) -> u64 {
-        std::mem::take(&mut self.asked)
+        u64::from(std::mem::take(&mut self.asked))
     }
 }
