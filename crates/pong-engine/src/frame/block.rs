@@ -1,6 +1,6 @@
 //! One block of work: bounding, testers, sharing and forces for some elements as A against one movable group as B.
 
-use crate::frame::broad_phase::blocks::{batches_of_b, joined};
+use crate::frame::broad_phase::blocks::batches_of_b;
 use crate::frame::broad_phase::candidate_pairs::{
     CandidatePairs, Reach, SUPERCHUNK, Traversal, chunks_in_reach,
 };
@@ -11,20 +11,18 @@ use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::input::motion::Motion;
 use crate::frame::input::{Block, PairContext, Round};
 use crate::frame::load_sharing::solver::SharedContact;
-use crate::frame::lone_blocks::LoneBlocks;
 use crate::frame::narrow_phase::element_pair::ChunkCandidates;
 use crate::frame::narrow_phase::lone_pairs::{LonePair, narrow_down, test_lone};
 use crate::frame::narrow_phase::testers::{Target, test_deferred};
 use crate::frame::worker_context::WorkerContext;
 use crate::frame::{forces, load_sharing};
-use crate::report::{FrameCounts, Laps, Timed, Untimed, Work};
+use crate::report::{FrameCounts, Laps, Work};
 use crate::sealed::{Direction, Plan, Sealed};
 use pong_arena::{Arena, Table};
 use pong_geometry::primitive::PrimitiveKind;
-use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
+use pong_geometry::simd::{Kernel, LANES, LaneBits, Simd};
 use pong_model::Batch;
 use pong_model::box_tree::lanes;
-use std::ops::Range;
 use std::sync::atomic::{Ordering, compiler_fence};
 
 /// Bytes of the arena of a worker's context that a block asks for: against trees of so many nodes and batches.
@@ -33,51 +31,6 @@ pub(crate) fn arena_bytes(nodes: usize, batches: usize) -> usize {
     const PIECES: usize = 3;
     const GRAIN: usize = 16;
     batches * (size_of::<&Batch>() + size_of::<Reach<'_>>()) + nodes * size_of::<u32>() + PIECES * GRAIN
-}
-
-/// Runs some blocks; what they find goes to the context of the thread. Those of one element by itself go several together, and
-/// neighbours are run as one: to begin a block takes as long as to test a few elements.
-pub(crate) fn run_blocks(round: &Round<'_>, blocks: Range<usize>, worker: &mut WorkerContext) {
-    let mut left = &round.input.blocks[blocks];
-    while let Some(first) = left.first() {
-        let alike = left.iter().take_while(|block| block.is_lone == first.is_lone).count();
-        let (now, later) = left.split_at(alike);
-        left = later;
-        if first.is_lone && alike > 1 {
-            run_lone(round, now, worker);
-        } else {
-            joined(now).for_each(|block| run_block(round, block, worker));
-        }
-    }
-}
-
-/// Where no clock was lent, there is no trace of one either.
-#[inline(always)]
-fn run_block(round: &Round<'_>, block: Block, worker: &mut WorkerContext) {
-    worker.arena.reset();
-    match round.input.clock.0 {
-        None => simd::run(BlockWork { round, block, worker, laps: Untimed }),
-        Some(now) => simd::run(BlockWork { round, block, worker, laps: Timed::start(now) }),
-    }
-}
-
-/// Blocks of one element each.
-fn run_lone(round: &Round<'_>, blocks: &[Block], worker: &mut WorkerContext) {
-    let mut left = blocks;
-    while let Some((&first, rest)) = left.split_first() {
-        let worker = &mut *worker;
-        let done = match round.input.clock.0 {
-            None => simd::run(LoneBlocks { round, blocks: left, worker, laps: Untimed }),
-            Some(now) => simd::run(LoneBlocks { round, blocks: left, worker, laps: Timed::start(now) }),
-        };
-        left = match done {
-            0 => {
-                run_block(round, first, worker);
-                rest
-            }
-            _ => &left[done..],
-        };
-    }
 }
 
 /// By which tests a block is worked off, and the motion of its pair.
@@ -112,11 +65,12 @@ pub(crate) fn finish_chunk(
     }
 }
 
-struct BlockWork<'a, L> {
-    round: &'a Round<'a>,
-    block: Block,
-    worker: &'a mut WorkerContext,
-    laps: L,
+/// Runs a block; what it finds goes to the context of the thread.
+pub(crate) struct BlockWork<'a, L> {
+    pub round: &'a Round<'a>,
+    pub block: Block,
+    pub worker: &'a mut WorkerContext,
+    pub laps: L,
 }
 
 impl<L: Laps> Kernel for BlockWork<'_, L> {

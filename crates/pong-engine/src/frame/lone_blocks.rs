@@ -6,7 +6,7 @@
 use crate::frame::block::{finish_chunk, plan_of};
 use crate::frame::broad_phase::blocks::batches_of_b;
 use crate::frame::broad_phase::chunk::{Chunk, ChunkSpace, ChunksOfA};
-use crate::frame::broad_phase::lone_element::LoneElement;
+use crate::frame::broad_phase::lone_element::{LONE_MAX, LoneElement};
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::input::{Block, PairContext, Round};
 use crate::frame::narrow_phase::element_pair::ChunkCandidates;
@@ -18,9 +18,6 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{Kernel, LaneBits, Simd};
 use pong_model::Batch;
 use pong_model::box_tree::lanes;
-
-/// Elements that are worked off together, and their ways through trees: as many as there are lane bits.
-pub(crate) const LONE_MAX: usize = LaneBits::BITS as usize;
 
 /// Works off as many of some blocks of one element as go together; answers how many. None if the first has more trees to go
 /// down than there are ways.

@@ -11,6 +11,7 @@ mod lone_blocks;
 pub(crate) mod narrow_phase;
 mod near_pairs;
 mod output;
+mod run_blocks;
 mod tunnelling;
 mod worker_context;
 mod worker_pool;
@@ -39,6 +40,7 @@ use forces::found::WorkerBuffers;
 use input::relative::Motions;
 use input::states;
 use output::{order, reduce};
+use run_blocks::run_blocks;
 
 /// Computes everything that the present states and the committed contact state say. Writes `frame` alone.
 #[inline]
@@ -94,7 +96,7 @@ fn find_contacts(
         let shared =
             pool.as_mut().is_some_and(|pool| run_parallel(given, pool, (input, cost_ns), caller, workers));
         if !shared {
-            block::run_blocks(&given.round(input), 0..input.blocks.len(), caller);
+            run_blocks(&given.round(input), 0..input.blocks.len(), caller);
         }
         laps = clock.start();
     };

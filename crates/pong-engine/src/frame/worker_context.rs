@@ -2,10 +2,9 @@
 
 use crate::frame::broad_phase::candidate_pairs::CandidatePairs;
 use crate::frame::broad_phase::chunk::ChunkSpace;
-use crate::frame::broad_phase::lone_element::LoneElement;
+use crate::frame::broad_phase::lone_element::{LONE_MAX, LoneElement};
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::load_sharing::solver::SharedContact;
-use crate::frame::lone_blocks::LONE_MAX;
 use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::frame::narrow_phase::element_pair::DeferredPairs;
 use crate::sealed::Sealed;

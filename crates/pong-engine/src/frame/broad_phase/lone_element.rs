@@ -8,6 +8,9 @@ use crate::frame::broad_phase::chunk::Chunk;
 use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::box_tree::{BoxNode, BoxTree, NarrowBall, NarrowBox};
 
+/// Elements that go together, and their ways through trees: as many as there are lane bits.
+pub(crate) const LONE_MAX: usize = LaneBits::BITS as usize;
+
 /// Bottom nodes that there is room for; when it is used up their elements are tested before the next ones are looked for.
 const BOTTOMS_MAX: usize = 32;
 

@@ -8,9 +8,9 @@
 mod tests;
 mod trials;
 
-use crate::frame::block;
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::input::{Round, WorkerInput};
+use crate::frame::run_blocks::run_blocks;
 use crate::frame::worker_context::WorkerContext;
 use crate::report::WorkTimes;
 use crate::scene::Scene;
@@ -104,7 +104,7 @@ impl Shared {
         context: &mut WorkerContext,
     ) {
         let round = Round { scene: &self.scene, sealed: &self.sealed, memory, input };
-        block::run_blocks(&round, blocks.start as usize..blocks.end as usize, context);
+        run_blocks(&round, blocks.start as usize..blocks.end as usize, context);
     }
 }
 
