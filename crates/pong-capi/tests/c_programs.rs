@@ -22,7 +22,7 @@ fn the_programs_build_and_run() {
     }
 }
 
-const PROGRAMS: [&str; 10] = [
+const PROGRAMS: [&str; 11] = [
     "minimal",
     "executive",
     "misuse",
@@ -32,6 +32,7 @@ const PROGRAMS: [&str; 10] = [
     "floating_point",
     "host_process",
     "little_memory",
+    "little_stack",
     "cpp_smoke",
 ];
 

@@ -82,7 +82,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         let (plan, motion) = plan_of(round, &block);
         let context = PairContext::new(round, block.direction, motion);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
-        let WorkerContext { arena, scratch, candidates, lone, carried, deferred, found, shared, out } =
+        let WorkerContext { arena, scratch, candidates, lone, carried, deferred, found, shared, out, .. } =
             worker;
         let room = "sealing has sized the arena";
         let tree_b = &context.body_b.tree;
@@ -103,7 +103,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
             for lane in lanes(near) {
                 let first = group * SUPERCHUNK + (lane * LANES) as u32;
                 let is_alone = alone >> lane & 1 == 1;
-                let chunk = chunks_of_a.carry(simd, (first, is_alone), &mut carried[0]);
+                let chunk = chunks_of_a.carry(simd, (first, is_alone), carried);
                 let at = AtChunk { context: &context, chunk: &chunk, reach: &reach, lane };
                 if is_alone {
                     at.test_element(simd, &mut lone[0], &mut found, out, &mut laps);

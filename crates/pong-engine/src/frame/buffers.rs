@@ -31,7 +31,8 @@ pub(crate) struct EvaluationBuffers {
     // relative, bounding
     pub input: WorkerInput,
     // testers, sharing, forces: in no order
-    pub caller: WorkerContext,
+    /// Boxed: a world that is made or cloned is moved a few times over the stack.
+    pub caller: Box<WorkerContext>,
     /// What workers have found in the last round, if it was taken over as it is; otherwise it stands in the caller's context.
     pub workers: WorkerBuffers,
     // order, limit: where the contacts that count stand, in the order of every sum
@@ -63,7 +64,7 @@ impl EvaluationBuffers {
             twists: vec![Twist::zero(); bodies],
             near: NearPairs::new(scene, sealed),
             input,
-            caller: WorkerContext::new(sealed, 0, sealed.limits.lane_contacts),
+            caller: Box::new(WorkerContext::new(sealed, 0, sealed.limits.lane_contacts)),
             workers: WorkerBuffers::new((1..=taken_over).map(buffer).collect()),
             order: Table::with_capacity(sealed.limits.lane_contacts, Place::NOWHERE),
             tunnelling: TunnellingEvents::default(),

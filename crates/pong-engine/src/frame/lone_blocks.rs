@@ -48,9 +48,10 @@ impl<L: Laps> Kernel for LoneBlocks<'_, L> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> usize {
         let Self { round, blocks, worker, mut laps } = self;
-        let WorkerContext { arena, scratch, lone, carried, deferred, found, shared, out, .. } = worker;
+        let WorkerContext { arena, scratch, lone, lone_carried, deferred, found, shared, out, .. } = worker;
+        let lone = &mut **lone;
         let mut all = Ways { elements: [const { None }; LONE_MAX], ways: [None; LONE_MAX], counts: (0, 0) };
-        all.carry(simd, (round, blocks), arena, carried, out);
+        all.carry(simd, (round, blocks), arena, lone_carried, out);
         let Ways { elements, ways, counts: (done, used) } = &all;
         let mut pairs: [Option<LonePair<'_>>; LONE_MAX] = [None; LONE_MAX];
         for (way, of) in ways[..*used].iter().enumerate() {

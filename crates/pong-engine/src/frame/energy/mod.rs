@@ -39,7 +39,7 @@ pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     let EnergyBuffers { work: all_work, dissipated: all_dissipated, contacts: energies, pairs, intervals } =
         energy;
-    let WorkerContext { scratch, out, .. } = caller;
+    let WorkerContext { scratch, out, .. } = &mut **caller;
     let input = &*input;
     energies.reset(out.contacts.len());
     let mut accounts = sealed.coupling.map(|coupling| Accounts {

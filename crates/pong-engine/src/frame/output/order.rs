@@ -55,7 +55,7 @@ const WORTH_DIGITS: usize = 24;
 #[inline]
 fn list(frame: &mut EvaluationBuffers) {
     let EvaluationBuffers { caller, workers, order, .. } = &mut *frame;
-    let WorkerContext { scratch, out, .. } = caller;
+    let WorkerContext { scratch, out, .. } = &mut **caller;
     let found = FoundContacts { caller: out, workers };
     order.clear();
     for lane in found.lanes() {
@@ -123,7 +123,7 @@ fn place_by_digit((from, to): (&[Place], &mut [Place]), shift: u32, mask: u64) {
 /// One contact per ray and opposing Object: the least distance, ties in the order of sums.
 fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuffers) {
     let EvaluationBuffers { caller, order, .. } = frame;
-    let WorkerContext { scratch, out, .. } = caller;
+    let WorkerContext { scratch, out, .. } = &mut **caller;
     scratch.reset();
     // (body of A, ray, Object of B, place in the order): hits of one ray on one Object side by side, the first first.
     let mut hits = scratch.list(order.len()).expect("sealing has sized the scratch");
