@@ -16,7 +16,7 @@ use pong_geometry::interference::sphere_triangle::{sphere_over_face, sphere_tria
 use pong_geometry::interference::sphere_triangle_pairs::{PairsTold, SphereTrianglePairs};
 use pong_geometry::interference::triangle_features::TriangleContact;
 use pong_geometry::primitive::{Ellipsoid, MayPush, Sphere, TriangleSet};
-use pong_geometry::simd::{LANES, Level, set_level};
+use pong_geometry::simd::{Kernel, LANES, Level, Simd, run, set_level};
 
 /// A sphere somewhere about a surface: anywhere, over a face or at a degenerate place; and the triangle there.
 fn sphere(set: &TriangleSet, random: &mut Random) -> (Sphere, u32) {
@@ -101,6 +101,47 @@ fn pairs_that_are_left_out_find_nothing() {
     println!("{left_out} left out of {idle} without contact; {touching} with, {faces} by a face alone");
     assert!(faces > 500);
     assert!(touching > 2000 && f64::from(left_out) > 0.6 * f64::from(idle));
+}
+
+struct Begin<'a>(&'a mut SphereTrianglePairs, &'a Sphere, f64);
+
+impl Kernel for Begin<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        self.0.begin_in(simd, self.1, self.2);
+    }
+}
+
+/// Pairs that are pushed after their sphere are those that are added with it, whatever stood in their places before.
+#[test]
+fn triangles_in_a_row_are_told_as_one_by_one() {
+    let mut random = Random(75);
+    let mut near = 0;
+    for (name, set) in surfaces(&mut random) {
+        let [mut one_by_one, mut in_a_row] = [(); 2].map(|()| SphereTrianglePairs::default());
+        for round in 0..200 {
+            set_level(Level::available().nth(round % Level::available().count()).unwrap());
+            let mut left = LANES;
+            while left > 0 {
+                let (sphere, there) = sphere(&set, &mut random);
+                let thickness = sphere.radius * random.between(0.0, 2.0);
+                let row = 1 + random.bits() as usize % left;
+                run(Begin(&mut in_a_row, &sphere, thickness));
+                for number in 0..row {
+                    let triangle = (there + number as u32) % set.triangles.len() as u32;
+                    assert_eq!(in_a_row.push(triangle), one_by_one.add(&sphere, triangle, thickness));
+                }
+                left -= row;
+            }
+            let told = one_by_one.take(&set);
+            assert_eq!(in_a_row.take(&set), told, "{name}");
+            near += told.near.count_ones();
+        }
+    }
+    set_level(Level::best());
+    assert!(near > 500, "{near}");
 }
 
 #[test]

@@ -87,8 +87,9 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         let room = "sealing has sized the arena";
         let tree_b = &context.body_b.tree;
         let mut batches_b = arena.list(tree_b.batches.len()).expect(room);
-        let mut stack = arena.list(tree_b.nodes.len()).expect(room);
-        batches_of_b((&context, plan), &block, &mut batches_b, &mut stack, &mut out.counts);
+        batches_of_b((&context, plan), &block, arena, &mut out.counts, |batch| {
+            batches_b.push(batch).expect(room);
+        });
         let mut reach = arena.list(batches_b.len()).expect(room);
         let mut found = ChunkCandidates::new(found, deferred);
         let meets_triangles = batches_b.iter().any(|batch| batch.kind == PrimitiveKind::Triangle);
@@ -207,7 +208,7 @@ impl AtChunk<'_> {
             lone.go_on(simd, &batch.boxes);
             laps.lap(Work::BroadPhase, &mut out.times);
             let one = std::slice::from_mut(&mut *lone);
-            narrow_down(&[Some(pair)], one, found.deferred, &mut out.counts);
+            narrow_down(simd, &[Some(pair)], one, found.deferred, &mut out.counts);
             test_lone(simd, pair, lone, found, out, laps);
         }
     }

@@ -66,7 +66,7 @@ impl<L: Laps> Kernel for LoneBlocks<'_, L> {
         go_on_together(simd, lone, pairs);
         laps.lap(Work::BroadPhase, &mut out.times);
         let mut found = ChunkCandidates::new(found, deferred);
-        narrow_down(pairs, lone, found.deferred, &mut out.counts);
+        narrow_down(simd, pairs, lone, found.deferred, &mut out.counts);
         laps.lap(Work::NarrowPhase, &mut out.times);
         let mut next = 0;
         for (number, element) in elements[..*done].iter().enumerate() {
@@ -94,7 +94,6 @@ impl<'a> Ways<'a> {
         carried: &'l mut [ChunkSpace; LONE_MAX],
         out: &mut ContactBuffer,
     ) {
-        let room = "sealing has sized the arena";
         let (mut done, mut used) = (0, 0);
         for (block, space) in blocks.iter().zip(carried) {
             let (plan, motion) = plan_of(round, block);
@@ -104,16 +103,14 @@ impl<'a> Ways<'a> {
                 break;
             }
             arena.reset();
-            let mut batches_b = arena.list(tree_b.batches.len()).expect(room);
-            let mut stack = arena.list(tree_b.nodes.len()).expect(room);
-            batches_of_b((&context, plan), block, &mut batches_b, &mut stack, &mut out.counts);
-            out.counts.boxes_tested += batches_b.len() as u64;
-            let mut meets_triangles = false;
-            for &batch in batches_b.iter() {
+            let (mut meets_triangles, mut boxes_tested) = (false, 0);
+            batches_of_b((&context, plan), block, arena, &mut out.counts, |batch| {
                 meets_triangles |= batch.kind == PrimitiveKind::Triangle;
+                boxes_tested += 1;
                 self.ways[used] = Some((done, batch));
                 used += usize::from(!batch.boxes.nodes.is_empty());
-            }
+            });
+            out.counts.boxes_tested += boxes_tested;
             let batch_a = &context.body_a.tree.batches[block.batch as usize];
             let chunks_of_a = ChunksOfA::new(context.body_a, batch_a, &motion.x_ba, meets_triangles);
             let chunk = chunks_of_a.carry(simd, (0, true), space);

@@ -29,12 +29,12 @@ pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) ->
     if apart(gaps_b.x, gaps_b.y, gaps_b.z) {
         return false;
     }
+    if share_a_place(half_a, half_b, m, t) {
+        return true;
+    }
     let gaps_a = m.tr_mul(t).abs() - half_a - abs.tr_mul(half_b);
     if apart(gaps_a.x, gaps_a.y, gaps_a.z) {
         return false;
-    }
-    if share_a_place(half_a, half_b, m, t) {
-        return true;
     }
     let edges = |i: usize| {
         let gap = |j: usize| edge_gap(i, j, half_a, half_b, m, &abs, t);
@@ -43,8 +43,8 @@ pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) ->
     !(edges(0) | edges(1) | edges(2))
 }
 
-/// Whether the place of B nearest to A's centre is in A: most boxes that overlap need no look at their edges. What rounds to
-/// be in A is less far from it than the margin of the projections.
+/// Whether the place of B nearest to A's centre is in A: most boxes that overlap need no look at A's faces and at edges. What
+/// rounds to be in A is less far from it than the margin of the projections.
 #[inline(always)]
 fn share_a_place(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
     let nearest = t.zip_map(half_b, |t, half| {

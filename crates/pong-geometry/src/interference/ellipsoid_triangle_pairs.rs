@@ -11,7 +11,9 @@
 //! here decides an answer: every comparison asks what is asked there, with more room for rounding, and a number that is none
 //! tells nothing.
 
-use super::triangle_lanes::{EightVectors, NOTHING, TriangleLanes, bit_of_each, put};
+use super::triangle_lanes::{
+    EightVectors, NOTHING, TriangleLanes, bit_of_each, fill_in, fill_vectors_in, put,
+};
 use crate::primitive::{Ellipsoid, TriangleSet};
 use crate::simd::{LANES, LaneBits, Numbers, Simd, Vectors, run_at_level};
 
@@ -66,6 +68,27 @@ impl EllipsoidTrianglePairs {
         }
         (self.smallest[lane], self.largest[lane]) = (semi_axes.min(), semi_axes.max());
         lane
+    }
+
+    /// Makes the pairs that are pushed from here on those of an ellipsoid; `thickness` as in [`add`](Self::add). Where several
+    /// triangles in a row meet one ellipsoid, that is quicker.
+    #[inline(always)]
+    pub fn begin_in<S: Simd>(&mut self, simd: S, ellipsoid: &Ellipsoid, thickness: f64) {
+        let (lane, semi_axes) = (self.count(), &ellipsoid.semi_axes);
+        for axis in 0..3 {
+            let widen = ellipsoid.axes.column(axis) * semi_axes[axis];
+            fill_vectors_in(simd, &mut self.widen[axis], lane, &widen);
+            fill_in(simd, &mut self.shrink[axis], lane, 1.0 / (semi_axes[axis] * semi_axes[axis]));
+        }
+        fill_in(simd, &mut self.smallest, lane, semi_axes.min());
+        fill_in(simd, &mut self.largest, lane, semi_axes.max());
+        self.lanes.begin_in(simd, &ellipsoid.center, thickness);
+    }
+
+    /// Adds a pair of what was begun with last, of which there may be eight; answers its place.
+    #[inline(always)]
+    pub fn push(&mut self, triangle: u32) -> usize {
+        self.lanes.push(triangle)
     }
 
     /// Tells which pairs may touch, a bit for each in their order, whose triangles are of a set; then there are none.

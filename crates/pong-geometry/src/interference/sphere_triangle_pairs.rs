@@ -7,7 +7,7 @@
 //! comparison leaves room for rounding, or is made of the same bits as the one there, and a number that is none tells
 //! nothing.
 
-use super::triangle_lanes::{EightVectors, TriangleLanes, bit_of_each};
+use super::triangle_lanes::{EightVectors, TriangleLanes, bit_of_each, fill_in};
 use super::triangle_reach::{REACH_SLACK, SIDE_SLACK};
 use crate::primitive::{Lean, Sphere, TriangleSet};
 use crate::simd::{LANES, LaneBits, Simd, run_at_level};
@@ -57,6 +57,20 @@ impl SphereTrianglePairs {
         lane
     }
 
+    /// Makes the pairs that are pushed from here on those of a sphere; `thickness` as in [`add`](Self::add). Where several
+    /// triangles in a row meet one sphere, that is quicker.
+    #[inline(always)]
+    pub fn begin_in<S: Simd>(&mut self, simd: S, sphere: &Sphere, thickness: f64) {
+        fill_in(simd, &mut self.radii, self.lanes.count, sphere.radius);
+        self.lanes.begin_in(simd, &sphere.center, thickness);
+    }
+
+    /// Adds a pair of what was begun with last, of which there may be eight; answers its place.
+    #[inline(always)]
+    pub fn push(&mut self, triangle: u32) -> usize {
+        self.lanes.push(triangle)
+    }
+
     /// Tells the pairs apart, whose triangles are of a set; then there are none.
     #[inline]
     pub fn take(&mut self, set: &TriangleSet) -> PairsTold {
@@ -81,11 +95,13 @@ impl SphereTrianglePairs {
     #[inline(always)]
     fn fetch(&mut self, set: &TriangleSet) {
         self.lanes.fetch(set);
+        let (mut edge_leans, mut vertex_leans) = ([Lean::ANY; LANES], [Lean::ANY; LANES]);
         for (lane, &triangle) in self.lanes.triangles.iter().enumerate() {
             let record = &set.triangles[triangle as usize];
-            self.edge_leans[lane] = record.edge_lean.tangent();
-            self.vertex_leans[lane] = record.vertex_lean.tangent();
+            (edge_leans[lane], vertex_leans[lane]) = (record.edge_lean, record.vertex_lean);
         }
+        self.edge_leans = edge_leans.map(Lean::tangent);
+        self.vertex_leans = vertex_leans.map(Lean::tangent);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::Vec3;
 use crate::primitive::TriangleSet;
-use crate::simd::{LANES, LaneBits};
+use crate::simd::{LANES, LaneBits, Simd};
 
 /// Vectors, coordinate by coordinate.
 pub(super) type EightVectors = [[f64; LANES]; 3];
@@ -14,6 +14,21 @@ pub(super) const NOTHING: EightVectors = [[0.0; LANES]; 3];
 #[inline(always)]
 pub(super) fn put(vectors: &mut EightVectors, lane: usize, v: &Vec3) {
     (vectors[0][lane], vectors[1][lane], vectors[2][lane]) = (v.x, v.y, v.z);
+}
+
+/// Writes a number into the lanes from one on.
+#[inline(always)]
+pub(super) fn fill_in<S: Simd>(simd: S, numbers: &mut [f64; LANES], lane: usize, value: f64) {
+    let from_there = simd.mask(LaneBits::MAX.checked_shl(lane as u32).unwrap_or(0));
+    *numbers = simd.store(simd.select(from_there, simd.splat(value), simd.load(numbers)));
+}
+
+/// Writes a vector into the lanes from one on.
+#[inline(always)]
+pub(super) fn fill_vectors_in<S: Simd>(simd: S, vectors: &mut EightVectors, lane: usize, v: &Vec3) {
+    fill_in(simd, &mut vectors[0], lane, v.x);
+    fill_in(simd, &mut vectors[1], lane, v.y);
+    fill_in(simd, &mut vectors[2], lane, v.z);
 }
 
 /// Up to eight triangles of a set, each with the centre of what may touch it.
@@ -42,10 +57,24 @@ impl TriangleLanes {
     /// One more, of which there may be eight; answers its lane. Nothing is read of the triangle yet.
     #[inline(always)]
     pub fn add(&mut self, center: &Vec3, triangle: u32, thickness: f64) -> usize {
-        let lane = self.count;
-        assert!(lane < LANES, "there may be eight");
+        let lane = self.push(triangle);
         put(&mut self.centers, lane, center);
         self.thicknesses[lane] = thickness;
+        lane
+    }
+
+    /// Gives what is pushed from here on a centre and a thickness.
+    #[inline(always)]
+    pub fn begin_in<S: Simd>(&mut self, simd: S, center: &Vec3, thickness: f64) {
+        fill_vectors_in(simd, &mut self.centers, self.count, center);
+        fill_in(simd, &mut self.thicknesses, self.count, thickness);
+    }
+
+    /// One more; answers its lane.
+    #[inline(always)]
+    pub fn push(&mut self, triangle: u32) -> usize {
+        let lane = self.count;
+        assert!(lane < LANES, "there may be eight");
         self.triangles[lane] = triangle;
         self.count += 1;
         lane

@@ -235,6 +235,12 @@ impl BoxNode {
         simd.packed(&self.children, boxes)
     }
 
+    /// The places of the elements in some of the boxes of a bottom node, likewise.
+    #[inline(always)]
+    pub fn elements_in<S: Simd>(&self, simd: S, boxes: LaneBits) -> [u32; WIDTH] {
+        simd.packed(&self.children, boxes).map(|child| child & !ELEMENT)
+    }
+
     /// Whether the boxes are those of elements: of all that are below, in their order.
     #[inline]
     pub fn is_bottom(&self) -> bool {

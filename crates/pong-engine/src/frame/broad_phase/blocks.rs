@@ -6,7 +6,7 @@ use crate::frame::worker_context::WorkerContext;
 use crate::report::FrameCounts;
 use crate::scene::Scene;
 use crate::sealed::{Direction, Plan, Sealed};
-use pong_arena::List;
+use pong_arena::Arena;
 use pong_geometry::bounding::{CarriedVolume, Volume};
 use pong_geometry::simd::LANES;
 use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBox};
@@ -182,22 +182,22 @@ fn as_volume(boxes: &BoxTree, narrow: &NarrowBox) -> Volume {
     if half.iter().all(|x| x.is_finite()) { Volume::Aabb { center, half } } else { Volume::Unbounded }
 }
 
-/// The batches of B in leaves whose volumes a leaf of A overlaps and that a kind of A may touch. The tests are counted where the
-/// batch of A begins: how its blocks are joined depends on the threads, and no count may.
+/// Takes the batches of B in leaves whose volumes a leaf of A overlaps and that a kind of A may touch. The tests are counted
+/// where the batch of A begins: how its blocks are joined depends on the threads, and no count may.
+#[inline]
 pub(crate) fn batches_of_b<'a>(
     (context, plan): (&PairContext<'a>, &Plan),
     block: &Block,
-    out: &mut List<'_, &'a Batch>,
-    stack: &mut List<'_, u32>,
+    arena: &Arena,
     counts: &mut FrameCounts,
+    mut take: impl FnMut(&'a Batch),
 ) {
     let (tree_a, tree_b) = (&context.body_a.tree, &context.body_b.tree);
     let kind_a = tree_a.batches[block.batch as usize].kind;
-    let room = "room for every node of B";
     let mut take = |node: &Node| {
         for batch in &tree_b.batches[node.batches.start as usize..node.batches.end as usize] {
             if plan.tests(kind_a, batch.kind) {
-                out.push(batch).expect(room);
+                take(batch);
             }
         }
     };
@@ -211,6 +211,8 @@ pub(crate) fn batches_of_b<'a>(
     let volume = &tree_a.nodes[block.leaf as usize].volume;
     let carried = CarriedVolume::new(volume, &context.motion.x_ba);
     let (mut leaf_pairs, mut tallies) = (0, counts.volumes_against(volume));
+    let room = "sealing has made room for every node of B";
+    let mut stack = arena.list(tree_b.nodes.len()).expect(room);
     stack.push(0).expect(room);
     let mut next = 0;
     while next < stack.len() {

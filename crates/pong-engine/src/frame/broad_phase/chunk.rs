@@ -254,6 +254,24 @@ impl Chunk<'_> {
     }
 }
 
+/// An element whose pairs with triangles are told apart eight at a time.
+#[derive(Clone, Copy)]
+pub(crate) enum Ellipsoidal<'a> {
+    Sphere(Sphere),
+    Ellipsoid(&'a Ellipsoid),
+}
+
+impl<'a> Ellipsoidal<'a> {
+    /// The element of a chunk of spheres or ellipsoids in a lane.
+    #[inline(always)]
+    pub fn of(chunk: &'a Chunk<'_>, lane: usize) -> Self {
+        match chunk.ellipsoid(lane) {
+            Some(ellipsoid) => Self::Ellipsoid(ellipsoid),
+            None => Self::Sphere(chunk.sphere(lane)),
+        }
+    }
+}
+
 fn carry_each(
     (body, kind): (&MovableGroup, PrimitiveKind),
     items: &[Item],

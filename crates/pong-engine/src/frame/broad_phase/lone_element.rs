@@ -11,8 +11,8 @@ use pong_model::box_tree::{BoxNode, BoxTree, NarrowBall, NarrowBox};
 /// Elements that go together, and their ways through trees: as many as there are lane bits.
 pub(crate) const LONE_MAX: usize = LaneBits::BITS as usize;
 
-/// Bottom nodes that there is room for; when it is used up their elements are tested before the next ones are looked for.
-const BOTTOMS_MAX: usize = 32;
+/// Elements of B that there is room for; when it is used up they are tested before the next ones are looked for.
+const FOUND_MAX: usize = 32 * LANES;
 
 /// Levels of nodes of the deepest tree: of 2³¹ elements.
 const LEVELS_MAX: usize = 11;
@@ -34,7 +34,7 @@ pub(crate) struct LoneElement {
     bottom_level: u32,
     /// Nodes asked that nobody has counted yet.
     asked: u32,
-    /// How many bottom nodes were found last.
+    /// How many elements were found last.
     count: u32,
     /// Where the nodes of every level that wait begin and end, from the root's to those of the level in hand. Apart: what is
     /// read together should have been written together.
@@ -42,8 +42,8 @@ pub(crate) struct LoneElement {
     ends: [u16; LEVELS_MAX],
     /// Nodes that wait: of every level as many as what is asked at once has children, since then none of that level waits.
     nodes: [u32; LEVELS_MAX * AT_ONCE * LANES],
-    /// What was found last, in the order in which they are tested.
-    bottoms: [Bottom; BOTTOMS_MAX],
+    /// What was found last, in the order in which they are tested. Eight are written at a time, of which the last may not count.
+    found: [u32; FOUND_MAX + LANES],
 }
 
 /// What boxes of a tree are compared with.
@@ -56,15 +56,24 @@ enum Query {
     BoxAndBall(NarrowBox, NarrowBall),
 }
 
-/// Elements of B that may be touched, of one bottom node.
+/// An element of B that may be touched.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bottom {
-    /// The place in the batch of the node's first element.
-    pub first: u32,
-    /// Those of it and the next ones that may be touched.
-    pub met: LaneBits,
-    /// Triangles of them of which the face alone may push.
-    pub over_face: LaneBits,
+pub(crate) struct Near(u32);
+
+impl Near {
+    const OVER_FACE: u32 = 1 << 31;
+
+    /// The place in the batch. A tree has room for no more elements than leave a bit.
+    #[inline]
+    pub fn place(self) -> usize {
+        (self.0 & !Self::OVER_FACE) as usize
+    }
+
+    /// Of a triangle that was narrowed down: whether the face alone may push.
+    #[inline]
+    pub fn over_face(self) -> bool {
+        self.0 & Self::OVER_FACE != 0
+    }
 }
 
 impl Query {
@@ -97,7 +106,7 @@ impl LoneElement {
         starts: [0; LEVELS_MAX],
         ends: [0; LEVELS_MAX],
         nodes: [0; LEVELS_MAX * AT_ONCE * LANES],
-        bottoms: [Bottom { first: 0, met: 0, over_face: 0 }; BOTTOMS_MAX],
+        found: [0; FOUND_MAX + LANES],
         count: 0,
         asked: 0,
     };
@@ -135,7 +144,8 @@ impl LoneElement {
             return level > 0;
         }
         let at_bottom = self.level == self.bottom_level;
-        let takes = waits.min(if at_bottom { BOTTOMS_MAX - self.count as usize } else { AT_ONCE });
+        let room = (FOUND_MAX - self.count as usize) / LANES;
+        let takes = waits.min(if at_bottom { room } else { AT_ONCE });
         let left = end - takes;
         self.ends[level] = left as u16;
         self.asked += takes as u32;
@@ -143,8 +153,9 @@ impl LoneElement {
             for place in (left..end).rev() {
                 let node = &tree.nodes[self.nodes[place] as usize];
                 let met = self.query.meets(simd, node);
-                self.bottoms[self.count as usize] = Bottom { first: node.elements.start, met, over_face: 0 };
-                self.count += u32::from(met != 0);
+                let count = self.count as usize;
+                self.found[count..count + LANES].copy_from_slice(&node.elements_in(simd, met));
+                self.count += met.count_ones();
             }
             return level > 0 && takes > 0;
         }
@@ -163,14 +174,27 @@ impl LoneElement {
 
     /// What was found last.
     #[inline(always)]
-    pub fn bottoms(&self) -> &[Bottom] {
-        &self.bottoms[..self.count as usize]
+    pub fn found(&self) -> impl ExactSizeIterator<Item = Near> {
+        self.found[..self.count as usize].iter().map(|&near| Near(near))
     }
 
-    /// The same, to be narrowed down.
+    /// Begins to keep some of what was found last, in its order; answers how many there are.
     #[inline(always)]
-    pub fn bottoms_mut(&mut self) -> &mut [Bottom] {
-        &mut self.bottoms[..self.count as usize]
+    pub fn begin_keeping(&mut self) -> usize {
+        std::mem::take(&mut self.count) as usize
+    }
+
+    /// The place of what was found in a place among the others. Those that came before may be kept meanwhile.
+    #[inline(always)]
+    pub fn place_of(&self, number: usize) -> u32 {
+        self.found[number]
+    }
+
+    /// Keeps an element in its place; `over_face`: 1 where the face alone may push, otherwise 0.
+    #[inline(always)]
+    pub fn keep(&mut self, place: u32, over_face: LaneBits) {
+        self.found[self.count as usize] = place | u32::from(over_face) * Near::OVER_FACE;
+        self.count += 1;
     }
 
     /// How many nodes were asked since this was asked last.

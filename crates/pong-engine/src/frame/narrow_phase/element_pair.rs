@@ -3,7 +3,7 @@
 use super::candidate::{CandidateStatus, ContactCandidate};
 use super::nearest_side::KnownSides;
 use super::side_of_entry::{EntryFace, PolyhedronEntry};
-use crate::frame::broad_phase::chunk::Chunk;
+use crate::frame::broad_phase::chunk::Ellipsoidal;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
 use crate::frame::input::motion::Motion;
@@ -14,7 +14,7 @@ use pong_geometry::interference::Interference;
 use pong_geometry::interference::ellipsoid_triangle_pairs::EllipsoidTrianglePairs;
 use pong_geometry::interference::sphere_triangle_pairs::{PairsTold, SphereTrianglePairs};
 use pong_geometry::primitive::{Capsule, Containment, PrimitiveKind, Sphere, TriangleSet};
-use pong_geometry::simd::LANES;
+use pong_geometry::simd::{LANES, Simd};
 use pong_model::{Item, MovableGroup, PrimitiveInfo};
 
 /// The candidates that contact testers find for one chunk of A.
@@ -57,13 +57,30 @@ impl DeferredPairs {
         self.spheres.count() + self.ellipsoids.count()
     }
 
-    /// Adds the element of a chunk in a lane, a sphere or an ellipsoid, and a triangle, which has a thickness for it, m; answers
-    /// the pair's place.
+    /// Adds an element and a triangle, which has a thickness for it, m; answers the pair's place.
     #[inline(always)]
-    pub fn add(&mut self, chunk: &Chunk<'_>, lane: usize, triangle: u32, thickness: f64) -> usize {
-        match chunk.ellipsoid(lane) {
-            Some(ellipsoid) => self.ellipsoids.add(ellipsoid, triangle, thickness),
-            None => self.spheres.add(&chunk.sphere(lane), triangle, thickness),
+    pub fn add(&mut self, round: &Ellipsoidal<'_>, triangle: u32, thickness: f64) -> usize {
+        match round {
+            Ellipsoidal::Ellipsoid(ellipsoid) => self.ellipsoids.add(ellipsoid, triangle, thickness),
+            Ellipsoidal::Sphere(sphere) => self.spheres.add(sphere, triangle, thickness),
+        }
+    }
+
+    /// Makes the pairs that are pushed from here on those of an element, with a thickness for it, m.
+    #[inline(always)]
+    pub fn begin<S: Simd>(&mut self, simd: S, round: &Ellipsoidal<'_>, thickness: f64) {
+        match round {
+            Ellipsoidal::Ellipsoid(ellipsoid) => self.ellipsoids.begin_in(simd, ellipsoid, thickness),
+            Ellipsoidal::Sphere(sphere) => self.spheres.begin_in(simd, sphere, thickness),
+        }
+    }
+
+    /// Adds a pair of the element that was begun with last; answers its place.
+    #[inline(always)]
+    pub fn push(&mut self, round: &Ellipsoidal<'_>, triangle: u32) -> usize {
+        match round {
+            Ellipsoidal::Ellipsoid(_) => self.ellipsoids.push(triangle),
+            Ellipsoidal::Sphere(_) => self.spheres.push(triangle),
         }
     }
 

@@ -7,8 +7,8 @@ use super::element_pair::{Ball, ChunkCandidates, DeferredPairs, ElementPair};
 use super::on_triangle::thickness_for;
 use super::pair_table::{ellipsoid_triangle, sphere_triangle};
 use super::testers::{Target, is_deferred};
-use crate::frame::broad_phase::chunk::Chunk;
-use crate::frame::broad_phase::lone_element::{Bottom, LoneElement};
+use crate::frame::broad_phase::chunk::{Chunk, Ellipsoidal};
+use crate::frame::broad_phase::lone_element::{LoneElement, Near};
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::input::PairContext;
 use crate::report::{FrameCounts, Laps, Work};
@@ -29,15 +29,16 @@ pub(crate) struct LonePair<'a> {
     pub batch: &'a Batch,
 }
 
-/// Asks of all pairs of a sphere or an ellipsoid and a triangle which may touch, and takes out those that do not.
+/// Asks of all pairs of a sphere or an ellipsoid and a triangle which may touch, and keeps those.
 #[inline(always)]
-pub(crate) fn narrow_down(
+pub(crate) fn narrow_down<S: Simd>(
+    simd: S,
     pairs: &[Option<LonePair<'_>>],
     ways: &mut [LoneElement],
     deferred: &mut DeferredPairs,
     counts: &mut FrameCounts,
 ) {
-    let mut asked = Asked { of: None, from: [(0, 0, 0); LANES] };
+    let mut asked = Asked { of: None, from: [(0, 0); LANES] };
     for (way, pair) in pairs.iter().enumerate() {
         let Some(LonePair { context, chunk, batch }) = pair else { continue };
         if !is_deferred(chunk.kind, batch.kind) {
@@ -45,39 +46,38 @@ pub(crate) fn narrow_down(
         }
         let of = (chunk.kind, &context.body_b.triangles);
         if !asked.goes_with(of) {
-            asked.put_back(ways, deferred);
+            asked.keep_near(ways, deferred);
         }
         asked.of = Some(of);
         let items = &context.body_b.tree.items[batch.items.start as usize..batch.items.end as usize];
-        let mut tested = 0;
-        let mut last = (u32::MAX, 0.0);
-        for bottom in 0..ways[way].bottoms().len() {
-            let found = &mut ways[way].bottoms_mut()[bottom];
-            let (first, met) = (found.first as usize, std::mem::take(&mut found.met));
-            tested += met.count_ones();
-            for lane in lanes(met) {
-                let item = items[first + lane];
-                // Most are of one mesh: to foresee that is quicker than to look it up.
-                if item.primitive != last.0 {
-                    last = (item.primitive, thickness_for(context, chunk, 0, item));
-                }
-                let place = deferred.add(chunk, 0, item.element, last.1);
-                asked.from[place] = (way as u8, bottom as u8, lane as u8);
-                if place + 1 == LANES {
-                    asked.put_back(ways, deferred);
-                }
+        let round = Ellipsoidal::of(chunk, 0);
+        let found = ways[way].begin_keeping();
+        let mut last = u32::MAX;
+        for number in 0..found {
+            let place = ways[way].place_of(number);
+            let item = items[place as usize];
+            // Most are of one mesh: to foresee that is quicker than to look it up.
+            if item.primitive != last {
+                last = item.primitive;
+                deferred.begin(simd, &round, thickness_for(context, &round, item));
+            }
+            let lane = deferred.push(&round, item.element);
+            asked.from[lane] = (way as u32, place);
+            if lane + 1 == LANES {
+                asked.keep_near(ways, deferred);
+                last = u32::MAX;
             }
         }
-        counts.note_testers(chunk.kind, Triangle, tested, 0);
+        counts.note_testers(chunk.kind, Triangle, found as u32, 0);
     }
-    asked.put_back(ways, deferred);
+    asked.keep_near(ways, deferred);
 }
 
 /// Pairs of elements of one kind and triangles of one body that are about to be asked.
 struct Asked<'a> {
     of: Option<(PrimitiveKind, &'a TriangleSet)>,
-    /// Which bit each stands for: the way, the bottom node on it, the lane of that.
-    from: [(u8, u8, u8); LANES],
+    /// Of each the way and the triangle's place in its batch.
+    from: [(u32, u32); LANES],
 }
 
 impl<'a> Asked<'a> {
@@ -86,16 +86,14 @@ impl<'a> Asked<'a> {
         self.of.is_none_or(|of| of.0 == kind && std::ptr::eq(of.1, set))
     }
 
-    /// Asks them, and puts back those that may touch.
+    /// Asks them, and keeps those that may touch: on every way no more than were asked of it, in their order.
     #[inline(always)]
-    fn put_back(&mut self, ways: &mut [LoneElement], deferred: &mut DeferredPairs) {
+    fn keep_near(&mut self, ways: &mut [LoneElement], deferred: &mut DeferredPairs) {
         let Some((_, set)) = self.of else { return };
         let PairsTold { near, over_face } = deferred.tell(set);
-        for place in lanes(near) {
-            let (way, bottom, lane) = self.from[place];
-            let found = &mut ways[usize::from(way)].bottoms_mut()[usize::from(bottom)];
-            found.met |= 1 << lane;
-            found.over_face |= (over_face >> place & 1) << lane;
+        for lane in lanes(near) {
+            let (way, place) = self.from[lane];
+            ways[way as usize].keep(place, over_face >> lane & 1);
         }
     }
 }
@@ -112,22 +110,22 @@ pub(crate) fn test_lone<S: Simd>(
 ) {
     loop {
         out.counts.boxes_tested += way.take_asked();
-        test_bottoms(simd, pair, way.bottoms(), found, &mut out.counts);
+        test_found(simd, pair, way, found, &mut out.counts);
         laps.lap(Work::NarrowPhase, &mut out.times);
         if way.is_through() {
             return;
         }
         way.go_on(simd, &pair.batch.boxes);
         laps.lap(Work::BroadPhase, &mut out.times);
-        narrow_down(&[Some(pair)], std::slice::from_mut(way), found.deferred, &mut out.counts);
+        narrow_down(simd, &[Some(pair)], std::slice::from_mut(way), found.deferred, &mut out.counts);
     }
 }
 
 #[inline(always)]
-fn test_bottoms<S: Simd>(
+fn test_found<S: Simd>(
     simd: S,
     pair: LonePair<'_>,
-    bottoms: &[Bottom],
+    way: &LoneElement,
     found: &mut ChunkCandidates<'_>,
     counts: &mut FrameCounts,
 ) {
@@ -135,33 +133,33 @@ fn test_bottoms<S: Simd>(
     let items = &context.body_b.tree.items[batch.items.start as usize..batch.items.end as usize];
     if is_deferred(chunk.kind, batch.kind) {
         let before = found.seen;
-        test_near(pair, (items, bottoms), found);
+        test_near(pair, (items, way), found);
         return counts.note_testers(chunk.kind, Triangle, 0, (found.seen - before) as u32);
     }
-    for &Bottom { first, met, .. } in bottoms {
-        for lane in lanes(met) {
-            let target = Target { context, item_b: items[first as usize + lane], kind_b: batch.kind };
-            target.test_lanes(simd, chunk, 1, found, counts);
-        }
+    for near in way.found() {
+        let target = Target { context, item_b: items[near.place()], kind_b: batch.kind };
+        target.test_lanes(simd, chunk, 1, found, counts);
     }
 }
 
 /// A sphere or an ellipsoid against the triangles that it may touch.
 #[inline(always)]
-fn test_near(pair: LonePair<'_>, (items, bottoms): (&[Item], &[Bottom]), found: &mut ChunkCandidates<'_>) {
+fn test_near(pair: LonePair<'_>, (items, way): (&[Item], &LoneElement), found: &mut ChunkCandidates<'_>) {
     let LonePair { context, chunk, .. } = pair;
     let item_a = chunk.items[0];
-    let mut ready: Option<EllipsoidOnTriangles> = None;
-    for &Bottom { first, met, over_face } in bottoms {
-        for lane in lanes(met) {
-            let item_b = items[first as usize + lane];
-            let pair = ElementPair { context, item_a, lane: 0, item_b, kind_b: Triangle };
-            if let Some(ellipsoid) = chunk.ellipsoid(0) {
+    let pair_with =
+        |near: Near| ElementPair { context, item_a, lane: 0, item_b: items[near.place()], kind_b: Triangle };
+    match Ellipsoidal::of(chunk, 0) {
+        Ellipsoidal::Sphere(sphere) => {
+            for near in way.found() {
+                sphere_triangle::test_ball(&pair_with(near), &Ball::of(&sphere), near.over_face(), found);
+            }
+        }
+        Ellipsoidal::Ellipsoid(ellipsoid) => {
+            let mut ready: Option<EllipsoidOnTriangles> = None;
+            for near in way.found() {
                 let ready = ready.get_or_insert_with(|| EllipsoidOnTriangles::new(ellipsoid));
-                ellipsoid_triangle::test_ready(&pair, ready, found);
-            } else {
-                let over_face = over_face >> lane & 1 == 1;
-                sphere_triangle::test_ball(&pair, &Ball::of(&chunk.sphere(0)), over_face, found);
+                ellipsoid_triangle::test_ready(&pair_with(near), ready, found);
             }
         }
     }

@@ -4,7 +4,7 @@ use super::candidate::CandidateStatus;
 use super::element_pair::{ChunkCandidates, ElementPair};
 use super::nearest_side::{KnownSides, Nearby};
 use super::side_of_entry::TriangleEntry;
-use crate::frame::broad_phase::chunk::Chunk;
+use crate::frame::broad_phase::chunk::Ellipsoidal;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
 use pong_geometry::Vec3;
@@ -121,17 +121,11 @@ pub(crate) fn thickness_for_sphere(context: &PairContext<'_>, triangle: Item, sp
     context.body_b.primitives[triangle.primitive as usize].thickness.unwrap_or(sphere.radius)
 }
 
-/// How far behind a triangle the centre of the element of a chunk in a lane, a sphere or an ellipsoid, is still pushed to the
-/// front, m.
+/// How far behind a triangle the centre of an element is still pushed to the front, m.
 #[inline(always)]
-pub(crate) fn thickness_for(
-    context: &PairContext<'_>,
-    chunk: &Chunk<'_>,
-    lane: usize,
-    triangle: Item,
-) -> f64 {
-    match chunk.ellipsoid(lane) {
-        Some(ellipsoid) => thickness_for_ellipsoid(context, triangle, ellipsoid),
-        None => thickness_for_sphere(context, triangle, &chunk.sphere(lane)),
+pub(crate) fn thickness_for(context: &PairContext<'_>, round: &Ellipsoidal<'_>, triangle: Item) -> f64 {
+    match round {
+        Ellipsoidal::Ellipsoid(ellipsoid) => thickness_for_ellipsoid(context, triangle, ellipsoid),
+        Ellipsoidal::Sphere(sphere) => thickness_for_sphere(context, triangle, sphere),
     }
 }

@@ -4,7 +4,7 @@ use super::element_pair::{Ball, ChunkCandidates, ElementPair};
 use super::on_triangle::thickness_for;
 use super::pair_table::{Test, ellipsoid_triangle, sphere_triangle, test_of};
 use super::registered;
-use crate::frame::broad_phase::chunk::Chunk;
+use crate::frame::broad_phase::chunk::{Chunk, Ellipsoidal};
 use crate::frame::input::PairContext;
 use crate::report::FrameCounts;
 use pong_geometry::interference::ellipsoid_triangle::EllipsoidOnTriangles;
@@ -107,8 +107,9 @@ fn defer(
     counts: &mut FrameCounts,
 ) {
     for lane in lanes(near) {
-        let thickness = thickness_for(context, chunk, lane, item_b);
-        let place = found.deferred.add(chunk, lane, item_b.element, thickness);
+        let round = Ellipsoidal::of(chunk, lane);
+        let thickness = thickness_for(context, &round, item_b);
+        let place = found.deferred.add(&round, item_b.element, thickness);
         found.deferred.from[place] = (lane as u8, item_b);
         if place + 1 == LANES {
             test_deferred(context, *chunk, found, counts);
