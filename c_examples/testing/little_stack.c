@@ -176,7 +176,7 @@ typedef struct stage {
     run *with;
 } stage;
 
-static void *work_off(void *argument)
+static void *run_stage(void *argument)
 {
     const stage *s = argument;
     s->work(s->with);
@@ -197,7 +197,7 @@ static size_t stack_of(void (*work)(run *), run *r)
     s.with = r;
     TEST(pthread_attr_init(&attributes) == 0);
     TEST(pthread_attr_setstack(&attributes, stack, STACK) == 0);
-    TEST(pthread_create(&thread, &attributes, work_off, &s) == 0);
+    TEST(pthread_create(&thread, &attributes, run_stage, &s) == 0);
     TEST(pthread_join(thread, NULL) == 0);
     pthread_attr_destroy(&attributes);
     while (left < STACK && stack[left] == PAINT) {

@@ -190,10 +190,10 @@ impl LoneElement {
         self.found[number]
     }
 
-    /// Keeps an element in its place; `over_face`: 1 where the face alone may push, otherwise 0.
+    /// Keeps an element by its place; `over_face`: whether the face alone may push.
     #[inline(always)]
-    pub fn keep(&mut self, place: u32, over_face: LaneBits) {
-        self.found[self.count as usize] = place | u32::from(over_face) * Near::OVER_FACE;
+    pub fn keep(&mut self, place: u32, over_face: bool) {
+        self.found[self.count as usize] = place | if over_face { Near::OVER_FACE } else { 0 };
         self.count += 1;
     }
 

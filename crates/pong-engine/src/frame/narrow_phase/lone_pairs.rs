@@ -93,7 +93,7 @@ impl<'a> Asked<'a> {
         let PairsTold { near, over_face } = deferred.tell(set);
         for lane in lanes(near) {
             let (way, place) = self.from[lane];
-            ways[way as usize].keep(place, over_face >> lane & 1);
+            ways[way as usize].keep(place, over_face >> lane & 1 == 1);
         }
     }
 }
