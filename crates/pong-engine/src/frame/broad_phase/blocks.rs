@@ -99,7 +99,11 @@ impl Layout<'_, '_> {
             let (direction, slot, is_lone) = (self.direction, self.slot, items.len() == 1);
             let block = Block { direction, slot, leaf: node, batch, first: 0, end: 0, leads: false, is_lone };
             self.leads = true;
-            self.cut(boxes, 0, element_ns, block);
+            if is_lone {
+                self.add(Block { end: 1, ..block }, element_ns);
+            } else {
+                self.cut(boxes, 0, element_ns, block);
+            }
         }
     }
 

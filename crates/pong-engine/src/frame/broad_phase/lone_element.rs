@@ -140,8 +140,7 @@ impl LoneElement {
         let (start, end) = (usize::from(self.starts[level]), usize::from(self.ends[level]));
         let waits = end - start;
         if waits == 0 {
-            self.level = self.level.saturating_sub(1);
-            return level > 0;
+            return self.go_up();
         }
         let at_bottom = self.level == self.bottom_level;
         let room = (FOUND_MAX - self.count as usize) / LANES;
@@ -170,6 +169,19 @@ impl LoneElement {
         self.level += 1;
         (self.starts[level + 1], self.ends[level + 1]) = (end as u16, past as u16);
         true
+    }
+
+    /// Goes up to the lowest level of which nodes wait; whether there is any.
+    #[inline(always)]
+    fn go_up(&mut self) -> bool {
+        while self.level > 0 {
+            self.level -= 1;
+            let level = self.level as usize;
+            if self.starts[level] < self.ends[level] {
+                return true;
+            }
+        }
+        false
     }
 
     /// What was found last.
