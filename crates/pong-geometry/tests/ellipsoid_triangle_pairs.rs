@@ -5,6 +5,7 @@ mod common;
 mod oracle_support;
 
 use common::{Random, scaled_ellipsoid};
+use oracle_support::rows::{Pairs, tell_in_rows};
 use oracle_support::{regular_plate, surface, surfaces};
 use pong_geometry::Vec3;
 use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
@@ -12,7 +13,7 @@ use pong_geometry::interference::ellipsoid_triangle_pairs::EllipsoidTrianglePair
 use pong_geometry::interference::pushing_features::mark_pushing;
 use pong_geometry::interference::triangle_features::TriangleContact;
 use pong_geometry::primitive::{Ellipsoid, TriangleSet};
-use pong_geometry::simd::{Kernel, LANES, Level, Simd, run, set_level};
+use pong_geometry::simd::{LANES, LaneBits, Level, Simd, set_level};
 
 /// Surfaces of every sort, and two on which a vertex pushes alone: a sharp spike, and a box whose corner is cut so that the
 /// lowest triangle there has none of the box's edges.
@@ -73,45 +74,36 @@ fn ellipsoid(set: &TriangleSet, triangle: u32, random: &mut Random) -> Ellipsoid
     Ellipsoid { center, axes, semi_axes: shape * radius }
 }
 
-struct Begin<'a>(&'a mut EllipsoidTrianglePairs, &'a Ellipsoid, f64);
-
-impl Kernel for Begin<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        self.0.begin_in(simd, self.1, self.2);
+impl Pairs for EllipsoidTrianglePairs {
+    type Element = Ellipsoid;
+    type Told = LaneBits;
+    fn begin_in<S: Simd>(&mut self, simd: S, element: &Ellipsoid, thickness: f64) {
+        Self::begin_in(self, simd, element, thickness);
+    }
+    fn push(&mut self, triangle: u32) -> usize {
+        Self::push(self, triangle)
+    }
+    fn add(&mut self, element: &Ellipsoid, triangle: u32, thickness: f64) -> usize {
+        Self::add(self, element, triangle, thickness)
+    }
+    fn take(&mut self, set: &TriangleSet) -> LaneBits {
+        Self::take(self, set)
     }
 }
 
-/// Pairs that are pushed after their ellipsoid are those that are added with it, whatever stood in their places before.
 #[test]
 fn triangles_in_a_row_are_told_as_one_by_one() {
     let mut random = Random(76);
     let mut near = 0;
-    for (name, set) in all_surfaces(&mut random) {
-        let [mut one_by_one, mut in_a_row] = [(); 2].map(|()| EllipsoidTrianglePairs::default());
-        for round in 0..200 {
-            set_level(Level::available().nth(round % Level::available().count()).unwrap());
-            let mut left = LANES;
-            while left > 0 {
-                let there = (random.bits() % set.triangles.len() as u64) as u32;
-                let ellipsoid = ellipsoid(&set, there, &mut random);
-                let thickness = ellipsoid.smallest_semi_axis() * random.between(0.0, 2.0);
-                let row = 1 + random.bits() as usize % left;
-                run(Begin(&mut in_a_row, &ellipsoid, thickness));
-                for number in 0..row {
-                    let triangle = (there + number as u32) % set.triangles.len() as u32;
-                    assert_eq!(in_a_row.push(triangle), one_by_one.add(&ellipsoid, triangle, thickness));
-                }
-                left -= row;
-            }
-            let told = one_by_one.take(&set);
-            assert_eq!(in_a_row.take(&set), told, "{name}");
-            near += told.count_ones();
-        }
+    for (_, set) in all_surfaces(&mut random) {
+        let told = tell_in_rows::<EllipsoidTrianglePairs>(&set, &mut random, |random| {
+            let there = (random.bits() % set.triangles.len() as u64) as u32;
+            let ellipsoid = ellipsoid(&set, there, random);
+            let thickness = ellipsoid.smallest_semi_axis() * random.between(0.0, 2.0);
+            (ellipsoid, there, thickness)
+        });
+        near += told.iter().map(|told| told.count_ones()).sum::<u32>();
     }
-    set_level(Level::best());
     assert!(near > 500, "{near}");
 }
 

@@ -5,6 +5,7 @@ mod common;
 mod oracle_support;
 
 use common::{Random, random_motion};
+use oracle_support::rows::{Pairs, tell_in_rows};
 use oracle_support::{
     all_contacts, dented_ball, fan_plate, hilly_sheet, moved_surface, regular_plate, rounded_to_f32, surface,
     surfaces,
@@ -16,7 +17,7 @@ use pong_geometry::interference::sphere_triangle::{sphere_over_face, sphere_tria
 use pong_geometry::interference::sphere_triangle_pairs::{PairsTold, SphereTrianglePairs};
 use pong_geometry::interference::triangle_features::TriangleContact;
 use pong_geometry::primitive::{Ellipsoid, MayPush, Sphere, TriangleSet};
-use pong_geometry::simd::{Kernel, LANES, Level, Simd, run, set_level};
+use pong_geometry::simd::{LANES, Level, Simd, set_level};
 
 /// A sphere somewhere about a surface: anywhere, over a face or at a degenerate place; and the triangle there.
 fn sphere(set: &TriangleSet, random: &mut Random) -> (Sphere, u32) {
@@ -103,44 +104,35 @@ fn pairs_that_are_left_out_find_nothing() {
     assert!(touching > 2000 && f64::from(left_out) > 0.6 * f64::from(idle));
 }
 
-struct Begin<'a>(&'a mut SphereTrianglePairs, &'a Sphere, f64);
-
-impl Kernel for Begin<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        self.0.begin_in(simd, self.1, self.2);
+impl Pairs for SphereTrianglePairs {
+    type Element = Sphere;
+    type Told = PairsTold;
+    fn begin_in<S: Simd>(&mut self, simd: S, element: &Sphere, thickness: f64) {
+        Self::begin_in(self, simd, element, thickness);
+    }
+    fn push(&mut self, triangle: u32) -> usize {
+        Self::push(self, triangle)
+    }
+    fn add(&mut self, element: &Sphere, triangle: u32, thickness: f64) -> usize {
+        Self::add(self, element, triangle, thickness)
+    }
+    fn take(&mut self, set: &TriangleSet) -> PairsTold {
+        Self::take(self, set)
     }
 }
 
-/// Pairs that are pushed after their sphere are those that are added with it, whatever stood in their places before.
 #[test]
 fn triangles_in_a_row_are_told_as_one_by_one() {
     let mut random = Random(75);
     let mut near = 0;
-    for (name, set) in surfaces(&mut random) {
-        let [mut one_by_one, mut in_a_row] = [(); 2].map(|()| SphereTrianglePairs::default());
-        for round in 0..200 {
-            set_level(Level::available().nth(round % Level::available().count()).unwrap());
-            let mut left = LANES;
-            while left > 0 {
-                let (sphere, there) = sphere(&set, &mut random);
-                let thickness = sphere.radius * random.between(0.0, 2.0);
-                let row = 1 + random.bits() as usize % left;
-                run(Begin(&mut in_a_row, &sphere, thickness));
-                for number in 0..row {
-                    let triangle = (there + number as u32) % set.triangles.len() as u32;
-                    assert_eq!(in_a_row.push(triangle), one_by_one.add(&sphere, triangle, thickness));
-                }
-                left -= row;
-            }
-            let told = one_by_one.take(&set);
-            assert_eq!(in_a_row.take(&set), told, "{name}");
-            near += told.near.count_ones();
-        }
+    for (_, set) in surfaces(&mut random) {
+        let told = tell_in_rows::<SphereTrianglePairs>(&set, &mut random, |random| {
+            let (sphere, there) = sphere(&set, random);
+            let thickness = sphere.radius * random.between(0.0, 2.0);
+            (sphere, there, thickness)
+        });
+        near += told.iter().map(|told| told.near.count_ones()).sum::<u32>();
     }
-    set_level(Level::best());
     assert!(near > 500, "{near}");
 }
 

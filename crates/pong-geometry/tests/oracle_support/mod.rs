@@ -1,6 +1,8 @@
 //! Surfaces and slow, plain answers shared by the oracle and feature tests.
 #![allow(dead_code, unreachable_pub, missing_docs)]
 
+pub mod rows;
+
 use crate::common::{Random, random_motion};
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::sphere_triangle::sphere_triangle;
