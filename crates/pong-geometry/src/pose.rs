@@ -172,7 +172,8 @@ pub fn rotation_vector(q: &Quat) -> Vec3 {
     /// Square of tan(π/16).
     const SQUARE_MAX: f64 = 0.039_566_129_896_580_15;
     const TERMS: usize = 13;
-    /// Of turns up to 0.14 rad, as most are from frame to frame. Each term waits for the one before.
+    /// Of turns up to 0.14 rad, as most are from frame to frame. Each term waits for the one before; what comes after eight is
+    /// less than 5e-3⁸/17 = 3e-20 of the whole, far below rounding.
     const SMALL_SQUARE: f64 = 5e-3;
     const SMALL_TERMS: usize = 8;
     let mut factor = 2.0;

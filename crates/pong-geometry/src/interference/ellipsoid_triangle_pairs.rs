@@ -14,6 +14,7 @@
 use super::triangle_lanes::{
     EightVectors, NOTHING, TriangleLanes, bit_of_each, fill_in, fill_vectors_in, put,
 };
+use crate::Vec3;
 use crate::primitive::{Ellipsoid, TriangleSet};
 use crate::simd::{LANES, LaneBits, Numbers, Simd, Vectors, run_at_level};
 
@@ -63,8 +64,9 @@ impl EllipsoidTrianglePairs {
         let lane = self.lanes.add(&ellipsoid.center, triangle, thickness);
         let semi_axes = &ellipsoid.semi_axes;
         for axis in 0..3 {
-            put(&mut self.widen[axis], lane, &(ellipsoid.axes.column(axis) * semi_axes[axis]));
-            self.shrink[axis][lane] = 1.0 / (semi_axes[axis] * semi_axes[axis]);
+            let (widen, shrink) = along(ellipsoid, axis);
+            put(&mut self.widen[axis], lane, &widen);
+            self.shrink[axis][lane] = shrink;
         }
         (self.smallest[lane], self.largest[lane]) = (semi_axes.min(), semi_axes.max());
         lane
@@ -76,9 +78,9 @@ impl EllipsoidTrianglePairs {
     pub fn begin_in<S: Simd>(&mut self, simd: S, ellipsoid: &Ellipsoid, thickness: f64) {
         let (lane, semi_axes) = (self.count(), &ellipsoid.semi_axes);
         for axis in 0..3 {
-            let widen = ellipsoid.axes.column(axis) * semi_axes[axis];
+            let (widen, shrink) = along(ellipsoid, axis);
             fill_vectors_in(simd, &mut self.widen[axis], lane, &widen);
-            fill_in(simd, &mut self.shrink[axis], lane, 1.0 / (semi_axes[axis] * semi_axes[axis]));
+            fill_in(simd, &mut self.shrink[axis], lane, shrink);
         }
         fill_in(simd, &mut self.smallest, lane, semi_axes.min());
         fill_in(simd, &mut self.largest, lane, semi_axes.max());
@@ -102,6 +104,13 @@ impl EllipsoidTrianglePairs {
         self.clear();
         near
     }
+}
+
+/// What is kept of a principal axis: it times its semi-axis, m, and one over the square of that, 1/m².
+#[inline(always)]
+fn along(ellipsoid: &Ellipsoid, axis: usize) -> (Vec3, f64) {
+    let semi_axis = ellipsoid.semi_axes[axis];
+    (ellipsoid.axes.column(axis) * semi_axis, 1.0 / (semi_axis * semi_axis))
 }
 
 fn may_touch(pairs: &EllipsoidTrianglePairs) -> LaneBits {

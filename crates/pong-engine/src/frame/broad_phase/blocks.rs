@@ -99,6 +99,7 @@ impl Layout<'_, '_> {
             let (direction, slot, is_lone) = (self.direction, self.slot, items.len() == 1);
             let block = Block { direction, slot, leaf: node, batch, first: 0, end: 0, leads: false, is_lone };
             self.leads = true;
+            // There is nothing to cut: with one element for each pair this is a part of what a pair costs.
             if is_lone {
                 self.add(Block { end: 1, ..block }, element_ns);
             } else {

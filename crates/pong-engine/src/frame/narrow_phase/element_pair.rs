@@ -59,8 +59,8 @@ impl DeferredPairs {
 
     /// Adds an element and a triangle, which has a thickness for it, m; answers the pair's place.
     #[inline(always)]
-    pub fn add(&mut self, round: &Ellipsoidal<'_>, triangle: u32, thickness: f64) -> usize {
-        match round {
+    pub fn add(&mut self, element: &Ellipsoidal<'_>, triangle: u32, thickness: f64) -> usize {
+        match element {
             Ellipsoidal::Ellipsoid(ellipsoid) => self.ellipsoids.add(ellipsoid, triangle, thickness),
             Ellipsoidal::Sphere(sphere) => self.spheres.add(sphere, triangle, thickness),
         }
@@ -68,8 +68,8 @@ impl DeferredPairs {
 
     /// Makes the pairs that are pushed from here on those of an element, with a thickness for it, m.
     #[inline(always)]
-    pub fn begin<S: Simd>(&mut self, simd: S, round: &Ellipsoidal<'_>, thickness: f64) {
-        match round {
+    pub fn begin<S: Simd>(&mut self, simd: S, element: &Ellipsoidal<'_>, thickness: f64) {
+        match element {
             Ellipsoidal::Ellipsoid(ellipsoid) => self.ellipsoids.begin_in(simd, ellipsoid, thickness),
             Ellipsoidal::Sphere(sphere) => self.spheres.begin_in(simd, sphere, thickness),
         }
@@ -77,8 +77,8 @@ impl DeferredPairs {
 
     /// Adds a pair of the element that was begun with last; answers its place.
     #[inline(always)]
-    pub fn push(&mut self, round: &Ellipsoidal<'_>, triangle: u32) -> usize {
-        match round {
+    pub fn push(&mut self, element: &Ellipsoidal<'_>, triangle: u32) -> usize {
+        match element {
             Ellipsoidal::Ellipsoid(_) => self.ellipsoids.push(triangle),
             Ellipsoidal::Sphere(_) => self.spheres.push(triangle),
         }

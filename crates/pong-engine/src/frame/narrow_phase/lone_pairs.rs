@@ -50,7 +50,7 @@ pub(crate) fn narrow_down<S: Simd>(
         }
         asked.of = Some(of);
         let items = &context.body_b.tree.items[batch.items.start as usize..batch.items.end as usize];
-        let round = Ellipsoidal::of(chunk, 0);
+        let element = Ellipsoidal::of(chunk, 0);
         let found = ways[way].begin_keeping();
         let mut last = u32::MAX;
         for number in 0..found {
@@ -59,12 +59,13 @@ pub(crate) fn narrow_down<S: Simd>(
             // Most are of one mesh: to foresee that is quicker than to look it up.
             if item.primitive != last {
                 last = item.primitive;
-                deferred.begin(simd, &round, thickness_for(context, &round, item));
+                deferred.begin(simd, &element, thickness_for(context, &element, item));
             }
-            let lane = deferred.push(&round, item.element);
+            let lane = deferred.push(&element, item.element);
             asked.from[lane] = (way as u32, place);
             if lane + 1 == LANES {
                 asked.keep_near(ways, deferred);
+                // The eight places are free again, and what stands in them is of others.
                 last = u32::MAX;
             }
         }

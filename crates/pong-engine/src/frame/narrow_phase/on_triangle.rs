@@ -123,8 +123,8 @@ pub(crate) fn thickness_for_sphere(context: &PairContext<'_>, triangle: Item, sp
 
 /// How far behind a triangle the centre of an element is still pushed to the front, m.
 #[inline(always)]
-pub(crate) fn thickness_for(context: &PairContext<'_>, round: &Ellipsoidal<'_>, triangle: Item) -> f64 {
-    match round {
+pub(crate) fn thickness_for(context: &PairContext<'_>, element: &Ellipsoidal<'_>, triangle: Item) -> f64 {
+    match element {
         Ellipsoidal::Ellipsoid(ellipsoid) => thickness_for_ellipsoid(context, triangle, ellipsoid),
         Ellipsoidal::Sphere(sphere) => thickness_for_sphere(context, triangle, sphere),
     }

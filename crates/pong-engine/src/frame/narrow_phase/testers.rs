@@ -107,9 +107,9 @@ fn defer(
     counts: &mut FrameCounts,
 ) {
     for lane in lanes(near) {
-        let round = Ellipsoidal::of(chunk, lane);
-        let thickness = thickness_for(context, &round, item_b);
-        let place = found.deferred.add(&round, item_b.element, thickness);
+        let element = Ellipsoidal::of(chunk, lane);
+        let thickness = thickness_for(context, &element, item_b);
+        let place = found.deferred.add(&element, item_b.element, thickness);
         found.deferred.from[place] = (lane as u8, item_b);
         if place + 1 == LANES {
             test_deferred(context, *chunk, found, counts);
