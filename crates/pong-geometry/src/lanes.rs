@@ -1,6 +1,6 @@
 //! Eight points at a time.
 
-use crate::primitive::{Polyhedron, PolyhedronFace};
+use crate::primitive::{FacePlane, Polyhedron};
 use crate::simd::{self, Kernel, LANES, LaneBits, Simd};
 use crate::{Transform, Vec3};
 
@@ -86,7 +86,7 @@ impl Polyhedron {
         let reach = simd.load(reach);
         let points = Loaded::new(simd, points);
         let mut outside = 0;
-        for face in &self.faces {
+        for face in &self.planes().widest_first {
             outside |= simd.bits(simd.at_least(points.heights_above(face), reach));
             if outside == LaneBits::MAX {
                 break;
@@ -95,9 +95,9 @@ impl Polyhedron {
         outside
     }
 
-    /// Which of eight line segments, told by their first and their second ends, one of the first planes keeps out: bit `i` is
-    /// set exactly if both ends lie in or above the plane of one of the first 32 faces, an inner wall standing out by the slack
-    /// of walls.
+    /// Which of eight line segments, told by their first and their second ends, one of the widest faces keeps out: bit `i` is set
+    /// exactly if both ends lie in or above the plane of one of the 32 widest faces, an inner wall standing out by the slack of
+    /// walls.
     ///
     /// Such a segment has no contact with this piece; another may have none either. Of many faces the rest would take longer
     /// for all eight than each segment that misses takes by itself.
@@ -109,12 +109,12 @@ impl Polyhedron {
     /// [`lanes_kept_out`](Self::lanes_kept_out) within a kernel.
     #[inline(always)]
     pub fn lanes_kept_out_in<S: Simd>(&self, simd: S, ends: &[Lanes; 2]) -> LaneBits {
-        const FIRST: usize = 32;
+        const WIDEST: usize = 32;
         let ends = [Loaded::new(simd, &ends[0]), Loaded::new(simd, &ends[1])];
         // A segment in the plane of a closed face may belong to this piece, even where there is no slack.
         let slack = self.planes().wall_slack.max(f64::MIN_POSITIVE);
         let mut kept_out = 0;
-        for face in self.faces.iter().take(FIRST) {
+        for face in self.planes().widest_first.iter().take(WIDEST) {
             let limit = simd.splat(if face.active && !face.closed { 0.0 } else { slack });
             let first = simd.at_least(ends[0].heights_above(face), limit);
             let second = simd.at_least(ends[1].heights_above(face), limit);
@@ -139,7 +139,7 @@ impl Polyhedron {
         let zero = simd.splat(0.0);
         let points = Loaded::new(simd, points);
         let mut inside = LaneBits::MAX;
-        for face in &self.faces {
+        for face in &self.planes().widest_first {
             let height = points.heights_above(face);
             let mut held = simd.bits(simd.below(height, zero));
             if face.closed {
@@ -159,7 +159,7 @@ impl Polyhedron {
         let (zero, slack) = (simd.splat(0.0), simd.splat(self.planes().wall_slack));
         let points = Loaded::new(simd, points);
         let mut inside = LaneBits::MAX;
-        for face in &self.faces {
+        for face in &self.planes().widest_first {
             let limit = if face.active { zero } else { slack };
             inside &= simd.bits(simd.below(points.heights_above(face), limit));
             if inside == 0 {
@@ -195,9 +195,10 @@ impl<S: Simd> Loaded<S> {
         simd.store(simd.add(turned, simd.splat(x.translation[row])))
     }
 
-    /// The heights above a face's plane, in the bits of [`PolyhedronFace::height`].
+    /// The heights above a face's plane, in the bits of
+    /// [`PolyhedronFace::height`](crate::primitive::PolyhedronFace::height).
     #[inline(always)]
-    fn heights_above(&self, face: &PolyhedronFace) -> S::Eight {
+    fn heights_above(&self, face: &FacePlane) -> S::Eight {
         let (simd, normal) = (self.simd, &face.normal);
         let along = simd.add(simd.mul(simd.splat(normal.x), self.x), simd.mul(simd.splat(normal.y), self.y));
         let along = simd.add(along, simd.mul(simd.splat(normal.z), self.z));

@@ -4,7 +4,7 @@ mod common;
 
 use common::{Random, cuboid, pieces, place_near, stretched_hull};
 use pong_geometry::interference::line_segment_polyhedron::line_segment_piece;
-use pong_geometry::primitive::{LineSegment, Polyhedron, PolyhedronParts};
+use pong_geometry::primitive::{LineSegment, Polyhedron, PolyhedronParts, RimEdge};
 use pong_geometry::simd::{self, LANES, Level};
 use pong_geometry::{Lanes, Quat, Transform, Vec3};
 use std::sync::Mutex;
@@ -134,17 +134,49 @@ fn a_reach_of_exactly_the_height_is_outside() {
     });
 }
 
+/// Of triangles from a point of the plane to each edge: half the edge times how far away its line is.
+fn area(polyhedron: &Polyhedron, face: usize) -> f64 {
+    let rims = polyhedron.rim(face);
+    let triangle = |rim: &RimEdge| {
+        let [a, b] =
+            polyhedron.edges[rim.edge as usize].vertices.map(|v| polyhedron.vertices[v as usize].position);
+        0.5 * (b - a).norm() * rim.outward.dot(&(rim.anchor - rims[0].anchor))
+    };
+    rims.iter().map(triangle).sum()
+}
+
+#[test]
+fn planes_are_those_of_all_faces_from_the_widest_to_the_narrowest() {
+    let mut random = Random(23);
+    for polyhedron in polyhedra().into_iter().chain(pieces(&mut random)) {
+        let mut left: Vec<usize> = (0..polyhedron.faces.len()).collect();
+        for plane in &polyhedron.planes().widest_first {
+            let is_of = |&face: &usize| {
+                let face = &polyhedron.faces[face];
+                let told = (plane.normal, plane.offset, plane.active, plane.closed);
+                told == (face.normal, face.offset, face.active, face.closed)
+            };
+            let place = left.iter().position(is_of).expect("a face that was not told yet");
+            let own = area(&polyhedron, left.remove(place));
+            let widest = left.iter().map(|&face| area(&polyhedron, face)).fold(0.0, f64::max);
+            assert!(own > 0.0 && widest <= own * (1.0 + 1e-9), "{own} before {widest}");
+        }
+        assert_eq!(left, []);
+    }
+}
+
 /// The ends of eight segments.
 fn ends_of(segments: &[LineSegment; LANES]) -> [Lanes; 2] {
     [0, 1].map(|end: usize| lanes_of(&std::array::from_fn(|lane| segments[lane].ends[end])))
 }
 
 #[test]
-fn segments_kept_out_are_what_the_first_faces_say() {
+fn segments_kept_out_are_what_the_widest_faces_say() {
     at_every_level(|| {
         let mut random = Random(21);
         for polyhedron in polyhedra().into_iter().chain(pieces(&mut random)) {
             let slack = polyhedron.planes().wall_slack;
+            let widest = &polyhedron.planes().widest_first;
             for round in 0..500 {
                 let near = |random: &mut Random| std::array::from_fn(|_| place_near(random, &polyhedron));
                 let (from, to) = match round % 2 {
@@ -152,9 +184,10 @@ fn segments_kept_out_are_what_the_first_faces_say() {
                     _ => (near(&mut random), near(&mut random)),
                 };
                 let expected = bits_of(|i| {
-                    polyhedron.faces.iter().take(32).any(|face| {
+                    widest.iter().take(32).any(|face| {
                         let limit = if face.active { 0.0 } else { slack };
-                        face.height(&from[i]) >= limit && face.height(&to[i]) >= limit
+                        let height = |p: &Vec3| face.normal.dot(p) - face.offset;
+                        height(&from[i]) >= limit && height(&to[i]) >= limit
                     })
                 });
                 let ends = [lanes_of(&from), lanes_of(&to)];

@@ -1,6 +1,7 @@
 //! The planes of a polyhedron's faces, coordinate by coordinate.
 
 use super::polyhedron_parts::{PolyhedronFace, PolyhedronParts};
+use crate::Vec3;
 use crate::simd::{LANES, LaneBits, MODERATE, Simd, Splat, is_moderate};
 
 /// Faces in blocks of eight, in their order.
@@ -8,6 +9,9 @@ use crate::simd::{LANES, LaneBits, MODERATE, Simd, Splat, is_moderate};
 pub struct FacePlanes {
     /// The blocks; the last one may have empty lanes.
     pub blocks: Vec<PlaneBlock>,
+    /// The faces from the widest to the narrowest, of equal ones the first first: what is near a solid but outside is as a
+    /// rule above a wide face, and who asks one plane after another ends sooner.
+    pub widest_first: Vec<FacePlane>,
     /// Whether all numbers are moderate ([`is_moderate`]), so that the height of such a point is finite.
     pub moderate: bool,
     /// Whether all faces are active.
@@ -16,6 +20,19 @@ pub struct FacePlanes {
     pub simple: bool,
     /// How near a point must be to an inner wall to be at it, m.
     pub wall_slack: f64,
+}
+
+/// One plane: of a face what it takes to ask several points at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FacePlane {
+    /// Unit outward normal.
+    pub normal: Vec3,
+    /// Distance of the plane from the frame's origin along the normal, m.
+    pub offset: f64,
+    /// Whether the face can push.
+    pub active: bool,
+    /// Whether a point exactly on the plane still belongs to the piece.
+    pub closed: bool,
 }
 
 /// Eight planes. Lanes beyond the last face repeat it: what holds for all faces, or for any, is then the same, and of
@@ -109,8 +126,30 @@ impl FacePlanes {
         let simple = all_active && !faces.iter().any(|face| face.closed);
         let wall_slack = Self::WALL_TOLERANCE * parts.diameter;
         let blocks = (0..faces.len()).step_by(LANES).map(|first| block(parts, first)).collect();
-        Self { blocks, moderate, all_active, simple, wall_slack }
+        Self { blocks, widest_first: widest_first(parts), moderate, all_active, simple, wall_slack }
     }
+}
+
+fn widest_first(parts: &PolyhedronParts) -> Vec<FacePlane> {
+    let mut faces: Vec<_> = parts.faces.iter().map(|face| (twice_the_area(parts, face), face)).collect();
+    faces.sort_by(|(area, _), (other, _)| other.total_cmp(area));
+    faces
+        .into_iter()
+        .map(|(_, &PolyhedronFace { normal, offset, active, closed, .. })| FacePlane {
+            normal,
+            offset,
+            active,
+            closed,
+        })
+        .collect()
+}
+
+/// Of the triangles between the first corner of the outline and its other edges, m².
+fn twice_the_area(parts: &PolyhedronParts, face: &PolyhedronFace) -> f64 {
+    let mut from_first = parts.rims_of(face).iter().map(|rim| parts.vertices[rim.start as usize].position);
+    let Some(first) = from_first.next() else { return 0.0 };
+    let corners: Vec<Vec3> = from_first.map(|corner| corner - first).collect();
+    corners.windows(2).map(|pair| pair[0].cross(&pair[1])).sum::<Vec3>().norm()
 }
 
 /// The block of the faces from `first` on.
