@@ -40,6 +40,10 @@ pub trait Simd: BoxSimd {
     fn equal(self, a: Self::Eight, b: Self::Eight) -> Self::Mask;
     /// The larger: `if a > b { a } else { b }`.
     fn larger(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
+    /// The smaller: `if a < b { a } else { b }`.
+    fn smaller(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
+    /// Without their signs; that of a NaN has no meaning.
+    fn abs(self, values: Self::Eight) -> Self::Eight;
     /// The largest of the eight, where none is a NaN; of two zeros either.
     fn largest(self, values: Self::Eight) -> f64;
     fn bits(self, mask: Self::Mask) -> LaneBits;
@@ -57,4 +61,84 @@ pub trait Kernel {
     type Output;
     /// Does the work.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Level, run, set_level};
+    use super::*;
+
+    /// All that two numbers give, eight times.
+    struct All<'a>([&'a [f64; LANES]; 2]);
+
+    impl Kernel for All<'_> {
+        type Output = ([[f64; LANES]; 8], [LaneBits; 3]);
+
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) -> Self::Output {
+            let Self([a, b]) = self;
+            let (a, b) = (simd.load(a), simd.load(b));
+            let below = simd.below(a, b);
+            let numbers = [
+                simd.store(simd.add(a, b)),
+                simd.store(simd.sub(a, b)),
+                simd.store(simd.mul(a, b)),
+                simd.store(simd.larger(a, b)),
+                simd.store(simd.smaller(a, b)),
+                simd.store(simd.abs(a)),
+                simd.store(simd.select(below, a, b)),
+                simd.store(simd.div(a, b)),
+            ];
+            (numbers, [simd.bits(below), simd.bits(simd.at_least(a, b)), simd.bits(simd.equal(a, b))])
+        }
+    }
+
+    const EDGES: [f64; 14] = [
+        0.0,
+        -0.0,
+        1.0,
+        -1.0,
+        0.1,
+        -3.7,
+        5e-324,
+        -f64::MIN_POSITIVE,
+        1e300,
+        -1e300,
+        f64::MAX,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        f64::NAN,
+    ];
+
+    fn plain(a: f64, b: f64) -> [f64; 8] {
+        let larger = if a > b { a } else { b };
+        let smaller = if a < b { a } else { b };
+        [a + b, a - b, a * b, larger, smaller, a.abs(), smaller, a / b]
+    }
+
+    /// Equal bits; any NaN equals any other.
+    fn same(found: f64, expected: f64) -> bool {
+        found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan()
+    }
+
+    #[test]
+    fn every_level_does_what_plain_numbers_do() {
+        for level in Level::available() {
+            set_level(level);
+            for a in EDGES {
+                for first in 0..EDGES.len() {
+                    let b: [f64; LANES] = std::array::from_fn(|lane| EDGES[(first + lane) % EDGES.len()]);
+                    let (numbers, truths) = run(All([&[a; LANES], &b]));
+                    for (lane, &b) in b.iter().enumerate() {
+                        for (number, expected) in numbers.iter().zip(plain(a, b)) {
+                            assert!(same(number[lane], expected), "{level:?}: {a} and {b}: {numbers:?}");
+                        }
+                        let told = truths.map(|bits| bits >> lane & 1 == 1);
+                        assert_eq!(told, [a < b, a >= b, a == b], "{level:?}: {a} and {b}");
+                    }
+                }
+            }
+        }
+        set_level(Level::best());
+    }
 }

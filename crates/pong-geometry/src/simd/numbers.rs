@@ -65,16 +65,16 @@ impl<S: Simd> Numbers<S> {
         Self { eight: self.simd.larger(self.eight, other.eight), ..self }
     }
 
-    /// The smaller.
+    /// `if self < other { self } else { other }`.
     #[inline(always)]
     pub fn smaller(self, other: Self) -> Self {
-        -(-self).larger(-other)
+        Self { eight: self.simd.smaller(self.eight, other.eight), ..self }
     }
 
     /// Without their signs.
     #[inline(always)]
     pub fn abs(self) -> Self {
-        self.larger(-self)
+        Self { eight: self.simd.abs(self.eight), ..self }
     }
 
     /// `self < other`.

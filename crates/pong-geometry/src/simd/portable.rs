@@ -83,6 +83,14 @@ impl Simd for Portable {
         zip(a, b, |a, b| if a > b { a } else { b })
     }
     #[inline(always)]
+    fn smaller(self, a: Self::Eight, b: Self::Eight) -> Self::Eight {
+        zip(a, b, |a, b| if a < b { a } else { b })
+    }
+    #[inline(always)]
+    fn abs(self, values: Self::Eight) -> Self::Eight {
+        values.map(f64::abs)
+    }
+    #[inline(always)]
     fn largest(self, values: Self::Eight) -> f64 {
         values.into_iter().fold(f64::NEG_INFINITY, |a, b| if a > b { a } else { b })
     }

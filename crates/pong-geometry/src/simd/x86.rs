@@ -81,6 +81,14 @@ impl Simd for Avx512 {
         self.0.avx512f._mm512_max_pd(a, b)
     }
     #[inline(always)]
+    fn smaller(self, a: __m512d, b: __m512d) -> __m512d {
+        self.0.avx512f._mm512_min_pd(a, b)
+    }
+    #[inline(always)]
+    fn abs(self, values: __m512d) -> __m512d {
+        cast(self.0.avx512f._mm512_andnot_si512(cast(self.splat(-0.0)), cast(values)))
+    }
+    #[inline(always)]
     fn largest(self, values: __m512d) -> f64 {
         let [low, high] = cast(values);
         largest_of_four(*self.0, self.0.avx._mm256_max_pd(low, high))
@@ -177,6 +185,15 @@ impl Simd for Avx2 {
     #[inline(always)]
     fn larger(self, [a, b]: Halves, [c, d]: Halves) -> Halves {
         [self.0.avx._mm256_max_pd(a, c), self.0.avx._mm256_max_pd(b, d)]
+    }
+    #[inline(always)]
+    fn smaller(self, [a, b]: Halves, [c, d]: Halves) -> Halves {
+        [self.0.avx._mm256_min_pd(a, c), self.0.avx._mm256_min_pd(b, d)]
+    }
+    #[inline(always)]
+    fn abs(self, [a, b]: Halves) -> Halves {
+        let sign = self.0.avx._mm256_set1_pd(-0.0);
+        [self.0.avx._mm256_andnot_pd(sign, a), self.0.avx._mm256_andnot_pd(sign, b)]
     }
     #[inline(always)]
     fn largest(self, [a, b]: Halves) -> f64 {

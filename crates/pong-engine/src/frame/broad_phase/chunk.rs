@@ -312,11 +312,16 @@ impl WideBox {
 }
 
 impl LaneBoxes {
+    /// Boxes of trees have room for rounding, as much as their own size and place ask for; so has what touches one no farther
+    /// from it than it is wide. What is left is the rounding of a ball that is much larger.
     #[inline(always)]
     fn set_to_balls<S: Simd>(&mut self, simd: S, centers: &Lanes, radii: &[f64; LANES]) {
         let radius = Numbers::load(simd, radii);
+        let radius = radius + radius * radius.all(4.0 * RELATIVE_MARGIN);
         for (axis, center) in [&centers.x, &centers.y, &centers.z].into_iter().enumerate() {
-            self.set_along(axis, Numbers::load(simd, center), radius);
+            let center = Numbers::load(simd, center);
+            self.low[axis] = (center - radius).store();
+            self.high[axis] = (center + radius).store();
         }
     }
 
@@ -385,16 +390,15 @@ impl LaneBoxes {
     #[allow(clippy::manual_clamp, reason = "what is no number has to become one")]
     pub fn narrowed<S: Simd>(&self, simd: S, tree: &BoxTree) -> NarrowBoxes {
         let mut narrow = NarrowBoxes::NOTHING;
-        let zero = simd.splat(0.0);
         let relative = simd.splat(1.01 * f64::from(f32::EPSILON));
         let absolute = simd.splat(f64::from(f32::MIN_POSITIVE));
         for axis in 0..3 {
             let origin = simd.splat(tree.origin[axis]);
             let low = simd.sub(simd.load(&self.low[axis]), origin);
-            let room = simd.add(simd.mul(simd.larger(low, simd.sub(zero, low)), relative), absolute);
+            let room = simd.add(simd.mul(simd.abs(low), relative), absolute);
             let below = simd.store(simd.sub(low, room));
             let high = simd.sub(simd.load(&self.high[axis]), origin);
-            let room = simd.add(simd.mul(simd.larger(high, simd.sub(zero, high)), relative), absolute);
+            let room = simd.add(simd.mul(simd.abs(high), relative), absolute);
             let above = simd.store(simd.add(high, room));
             for (narrow, below) in narrow.bounds[0][axis].iter_mut().zip(below) {
                 *narrow = (below as f32).max(-f32::MAX).min(f32::MAX);
@@ -489,6 +493,43 @@ mod tests {
     use pong_geometry::Pose;
     use pong_geometry::simd::{self, Kernel};
     use pong_testkit::Random;
+
+    struct BoxesOfBalls<'a> {
+        centers: &'a Lanes,
+        radii: &'a [f64; LANES],
+    }
+
+    impl Kernel for BoxesOfBalls<'_> {
+        type Output = LaneBoxes;
+
+        fn run<S: Simd>(self, simd: S) -> LaneBoxes {
+            let mut boxes = ChunkSpace::new().boxes;
+            boxes.set_to_balls(simd, self.centers, self.radii);
+            boxes
+        }
+    }
+
+    /// A ball and a place that it touches: rounding may put the ball beside the place, by more than the place's box has room
+    /// for where the ball is much larger.
+    #[test]
+    fn a_ball_of_any_size_reaches_the_box_of_what_it_touches() {
+        let mut random = Random::new(13, 0, 0);
+        for case in 0..2000 {
+            let place: f64 = random.between(-1.0, 1.0);
+            let radii = [0; LANES].map(|_| 10.0_f64.powi(case % 19 - 6) * random.between(1.0, 10.0));
+            let room = RELATIVE_MARGIN * place.abs();
+            let above = Lanes { x: radii.map(|radius| place + radius), ..Lanes::ORIGIN };
+            let below = Lanes { x: radii.map(|radius| place - radius), ..Lanes::ORIGIN };
+            let low = simd::run(BoxesOfBalls { centers: &above, radii: &radii }).low[0];
+            let high = simd::run(BoxesOfBalls { centers: &below, radii: &radii }).high[0];
+            for (lane, radius) in radii.iter().enumerate() {
+                assert!(low[lane] <= place + room, "{place} {radius}: {}", low[lane] - place);
+                assert!(high[lane] >= place - room, "{place} {radius}: {}", high[lane] - place);
+                let size = 1e-11 * (place.abs() + radius);
+                assert!(low[lane] >= place - size && high[lane] <= place + size, "{place} {radius}");
+            }
+        }
+    }
 
     struct BoxesOfRods<'a> {
         ends: &'a [Lanes; 2],
