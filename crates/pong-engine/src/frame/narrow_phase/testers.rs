@@ -14,7 +14,7 @@ use pong_model::Item;
 use pong_model::box_tree::lanes;
 
 /// So many line segments near a polyhedron are asked together: fewer end sooner one by one.
-const WORTH_EIGHT: u32 = 3;
+const WORTH_EIGHT: u32 = 2;
 
 /// One element of B against a chunk of A.
 pub(crate) struct Target<'a> {
