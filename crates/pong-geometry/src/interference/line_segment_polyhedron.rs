@@ -118,12 +118,17 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
         search.visit_all();
         return search.contacts();
     }
-    let likely = if N > FacePlanes::IN_REGISTERS { planes.nearest_face::<N>(&inside) } else { None };
-    let limit = match likely {
-        Some(face) => limit_of(search.stored(face).as_ref()),
-        None => f64::INFINITY,
+    // Of many faces, most of what touches is near one alone.
+    let nearest = if N > FacePlanes::IN_REGISTERS { planes.nearest_face::<N>(&inside) } else { None };
+    let at_nearest = match &nearest {
+        Some(nearest) => search.stored(nearest.face),
+        None => None,
     };
-    search.visit_likely(&planes.bounds::<N>(&inside, limit), limit);
+    let limit = limit_of(at_nearest.as_ref());
+    match &nearest {
+        Some(nearest) if planes.is_alone_below::<N>(nearest, limit) => search.best = at_nearest,
+        _ => search.visit_likely(&planes.bounds::<N>(&inside, limit), at_nearest),
+    }
     search.contacts()
 }
 
@@ -190,15 +195,17 @@ impl Search<'_> {
         }
     }
 
-    /// Visits the faces, in their order, whose bounds let them store as little as the likeliest one.
+    /// Visits the faces, in their order, whose bounds let them store as little as the likeliest one, or the one that a tip is
+    /// nearest to.
     #[inline(always)]
-    fn visit_likely<S: Simd, const N: usize>(&mut self, bounds: &Bounds<S, N>, limit: f64) {
+    fn visit_likely<S: Simd, const N: usize>(&mut self, bounds: &Bounds<S, N>, at_nearest: Option<Stored>) {
         let likeliest = bounds.least();
-        let at_likeliest = match likeliest {
-            Some(face) => self.stored(face),
-            None => None,
+        let at_likeliest = match (likeliest, at_nearest) {
+            (Some(face), Some(nearest)) if nearest.face == face => at_nearest,
+            (Some(face), _) => self.stored(face),
+            (None, _) => None,
         };
-        let mut limit = limit.min(limit_of(at_likeliest.as_ref()));
+        let mut limit = limit_of(at_nearest.as_ref()).min(limit_of(at_likeliest.as_ref()));
         for block in 0..self.polyhedron.planes().blocks.len() {
             let mut faces = bounds.up_to(limit, block);
             while faces != 0 {

@@ -23,6 +23,14 @@ pub(super) struct InsidePart {
     tops: [f64; 2],
 }
 
+/// The face that a tip inside is nearest to.
+#[derive(Clone, Copy)]
+pub(super) struct Nearest {
+    /// Which end of the segment is inside.
+    pub end: usize,
+    pub face: usize,
+}
+
 /// How a segment misses a polyhedron.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Missed {
@@ -82,9 +90,9 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         }
     }
 
-    /// The active face below which the tip at an end that is inside lies least deep, if no inner wall is nearer.
+    /// The active face below which a tip that is inside lies least deep, if no inner wall is nearer.
     #[inline(always)]
-    pub fn nearest_face<const N: usize>(&self, inside: &InsidePart) -> Option<usize> {
+    pub fn nearest_face<const N: usize>(&self, inside: &InsidePart) -> Option<Nearest> {
         let end = if inside.ends[0].leaves_by.is_none() { 0 } else { 1 };
         if inside.ends[end].leaves_by.is_some() {
             return None;
@@ -94,10 +102,24 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
             let block = self.polyhedron.planes().block(index);
             let faces = simd.bits(simd.equal(block.heights(simd, &self.ends[end]), top)) & block.active;
             if faces != 0 {
-                return Some(index * LANES + faces.trailing_zeros() as usize);
+                return Some(Nearest { end, face: index * LANES + faces.trailing_zeros() as usize });
             }
         }
         None
+    }
+
+    /// Whether below every other active face the tip alone measures more than the limit, m². Then no other face decides.
+    #[inline(always)]
+    pub fn is_alone_below<const N: usize>(&self, nearest: &Nearest, limit: f64) -> bool {
+        let (simd, limit) = (self.simd, self.simd.splat(limit));
+        let mut below = 0;
+        for index in 0..self.polyhedron.planes().count::<N>() {
+            let block = self.polyhedron.planes().block(index);
+            let height = block.heights(simd, &self.ends[nearest.end]);
+            let near = simd.bits(simd.at_least(limit, simd.mul(height, height)));
+            below += (near & block.active & block.own).count_ones();
+        }
+        below == 1
     }
 
     /// Whether an end is above one of the planes.
