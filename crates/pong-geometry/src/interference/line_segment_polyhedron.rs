@@ -20,7 +20,7 @@
 
 use super::Interference;
 use super::segment_at_walls::{end_that_crosses, inside_of_wide_walls, leaves_at_wall};
-use super::segment_bounds::{Bounds, Missed, SegmentPlanes};
+use super::segment_bounds::{Bounds, Likely, Missed, SegmentPlanes};
 use super::segment_ends::{AtEnd, InsideEnd, Measured, Wedge};
 use crate::primitive::{Containment, FacePlanes, LineSegment, Polyhedron};
 use crate::simd::{Finder, First, FirstOf, LANES, Simd, is_moderate, run_at_level};
@@ -118,16 +118,20 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
         search.visit_all();
         return search.contacts();
     }
-    // Of many faces, most of what touches is near one alone.
+    // Of many faces, most of what touches is near to one alone.
     let nearest = if N > FacePlanes::IN_REGISTERS { planes.nearest_face::<N>(&inside) } else { None };
     let at_nearest = match &nearest {
         Some(nearest) => search.stored(nearest.face),
         None => None,
     };
-    let limit = limit_of(at_nearest.as_ref());
-    match &nearest {
-        Some(nearest) if planes.is_alone_below::<N>(nearest, limit) => search.best = at_nearest,
-        _ => search.visit_likely(&planes.bounds::<N>(&inside, limit), at_nearest),
+    let likely = match &nearest {
+        Some(nearest) => planes.likely::<N>(nearest, limit_of(at_nearest.as_ref())),
+        None => Likely::anywhere(polyhedron.planes().count::<N>()),
+    };
+    if likely.faces == 1 {
+        search.best = at_nearest;
+    } else {
+        search.visit_likely(&planes.bounds::<N>(&inside, likely.blocks), at_nearest);
     }
     search.contacts()
 }

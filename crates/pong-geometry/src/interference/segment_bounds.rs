@@ -31,6 +31,22 @@ pub(super) struct Nearest {
     pub face: usize,
 }
 
+/// Where the face may be that decides.
+#[derive(Clone, Copy)]
+pub(super) struct Likely {
+    /// A bit for each block of planes.
+    pub blocks: u64,
+    /// How many faces there are in them.
+    pub faces: u32,
+}
+
+impl Likely {
+    /// Anywhere among so many blocks.
+    pub fn anywhere(blocks: usize) -> Self {
+        Self { blocks: u64::MAX >> (u64::BITS as usize - blocks), faces: u32::MAX }
+    }
+}
+
 /// How a segment misses a polyhedron.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Missed {
@@ -108,18 +124,19 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         None
     }
 
-    /// Whether below every other active face the tip alone measures more than the limit, m². Then no other face decides.
+    /// Where a face may decide if one stores `limit`, m²: below the others the tip alone measures more.
     #[inline(always)]
-    pub fn is_alone_below<const N: usize>(&self, nearest: &Nearest, limit: f64) -> bool {
+    pub fn likely<const N: usize>(&self, nearest: &Nearest, limit: f64) -> Likely {
         let (simd, limit) = (self.simd, self.simd.splat(limit));
-        let mut below = 0;
+        let mut likely = Likely { blocks: 0, faces: 0 };
         for index in 0..self.polyhedron.planes().count::<N>() {
             let block = self.polyhedron.planes().block(index);
             let height = block.heights(simd, &self.ends[nearest.end]);
-            let near = simd.bits(simd.at_least(limit, simd.mul(height, height)));
-            below += (near & block.active & block.own).count_ones();
+            let near = simd.bits(simd.at_least(limit, simd.mul(height, height))) & block.active & block.own;
+            likely.blocks |= u64::from(near != 0) << index;
+            likely.faces += near.count_ones();
         }
-        below == 1
+        likely
     }
 
     /// Whether an end is above one of the planes.
@@ -178,48 +195,26 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         simd.largest(entering) >= -simd.largest(leaving)
     }
 
-    /// Bounds for all faces of a polyhedron of no more than `N` blocks. Those above `limit` need not be exact.
+    /// Bounds for the faces of a polyhedron of no more than `N` blocks, which where they are not kept in registers are asked only
+    /// in some.
     #[inline(always)]
-    pub fn bounds<const N: usize>(&self, inside: &InsidePart, limit: f64) -> Bounds<S, N> {
+    pub fn bounds<const N: usize>(&self, inside: &InsidePart, mut blocks: u64) -> Bounds<S, N> {
         let simd = self.simd;
         let ends = [self.end(inside, 0), self.end(inside, 1)];
         let none = simd.splat(f64::NAN);
         let mut bounds = Bounds { simd, of_block: [none; N], top: simd.splat(f64::NEG_INFINITY) };
-        let mut likely = self.likely_blocks::<N>(limit, &ends);
         for step in 0..N {
-            let index = if N <= FacePlanes::IN_REGISTERS { step } else { likely.trailing_zeros() as usize };
-            if N > FacePlanes::IN_REGISTERS && likely == 0 {
+            let index = if N <= FacePlanes::IN_REGISTERS { step } else { blocks.trailing_zeros() as usize };
+            if N > FacePlanes::IN_REGISTERS && blocks == 0 {
                 break;
             }
-            likely &= likely.wrapping_sub(1);
+            blocks &= blocks.wrapping_sub(1);
             let block = self.polyhedron.planes().block(index);
             let own = simd.mask(block.active & block.own);
             let [first, second] = [ends[0].least_square(index, block), ends[1].least_square(index, block)];
             bounds.set(index, own, simd.add(first, second));
         }
         bounds
-    }
-
-    /// The blocks with a face for which what the tip inside measures is not above a limit alone.
-    #[inline(always)]
-    fn likely_blocks<const N: usize>(&self, limit: f64, ends: &[End<S>; 2]) -> u64 {
-        let count = self.polyhedron.planes().count::<N>();
-        let all = u64::MAX >> (u64::BITS as usize - count);
-        let end = match (&ends[0].leaves, &ends[1].leaves) {
-            (None, Some(_)) => &ends[0],
-            (Some(_), None) => &ends[1],
-            _ => return all,
-        };
-        if N <= FacePlanes::IN_REGISTERS {
-            return all;
-        }
-        let (simd, limit) = (self.simd, self.simd.splat(limit));
-        let mut likely = 0;
-        for index in 0..count {
-            let square = end.tip_square(self.polyhedron.planes().block(index));
-            likely |= u64::from(simd.bits(simd.at_least(limit, square)) != 0) << index;
-        }
-        likely
     }
 
     // A closure would not be compiled for the level.
@@ -364,12 +359,6 @@ impl<S: Simd> End<S> {
             return least;
         }
         simd.select(simd.mask(1 << (leaving.face % LANES)), zero, least)
-    }
-
-    /// The square of the depth of the tip, nothing above the plane.
-    #[inline(always)]
-    fn tip_square(&self, block: &PlaneBlock) -> S::Eight {
-        self.square_below(block.heights(self.simd, &self.tip))
     }
 
     /// The square of a depth, nothing above the plane.
