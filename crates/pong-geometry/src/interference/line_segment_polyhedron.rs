@@ -118,7 +118,7 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
         search.visit_all();
         return search.contacts();
     }
-    // Of many faces, most of what touches is near to one alone.
+    // Of many faces a tip is near to few.
     let nearest = if N > FacePlanes::IN_REGISTERS { planes.nearest_face::<N>(&inside) } else { None };
     let at_nearest = match &nearest {
         Some(nearest) => search.stored(nearest.face),

@@ -325,6 +325,7 @@ pub fn pieces(random: &mut Random) -> Vec<Polyhedron> {
         hull_with_walls(&box_corners, &|normal, _| normal.x > 0.9),
         hull_with_walls(&box_corners, &|normal, _| normal.x > 0.9 || normal.y < -0.9),
         hull_with_walls(&fibonacci_sphere(18), &|normal, _| normal.x > 0.7),
+        hull_with_walls(&fibonacci_sphere(66), &|normal, _| normal.z < -0.5),
     ];
     let open = walled.clone().map(|mut piece| {
         piece.change(|parts| parts.faces.iter_mut().for_each(|face| face.closed = false));
