@@ -34,9 +34,9 @@ pub(super) struct Nearest {
 /// Where the face may be that decides.
 #[derive(Clone, Copy)]
 pub(super) struct Likely {
-    /// A bit for each block of planes.
+    /// A bit for each block of planes that has such a face.
     pub blocks: u64,
-    /// How many faces there are in them.
+    /// How many such faces there are.
     pub faces: u32,
 }
 

@@ -9,8 +9,8 @@ use crate::simd::{LANES, LaneBits, MODERATE, Simd, Splat, is_moderate};
 pub struct FacePlanes {
     /// The blocks; the last one may have empty lanes.
     pub blocks: Vec<PlaneBlock>,
-    /// The faces from the widest to the narrowest, of equal ones the first first: what is near a solid but outside is as a
-    /// rule above a wide face, and who asks one plane after another ends sooner.
+    /// The faces from the widest to the narrowest, of equal ones the first first: what is near a solid but outside is mostly
+    /// above a wide face, so who asks one plane after another ends sooner.
     pub widest_first: Vec<FacePlane>,
     /// Whether all numbers are moderate ([`is_moderate`]), so that the height of such a point is finite.
     pub moderate: bool,
@@ -144,7 +144,7 @@ fn widest_first(parts: &PolyhedronParts) -> Vec<FacePlane> {
         .collect()
 }
 
-/// Of the triangles between the first corner of the outline and its other edges, m².
+/// Of a face, from the triangles between the first corner of its outline and the edges that do not meet there, m².
 fn twice_the_area(parts: &PolyhedronParts, face: &PolyhedronFace) -> f64 {
     let mut from_first = parts.rims_of(face).iter().map(|rim| parts.vertices[rim.start as usize].position);
     let Some(first) = from_first.next() else { return 0.0 };

@@ -312,8 +312,8 @@ impl WideBox {
 }
 
 impl LaneBoxes {
-    /// Boxes of trees have room for rounding, as much as their own size and place ask for; so has what touches one no farther
-    /// from it than it is wide. What is left is the rounding of a ball that is much larger.
+    /// Boxes of trees have room for the rounding of numbers as large as their places and sizes. The centre of a ball that touches
+    /// one is no larger than these and its radius together, so what is left is room for the radius.
     #[inline(always)]
     fn set_to_balls<S: Simd>(&mut self, simd: S, centers: &Lanes, radii: &[f64; LANES]) {
         let radius = Numbers::load(simd, radii);
