@@ -1,6 +1,6 @@
 //! Eight points at a time.
 
-use crate::primitive::{FacePlane, Polyhedron};
+use crate::primitive::{Polyhedron, PolyhedronFace};
 use crate::simd::{self, Kernel, LANES, LaneBits, Simd};
 use crate::{Transform, Vec3};
 
@@ -195,10 +195,9 @@ impl<S: Simd> Loaded<S> {
         simd.store(simd.add(turned, simd.splat(x.translation[row])))
     }
 
-    /// The heights above a face's plane, in the bits of
-    /// [`PolyhedronFace::height`](crate::primitive::PolyhedronFace::height).
+    /// The heights above a face's plane, in the bits of [`PolyhedronFace::height`].
     #[inline(always)]
-    fn heights_above(&self, face: &FacePlane) -> S::Eight {
+    fn heights_above(&self, face: &PolyhedronFace) -> S::Eight {
         let (simd, normal) = (self.simd, &face.normal);
         let along = simd.add(simd.mul(simd.splat(normal.x), self.x), simd.mul(simd.splat(normal.y), self.y));
         let along = simd.add(along, simd.mul(simd.splat(normal.z), self.z));

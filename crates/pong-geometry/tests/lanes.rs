@@ -151,11 +151,7 @@ fn planes_are_those_of_all_faces_from_the_widest_to_the_narrowest() {
     for polyhedron in polyhedra().into_iter().chain(pieces(&mut random)) {
         let mut left: Vec<usize> = (0..polyhedron.faces.len()).collect();
         for plane in &polyhedron.planes().widest_first {
-            let is_of = |&face: &usize| {
-                let face = &polyhedron.faces[face];
-                let told = (plane.normal, plane.offset, plane.active, plane.closed);
-                told == (face.normal, face.offset, face.active, face.closed)
-            };
+            let is_of = |&face: &usize| polyhedron.faces[face] == *plane;
             let place = left.iter().position(is_of).expect("a face that was not told yet");
             let own = area(&polyhedron, left.remove(place));
             let widest = left.iter().map(|&face| area(&polyhedron, face)).fold(0.0, f64::max);
@@ -186,8 +182,7 @@ fn segments_kept_out_are_what_the_widest_faces_say() {
                 let expected = bits_of(|i| {
                     widest.iter().take(32).any(|face| {
                         let limit = if face.active { 0.0 } else { slack };
-                        let height = |p: &Vec3| face.normal.dot(p) - face.offset;
-                        height(&from[i]) >= limit && height(&to[i]) >= limit
+                        face.height(&from[i]) >= limit && face.height(&to[i]) >= limit
                     })
                 });
                 let ends = [lanes_of(&from), lanes_of(&to)];

@@ -11,7 +11,7 @@ pub struct FacePlanes {
     pub blocks: Vec<PlaneBlock>,
     /// The faces from the widest to the narrowest, of equal ones the first first: what is near a solid but outside is mostly
     /// above a wide face, so who asks one plane after another ends sooner.
-    pub widest_first: Vec<FacePlane>,
+    pub widest_first: Vec<PolyhedronFace>,
     /// Whether all numbers are moderate ([`is_moderate`]), so that the height of such a point is finite.
     pub moderate: bool,
     /// Whether all faces are active.
@@ -20,19 +20,6 @@ pub struct FacePlanes {
     pub simple: bool,
     /// How near a point must be to an inner wall to be at it, m.
     pub wall_slack: f64,
-}
-
-/// One plane: of a face what it takes to ask several points at a time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FacePlane {
-    /// Unit outward normal.
-    pub normal: Vec3,
-    /// Distance of the plane from the frame's origin along the normal, m.
-    pub offset: f64,
-    /// Whether the face can push.
-    pub active: bool,
-    /// Whether a point exactly on the plane still belongs to the piece.
-    pub closed: bool,
 }
 
 /// Eight planes. Lanes beyond the last face repeat it: what holds for all faces, or for any, is then the same, and of
@@ -130,18 +117,10 @@ impl FacePlanes {
     }
 }
 
-fn widest_first(parts: &PolyhedronParts) -> Vec<FacePlane> {
-    let mut faces: Vec<_> = parts.faces.iter().map(|face| (twice_the_area(parts, face), face)).collect();
+fn widest_first(parts: &PolyhedronParts) -> Vec<PolyhedronFace> {
+    let mut faces: Vec<_> = parts.faces.iter().map(|face| (twice_the_area(parts, face), *face)).collect();
     faces.sort_by(|(area, _), (other, _)| other.total_cmp(area));
-    faces
-        .into_iter()
-        .map(|(_, &PolyhedronFace { normal, offset, active, closed, .. })| FacePlane {
-            normal,
-            offset,
-            active,
-            closed,
-        })
-        .collect()
+    faces.into_iter().map(|(_, face)| face).collect()
 }
 
 /// Of a face, from the triangles between the first corner of its outline and the edges that do not meet there, m².

@@ -13,7 +13,7 @@ mod triangles;
 
 pub use curved::{Ellipsoid, Sphere};
 pub use edge_blocks::{EdgeBlock, EdgeBlocks, EightBoxes, VertexBlock};
-pub use face_planes::{FacePlane, FacePlanes, PlaneBlock};
+pub use face_planes::{FacePlanes, PlaneBlock};
 pub use polyhedron::{Containment, Polyhedron};
 pub use polyhedron_parts::{
     EdgePush, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex, RimEdge,

@@ -317,7 +317,7 @@ impl LaneBoxes {
     #[inline(always)]
     fn set_to_balls<S: Simd>(&mut self, simd: S, centers: &Lanes, radii: &[f64; LANES]) {
         let radius = Numbers::load(simd, radii);
-        let radius = radius + radius * radius.all(4.0 * RELATIVE_MARGIN);
+        let radius = radius + radius * radius.all(ROUNDING);
         for (axis, center) in [&centers.x, &centers.y, &centers.z].into_iter().enumerate() {
             let center = Numbers::load(simd, center);
             self.low[axis] = (center - radius).store();
@@ -333,7 +333,7 @@ impl LaneBoxes {
         for (axis, (a, b)) in [(&a.x, &b.x), (&a.y, &b.y), (&a.z, &b.z)].into_iter().enumerate() {
             let (a, b) = (Numbers::load(simd, a), Numbers::load(simd, b));
             let (low, high) = (a.smaller(b) - radius, a.larger(b) + radius);
-            let extra = low.abs().larger(high.abs()) * radius.all(4.0 * RELATIVE_MARGIN);
+            let extra = low.abs().larger(high.abs()) * radius.all(ROUNDING);
             self.low[axis] = (low - extra).store();
             self.high[axis] = (high + extra).store();
         }
@@ -342,7 +342,7 @@ impl LaneBoxes {
     /// What the boxes reach along one axis, from their middles and half widths, m, with room for rounding.
     #[inline(always)]
     fn set_along<S: Simd>(&mut self, axis: usize, center: Numbers<S>, half: Numbers<S>) {
-        let half = half + (center.abs() + half) * half.all(4.0 * RELATIVE_MARGIN);
+        let half = half + (center.abs() + half) * half.all(ROUNDING);
         self.low[axis] = (center - half).store();
         self.high[axis] = (center + half).store();
     }
@@ -481,10 +481,13 @@ fn radius_with_room(center: &Vec3, radius: f64) -> f64 {
     radius + margin(center.x.abs() + center.y.abs() + center.z.abs() + radius)
 }
 
+/// Room for rounding, as a share of the numbers that are rounded.
+const ROUNDING: f64 = 4.0 * RELATIVE_MARGIN;
+
 /// Room for rounding in coordinates of this size, m.
 #[inline(always)]
 fn margin(size: f64) -> f64 {
-    4.0 * RELATIVE_MARGIN * size
+    ROUNDING * size
 }
 
 #[cfg(test)]
@@ -494,17 +497,23 @@ mod tests {
     use pong_geometry::simd::{self, Kernel};
     use pong_testkit::Random;
 
-    struct BoxesOfBalls<'a> {
-        centers: &'a Lanes,
-        radii: &'a [f64; LANES],
+    enum Axes<'a> {
+        OfBalls(&'a Lanes),
+        OfRods(&'a [Lanes; 2]),
     }
 
-    impl Kernel for BoxesOfBalls<'_> {
+    struct BoxesAround<'a>(Axes<'a>, &'a [f64; LANES]);
+
+    impl Kernel for BoxesAround<'_> {
         type Output = LaneBoxes;
 
         fn run<S: Simd>(self, simd: S) -> LaneBoxes {
+            let Self(axes, radii) = self;
             let mut boxes = ChunkSpace::new().boxes;
-            boxes.set_to_balls(simd, self.centers, self.radii);
+            match axes {
+                Axes::OfBalls(centers) => boxes.set_to_balls(simd, centers, radii),
+                Axes::OfRods(ends) => boxes.set_to_rods(simd, ends, radii),
+            }
             boxes
         }
     }
@@ -520,29 +529,14 @@ mod tests {
             let room = RELATIVE_MARGIN * place.abs();
             let above = Lanes { x: radii.map(|radius| place + radius), ..Lanes::ORIGIN };
             let below = Lanes { x: radii.map(|radius| place - radius), ..Lanes::ORIGIN };
-            let low = simd::run(BoxesOfBalls { centers: &above, radii: &radii }).low[0];
-            let high = simd::run(BoxesOfBalls { centers: &below, radii: &radii }).high[0];
+            let low = simd::run(BoxesAround(Axes::OfBalls(&above), &radii)).low[0];
+            let high = simd::run(BoxesAround(Axes::OfBalls(&below), &radii)).high[0];
             for (lane, radius) in radii.iter().enumerate() {
                 assert!(low[lane] <= place + room, "{place} {radius}: {}", low[lane] - place);
                 assert!(high[lane] >= place - room, "{place} {radius}: {}", high[lane] - place);
-                let size = 1e-11 * (place.abs() + radius);
+                let size = 10.0 * RELATIVE_MARGIN * (place.abs() + radius);
                 assert!(low[lane] >= place - size && high[lane] <= place + size, "{place} {radius}");
             }
-        }
-    }
-
-    struct BoxesOfRods<'a> {
-        ends: &'a [Lanes; 2],
-        radii: &'a [f64; LANES],
-    }
-
-    impl Kernel for BoxesOfRods<'_> {
-        type Output = LaneBoxes;
-
-        fn run<S: Simd>(self, simd: S) -> LaneBoxes {
-            let mut boxes = ChunkSpace::new().boxes;
-            boxes.set_to_rods(simd, self.ends, self.radii);
-            boxes
         }
     }
 
@@ -560,7 +554,7 @@ mod tests {
                 radii[lane] = if case % 2 == 0 { 0.0 } else { random.between(0.0, size) };
                 (0..2).for_each(|end| ends[end].set(lane, &x_ba.point(&rod[end])));
             }
-            let of_eight = simd::run(BoxesOfRods { ends: &ends, radii: &radii });
+            let of_eight = simd::run(BoxesAround(Axes::OfRods(&ends), &radii));
             let mut of_each = ChunkSpace::new().boxes;
             of_each.set_to_each((0..LANES).map(|lane| {
                 let ends = [ends[0].get(lane), ends[1].get(lane)];
