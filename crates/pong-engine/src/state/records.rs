@@ -17,7 +17,9 @@ pub(crate) struct Records {
     heads: Table<u64>,
     /// Where the first record of a head is, by some bits of the head; or was once, or that of another one. Nothing but the time
     /// depends on it: most searches end where it says.
-    hints: Box<[u16; HINTS]>,
+    hints: Box<[u16]>,
+    /// So many of them are in use, a power of two.
+    hints_used: usize,
     /// Where every record stands, if lanes have written them.
     slots: Table<Slot>,
     in_order: Table<ContactRecord>,
@@ -45,18 +47,26 @@ impl RecordRange {
     }
 }
 
-/// So many are more than most frames have contacts, and do not displace them from the cache.
-const HINTS: usize = 512;
+/// So many are twice as many as most frames have contacts, and do not displace them from the cache.
+const HINTS_MIN: usize = 512;
+
+/// Of more than this, few would be in a cache.
+const HINTS_MAX: usize = 8192;
+
+/// How many hints so many records are worth: two each, and few are displaced by another's.
+fn hints_for(records: usize) -> usize {
+    (2 * records).next_power_of_two().clamp(HINTS_MIN, HINTS_MAX)
+}
 
 /// Fewer records than this are searched as quickly without a hint.
 const WORTH_A_HINT: usize = 16;
 
-/// Which hint is that of a head.
+/// Which hint is that of a head, of so many.
 #[inline]
-fn hint_of(head: u64) -> usize {
+fn hint_of(head: u64, used: usize) -> usize {
     /// Neighbouring primitives have neighbouring hints, in each direction of each pair from another place on.
     const DIRECTION_APART: u64 = 0x9e37;
-    ((head >> 32).wrapping_mul(DIRECTION_APART).wrapping_add(head)) as usize % HINTS
+    ((head >> 32).wrapping_mul(DIRECTION_APART).wrapping_add(head)) as usize & (used - 1)
 }
 
 /// As many elements as bring all of a table into the cache.
@@ -79,7 +89,8 @@ impl Records {
     pub fn with_capacity(capacity: usize) -> Self {
         Self {
             heads: Table::with_capacity(capacity, 0),
-            hints: Box::new([0; HINTS]),
+            hints: vec![0; hints_for(capacity)].into(),
+            hints_used: HINTS_MIN,
             slots: Table::default(),
             in_order: Table::with_capacity(capacity, ContactRecord::blank()),
             lanes: Vec::new(),
@@ -122,6 +133,12 @@ impl Records {
         (0..self.len()).map(|index| &self[index])
     }
 
+    /// So many records are going to be written; there are none yet.
+    #[inline]
+    pub fn expect(&mut self, records: usize) {
+        self.hints_used = hints_for(records).min(self.hints.len());
+    }
+
     /// Appends a record that `write` writes, all of it, in place; keys must come in order.
     ///
     /// # Errors
@@ -143,7 +160,7 @@ impl Records {
     fn hint(&mut self, head: u64) {
         if self.heads.last() != Some(&head) {
             // One that does not fit is a hint that nobody believes.
-            self.hints[hint_of(head)] = self.heads.len() as u16;
+            self.hints[hint_of(head, self.hints_used)] = self.heads.len() as u16;
         }
     }
 
@@ -247,7 +264,7 @@ impl Records {
     pub fn place_of_head(&self, head: u64) -> usize {
         let heads = &self.heads[..];
         if heads.len() >= WORTH_A_HINT {
-            let hint = usize::from(self.hints[hint_of(head)]);
+            let hint = usize::from(self.hints[hint_of(head, self.hints_used)]);
             let is_first = || hint.checked_sub(1).is_none_or(|before| heads[before] != head);
             if heads.get(hint) == Some(&head) && is_first() {
                 return hint;
@@ -268,7 +285,7 @@ impl Records {
     pub fn fetch(&self) {
         let heads = one_of_each_line(&self.heads).fold(0, |all, head| all ^ head);
         let slots = one_of_each_line(&self.slots).fold(0, |all, slot| all ^ slot.index());
-        let hints = one_of_each_line(&self.hints[..]).fold(0, |all, hint| all ^ hint);
+        let hints = one_of_each_line(&self.hints[..self.hints_used]).fold(0, |all, hint| all ^ hint);
         std::hint::black_box((heads, slots, hints));
     }
 

@@ -314,12 +314,12 @@ fn records_of_one_key_are_found_together_whatever_was_done_before() {
 
 #[test]
 fn the_first_record_of_a_head_is_found_whatever_was_hinted_before() {
-    /// Primitives so far apart have one hint.
-    const APART: u32 = 1 << 12;
+    /// Primitives so far apart have one hint, however many there are.
+    const APART: u32 = 1 << 13;
     let mut random = Random(21);
     let model = record_of(&mut random);
     // One list for all: its hints are those of lists before.
-    let mut records = Records::with_capacity(60);
+    let mut records = Records::with_capacity(5000);
     for _ in 0..2000 {
         let some = |random: &mut Random| ContactKey {
             group_pair: random.below(2) as u32,
@@ -329,6 +329,7 @@ fn the_first_record_of_a_head_is_found_whatever_was_hinted_before() {
         let mut keys: Vec<ContactKey> = (0..random.below(60)).map(|_| some(&mut random)).collect();
         keys.sort();
         records.clear();
+        records.expect(random.below(5000));
         for key in &keys {
             records.push_with(|record| *record = ContactRecord { key: *key, ..model }).unwrap();
         }

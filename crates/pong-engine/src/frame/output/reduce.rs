@@ -1,4 +1,7 @@
 //! Sums the wrenches of all contacts, in key order, about and along each movable group's own frame.
+//!
+//! What one addition rounds off grows with the sum: after thousands of contacts it would be more than 1e-12 of the largest of
+//! them. So [`PART`] contacts are added to each other, and then the sums over so many (docs/theory.md, 5).
 
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::found::FoundContacts;
@@ -20,19 +23,28 @@ pub(crate) fn sum(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     for places in order.chunk_by(|a, b| a.direction() == b.direction()) {
         let direction = places[0].direction();
         let x_ba = motions.known(near, input, direction).x_ba;
-        let mut sums = Sums::of_nothing();
+        let (mut sums, mut part, mut in_part) = (Sums::of_nothing(), Sums::of_nothing(), 0);
         for place in places.iter().filter(|place| place.pushes()) {
             let term = found.term(place);
-            sums.add(&term, &x_ba.translation);
+            if in_part == PART {
+                sums.add(&part);
+                (part, in_part) = (Sums::of_nothing(), 0);
+            }
+            part.add_contact(&term, &x_ba.translation);
+            in_part += 1;
             if !holds(term.size) {
                 beyond_range.get_or_insert(direction);
             }
         }
+        sums.add(&part);
         let (body_a, body_b) = sealed.bodies_of(direction);
         wrenches[body_a] += sums.on_a(&x_ba);
         wrenches[body_b] += sums.on_b();
     }
 }
+
+/// So many contacts are added before their sum is.
+const PART: usize = 64;
 
 /// Sums over contacts of one direction, along B's axes.
 struct Sums {
@@ -51,11 +63,19 @@ impl Sums {
 
     /// One contact more, with A's origin in B's frame, m.
     #[inline]
-    fn add(&mut self, term: &Term, origin_a: &Vec3) {
+    fn add_contact(&mut self, term: &Term, origin_a: &Vec3) {
         let Term { force_b, point_b, .. } = term;
         self.force += force_b;
         self.about_a += (point_b - origin_a).cross(force_b);
         self.about_b += point_b.cross(force_b);
+    }
+
+    /// The sums over more contacts.
+    #[inline]
+    fn add(&mut self, more: &Self) {
+        self.force += more.force;
+        self.about_a += more.about_a;
+        self.about_b += more.about_b;
     }
 
     /// The wrench on A, about and along A's frame.

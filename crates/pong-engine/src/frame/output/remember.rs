@@ -13,6 +13,7 @@ use crate::state::{ContactMemory, Remembered};
 #[inline]
 pub(crate) fn remember(frame: &mut EvaluationBuffers, next: &mut ContactMemory) {
     next.clear_records();
+    next.records.expect(frame.order.len());
     if adopt(frame, next) {
         return;
     }
