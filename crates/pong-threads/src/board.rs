@@ -98,11 +98,15 @@ impl Board {
         None
     }
 
-    /// How many of the blocks that are left a lane claims at once: its part of them, beside so many workers. Early claims are
-    /// large, so that a lane works on neighbours, and late ones small, so that all lanes end together (guided self-scheduling:
-    /// C. D. Polychronopoulos and D. J. Kuck, IEEE Trans. Comput. C-36 (1987) 1425).
+    /// How many of the blocks that are left a lane claims at once: its part of them, beside so many workers, and three quarters of
+    /// that once they are few. Early claims are large, so that a lane works on neighbours, and late ones small, so that all lanes
+    /// end together (guided self-scheduling: C. D. Polychronopoulos and D. J. Kuck, IEEE Trans. Comput. C-36 (1987) 1425; less
+    /// than a part each, as in factoring: S. F. Hummel, E. Schonberg, L. E. Flynn, Commun. ACM 35 (1992) 90).
     pub fn share_of(left: u32, workers: usize) -> u32 {
-        left.div_ceil(workers as u32 + 1)
+        /// So many blocks for each lane are few: one of them may take as long as several others.
+        const FEW: u32 = 8;
+        let lanes = workers as u32 + 1;
+        if left <= FEW * lanes { (3 * left).div_ceil(4 * lanes) } else { left.div_ceil(lanes) }
     }
 
     fn take(&self, seen: Word, blocks: u32) -> Result<Range<u32>, Word> {

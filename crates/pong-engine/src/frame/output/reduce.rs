@@ -5,6 +5,7 @@
 
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::found::FoundContacts;
+use crate::frame::forces::place::Place;
 use crate::frame::forces::term::Term;
 use crate::frame::input::EvaluationInput;
 use crate::frame::input::relative::Motions;
@@ -23,20 +24,13 @@ pub(crate) fn sum(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     for places in order.chunk_by(|a, b| a.direction() == b.direction()) {
         let direction = places[0].direction();
         let x_ba = motions.known(near, input, direction).x_ba;
-        let (mut sums, mut part, mut in_part) = (Sums::of_nothing(), Sums::of_nothing(), 0);
-        for place in places.iter().filter(|place| place.pushes()) {
-            let term = found.term(place);
-            if in_part == PART {
-                sums.add(&part);
-                (part, in_part) = (Sums::of_nothing(), 0);
-            }
-            part.add_contact(&term, &x_ba.translation);
-            in_part += 1;
-            if !holds(term.size) {
-                beyond_range.get_or_insert(direction);
-            }
+        let mut sums = Sums::of_nothing();
+        for part in places.chunks(PART) {
+            sums.add(&Sums::of(&found, part, &x_ba.translation));
         }
-        sums.add(&part);
+        if !sums.in_range {
+            beyond_range.get_or_insert(direction);
+        }
         let (body_a, body_b) = sealed.bodies_of(direction);
         wrenches[body_a] += sums.on_a(&x_ba);
         wrenches[body_b] += sums.on_b();
@@ -54,20 +48,27 @@ struct Sums {
     about_a: Vec3,
     /// On A about B's origin, N·m.
     about_b: Vec3,
+    /// Whether the numbers of each contact are well within the range of numbers.
+    in_range: bool,
 }
 
 impl Sums {
     fn of_nothing() -> Self {
-        Self { force: Vec3::zeros(), about_a: Vec3::zeros(), about_b: Vec3::zeros() }
+        Self { force: Vec3::zeros(), about_a: Vec3::zeros(), about_b: Vec3::zeros(), in_range: true }
     }
 
-    /// One contact more, with A's origin in B's frame, m.
+    /// Over some contacts, with A's origin in B's frame, m.
     #[inline]
-    fn add_contact(&mut self, term: &Term, origin_a: &Vec3) {
-        let Term { force_b, point_b, .. } = term;
-        self.force += force_b;
-        self.about_a += (point_b - origin_a).cross(force_b);
-        self.about_b += point_b.cross(force_b);
+    fn of(found: &FoundContacts<'_>, places: &[Place], origin_a: &Vec3) -> Self {
+        let mut sums = Self::of_nothing();
+        for place in places.iter().filter(|place| place.pushes()) {
+            let Term { force_b, point_b, size } = &found.term(place);
+            sums.force += force_b;
+            sums.about_a += (point_b - origin_a).cross(force_b);
+            sums.about_b += point_b.cross(force_b);
+            sums.in_range &= holds(*size);
+        }
+        sums
     }
 
     /// The sums over more contacts.
@@ -76,6 +77,7 @@ impl Sums {
         self.force += more.force;
         self.about_a += more.about_a;
         self.about_b += more.about_b;
+        self.in_range &= more.in_range;
     }
 
     /// The wrench on A, about and along A's frame.
