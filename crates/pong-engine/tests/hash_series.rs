@@ -13,7 +13,7 @@ use pong_engine::{StatusBits, WorkerSettings, has_tester};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{Level, set_level};
 use scenes::all;
-use stage::{FrameHash, Scene, Stage, sum_up};
+use stage::{FrameHash, Scene, Stage, sum_up, workers};
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 use std::sync::atomic::Ordering;
@@ -60,12 +60,6 @@ fn run_alone(scene: Scene) -> Alone {
     }
     drop(stage);
     Alone { scene, series, saved }
-}
-
-fn workers(count: usize) -> Option<WorkerSettings> {
-    // WaitLimit without end: on a busy machine no frame may be done alone for want of it.
-    let worker_timeout = Duration::from_secs(60);
-    Some(WorkerSettings { workers: count, oversubscribe: true, worker_timeout, ..WorkerSettings::default() })
 }
 
 /// Runs frames and compares each with the caller's own.

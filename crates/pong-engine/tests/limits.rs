@@ -7,32 +7,12 @@ mod own_kinds;
 #[path = "common/stage.rs"]
 mod stage;
 
-use common::{box_polyhedron, model, plate_mesh, surface};
+use common::{box_polyhedron, model, plate_mesh, points, rough};
 use pong_engine::*;
 use pong_geometry::Vec3;
 use pong_testkit::Random;
-use stage::{Hash, Path, Scene, Stage};
+use stage::{Hash, Path, Scene, Stage, workers};
 use std::collections::{BTreeMap, BTreeSet};
-use std::time::Duration;
-
-fn workers(count: usize) -> Option<WorkerSettings> {
-    let worker_timeout = Duration::from_secs(60);
-    Some(WorkerSettings { workers: count, oversubscribe: true, worker_timeout, ..WorkerSettings::default() })
-}
-
-fn rough(stiffness: f64) -> String {
-    surface(stiffness, "normal: Linear(damping: 20.0), friction: Bristle(mu: 0.4)")
-}
-
-/// Points in a layer `thickness` high.
-fn points(count: usize, thickness: f64, seed: u64) -> String {
-    let mut random = Random(seed);
-    let one = |index| {
-        let p = random.vector(1.0);
-        format!("Point(name: \"p{index}\", position: ({:?},{:?},{:?}))", p.x, p.y, 0.5 * thickness * p.z)
-    };
-    (0..count).map(one).collect::<Vec<_>>().join(",")
-}
 
 /// Many points on a plane; the second body of the scene rises and sinks.
 fn brush(count: usize) -> Scene {

@@ -4,6 +4,7 @@
 use pong_engine::{Config, InterfaceId, ModelId, ObjectId, PairId, State, World, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Quat, Vec3, Wrench};
+use pong_testkit::Random;
 pub use pong_testkit::ron::{box_polyhedron, model, place_of, plate_mesh, surface, triangle_mesh};
 use std::sync::Arc;
 
@@ -83,4 +84,19 @@ pub fn seen_from(state: &State, pose: &Pose, velocity: &Vec3) -> State {
         pose.orientation * twist.linear + velocity,
         pose.orientation * twist.angular,
     )
+}
+
+/// A surface that damps and rubs.
+pub fn rough(stiffness: f64) -> String {
+    surface(stiffness, "normal: Linear(damping: 20.0), friction: Bristle(mu: 0.4)")
+}
+
+/// Points in a layer `thickness` high.
+pub fn points(count: usize, thickness: f64, seed: u64) -> String {
+    let mut random = Random(seed);
+    let one = |index| {
+        let p = random.vector(1.0);
+        format!("Point(name: \"p{index}\", position: ({:?},{:?},{:?}))", p.x, p.y, 0.5 * thickness * p.z)
+    };
+    (0..count).map(one).collect::<Vec<_>>().join(",")
 }

@@ -8,6 +8,7 @@ use pong_engine::{
 };
 use pong_geometry::{Vec3, Wrench};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Time of a frame, s.
 const STEP_S: f64 = 1e-3;
@@ -129,6 +130,13 @@ impl Scene {
         assert_eq!(groups.len(), self.paths.len(), "{}: one path per movable group", self.name);
         Stage { scene: self, world, models, objects, pairs, groups }
     }
+}
+
+/// So many, whoever else is busy.
+pub fn workers(count: usize) -> Option<WorkerSettings> {
+    // WaitLimit without end: on a busy machine no frame may be done alone for want of it.
+    let worker_timeout = Duration::from_secs(60);
+    Some(WorkerSettings { workers: count, oversubscribe: true, worker_timeout, ..WorkerSettings::default() })
 }
 
 /// A scene at work.

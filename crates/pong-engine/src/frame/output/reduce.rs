@@ -37,7 +37,7 @@ pub(crate) fn sum(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     }
 }
 
-/// So many contacts are added before their sum is.
+/// The contacts of so many places, some of which may only be remembered, are added before their sum is.
 const PART: usize = 64;
 
 /// Sums over contacts of one direction, along B's axes.
