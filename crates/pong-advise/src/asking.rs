@@ -80,7 +80,7 @@ fn least_damped(springs: &ContactSprings, without: &[Term]) -> f64 {
     let weak = springs.without(without);
     let ratio = |term: Term| {
         let spring = left(term).and(weak.spring_of(term)).filter(|spring| spring.stiffness > 0.0);
-        spring.map_or(f64::INFINITY, |spring| spring.damping / spring.stiffness)
+        spring.map_or(f64::INFINITY, |spring| spring.damping / spring.stiffness.max(f64::MIN_POSITIVE))
     };
     ratio(Term::NormalStiffness).min(ratio(Term::FrictionStiffness))
 }

@@ -363,7 +363,13 @@ fn grid() -> impl Iterator<Item = Vec3> {
         let sign = |place: u32| f64::from(code / place % 3) - 1.0;
         Vec3::new(sign(1), sign(3), sign(9))
     });
-    steps.filter_map(|step| step.try_normalize(0.5))
+    steps.filter_map(|step| unit(&step))
+}
+
+/// `None` of no length: as a compiler may divide before it asks for that, by something else than zero.
+fn unit(v: &Vec3) -> Option<Vec3> {
+    let length = v.norm();
+    (length > 0.0).then(|| v / length.max(f64::MIN_POSITIVE))
 }
 
 /// Normals of supporting planes: the grid, the way to every site from their middle, and, of few sites, the plane
@@ -376,13 +382,13 @@ fn supports(sites: &[ContactSite]) -> Vec<Vec3> {
     let middle = sites.iter().map(|site| site.center).sum::<Vec3>() / sites.len() as f64;
     let mut normals: Vec<Vec3> = grid().collect();
     let shown = sites.iter().step_by(1 + sites.len() / MANY);
-    normals.extend(shown.filter_map(|site| (middle - site.center).try_normalize(0.0)));
+    normals.extend(shown.filter_map(|site| unit(&(middle - site.center))));
     if sites.len() <= FEW {
         for (i, a) in sites.iter().enumerate() {
             for (j, b) in sites.iter().enumerate().skip(i + 1) {
                 for c in &sites[j + 1..] {
                     let across = (b.center - a.center).cross(&(c.center - a.center));
-                    normals.extend(across.try_normalize(0.0).into_iter().flat_map(|n| [n, -n]));
+                    normals.extend(unit(&across).into_iter().flat_map(|n| [n, -n]));
                 }
             }
         }

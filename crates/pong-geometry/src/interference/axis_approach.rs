@@ -298,7 +298,7 @@ impl<'a> WayOut<'a> {
             let part = across(&v);
             if part.norm() > least {
                 // Once more: what rounding leaves along the segment is much of a short part.
-                return across(&part.normalize()).normalize();
+                return unit(across(&unit(part)));
             }
         }
         any_perpendicular(along)
@@ -330,21 +330,21 @@ impl<'a> WayOut<'a> {
     /// Across the segment the directions in which both ends of the solid are as far out: where the slope jumps.
     fn jumps(&self, along: &Vec3) -> Option<[Vec3; 2]> {
         let across = self.frustum.axis - along * along.dot(&self.frustum.axis);
-        let length = across.norm();
+        let length = across.norm().max(ROUNDING);
         // Of a solid along the segment both ends are as far out everywhere, or nowhere.
         if length <= ROUNDING {
             return None;
         }
         // Once more: what rounding leaves along the segment is much of a short part.
         let toward = across / length;
-        let toward = (toward - along * along.dot(&toward)).normalize();
+        let toward = unit(toward - along * along.dot(&toward));
         let share = self.frustum.wall[0] / length;
         let aside = 1.0 - share * share;
         if aside <= 0.0 {
             return None;
         }
-        let sideways = along.cross(&toward) * aside.sqrt();
-        Some([1.0, -1.0].map(|sign| (toward * share + sideways * sign).normalize()))
+        let sideways = along.cross(&toward) * aside.max(0.0).sqrt();
+        Some([1.0, -1.0].map(|sign| unit(toward * share + sideways * sign)))
     }
 
     /// The place of each end of the solid that is farthest along a unit vector.
@@ -417,6 +417,12 @@ impl<'a> WayOut<'a> {
             self.best = Approach { distance, normal_b: *normal, place_b: place, feature: Feature::face(0) };
         }
     }
+}
+
+/// Of what is known to have a length. A compiler may ask for the direction before that is known: where nothing in a loop changes
+/// it, in front of the loop.
+fn unit(v: Vec3) -> Vec3 {
+    v / v.norm().max(f64::MIN_POSITIVE)
 }
 
 const C: f64 = 0.923_879_532_511_286_8;
