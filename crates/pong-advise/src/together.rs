@@ -366,7 +366,7 @@ fn grid() -> impl Iterator<Item = Vec3> {
     steps.filter_map(|step| unit(&step))
 }
 
-/// `None` of no length: as a compiler may divide before it asks for that, by something else than zero.
+/// The direction of a vector; `None` if it has no length. Never divides by zero, as a compiler may divide before it asks.
 fn unit(v: &Vec3) -> Option<Vec3> {
     let length = v.norm();
     (length > 0.0).then(|| v / length.max(f64::MIN_POSITIVE))

@@ -330,6 +330,7 @@ impl<'a> WayOut<'a> {
     /// Across the segment the directions in which both ends of the solid are as far out: where the slope jumps.
     fn jumps(&self, along: &Vec3) -> Option<[Vec3; 2]> {
         let across = self.frustum.axis - along * along.dot(&self.frustum.axis);
+        // No less than what is refused, and no root of less than nothing: a compiler may compute ahead of both questions.
         let length = across.norm().max(ROUNDING);
         // Of a solid along the segment both ends are as far out everywhere, or nowhere.
         if length <= ROUNDING {
