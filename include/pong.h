@@ -549,7 +549,8 @@ typedef struct pong_ledger {
     double stored;
     /// Work done on the bodies since the world began, J, by the trapezoid rule between commits.
     double work;
-    /// Dissipated since the world began, J.
+    /// Left the contacts for good since the world began, J: −work − stored. What is forgotten counts as lost; what the host
+    /// put in, by a contact that it set up or by a preload, less than nothing.
     double dissipated;
 } pong_ledger;
 
@@ -1017,15 +1018,17 @@ pong_status pong_get_contacts(const struct pong_world *world,
 /// How the normal force of each contact of the last frame changes with its depth (`stiffness`, N/m) and with the rate of that
 /// (`damping`, N s/m), with the weight of the contact, in the order of pong_get_contacts(): the first `capacity` of both are
 /// written, `count` gets their number. Zero where the force is cut off at zero; not a number (NaN) of a normal law of the
-/// host's. PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 both arrays may be NULL.
+/// host's. After pong_set_surface() they are those of the new values, the contacts still those of the frame: evaluate first.
+/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 both arrays may be NULL.
 pong_status pong_get_contact_stiffness(const struct pong_world *world,
                                        double *stiffness,
                                        double *damping,
                                        size_t capacity,
                                        size_t *count);
 
-/// Counts, times, memory and flags of the last frame; all zero before the first.
-pong_status pong_get_report(const struct pong_world *world, struct pong_report *report);
+/// Counts, times, memory and flags of the last frame; before the first all zero, but for what there is room for.
+pong_status pong_get_report(const struct pong_world *world,
+                            struct pong_report *report);
 
 /// What a flag of the report means, in words: "contact limit", "load sharing limit", "tunnelled"; "unknown limit" for a number that is
 /// no single flag. Lives as long as the library.
@@ -1039,7 +1042,7 @@ const char *pong_stage_name(size_t stage);
 /// `work_ns` that there is not. Lives as long as the library.
 const char *pong_work_name(size_t work);
 
-/// The energies; zero unless the configuration has keep_ledger.
+/// The energies; work and dissipation are zero unless the configuration has keep_ledger.
 pong_status pong_get_ledger(const struct pong_world *world, struct pong_ledger *ledger);
 
 /// The accounts of all pairs together at the last commit; zero unless the configuration has energy_accounts.

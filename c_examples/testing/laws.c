@@ -15,7 +15,8 @@
 typedef struct lab {
     pong_world *world;
     pong_interface_id ball, ground;
-    double factor;
+    pong_pair_id pair;
+    double factor, stored_factor;
     int calls;
     pong_status inner;
 } lab;
@@ -30,8 +31,8 @@ static double linear(const pong_normal_input *in, void *user)
 
 static double linear_stored(const pong_normal_input *in, void *user)
 {
-    (void)user;
-    return 0.5 * in->stiffness * in->depth * in->depth;
+    const lab *l = user;
+    return l->stored_factor * (0.5 * in->stiffness * in->depth * in->depth);
 }
 
 static double reentrant(const pong_normal_input *in, void *user)
@@ -60,7 +61,7 @@ static void open_lab(lab *l, pong_normal_law law, const char *ball, const char *
     pong_model_id model;
     pong_object_id object;
     memset(l, 0, sizeof *l);
-    l->factor = 1.0;
+    l->factor = l->stored_factor = 1.0;
     OK(pong_create_world(&config, &l->world));
     OK(pong_register_normal_law(l->world, "mine", law, linear_stored, l));
     OK(pong_register_friction_law(l->world, "spring", 3, spring, l));
@@ -70,7 +71,7 @@ static void open_lab(lab *l, pong_normal_law law, const char *ball, const char *
     OK(load_text(l->world, ground, &model));
     OK(pong_create_object(l->world, model, "ground", &object));
     OK(pong_find_interface(l->world, object, "", &l->ground));
-    OK(pong_pair_by_name(l->world, "ball", "ground", NULL));
+    OK(pong_pair_by_name(l->world, "ball", "ground", &l->pair));
     OK(pong_seal(l->world, NULL));
 }
 
@@ -151,6 +152,46 @@ static void not_a_number(void)
     OK(pong_destroy_world(l.world));
 }
 
+/* A frame that overflows by a law's fault is the law's, and the next one is not. */
+static void beyond_numbers(void)
+{
+    lab l;
+    open_lab(&l, linear, custom_ball, custom_ground);
+    l.factor = 1e303;
+    l.stored_factor = INFINITY;
+    place(&l, 0.0, 0.098);
+    REFUSED(pong_step(l.world), LAW_FAILED, "`mine`");
+    l.factor = l.stored_factor = 1.0;
+    place(&l, 0.0, 0.0981);
+    OK(pong_step(l.world));
+    OK(pong_destroy_world(l.world));
+}
+
+/* A preload is a commit: of a spoilt frame there is none. */
+static void preloaded(void)
+{
+    lab l;
+    pong_report report;
+    size_t used, before;
+    open_lab(&l, linear, custom_ball, custom_ground);
+    place(&l, 0.0, 0.098);
+    OK(pong_contact_state_used(l.world, &before));
+    l.factor = NAN;
+    REFUSED(pong_evaluate(l.world), LAW_FAILED, "`mine`");
+    REFUSED(pong_preload_friction(l.world, l.pair, NULL, NULL), LAW_FAILED, "`mine`");
+    place(&l, 0.0, 0.0985);
+    REFUSED(pong_preload_friction(l.world, l.pair, NULL, NULL), LAW_FAILED, "`mine`");
+    OK(pong_contact_state_used(l.world, &used));
+    TEST(used == before);
+    l.factor = 1.0;
+    place(&l, 0.0, 0.0981);
+    OK(pong_preload_friction(l.world, l.pair, NULL, NULL));
+    OK(pong_step(l.world));
+    OK(pong_get_report(l.world, &report));
+    TEST(report.commits == 2);
+    OK(pong_destroy_world(l.world));
+}
+
 static void from_inside(void)
 {
     lab l;
@@ -191,6 +232,8 @@ int main(void)
     registration();
     same_as_built_in();
     not_a_number();
+    beyond_numbers();
+    preloaded();
     from_inside();
     return report_failures("laws");
 }

@@ -38,7 +38,7 @@ pub unsafe extern "C" fn pong_save_contact_state(
     size: usize,
 ) -> pong_status {
     with_world(world, |inner| {
-        let world = inner.phase.frames("ask for the size of the contact state")?;
+        let world = inner.phase.frames("save the contact state")?;
         let needed = world.state_used();
         let written = size.min(world.state_size());
         if size < needed {
@@ -92,12 +92,12 @@ pub unsafe extern "C" fn pong_preload_friction(
             FrictionPreload::Holding(Vec3::new(force[0], force[1], force[2]))
         };
         inner.phase.scene().objects_of(pair.id())?;
-        let world = inner.phase.frames_mut("preload friction")?;
-        let set = world.preload_friction(pair.id(), &preload)?;
+        inner.phase.frames("preload friction")?;
+        let set = inner.commit(|world| world.preload_friction(pair.id(), &preload))?;
         // For the log it is what a restored contact state is.
         if inner.log.is_some() {
             let mut block = Vec::new();
-            world.save_state_packed(&mut block);
+            inner.phase.frames("preload friction")?.save_state_packed(&mut block);
             inner.tell_log(|log| log.restored(&block));
         }
         out.set(set);

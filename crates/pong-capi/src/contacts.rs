@@ -103,7 +103,8 @@ pub unsafe extern "C" fn pong_get_contacts(
 /// How the normal force of each contact of the last frame changes with its depth (`stiffness`, N/m) and with the rate of that
 /// (`damping`, N s/m), with the weight of the contact, in the order of pong_get_contacts(): the first `capacity` of both are
 /// written, `count` gets their number. Zero where the force is cut off at zero; not a number (NaN) of a normal law of the
-/// host's. PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 both arrays may be NULL.
+/// host's. After pong_set_surface() they are those of the new values, the contacts still those of the frame: evaluate first.
+/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 both arrays may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_contact_stiffness(
     world: *const pong_world,

@@ -1,5 +1,7 @@
 //! What the C side counts and times.
 
+use pong_engine::FrameReport;
+
 /// What the C side counts.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counters {
@@ -10,4 +12,10 @@ pub(crate) struct Counters {
     pub peak_contacts_wanted: u32,
     pub evaluate_ns: u64,
     pub commit_ns: u64,
+}
+
+impl Counters {
+    pub fn note_wanted(&mut self, report: &FrameReport) {
+        self.peak_contacts_wanted = self.peak_contacts_wanted.max(report.contacts_wanted);
+    }
 }

@@ -1,11 +1,12 @@
 //! Frames: evaluate, commit, step.
 
-use crate::failure::Outcome;
+use crate::failure::{Failure, Outcome};
 use crate::guard::with_world;
 use crate::handle::{Inner, pong_world};
 use crate::ids::pong_pair_id;
 use crate::pointers::array;
 use crate::status::pong_status;
+use pong_engine::{EngineError, World};
 use pong_record::Recorder;
 use std::time::Instant;
 
@@ -58,13 +59,19 @@ pub unsafe extern "C" fn pong_step(world: *mut pong_world) -> pong_status {
 impl Inner {
     fn evaluate(&mut self) -> Outcome {
         let start = Instant::now();
-        let report = self.phase.frames_mut("evaluate")?.evaluate()?;
-        self.tell_log(Recorder::evaluated);
-        self.counters.evaluate_ns = elapsed_ns(start);
-        self.counters.evaluations += 1;
-        self.counters.peak_contacts_wanted = self.counters.peak_contacts_wanted.max(report.contacts_wanted);
+        let evaluated = self.phase.frames_mut("evaluate")?.evaluate();
+        // A frame that overflows may do so by a law's fault, which is then the cause to tell; and a fault that was left for
+        // the next frame would be told of a good one.
         self.law_faults.collect();
-        self.law_faults.check()
+        if let Ok(report) = &evaluated {
+            self.tell_log(Recorder::evaluated);
+            self.counters.evaluate_ns = elapsed_ns(start);
+            self.counters.evaluations += 1;
+            self.counters.note_wanted(report);
+        }
+        self.law_faults.check()?;
+        evaluated?;
+        Ok(())
     }
 
     fn commit_all(&mut self) -> Outcome {
@@ -74,19 +81,22 @@ impl Inner {
     }
 
     /// Evaluates first where the engine would, so that a law's fault is seen before anything is accepted.
-    fn commit(
+    pub(crate) fn commit<T>(
         &mut self,
-        commit: impl FnOnce(&mut pong_engine::World) -> Result<(), pong_engine::EngineError>,
-    ) -> Outcome {
-        if !self.phase.frames("evaluate")?.is_evaluated() {
+        commit: impl FnOnce(&mut World) -> Result<T, EngineError>,
+    ) -> Result<T, Failure> {
+        if !self.phase.frames("commit")?.is_evaluated() {
             self.evaluate()?;
         }
         self.law_faults.check()?;
         let start = Instant::now();
-        commit(self.phase.frames_mut("commit")?)?;
+        let world = self.phase.frames_mut("commit")?;
+        let committed = commit(world)?;
         self.counters.commit_ns = elapsed_ns(start);
         self.counters.commits += 1;
-        Ok(())
+        // A commit of some pairs may have no room for all that it is to remember.
+        self.counters.note_wanted(&world.report());
+        Ok(committed)
     }
 }
 

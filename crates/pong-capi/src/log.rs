@@ -119,7 +119,7 @@ pub unsafe extern "C" fn pong_start_log(
             return Err(Failure::new(pong_status::WrongPhase, message));
         }
         let options = options.check(name, folder)?;
-        let world = inner.phase.frames("ask for the size of the contact state")?;
+        let world = inner.phase.frames("start a log")?;
         let start = || Recorder::start(world, folder, &inner.sources, &options);
         inner.log = Some(without_signals(start)?);
         Ok(())

@@ -6,7 +6,7 @@ use crate::handle::pong_world;
 use crate::phase::Phase;
 use crate::pointers::Out;
 use crate::status::pong_status;
-use pong_engine::{FrameReport, Stage, StageTimes, StatusBits, Work, WorkTimes, World};
+use pong_engine::{Stage, StageTimes, Work, WorkTimes, World};
 use std::ffi::{CStr, c_char};
 
 /// The frame had more contacts than the world's capacity: the deepest were kept.
@@ -105,7 +105,7 @@ pub struct pong_report {
     pub reserved: [u64; 3],
 }
 
-/// Counts, times, memory and flags of the last frame; all zero before the first.
+/// Counts, times, memory and flags of the last frame; before the first all zero, but for what there is room for.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_report(world: *const pong_world, report: *mut pong_report) -> pong_status {
     get(world, (report, "report"), |inner| Ok(report_of(&inner.phase, &inner.counters)))
@@ -131,7 +131,7 @@ fn report_of(phase: &Phase, counters: &Counters) -> pong_report {
         commit_ns: counters.commit_ns,
         stage_ns: by_stage(&times),
         work_ns: by_work(&times.work),
-        advised_capacity: advised_capacity(&frame, counters.contact_capacity),
+        advised_capacity: frame.advised_capacity(counters.contact_capacity as usize).unwrap_or(0) as u64,
         contacts_peak: memory.contacts_peak as u64,
         contacts_capacity: memory.contacts_capacity as u64,
         arena_peak: memory.arena_peak as u64,
@@ -154,12 +154,6 @@ fn by_stage(times: &StageTimes) -> [u64; STAGES] {
 /// The parts of a lane's work, or of all lanes', in order.
 pub(crate) fn by_work(times: &WorkTimes) -> [u64; 4] {
     Work::ALL.map(|work| times.of(work))
-}
-
-fn advised_capacity(frame: &FrameReport, capacity: u64) -> u64 {
-    let twice = if frame.status.contains(StatusBits::LOAD_SHARING_LIMIT) { 2 * capacity } else { 0 };
-    let wanted = if frame.status.contains(StatusBits::CONTACT_LIMIT) { frame.contacts_wanted } else { 0 };
-    twice.max(wanted.into())
 }
 
 /// What a flag of the report means, in words: "contact limit", "load sharing limit", "tunnelled"; "unknown limit" for a number that is
@@ -197,11 +191,12 @@ pub struct pong_ledger {
     pub stored: f64,
     /// Work done on the bodies since the world began, J, by the trapezoid rule between commits.
     pub work: f64,
-    /// Dissipated since the world began, J.
+    /// Left the contacts for good since the world began, J: −work − stored. What is forgotten counts as lost; what the host
+    /// put in, by a contact that it set up or by a preload, less than nothing.
     pub dissipated: f64,
 }
 
-/// The energies; zero unless the configuration has keep_ledger.
+/// The energies; work and dissipation are zero unless the configuration has keep_ledger.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_ledger(world: *const pong_world, ledger: *mut pong_ledger) -> pong_status {
     with_world(world, |inner| {
@@ -218,6 +213,7 @@ pub unsafe extern "C" fn pong_get_ledger(world: *const pong_world, ledger: *mut 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pong_engine::StatusBits;
 
     #[test]
     fn flags_are_the_bits_of_the_engine() {
@@ -242,13 +238,5 @@ mod tests {
             let name = unsafe { CStr::from_ptr(pong_work_name(work as usize)) };
             assert_eq!(name.to_str(), Ok(work.name()));
         }
-    }
-
-    #[test]
-    fn a_limit_advises_a_capacity_that_is_larger() {
-        let frame = |status, contacts_wanted| FrameReport { status, contacts: 4, contacts_wanted };
-        assert_eq!(advised_capacity(&frame(StatusBits::default(), 4), 4), 0);
-        assert_eq!(advised_capacity(&frame(StatusBits::CONTACT_LIMIT, 9), 4), 9);
-        assert_eq!(advised_capacity(&frame(StatusBits::LOAD_SHARING_LIMIT, 3), 4), 8);
     }
 }

@@ -34,7 +34,7 @@ fn is_scene(path: &Path) -> bool {
 const UNNAMED: WrenchCoupling = WrenchCoupling::ZeroOrderHold { delay_frames: 0 };
 
 fn wish_alone(arguments: &Arguments) -> Result<String, String> {
-    let (mass, coupling) = (arguments.effective_mass()?, arguments.coupling(UNNAMED));
+    let (mass, coupling) = (arguments.effective_mass()?, arguments.coupling(UNNAMED)?);
     let head =
         format!("Effective mass {} kg, {}\n", number(mass), arguments.stated(arguments.step(), coupling));
     Ok(head + &contact::advice(arguments, mass, arguments.step(), coupling, arguments.speed)?)
@@ -50,7 +50,7 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
     let speed = arguments.speed.or(by_scene.closing_speed);
     let plan = StepPlan {
         step: arguments.step().unwrap_or(by_scene.step),
-        coupling: arguments.coupling(by_scene.coupling),
+        coupling: arguments.coupling(by_scene.coupling)?,
         closing_speed: speed,
         accuracy: Some(arguments.accuracy()),
     };
@@ -86,7 +86,7 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
 fn model(arguments: &Arguments, path: &Path) -> Result<String, String> {
     let model =
         pong_model::load(path, &arguments.allowed.extensions()).map_err(|errors| errors.to_string())?;
-    let (mass, coupling) = (arguments.effective_mass()?, arguments.coupling(UNNAMED));
+    let (mass, coupling) = (arguments.effective_mass()?, arguments.coupling(UNNAMED)?);
     let mut text = format!(
         "{}: effective mass {} kg, {}\n",
         printable(&model.name),

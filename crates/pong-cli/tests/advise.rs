@@ -184,3 +184,30 @@ fn wrong_wishes_are_refused() {
         assert!(code != 0 && out.is_empty() && err.contains(told), "{arguments}: {out}{err}");
     }
 }
+
+/// A delay counts for every wrench that is held, named or not, and is refused for others: ignored, it would be the optimistic answer.
+#[test]
+fn a_delay_counts_wherever_the_wrench_is_held() {
+    let surface = "\"advised\": (stiffness: 1e6, normal: Linear(damping: 100))";
+    let wish = "advise --mass 4 --rate 1000 --speed 0.1 --depth 0.002 --restitution 0.3";
+    let held = folder("late", surface, "SemiImplicitEuler", 1e-4);
+    let told = |arguments: &str| {
+        let (code, told, error) = pong(&held, arguments);
+        assert_eq!(code, 0, "{arguments}: {error}");
+        told
+    };
+    assert_eq!(told(&format!("{wish} --late 2")), told(&format!("{wish} --coupling held --late 2")));
+    assert_ne!(told(&format!("{wish} --late 2")), told(wish));
+    assert_eq!(told(&format!("{wish} --late 0")), told(wish));
+    let scene = folder("late_scene", surface, "ZeroOrderHold(delay_frames: 2)", 1e-4);
+    let of_scene = |arguments: &str| pong(&scene, arguments).1;
+    assert_eq!(of_scene("advise scene.ron"), of_scene("advise scene.ron --late 2"));
+    assert_ne!(of_scene("advise scene.ron"), of_scene("advise scene.ron --late 5"));
+    for arguments in [format!("{wish} --coupling stages --late 1"), "advise scene.ron --late 1".to_owned()] {
+        let (code, _, error) = pong(&held, &arguments);
+        assert!(
+            code != 0 && error.contains("--late") && error.contains("--coupling held"),
+            "{arguments}: {error}"
+        );
+    }
+}

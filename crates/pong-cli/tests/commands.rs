@@ -282,7 +282,7 @@ fn check_knows_round_parts() {
     assert_eq!((code, err.as_str()), (0, ""));
     let parts = [
         "cable (Aabb movable): 2 Capsule, 1 Cylinder, 1 Cone, 1 Bore",
-        "extent of cable: (-0.299504 -0.299504 -0.1) … (2.1 2 2.00995) m",
+        "extent of cable: (-0.3 -0.3 -0.1) … (2.1 2 2.1) m",
         "Capsule–Plane: 2 pairs of primitives",
         "Cylinder–Plane: 1 pair of primitives",
         "Cone–Plane: 1 pair of primitives",

@@ -69,6 +69,7 @@ pub struct Ledger {
     pub stored: f64,
     /// Work done on the bodies since the world began, by the trapezoid rule between commits, J.
     pub work: f64,
-    /// Dissipated since the world began, J: −work − stored.
+    /// Left the contacts for good since the world began, J: −work − stored. What is forgotten counts as lost; what the host
+    /// put in, by a contact that it set up or by a preload, less than nothing.
     pub dissipated: f64,
 }

@@ -67,8 +67,18 @@ pub struct FrameReport {
     pub status: StatusBits,
     /// Contacts listed.
     pub contacts: u32,
-    /// Contacts that would have been listed without the limit; the advised capacity when the limit was hit.
+    /// Contacts that would have been listed without [`StatusBits::CONTACT_LIMIT`].
     pub contacts_wanted: u32,
+}
+
+impl FrameReport {
+    /// The contact capacity to ask for instead of the present one, where contacts were left out; `None` where none were. After
+    /// [`StatusBits::LOAD_SHARING_LIMIT`] alone it is twice the present one, and may have to be doubled again.
+    pub fn advised_capacity(&self, present: usize) -> Option<usize> {
+        let wanted = self.status.contains(StatusBits::CONTACT_LIMIT).then_some(self.contacts_wanted as usize);
+        let twice = self.status.contains(StatusBits::LOAD_SHARING_LIMIT).then_some(present.saturating_mul(2));
+        wanted.max(twice)
+    }
 }
 
 /// How often something was tested, and how often that found something.

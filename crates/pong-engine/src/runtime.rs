@@ -40,6 +40,8 @@ pub(crate) struct Runtime {
     pub current: bool,
     pub clock: Clock,
     contacts_peak: usize,
+    /// Of every pair of Objects whether a commit of some accepts it; written anew by each.
+    accepted: Box<[bool]>,
 }
 
 impl Runtime {
@@ -101,6 +103,7 @@ impl Runtime {
             current: false,
             clock,
             contacts_peak: 0,
+            accepted: vec![false; scene.pairs.len()].into_boxed_slice(),
             nothing: Arc::clone(&nothing),
             sealed,
             tables,
@@ -169,13 +172,26 @@ impl Runtime {
         self.evaluated = false;
     }
 
-    /// As [`commit`](Self::commit) for the accepted pairs of Objects; the others keep their contact state. Both
+    /// As [`commit`](Self::commit) for some pairs of Objects; the others keep their contact state. Both
     /// together may be more than there is room for: then the strongest stay, and the status says so.
     ///
     /// # Errors
     /// [`EngineError::BadValue`] if the others were last committed at more moments than there is room for beside this one.
     /// Nothing is committed then.
     pub fn commit_pairs(
+        &mut self,
+        states: &States,
+        pairs: impl Iterator<Item = usize>,
+    ) -> Result<(), EngineError> {
+        let mut accepted = std::mem::take(&mut self.accepted);
+        accepted.fill(false);
+        pairs.for_each(|pair| accepted[pair] = true);
+        let outcome = self.commit_accepted(states, |pair| accepted[pair]);
+        self.accepted = accepted;
+        outcome
+    }
+
+    fn commit_accepted(
         &mut self,
         states: &States,
         accepts: impl Fn(usize) -> bool,
@@ -200,7 +216,8 @@ impl Runtime {
         take_turns(memory, spares, |old, next| {
             let now = (&frame.poses[..], &states.enabled[..]);
             next.poses.commit_some(&old.poses, now, moment, &accepts);
-            left_out = old.accept_into(fresh(frame), &frame.energy.pairs, accepted, next);
+            left_out =
+                old.accept_into(fresh(frame), (&frame.energy.pairs, &frame.energy.added), accepted, next);
         });
         if left_out > 0 {
             frame.report.status.set(StatusBits::CONTACT_LIMIT);
@@ -212,25 +229,26 @@ impl Runtime {
         Ok(())
     }
 
-    /// Preloads the bristles of a pair of Objects after a commit of the last frame; answers how many there are.
+    /// Preloads the bristles of a pair of Objects after a commit of the last frame; answers how many there are. What they store
+    /// more is booked as put in by the host.
     pub fn preload(&mut self, scene: &Scene, pair: usize, preload: &FrictionPreload) -> usize {
         self.let_go_of_memory();
         let preloaded = self.frame.preloaded(scene, &self.sealed, &self.memory, pair, preload);
         take_turns(&mut self.memory, &mut self.spares, |old, next| {
             next.copy_from(old);
-            next.preload(&preloaded);
+            next.preload(&preloaded, scene.config.ledger);
         });
         self.changed();
         preloaded.len()
     }
 
     /// Drops what is remembered of some pairs of Objects.
-    pub fn clear_history(&mut self, cleared: impl Fn(usize) -> bool) {
+    pub fn clear_history(&mut self, scene: &Scene, cleared: impl Fn(usize) -> bool) {
         self.let_go_of_memory();
         let pairs = &self.sealed.group_pairs;
         take_turns(&mut self.memory, &mut self.spares, |old, next| {
             next.copy_from(old);
-            next.clear_history(&cleared, |index| pairs[index as usize].pair);
+            next.clear_history(&cleared, |index| pairs[index as usize].pair, scene.config.ledger);
         });
         self.changed();
     }

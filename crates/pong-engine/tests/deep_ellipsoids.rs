@@ -4,6 +4,7 @@
 mod common;
 
 use common::*;
+use pong_engine::State;
 use pong_geometry::{Quat, Vec3};
 use pong_testkit::Random;
 
@@ -187,5 +188,26 @@ fn outside_a_narrow_fold_neither_wall_pushes() {
             let got = force(&mut rig, &Vec3::from(center), &turn, &frame, &shift);
             assert_eq!(got, Vec3::zeros());
         }
+    }
+}
+
+/// A centre on the rim of a two-sided plate is pushed by one of its sides, as beside the rim.
+#[test]
+fn a_centre_on_a_rim_is_pushed_once() {
+    let sheet = "TriangleMesh(name: \"m\", two_sided: true, \
+                 vertices: [(-0.5,-0.4,0),(0.5,-0.4,0),(0.5,0.4,0),(-0.5,0.4,0)], triangles: [(0,1,2),(0,2,3)])";
+    let body = "Ellipsoid(name: \"e\", center: (0,0,0), semi_axes: (0.3,0.2,0.1))";
+    for (place, quaternion) in [
+        ([-0.5, 0.15, 0.0], [0.5, 0.5, 0.5, 0.5]),
+        ([0.3, 0.4, 0.0], [0.0, 1.0, 0.0, 0.0]),
+        ([0.5, -0.1, 0.0], [0.5, 0.5, 0.5, 0.5]),
+    ] {
+        let mut rig = Rig::new(&model("e", &steel(), body), &model("m", &steel(), sheet));
+        let state = State { position: place, orientation: quaternion, ..State::identity() };
+        rig.place([state, State::identity()]);
+        rig.world.evaluate().unwrap();
+        let force = rig.wrench(0).force.norm();
+        assert_eq!(rig.world.contacts().len(), 1, "{place:?}");
+        assert!((force / (SERIES * 0.1) - 1.0).abs() < 1e-9, "{place:?}: {force}");
     }
 }

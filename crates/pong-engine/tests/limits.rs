@@ -7,9 +7,8 @@ mod own_kinds;
 #[path = "common/stage.rs"]
 mod stage;
 
-use common::{box_polyhedron, model, plate_mesh, points, rough};
+use common::{box_polyhedron, model, points, rough, shell_mesh};
 use pong_engine::*;
-use pong_geometry::Vec3;
 use pong_testkit::Random;
 use stage::{Hash, Path, Scene, Stage, workers};
 use std::collections::{BTreeMap, BTreeSet};
@@ -246,19 +245,6 @@ fn ten_thousand_contacts_of_points() {
     }
 }
 
-/// A round shell of triangles around the origin, from one angle off its lowest point to another, seen from within or
-/// from without.
-fn shell(cells: usize, from: f64, to: f64, seen_from_within: bool) -> String {
-    let place = |x: f64, y: f64| {
-        let (up, around) = (from + (to - from) * (y + 0.5), std::f64::consts::TAU * (x + 0.5));
-        let out = 0.1995 * libm::sin(up);
-        let (a, b) = (out * libm::sin(around), out * libm::cos(around));
-        let (x, y) = if seen_from_within { (a, b) } else { (b, a) };
-        Vec3::new(x, y, -0.1995 * libm::cos(up))
-    };
-    plate_mesh("shell", cells, 1.0, place)
-}
-
 /// Balls in a shell that fits them: all its triangles touch them.
 fn balls_in(shell: String, balls: usize) -> Scene {
     let ball = |index| format!("Sphere(name: \"b{index}\", center: (0,0,{index}e-5), radius: 0.2)");
@@ -273,14 +259,14 @@ fn balls_in(shell: String, balls: usize) -> Scene {
 /// With its centre under a convex surface a ball is pushed by one face, and all others are remembered.
 #[test]
 fn what_is_only_remembered_is_wanted_too() {
-    let scene = |capacity| with_capacity(balls_in(shell(16, 0.3, 2.8, false), 1), capacity);
+    let scene = |capacity| with_capacity(balls_in(shell_mesh(16, 0.3, 2.8, false), 1), capacity);
     check_what_is_wanted(&scene, 40, 2000, 6);
 }
 
 /// More interferences of one chunk than there is room for, of which few push.
 #[test]
 fn what_one_ball_wants_is_enough() {
-    let scene = |capacity| with_capacity(balls_in(shell(34, 0.05, 0.7, true), 1), capacity);
+    let scene = |capacity| with_capacity(balls_in(shell_mesh(34, 0.05, 0.7, true), 1), capacity);
     check_what_is_wanted(&scene, 40, 4000, 3);
 }
 
@@ -289,7 +275,7 @@ fn what_one_ball_wants_is_enough() {
 #[test]
 fn ten_thousand_contacts_of_one_ball() {
     for (cells, capacity) in [(72, 10_000), (72, 300), (24, 600), (24, 40)] {
-        let scene = with_capacity(balls_in(shell(cells, 0.25, 2.85, true), 2), capacity);
+        let scene = with_capacity(balls_in(shell_mesh(cells, 0.25, 2.85, true), 2), capacity);
         let mut alone = scene.set_up(None);
         let mut crew = scene.set_up(workers(2));
         for frame in 0..2 {
@@ -308,6 +294,27 @@ fn ten_thousand_contacts_of_one_ball() {
             stage.world.evaluate().unwrap();
         }
         assert_eq!(answers(&alone), answers(&crew));
+    }
+}
+
+/// A host that asks for what each report advises comes to a frame that leaves nothing out.
+#[test]
+fn what_is_advised_is_enough_in_the_end() {
+    for start in [40, 600, 1000] {
+        let mut capacities = vec![start];
+        while let Some(advised) = {
+            let capacity = *capacities.last().unwrap();
+            let scene = with_capacity(balls_in(shell_mesh(24, 0.25, 2.85, true), 1), capacity);
+            step(&mut scene.set_up(None), 0).0.advised_capacity(capacity)
+        } {
+            assert!(
+                advised > *capacities.last().unwrap() && capacities.len() < 12,
+                "{capacities:?}, then {advised}"
+            );
+            capacities.push(advised);
+        }
+        println!("{capacities:?}");
+        assert!(capacities.len() > 1);
     }
 }
 

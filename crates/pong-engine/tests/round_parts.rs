@@ -290,3 +290,69 @@ fn a_capsule_that_went_through_a_wall_is_told() {
         }
     }
 }
+
+/// The unit plate of the corners 0 and 1, and the middles of its rims with the directions out of it.
+const PLATE: &str = "vertices: [(0,0,0),(1,0,0),(1,1,0),(0,1,0)], triangles: [(0,1,2),(0,2,3)]";
+const RIMS: [([f64; 2], [f64; 2]); 4] = [
+    ([1.0, 0.4], [1.0, 0.0]),
+    ([0.0, 0.4], [-1.0, 0.0]),
+    ([0.3, 1.0], [0.0, 1.0]),
+    ([0.3, 0.0], [0.0, -1.0]),
+];
+
+fn plate(two_sided: bool) -> String {
+    part(&format!("TriangleMesh(name: \"m\", two_sided: {two_sided}, {PLATE})"))
+}
+
+/// Force of a plate on a capsule along `axis` whose middle is `apart` from the middle of a rim, and straight out of the plate.
+fn force_beside(plate: &str, axis: &Vec3, rim: ([f64; 2], [f64; 2]), apart: f64, q: &Quat) -> (f64, f64) {
+    let ([x, y], [out_x, out_y]) = rim;
+    let (middle, out) = (Vec3::new(x, y, 0.0), Vec3::new(out_x, out_y, 0.0));
+    let ends = [-axis, *axis].map(|end| format!("({:?},{:?},{:?})", end.x, end.y, end.z)).join(",");
+    let capsule = part(&format!("Capsule(name: \"c\", ends: ({ends}), radius: 0.1)"));
+    let mut rig = Rig::new(&capsule, plate);
+    let place = Vec3::new(0.2, -0.1, 0.3);
+    rig.place([at(place + q * (middle + out * apart), *q), at(place, *q)]);
+    rig.world.evaluate().unwrap();
+    let force = q.inverse() * rig.wrench(0).force;
+    (force.dot(&out), (force - out * force.dot(&out)).norm())
+}
+
+/// A capsule that stands upright beside a plate, and one that lies in its plane, are as much in front of it as behind: the rim pushes
+/// them straight out of the plate, and once, whichever way the capsule is written and the scene is turned.
+#[test]
+fn the_rim_of_a_plate_pushes_what_is_in_its_plane_once() {
+    let mut random = Random(77);
+    let quarter = |axis: &Vec3| Quat::from_scaled_axis(axis * std::f64::consts::FRAC_PI_2);
+    let mut turns = vec![Quat::identity(), quarter(&Vec3::x()), quarter(&Vec3::y())];
+    turns.extend((0..6).map(|_| random.rotation()));
+    for rim in RIMS {
+        let out = Vec3::new(rim.1[0], rim.1[1], 0.0);
+        for sign in [1.0, -1.0] {
+            for (index, q) in turns.iter().enumerate() {
+                // Two equal springs in series, and half of one at each end and each crossing.
+                let expected = 0.5 * 0.5 * K * 0.02;
+                let upright = Vec3::z() * sign;
+                let (along, aside) = force_beside(&plate(true), &upright, rim, 0.08, q);
+                assert!(
+                    (along - expected).abs() < 1e-6 && aside < 1e-6,
+                    "{rim:?} turn {index}: {along} {aside}"
+                );
+                let lying = out * (0.5 * sign);
+                let (along, aside) = force_beside(&plate(true), &lying, rim, 0.58, q);
+                assert!(
+                    (along - expected).abs() < 1e-6 && aside < 1e-6,
+                    "{rim:?} turn {index}: {along} {aside}"
+                );
+            }
+            // One side alone has it where nothing tells front from back.
+            let (along, aside) =
+                force_beside(&plate(false), &(Vec3::z() * sign), rim, 0.08, &Quat::identity());
+            assert!((along - 0.25 * K * 0.02).abs() < 1e-9 && aside < 1e-9, "{rim:?}: {along} {aside}");
+            // Nothing pushes into the plate.
+            let (along, aside) =
+                force_beside(&plate(false), &(Vec3::z() * sign), rim, -0.08, &Quat::identity());
+            assert!(along >= 0.0 && aside < 1e-9, "{rim:?}: {along} {aside}");
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! What a run comes to, gathered instant by instant: peaks, impulses, energies, what frames left out.
 
 use crate::energy::Energy;
+use crate::left_out::LeftOut;
 use crate::simulation::Simulation;
 use pong_engine::{Contact, InterfaceId, StatusBits};
 use pong_geometry::{Vec3, Wrench};
@@ -36,8 +37,8 @@ pub struct RunStatistics {
     pub last_energy: Energy,
     /// Largest distance of the balance of energies from its first value, J.
     pub worst_balance: f64,
-    /// The capacity that would have been enough, if frames left contacts out.
-    pub contacts_wanted: Option<u32>,
+    /// Of the frames that left contacts out the one that advises the largest capacity.
+    pub left_out: Option<LeftOut>,
     /// Steps in which something went through something else.
     pub tunnelled: u64,
     /// The first of them in words; empty if there is none.
@@ -76,9 +77,7 @@ impl RunStatistics {
                 self.first_tunnelled = tunnelling_in_words(simulation).unwrap_or_default();
             }
         }
-        if report.status.leaves_contacts_out() {
-            self.contacts_wanted = self.contacts_wanted.max(Some(report.contacts_wanted));
-        }
+        self.left_out = self.left_out.max(LeftOut::of(world));
         self.last_energy = simulation.energy();
         let change = self.last_energy.balance() - self.first_energy.balance();
         self.worst_balance = self.worst_balance.max(change.abs());
@@ -114,10 +113,11 @@ impl RunStatistics {
 
     /// What to do if frames had to leave contacts out.
     pub fn incomplete_advice(&self) -> Option<String> {
-        let wanted = self.contacts_wanted?;
+        let left_out = self.left_out?;
         Some(format!(
-            "some frames had more contacts than the world keeps, and the shallowest were left out; \
-             set contact_capacity: {wanted} in the scene"
+            "{left_out}; set contact_capacity: {} in the scene{}",
+            left_out.advised,
+            left_out.again()
         ))
     }
 }

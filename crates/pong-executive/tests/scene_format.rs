@@ -160,12 +160,17 @@ fn the_whole_file_does_what_its_comment_says() {
 fn groups_start_where_their_author_put_them() {
     let folder = model_folder("authored");
     let (_, text) = blocks().into_iter().find(|(head, _)| *head == "objects").unwrap();
-    let built = build(&around(text, "", RUNGE_KUTTA), &folder);
-    let bodies = &built.objects[0].bodies;
-    assert_eq!(bodies.len(), 3);
-    let place = |index: usize| built.simulation.pose(bodies[index]).position;
-    assert_eq!([place(1).x, place(1).z], [0.05, 1.0]);
-    assert_eq!([place(2).x, place(2).z], [-0.05, 1.0]);
+    // The root places the others by whichever of its names it is called.
+    for root in ["(motion: Fixed,", "(group: \"gripper\", motion: Fixed,"] {
+        let text = text.replacen("(motion: Fixed,", root, 1);
+        let built = build(&around(&text, "", RUNGE_KUTTA), &folder);
+        let bodies = &built.objects[0].bodies;
+        assert_eq!(bodies.len(), 3);
+        let place = |index: usize| built.simulation.pose(bodies[index]).position;
+        assert_eq!(place(0).z, 1.0, "{root}");
+        assert_eq!([place(1).x, place(1).z], [0.05, 1.0], "{root}");
+        assert_eq!([place(2).x, place(2).z], [-0.05, 1.0], "{root}");
+    }
 }
 
 /// A movable group may be written by its bare name, by its path below the root and by its whole path. Its body has one name,

@@ -11,7 +11,7 @@ use crate::variables::{
     Causality, Flag, Input, MOTION_NUMBERS, Parameter, Slot, WRENCH_NUMBERS, motion_numbers,
 };
 use pong_engine::StatusBits;
-use pong_executive::{ExecutiveError, Pose, Simulation, Twist, Vec3, Wrench};
+use pong_executive::{ExecutiveError, LeftOut, Pose, Simulation, Twist, Vec3, Wrench};
 
 /// How far the norm of a quaternion may be from 1: as the engine has it.
 const NORM_ERROR_MAX: f64 = 1e-3;
@@ -98,6 +98,8 @@ pub(crate) struct Instance {
     pub(crate) next_flags: Flags,
     /// Flags that somebody was warned of in this run.
     warned: Flags,
+    /// Of the frames of this run that left contacts out the one that advises the largest capacity.
+    left_out: Option<LeftOut>,
     /// What is to be told beside the answers of calls.
     pub(crate) warnings: Vec<String>,
     /// The instant before a step that may fail.
@@ -127,6 +129,7 @@ impl Instance {
             flags: Flags::default(),
             next_flags: Flags::default(),
             warned: Flags::default(),
+            left_out: None,
             warnings,
             undo: Vec::new(),
             unit,
@@ -143,7 +146,7 @@ impl Instance {
         self.states = self.unit.simulation.state_numbers();
         (self.mode, self.time) = (Mode::Instantiated, 0.0);
         (self.is_current, self.inputs_changed, self.summary) = (false, true, None);
-        (self.flags, self.next_flags, self.warned) = Default::default();
+        (self.flags, self.next_flags, self.warned, self.left_out) = Default::default();
         Ok(())
     }
 
@@ -455,8 +458,10 @@ impl Instance {
         })
     }
 
-    fn frame_flags(&self) -> Flags {
-        let report = self.unit.simulation.world().report();
+    fn frame_flags(&mut self) -> Flags {
+        let world = self.unit.simulation.world();
+        let report = world.report();
+        self.left_out = self.left_out.max(LeftOut::of(world));
         Flags {
             touching: report.contacts > 0,
             tunnelled: report.status.contains(StatusBits::TUNNELLED),
@@ -474,12 +479,12 @@ impl Instance {
                  the walls thicker or the surfaces stiffer"
             ));
         }
-        if flags.left_out && !self.warned.left_out {
+        if let Some(left_out) = self.left_out.filter(|_| flags.left_out && !self.warned.left_out) {
             self.warned.left_out = true;
-            let wanted = self.unit.simulation.world().report().contacts_wanted;
             self.warnings.push(format!(
-                "contact: at t = {time} s contacts were left out, there are more than the capacity; write `contact_capacity: \
-                 {wanted}` into the scene and make the FMU again"
+                "contact: at t = {time} s {left_out}; write `contact_capacity: {}` into the scene and make the FMU again{}",
+                left_out.advised,
+                left_out.again()
             ));
         }
     }

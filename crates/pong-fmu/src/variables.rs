@@ -133,7 +133,7 @@ impl Variables {
         );
         flag(
             "left_out",
-            "Whether contacts were left out of the last step because there were more than the capacity",
+            "Whether contacts were left out of the last step because the contact capacity is too small",
             Slot::Flag(Flag::LeftOut),
         );
         flag("count", "Number of contacts; no integer, for those change at events alone", Slot::Count);

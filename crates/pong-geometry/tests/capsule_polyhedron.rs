@@ -25,6 +25,7 @@ fn crossings(capsule: &Capsule, piece: &Polyhedron) -> Vec<Interference> {
             ends_b: edge.vertices.map(|vertex| piece.vertices[vertex as usize].position),
             normals_b: push.normals,
             outwards_b: Some(push.outwards),
+            free_outward_b: None,
             feature: Feature::edge(index),
         };
         found.extend(capsule_edge(capsule, &edge));

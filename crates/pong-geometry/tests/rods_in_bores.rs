@@ -7,9 +7,11 @@ mod common;
 
 use bore_support::{carried, random_bore, rounded, scaled, shared_square, swapped};
 use common::random_motion;
+use pong_geometry::bounding::Bounded;
 use pong_geometry::interference::Interference;
+use pong_geometry::interference::ray_bore::ray_bore;
 use pong_geometry::interference::two_ended_bore::{EndsInBore, capsule_bore, cylinder_bore, segment_bore};
-use pong_geometry::primitive::{Bore, Capsule, Frustum, LineSegment};
+use pong_geometry::primitive::{Bore, Capsule, Frustum, LineSegment, Ray, RayResponse};
 use pong_geometry::{Quat, Transform, Vec3};
 use pong_testkit::Random;
 use std::f64::consts::TAU;
@@ -517,4 +519,48 @@ fn a_hole_in_two_pieces_is_one() {
         touched += usize::from(force.norm() > 0.0);
     }
     assert!(touched > 150, "{touched}");
+}
+
+/// How far two things are apart in the one of many directions in which they are farthest.
+fn gap(random: &mut Random, a: &dyn Bounded, b: &dyn Bounded) -> f64 {
+    let directions = (0..60).map(|_| random.direction());
+    directions.map(|d| -a.support(&d) - b.support(&-d)).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Whatever a bore pushes, and wherever a ray hits it, reaches into its bounds: of rods in any pose, and of rays that begin behind
+/// the wall.
+#[test]
+fn nothing_that_a_bore_pushes_is_outside_its_bounds() {
+    let mut random = Random(31);
+    let (mut pushed, mut hit) = ([0; 3], 0);
+    for trial in 0..60_000 {
+        let bore = random_bore(&mut random);
+        let place = |random: &mut Random| bore.hole.ends[0] + random.direction() * random.between(0.0, 2.5);
+        let ends = [place(&mut random), place(&mut random)];
+        let kind = [Kind::Segment, Kind::Capsule, Kind::Cylinder][trial % 3];
+        let radius = if kind == Kind::Segment { 0.0 } else { random.between(0.05, 0.6) };
+        let rod = Rod { kind, ends, radius };
+        if energy(&rod.touch(&bore)) > 0.0 {
+            pushed[trial % 3] += 1;
+            let (capsule, pin) = (Capsule { ends, radius }, Frustum::new(ends, [radius; 2]));
+            let body: &dyn Bounded = if kind == Kind::Cylinder { &pin } else { &capsule };
+            let gap = gap(&mut random, body, &bore);
+            assert!(gap < 1e-9, "trial {trial}: {gap}, {rod:?} {bore:?}");
+        }
+        // Along the wall, a little outwards or not.
+        let direction = (bore.hole.axis * random.between(-1.0, 1.0) + random.direction() * 0.3).normalize();
+        let ray = Ray {
+            origin: place(&mut random),
+            direction,
+            length: random.between(0.1, 1.0),
+            reach: None,
+            response: RayResponse::Axial,
+        };
+        if ray_bore(&ray, &bore).is_some() {
+            hit += 1;
+            let gap = gap(&mut random, &ray, &bore);
+            assert!(gap < 1e-9, "trial {trial}: {gap}, {ray:?} {bore:?}");
+        }
+    }
+    assert!(pushed.iter().all(|count| *count > 1000) && hit > 1000, "{pushed:?} {hit}");
 }

@@ -137,6 +137,58 @@ fn wrench(contacts: &EndContacts, about: &Vec3) -> (Vec3, Vec3) {
     })
 }
 
+/// A rod exactly on the axis of a solid has no direction of its own in which the wall is nearest; its depth is the least translation
+/// all the same, and that of the rod beside the axis.
+#[test]
+fn a_rod_on_the_axis_of_a_solid_leaves_it_by_the_shortest_way() {
+    let mut random = Random::new(1, 7, 0);
+    let mut through_wall = 0;
+    for case in 0..120 {
+        let axis = Vec3::ith(case % 3, 1.0);
+        let (length, place) = (random.between(0.2, 1.5), random.between(-1.0, 1.0));
+        let ends = [axis * place, axis * (place + length)];
+        let radii = [random.between(0.05, 1.0), random.between(0.0, 1.0)];
+        let solid = if case % 4 == 0 {
+            Solid::Capsule(Capsule { ends, radius: radii[0] })
+        } else {
+            Solid::Frustum(Frustum::new(ends, radii))
+        };
+        let [one, other] = [(); 2].map(|()| axis * (place + length * random.between(-0.4, 1.4)));
+        let rod = Capsule {
+            ends: [one, other],
+            radius: if case % 2 == 0 { 0.0 } else { random.between(0.01, 0.3) },
+        };
+        let depth = deepest(&solid.touch(&rod));
+        // All is round: the ways out in one plane through the axis are all there are.
+        let (aside, _) = frame(&axis);
+        let overlap = |angle: f64| {
+            let n = axis * angle.cos() + aside * angle.sin();
+            solid.support(&n) + Bounded::support(&rod, &-n)
+        };
+        let mut least = (0..=2000)
+            .map(|i| std::f64::consts::PI * f64::from(i) / 2000.0)
+            .min_by(|a, b| overlap(*a).total_cmp(&overlap(*b)))
+            .unwrap();
+        let mut step = 1e-3;
+        while step > 1e-10 {
+            let better =
+                [least - step, least + step].into_iter().find(|angle| overlap(*angle) < overlap(least));
+            if let Some(better) = better { least = better } else { step *= 0.5 }
+        }
+        let searched = overlap(least).max(0.0);
+        assert!((depth - searched).abs() < 1e-7, "case {case}: {depth} {searched} {rod:?} {solid:?}");
+        let beside = Capsule { ends: rod.ends.map(|end| end + aside * 1e-9), ..rod };
+        let (here, there) = (energy(&solid.touch(&rod)), energy(&solid.touch(&beside)));
+        assert!((here - there).abs() < 1e-8, "case {case}: {here} {there} {rod:?} {solid:?}");
+        let along_axis = |contact: &Interference| contact.normal_b.dot(&axis).abs() > 1.0 - 1e-9;
+        let leaves_by_wall = |contacts: &EndContacts| {
+            contacts.iter().flatten().any(|contact| !along_axis(&contact.interference))
+        };
+        through_wall += usize::from(leaves_by_wall(&solid.touch(&rod)));
+    }
+    assert!(through_wall > 20, "{through_wall}");
+}
+
 /// The depth of the pair is the least translation, however deep and whatever is touched.
 #[test]
 fn depths_are_the_least_translation_that_separates() {

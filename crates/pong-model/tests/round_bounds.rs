@@ -13,7 +13,7 @@ const ROUNDING: f64 = 1e-14;
 /// By how much more of that a volume may be larger: every volume has a margin.
 const MARGIN: f64 = 1e-11;
 
-/// A round part: ends, radii, and how far behind its wall a bore pushes, m; a capsule has equal radii and is ball-ended.
+/// A round part: ends, radii, and how far from its hole a bore pushes, m; a capsule has equal radii and is ball-ended.
 #[derive(Clone, Copy)]
 struct Round {
     kind: &'static str,
@@ -55,18 +55,14 @@ impl Round {
         }
     }
 
-    /// The circles (of a capsule balls) whose hull the body is: the two ends; of a bore also these, moved behind the wall.
-    fn circles(&self) -> Vec<(Vec3, f64)> {
-        let between = self.ends[1] - self.ends[0];
-        let widening = self.radii[1] - self.radii[0];
-        let slant = (between.norm_squared() + widening * widening).sqrt();
-        let mut circles = vec![(self.ends[0], self.radii[0]), (self.ends[1], self.radii[1])];
-        if self.kind == "Bore" {
-            let back = between.normalize() * (-widening / slant * self.thickness);
-            let out = between.norm() / slant * self.thickness;
-            circles.extend([0, 1].map(|end| (self.ends[end] + back, self.radii[end] + out)));
-        }
-        circles
+    /// The circles (of a capsule balls) whose hull the body is: the two ends. A bore is all within its thickness of them.
+    fn circles(&self) -> [(Vec3, f64); 2] {
+        [0, 1].map(|end| (self.ends[end], self.radii[end]))
+    }
+
+    /// How far around the hull the body goes, m.
+    fn around(&self) -> f64 {
+        if self.kind == "Bore" { self.thickness } else { 0.0 }
     }
 
     /// A place of the body, often on its surface.
@@ -79,13 +75,9 @@ impl Round {
         let mixed = |a: (Vec3, f64), b: (Vec3, f64), share: f64| {
             (a.0 + (b.0 - a.0) * share, a.1 + (b.1 - a.1) * share)
         };
-        let (mut center, mut radius) = mixed(circles[0], circles[1], along);
-        if self.kind == "Bore" {
-            (center, radius) =
-                mixed((center, radius), mixed(circles[2], circles[3], along), random.pick(&[1.0, behind]));
-        }
+        let (center, radius) = mixed(circles[0], circles[1], along);
         let away = if self.kind == "Capsule" { random.direction() } else { random.across(&axis) };
-        center + away * (radius * part)
+        center + away * (radius * part) + random.direction() * (self.around() * random.pick(&[1.0, behind]))
     }
 
     /// Largest `direction · x` over the body, m.
@@ -94,13 +86,13 @@ impl Round {
         let aside =
             if self.kind == "Capsule" { 1.0 } else { (direction - axis * direction.dot(&axis)).norm() };
         let of_circle = |(center, radius): (Vec3, f64)| direction.dot(&center) + radius * aside;
-        self.circles().into_iter().map(of_circle).fold(f64::NEG_INFINITY, f64::max)
+        self.circles().into_iter().map(of_circle).fold(f64::NEG_INFINITY, f64::max) + self.around()
     }
 
     /// Distance along the axis over which the body goes, and the largest distance from the axis, m.
     fn extent(&self) -> (f64, f64) {
         let axis = (self.ends[1] - self.ends[0]).normalize();
-        let widest = self.circles().into_iter().map(|(_, radius)| radius).fold(0.0, f64::max);
+        let widest = self.radii[0].max(self.radii[1]) + self.around();
         (self.reach(&axis) + self.reach(&-axis), widest)
     }
 }

@@ -78,3 +78,16 @@ pub fn plate_mesh(name: &str, n: usize, size: f64, place: impl Fn(f64, f64) -> V
     }
     triangle_mesh(name, &vertices, &triangles, "")
 }
+
+/// A round shell of `cells × cells` cells around the origin, 0.1995 m from it, from one angle off its lowest point to another,
+/// seen from within or from without.
+pub fn shell_mesh(cells: usize, from: f64, to: f64, seen_from_within: bool) -> String {
+    let place = |x: f64, y: f64| {
+        let (up, around) = (from + (to - from) * (y + 0.5), std::f64::consts::TAU * (x + 0.5));
+        let out = 0.1995 * libm::sin(up);
+        let (a, b) = (out * libm::sin(around), out * libm::cos(around));
+        let (x, y) = if seen_from_within { (a, b) } else { (b, a) };
+        Vector3::new(x, y, -0.1995 * libm::cos(up))
+    };
+    plate_mesh("shell", cells, 1.0, place)
+}

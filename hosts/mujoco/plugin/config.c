@@ -75,8 +75,8 @@ static int read_capacity(contact_config *config, const char *value, message *why
         return 1;
     errno = 0;
     number = strtoul(value, &end, 10);
-    if (errno != 0 || *end != '\0' || *value == '-' || number < 1 || number > 65536)
-        return fail(why, "key `contact_capacity`: `%s` is no whole number from 1 to 65536", value);
+    if (errno != 0 || *end != '\0' || *value == '-' || number < 1 || number > MAX_CAPACITY)
+        return fail(why, "key `contact_capacity`: `%s` is no whole number from 1 to %d", value, MAX_CAPACITY);
     config->capacity = number;
     return 1;
 }

@@ -20,6 +20,9 @@ typedef struct entry_list {
 
 enum { TEXT_COUNT = 4 };
 
+/* The largest contact_capacity. */
+enum { MAX_CAPACITY = 65536 };
+
 typedef struct contact_config {
     entry_list objects; /* Object, model */
     entry_list pairs;   /* Object, Object */

@@ -1,5 +1,6 @@
 #include "step.h"
 
+#include "config.h"
 #include "kinematics.h"
 
 #include <stdio.h>
@@ -34,13 +35,27 @@ static int fail_step_by_library(contact_host *host, const mjModel *m, int status
     return fail_step(host, m, status, why.text);
 }
 
+static void tell_limit(message *text, const pong_report *report)
+{
+    char cause[128], cure[128];
+    if ((report->flags & PONG_FLAG_CONTACT_LIMIT) != 0)
+        snprintf(cause, sizeof cause, "%u contacts at once are more than contact_capacity allows",
+                 (unsigned)report->contacts_wanted);
+    else
+        snprintf(cause, sizeof cause, "a ball touched one surface in more places than could be shared exactly");
+    if (report->advised_capacity <= MAX_CAPACITY)
+        snprintf(cure, sizeof cure, "Set contact_capacity to %u", (unsigned)report->advised_capacity);
+    else
+        snprintf(cure, sizeof cure, "Let fewer primitives touch at once: contact_capacity can be %d at most", MAX_CAPACITY);
+    fail(text, "%s; the deepest act. %s", cause, cure);
+}
+
 static void warn_of_limits(contact_host *host, const mjModel *m, const pong_report *report)
 {
     message text;
     if ((report->flags & (PONG_FLAG_CONTACT_LIMIT | PONG_FLAG_LOAD_SHARING_LIMIT)) != 0 && !host->warned_limit) {
         host->warned_limit = 1;
-        fail(&text, "%u contacts at once are more than contact_capacity allows; the deepest act. Set contact_capacity to %u",
-             (unsigned)report->contacts_wanted, (unsigned)report->advised_capacity);
+        tell_limit(&text, report);
         warn(name_of(m, host), text.text);
     }
     if ((report->flags & PONG_FLAG_TUNNELLED) != 0 && !host->warned_tunnelling) {

@@ -156,6 +156,28 @@ for run_of_three in range(3):
         self.assertEqual(said.count("3 contacts at once are more than contact_capacity allows"), 3)
         self.assertIn("Set contact_capacity to 3", said)
 
+    def test_what_cannot_be_shared_is_told_by_its_cause(self):
+        program = """
+CELLS = 24
+def place(i, j):
+    up, around = .25 + 2.6 * j / CELLS, 2 * np.pi * i / CELLS
+    return f"({.1995 * np.sin(up) * np.sin(around)},{.1995 * np.sin(up) * np.cos(around)},{-.1995 * np.cos(up)})"
+vertices = ",".join(place(i, j) for j in range(CELLS + 1) for i in range(CELLS + 1))
+corners = [j * (CELLS + 1) + i for j in range(CELLS) for i in range(CELLS)]
+triangles = ",".join(f"({v},{v + 1},{v + CELLS + 2}),({v},{v + CELLS + 2},{v + CELLS + 1})" for v in corners)
+shell = GROUND.replace('Plane(name: "floor", normal: (0, 0, 1), offset: 0)',
+    f'TriangleMesh(name: "shell", vertices: [{vertices}], triangles: [{triangles}])')
+for capacity in (1000, 40000):
+    inside = instance("ball = text1; ground = text2", bodies="ground = world", contact_capacity=capacity, check_step="false",
+        text1=ball_model(radius=.2), text2=shell)
+    m = mujoco.MjModel.from_xml_string(mjcf(FREE.format(place="0 0 0", mass=1, i=.004), inside))
+    mujoco.mj_step(m, mujoco.MjData(m), 1)
+"""
+        said = self.warnings_of(program)
+        self.assertEqual(said.count("a ball touched one surface in more places than could be shared exactly"), 2, said)
+        self.assertIn("Set contact_capacity to 2000", said)
+        self.assertIn("contact_capacity can be 65536 at most", said)
+
     def test_tunnelling_is_told(self):
         program = """
 m = ball_on_ground("0 0 .15")

@@ -24,9 +24,10 @@ pub(crate) struct Arguments {
     /// How the wrench is used.
     #[arg(long, value_enum)]
     pub(super) coupling: Option<CouplingName>,
-    /// With `held`: how many whole frames the wrench comes late.
-    #[arg(long, value_name = "FRAMES", default_value_t = 0)]
-    pub(super) late: u32,
+    /// Of a wrench that is held: how many whole frames it comes late. 0 if it is left out; for a scene that holds its wrench
+    /// what the scene says.
+    #[arg(long, value_name = "FRAMES")]
+    pub(super) late: Option<u32>,
     /// Closing speed, m/s. Needed for a wish and for contacts as stiff as they are deep; of a scene the largest at its
     /// start, if it is left out.
     #[arg(long, value_name = "M/S")]
@@ -65,13 +66,20 @@ pub(super) enum CouplingName {
 }
 
 impl Arguments {
-    pub(super) fn coupling(&self, otherwise: WrenchCoupling) -> WrenchCoupling {
-        match self.coupling {
+    pub(super) fn coupling(&self, otherwise: WrenchCoupling) -> Result<WrenchCoupling, String> {
+        let coupling = match self.coupling {
             None => otherwise,
             Some(CouplingName::Stages) => WrenchCoupling::Stages,
             Some(CouplingName::Step) => WrenchCoupling::SemiImplicit,
-            Some(CouplingName::Held) => WrenchCoupling::ZeroOrderHold { delay_frames: self.late },
+            Some(CouplingName::Held) => WrenchCoupling::ZeroOrderHold { delay_frames: 0 },
+        };
+        let Some(delay_frames) = self.late else { return Ok(coupling) };
+        if !matches!(coupling, WrenchCoupling::ZeroOrderHold { .. }) {
+            return Err(format!(
+                "--late: the wrench is {coupling}, and only a held one comes late; leave it out or give --coupling held"
+            ));
         }
+        Ok(WrenchCoupling::ZeroOrderHold { delay_frames })
     }
 
     pub(super) fn step(&self) -> Option<f64> {

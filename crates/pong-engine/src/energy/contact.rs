@@ -104,6 +104,15 @@ impl ContactEnergies {
         }
     }
 
+    /// The host put energy into the bristle of a contact, J.
+    pub fn insert_into_bristle(&mut self, index: usize, energy: f64) {
+        if self.kept {
+            let of_contact = &mut self.energies[index];
+            of_contact.bristle += energy;
+            of_contact.account.inserted += energy;
+        }
+    }
+
     pub fn clear(&mut self) {
         self.energies.clear();
         self.delayed.clear();

@@ -111,6 +111,14 @@ impl PairEnergies {
         }
     }
 
+    /// The host put energy into contacts of the pair, J.
+    pub fn insert(&mut self, pair: usize, energy: f64) {
+        if let Some(of_pair) = self.pairs.get_mut(pair) {
+            of_pair.total.inserted += energy;
+            of_pair.episode.account.inserted += energy;
+        }
+    }
+
     /// The history of the pair is cleared: no episode lasts, nothing is on its way, and what it had stored is gone.
     pub fn clear_history(&mut self, pair: usize, stored: f64) {
         if let Some(energy) = self.pairs.get_mut(pair) {

@@ -3,3 +3,4 @@
 pub mod account;
 pub(crate) mod contact;
 pub(crate) mod episodes;
+pub(crate) mod ledger;

@@ -68,7 +68,7 @@ impl EvaluationBuffers {
             workers: WorkerBuffers::new((1..=taken_over).map(buffer).collect()),
             order: Table::with_capacity(sealed.limits.lane_contacts, Place::NOWHERE),
             tunnelling: TunnellingEvents::default(),
-            energy: EnergyBuffers::new(sealed),
+            energy: EnergyBuffers::new(scene, sealed),
             wrenches: vec![Wrench::zero(); bodies],
             beyond_range: None,
             report: FrameReport::default(),

@@ -141,10 +141,20 @@ impl ContactMemory {
     }
 
     /// Drops everything remembered of the pairs of Objects that `cleared` names; `pair_of` tells that of a pair of movable
-    /// groups.
-    pub fn clear_history(&mut self, cleared: impl Fn(usize) -> bool, pair_of: impl Fn(u32) -> usize) {
+    /// groups. What they had stored has left the contacts for good: where a ledger is kept, it is booked there.
+    pub fn clear_history(
+        &mut self,
+        cleared: impl Fn(usize) -> bool,
+        pair_of: impl Fn(u32) -> usize,
+        keeps_ledger: bool,
+    ) {
         self.poses.clear_history(&cleared);
         let cleared = |group_pair: u32| cleared(pair_of(group_pair));
+        if keeps_ledger {
+            let pushing = self.records.iter().filter(|record| record.role == ContactRole::Active);
+            let dropped = pushing.filter(|record| cleared(record.key.group_pair)).map(|record| record.stored);
+            self.dissipated += dropped.sum::<f64>();
+        }
         for index in 0..self.pair_energies.pairs.len() {
             if cleared(index as u32) {
                 let of_pair = self.records.iter().filter(|r| r.key.group_pair as usize == index);

@@ -7,17 +7,19 @@
 use super::memory::{ContactMemory, Remembered};
 use super::record::ContactRecord;
 use crate::energy::episodes::PairEnergies;
+use crate::energy::ledger::LedgerEntry;
 use std::iter::Peekable;
 
 impl ContactMemory {
     /// Writes into `next` what is remembered of contacts after a commit of the pairs of movable groups that `accepted`
-    /// names: of those `fresh` and `energies`, of all others what is remembered now. The totals are the present ones.
+    /// names: of those `fresh` and `energies`, of all others what is remembered now. The totals of the ledger get what the
+    /// accepted pairs have `added`; of every pair of movable groups, or of none where no ledger is kept.
     ///
     /// Answers how many records were left out because `next` has no room for them.
     pub fn accept_into<'a>(
         &'a self,
         fresh: impl Iterator<Item = Remembered<'a>> + Clone,
-        energies: &PairEnergies,
+        (energies, added): (&PairEnergies, &[LedgerEntry]),
         accepted: impl Fn(u32) -> bool,
         next: &mut Self,
     ) -> usize {
@@ -25,7 +27,13 @@ impl ContactMemory {
             let energies = if accepted(index as u32) { energies } else { &self.pair_energies };
             next.pair_energies.copy_pair(index, energies);
         }
-        (next.work, next.dissipated) = (self.work, self.dissipated);
+        let mut total = LedgerEntry { work: self.work, dissipated: self.dissipated };
+        added
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| accepted(*index as u32))
+            .for_each(|(_, one)| total.add(one));
+        (next.work, next.dissipated) = (total.work, total.dissipated);
         let is_accepted = |record: &ContactRecord| accepted(record.key.group_pair);
         let kept = self.iter().filter(|kept| !is_accepted(&kept.record)).peekable();
         let fresh = fresh.filter(|fresh| is_accepted(&fresh.record)).peekable();

@@ -16,7 +16,7 @@ impl World {
         let pair = self.scene.pair_index(pair)?;
         if self.states.enabled[pair] != enabled {
             self.states.enabled[pair] = enabled;
-            self.runtime.clear_history(|other| other == pair);
+            self.runtime.clear_history(&self.scene, |other| other == pair);
         }
         Ok(())
     }
@@ -36,7 +36,7 @@ impl World {
     pub fn clear_contact_history(&mut self, object: ObjectId) -> Result<(), EngineError> {
         let object = self.scene.object_index(object)?;
         let pairs = &self.scene.pairs;
-        self.runtime.clear_history(|pair| pairs[pair].a == object || pairs[pair].b == object);
+        self.runtime.clear_history(&self.scene, |pair| pairs[pair].a == object || pairs[pair].b == object);
         Ok(())
     }
 

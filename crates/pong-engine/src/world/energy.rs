@@ -6,10 +6,11 @@ use crate::energy::account::{EnergyAccount, PairEnergyAccount};
 use crate::ids::{InterfaceId, PairId};
 
 impl World {
-    /// Energies at the last commit, J. Zero unless [`Config::ledger`](crate::Config::ledger) is set.
+    /// Energies at the last commit, J. Work and dissipation are zero unless [`Config::ledger`](crate::Config::ledger) is set.
     pub fn ledger(&self) -> Ledger {
         let memory = &self.runtime.memory;
-        let stored = memory.records.iter().map(|record| record.stored).sum();
+        // An empty sum is −0.
+        let stored = memory.records.iter().map(|record| record.stored).sum::<f64>() + 0.0;
         Ledger { stored, work: memory.work, dissipated: memory.dissipated }
     }
 

@@ -99,8 +99,7 @@ impl World {
         }
         self.require_evaluated()?;
         let stamp = self.scene.stamp;
-        let accepts = |pair| pairs.iter().any(|accepted| accepted.index_in(stamp) == Some(pair));
-        self.runtime.commit_pairs(&self.states, accepts)
+        self.runtime.commit_pairs(&self.states, pairs.iter().filter_map(|pair| pair.index_in(stamp)))
     }
 
     /// Evaluate and commit, for hosts that call once a frame.

@@ -5,7 +5,9 @@ use pong_engine::{Config, InterfaceId, ModelId, ObjectId, PairId, State, World, 
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Quat, Vec3, Wrench};
 use pong_testkit::Random;
-pub use pong_testkit::ron::{box_polyhedron, model, place_of, plate_mesh, surface, triangle_mesh};
+pub use pong_testkit::ron::{
+    box_polyhedron, model, place_of, plate_mesh, shell_mesh, surface, triangle_mesh,
+};
 use std::sync::Arc;
 
 /// Two Objects, paired and sealed.

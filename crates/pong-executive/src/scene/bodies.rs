@@ -14,7 +14,7 @@ use pong_geometry::{Mat3, Pose, Twist, Vec3};
 pub(crate) fn bodies(setting: &Setting<'_>, faults: &mut Faults<'_>) -> Vec<RigidBody> {
     let mut bodies: Vec<RigidBody> = Vec::new();
     for (index, entry) in setting.document.objects.iter().enumerate() {
-        let mut maker = ObjectBodies { setting, object: entry, root: root_pose(entry) };
+        let mut maker = ObjectBodies { setting, object: entry, root: root_pose(setting, index) };
         let first = bodies.len();
         for (number, body) in entry.bodies.iter().enumerate() {
             let thing = format!("objects/{}/bodies[{number}]", entry.name);
@@ -57,8 +57,14 @@ fn tell_missing(
 }
 
 /// Where the root of an object starts: its other groups are placed from there unless they say otherwise.
-fn root_pose(entry: &ObjectEntry) -> Pose {
-    let root = entry.bodies.iter().find(|body| body.group.is_empty());
+fn root_pose(setting: &Setting<'_>, index: usize) -> Pose {
+    let scene = setting.world.scene();
+    let named = |group: &str| scene.interface(setting.objects[index]?, group).ok();
+    // By whichever of its names the scene calls it.
+    let is_root = |body: &&BodyEntry| {
+        body.group.is_empty() || named(&body.group).is_some_and(|id| named("") == Some(id))
+    };
+    let root = setting.document.objects[index].bodies.iter().find(is_root);
     let mut unheard = Faults::new("");
     root.map_or(Pose::identity(), |root| {
         pose(&root.position.unwrap_or_default(), &root.orientation, &mut unheard.at(""))

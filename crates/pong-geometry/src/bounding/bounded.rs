@@ -171,25 +171,21 @@ impl Bounded for Frustum {
     }
 }
 
-/// The wall of a bore moved back by its thickness, and what is in front of it.
-fn behind(bore: &Bore) -> Frustum {
-    let [along, aside] = bore.hole.wall.map(|part| part * bore.thickness);
-    let Frustum { ends, radii, axis, .. } = bore.hole;
-    Frustum {
-        ends: ends.map(|end| end + axis * along),
-        radii: radii.map(|radius| radius + aside),
-        ..bore.hole
+impl Bore {
+    /// What a bore may push: all that is in the hole or less than the thickness away from it. Its wall moved back would not do:
+    /// the origin of a grazing ray that still hits may lie beside it, and so may what goes through the wall around a mouth.
+    fn pushed(&self) -> Dilated<'_> {
+        Dilated { thing: &self.hole, reach: self.thickness }
     }
 }
 
-/// What a bore may push: all that is in the hole or less than the thickness behind its wall.
 impl Bounded for Bore {
     fn support(&self, direction: &Vec3) -> f64 {
-        self.hole.support(direction).max(behind(self).support(direction))
+        self.pushed().support(direction)
     }
 
     fn farthest(&self, from: &Vec3) -> f64 {
-        self.hole.farthest(from).max(behind(self).farthest(from))
+        self.pushed().farthest(from)
     }
 
     fn representatives(&self, out: &mut Vec<Vec3>) {

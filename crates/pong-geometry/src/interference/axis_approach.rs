@@ -253,11 +253,14 @@ impl<'a> WayOut<'a> {
             // Once more: what rounding leaves along the axis is much of a short way from it.
             let across = across - axis * axis.dot(&across);
             let aside = across.norm();
-            if aside > 0.0 {
-                let [wall_along, wall_aside] = self.frustum.wall;
-                let normal = axis * wall_along + across * (wall_aside / aside.max(f64::MIN_POSITIVE));
-                self.offer(&normal.normalize(), Feature::face(0));
-            }
+            // From the axis itself all ways out through the wall are as long.
+            let [wall_along, wall_aside] = self.frustum.wall;
+            let away = if aside > 0.0 {
+                across * (wall_aside / aside.max(f64::MIN_POSITIVE))
+            } else {
+                any_perpendicular(&axis) * wall_aside
+            };
+            self.offer(&(axis * wall_along + away).normalize(), Feature::face(0));
         }
         self.offer_across();
         self.best

@@ -17,6 +17,9 @@ pub struct ConvexEdge {
     pub normals_b: [Vec3; 2],
     /// Unit vectors across the edge, in the plane of each face and out of it; `None` if only what is in front is pushed.
     pub outwards_b: Option<[Vec3; 2]>,
+    /// Of a free edge the unit vector across it, in the plane of its face and out of it. An axis that stands upright on the face is
+    /// pushed that way, though it is as much in front of the face as behind it.
+    pub free_outward_b: Option<Vec3>,
     /// Which edge it is.
     pub feature: Feature,
 }
@@ -63,7 +66,7 @@ fn over(
     on_edge: f64,
 ) -> Option<Interference> {
     let across = of_edge.along.cross(&axis.along).normalize();
-    let outside = edge.normals_b.iter().sum::<Vec3>().dot(&across);
+    let outside = outside(edge, &across);
     let normal = if outside < 0.0 { -across } else { across };
     let height = normal.dot(&(axis.at(at) - of_edge.at(on_edge)));
     // Of an axis along a face rounding decides whether the way out is beside that face's normal: it counts as if it were not.
@@ -75,6 +78,13 @@ fn over(
         return None;
     }
     Some(touched(capsule, edge, normal, height, &axis.at(at)))
+}
+
+/// How much a unit vector across the edge points out of what the edge bounds: of two opposite ones the positive one pushes.
+fn outside(edge: &ConvexEdge, across: &Vec3) -> f64 {
+    let in_front = edge.normals_b.iter().sum::<Vec3>().dot(across);
+    // Of an axis that stands upright on a face rounding decides what is in front.
+    edge.free_outward_b.filter(|_| in_front.abs() <= ROUNDING).map_or(in_front, |outward| outward.dot(across))
 }
 
 /// What rounding makes of a distance between the two, m.

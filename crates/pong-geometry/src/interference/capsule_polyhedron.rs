@@ -84,6 +84,7 @@ impl<'a> CapsuleAtPiece<'a> {
         let edge = ConvexEdge {
             ends_b: edge.vertices.map(|vertex| self.polyhedron.vertices[vertex as usize].position),
             normals_b: push.normals,
+            free_outward_b: None,
             outwards_b: Some(push.outwards),
             feature: Feature::edge(index),
         };

@@ -135,10 +135,11 @@ impl RodEnd<'_> {
             Reach { depth: depth + rod.skin, slope }
         };
         let sides = self.sides(&across, &circle, reach);
-        let contacts = sides.map(|side| {
-            let side = side?;
-            self.wall.pushed(&side, &circle.farthest(&self.wall.outward(&side)), rod.skin)
-        });
+        let pushed =
+            |side: Vec3| self.wall.pushed(&side, &circle.farthest(&self.wall.outward(&side)), rod.skin);
+        // What is too deep to be pushed is not held on the opposite side either.
+        let deepest_contact = sides[0].and_then(pushed);
+        let contacts = [deepest_contact, sides[1].filter(|_| deepest_contact.is_some()).and_then(pushed)];
         let deepest = sides[0].unwrap_or(across.first_b);
         let place = circle.farthest(&self.wall.outward(&deepest));
         AtWall {
@@ -191,13 +192,14 @@ impl RodEnd<'_> {
         tips.into_iter().fold(side, |one, other| self.deeper(one, other))
     }
 
-    /// The line of the side against the mouth, past its own end as well.
+    /// The line of the side against the mouth, past its own end as well, as far as the wall is thick.
     fn line_at_mouth(&self) -> BallContacts {
         if !self.is_convex() {
             return NOTHING;
         }
-        let end = self.end;
-        self.at_circle(|along| if end == 0 { along <= self.rod.length } else { along >= 0.0 })
+        let (length, past) = (self.rod.length, self.bore.thickness);
+        let [first, last] = if self.end == 0 { [-past, length] } else { [0.0, length + past] };
+        self.at_circle(|along| (first..=last).contains(&along))
     }
 
     fn is_convex(&self) -> bool {
@@ -250,7 +252,8 @@ impl RodEnd<'_> {
         across.greatest(reach).map(touched)
     }
 
-    /// Whether the axis itself goes through the wall around the mouth.
+    /// Whether the axis itself goes through the wall around the mouth. What counts past an end of the rod does so as long as that
+    /// end is no farther from the mouth than the wall is thick.
     fn is_crossed_behind(&self, counts: impl Fn(f64) -> bool) -> bool {
         /// A rod so square to the hole, as a cosine, goes through no mouth.
         const SQUARE: f64 = 1e-9;
@@ -260,8 +263,10 @@ impl RodEnd<'_> {
             return false;
         }
         let along = circle.axis_b.dot(&(circle.center_b - rod.ends[0])) / rate;
-        let off = (rod.ends[0] + rod.axis_b * along - circle.center_b).norm();
-        counts(along) && off < circle.radius + self.bore.thickness
+        let nearest = rod.ends[0] + rod.axis_b * along.clamp(0.0, rod.length) - circle.center_b;
+        let above = circle.axis_b.dot(&nearest);
+        let off = ((nearest - circle.axis_b * above).norm() - circle.radius).max(0.0);
+        counts(along) && (above * above + off * off).sqrt() < self.bore.thickness
     }
 
     /// How far a rod must go to be out of the hole by a mouth, m.

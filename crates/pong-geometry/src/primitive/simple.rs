@@ -44,7 +44,7 @@ pub struct Ray {
     /// Free length, m.
     pub length: f64,
     /// How far behind the origin a surface may lie and still be hit, m; `None` takes the default of what is hit
-    /// (0, or a triangle's thickness).
+    /// (0, or the thickness of a triangle or a bore).
     pub reach: Option<f64>,
     /// Which way the force acts.
     pub response: RayResponse,

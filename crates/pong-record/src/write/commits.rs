@@ -30,13 +30,19 @@ impl Commits {
     pub fn committed_some(&mut self, pairs: &[PairId]) {
         self.committed = FrameRow::COMMITTED_SOME;
         self.pairs.clear();
-        for pair in pairs.iter().map(|pair| pair.index() as u32) {
-            // As many as there are pairs is all there is room for: a pair named twice is one.
-            if !self.pairs.contains(&pair) {
-                self.pairs.push(pair);
+        // As many as there are pairs is all there is room for: a pair named twice is one.
+        let indices = pairs.iter().map(|pair| pair.index() as u32);
+        if pairs.len() <= self.pairs.capacity() {
+            self.pairs.extend(indices);
+            self.pairs.sort_unstable();
+            self.pairs.dedup();
+            return;
+        }
+        for pair in indices {
+            if let Err(place) = self.pairs.binary_search(&pair) {
+                self.pairs.insert(place, pair);
             }
         }
-        self.pairs.sort_unstable();
     }
 
     /// Fills in what a frame tells, and begins the next.

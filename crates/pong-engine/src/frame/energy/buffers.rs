@@ -3,6 +3,8 @@
 use super::interval::Interval;
 use crate::energy::contact::ContactEnergies;
 use crate::energy::episodes::PairEnergies;
+use crate::energy::ledger::LedgerEntry;
+use crate::scene::Scene;
 use crate::sealed::Sealed;
 
 /// Energies of a frame: what a commit would remember of them.
@@ -11,6 +13,8 @@ pub(crate) struct EnergyBuffers {
     pub work: f64,
     /// Energy that left the contacts for good since the world began, J.
     pub dissipated: f64,
+    /// What the frame adds to both, by pair of movable groups, for a commit of some pairs; none unless the ledger is kept.
+    pub added: Vec<LedgerEntry>,
     /// Of the contacts, by their places in the caller's buffer; none unless accounts are kept.
     pub contacts: ContactEnergies,
     /// Of the pairs of movable groups; none unless accounts are kept.
@@ -20,10 +24,12 @@ pub(crate) struct EnergyBuffers {
 }
 
 impl EnergyBuffers {
-    pub fn new(sealed: &Sealed) -> Self {
+    pub fn new(scene: &Scene, sealed: &Sealed) -> Self {
+        let pairs = if scene.config.ledger { sealed.group_pairs.len() } else { 0 };
         Self {
             work: 0.0,
             dissipated: 0.0,
+            added: vec![LedgerEntry::default(); pairs],
             contacts: ContactEnergies::with_capacity(sealed.coupling, sealed.limits.lane_contacts),
             pairs: PairEnergies::new(sealed.account_pairs(), sealed.delay()),
             intervals: vec![Interval::default(); sealed.account_pairs()],

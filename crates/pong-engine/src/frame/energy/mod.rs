@@ -14,6 +14,7 @@ pub(crate) mod buffers;
 mod displacement;
 pub(crate) mod interval;
 
+use crate::energy::ledger::LedgerEntry;
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::reference_point::reference_point;
 use crate::frame::input::EvaluationInput;
@@ -37,8 +38,20 @@ pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers
     }
     let EvaluationBuffers { input, caller, order, energy, near, poses, twists, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
-    let EnergyBuffers { work: all_work, dissipated: all_dissipated, contacts: energies, pairs, intervals } =
-        energy;
+    let EnergyBuffers {
+        work: all_work,
+        dissipated: all_dissipated,
+        added,
+        contacts: energies,
+        pairs,
+        intervals,
+    } = energy;
+    added.fill(LedgerEntry::default());
+    let mut book = |group_pair: u32, entry: &LedgerEntry| {
+        *all_work += entry.work;
+        *all_dissipated += entry.dissipated;
+        added[group_pair as usize].add(entry);
+    };
     let WorkerContext { scratch, out, .. } = &mut **caller;
     let input = &*input;
     energies.reset(out.contacts.len());
@@ -84,8 +97,7 @@ pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers
         let dissipated = -work - (contact.stored - before.stored);
         contact.work = before.work + work;
         contact.dissipated = before.dissipated + dissipated;
-        *all_work += work;
-        *all_dissipated += dissipated;
+        book(found.key.group_pair, &LedgerEntry { work, dissipated });
         if let Some(accounts) = &mut accounts {
             accounts.contact(place.slot.index(), contact, earlier, displacement.as_ref());
         }
@@ -94,9 +106,7 @@ pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers
         memory.records.iter().enumerate().filter(|(i, r)| r.role == ContactRole::Active && !continued[*i]);
     for (index, earlier) in ended {
         let displacement = displacement_of_ended(earlier, &motions);
-        let (work, dissipated) = end_contact(earlier, displacement.as_ref());
-        *all_work += work;
-        *all_dissipated += dissipated;
+        book(earlier.key.group_pair, &end_contact(earlier, displacement.as_ref()));
         if let Some(accounts) = &mut accounts {
             accounts.ended(index, displacement.as_ref());
         }
@@ -137,9 +147,9 @@ fn displacement_of_ended(earlier: &ContactRecord, motions: &Motions<'_>) -> Opti
 
 /// Work and dissipation of a contact that is no more: half of the work of its last force, and its stored energy is
 /// gone.
-fn end_contact(earlier: &ContactRecord, displacement: Option<&Displacement>) -> (f64, f64) {
+fn end_contact(earlier: &ContactRecord, displacement: Option<&Displacement>) -> LedgerEntry {
     let half =
         |displacement: &Displacement| displacement.half_work(&earlier.point_b, &earlier.force_b, false);
     let work = displacement.map_or(0.0, half);
-    (work, earlier.stored - work)
+    LedgerEntry { work, dissipated: earlier.stored - work }
 }

@@ -11,7 +11,7 @@ use pong_geometry::Vec3;
 pub(super) fn couple(ends: &mut [ContactCandidate], middle: &mut [ContactCandidate]) {
     let squares = [0, 1].map(|end| square_moved(ends, end));
     let deeper = |a: usize, b: usize| if middle[b].depth > middle[a].depth { b } else { a };
-    let deepest = (0..middle.len()).reduce(deeper);
+    let deepest = (0..middle.len()).filter(|&index| middle[index].takes_part()).reduce(deeper);
     for (index, contact) in middle.iter_mut().enumerate() {
         let square = contact.depth * contact.depth;
         if deepest != Some(index) || square <= squares[0].max(squares[1]) {

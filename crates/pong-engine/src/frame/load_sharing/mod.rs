@@ -58,6 +58,8 @@ pub(crate) fn assign_weights(
             keep_one_side_of_rims(found, context);
             keep_one_way_at_places(found);
         }
+        // Front and back are two surfaces: what they have in common is told before each shares.
+        PrimitiveKind::Capsule => keep_one_side_of_rims(found, context),
         _ => {}
     }
     if kind_a == PrimitiveKind::Capsule {
@@ -91,7 +93,6 @@ fn share_capsules(
         }
         let (ends, middle) = body.split_at_mut(edges);
         for end in ends.chunk_by_mut(|a, b| a.key == b.key) {
-            keep_one_side_of_rims(end, context);
             keep_one_way_at_places(end);
             settle_group(end, PrimitiveKind::Sphere, context);
             if end.len() > 1 {

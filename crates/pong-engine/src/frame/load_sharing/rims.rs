@@ -62,11 +62,16 @@ fn is_of_a_back(contact: &ContactCandidate, context: &PairContext<'_>) -> bool {
         && contact.element_b >= context.body_b.primitives[contact.primitive_b as usize].first_mirror
 }
 
-/// Whether the same edge or vertex pushes the same. Both sides see it between the same ends, and find the same bits.
+/// Relative: what rounding leaves between the depths of one place, seen from both sides.
+const SAME_DEPTH_SLACK: f64 = 1e-9;
+
+/// Whether the same edge or vertex pushes as much, for all that rounding can tell: where a centre is on the rim itself, the
+/// direction is each side's own.
 fn is_front_of(front: &ContactCandidate, back: &ContactCandidate) -> bool {
-    front.key.primitive_a == back.key.primitive_a
+    (front.key.primitive_a, front.key.end) == (back.key.primitive_a, back.key.end)
         && front.primitive_b == back.primitive_b
         && !front.feature.is_face()
         && (front.status, front.role) == (back.status, ContactRole::Active)
-        && (front.depth, front.normal_b, front.deepest_b) == (back.depth, back.normal_b, back.deepest_b)
+        && (front.depth - back.depth).abs() <= SAME_DEPTH_SLACK * back.depth
+        && are_one_place(&touched(front), &touched(back))
 }

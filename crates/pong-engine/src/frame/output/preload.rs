@@ -157,13 +157,22 @@ impl Held<'_> {
 }
 
 impl ContactMemory {
-    /// Remembers bristles that were preloaded after the commit of their frame.
-    pub(crate) fn preload(&mut self, preloaded: &[Preloaded]) {
+    /// Remembers bristles that were preloaded after the commit of their frame. No work was done on the bodies: what the
+    /// bristles store more came into the contacts from nowhere, which a ledger has as less than nothing dissipated, and
+    /// accounts as inserted.
+    pub(crate) fn preload(&mut self, preloaded: &[Preloaded], keeps_ledger: bool) {
         for one in preloaded {
             let record = &mut self.records[one.place];
             record.force_b = record.normal_b * record.normal_b.dot(&record.force_b) + one.friction_force_b;
             (record.bristle_b, record.sticks) = (one.bristle_b, one.sticks);
             record.stored += one.stored_more;
+            if keeps_ledger {
+                record.dissipated -= one.stored_more;
+                self.dissipated -= one.stored_more;
+            }
+            let pair = record.key.group_pair as usize;
+            self.energies.insert_into_bristle(one.place, one.stored_more);
+            self.pair_energies.insert(pair, one.stored_more);
         }
     }
 }

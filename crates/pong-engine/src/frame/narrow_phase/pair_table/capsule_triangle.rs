@@ -16,13 +16,14 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
     let may_push = set.triangles[triangle as usize].may_push;
     for k in (0..3).filter(|&k| may_push.edge(k)) {
         let view = TriangleView::new(set, triangle);
-        let normals = match view.classify_edge(set, k) {
-            EdgeClass::Free => [view.normal; 2],
-            EdgeClass::Convex { normal, .. } if view.owns_edge(set, k) => [view.normal, normal],
+        let (normals, free_outward_b) = match view.classify_edge(set, k) {
+            EdgeClass::Free => ([view.normal; 2], Some(view.outward(k))),
+            EdgeClass::Convex { normal, .. } if view.owns_edge(set, k) => ([view.normal, normal], None),
             EdgeClass::Convex { .. } | EdgeClass::Silent { .. } => continue,
         };
         let feature = Feature::edge(triangle as usize * 3 + k);
-        let edge = ConvexEdge { ends_b: view.edge_ends(k), normals_b: normals, outwards_b: None, feature };
+        let ends_b = view.edge_ends(k);
+        let edge = ConvexEdge { ends_b, normals_b: normals, outwards_b: None, free_outward_b, feature };
         if let Some(crossing) = capsule_edge(capsule, &edge) {
             pair.between_ends(&crossing, found);
         }

@@ -1,0 +1,17 @@
+//! What a frame adds to the totals of work and dissipation.
+
+/// What a frame adds to the ledger.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct LedgerEntry {
+    /// Work done on the bodies, J.
+    pub work: f64,
+    /// Energy that left the contacts for good, J.
+    pub dissipated: f64,
+}
+
+impl LedgerEntry {
+    pub fn add(&mut self, other: &Self) {
+        self.work += other.work;
+        self.dissipated += other.dissipated;
+    }
+}
