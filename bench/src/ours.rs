@@ -535,7 +535,8 @@ fn capsule_on_triangle(a: &Capsule, b: &MovableGroup) -> Option<Interference> {
     let view = TriangleView::new(&b.triangles, 0);
     let edges = (0..3).filter_map(|k| {
         let (ends_b, normals_b) = (view.edge_ends(k), [view.normal; 2]);
-        capsule_edge(a, &ConvexEdge { ends_b, normals_b, outwards_b: None, feature: Feature::edge(k) })
+        let (outwards_b, free_outward_b, feature) = (None, Some(view.outward(k)), Feature::edge(k));
+        capsule_edge(a, &ConvexEdge { ends_b, normals_b, outwards_b, free_outward_b, feature })
     });
     let over = |ball: &Sphere| last(|emit| sphere_triangle(ball, &b.triangles, 0, ball.radius, emit));
     deepest(balls(a).iter().map(over).chain(edges.map(Some)))
