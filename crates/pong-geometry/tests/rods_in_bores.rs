@@ -527,6 +527,20 @@ fn gap(random: &mut Random, a: &dyn Bounded, b: &dyn Bounded) -> f64 {
     directions.map(|d| -a.support(&d) - b.support(&-d)).fold(f64::NEG_INFINITY, f64::max)
 }
 
+/// A rod whose line goes through the plane of a mouth, in it or around it, and that may end before.
+fn ends_near_a_mouth(random: &mut Random, bore: &Bore) -> [Vec3; 2] {
+    let mouth = random.below(2);
+    let [one, other] = bore_support::across(bore);
+    let (angle, radius) =
+        (random.between(0.0, TAU), bore.hole.radii[mouth] + bore.thickness * random.between(-0.5, 1.2));
+    let through = bore.hole.ends[mouth] + (one * angle.cos() + other * angle.sin()) * radius;
+    let along = random.direction();
+    let ends = [random.between(-0.3, 1.2), random.between(0.3, 3.0)]
+        .map(|way| through + along * (way * bore.thickness));
+    let first = random.below(2);
+    [ends[first], ends[1 - first]]
+}
+
 /// Whatever a bore pushes, and wherever a ray hits it, reaches into its bounds: of rods in any pose, and of rays that begin behind
 /// the wall.
 #[test]
@@ -536,7 +550,11 @@ fn nothing_that_a_bore_pushes_is_outside_its_bounds() {
     for trial in 0..60_000 {
         let bore = random_bore(&mut random);
         let place = |random: &mut Random| bore.hole.ends[0] + random.direction() * random.between(0.0, 2.5);
-        let ends = [place(&mut random), place(&mut random)];
+        let ends = if trial % 2 == 0 {
+            [place(&mut random), place(&mut random)]
+        } else {
+            ends_near_a_mouth(&mut random, &bore)
+        };
         let kind = [Kind::Segment, Kind::Capsule, Kind::Cylinder][trial % 3];
         let radius = if kind == Kind::Segment { 0.0 } else { random.between(0.05, 0.6) };
         let rod = Rod { kind, ends, radius };
