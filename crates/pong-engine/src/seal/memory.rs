@@ -7,6 +7,7 @@
 use super::limits::{bytes_per_contact, least_lane_bytes};
 use crate::energy::account::WrenchCoupling;
 use crate::energy::episodes::PairEnergy;
+use crate::energy::ledger::LedgerEntry;
 use crate::error::EngineError;
 use crate::frame::{Block, Interval, MOTIONS_AT_ONCE, NearPairs, PairMotions, ROUND};
 use crate::scene::Scene;
@@ -74,9 +75,10 @@ fn per_pair(scene: &Scene) -> usize {
     let delay = scene.config.accounts.map_or(0, WrenchCoupling::delay);
     let energies = scene.config.accounts.map_or(0, |_| size_of::<PairEnergy>() + delay * size_of::<Wrench>());
     let intervals = if scene.config.accounts.is_some() { size_of::<Interval>() } else { 0 };
+    let ledger = if scene.config.ledger { size_of::<LedgerEntry>() } else { 0 };
     // The contact states that take turns, the one that a stuck worker may hold, and the frame's own.
     let states = 3 + crew;
-    states * energies + intervals + 2 * size_of::<u32>()
+    states * energies + intervals + ledger + 2 * size_of::<u32>()
 }
 
 /// What the frames get, bytes.
