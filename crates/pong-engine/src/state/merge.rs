@@ -28,11 +28,11 @@ impl ContactMemory {
             next.pair_energies.copy_pair(index, energies);
         }
         let mut total = LedgerEntry { work: self.work, dissipated: self.dissipated };
-        added
-            .iter()
-            .enumerate()
-            .filter(|(index, _)| accepted(*index as u32))
-            .for_each(|(_, one)| total.add(one));
+        for (index, one) in added.iter().enumerate() {
+            if accepted(index as u32) {
+                total.add(one);
+            }
+        }
         (next.work, next.dissipated) = (total.work, total.dissipated);
         let is_accepted = |record: &ContactRecord| accepted(record.key.group_pair);
         let kept = self.iter().filter(|kept| !is_accepted(&kept.record)).peekable();

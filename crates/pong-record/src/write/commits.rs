@@ -30,19 +30,23 @@ impl Commits {
     pub fn committed_some(&mut self, pairs: &[PairId]) {
         self.committed = FrameRow::COMMITTED_SOME;
         self.pairs.clear();
-        // As many as there are pairs is all there is room for: a pair named twice is one.
-        let indices = pairs.iter().map(|pair| pair.index() as u32);
-        if pairs.len() <= self.pairs.capacity() {
-            self.pairs.extend(indices);
-            self.pairs.sort_unstable();
-            self.pairs.dedup();
-            return;
-        }
-        for pair in indices {
-            if let Err(place) = self.pairs.binary_search(&pair) {
-                self.pairs.insert(place, pair);
+        for pair in pairs.iter().map(|pair| pair.index() as u32) {
+            // There is room for each pair once: full without a pair named twice, it has them all.
+            if self.pairs.len() == self.pairs.capacity() {
+                self.order();
+                if self.pairs.len() == self.pairs.capacity() {
+                    return;
+                }
             }
+            self.pairs.push(pair);
         }
+        self.order();
+    }
+
+    /// In order, and each once.
+    fn order(&mut self) {
+        self.pairs.sort_unstable();
+        self.pairs.dedup();
     }
 
     /// Fills in what a frame tells, and begins the next.
@@ -71,6 +75,29 @@ mod tests {
         let mut row = crate::Frame::default().row;
         commits.tell(&mut row);
         (row.committed, row.commits_missed)
+    }
+
+    #[test]
+    fn pairs_are_told_in_order_and_once_without_more_room() {
+        let of = |pairs: &[u64]| {
+            pairs.iter().map(|pair| PairId::from_bits((1 << 32) | (pair + 1))).collect::<Vec<_>>()
+        };
+        let mut commits = Commits::new(4);
+        let room = commits.pairs.capacity();
+        let four = [3, 0, 2, 1];
+        let (often, again): (Vec<u64>, Vec<u64>) =
+            ([1, 1, 3].repeat(10).into_iter().chain([0]).collect(), four.repeat(3));
+        for (given, told) in [
+            (&[][..], &[][..]),
+            (&[2, 0], &[0, 2]),
+            (&four, &[0, 1, 2, 3]),
+            (&often, &[0, 1, 3]),
+            (&again, &[0, 1, 2, 3]),
+        ] {
+            commits.committed_some(&of(given));
+            assert_eq!(commits.pairs(), told, "{given:?}");
+            assert_eq!(commits.pairs.capacity(), room);
+        }
     }
 
     #[test]
