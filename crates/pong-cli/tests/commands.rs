@@ -287,6 +287,7 @@ fn check_knows_round_parts() {
         "Cylinder–Plane: 1 pair of primitives",
         "Cone–Plane: 1 pair of primitives",
         "Bore and Plane have no tester",
+        "note: models `cable` and `ground`, Cone on Plane: the tip of a cone has half of the stiffness",
         "up to 400000 N/m on one face: all 2 capsules and 1 cylinder and 1 cone of cable:cable on a Plane (`rigid`)",
     ];
     assert_holds(&out, &parts);

@@ -117,6 +117,54 @@ fn friction_that_only_one_surface_has_is_told() {
     assert_eq!(notes(&model("glass", "\"s\": (stiffness: inf, friction: None)", FLOOR)).len(), 1);
 }
 
+/// Kinds of the pairs that are noted, for a part of each of two models.
+fn limits_of(a: &str, b: &str) -> Vec<(usize, String)> {
+    let [a, b] = [("a", a), ("b", b)].map(|(name, part)| model(name, &surface(1e5, ""), part));
+    let of = |note: &SetupNote| match note {
+        SetupNote::KnownLimit { models, kinds, limit } => {
+            assert!(limit.len() > 60 && note.to_string().contains("(docs/theory.md, 6)"), "{note}");
+            let [[kind_a, kind_b]] = &kinds[..] else { panic!("{kinds:?}") };
+            Some((1, format!("{} {kind_a}, {} {kind_b}", models[0], models[1])))
+        }
+        SetupNote::NoFriction { .. } => None,
+    };
+    let mut counted: Vec<(usize, String)> = Vec::new();
+    for (one, kinds) in seal(&[&a, &b]).unwrap().notes.iter().filter_map(of) {
+        match counted.iter_mut().find(|(_, other)| *other == kinds) {
+            Some((count, _)) => *count += one,
+            None => counted.push((one, kinds)),
+        }
+    }
+    counted
+}
+
+#[test]
+fn known_limits_are_noted_by_the_kinds_that_meet() {
+    let capsule = "Capsule(name: \"c\", ends: ((0,0,0),(1,0,0)), radius: 0.1)";
+    let bar = "LineSegment(name: \"l\", ends: ((0,0,0),(1,0,0)))";
+    let pin = |length: f64| format!("Cylinder(name: \"p\", ends: ((0,0,0),({length:?},0,0)), radius: 0.1)");
+    let cone = |tip: f64| format!("Cone(name: \"k\", ends: ((0,0,0),(1,0,0)), radii: (0.1,{tip:?}))");
+    let bore = "Bore(name: \"b\", ends: ((0,0,0),(1,0,0)), radii: (0.1,0.1))";
+    let solid = "Polyhedron(name: \"w\", vertices: [(1,0,0),(0,1,0),(0,0,1),(0,0,0)], faces: [[0,1,2],[0,3,1],[1,3,2],[2,3,0]])";
+    let ball = "Sphere(name: \"s\", center: (0,0,0), radius: 0.1)";
+    for (a, b, expected) in [
+        (capsule, capsule, vec![(1, "a Capsule, b Capsule"), (1, "b Capsule, a Capsule")]),
+        (bar, capsule, vec![(1, "a LineSegment, b Capsule")]),
+        (&*pin(1.0), bar, vec![(2, "b LineSegment, a Cylinder")]),
+        (capsule, &cone(0.05), vec![(2, "a Capsule, b Cone")]),
+        (solid, capsule, vec![(2, "b Capsule, a Polyhedron")]),
+        (&pin(0.04), bore, vec![(1, "a Cylinder, b Bore")]),
+        (&pin(0.06), bore, vec![]),
+        (&cone(0.0), FLOOR, vec![(1, "a Cone, b Plane")]),
+        (&cone(0.05), FLOOR, vec![]),
+        (ball, capsule, vec![]),
+        (capsule, FLOOR, vec![]),
+    ] {
+        let expected: Vec<_> = expected.into_iter().map(|(count, kinds)| (count, kinds.to_owned())).collect();
+        assert_eq!(limits_of(a, b), expected, "{a} {b}");
+    }
+}
+
 /// A rigid floor that says nothing holds a tip as one that repeats what the tip says.
 #[test]
 fn a_silent_rigid_floor_is_the_one_that_repeats_the_other() {

@@ -4,13 +4,17 @@
 mod common;
 
 use common::*;
-use pong_engine::{Config, StatusBits};
+use pong_engine::{Config, StatusBits, has_tester};
+use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Quat, Vec3};
+use pong_testkit::Random;
 
 const POINT: &str = "Point(name: \"p\", position: (0,0,0))";
 const BALL: &str = "Sphere(name: \"s\", center: (0,0,0), radius: 0.02)";
 const BAR: &str = "LineSegment(name: \"l\", ends: ((0,-0.1,0),(0,0.1,0)))";
 const EGG: &str = "Ellipsoid(name: \"e\", center: (0,0,0), semi_axes: (0.02,0.03,0.04))";
+const CAPSULE: &str = "Capsule(name: \"c\", ends: ((0,-0.1,0),(0,0.1,0)), radius: 0.02)";
+const PIN: &str = "Cylinder(name: \"n\", ends: ((0,-0.05,0),(0,0.05,0)), radius: 0.02)";
 const RAY: &str = "Ray(name: \"r\", origin: (0,0,0), direction: (-1,0,0), length: 0.05)";
 
 /// 10 mm thick, its faces across x.
@@ -49,7 +53,7 @@ fn told_at(rig: &mut Rig, places: impl IntoIterator<Item = Vec3>) -> Vec<bool> {
 
 #[test]
 fn everything_that_goes_through_a_plate_is_told_once() {
-    for bullet in [POINT, BALL, BAR, EGG, RAY] {
+    for bullet in [POINT, BALL, BAR, EGG, RAY, CAPSULE] {
         for from in [1.0, -1.0] {
             let mut rig = rig(bullet, &plate());
             let places = [0.5, 0.3, -0.3, -0.5].map(|x| x * from);
@@ -101,7 +105,7 @@ fn what_is_pressed_slowly_through_is_told_when_it_comes_out() {
 
 #[test]
 fn sheets_are_passed_from_behind_by_right() {
-    for bullet in [BALL, EGG] {
+    for bullet in [BALL, EGG, CAPSULE] {
         let mut one = rig(bullet, &sheet(""));
         assert_eq!(told(&mut one, &[-0.3, 0.3, -0.3]), [false, false, true], "{bullet}");
         let mut two = rig(bullet, &sheet("two_sided: true, "));
@@ -113,7 +117,7 @@ fn sheets_are_passed_from_behind_by_right() {
 #[test]
 fn the_wall_of_a_hole_is_gone_through_from_within() {
     let bore = "Bore(name: \"b\", ends: ((0,0,-0.25),(0,0,0.25)), radii: (0.12,0.1), thickness: 0.01)";
-    for bullet in [POINT, BALL, RAY] {
+    for bullet in [POINT, BALL, RAY, BAR, CAPSULE, PIN] {
         let mut rig = rig(bullet, bore);
         let direction = if bullet == RAY { -1.0 } else { 1.0 };
         let places = [0.0, 0.3, 0.0, 0.3, 0.5].map(|x| x * direction);
@@ -289,5 +293,118 @@ fn a_bar_that_goes_round_the_edge_of_a_wedge_goes_through_nothing() {
         rig.place_a(Vec3::new(0.0, 0.0, -4e-4 + 2e-5 * f64::from(step)), orientation);
         let report = rig.world.step().unwrap();
         assert!(!report.status.contains(StatusBits::TUNNELLED), "step {step}");
+    }
+}
+
+/// Bodies of about 0.1 m, one for every kind that is neither a shell nor unbounded.
+const PARTS: [&str; 9] = [
+    POINT,
+    BAR,
+    RAY,
+    BALL,
+    EGG,
+    "Capsule(name: \"c\", ends: ((0,-0.1,0),(0,0.1,0.02)), radius: 0.05)",
+    "Cylinder(name: \"n\", ends: ((0,-0.1,0),(0,0.1,0.02)), radius: 0.05)",
+    "Cone(name: \"k\", ends: ((0,-0.06,0),(0,0.06,0.02)), radii: (0.07,0.03))",
+    "Polyhedron(name: \"w\", vertices: [(0.1,0,-0.05),(-0.05,0.08,-0.05),(-0.05,-0.08,-0.05),(0,0,0.1)], \
+     faces: [[0,2,1],[0,1,3],[1,2,3],[2,0,3]])",
+];
+
+fn kind_of(part: &str) -> PrimitiveKind {
+    let is = |kind: &&PrimitiveKind| part.starts_with(&format!("{}(", kind.name()));
+    *PrimitiveKind::ALL.iter().find(is).unwrap()
+}
+
+/// From any side, in any pose: through the middle, and past by more than both are wide.
+#[test]
+fn shots_through_are_reported_and_shots_past_are_not_for_every_pair_of_solids() {
+    let mut random = Random(11);
+    for a in PARTS {
+        for b in PARTS {
+            let kinds = [kind_of(a), kind_of(b)];
+            let is_body = !matches!(kinds[1], PrimitiveKind::Point | PrimitiveKind::LineSegment);
+            if !has_tester(kinds[0], kinds[1]) || !is_body {
+                continue;
+            }
+            for shot in 0..50 {
+                let turns = [0, 1].map(|_| Quat::from_scaled_axis(random.vector(3.0)));
+                let way = random.direction();
+                let aside = way.cross(&random.direction()).normalize();
+                for (offset, goes_through) in [(0.005, true), (0.4, false)] {
+                    let mut rig = rig(a, b);
+                    let status = [-1.0, 1.0, 2.0].map(|at| {
+                        let place = way * at + aside * offset;
+                        rig.place([self::at(place, turns[0]), self::at(Vec3::zeros(), turns[1])]);
+                        rig.world.step().unwrap().status.contains(StatusBits::TUNNELLED)
+                    });
+                    assert_eq!(
+                        status,
+                        [false, goes_through, false],
+                        "{kinds:?}, shot {shot}, {offset} m aside"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// A post between the middle and the end of a bar; a small part beside the centre of a large ball.
+#[test]
+fn round_solids_between_the_places_of_an_axis_are_reported() {
+    let post = "Capsule(name: \"p\", ends: ((0,0,-0.2),(0,0,0.2)), radius: 0.01)";
+    let drum = "Cylinder(name: \"p\", ends: ((0,0,-0.2),(0,0,0.2)), radius: 0.01)";
+    let bead = "Sphere(name: \"p\", center: (0,0,0), radius: 0.01)";
+    let great = "Sphere(name: \"s\", center: (0,0,0), radius: 0.1)";
+    for (bullet, target) in [
+        (BAR, post),
+        (BAR, drum),
+        (CAPSULE, post),
+        (CAPSULE, drum),
+        (great, post),
+        (great, drum),
+        (great, bead),
+    ] {
+        let mut rig = rig(bullet, target);
+        let beside = [-0.5, 0.5, 0.8].map(|x| Vec3::new(x, 0.05, 0.0));
+        assert_eq!(told_at(&mut rig, beside), [false, true, false], "{bullet} {target}");
+    }
+}
+
+/// Off and on again, off sideways, round it by 1 rad a frame, and straight through.
+#[test]
+fn touch_on_a_round_solid_is_reported_only_where_it_ends_on_the_far_side() {
+    for target in [
+        "Capsule(name: \"b\", ends: ((0,0,-0.3),(0,0,0.3)), radius: 0.1)",
+        "Cylinder(name: \"b\", ends: ((0,0,-0.3),(0,0,0.3)), radius: 0.1)",
+        "Cone(name: \"b\", ends: ((0,0,-0.3),(0,0,0.3)), radii: (0.11,0.09))",
+    ] {
+        for (bullet, radius) in [(POINT, 0.0), (BALL, 0.02), (BAR, 0.0), (CAPSULE, 0.02)] {
+            let (touch, upright) = (0.099 + radius, Quat::from_axis_angle(&Vec3::x_axis(), 1.5));
+            let told = |places: &[Vec3]| {
+                let mut rig = rig(bullet, target);
+                let step = |place: &Vec3| {
+                    rig.place_a(*place, upright);
+                    let report = rig.world.step().unwrap();
+                    (report.status.contains(StatusBits::TUNNELLED), report.contacts > 0)
+                };
+                places.iter().map(step).collect::<Vec<_>>()
+            };
+            let x = Vec3::x();
+            let off = told(&[x * touch, x * 0.5, x * touch, Vec3::new(touch, 0.5, 0.0)]);
+            assert_eq!(
+                off,
+                [(false, true), (false, false), (false, true), (false, false)],
+                "{bullet} {target}"
+            );
+            let round: Vec<_> =
+                (0..12).map(|i| Quat::from_axis_angle(&Vec3::z_axis(), f64::from(i)) * x * touch).collect();
+            let round = told(&round);
+            assert!(round.iter().all(|told| *told == (false, true)), "{bullet} {target}: {round:?}");
+            let through = told(&[x * touch, -x * 0.5, x * 0.5]);
+            assert!(
+                through == [(false, true), (true, false), (true, false)],
+                "{bullet} {target}: {through:?}"
+            );
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! Sealing: which movable groups meet, what their surfaces make together, and how much must be remembered.
 
+mod known_limits;
 mod limits;
 mod memory;
 mod plan;
@@ -17,6 +18,7 @@ use crate::energy::contact::ContactEnergies;
 use crate::error::EngineError;
 use crate::scene::{ObjectPair, Scene};
 use crate::sealed::{GroupPair, NO_PLAN, Sealed, SurfaceTable};
+use known_limits::known_limits;
 use limits::{limits, too_large, worst_case};
 use plan::plans;
 use pong_geometry::bounding::VolumeTests;
@@ -43,7 +45,7 @@ pub struct SealReport {
     pub workers: Vec<WorkerStart>,
     /// Pairs of kinds that meet but have no tester: they are ignored, as the author may intend.
     pub warnings: Vec<SetupWarning>,
-    /// Friction that one surface has and the other has not.
+    /// Friction that one surface has and the other has not, and known limits of the contact model that the scene may meet.
     pub notes: Vec<SetupNote>,
 }
 
@@ -117,7 +119,7 @@ pub(crate) fn seal(
         memory: for_pairs.saturating_add(for_frames),
         workers: Vec::new(),
         warnings: warnings(scene),
-        notes: friction_lost(scene, surfaces, &tables).into_iter().collect(),
+        notes: friction_lost(scene, surfaces, &tables).into_iter().chain(known_limits(scene)).collect(),
     };
     Ok((sealed, tables, report))
 }

@@ -83,6 +83,15 @@ pub enum SetupNote {
         /// `model/surface` that has none.
         smooth: String,
     },
+    /// Primitives of two models can meet in poses in which the contact model has a known limit.
+    KnownLimit {
+        /// Names of the two models.
+        models: [String; 2],
+        /// Names of the kinds on both sides, in the order of the models.
+        kinds: Vec<[&'static str; 2]>,
+        /// What happens, how much, and the cure.
+        limit: &'static str,
+    },
 }
 
 impl std::fmt::Display for SetupNote {
@@ -93,6 +102,10 @@ impl std::fmt::Display for SetupNote {
                 "surfaces `{rough}` and `{smooth}`: no friction between them, for `{smooth}` has none though `{rough}` has \
                  {law}; if that is not meant give `{smooth}` friction too, or the pair an entry in `pairs`"
             ),
+            Self::KnownLimit { models: [a, b], kinds, limit } => {
+                let kinds: Vec<String> = kinds.iter().map(|[a, b]| format!("{a} on {b}")).collect();
+                write!(f, "models `{a}` and `{b}`, {}: {limit} (docs/theory.md, 6)", kinds.join(", "))
+            }
         }
     }
 }

@@ -4,7 +4,7 @@
 use super::events::TunnellingEvents;
 use super::followed::{SAME_SIDE_COSINE_MIN, Seen, pushing};
 use super::line::Line;
-use super::solids;
+use super::{solids, swept};
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::reference_point::reference_point;
 use crate::frame::input::EvaluationInput;
@@ -17,6 +17,7 @@ use pong_geometry::interference::triangle_features::TriangleView;
 use pong_geometry::primitive::{PrimitiveKind, Ray};
 use pong_geometry::simd::Portable;
 use pong_geometry::{Vec3, divisor};
+use pong_model::Item;
 use pong_model::box_tree::{Child, lanes};
 use std::borrow::Cow;
 
@@ -155,7 +156,9 @@ impl Seen<'_> {
         {
             self.came_out_of_sheet(record, &line)
         } else {
-            false
+            let mut round = body.primitives.iter().filter(|info| swept::is_round(info.kind));
+            let info = round.find(|info| info.shell == key.shell_b);
+            info.is_some_and(|info| self.came_out_of_round(record, info.kind))
         }
     }
 
@@ -168,6 +171,15 @@ impl Seen<'_> {
                 && !self.pushes_to(&record.normal_b, primitive_a, shell);
         }
         let out = solids::way_out(body, shell, line).filter(|_| solids::holds(body, shell, &line.from_b));
+        out.is_some_and(|out| are_both_sides(&out, &record.normal_b))
+    }
+
+    /// Inside a round solid before, and out of it on the side opposite to the one to which it was pushed.
+    fn came_out_of_round(&self, record: &ContactRecord, kind_b: PrimitiveKind) -> bool {
+        let info = &self.context.body_a.primitives[record.key.primitive_a as usize];
+        let item_a = Item { primitive: record.key.primitive_a, element: info.elements.start };
+        let solid = swept::round(self.context.body_b, kind_b, record.element_b);
+        let out = solid.and_then(|solid| self.swept(item_a)?.way_out(solid));
         out.is_some_and(|out| are_both_sides(&out, &record.normal_b))
     }
 

@@ -2,6 +2,7 @@
 
 use super::events::{TunnellingEvent, TunnellingEvents};
 use super::line::{Line, Met};
+use super::swept::{self, Swept};
 use super::{curved, sheets, solids, travel};
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::place::Place;
@@ -47,6 +48,10 @@ impl<'a> Seen<'a> {
             };
             for batch_b in body_b.tree.batches.iter().filter(meets) {
                 for item in &body_a.tree.items[batch_a.items.start as usize..batch_a.items.end as usize] {
+                    if swept::is_round(batch_b.kind) {
+                        self.follow_axis(*item, batch_b, events);
+                        continue;
+                    }
                     for place in places(body_a, batch_a.kind, *item).into_iter().flatten() {
                         self.follow(*item, &place, batch_b, events);
                     }
@@ -65,43 +70,75 @@ impl<'a> Seen<'a> {
     /// Follows one place through one batch of B: a shell that it went through counts once.
     fn follow(&self, item_a: Item, place: &Vec3, batch: &Batch, events: &mut TunnellingEvents) {
         let Some(line) = self.line(place) else { return };
-        let query = batch.boxes.narrowed(&line.from_b.inf(&line.to_b), &line.from_b.sup(&line.to_b));
-        if !query.meets(&batch.boxes.around) {
-            return;
-        }
-        let mut went = false;
-        batch.boxes.visit(Portable, &query, |node, met| {
-            for lane in lanes(met) {
-                let Child::Element(place) = node.child(lane) else { continue };
-                let item_b = self.context.body_b.tree.items[(batch.items.start + place) as usize];
-                went = went || self.goes_through(item_a, &line, batch.kind, item_b);
-            }
+        // A ball goes through a smaller one beside its centre.
+        let beside = if batch.kind == PrimitiveKind::Sphere { self.radius(item_a) } else { 0.0 };
+        let (low, high) = (line.from_b.inf(&line.to_b), line.from_b.sup(&line.to_b));
+        let bounds = (low.add_scalar(-beside), high.add_scalar(beside));
+        let went = any_met(batch, &bounds, |place| {
+            let item_b = self.context.body_b.tree.items[(batch.items.start + place) as usize];
+            self.goes_through(item_a, self.met(item_a, &line, batch.kind, item_b), item_b)
         });
         if went {
             events.note(self.passed(item_a.primitive));
         }
     }
 
-    fn goes_through(&self, item_a: Item, line: &Line, kind_b: PrimitiveKind, item_b: Item) -> bool {
+    /// Follows the axis of an element of A through one batch of round solids.
+    fn follow_axis(&self, item_a: Item, batch: &Batch, events: &mut TunnellingEvents) {
+        let Some(swept) = self.swept(item_a) else { return };
         let body = self.context.body_b;
-        let (shell, met) = match kind_b {
-            PrimitiveKind::Polyhedron => {
-                let shell = body.primitives[item_b.primitive as usize].shell;
-                (shell, solids::meet(body, shell, item_b.element, line))
-            }
-            PrimitiveKind::Triangle => {
-                let set = &body.triangles;
-                (set.triangles[item_b.element as usize].shell, sheets::meet(set, item_b.element, line))
-            }
-            _ => {
-                let shell = body.primitives[item_b.primitive as usize].shell;
-                (shell, curved::meet(&self.context, item_a, item_b, line))
-            }
-        };
+        let went = any_met(batch, &swept.bounds(), |place| {
+            let item_b = body.tree.items[(batch.items.start + place) as usize];
+            let solid = swept::round(body, batch.kind, item_b.element);
+            self.goes_through(item_a, solid.and_then(|solid| swept.meet(solid)), item_b)
+        });
+        if went {
+            events.note(self.passed(item_a.primitive));
+        }
+    }
+
+    /// The axis of an element of A since the last commit.
+    pub fn swept(&self, item_a: Item) -> Option<Swept> {
+        let (body, motion) = (self.context.body_a, self.context.motion);
+        let kind = body.primitives[item_a.primitive as usize].kind;
+        let (axis, radius) = swept::axis_of(body, kind, item_a)?;
+        let since = motion.since_commit.as_ref()?;
+        let [from_b, to_b] = [&since.x_ba, &motion.x_ba].map(|x_ba| axis.map(|place| x_ba.point(&place)));
+        Some(Swept { from_b, to_b, radius })
+    }
+
+    fn radius(&self, item_a: Item) -> f64 {
+        let body = self.context.body_a;
+        match body.primitives[item_a.primitive as usize].kind {
+            PrimitiveKind::Sphere => body.spheres[item_a.element as usize].radius,
+            _ => 0.0,
+        }
+    }
+
+    /// What a line did to an element of B.
+    fn met(&self, item_a: Item, line: &Line, kind_b: PrimitiveKind, item_b: Item) -> Option<Met> {
+        let body = self.context.body_b;
+        match kind_b {
+            PrimitiveKind::Polyhedron => solids::meet(body, self.shell(item_b), item_b.element, line),
+            PrimitiveKind::Triangle => sheets::meet(&body.triangles, item_b.element, line),
+            _ => curved::meet(&self.context, item_a, item_b, line),
+        }
+    }
+
+    fn shell(&self, item_b: Item) -> u32 {
+        let (body, info) = (self.context.body_b, &self.context.body_b.primitives[item_b.primitive as usize]);
+        match info.kind {
+            PrimitiveKind::Triangle => body.triangles.triangles[item_b.element as usize].shell,
+            _ => info.shell,
+        }
+    }
+
+    fn goes_through(&self, item_a: Item, met: Option<Met>, item_b: Item) -> bool {
+        let Some(met) = met else { return false };
+        let shell = self.shell(item_b);
         let (side, went) = match met {
-            None => return false,
-            Some(Met::Through(side)) => (side, !self.pushes_to(&side, item_a.primitive, shell)),
-            Some(Met::Into(side)) => (side, self.pushes_away_from(&side, item_a.primitive, shell)),
+            Met::Through(side) => (side, !self.pushes_to(&side, item_a.primitive, shell)),
+            Met::Into(side) => (side, self.pushes_away_from(&side, item_a.primitive, shell)),
         };
         went && !self.comes_back(&side, item_a.primitive, shell, item_b)
     }
@@ -161,6 +198,21 @@ impl<'a> Seen<'a> {
     pub fn passed(&self, primitive_a: u32) -> TunnellingEvent {
         TunnellingEvent { body_a: self.bodies.0, primitive_a, body_b: self.bodies.1 }
     }
+}
+
+/// Whether something holds of an element of a batch whose box meets that between two corners.
+fn any_met(batch: &Batch, (low, high): &(Vec3, Vec3), holds: impl Fn(u32) -> bool) -> bool {
+    let query = batch.boxes.narrowed(low, high);
+    let mut any = false;
+    if query.meets(&batch.boxes.around) {
+        batch.boxes.visit(Portable, &query, |node, met| {
+            for lane in lanes(met) {
+                let Child::Element(place) = node.child(lane) else { continue };
+                any = any || holds(place);
+            }
+        });
+    }
+    any
 }
 
 /// Where the contacts stand whose keys have the head of this one.

@@ -3,10 +3,10 @@
 //! are; the status says it, so that no passage goes unnoticed.
 //!
 //! An element of A is followed at its *places*: a point, the centre of a ball, the origin of a ray, the ends and the
-//! middle of a segment, a capsule or a cylinder, each along its straight line since the last commit, seen from B. It went
-//! through where
+//! middle of a segment, a capsule or a cylinder, each along its straight line since the last commit, seen from B. Past a capsule,
+//! a cylinder or a cone its whole axis is followed, with both ends along their lines. It went through where
 //!
-//! * the line goes into a solid of B and out again, or from the front through a sheet, and no contact pushes the element
+//! * the line or the axis goes into a solid of B and out again, or from the front through a sheet, and no contact pushes the element
 //!   back to the side it came from;
 //! * a contact that pushed it to one side ended with the place on the other side, or now pushes it there.
 //!
@@ -21,6 +21,7 @@ mod followed;
 mod line;
 mod sheets;
 mod solids;
+mod swept;
 pub(crate) mod travel;
 
 use crate::frame::buffers::EvaluationBuffers;

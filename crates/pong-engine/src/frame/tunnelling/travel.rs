@@ -1,6 +1,7 @@
 //! Whether anything may have gone through: how far a body went since the last commit against what is thinnest.
 
 use super::solids::width_m;
+use super::swept;
 use crate::frame::input::motion::Motion;
 use crate::sealed::Plan;
 use pong_geometry::primitive::PrimitiveKind;
@@ -35,6 +36,11 @@ pub(crate) fn least_travel_m(
     if touched(PrimitiveKind::Ellipsoid) {
         let least = b.ellipsoids.iter().map(|ellipsoid| 2.0 * ellipsoid.semi_axes.min());
         thinnest = least.fold(thinnest, f64::min);
+    }
+    let round = [PrimitiveKind::Capsule, PrimitiveKind::Cylinder, PrimitiveKind::Cone];
+    for info in b.primitives.iter().filter(|info| round.contains(&info.kind) && touched(info.kind)) {
+        let solids = info.elements.clone().filter_map(|element| swept::round(b, info.kind, element));
+        thinnest = solids.map(|solid| solid.width_m()).fold(thinnest, f64::min);
     }
     if touched(PrimitiveKind::Bore) {
         thinnest = b.bores.iter().map(|bore| bore.thickness).fold(thinnest, f64::min);

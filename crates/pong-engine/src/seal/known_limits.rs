@@ -1,0 +1,130 @@
+//! Limits of the contact model that two paired models may meet, by the kinds of their primitives (docs/theory.md, 6).
+//!
+//! A new limit is a row of [`LIMITS`]: the kinds on both sides, what happens and how much, and the cure.
+
+use super::warnings::SetupNote;
+use crate::frame::narrow_phase::pair_table::has_tester;
+use crate::scene::Scene;
+use pong_geometry::primitive::PrimitiveKind::{self, *};
+use pong_model::MovableGroup;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A way in which the contact of two kinds of primitives departs from section 2 or 6 of docs/theory.md.
+#[derive(Clone, Copy, Debug)]
+struct KnownLimit {
+    a: &'static [PrimitiveKind],
+    b: &'static [PrimitiveKind],
+    /// Whether the primitives of two movable groups are such that it may show.
+    may_show: fn(&MovableGroup, &MovableGroup) -> bool,
+    /// What happens, how much, and the cure.
+    text: &'static str,
+}
+
+const LIMITS: &[KnownLimit] = &[
+    KnownLimit {
+        a: &[LineSegment, Capsule],
+        b: &[Capsule, Cylinder, Cone],
+        may_show: always,
+        text: "the stored energy steps, by up to half of it, where the two axes pass 90° while an end of one touches beside an end \
+               of the other: closed paths may gain energy there; keep crossing axes away from their ends",
+    },
+    KnownLimit {
+        a: &[LineSegment, Capsule],
+        b: &[Cylinder, Cone],
+        may_show: always,
+        text: "what lies on a flat end has half or all of the stiffness by the sign of a tilt, and half at one side of the rim if it \
+               overhangs both: up to ¼kδ² gained per cycle; give a flat end on which something may lie a Polyhedron or triangles",
+    },
+    KnownLimit {
+        a: &[Capsule],
+        b: &[Polyhedron],
+        may_show: always,
+        text: "an axis sunk below an edge or a corner stores up to 65 % too little energy, in steps of up to 56 %; keep capsules less \
+               deep than their radius",
+    },
+    KnownLimit {
+        a: &[Capsule],
+        b: &[Polyhedron, Triangle],
+        may_show: always,
+        text: "a capsule that lies flat over an edge has half of the stiffness, at the ball or at the edge by the sign of a tilt and \
+               of how the face is cut: steps of up to 0.35·kδ; make what lies over edges of several capsules",
+    },
+    KnownLimit {
+        a: &[Cylinder],
+        b: &[Bore],
+        may_show: has_short_pin,
+        text: "a pin shorter than half its radius that tilts in a tight hole touches at two places of one rim, and its wrench is off \
+               the derivative of its energy by up to 0.43·kδ; make the pin longer",
+    },
+    KnownLimit {
+        a: &[Cone],
+        b: &[Plane],
+        may_show: has_tip,
+        text: "the tip of a cone has half of the stiffness with the radius 0, and all of it with any other radius that is less than \
+               the depth; give the tip the radius that it has",
+    },
+];
+
+fn always(_: &MovableGroup, _: &MovableGroup) -> bool {
+    true
+}
+
+fn has_short_pin(a: &MovableGroup, _: &MovableGroup) -> bool {
+    elements(a, Cylinder).any(|pin| a.frusta[pin].length < 0.5 * a.frusta[pin].radii[0])
+}
+
+/// A radius less than a hundredth of the other end's is a tip.
+fn has_tip(a: &MovableGroup, _: &MovableGroup) -> bool {
+    elements(a, Cone)
+        .map(|cone| a.frusta[cone].radii)
+        .any(|[one, other]| one.min(other) < 0.01 * one.max(other))
+}
+
+fn elements(body: &MovableGroup, kind: PrimitiveKind) -> impl Iterator<Item = usize> {
+    let infos = body.primitives.iter().filter(move |info| info.kind == kind);
+    infos.flat_map(|info| info.elements.clone()).map(|element| element as usize)
+}
+
+/// Limits that a scene may meet: each once for every two models, with the pairs of kinds that have it.
+pub(super) fn known_limits(scene: &Scene) -> Vec<SetupNote> {
+    let model_of = |object: usize| scene.objects[object].model;
+    let paired: BTreeSet<_> =
+        scene.pairs.iter().map(|pair| (model_of(pair.a), model_of(pair.b), pair.a == pair.b)).collect();
+    let mut met: BTreeMap<([String; 2], &str), BTreeSet<[&'static str; 2]>> = BTreeMap::new();
+    for (first, second, itself) in paired {
+        let bodies = [first, second].map(|model| &scene.models[model].bodies);
+        for (index, one) in bodies[0].iter().enumerate() {
+            // A group never meets itself.
+            for other in bodies[1].iter().skip(if itself { index + 1 } else { 0 }) {
+                for (bodies, models) in [((one, other), [first, second]), ((other, one), [second, first])] {
+                    for (kinds, text) in limits_between(bodies) {
+                        let names = models.map(|model| scene.models[model].name.clone());
+                        met.entry((names, text)).or_default().insert(kinds);
+                    }
+                }
+            }
+        }
+    }
+    let note = |((models, limit), kinds): (_, BTreeSet<_>)| SetupNote::KnownLimit {
+        models,
+        kinds: kinds.into_iter().collect(),
+        limit,
+    };
+    met.into_iter().map(note).collect()
+}
+
+/// Limits of primitives of one movable group against those of another, with the names of the two kinds.
+fn limits_between((a, b): (&MovableGroup, &MovableGroup)) -> Vec<([&'static str; 2], &'static str)> {
+    let [kinds_a, kinds_b] =
+        [a, b].map(|body| body.primitives.iter().map(|info| info.kind).collect::<BTreeSet<_>>());
+    let mut found = Vec::new();
+    for limit in LIMITS {
+        let pairs = limit.a.iter().flat_map(|kind_a| limit.b.iter().map(move |kind_b| (*kind_a, *kind_b)));
+        let met = |&(kind_a, kind_b): &(PrimitiveKind, PrimitiveKind)| {
+            has_tester(kind_a, kind_b) && kinds_a.contains(&kind_a) && kinds_b.contains(&kind_b)
+        };
+        let met = pairs.filter(met).filter(|_| (limit.may_show)(a, b));
+        found.extend(met.map(|(kind_a, kind_b)| ([kind_a.name(), kind_b.name()], limit.text)));
+    }
+    found
+}
