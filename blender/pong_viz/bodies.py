@@ -48,8 +48,9 @@ def _moved(stage, shown, number, item):
     body = stage.log.bodies[number]
     if item is None:
         return _key_motion(stage, shown, number, _empty(stage, body.name), stage.anchors[number])
-    graphics.release(item, shown.notes)
-    return _key_motion(stage, shown, number, item, np.zeros(3))
+    driver = _key_motion(stage, shown, number, _empty(stage, f"{item.name} response"), np.zeros(3))
+    graphics.lead(item, driver, None if item in stage.led else shown.notes)
+    return item
 
 
 def _empty(stage, name):

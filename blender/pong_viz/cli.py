@@ -18,15 +18,22 @@ def arguments(words, program: str) -> argparse.Namespace:
         description="Plays a response log back: bodies in motion, contacts marked (green: sticks, red: slips), forces as "
                     "arrows on the first object of each pair.",
     )
-    parser.add_argument("log", type=Path, help="folder that `pong run --log` or a host wrote")
+    parser.add_argument("log", type=Path, nargs="?", help="folder that `pong run --log` or a host wrote")
     parser.add_argument("-o", "--output", type=Path, help="film, .mp4")
     parser.add_argument("--frames", type=Path, metavar="DIR", help="every picture as PNG")
     parser.add_argument("--still", type=Path, metavar="PNG", help="one picture; at --at, else at the largest force")
     parser.add_argument("--at", type=float, metavar="S", help="time of the still, s in the log")
     parser.add_argument("--blend", type=Path, metavar="FILE", help="the animated scene as .blend")
+    parser.add_argument("--remove", type=Path, metavar="FILE", help="no log: take the responses out of this .blend; --blend "
+                                                                    "names the file that is written, which may be the same")
     _add_what_is_shown(parser)
     _add_how_it_is_rendered(parser)
     given = parser.parse_args(words)
+    if given.remove is not None:
+        if given.log is not None or given.blend is None:
+            parser.error("--remove takes no log, and needs --blend: python -m pong_viz --remove shown.blend --blend clean.blend")
+    elif given.log is None:
+        parser.error("the following arguments are required: log")
     if not (given.output or given.frames or given.still or given.blend):
         parser.error("nothing to make: give -o, --frames, --still or --blend")
     if given.fps < 1 or not given.speed > 0.0:
@@ -123,6 +130,8 @@ def main(words=None, program: str = "pong_viz") -> int:
     from .render import RenderFault
 
     try:
+        if given.remove is not None:
+            return _take_out(bpy, given)
         _start(bpy, given)
         log = Log(given.log)
         made = _show(log, given)
@@ -135,13 +144,31 @@ def main(words=None, program: str = "pong_viz") -> int:
     return 0
 
 
+def _take_out(bpy, given) -> int:
+    from . import before
+
+    _open(bpy, given.remove)
+    shown = [scene for scene in bpy.data.scenes if before.is_shown(scene)]
+    if not shown:
+        raise ValueError(f"{given.remove}: none of its scenes shows a response")
+    for scene in shown:
+        before.remove(scene)
+    bpy.ops.wm.save_as_mainfile(filepath=str(given.blend.resolve()))
+    print(given.blend)
+    return 0
+
+
+def _open(bpy, path) -> None:
+    if not path.is_file():
+        raise OSError(f"{path}: there is no such file; name a .blend file")
+    bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
+
+
 def _start(bpy, given) -> None:
     if given.graphics is None:
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    elif not given.graphics.is_file():
-        raise OSError(f"{given.graphics}: there is no such file; name the .blend with the graphics")
     else:
-        bpy.ops.wm.open_mainfile(filepath=str(given.graphics.resolve()), load_ui=False, use_scripts=False)
+        _open(bpy, given.graphics)
     if given.engine == "scene" or given.own_camera:
         if given.graphics is None:
             raise ValueError("--engine scene and --own-camera take what --graphics has; name that file too")
@@ -150,11 +177,12 @@ def _start(bpy, given) -> None:
 
 
 def _show(log, given):
-    from . import camera
+    from . import before, camera
     from .render import Picture, prepare
     from .scene import Options, show
     import bpy
 
+    before.note(bpy.context.scene)
     prepare(bpy.context.scene, Picture(*given.size, given.engine, given.samples, given.quick))
     return show(log, Options(
         fps=given.fps, speed=given.speed, start=given.start, end=given.end, relative_to=given.relative_to,

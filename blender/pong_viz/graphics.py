@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from .animate import is_ours
+from .core.naming import RESPONSE
 
 PROPERTY = "pong_body"  # of an object: name of the body that moves it
 
@@ -43,17 +43,19 @@ def strays(scene, names: list[str]) -> list[str]:
             for item, body in marks if body not in names]
 
 
-def release(item, notes: list[str]) -> None:
-    """Frees an object from all that would move it besides the response; its size stays."""
-    if item.parent is not None:
-        item.scale = item.matrix_world.to_scale()
-        item.parent = None
-        notes.append(f"object `{item.name}` is moved by the response now, no more by its parent")
-    for constraint in item.constraints:
-        if not constraint.mute:
-            constraint.mute = True
-            notes.append(f"object `{item.name}`: constraint `{constraint.name}` is switched off, the response moves the object")
-    if item.animation_data is not None and not is_ours(item.animation_data.action):
-        notes.append(f"object `{item.name}`: its own animation is replaced by the response")
-    item.delta_location = (0.0, 0.0, 0.0)
-    item.delta_rotation_quaternion = (1.0, 0.0, 0.0, 0.0)
+def lead(item, driver, notes: list[str] | None) -> None:
+    """Lets an object follow a driver. Its parent, animation, numbers and other constraints stay as the author made them.
+
+    `notes` takes what moves the object no more while it follows; `None` for an object that followed before.
+    """
+    if item.library:
+        raise ValueError(f"`{item.name}` is linked from another file and cannot be moved: make a library override of it")
+    driver.scale = item.matrix_world.to_scale()
+    constraint = item.constraints.new("COPY_TRANSFORMS")
+    constraint.name, constraint.target = RESPONSE, driver
+    others = [f"constraint `{each.name}`" for each in item.constraints if each != constraint and not each.mute]
+    parent = [f"its parent `{item.parent.name}`"] if item.parent is not None else []
+    own = ["its own animation"] if item.animation_data is not None and item.animation_data.action is not None else []
+    if notes is not None:
+        notes += [f"object `{item.name}` follows the response, not {other}; Remove Response gives it back"
+                  for other in (*parent, *others, *own)]

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
-from . import captions, shapes
-from .animate import is_ours
+from . import before, captions, shapes
 from .bodies import show_bodies
 from .camera import DIRECTION, frame_camera
 from .contacts import show_contacts
@@ -66,6 +65,7 @@ class Stage:
     extent: float  # of what is looked at, m
     sizes: shapes.Sizes
     unit: float  # m of one unit of the scene
+    led: set  # objects of the author's that an earlier response of this log moved
 
 
 def show(log: Log, options: Options, scene=None) -> Shown:
@@ -82,9 +82,13 @@ def show(log: Log, options: Options, scene=None) -> Shown:
     sizes = shapes.sizes_for(extent, whole + travel(log, pictures, seen, anchors))
     shown = Shown(pictures, seen, {}, [], [], 0.0, list(log.notes))
     name = f"Response of {log.run.get('name') or log.folder.name}"
-    _remove(name)
+    before.note(scene)
+    led = {item for item, _ in before.led()}
+    if name in bpy.data.collections:  # what an earlier call made of the same log
+        before.clear(bpy.data.collections[name])
     stage = Stage(log, options, scene, bpy.data.collections.new(name), models, anchors, extent, sizes,
-                  scene.unit_settings.scale_length or 1.0)
+                  scene.unit_settings.scale_length or 1.0, led)
+    stage.collection[before.OURS] = True
     scene.collection.children.link(stage.collection)
     bpy.context.view_layer.update()
     _tell_what_is_followed(stage, shown)
@@ -116,16 +120,6 @@ def _index_of_body(log: Log, name: str) -> int | None:
     if name not in names:
         raise ValueError(f"there is no body `{name}` in the log; it has {', '.join(names)}")
     return names.index(name)
-
-
-def _remove(name: str) -> None:
-    """What an earlier call made of the same log: it is replaced."""
-    old = bpy.data.collections.get(name)
-    if old is None:
-        return
-    actions = [item.animation_data.action for item in old.objects if item.animation_data and is_ours(item.animation_data.action)]
-    data = {item.data for item in old.objects if item.data is not None}
-    bpy.data.batch_remove([*old.objects, *data, *actions, old])
 
 
 def _tell_what_is_followed(stage: Stage, shown: Shown) -> None:

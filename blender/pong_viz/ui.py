@@ -8,7 +8,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from . import render
+from . import before, render
 from .core.engine import WheelMissing
 from .graphics import PROPERTY
 from .log import Log, LogError
@@ -50,6 +50,7 @@ class PONG_OT_import_response(bpy.types.Operator, ImportHelper):
 
     def execute(self, context):
         scene = context.scene
+        before.note(scene)
         if self.look:
             render.prepare(scene, render.Picture(scene.render.resolution_x, scene.render.resolution_y))
             render.show_colors()
@@ -71,6 +72,24 @@ class PONG_OT_import_response(bpy.types.Operator, ImportHelper):
             relative_to=self.relative_to, shapes=self.shapes, arrow_length=self.arrow_length,
             most_contacts=self.most_contacts, alpha=self.alpha, camera=self.camera,
         )
+
+
+class PONG_OT_remove_response(bpy.types.Operator):
+    """Take all responses out of this scene; objects and settings are again as they were before"""
+
+    bl_idname = "pong.remove_response"
+    bl_label = "Remove Response"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        cls.poll_message_set("The scene shows no response")
+        return before.is_shown(context.scene)
+
+    def execute(self, context):
+        free = before.remove(context.scene)
+        self.report({"INFO"}, f"The response is gone; {free} object{'s' * (free != 1)} of this file moved with it")
+        return {"FINISHED"}
 
 
 class PONG_OT_render_response(bpy.types.Operator):
@@ -130,6 +149,7 @@ class PONG_PT_response(bpy.types.Panel):
         row = column.row(align=True)
         for form, label in (("FILM", "Film"), ("FRAMES", "Pictures"), ("STILL", "Still")):
             row.operator(PONG_OT_render_response.bl_idname, text=label).form = form
+        column.operator(PONG_OT_remove_response.bl_idname, icon="X")
         moved = context.object
         if moved is not None:
             column.label(text="Body that moves this object:")
@@ -211,7 +231,7 @@ def _menu(self, _context):
     self.layout.operator(PONG_OT_import_response.bl_idname, text="Pong response log (run.json)")
 
 
-_CLASSES = (PONG_OT_import_response, PONG_OT_render_response, PONG_OT_bind_body, PONG_OT_free_object, PONG_PT_response)
+_CLASSES = (PONG_OT_import_response, PONG_OT_remove_response, PONG_OT_render_response, PONG_OT_bind_body, PONG_OT_free_object, PONG_PT_response)
 
 
 def register():

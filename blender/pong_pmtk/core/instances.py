@@ -60,7 +60,8 @@ def _matters(snapshot: Snapshot, empty: SnapshotObject) -> bool:
 
 def _copy(thing: SnapshotObject, empty: SnapshotObject, names: set[str], offset: np.ndarray) -> SnapshotObject:
     name = f"{empty.name}.{thing.name}"
-    mark = replace(thing.mark, name=thing.mark.name or name)
+    shown_as = f"{empty.called or empty.name}.{thing.called or thing.name}"
+    mark = replace(thing.mark, name=thing.mark.name or shown_as)
     # A copy that is itself within an instanced collection is only there to be copied again.
     seen = {"hidden": empty.hidden, "excluded": empty.excluded, "collections": empty.collections}
     shown = replace(thing, name=name, mark=mark, **seen)

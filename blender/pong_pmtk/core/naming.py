@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 
 _DIGITS = re.compile(r"(\d+)")
+RESPONSE = "Pong response"  # begins the names of constraints by which playback moves objects
 NAME_BYTES = 63  # what every supported version of Blender keeps of a name
 
 

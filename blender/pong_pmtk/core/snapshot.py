@@ -43,7 +43,7 @@ class Transform:
 class SnapshotObject:
     """One object."""
 
-    name: str
+    name: str  # unique in the snapshot
     type: str  # "EMPTY", "MESH", or what else Blender has
     parent: str | None = None
     parent_type: str = "OBJECT"  # "BONE", "VERTEX", ... are refused
@@ -63,12 +63,18 @@ class SnapshotObject:
     excluded: bool = False  # its collections are left out of the view layer
     instance_of: str = ""  # an empty that shows a collection: the collection's name
     linked_from: str = ""  # a library file
+    called: str = ""  # its name in its own file, where an object of another file has taken `name`
     collections: list[str] = field(default_factory=list)  # those it is in, directly or through their parents
     exact: dict[str, np.ndarray] = field(default_factory=dict)
     """Numbers in full precision for what Blender rounds to single. They count as long as rounding them gives what
     Blender has now; see exact.py. "location", "rotation", "scale"; "vertices" (of the stored mesh); "radius", "radii",
     "semi_axes", "length", "reach", "thickness", "file_scale" (of the mark); and what a place only stands for, which
     counts while location and rotation do: "direction" of a Ray, "normal" and "offset" of a Plane, "ends" of a round part."""
+
+    @property
+    def model_name(self) -> str:
+        """Its name in the model."""
+        return self.mark.name or self.called or self.name
 
 
 @dataclass

@@ -7,10 +7,13 @@ as stored where modifiers or shape keys change anything. A mesh that is being ed
 which stays as it is.
 """
 
+import contextlib
+
 import bpy
 import numpy as np
 
 from ..core.marks import Mark
+from ..core.naming import RESPONSE
 from ..core.snapshot import Snapshot, SnapshotObject, Transform
 from ..store import exact, marks
 from . import instances, meshes
@@ -20,19 +23,41 @@ GEOMETRY = ("MESH", "CURVE", "SURFACE", "META", "FONT")
 
 def snapshot(context):
     """The scene of a context at its current frame."""
+    _flush_edited(context.scene)
+    with _playback_paused(context):
+        return _read(context)
+
+
+@contextlib.contextmanager
+def _playback_paused(context):
+    """A response that is shown moves objects by constraints, which are no part of the model."""
+    led = [each for obj in context.scene.objects for each in obj.constraints if _is_playback(each) and not each.mute]
+    for constraint in led:
+        constraint.mute = True
+    context.view_layer.update()
+    try:
+        yield
+    finally:
+        for constraint in led:
+            constraint.mute = False
+        if led:
+            context.view_layer.update()
+
+
+def _read(context):
     scene, view_layer = context.scene, context.view_layer
-    _flush_edited(scene)
-    view_layer.update()
-    reader = Reader(context.evaluated_depsgraph_get(), view_layer)
     shown, elsewhere = instances.shown_collections(scene), instances.shown_elsewhere(scene)
     members = instances.memberships(shown)
-    objects = [reader.object(obj) for obj in scene.objects]
-    objects += [reader.object(obj) for obj in instances.beyond(scene, shown)]
-    objects += instances.scattered(reader)
-    for facts in objects:
-        if facts.name in elsewhere:
+    everything = [*scene.objects, *instances.beyond(scene, shown)]
+    reader = Reader(context.evaluated_depsgraph_get(), view_layer, everything)
+    objects = []
+    for obj in everything:
+        facts = reader.object(obj)
+        if obj in elsewhere:
             facts.mark = Mark()  # only its instances are there
-        facts.collections = members.get(facts.name, [])
+        facts.collections = members.get(obj, [])
+        objects.append(facts)
+    objects += instances.scattered(reader)
     return Snapshot(
         objects=objects,
         unit_scale=_shortest(scene.unit_settings.scale_length),
@@ -62,21 +87,27 @@ def _edited_with_modifiers(scene):
 class Reader:
     """Reads objects of one scene at one frame."""
 
-    def __init__(self, depsgraph, view_layer):
+    def __init__(self, depsgraph, view_layer, objects=()):
         self.depsgraph = depsgraph
         self.view_layer = view_layer
-        self.included = set(view_layer.objects.keys())  # one by one they are searched for from the first on
+        self.included = set(view_layer.objects)  # one by one they are searched for from the first on
+        self.names = instances.unique_names(objects)
+
+    def name(self, obj):
+        """The name of an object in the snapshot."""
+        return self.names.get(obj, obj.name)
 
     def object(self, obj):
         """The facts of one object."""
         parented = obj.parent is not None
-        excluded = obj.name not in self.included
+        excluded = obj not in self.included
         hidden = not excluded and not obj.visible_get(view_layer=self.view_layer)
         mesh, stored = self.meshes(obj)
         return SnapshotObject(
-            name=obj.name,
+            name=self.name(obj),
+            called=obj.name if self.name(obj) != obj.name else "",
             type=obj.type,
-            parent=obj.parent.name if parented else None,
+            parent=self.name(obj.parent) if parented else None,
             parent_type=obj.parent_type if parented else "OBJECT",
             transform=transform(obj),
             mark=marks.read_mark(obj),
@@ -148,13 +179,17 @@ def _shape_keys(obj):
     return len(keys.key_blocks) if keys else 0
 
 
+def _is_playback(constraint):
+    return constraint.name.startswith(RESPONSE)
+
+
 def _acts(constraint):
-    return not constraint.mute and constraint.influence > 0.0
+    return not _is_playback(constraint) and not constraint.mute and constraint.influence > 0.0
 
 
 def _collection_shown(obj):
     shows = obj.instance_type == "COLLECTION" and obj.instance_collection is not None
-    return obj.instance_collection.name if shows else ""
+    return instances.key_of(obj.instance_collection) if shows else ""
 
 
 def _animatable(obj):

@@ -8,12 +8,35 @@ graph and are taken from there, as objects with names made from the instancer's.
 
 from dataclasses import replace
 
+from pathlib import Path
+
 import numpy as np
 
 from ..core.snapshot import Transform
 
 SEPARATOR = "."  # between the name of an instancer and that of what it shows
+LIBRARY = " [{}]"  # behind the name of an object or a collection of another file, where names alone are not unique
 NO_ID = 2**31 - 1  # fills the unused places of a persistent id
+
+
+def key_of(data):
+    """A name that no data of another file has."""
+    return data.name + (LIBRARY.format(Path(data.library.filepath).name) if data.library else "")
+
+
+def unique_names(objects):
+    """Object -> name. An object of another file keeps its own unless an object of this one has it."""
+    local = {obj.name for obj in objects if not obj.library}
+    names, taken = {}, set(local)
+    for obj in objects:
+        name = obj.name
+        if obj.library and name in taken:
+            name = key_of(obj)
+            while name in taken:  # files of the same name in two folders
+                name += "'"
+        taken.add(name)
+        names[obj] = name
+    return names
 
 
 def shown_collections(scene):
@@ -22,8 +45,8 @@ def shown_collections(scene):
     while open_:
         obj = open_.pop()
         collection = obj.instance_collection
-        if obj.instance_type == "COLLECTION" and collection is not None and collection.name not in found:
-            found[collection.name] = collection
+        if obj.instance_type == "COLLECTION" and collection is not None and key_of(collection) not in found:
+            found[key_of(collection)] = collection
             open_ += collection.all_objects
     return found
 
@@ -36,19 +59,19 @@ def beyond(scene, shown):
 
 
 def memberships(shown):
-    """Name of an object -> names of the shown collections that show it. Hidden objects have no instances."""
+    """Object -> names of the shown collections that show it. Hidden objects have no instances."""
     found = {}
     for name, collection in sorted(shown.items()):
         for obj in collection.all_objects:
             if not obj.hide_viewport:
-                found.setdefault(obj.name, []).append(name)
+                found.setdefault(obj, []).append(name)
     return found
 
 
 def shown_elsewhere(scene):
-    """Names of objects that Blender shows on their parents' vertices or faces and not where they are themselves."""
+    """Objects that Blender shows on their parents' vertices or faces and not where they are themselves."""
     instancers = [obj for obj in scene.objects if obj.instance_type in ("VERTS", "FACES")]
-    return {child.name for obj in instancers for child in obj.children}
+    return {child for obj in instancers for child in obj.children}
 
 
 def scattered(reader):
@@ -66,10 +89,10 @@ def scattered(reader):
 def _one(reader, instance, parent, shown):
     number = "_".join(str(number) for number in reversed(instance.persistent_id) if number != NO_ID)
     facts = reader.object(shown)
-    facts.name = f"{parent.name}{SEPARATOR}{shown.name}_{number}"
+    facts.name, facts.called = f"{reader.name(parent)}{SEPARATOR}{reader.name(shown)}_{number}", ""
     facts.mark = replace(facts.mark, name=f"{facts.mark.name or shown.name}_{number}")
     matrix = np.linalg.inv(np.array(parent.matrix_world, float)) @ np.array(instance.matrix_world, float)
-    facts.parent, facts.parent_type = parent.name, "OBJECT"
+    facts.parent, facts.parent_type = reader.name(parent), "OBJECT"
     facts.transform = Transform(parent_inverse=matrix)
     facts.exact.pop("location", None)
     facts.hidden = facts.excluded = False

@@ -13,6 +13,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 
+import pong_pmtk
 import pong_viz
 from pong_viz import captions, render
 from pong_viz.cli import main
@@ -177,7 +178,7 @@ class Graphics(WithScene):
         made = show(Log(self.log_folder), Options(fps=100))
         self.assertEqual(made.objects["ball"].type, "MESH")
 
-    def test_what_else_moved_the_object_is_switched_off_and_told(self):
+    def test_what_else_moves_the_object_yields_and_is_told_and_stays_as_it_was(self):
         cube = self.own_graphics()
         cube["pong_body"] = "ball"
         cube.parent.scale = (2.0, 2.0, 2.0)
@@ -188,8 +189,10 @@ class Graphics(WithScene):
         matrix = np.array(cube.evaluated_get(self.at(101)).matrix_world)
         np.testing.assert_allclose(matrix[:3, 3], (0.5, 0.0, 0.1), atol=1e-6)
         np.testing.assert_allclose(np.linalg.norm(matrix[:3, :3], axis=0), 2.0, atol=1e-5)
-        for told in ("no more by its parent", "`Limit Location` is switched off", "its own animation is replaced"):
+        for told in ("not its parent `rig`", "not constraint `Limit Location`", "not its own animation"):
             self.assertIn(told, " ".join(made.notes))
+        self.assertEqual((cube.parent.name, cube.constraints["Limit Location"].mute), ("rig", False))
+        self.assertIsNotNone(cube.animation_data.action)
         self.assertEqual(show(Log(self.log_folder), Options(fps=100)).notes, [])
 
     def test_marks_that_cannot_be_meant_are_told(self):
@@ -242,6 +245,91 @@ class Graphics(WithScene):
         bpy.context.scene.frame_set(51)
         np.testing.assert_allclose(bpy.data.objects["Pretty"].matrix_world.translation, (0.5, 0.0, 0.1), atol=1e-6)
         self.assertEqual(main([*words[:3], "--map", "ball=Nobody", "--blend", str(made)]), 1)
+
+
+class Removed(WithScene):
+    """A response leaves the author's file as it was: while it is shown, and after it is taken out."""
+
+    LOOK = ("frame_start", "frame_end", "frame_current", "camera", "world")
+
+    def setUp(self):
+        super().setUp()
+        for package in (pong_pmtk, pong_viz):
+            package.register()
+            self.addCleanup(package.unregister)
+        bpy.ops.mesh.primitive_cube_add(size=0.1, location=(0.0, 0.0, -0.05))
+        plate = bpy.context.object
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=0.02, location=(0.3, 0.0, 0.05))
+        ball = bpy.context.object
+        plate.name, ball.name = "plate", "sphere"
+        self.choose(plate, ball)
+        bpy.ops.pong.mark()
+        bpy.ops.pong.root_new(name="ground")
+        bpy.ops.pong.surface_add(name="s", stiffness=1e5)
+        bpy.ops.pong.surface_assign(surface="s")
+        for item, name, movable in ((plate, "base", False), (ball, "ball", True)):
+            self.choose(item)
+            bpy.ops.pong.group_new(name=name, movable=movable, origin="MEDIAN")
+        # What a modifier makes of another object's place counts too.
+        mirror = plate.modifiers.new("Mirror", "MIRROR")
+        mirror.mirror_object = bpy.data.objects["sphere"]
+        self.before = self.exported(), self.state()
+
+    def choose(self, *objects):
+        for item in bpy.context.view_layer.objects:
+            item.select_set(item in objects)
+        bpy.context.view_layer.objects.active = objects[0]
+
+    def exported(self):
+        self.choose(bpy.data.objects["ground"])
+        path = self.folder / "ground.ron"
+        self.assertEqual(bpy.ops.pong.export_ron(filepath=str(path)), {"FINISHED"})
+        return path.read_bytes()
+
+    def state(self):
+        bpy.context.view_layer.update()
+        scene, render = bpy.context.scene, bpy.context.scene.render
+        objects = {item.name: (item.parent and item.parent.name, [each.name for each in item.constraints],
+                               item.animation_data and item.animation_data.action, tuple(map(tuple, item.matrix_world)))
+                   for item in scene.objects}
+        settings = [getattr(scene, name) for name in self.LOOK] + [render.fps, render.engine, render.resolution_x]
+        settings += [scene.view_settings.view_transform, scene.display.shading.color_type, sorted(set(scene.keys()) - {"pong_response_log"})]
+        kinds = (bpy.data.objects, bpy.data.meshes, bpy.data.actions, bpy.data.cameras, bpy.data.lights, bpy.data.materials,
+                 bpy.data.collections, bpy.data.worlds)
+        return objects, settings, [sorted(kind.keys()) for kind in kinds]
+
+    def show(self):
+        self.assertEqual(bpy.ops.pong.import_response(filepath=str(self.log_folder / "run.json"), fps=50), {"FINISHED"})
+        bpy.context.scene.frame_set(bpy.context.scene.frame_end)
+
+    def test_it_is_shown_and_taken_out_again(self):
+        for _ in range(2):
+            self.show()
+            self.show()  # once more replaces the first
+            ball = bpy.data.objects["ball"]
+            np.testing.assert_allclose(ball.matrix_world.translation, (0.5, 0.0, 0.1), atol=1e-6)
+            self.assertEqual(ball.parent.name, "ground")
+            self.assertEqual(self.exported(), self.before[0])
+            np.testing.assert_allclose(ball.matrix_world.translation, (0.5, 0.0, 0.1), atol=1e-6)
+            self.assertEqual(bpy.ops.pong.remove_response(), {"FINISHED"})
+            self.assertEqual(self.exported(), self.before[0])
+            self.assertEqual(self.state(), self.before[1])
+        self.assertFalse(bpy.ops.pong.remove_response.poll())
+
+    def test_a_file_is_mended_by_the_command_line(self):
+        self.show()
+        shown, clean = self.folder / "shown.blend", self.folder / "clean.blend"
+        bpy.ops.wm.save_as_mainfile(filepath=str(shown))
+        with redirect_stderr(io.StringIO()) as told:
+            self.assertEqual(main(["--remove", str(shown)]), 2)
+            self.assertEqual(main(["--remove", str(self.folder / "no.blend"), "--blend", str(clean)]), 1)
+        self.assertIn("needs --blend", told.getvalue())
+        self.assertEqual(main(["--remove", str(shown), "--blend", str(clean)]), 0)
+        bpy.ops.wm.open_mainfile(filepath=str(clean))
+        self.assertEqual(self.exported(), self.before[0])
+        self.assertEqual(self.state()[2][2:5], [[], [], []])
+        with redirect_stderr(io.StringIO()):
+            self.assertEqual(main(["--remove", str(clean), "--blend", str(clean)]), 1)
 
 
 class Renders(WithScene):
@@ -456,7 +544,8 @@ class Interface(WithScene):
         bpy.ops.pong.bind_body(body="ball")
         self.assertEqual(bpy.context.object["pong_body"], "ball")
         bpy.ops.pong.import_response(filepath=str(self.log_folder), fps=100)
-        np.testing.assert_allclose(bpy.context.object.evaluated_get(self.at(101)).location, (0.5, 0.0, 0.1), atol=1e-6)
+        moved = bpy.context.object.evaluated_get(self.at(101)).matrix_world.translation
+        np.testing.assert_allclose(moved, (0.5, 0.0, 0.1), atol=1e-6)
         bpy.ops.pong.free_object()
         self.assertNotIn("pong_body", bpy.context.object)
 
