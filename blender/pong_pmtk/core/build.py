@@ -10,12 +10,14 @@ from .build_primitives import Origin
 from .engine import CURE, is_there
 from .engine_check import check_loads
 from .finding import Findings
-from .model import Model, Primitive
+from .model import Model, Primitive, Tagged
 from .same_place import check_same_place
 from .scene import Scene, check_scene, find_root
 from .snapshot import Snapshot, SnapshotObject
 from .surfaces import checked
 from .triangle_check import check_triangles
+
+MIXED = "a μ of 0.1 there becomes {:.3g}"
 
 
 @dataclass
@@ -49,6 +51,7 @@ def build(snapshot: Snapshot, root: str = "") -> Built:
     name = (settings.name if settings else "") or group.name
     model = Model(name, surfaces, group, pairs, settings.entry_memory if settings else True)
     _unused_surfaces(scene, top, model)
+    _rigid_friction(scene, top, surfaces)
     loaded = _judged_by_engine(scene, top, model, files, origins)
     good = not findings.errors
     return Built(model if good else None, findings, files if good else {}, origins, loaded if good else None)
@@ -67,7 +70,7 @@ def _judged_by_engine(scene: Scene, top: SnapshotObject, model: Model, files: di
 def _tables(scene: Scene, root: SnapshotObject) -> tuple[dict, list]:
     if root.settings is None:
         return {}, []
-    name = root.settings.name or root.mark.name or root.name
+    name = root.settings.name or root.model_name
     surfaces, pairs, faults = checked(root.settings.surfaces, root.settings.pairs, name)
     for fault in faults:
         scene.findings.error(fault.rule, (root.name, fault.path), fault.cause, fault.cure)
@@ -85,3 +88,15 @@ def _unused_surfaces(scene: Scene, root: SnapshotObject, model: Model) -> None:
         if name not in used:
             cause = f'nothing is made of the surface "{name}"'
             scene.findings.hint("unused-surface", (root.name, f"surfaces/{name}"), cause, "assign it, or remove it")
+
+
+def _rigid_friction(scene: Scene, root: SnapshotObject, surfaces: dict) -> None:
+    """Rigid surfaces that change the friction of what they meet."""
+    for name, fields in surfaces.items():
+        law = fields.get("friction")
+        mu = law.fields.get("mu") if isinstance(law, Tagged) else None
+        if fields.get("stiffness") != float("inf") or not mu:
+            continue
+        cause = f'the rigid surface "{name}" gives a μ of {mu:g}, which mixes with that of what it meets: {MIXED}'
+        cure = "leave its friction to what it meets, unless this is meant"
+        scene.findings.hint("rigid-friction", (root.name, f"surfaces/{name}"), cause.format(0.2 * mu / (0.1 + mu)), cure)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import transforms
-from .build_primitives import Origin, Place, build_primitive
+from .build_primitives import Origin, Place, build_primitive, origin_of
 from .marks import BOUNDS
 from .model import Group, Primitive
 from .naming import natural
@@ -39,7 +39,7 @@ class GroupBuilder:
     def group(self, thing: SnapshotObject, rest: np.ndarray, above_surface: str | None) -> Group:
         """A group without its pose; `rest` is what its frame leaves of its transform."""
         where, mark = self.scene.where(thing), thing.mark
-        group = Group(mark.name or thing.name, movable=mark.movable and mark.role != "root")
+        group = Group(thing.model_name, movable=mark.movable and mark.role != "root")
         if thing.type != "EMPTY":
             cause = f"a group that is a {thing.type.lower()}: what it shows would not be exported"
             self.findings.error("group-type", where, cause, "use an empty, and hang the object below it")
@@ -57,7 +57,7 @@ class GroupBuilder:
         if below and primitives:
             both = f'"{below[0].thing.name}" and "{primitives[0].thing.name}"'
             cause = f"a group holds groups or primitives, never both: {both}"
-            self.findings.error("groups-and-primitives", where, cause, "put the primitives into a group of their own")
+            self.findings.error("groups-and-primitives", where, cause, "put the primitives into a group of their own", fix="group-primitives")
         if not items and not any(child.name in self.scene.carrying for child in self.scene.children[thing.name]):
             self.findings.error(
                 "empty-group", where, "a group without contents", "hang something below it, or unmark it"
@@ -90,7 +90,7 @@ class GroupBuilder:
         if np.allclose(rest, np.eye(3), rtol=0.0, atol=transforms.SCALE_TOLERANCE):
             rest = np.eye(3)
         group = self.group(thing, rest, surface)
-        group.position = tuple(np.asarray(self.scene.metres(item.affine.offset)).tolist())
+        group.position = tuple(np.asarray(self.scene.metres(origin_of(item.affine, item.local))).tolist())
         if plain and item.local.quaternion is not None:
             group.orientation = item.local.quaternion
         else:
@@ -213,7 +213,7 @@ def check_name(scene: Scene, name: str, thing: SnapshotObject) -> None:
 
 def sort_key(thing: SnapshotObject) -> tuple:
     order = thing.mark.order
-    return (order <= 0, order if order > 0 else 0, natural(thing.mark.name or thing.name), natural(thing.name))
+    return (order <= 0, order if order > 0 else 0, natural(thing.model_name), natural(thing.name))
 
 
 def build_root(scene: Scene, root: SnapshotObject, surfaces: dict):
@@ -222,7 +222,7 @@ def build_root(scene: Scene, root: SnapshotObject, surfaces: dict):
     Where the root stands is up to the host: only its scale counts.
     """
     builder = GroupBuilder(scene, surfaces)
-    check_name(scene, root.mark.name or root.name, root)
+    check_name(scene, root.model_name, root)
     rest = np.eye(3)
     try:
         local = transforms.local_transform(root)

@@ -8,10 +8,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from . import transforms
-from .exact import meant, meant_rows
+from .exact import meant, meant_rows, without_rounding
 from .marks import KINDS, Mark, Part
 from .model import Primitive
 from .polygon import plane_of
+from .round_pieces import ball_bodies, several
 from .round_shape import ROUND_KINDS
 from .scene import Scene
 from .schema import RESPONSES
@@ -56,10 +57,10 @@ class Place:
         return bool(np.linalg.det(self.affine.linear) < 0.0)
 
     def points(self, points) -> np.ndarray:
-        return np.asarray(self.scene.metres(self.affine.points(points)))
+        return np.asarray(self.scene.metres(carried(self.affine, points)))
 
     def origin(self) -> tuple[float, ...]:
-        return tuple(np.asarray(self.scene.metres(self.affine.offset)).tolist())
+        return tuple(np.asarray(self.scene.metres(origin_of(self.affine, self.local))).tolist())
 
     def number(self, name: str):
         """A number of the mark in full precision and metres; `None` stays."""
@@ -70,6 +71,20 @@ class Place:
         """An exact number that hangs on the object's place, if the object is still there and nothing else moves it."""
         plain = self.local is not None and self.local.fresh and (self.local.scale == 1.0).all()
         return self.thing.exact.get(name) if plain and self.scene.metres_per_unit == 1.0 else None
+
+
+def carried(affine: Affine, points) -> np.ndarray:
+    """Points under a transform, without the rounding of its sums where decimals were meant."""
+    made = affine.points(points)
+    if affine.is_identity() or not made.size:
+        return made
+    size = np.abs(affine.linear).max() * np.abs(points).max() + np.abs(affine.offset).max()
+    return without_rounding(made, float(size))
+
+
+def origin_of(affine: Affine, local: Local | None) -> np.ndarray:
+    """The place of an object, which is the number that was typed where nothing but its own transform makes it."""
+    return affine.offset if local is not None else without_rounding(affine.offset, float(np.abs(affine.offset).max()))
 
 
 @dataclass
@@ -135,7 +150,7 @@ def _shapes(place: Place, surface: str | None) -> list[Shape]:
     if not _usable(place):
         return []
     mesh, evaluated = _mesh_of(place)
-    name = mark.name or thing.name
+    name = thing.model_name
     parts: list[Shape] = []
     if mark.parts:
         from .parts import part_shapes
@@ -173,7 +188,10 @@ def _mesh_of(place: Place) -> tuple[Mesh | None, bool]:
     changed = thing.stored_mesh is not None and not same_topology(thing.stored_mesh, thing.mesh)
     if thing.modifiers and thing.stored_mesh is not None:
         cause = f"modifiers change its mesh: {', '.join(thing.modifiers)}"
-        place.findings.hint("modifiers", place.where, cause, "the mesh after them is exported; apply them to see it")
+        cure = "the mesh after them is exported; apply them to see it"
+        if thing.mark.kind in (*ROUND_KINDS, "Sphere", "Ellipsoid"):
+            cure = "its mark says what is exported, and the mesh after them only shows it, unless that has several pieces"
+        place.findings.hint("modifiers", place.where, cause, cure)
     if thing.shape_keys and thing.stored_mesh is not None:
         cause = f"{thing.shape_keys} shape keys change its mesh"
         cure = f"its shape at frame {place.scene.snapshot.frame} is exported"
@@ -345,6 +363,9 @@ def _sphere(shape: Shape):
         fix = "fit-sphere" if shape.mesh is not None else ""
         shape.error("no-radius", f"its radius is {radius}", "give it a radius above zero", fix=fix)
         return []
+    pieces = several(shape)
+    if pieces is not None:
+        return _balls(shape, pieces, np.full(3, meant(shape.mark.radius, shape.place.thing.exact.get("radius"))))
     check_size(shape, np.full(3, shape.mark.radius))
     found = _semi_axes(shape, np.full(3, radius))
     if found is None:
@@ -367,12 +388,34 @@ def _ellipsoid(shape: Shape):
         cause = f"its semi-axes are {tuple(semi_axes.tolist())}"
         shape.error("no-semi-axes", cause, "give it three above zero", fix=fix)
         return []
+    pieces = several(shape)
+    if pieces is not None:
+        return _balls(shape, pieces, meant(shape.mark.semi_axes, shape.place.thing.exact.get("semi_axes")))
     check_size(shape, shape.mark.semi_axes)
     found = _semi_axes(shape, semi_axes)
     if found is None:
         return []
     fields = {"center": shape.place.origin(), "semi_axes": tuple(found[0].tolist()), "orientation": found[1]}
     return shape.numbered("Ellipsoid", [fields])
+
+
+def _balls(shape: Shape, pieces: list, wanted: np.ndarray):
+    """A ball or ellipsoid for each piece of a mesh."""
+    each: dict[str, list] = {"Sphere": [], "Ellipsoid": []}
+    for center, own_axes in ball_bodies(shape, pieces, wanted) if pieces else ():
+        found = _semi_axes(shape, np.asarray(shape.place.scene.metres(own_axes)))
+        if found is None:
+            return []
+        middle, (axes, orientation) = tuple(shape.place.points(center[None, :])[0].tolist()), found
+        if shape.kind == "Sphere" and np.ptp(axes) <= transforms.SCALE_TOLERANCE * axes.max():
+            each["Sphere"].append({"center": middle, "radius": float(axes[0])})
+        else:
+            each["Ellipsoid"].append({"center": middle, "semi_axes": tuple(axes.tolist()), "orientation": orientation})
+    if each["Sphere"] and each["Ellipsoid"] or shape.kind == "Sphere" and each["Ellipsoid"]:
+        cause = "its scale, or that of its modifiers, differs along its axes: pieces of it are no spheres"
+        shape.error("pieces-not-round", cause, "make the scale even, or mark it as an Ellipsoid")
+        return []
+    return [made for kind, fields in each.items() if fields for made in shape.numbered(kind, fields)]
 
 
 def _plane(shape: Shape):

@@ -8,9 +8,11 @@ import numpy as np
 from . import transforms
 from .build_primitives import Shape
 from .exact import meant
-from .round_shape import ONE_RADIUS, numbers_of, radii_of
+from .round_pieces import round_bodies, several
+from .round_shape import ONE_RADIUS, fault_of, numbers_of, radii_of
 from .size_check import check_round
 
+WITHOUT_LENGTH = {"Capsule": "mark it as a Sphere or a Cylinder, make it longer than wide, or give it a length above zero"}
 SAME = 1e-14  # of a length: a number that follows from exact ends by other roundings
 
 
@@ -19,6 +21,10 @@ def build_round(shape: Shape):
     kind, place = shape.kind, shape.place
     numbers = {name: place.number(name) for name in ("radius", "radii", "length")}
     length, radii = float(numbers["length"]), radii_of(kind, numbers)
+    pieces = several(shape)
+    if pieces is not None:
+        options = _options(shape)
+        return shape.numbered(kind, [{**fields, **options} for fields in round_bodies(shape, pieces)] if pieces else [])
     sound = _sound(shape, length, radii)
     options = _options(shape)
     if not sound:
@@ -38,10 +44,12 @@ def build_round(shape: Shape):
 
 def _sound(shape: Shape, length: float, radii: tuple[float, float]) -> bool:
     """Whether its numbers make a part."""
-    fix = "fit-round" if shape.mesh is not None else ""
+    fault = fault_of(shape.mesh.vertices, shape.kind) if shape.mesh is not None else ""
+    fix = "fit-round" if shape.mesh is not None and not fault else ""
     lengthy = bool(np.isfinite(length) and length > 0.0)
     if not lengthy:
-        shape.error("no-length", f"its length is {length}", "give it a length above zero", fix=fix)
+        cause = f"its length is {length}" + (f": {fault}" if fault else "")
+        shape.error("no-length", cause, WITHOUT_LENGTH.get(shape.kind, "give it a length above zero"), fix=fix)
     wide = bool(np.isfinite(radii).all() and min(radii) >= 0.0 and max(radii) > 0.0)
     if not wide and shape.kind in ONE_RADIUS:
         shape.error("no-radius", f"its radius is {radii[0]}", "give it a radius above zero", fix=fix)

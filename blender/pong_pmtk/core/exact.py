@@ -8,7 +8,12 @@ means that one; else it means the shortest decimal that rounds to it: 0.30000001
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
+
+EXACT_POWER = 22  # powers of ten up to this one are numbers without rounding
+ROUNDING = 8 * 2.0**-53  # of the largest number: what a few sums and products in double precision are off
 
 
 def is_single(x) -> np.ndarray:
@@ -82,6 +87,33 @@ def meant_rows(stored: np.ndarray, exact: np.ndarray | None) -> np.ndarray:
     elif len(left):
         result[left] = meant(stored[left], exact[left])
     return result
+
+
+def without_noise(x, noise: float, spare: int = 1) -> np.ndarray:
+    """Decimals that are as near to numbers as `noise`, and the numbers themselves where no short one is.
+
+    A short one has `spare` decimal places less than there is room for above the noise, or fewer. With 3, a number that is
+    no decimal is taken for one in a case of a thousand, and moves by no more than the noise.
+    """
+    x = np.asarray(x, dtype=np.float64)
+    result = x.copy()
+    if not 0.0 < noise < np.inf:
+        return result
+    most, open_ = math.ceil(-math.log10(2.0 * noise)) - spare, np.isfinite(x)
+    for places in range(most - 2, most + 1):
+        if abs(places) > EXACT_POWER:
+            continue
+        power = 10.0 ** abs(places)
+        near = np.rint(x * power) / power if places >= 0 else np.rint(x / power) * power
+        found = open_ & (np.abs(near - x) <= noise)
+        result[found] = near[found] + 0.0
+        open_ &= ~found
+    return result
+
+
+def without_rounding(x, size: float) -> np.ndarray:
+    """Results of a few sums and products of numbers up to `size`, without their rounding: 0.04, not 0.039999999999999994."""
+    return without_noise(x, ROUNDING * size, 3)
 
 
 def is_fresh(stored, exact) -> bool:

@@ -33,6 +33,7 @@ class Finding:
 
 FIXES = {
     "adopt-parts": "take the marked elements over as parts of the object",
+    "align-axis": "turn the object so that its z axis is that of the part it shows",
     "apply-scale": "apply the object's scale to its mesh and to the sizes of its mark",
     "apply-transform": "apply rotation and scale to the mesh",
     "clear-parent-inverse": "keep the place, clear the parent's inverse matrix",
@@ -43,6 +44,7 @@ FIXES = {
     "fit-length": "take the length that is shown",
     "fit-round": "take the length and the radii that are shown",
     "fit-sphere": "take the radius that is shown",
+    "group-primitives": "put the primitives into a group of their own",
     "leave-edit-mode": "leave edit mode",
     "make-instances-real": "make the instances real",
     "merge-by-distance": "merge vertices that are the same place",
@@ -51,6 +53,7 @@ FIXES = {
     "separate-loose": "separate the pieces into objects",
     "set-origin": "move the object's origin into its geometry",
     "triangulate": "cut the faces into triangles",
+    "unmark-copy": "take the mark of the copy away; the object stays",
     "unhide": "show the object",
 }
 

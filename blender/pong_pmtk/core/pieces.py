@@ -56,3 +56,39 @@ def connected(faces: list[np.ndarray]) -> list[list[int]]:
     for index, face in enumerate(faces):
         pieces.setdefault(find(int(face[0])), []).append(index)
     return list(pieces.values())
+
+
+def islands(vertices: np.ndarray, links: np.ndarray) -> list[np.ndarray]:
+    """Vertices by connected piece, in the order of their first ones; vertices at one place count as one.
+
+    `links`: pairs of vertices that are connected, (n, 2). Vertices without any are left out.
+    """
+    links = weld(vertices)[np.asarray(links, dtype=np.int64).reshape(-1, 2)]
+    leader = np.arange(len(vertices))
+    while True:
+        ends = leader[links]
+        lowest = ends.min(axis=1)
+        if (ends[:, 0] == ends[:, 1]).all():
+            break
+        np.minimum.at(leader, ends.ravel(), np.repeat(lowest, 2))
+        while (leader[leader] != leader).any():
+            leader = leader[leader]
+    used = np.unique(links)
+    groups = np.unique(leader[used])
+    return [used[leader[used] == group] for group in groups]
+
+
+def apart(vertices: np.ndarray, pieces: list[np.ndarray]) -> list[np.ndarray]:
+    """Pieces that do not lie inside the box of another one, as the inner wall of a hollow ball does."""
+    if len(pieces) < 2:
+        return pieces
+    low = np.array([vertices[piece].min(axis=0) for piece in pieces])
+    high = np.array([vertices[piece].max(axis=0) for piece in pieces])
+    outer = []
+    for index, piece in enumerate(pieces):
+        around = (low <= low[index]).all(axis=1) & (high >= high[index]).all(axis=1)
+        around[index] = False
+        same = around & (low == low[index]).all(axis=1) & (high == high[index]).all(axis=1)
+        if not (around & ~same).any() and not same[:index].any():
+            outer.append(piece)
+    return outer

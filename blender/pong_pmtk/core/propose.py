@@ -11,13 +11,12 @@ from .engine import PLANE_TOLERANCE, polyhedron_faults
 from .exact import meant_rows
 from .pieces import is_closed, pieces_of
 from .polygon import off_plane
-from .round_shape import ROUND_KINDS, fit, fitted_numbers, off, radii_of
+from .round_shape import FIT_TOLERANCE, ROUND_KINDS, fit, fitted_numbers, off, radii_of, widest_gap
 from .snapshot import Mesh, SnapshotObject
 
 ROUND_VERTICES = 26  # fewer are a solid with corners: an icosahedron has 12
 ROUND_SIDES = 12  # fewer are a prism or a pyramid that is meant so
 ROUND_DEPTH = 0.9  # the middle of every face of a round mesh lies this near to the surface
-FIT_TOLERANCE = 2e-3  # of the size: how far vertices may lie off a fitted surface
 CENTER_TOLERANCE = 1e-4  # of the size
 CHECKED_FACES = 5000  # larger meshes are surfaces: nobody wants them as one convex solid
 
@@ -100,7 +99,7 @@ def _round_parts(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal
     """The simplest round part around the z axis of the object that a closed mesh shows."""
     for kind in ROUND_KINDS[:3]:
         numbers, found = fitted_numbers(vertices, kind), fit(vertices, kind)
-        if not numbers or found is None or not _is_round(vertices, faces, kind, numbers):
+        if "length" not in numbers or found is None or not _is_round(vertices, faces, kind, numbers):
             continue
         middle = abs(found[2]) > CENTER_TOLERANCE * numbers["length"]
         note = "; its origin is not its middle and must be set there first" if middle else ""
@@ -119,14 +118,12 @@ def _is_round(vertices: np.ndarray, faces: list[np.ndarray], kind: str, numbers:
     tapered = np.ptp(fit(vertices, kind)[1]) > FIT_TOLERANCE * size and kind != "Cone"
     if tapered or off(centered, kind, length, radii) > FIT_TOLERANCE * size:
         return False
-    end = 0 if radii[0] >= radii[1] else 1
-    near = np.abs(centered[:, 2] - (end - 0.5) * length) <= FIT_TOLERANCE * size
-    ring = centered[near & (np.sqrt((centered[:, :2] ** 2).sum(axis=1)) >= (1.0 - FIT_TOLERANCE) * radii[end])]
-    turns = np.sort(np.arctan2(ring[:, 1], ring[:, 0]))
-    if not len(turns):
-        return False
-    gaps = np.diff(np.append(turns, turns[0] + 2.0 * np.pi))
-    return bool(gaps.max() <= 2.0 * np.pi / (ROUND_SIDES - 0.5))
+    return around_axis(centered, radii)
+
+
+def around_axis(own: np.ndarray, radii: tuple[float, float]) -> bool:
+    """Whether vertices stand around the z axis, at the wider end of a part, as near to each other as of a round mesh."""
+    return widest_gap(own, radii) <= 2.0 * np.pi / (ROUND_SIDES - 0.5)
 
 
 def fit_ellipsoid(points: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:

@@ -2,15 +2,22 @@
 """Round parts: capsules, cylinders, cones and bores around the z axis of their object, with the origin in their middle.
 
 `length` is the distance of the ends of the axis, at -length/2 and +length/2. A mesh only shows the part: `fit` says
-which part it shows, `off` how far its vertices lie from the part's surface.
+which part it shows around the z axis, `off` how far its vertices lie from the part's surface, and `find` where a mesh
+shows a part at all: around whatever axis.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
 ROUND_KINDS = ("Capsule", "Cylinder", "Cone", "Bore")
 ONE_RADIUS = ("Capsule", "Cylinder")
+ALIKE = ("Cylinder", "Cone")  # a mesh of these shows the axis of a Capsule or Bore, too
+FIT_TOLERANCE = 2e-3  # of the size: how far vertices may lie off a fitted surface
+ROUND_ABOUT = 0.999 * np.pi  # rad: corners with a wider gap between neighbours stand on one side, and make no rim
+LEAST_SHARE = 1e-6  # of the size: shorter is the rounding of single precision
 END_SHARE = 1e-3  # of the length: vertices so near to an end lie on its circle
 
 
@@ -40,19 +47,118 @@ def fit(vertices: np.ndarray, kind: str) -> tuple[float, tuple[float, float], fl
     return high - low, (float(away[z <= low + near].max()), float(away[z >= high - near].max())), (low + high) / 2.0
 
 
+@dataclass
+class Shown:
+    """A round part that a mesh shows. `length` is what its kind makes of it: of a Capsule as wide as long, zero."""
+
+    center: np.ndarray
+    turn: np.ndarray  # its columns: two directions across the axis, and the axis
+    length: float
+    radii: tuple[float, float]
+    own: np.ndarray  # the vertices around its centre and along its axis as z
+
+    @property
+    def axis(self) -> np.ndarray:
+        return self.turn[:, 2]
+
+
+def find(vertices: np.ndarray, kind: str, axes: np.ndarray | None = None) -> Shown | None:
+    """The round part whose surface the vertices lie on; `None` if there is none.
+
+    Tried are the columns of `axes`, the last one first, then the axes of inertia of the vertices.
+    """
+    vertices = np.unique(np.asarray(vertices, dtype=np.float64).reshape(-1, 3), axis=0)
+    if len(vertices) < 3:
+        return None
+    given = (np.eye(3) if axes is None else np.asarray(axes, dtype=np.float64)).T[::-1]
+    around = vertices - vertices.mean(axis=0)
+    for directions in (given, np.linalg.eigh(around.T @ around)[1].T):
+        for like in dict.fromkeys((kind, *ALIKE)):
+            for direction in directions:
+                shown = _around(vertices, kind, like, direction)
+                if shown is not None:
+                    return shown
+    return None
+
+
+def _around(vertices: np.ndarray, kind: str, like: str, direction: np.ndarray) -> Shown | None:
+    """The part of a kind around a direction, if the vertices show one `like` it there."""
+    turn = _turn(direction / np.sqrt(direction @ direction))
+    own = vertices @ turn
+    middle = own.mean(axis=0)
+    length, radii, middle[2] = fit(own - np.array([*middle[:2], 0.0]), like)
+    size = max(length, 2.0 * max(radii))
+    if not min(length, max(radii)) > LEAST_SHARE * size:
+        return None
+    own = own - middle
+    if like in ONE_RADIUS:
+        if np.ptp(radii) > FIT_TOLERANCE * size:
+            return None
+        radii = (max(radii),) * 2
+    if off(own, like, length, radii) > FIT_TOLERANCE * size or widest_gap(own, radii) > ROUND_ABOUT:
+        return None
+    length, radii, _ = fit(own, kind)
+    return Shown(turn @ middle, turn, float(length), radii if kind not in ONE_RADIUS else (max(radii),) * 2, own)
+
+
+def widest_gap(own: np.ndarray, radii: tuple[float, float]) -> float:
+    """Largest angle between neighbours on the rim of the wider end, rad; a full turn where there is nothing."""
+    length = float(np.ptp(own[:, 2]))
+    size, end = max(length, 2.0 * max(radii)), 0 if radii[0] >= radii[1] else 1
+    wide = own[np.sqrt((own[:, :2] ** 2).sum(axis=1)) >= (1.0 - FIT_TOLERANCE) * radii[end]]
+    if not len(wide):
+        return 2.0 * np.pi
+    level = wide[:, 2].max() if end else wide[:, 2].min()
+    ring = wide[np.abs(wide[:, 2] - level) <= FIT_TOLERANCE * size]
+    turns = np.sort(np.arctan2(ring[:, 1], ring[:, 0]))
+    return float(np.diff(np.append(turns, turns[0] + 2.0 * np.pi)).max())
+
+
+def _turn(axis: np.ndarray) -> np.ndarray:
+    """A rotation matrix whose last column is the axis; that of the coordinates where the axis is one of theirs."""
+    axis = np.where(np.abs(axis) > LEAST_SHARE, axis, 0.0)
+    axis = axis / np.sqrt(axis @ axis)
+    side = np.eye(3)[(int(np.argmax(np.abs(axis))) + 1) % 3]
+    side = side - (side @ axis) * axis
+    side = side / np.sqrt(side @ side)
+    return np.stack([side, np.cross(axis, side), axis], axis=1) + 0.0
+
+
 def fitted_numbers(vertices: np.ndarray, kind: str) -> dict:
-    """The numbers of a mark that suit a mesh, to seven digits: what 32 bits can say. None where it has no extent."""
-    found = fit(vertices, kind)
+    """The numbers of a mark that suit a mesh, to seven digits: what 32 bits can say.
+
+    None where it has no extent; of a Capsule that is no longer than wide the radius alone.
+    """
+    shown = find(vertices, kind)
+    found = (shown.length, shown.radii, 0.0) if shown is not None else fit(vertices, kind)
     if found is None:
         return {}
     length, radii, _ = found
     if kind in ONE_RADIUS:
         radii = (max(radii),) * 2
-    if not (length > 0.0 and max(radii) > 0.0):
-        return {}
     seven = lambda x: float(f"{x:.7g}")  # noqa: E731
-    least = 1e-6 * max(*radii, length)  # the tip of a cone in single precision
-    return numbers_of(kind, seven(length), tuple(seven(r) if r > least else 0.0 for r in radii))
+    least = LEAST_SHARE * max(*radii, abs(length))  # the tip of a cone in single precision
+    if not max(radii) > 0.0 or length <= least and kind != "Capsule":
+        return {}
+    numbers = numbers_of(kind, seven(length), tuple(seven(r) if r > least else 0.0 for r in radii))
+    return numbers if length > least else {"radius": numbers["radius"]}
+
+
+def fault_of(vertices: np.ndarray, kind: str) -> str:
+    """Why a mesh shows no part of a kind; "" where it does."""
+    shown = find(vertices, kind)
+    found = (shown.length, shown.radii, 0.0) if shown is not None else fit(vertices, kind)
+    if found is None:
+        return "its mesh has no vertices"
+    length, wide = found[0], 2.0 * max(found[1])
+    least = LEAST_SHARE * max(wide, abs(length))
+    if not wide > 0.0:
+        return "its mesh has no width around its z axis"
+    if length > least:
+        return ""
+    if kind == "Capsule":
+        return f"its mesh is {length + wide:.6g} long and {wide:.6g} wide, and a Capsule is longer than wide"
+    return "its mesh has no length along its z axis"
 
 
 def off(vertices: np.ndarray, kind: str, length: float, radii: tuple[float, float]) -> float:

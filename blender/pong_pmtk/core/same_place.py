@@ -8,7 +8,7 @@ those that are there twice (triangle_check.py).
 from __future__ import annotations
 
 import itertools
-from collections import defaultdict
+from collections import Counter, defaultdict
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,6 +40,7 @@ class _Shape:
 
 
 def check_same_place(scene: Scene, root: Group, origins: dict[int, Origin]) -> None:
+    made = Counter(origin.object for origin in origins.values())
     for body in _bodies(root, origins):
         by_kind = defaultdict(list)
         for shape in body:
@@ -51,7 +52,9 @@ def check_same_place(scene: Scene, root: Group, origins: dict[int, Origin]) -> N
             for one, other in _doubles(alike, TOLERANCE * (_size(alike) if kind == "Plane" else size)):
                 doubles[one.kind, one.origin.path, other.origin.path].append((one, other))
         for pairs in doubles.values():
-            _tell(scene, pairs)
+            other = pairs[0][1].origin
+            alone = made[other.object] == len(pairs)
+            _tell(scene, pairs, alone and other.object != pairs[0][0].origin.object)
 
 
 def _size(shapes) -> float:
@@ -165,7 +168,8 @@ def _same(one: _Shape, other: _Shape, tolerance: float) -> bool:
     return True
 
 
-def _tell(scene: Scene, pairs: list[tuple[_Shape, _Shape]]) -> None:
+def _tell(scene: Scene, pairs: list[tuple[_Shape, _Shape]], whole: bool) -> None:
+    """`whole`: the later object is nothing but doubles of the other one."""
     one, other = pairs[0][0].origin, pairs[0][1].origin
     kind, count = pairs[0][1].kind, len(pairs)
     what = f"{count} of its {kind}s are" if count > 1 else f"its {kind} is" if one.path != other.path else f"a {kind} of it is"
@@ -173,4 +177,6 @@ def _tell(scene: Scene, pairs: list[tuple[_Shape, _Shape]]) -> None:
     twin = f'"{one.path}"' if one.path != other.path else "others of its own" if count > 1 else "another of its own"
     cause = f"{what} in the same place as {twin}: their springs add, so contact is twice as stiff there"
     cure = "merge its vertices" if fix else "delete one of the two, or move it to where it belongs"
+    if whole:
+        fix, cure = "unmark-copy", f"{cure}; the repair takes this one's mark away and leaves the object"
     scene.findings.warn("same-place", (other.object, other.path), cause, cure, fix=fix)

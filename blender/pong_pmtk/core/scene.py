@@ -159,6 +159,9 @@ def check_scene(scene: Scene, root: SnapshotObject) -> None:
             continue
         if not any(collection in snapshot.instance_offsets for collection in thing.collections):
             cause = f"it is marked as a {thing.mark.role} but hangs below no root"
+            if thing.linked_from:  # nothing of it can be changed here
+                findings.hint("outside-root", scene.where(thing), f"{cause}: it is not exported", "unmark it in its own file")
+                continue
             findings.error("outside-root", scene.where(thing), cause, "parent it to a group of the model, or unmark it")
     if snapshot.edit_mode in inside:
         thing = scene.by_name[snapshot.edit_mode]

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .propose import CENTER_TOLERANCE, FIT_TOLERANCE, round_fit
-from .round_shape import ONE_RADIUS, fit, off
+from .propose import CENTER_TOLERANCE, round_fit
+from .round_shape import FIT_TOLERANCE, ONE_RADIUS, find, fit, off
 
 if TYPE_CHECKING:
     from .build_primitives import Shape
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 ROUND_DEPTH = 0.75  # as in propose.py, for coarse balls too: the middles of an icosahedron's faces lie at 0.79
 # Of the size. Single precision and the fit's own rounding stay far below; what was scaled by less is not seen either.
 SIZE_TOLERANCE = 1e-5
+AXIS_TOLERANCE = 1e-6  # of the cosine: a thousandth of a radian, as much as vertices may lie off
 
 
 def check_size(shape: Shape, axes) -> None:
@@ -76,6 +77,9 @@ def check_round(shape: Shape, radii: tuple[float, float], length: float) -> None
         return
     seen_length, seen_radii, middle = found
     size = max(length, 2.0 * max(radii))
+    shown = find(vertices, shape.kind)
+    if shown is not None and _lies_elsewhere(shape, shown, size):
+        return
     if abs(middle) > CENTER_TOLERANCE * size:
         shown = f"{float(shape.place.scene.metres(middle)):.6g}"
         cause = f"the middle of its mesh is at z = {shown} m, and what is exported is around the object's origin"
@@ -91,6 +95,22 @@ def check_round(shape: Shape, radii: tuple[float, float], length: float) -> None
         cause = f"its mesh shows {shown}, its mark says {_round(shape, length, radii)}"
         cure = "what the mark says is exported; fit it to the mesh (Apply Scale and Edit Mode change only the mesh)"
         shape.warn("size-not-shown", cause, cure, fix="fit-round")
+
+
+def _lies_elsewhere(shape: Shape, shown, size: float) -> bool:
+    """Tells of a part whose mesh lies along another axis than that of its mark, or beside it."""
+    if abs(shown.axis[2]) < 1.0 - AXIS_TOLERANCE:
+        along = ", ".join(f"{x:.4g}" for x in shown.axis + 0.0)
+        cause = f"its mesh lies along ({along}), and what is exported lies along the object's z axis"
+        shape.error("axis-not-shown", cause, "turn its object so that z is its axis", fix="align-axis")
+        return True
+    beside = float(np.sqrt(shown.center[:2] @ shown.center[:2]))
+    if beside <= CENTER_TOLERANCE * size:
+        return False
+    shown_at = " ".join(f"{x:.6g}" for x in shape.place.scene.metres(shown.center) + 0.0)
+    cause = f"the middle of its mesh is at ({shown_at}) m, and what is exported is around the object's origin"
+    shape.warn("center-not-shown", cause, "move its origin into the middle of its mesh", fix="set-origin")
+    return True
 
 
 def _round(shape: Shape, length: float, radii: tuple[float, float]) -> str:

@@ -7,7 +7,7 @@ import bpy
 
 from ..core.finding import FIXES
 from ..scene import fixes, session
-from ..scene.instances import SEPARATOR
+from ..scene.instances import SEPARATOR, unique_names
 from ..store import elements
 from ..store.references import current_root, select_only
 from ..store.state import keep_findings, state
@@ -15,8 +15,9 @@ from ..store.state import keep_findings, state
 
 def culprit(context, name):
     """The object a finding is about; for an instance, what shows it."""
+    named = {key: obj for obj, key in unique_names(context.scene.objects).items()}
     while name:
-        obj = context.scene.objects.get(name)
+        obj = named.get(name)
         if obj is not None:
             return obj
         name = name.rpartition(SEPARATOR)[0]
@@ -62,6 +63,14 @@ class PONG_OT_finding_select(OnFinding, bpy.types.Operator):
     bl_idname = "pong.finding_select"
     bl_label = "Go to Finding"
     bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def description(cls, context, properties):
+        found = state(context).findings
+        if not 0 <= properties.index < len(found):
+            return "Select the object the finding is about, and its elements in Edit Mode"
+        finding = found[properties.index]
+        return f"{finding.path or 'The scene'}: {finding.cause}; {finding.cure}. Click to select the object"
 
     def execute(self, context):
         finding = self.finding(context)

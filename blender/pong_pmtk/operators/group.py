@@ -5,54 +5,10 @@ import bpy
 from mathutils import Matrix, Vector
 
 from ..core.marks import VERSION
+from ..scene.tree import common_parent, hang, new_empty, parents, topmost
 from ..store.marks import BOUND_ITEMS
 from ..store.references import select_only
 from .targets import Selection, selected
-
-DISPLAY_SHARE = 0.5  # of the largest object: so long are the axes of a new root or group
-
-
-def topmost(objects):
-    """Those objects that hang below none of the others."""
-    chosen = set(objects)
-    return [obj for obj in objects if not any(parent in chosen for parent in parents(obj))]
-
-
-def parents(obj):
-    while obj.parent is not None:
-        obj = obj.parent
-        yield obj
-
-
-def common_parent(objects):
-    """The lowest object above all of these, or None."""
-    first, *others = [list(parents(obj)) for obj in objects]
-    return next((obj for obj in first if all(obj in other for other in others)), None)
-
-
-def hang(obj, parent):
-    """Parents an object and keeps it where it is, to the last bit if the new parent stands where the old one does."""
-    if parent is not None and parent.parent == obj.parent and parent.matrix_local == Matrix():
-        obj.parent = parent
-        return
-    world = obj.matrix_world.copy()
-    obj.parent = parent
-    obj.parent_type = "OBJECT"
-    obj.matrix_parent_inverse = parent.matrix_world.inverted() if parent is not None else Matrix()
-    obj.matrix_world = world
-
-
-def new_empty(context, name, members, shape):
-    """An empty in the collection of the first of some objects, as large as suits them."""
-    obj = bpy.data.objects.new(name, None)
-    obj.empty_display_type = shape
-    context.view_layer.update()
-    below = [each for member in members for each in (member, *member.children_recursive)]
-    obj.empty_display_size = DISPLAY_SHARE * max((max(each.dimensions) for each in below), default=0.0) or 1.0
-    like = members[0] if members else None
-    collections = like.users_collection if like is not None else ()
-    (collections[0] if collections else context.collection).objects.link(obj)
-    return obj
 
 
 def _place(context, obj, origin, members):

@@ -33,6 +33,9 @@ class PONG_OT_mark(Selection, bpy.types.Operator):
             _mark(context, obj, kind)
             if self.surface:
                 obj.pong.surface = self.surface
+            why = proposal.fault(context, obj, kind)
+            if why:
+                self.report({"WARNING"}, f"{obj.name}: {why}; choose another kind, or give the numbers of its mark by hand")
             told.append(f"{obj.name}: {kind}" + (f" ({proposed.reason})" if self.kind == "PROPOSE" else ""))
         if not told:
             return {"CANCELLED"}

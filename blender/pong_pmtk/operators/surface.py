@@ -3,11 +3,10 @@
 
 import bpy
 
-from ..core.model import Tagged
 from ..store import presets, spec
 from ..store.changes import changed
 from ..store.references import current_root, tree, unique_name
-from ..store.surfaces import add_pair, add_surface
+from ..store.surfaces import FIRST_FRICTION, add_pair, add_surface
 from .targets import OnPart, Selection, selected
 
 
@@ -36,7 +35,7 @@ class PONG_OT_surface_add(OnModel, bpy.types.Operator):
     def execute(self, context):
         settings = current_root(context).pong_model
         name = unique_name(self.name, settings.surfaces.keys())
-        add_surface(settings, name, {"stiffness": self.stiffness, "friction": Tagged("Bristle", {"mu": 0.2})})
+        add_surface(settings, name, {"stiffness": self.stiffness, "friction": FIRST_FRICTION})
         settings.active_surface = len(settings.surfaces) - 1
         return {"FINISHED"}
 

@@ -13,11 +13,13 @@ from mathutils import Matrix
 
 from ..core.exact import meant, meant_rows
 from ..core.marks import VERSION
-from ..core.round_shape import ROUND_KINDS
-from ..core.transforms import SCALE_TOLERANCE, frame_of, local_transform, matrix_quaternion
+from ..core.round_shape import ROUND_KINDS, find
+from ..core.transforms import SCALE_TOLERANCE, frame_of, local_transform, matrix_quaternion, quaternion_matrix
+from ..core.unbuild import turn_of_z
 from ..store import exact, marks
 from ..store.references import select_only, siblings, unique_name
 from . import extract, meshes, proposal
+from .tree import hang, new_empty
 
 MERGE_SHARE = 1e-6  # of the mesh's diameter: as far as the engine takes places to be the same
 
@@ -253,12 +255,72 @@ def fit_round(context, obj):
     """Takes the size that is shown: that of the mesh, or the length of an empty."""
     kind = obj.pong.kind
     sizes = proposal.sizes(context, obj, kind) if kind in ROUND_KINDS else {}
+    why = proposal.fault(context, obj, kind)
+    if why:
+        raise FixFault(f"{obj.name}: {why}; choose another kind, or give the numbers of its mark by hand")
     if not sizes:
-        raise FixFault(f"{obj.name} shows no round part: choose its kind, and show a mesh that has a length and a width")
+        raise FixFault(f"{obj.name} shows no round part: choose its kind, and show its mesh")
     if obj.type == "EMPTY":
         given = marks.read_numbers(obj)
         sizes = {name: value for name, value in sizes.items() if name == "length" or name not in given}
     marks.write_numbers(obj, sizes)
+
+
+def align_axis(context, obj):
+    """The object is turned so that its z axis is that of the part its mesh shows; everything stays in place."""
+    facts = _facts(context, obj)
+    shown = find(facts.mesh.vertices, obj.pong.kind) if facts.mesh is not None and obj.pong.kind in ROUND_KINDS else None
+    if shown is None:
+        raise FixFault(f"{obj.name} shows no round part: choose its kind, and show its mesh")
+    if facts.modifiers:
+        raise FixFault(f"{obj.name} has modifiers, which work along its axes: apply them first")
+    local = local_transform(facts)
+    if np.ptp(np.abs(local.scale)) > SCALE_TOLERANCE * np.abs(local.scale).max() or local.scale.min() < 0.0:
+        raise FixFault(f"the scale of {obj.name} is uneven: apply it first")
+    turn = quaternion_matrix(turn_of_z(shown.axis))
+    location = meant(facts.transform.location, facts.exact.get("location"))
+    location = location + (local.rotation * local.scale) @ shown.center
+    quaternion = matrix_quaternion(local.rotation @ turn)
+    _move_vertices(obj, turn.T, -turn.T @ shown.center)
+    _keep_children(obj, turn.T, -turn.T @ shown.center)
+    _set_quaternion(obj, quaternion)
+    obj.location = location
+    kept = {name: values for name, values in facts.exact.items() if name not in ("vertices", "ends")}
+    exact.write(obj, {**kept, "location": location, "rotation": np.array(quaternion)})
+
+
+def group_primitives(context, obj):
+    """The primitives of a group that also holds groups go into one of their own, which stands where it does."""
+    below = _of_primitives(obj)
+    if not below:
+        raise FixFault(f"{obj.name} holds no primitives")
+    name = unique_name("parts", {child.pong.label or child.name for child in obj.children})
+    group = new_empty(context, name, below, "ARROWS")
+    group.pong.role, group.pong.version = "group", VERSION
+    group.parent = obj
+    context.view_layer.update()
+    for child in below:
+        if child.parent == obj:
+            child.parent = group  # it stands exactly where the old one does
+        else:
+            hang(child, group)
+
+
+def _of_primitives(obj):
+    """What carries primitives and no groups, down to the next groups: the topmost of these."""
+    found = []
+    for child in obj.children:
+        roles = {other.pong.role for other in (child, *child.children_recursive)}
+        if child.pong.role == "primitive" or "primitive" in roles and not roles & {"group", "root"}:
+            found.append(child)
+        elif child.pong.role == "none":
+            found += _of_primitives(child)
+    return found
+
+
+def unmark_copy(_context, obj):
+    """The copy stays to be looked at."""
+    marks.clear_mark(obj)
 
 
 def adopt_parts(context, obj):
@@ -341,6 +403,7 @@ def separate_loose(context, obj):
 
 REPAIRS = {
     "adopt-parts": adopt_parts,
+    "align-axis": align_axis,
     "apply-scale": apply_scale,
     "apply-transform": apply_transform,
     "clear-parent-inverse": clear_parent_inverse,
@@ -352,6 +415,7 @@ REPAIRS = {
     "fit-round": fit_round,
     "fit-sphere": fit("Sphere"),
     "flip-normals": flip_normals,
+    "group-primitives": group_primitives,
     "leave-edit-mode": leave_edit_mode,
     "make-instances-real": make_instances_real,
     "merge-by-distance": merge_by_distance,
@@ -360,5 +424,6 @@ REPAIRS = {
     "separate-loose": separate_loose,
     "set-origin": set_origin,
     "triangulate": triangulate,
+    "unmark-copy": unmark_copy,
     "unhide": unhide,
 }

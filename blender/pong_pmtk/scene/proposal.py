@@ -4,10 +4,11 @@
 from ..core.engine import WheelMissing
 from ..core.marks import Mark
 from ..core.propose import Proposal, fit_ellipsoid, fit_sphere, propose
-from ..core.round_shape import ROUND_KINDS, fitted_numbers, numbers_of
+from ..core.round_pieces import bodies_shown
+from ..core.round_shape import ROUND_KINDS, fault_of, fitted_numbers, numbers_of
 from ..core.snapshot import SnapshotObject
 from ..store import exact
-from . import extract
+from . import extract, meshes
 
 OF_EMPTIES = {"SPHERE": "Sphere", "SINGLE_ARROW": "Ray", "CIRCLE": "Plane"}
 
@@ -40,6 +41,22 @@ def _shown_mesh(context, obj):
     return extract.Reader(depsgraph, context.view_layer).meshes(obj)[0]
 
 
+def shown_vertices(context, obj, kind):
+    """Vertices of what shows a body: of the first one where the mesh shows several. None for what is hidden."""
+    mesh = _shown_mesh(context, obj)
+    if mesh is None:
+        return None
+    facts = SnapshotObject(obj.name, obj.type, mesh=mesh, stored_mesh=meshes.read(obj.data))
+    pieces = bodies_shown(facts, kind)
+    return mesh.vertices[pieces[0]] if pieces else mesh.vertices
+
+
+def fault(context, obj, kind):
+    """Why the mesh of an object gives a round part no size; "" where it does."""
+    vertices = shown_vertices(context, obj, kind) if obj.type == "MESH" and kind in ROUND_KINDS else None
+    return fault_of(vertices, kind) if vertices is not None else ""
+
+
 def of_elements(select_mode):
     """The kind that suits what Edit Mode selects: vertices, edges or faces."""
     vertices, edges, _faces = select_mode
@@ -53,8 +70,8 @@ def sizes(context, obj, kind):
     if kind not in ("Sphere", "Ellipsoid", "Ray"):
         return {}
     if obj.type == "MESH" and kind != "Ray":
-        mesh = _shown_mesh(context, obj)
-        return _fitted(mesh.vertices, kind) if mesh is not None else {}
+        vertices = shown_vertices(context, obj, kind)
+        return _fitted(vertices, kind) if vertices is not None else {}
     size = float(f"{obj.empty_display_size:.7g}") if obj.type == "EMPTY" else 1.0
     return {"Sphere": {"radius": size}, "Ellipsoid": {"semi_axes": (size,) * 3}, "Ray": {"length": size}}[kind]
 
@@ -62,8 +79,8 @@ def sizes(context, obj, kind):
 def _round_sizes(context, obj, kind):
     """Those of its mesh; an empty is shown with half its length, and is begun half as thick as it is long."""
     if obj.type == "MESH":
-        mesh = _shown_mesh(context, obj)
-        return fitted_numbers(mesh.vertices, kind) if mesh is not None else {}
+        vertices = shown_vertices(context, obj, kind)
+        return fitted_numbers(vertices, kind) if vertices is not None else {}
     size = float(f"{obj.empty_display_size:.7g}") if obj.type == "EMPTY" else 1.0
     return numbers_of(kind, 2.0 * size, (size / 2.0,) * 2)
 

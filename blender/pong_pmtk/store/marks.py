@@ -10,7 +10,7 @@ import bpy
 from ..core.marks import KINDS, VERSION, Mark, ModelSettings, Part
 from ..core.round_shape import ROUND_KINDS
 from . import elements, numbers, spec, surfaces
-from .changes import changed, watched
+from .changes import OVERRIDABLE, changed, watched
 from .references import unique_name
 
 ROLES = [
@@ -94,15 +94,16 @@ class PONG_PG_mark(bpy.types.PropertyGroup):
                           **{**LENGTH, "subtype": "NONE"})
     length: numbers.number("length_64", name="Length", description="Free length of the plunger; of a round part from end to "
                            "end of its axis, without the balls of a capsule", shown=_show_size, **LENGTH)
-    use_reach: numbers.given("reach_64", name="Reach")
+    # Whether a number is given stands behind it: Blender sets those of an override in this order.
     reach: numbers.number("reach_64", name="Reach", description="How far behind the origin a surface is still hit", **LENGTH)
+    use_reach: numbers.given("reach_64", name="Reach")
     response: bpy.props.EnumProperty(name="Response", items=[
         ("Normal", "Normal", "The force acts along the surface's normal"),
         ("Axial", "Axial", "The force acts along the ray")])
-    use_thickness: numbers.given("thickness_64", default=0.01, name="Thickness")
     thickness: numbers.number("thickness_64", name="Thickness",
                               description="How far behind its front a triangle still pushes forward, and behind its "
                                           "wall a bore", **LENGTH)
+    use_thickness: numbers.given("thickness_64", default=0.01, name="Thickness")
     mouths: bpy.props.BoolVectorProperty(
         name="Mouths", size=2, default=(True, True),
         description="Whether the hole ends in an edge that pushes, at -z and at +z. Off where it goes on as another bore")
@@ -200,7 +201,7 @@ def left_over(obj):
     if not ours:
         return []
     users = [obj] if mesh.users <= 1 else [other for other in bpy.data.objects if other.data == mesh]
-    named = {name for user in users for name in (user.pong.inactive, *(part.attribute for part in user.pong.parts))}
+    named = {name for user in users for name in attributes_of(user.pong)}
     found = []
     for attribute, sort, stem in ours:
         chosen = elements.indices(mesh, attribute, sort) if attribute not in named else []
@@ -267,13 +268,19 @@ def remove_part(obj, index):
     changed()
 
 
+def attributes_of(group):
+    """Attributes of the mesh that a mark names."""
+    return [name for name in (group.inactive, *(part.attribute for part in group.parts)) if name]
+
+
 def clear_mark(obj):
-    """Takes an object's mark away, with the attributes of its parts."""
+    """Takes an object's mark away, with the attributes of its parts that no other object of the mesh names."""
     group = obj.pong
     if obj.type == "MESH" and not obj.data.library:
-        for name in [part.attribute for part in group.parts] + [group.inactive]:
-            if name:
-                elements.forget(obj.data, name)
+        users = [other for other in bpy.data.objects if other.data == obj.data] if obj.data.users > 1 else [obj]
+        shared = {name for other in users if other != obj for name in attributes_of(other.pong)}
+        for name in set(attributes_of(group)) - shared:
+            elements.forget(obj.data, name)
     group.parts.clear()
     for name in group.bl_rna.properties.keys():
         if name not in ("rna_type", "name", "parts"):
@@ -309,17 +316,30 @@ def write_settings(root, settings):
         surfaces.add_pair(group, fields)
 
 
+@bpy.app.handlers.persistent
+def _compare_overrides(*_arguments):
+    """Blender saves of an override what differs from its original, and compares nothing with what was never set there."""
+    for obj in bpy.data.objects:
+        if obj.override_library is not None and obj.override_library.reference is not None:
+            original = obj.override_library.reference
+            original.pong.version = original.pong.version
+            original.pong_model.entry_memory = original.pong_model.entry_memory
+
+
 CLASSES = (*surfaces.CLASSES, PONG_PG_part, PONG_PG_mark, PONG_PG_model)
 
 
 def register():
     for cls in CLASSES:
         bpy.utils.register_class(cls)
-    bpy.types.Object.pong = bpy.props.PointerProperty(type=PONG_PG_mark, name="Pong")
-    bpy.types.Object.pong_model = bpy.props.PointerProperty(type=PONG_PG_model, name="Pong Model")
+    bpy.types.Object.pong = bpy.props.PointerProperty(type=PONG_PG_mark, name="Pong", override=OVERRIDABLE)
+    bpy.types.Object.pong_model = bpy.props.PointerProperty(
+        type=PONG_PG_model, name="Pong Model", override=OVERRIDABLE)
+    bpy.app.handlers.save_pre.append(_compare_overrides)
 
 
 def unregister():
+    bpy.app.handlers.save_pre.remove(_compare_overrides)
     del bpy.types.Object.pong_model
     del bpy.types.Object.pong
     for cls in reversed(CLASSES):

@@ -11,7 +11,10 @@ of engineering, by Hertz: a ball of radius 10 mm on a rigid flat, secant at a lo
     K = 4/3·E/(1 − ν²)·√R,   δ = (F/K)^(2/3),   k = F/δ
 
 It is a beginning, not a property of the material: the shape of the contact decides, and so does the step of the host.
-Damping is left at none; rebound depends on the bodies.
+
+Rebound is no property of a material either: it depends on the bodies, their shape and their speed. So that nothing bounces
+for ever, every preset begins with the same restitution, 0.5, for a mass of 1 kg that one contact stops. The panel shows
+both numbers; the author puts those of the bodies in their place.
 """
 
 import json
@@ -21,9 +24,11 @@ import bpy
 TEXT_NAME = "pong_presets.json"
 RADIUS_M = 0.01
 LOAD_N = 100.0
+RESTITUTION = {"e": 0.5, "mass": 1.0}
 SOURCE = (
     "Friction on itself, dry, {static:g} static, {sliding:g} sliding: Marks' Handbook, 10th ed., table 3.2.1. "
-    "Stiffness of a 10 mm ball at 100 N by Hertz, E {e:g} GPa, ν {nu:g}"
+    "Stiffness of a 10 mm ball at 100 N by Hertz, E {e:g} GPa, ν {nu:g}. Restitution {rebound:g} at a mass of {mass:g} kg is "
+    "a beginning and no property of the material: give the mass that one contact stops, and your restitution"
 )
 
 # name -> (E, GPa; ν; static and sliding friction on itself, dry)
@@ -33,6 +38,7 @@ MATERIALS = {
     "cast_iron": (100.0, 0.21, 1.10, 0.15),
     "nickel": (207.0, 0.31, 1.10, 0.53),
     "glass": (69.0, 0.24, 0.94, 0.40),
+    "ptfe": (0.5, 0.46, 0.04, 0.04),
 }
 
 
@@ -44,14 +50,16 @@ def hertz_secant(young_pa, poisson):
 
 def _standard(young_gpa, poisson, static, sliding):
     stiffness = float(f"{hertz_secant(young_gpa * 1e9, poisson):.2g}")
-    friction = {"mu": sliding, "static_excess": float(f"{static / sliding - 1.0:.3g}")}
-    return {"stiffness": stiffness, "friction": {"Bristle": friction}}
+    excess = float(f"{static / sliding - 1.0:.3g}")
+    friction = {"mu": sliding} | ({"static_excess": excess} if excess else {})
+    return {"stiffness": stiffness, "normal": {"Linear": {"restitution": dict(RESTITUTION)}}, "friction": {"Bristle": friction}}
 
 
 STANDARD = {
     name: {
         "fields": _standard(*values),
-        "source": SOURCE.format(e=values[0], nu=values[1], static=values[2], sliding=values[3]),
+        "source": SOURCE.format(
+            e=values[0], nu=values[1], static=values[2], sliding=values[3], rebound=RESTITUTION["e"], mass=RESTITUTION["mass"]),
     }
     for name, values in MATERIALS.items()
 }

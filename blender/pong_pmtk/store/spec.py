@@ -97,7 +97,8 @@ def number(*path, default=0.0, **options):
     def set_(self, value):
         put(self, path, shortest(value))
 
-    return bpy.props.FloatProperty(get=get, set=set_, **options)
+    # Overrides keep `spec` itself: this view has fewer digits.
+    return bpy.props.FloatProperty(get=get, set=set_, override=set(), **options)
 
 
 def quantity(unit, *path, default=0.0, least=0.0, most=None, **options):
@@ -144,8 +145,11 @@ def numbers(*path, **options):
     return bpy.props.StringProperty(get=get, set=set_, **options)
 
 
-def law(key, laws, **options):
-    """A view of which law is given: an EnumProperty. `laws`: (identifier, label, tip, fields to begin with)."""
+def law(key, laws, of_rigid=None, **options):
+    """A view of which law is given: an EnumProperty. `laws`: (identifier, label, tip, fields to begin with).
+
+    `of_rigid`: the same laws as a rigid surface calls them.
+    """
     names = [entry[0] for entry in laws]
 
     def get(self):
@@ -158,5 +162,11 @@ def law(key, laws, **options):
             start = laws[index][3]
             put(self, (key,), None if start is None else {names[index]: dict(start)})
 
-    items = [(name, label, tip, index) for index, (name, label, tip, _) in enumerate(laws)]
+    soft, rigid = _items(laws), _items(of_rigid or laws)
+    # A function only where the names differ: Blender's documentation and scripts see the items of a list alone.
+    items = (lambda self, _context: rigid if self.rigid else soft) if of_rigid else soft
     return bpy.props.EnumProperty(items=items, get=get, set=set_, **options)
+
+
+def _items(laws):
+    return [(name, label, tip, index) for index, (name, label, tip, _) in enumerate(laws)]

@@ -1,20 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Property groups of surfaces and of pairs of surfaces."""
 
+import json
+
 import bpy
 
 from . import spec
 from .changes import changed, watched
 from .spec import FIELDS
 
+OF_PARTNER = "Of What It Meets"
 NORMAL_LAWS = [
-    ("DEFAULT", "Undamped", "A linear spring without damping; of a rigid surface, the law of what it meets", None),
+    ("DEFAULT", "Undamped", "A linear spring without damping", None),
     ("Linear", "Linear", "Spring and damper in parallel that never pull", {"damping": 0.0}),
     ("HuntCrossley", "Hunt-Crossley", "Damping that grows with depth", {"dissipation": 0.0, "exponent": 1.0}),
     ("Custom", "Custom", "A law that is registered with the engine", {"name": "", "parameters": []}),
 ]
 FRICTION_LAWS = [
-    ("DEFAULT", "None Given", "No friction; of a rigid surface, that of what it meets", None),
+    ("DEFAULT", "None Given", "No friction", None),
     ("None", "None", "No friction, of a rigid surface neither", {}),
     ("Bristle", "Bristle", "A bristle that sticks and slips", {"mu": 0.2}),
     ("Coulomb", "Coulomb", "Regularised: creeps under any load", {"mu": 0.2, "slip_speed": 0.001}),
@@ -24,6 +27,14 @@ SERIES = [("DEFAULT", "Of both in series", "What the rule for two springs in ser
 # In a pair "no friction" is something else than "what the two surfaces give".
 PAIR_FRICTION_LAWS = SERIES + [("None", "None", "No friction between the two", {})] + FRICTION_LAWS[2:]
 PAIR_NORMAL_LAWS = SERIES + NORMAL_LAWS[1:]
+# A rigid surface has no share of the deformation: what it does not give itself, the other one decides.
+RIGID_NORMAL_LAWS = [("DEFAULT", OF_PARTNER, "Law and damping of the surface that it meets", None)] + NORMAL_LAWS[1:]
+RIGID_FRICTION_LAWS = [
+    ("DEFAULT", OF_PARTNER, "Friction of the surface that it meets", None),
+    ("None", "None", "No friction with anything", {}),
+] + FRICTION_LAWS[2:]
+SOFT = 1e6  # N/m, of a surface that was made rigid by a script or a file
+FIRST_FRICTION = {"Bristle": {"mu": 0.2}}  # of a new surface
 
 
 def _rigid(self):
@@ -31,8 +42,24 @@ def _rigid(self):
 
 
 def _set_rigid(self, rigid):
-    if rigid != _rigid(self):
-        spec.put(self, ("stiffness",), float("inf") if rigid else 1e6)
+    """Becoming rigid puts stiffness and the friction that nobody chose away, and being soft again brings them back."""
+    if rigid == _rigid(self):
+        return
+    fields = spec.read(self)
+    if rigid:
+        soft = {"stiffness": fields.get("stiffness", SOFT)}
+        if fields.get("friction") == FIRST_FRICTION:
+            soft["friction"] = fields.pop("friction")
+        self.soft = json.dumps(soft)
+        spec.write(self, {**fields, "stiffness": float("inf")})
+    else:
+        soft = json.loads(self.soft) if self.soft else {}
+        spec.write(self, {**soft, **fields, "stiffness": soft.get("stiffness", SOFT)})
+
+
+def shares_friction(self):
+    """Whether a rigid surface changes the friction of what it meets."""
+    return self.rigid and self.friction not in ("DEFAULT", "None")
 
 
 def _exponent(self):
@@ -83,8 +110,11 @@ class Laws:
     """What surfaces and pairs have in common."""
 
     spec: bpy.props.StringProperty(options={"HIDDEN"})
+    soft: bpy.props.StringProperty(options={"HIDDEN"})  # what becoming rigid has put away
     use_stiffness: spec.given("stiffness", default=1e6, name="Stiffness", description="Give a stiffness for the pair")
-    rigid: bpy.props.BoolProperty(name="Rigid", description="All the yield is the other's", get=_rigid, set=_set_rigid)
+    rigid: bpy.props.BoolProperty(
+        description="All the yield is the other's; so are damping and friction, unless they are given here",
+        name="Rigid", get=_rigid, set=_set_rigid)
     use_ramp: spec.given("normal", FIELDS, "ramp", default=1e-4, name="Ramp")
     use_restitution: bpy.props.BoolProperty(name="From Restitution", get=_restitution, set=_set_restitution,
                                             description="Find the damping from the rebound speed over the impact speed")
@@ -123,8 +153,8 @@ class PONG_PG_surface(Laws, bpy.types.PropertyGroup):
 
     name: bpy.props.StringProperty(name="Name", update=_renamed)
     known_as: bpy.props.StringProperty(options={"HIDDEN"})  # the name that others still use
-    normal: spec.law("normal", NORMAL_LAWS, name="Normal Force")
-    friction: spec.law("friction", FRICTION_LAWS, name="Friction")
+    normal: spec.law("normal", NORMAL_LAWS, RIGID_NORMAL_LAWS, name="Normal Force")
+    friction: spec.law("friction", FRICTION_LAWS, RIGID_FRICTION_LAWS, name="Friction")
 
 
 @watched

@@ -97,7 +97,7 @@ class PONG_UL_findings(bpy.types.UIList):
         row = layout.row(align=True)
         op = row.operator("pong.finding_select", text="", icon=SEVERITY_ICONS.get(item.severity, "DOT"), emboss=False)
         op.index = index
-        row.label(text=f"{item.object or 'scene'}: {item.cause}")
+        row.label(text=f"{item.object or 'scene'}: {item.rule}")  # never cut; the whole text stands below the list
         if item.fix:
             row.operator("pong.finding_fix", text="", icon="TOOL_SETTINGS").index = index
 

@@ -5,6 +5,7 @@ import bpy
 
 from ..store.references import current_root
 from ..store.state import state
+from ..store.surfaces import shares_friction
 from . import overlay
 
 SIZES = {
@@ -186,6 +187,8 @@ class PONG_PT_surfaces(Panel, bpy.types.Panel):
             if not surface.rigid:
                 draw_quantity(layout, surface, "stiffness")
             draw_laws(layout, surface)
+            if shares_friction(surface):
+                layout.label(text="Mixes with the friction of what it meets", icon="INFO")
         row = layout.row(align=True)
         row.operator_menu_enum("pong.preset_load", "preset", text="Load Preset", icon="PRESET")
         row.operator("pong.preset_save", text="Save as Preset", icon="PRESET_NEW")

@@ -8,7 +8,7 @@ import math
 from dataclasses import replace
 
 from support import STEEL, author, np, scene
-from core.author import box, changed, mesh
+from core.author import box, changed, cylinder, mesh
 from core.marks import Part
 from core.model import Tagged
 from core.snapshot import Mesh
@@ -315,6 +315,22 @@ def sheared_round():
     turned = {"rotation_mode": "XYZ", "rotation": (0.0, 0.0, TURN)}
     s.primitive("pin", "Cylinder", above=stretched, radius=0.1, length=0.3, **turned)
     return s
+
+
+@faulty
+def axis_not_shown():
+    """A pin whose mesh lies along x."""
+    pin = cylinder(0.1, -0.3, 0.3, 16)
+    pin.vertices = pin.vertices[:, [2, 0, 1]]
+    return one("Cylinder", pin, length=0.6, radius=0.1)
+
+
+@faulty
+def pieces_not_round():
+    """Modifiers that make two pieces of one, and no pins."""
+    dented = mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.1, 0.1, 1)], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    two = mesh([*dented.vertices, *(dented.vertices + (3, 0, 0))], [[0, 2, 1], [0, 1, 3], [4, 6, 5], [4, 5, 7]])
+    return one("Cylinder", two, stored_mesh=dented, modifiers=["Array"], length=1.0, radius=0.1)
 
 
 @faulty

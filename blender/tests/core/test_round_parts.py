@@ -6,7 +6,8 @@ import unittest
 
 from support import PONG, build, built, check_model, in_single_precision, np, rules, scene
 from core import overlay
-from core.author import cylinder, mesh
+from core.author import box, cylinder, mesh
+from core.exact import without_rounding
 from core.model import Group, Model, Primitive
 from core.propose import propose_mesh
 from core.read import read_text
@@ -105,6 +106,125 @@ class Built(unittest.TestCase):
             s.primitive(kind.lower(), kind, **numbers)
         found, text = check_model(built(s).model)
         self.assertIsNotNone(found, text)
+
+
+def beside(shape, *offsets):
+    """A mesh of copies of another one."""
+    faces = np.split(shape.loops, shape.face_starts[1:-1])
+    count = len(shape.vertices)
+    return mesh(
+        np.concatenate([shape.vertices + np.asarray(offset) for offset in offsets]),
+        [face + count * index for index in range(len(offsets)) for face in faces],
+    )
+
+
+class Pieces(unittest.TestCase):
+    """A mesh of several bodies: rows and mirror images of modifiers, pins that were joined."""
+
+    ROW = ((0.0, 0.0, 0.0), (0.25, 0.0, 0.0), (0.5, 0.1, 0.0))
+
+    def row(self, kind, shape, **more):
+        s = scene()
+        s.mesh("pin", kind, beside(shape, *self.ROW), stored_mesh=shape, modifiers=["Array"], **more)
+        return build(in_single_precision(s.snapshot()))
+
+    def test_each_is_a_body_of_the_size_and_in_the_place_that_is_shown(self):
+        pin, made = frustum((0.1, 0.1), -0.25, 0.25, 8), []
+        for kind, shape, numbers in (
+            ("Cylinder", pin, {"length": 0.5, "radius": 0.1}),
+            ("Bore", pin, {"length": 0.5, "radii": (0.1, 0.1)}),
+            ("Cone", frustum((0.1, 0.05), -0.25, 0.25, 12), {"length": 0.5, "radii": (0.1, 0.05)}),
+            ("Capsule", ball_ended(), {"length": 0.3, "radius": 0.1}),
+        ):
+            with self.subTest(kind):
+                made = self.row(kind, shape, **numbers)
+                self.assertEqual((rules(made, "error"), rules(made, "warning")), ([], []))
+                self.assertEqual(rules(made, "hint"), ["modifiers", "several-pieces"])
+                parts = made.model.root.primitives
+                self.assertEqual([part.name for part in parts], ["pin_0", "pin_1", "pin_2"])
+                half = numbers["length"] / 2
+                for part, (x, y, _) in zip(parts, self.ROW):
+                    self.assertEqual(part.fields["ends"], ((x, y, -half), (x, y, half)))
+                    self.assertEqual({name: part.fields[name] for name in numbers if name != "length"},
+                                     {name: value for name, value in numbers.items() if name != "length"})
+
+    def test_a_mark_of_another_size_is_told_and_what_is_shown_counts(self):
+        made = self.row("Cylinder", frustum((0.1, 0.1), -0.25, 0.25, 32), length=0.5, radius=0.7)
+        self.assertEqual(rules(made, "warning"), ["size-not-shown"])
+        self.assertEqual([part.fields["radius"] for part in made.model.root.primitives], [0.1] * 3)
+
+    def test_along_any_axis_and_under_a_transform(self):
+        pin = frustum((0.1, 0.1), -0.25, 0.25, 32)
+        turn = np.array([[0.6, 0.0, 0.8], [0.0, 1.0, 0.0], [-0.8, 0.0, 0.6]])
+        pin.vertices = pin.vertices @ turn.T
+        s = scene()
+        s.mesh("pin", "Cylinder", beside(pin, *self.ROW), stored_mesh=pin, modifiers=["Array"], length=0.5, radius=0.1,
+               rotation=QUARTER, location=(1.0, 2.0, 3.0), scale=(2.0, 2.0, 2.0))
+        made = build(in_single_precision(s.snapshot()))
+        self.assertEqual(rules(made, "error"), [])
+        parts = made.model.root.primitives
+        self.assertEqual([part.fields["radius"] for part in parts], [0.2] * 3)
+        for part, (x, y, z) in zip(parts, self.ROW):
+            middle = np.array([1.0 + 2 * z, 2.0 + 2 * y, 3.0 - 2 * x])
+            low, high = np.array(part.fields["ends"])
+            np.testing.assert_allclose((low + high) / 2, middle, atol=2e-6)
+            np.testing.assert_allclose(np.abs(high - low), (0.6, 0.0, 0.8), atol=2e-6)
+
+    def test_balls_too(self):
+        ball = round_ball(0.1)
+        for kind, numbers, field in (("Sphere", {"radius": 0.1}, 0.1), ("Ellipsoid", {"semi_axes": (0.1,) * 3}, (0.1,) * 3)):
+            made = self.row(kind, ball, **numbers)
+            self.assertEqual((rules(made, "error"), rules(made, "warning")), ([], []))
+            for part, center in zip(made.model.root.primitives, self.ROW):
+                self.assertEqual(part.fields["center"], center)
+                self.assertEqual(part.fields.get("radius") or part.fields["semi_axes"], field)
+
+    def test_pins_that_were_joined_too_but_no_decoration(self):
+        pin, s = frustum((0.1, 0.1), -0.25, 0.25, 32), scene()
+        s.mesh("pins", "Cylinder", beside(pin, *self.ROW), length=0.5, radius=0.1)
+        self.assertEqual(len(built(s).model.root.primitives), 3)
+        inner = beside(pin, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+        inner.vertices[len(pin.vertices) :] *= 0.5
+        boxes = beside(box((0.1, 0.1, 0.5)), (0.0, 0.0, 0.0), (0.3, 0.0, 0.0))
+        for shown in (inner, boxes):
+            s = scene()
+            s.mesh("pin", "Cylinder", shown, length=0.5, radius=0.1)
+            self.assertEqual(len(built(s).model.root.primitives), 1)
+
+    def test_a_pin_as_wide_as_long_is_no_capsule_and_says_why(self):
+        s = scene()
+        s.mesh("lug", "Capsule", frustum((0.003, 0.003), -0.003, 0.003, 32), radius=0.003)
+        (finding,) = build(s.snapshot()).findings.errors
+        self.assertEqual((finding.rule, finding.fix), ("no-length", ""))
+        self.assertIn("0.006 long and 0.006 wide", finding.cause)
+        self.assertIn("Sphere or a Cylinder", finding.cure)
+
+    def test_a_pin_that_lies_has_the_numbers_of_its_own_axis(self):
+        lying = frustum((0.003, 0.003), -0.01, 0.01, 32).vertices[:, [2, 0, 1]]
+        self.assertEqual(fitted_numbers(lying, "Cylinder"), {"length": 0.02, "radius": 0.003})
+        self.assertEqual(fitted_numbers(lying, "Capsule"), {"length": 0.014, "radius": 0.003})
+
+
+class Decimals(unittest.TestCase):
+    def test_sums_of_decimals_are_decimals(self):
+        s = scene()
+        s.primitive("plug", "Cylinder", length=0.04, radius=0.02, location=(0.0, 0.0, 0.06))
+        helper = s.empty("helper", "none", s.root, location=(0.1, 0.0, 0.0))
+        s.primitive("tip", "Point", above=helper, location=(0.2, 0.0, 0.0))
+        text = write_text(built(s).model)
+        self.assertIn("ends: ((0.0, 0.0, 0.04), (0.0, 0.0, 0.08))", text)
+        self.assertIn("position: (0.3, 0.0, 0.0)", text)
+
+    def test_numbers_that_are_no_short_decimals_stay_and_none_moves_by_more_than_rounding(self):
+        rng = np.random.default_rng(1)
+        numbers = rng.normal(size=20000)
+        found = without_rounding(numbers, 1.0)
+        self.assertLess(np.mean(found != numbers), 0.02)
+        self.assertLess(np.abs(found - numbers).max(), 1e-15)
+        short = np.round(numbers, 7)
+        np.testing.assert_array_equal(without_rounding(short + rng.choice([-2, 0, 2], 20000) * 2.0**-53, 1.0), short)
+        for size in (0.0, np.inf, np.nan, 1e-300, 1e300):
+            np.testing.assert_array_equal(without_rounding(numbers, size), numbers)
 
 
 class BackAgain(unittest.TestCase):
@@ -241,6 +361,20 @@ class Drawn(unittest.TestCase):
             self.assertLess(off(local, kind, 0.5, radii), 1e-12)
             longest = 0.25 + (radii[0] if kind == "Capsule" else 0.0)
             np.testing.assert_allclose([local[:, 2].min(), local[:, 2].max()], [-longest, longest], atol=1e-12)
+
+
+def round_ball(radius):
+    """A ball of rows and columns."""
+    rows, sides = 8, 16
+    places = [(math.pi * i / rows, 2.0 * math.pi * j / sides) for i in range(1, rows) for j in range(sides)]
+    vertices = [(math.sin(a) * math.cos(b), math.sin(a) * math.sin(b), math.cos(a)) for a, b in places]
+    vertices += [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)]
+    at = lambda i, j: i * sides + j % sides  # noqa: E731
+    top, bottom = len(vertices) - 2, len(vertices) - 1
+    faces = [[at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)] for i in range(rows - 2) for j in range(sides)]
+    faces += [[top, at(0, j), at(0, j + 1)] for j in range(sides)]
+    faces += [[bottom, at(rows - 2, j + 1), at(rows - 2, j)] for j in range(sides)]
+    return mesh(radius * np.array(vertices), faces)
 
 
 def ball_ended():
