@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-enum { USED, KEY, SEEN = KEY + 2, CONTACTS = SEEN + 2, FLAGS, WRENCHES };
+enum { USED, KEY, SEEN = KEY + 2, CONTACTS = SEEN + 2, FLAGS, CHECKSUM, WRENCHES = CHECKSUM + 2 };
 enum { WRENCH_NUMBERS = 6, WORD_BYTES = 4 };
 
 static size_t words(size_t bytes) { return (bytes + WORD_BYTES - 1) / WORD_BYTES; }
@@ -35,10 +35,40 @@ static void write_two(mjtNum *numbers, uint64_t bits)
     numbers[1] = (mjtNum)(bits >> 32);
 }
 
-int read_past(contact_past *past, const mjtNum *state, size_t state_size)
+/* The finaliser of SplitMix64: every bit of the input reaches every bit of the output. */
+static uint64_t mix(uint64_t x)
 {
-    return read_two(&past->key, state + KEY) && read_two(&past->seen, state + SEEN) && read_word(&past->used, state[USED]) &&
-           read_word(&past->contacts, state[CONTACTS]) && read_word(&past->flags, state[FLAGS]) && past->used <= state_size;
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+    return x ^ x >> 31;
+}
+
+static uint64_t hash_number(uint64_t hash, mjtNum number)
+{
+    uint64_t bits;
+    number += 0; /* -0 and 0 are one number */
+    memcpy(&bits, &number, sizeof bits);
+    return mix(hash ^ bits) + 0x9e3779b97f4a7c15u;
+}
+
+static uint64_t checksum(const mjtNum *state, size_t groups)
+{
+    uint64_t hash = 0;
+    size_t i;
+    for (i = 0; i < bytes_at(groups); i++)
+        if (i != CHECKSUM && i != CHECKSUM + 1)
+            hash = hash_number(hash, state[i]);
+    return hash;
+}
+
+int read_past(contact_past *past, const mjtNum *state, size_t groups, size_t state_size)
+{
+    uint64_t sum;
+    /* Data that were reset are zero throughout. */
+    return read_two(&sum, state + CHECKSUM) && (sum == 0 || sum == checksum(state, groups)) &&
+           read_two(&past->key, state + KEY) && read_two(&past->seen, state + SEEN) && read_word(&past->used, state[USED]) &&
+           read_word(&past->contacts, state[CONTACTS]) && read_word(&past->flags, state[FLAGS]) && past->used <= state_size &&
+           (sum != 0 || past->key == 0);
 }
 
 void read_wrenches(pong_wrench *wrenches, const mjtNum *state, size_t groups)
@@ -81,6 +111,7 @@ void write_state(mjtNum *state, const contact_past *past, const pong_wrench *wre
         memcpy(state + WRENCHES + WRENCH_NUMBERS * i, wrenches[i].force, sizeof wrenches[i].force);
         memcpy(state + WRENCHES + WRENCH_NUMBERS * i + 3, wrenches[i].moment, sizeof wrenches[i].moment);
     }
+    write_two(state + CHECKSUM, checksum(state, groups));
     for (i = 0; i < count; i++) {
         uint32_t word;
         memcpy(&word, bytes + WORD_BYTES * i, WORD_BYTES);
@@ -88,14 +119,6 @@ void write_state(mjtNum *state, const contact_past *past, const pong_wrench *wre
     }
     for (i = count; i < dirty; i++)
         numbers[i] = 0;
-}
-
-/* The finaliser of SplitMix64: every bit of the input reaches every bit of the output. */
-static uint64_t mix(uint64_t x)
-{
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return x ^ x >> 31;
 }
 
 uint64_t hash_states(const pong_state *states, size_t groups)

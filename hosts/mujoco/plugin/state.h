@@ -1,10 +1,12 @@
 /* What an instance keeps in mjData.plugin_state: everything that the engine remembers between steps, so that whoever saves and
  * restores the state of MuJoCo saves and restores the contacts.
  *
- *     used | key 2 | seen 2 | contacts | flags | wrenches 6 per movable group | contact state
+ *     used | key 2 | seen 2 | contacts | flags | checksum 2 | wrenches 6 per movable group | contact state
  *
  * Bit patterns are kept as whole numbers of 32 bits, one in each mjtNum: raw bytes would be denormal numbers or NaNs, which do
- * not survive every host that copies, prints or compares a state. Wrenches are what they are. What is not used is zero. */
+ * not survive every host that copies, prints or compares a state. Wrenches are what they are. What is not used is zero.
+ *
+ * The checksum is of all before the contact state; the contact state has one of its own. */
 #ifndef PONG_CONTACT_STATE_H
 #define PONG_CONTACT_STATE_H
 
@@ -29,8 +31,8 @@ typedef struct contact_past {
 /* How many mjtNum an instance needs. */
 int state_length(size_t groups, size_t state_size);
 
-/* Answers 1, or 0 if the numbers are no state of an instance with such sizes. */
-int read_past(contact_past *past, const mjtNum *state, size_t state_size);
+/* Answers 1, or 0 if the numbers are no state of an instance with such sizes, or not as they were written. */
+int read_past(contact_past *past, const mjtNum *state, size_t groups, size_t state_size);
 
 void read_wrenches(pong_wrench *wrenches, const mjtNum *state, size_t groups);
 

@@ -109,11 +109,12 @@ static int restore_past(contact_host *host, const mjModel *m, const contact_past
 static int read_known_past(contact_past *past, contact_host *host, const mjModel *m, const mjtNum *state)
 {
     if (m->plugin_statenum[host->instance] == state_length(host->at.group_count, host->at.state_size) &&
-        read_past(past, state, host->at.state_size))
+        read_past(past, state, host->at.group_count, host->at.state_size))
         return 1;
     return fail_step(host, m, PONG_STATUS_BAD_STATE_BLOCK,
-                     "plugin_state is not that of this instance: it was set from another model, or the model files have changed "
-                     "since the MJCF was compiled; compile it again, or call mj_resetData()");
+                     "plugin_state is not that of this instance: it was set from another model, its numbers were changed, or the model "
+                     "files have changed since the MJCF was compiled; set a state that this model has saved, compile it again, "
+                     "or call mj_resetData()");
 }
 
 /* Refuses sleep that was enabled after the model was compiled. */

@@ -218,8 +218,30 @@ class Numbers(unittest.TestCase):
             mujoco.mj_step(m, d)
             used.append(np.flatnonzero(d.plugin_state).max())
         self.assertGreater(max(used), min(used[20:]))
-        end = 7 + 12 + int(d.plugin_state[0] + 3) // 4
+        end = 9 + 12 + int(d.plugin_state[0] + 3) // 4
         self.assertFalse(d.plugin_state[end:].any())
+
+
+    def test_numbers_that_were_changed_are_refused(self):
+        # A wrench that nobody computed would act, one that is no number would reset MuJoCo.
+        m = ball_on_ground("0 0 0.0995", mu=0.3)
+        d = mujoco.MjData(m)
+        mujoco.mj_step(m, d, 50)
+        saved = full_state(m, d)
+        mujoco.mj_step(m, d)
+        whole = d.qpos.copy()
+        for place in range(9 + 12):
+            for change in (1.0, np.nan, 1000.0):
+                for data in (d, mujoco.MjData(m)):
+                    mujoco.mj_setState(m, data, saved, FULL)
+                    data.plugin_state[place] += change
+                    mujoco.mj_step(m, data)
+                    self.assertEqual(data.sensordata[2], 10, f"number {place}: it is taken")
+                    self.assertEqual(data.sensordata[0], 0, f"number {place}: contact acts")
+                    self.assertTrue(np.isfinite(data.qpos).all())
+        mujoco.mj_setState(m, d, saved, FULL)
+        mujoco.mj_step(m, d)
+        self.assertTrue((d.qpos == whole).all(), "what was refused can be set right")
 
 
 class RestOfData(unittest.TestCase):
