@@ -32,7 +32,7 @@ fn write_pages(program: &clap::Command, folder: &Path) -> Result<(), (PathBuf, i
     for command in [program].iter().chain(&commands) {
         let path = folder.join(format!("{}.1", page_name(command)));
         let text = page(command, program.get_version().unwrap_or_default(), &names);
-        text.and_then(|text| std::fs::write(&path, text)).map_err(|reason| (path, reason))?;
+        text.and_then(|text| pong_model::files::replace(&path, &text)).map_err(|reason| (path, reason))?;
     }
     Ok(())
 }

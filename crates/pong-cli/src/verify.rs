@@ -82,14 +82,15 @@ fn write_picture(arguments: &Arguments) -> Option<String> {
     let path = folder.join("orders.svg");
     // A motion that cannot be run is told by its case.
     let curves = orders::curves().ok()?;
-    let written = std::fs::create_dir_all(&folder).and_then(|()| std::fs::write(&path, orders::svg(curves)));
+    let written = std::fs::create_dir_all(&folder)
+        .and_then(|()| pong_model::files::replace(&path, orders::svg(curves).as_bytes()));
     written.err().map(|reason| format!("{}: {reason}", path.display()))
 }
 
 /// Writes the report, if one is wanted.
 fn finish(arguments: &Arguments, report: &str, failed: usize) -> Outcome {
     if let Some(path) = &arguments.output {
-        let written = std::fs::write(path, report);
+        let written = pong_model::files::replace(path, report.as_bytes());
         written.map_err(|reason| failure(format!("{}: {reason}", path.display())))?;
     }
     Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })

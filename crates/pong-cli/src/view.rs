@@ -34,7 +34,8 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments) -> Outcome {
     let output = arguments.output.clone().unwrap_or_else(|| beside(&arguments.log));
     let page = page(arguments)?;
-    std::fs::write(&output, &page.html).map_err(|reason| unwritable(&output, &reason))?;
+    pong_model::files::replace(&output, page.html.as_bytes())
+        .map_err(|reason| unwritable(&output, &reason))?;
     for note in &page.notes {
         tell(format!("note: {note}"));
     }

@@ -110,3 +110,29 @@ fn walk(path: PathBuf) -> Vec<PathBuf> {
     }
     std::fs::read_dir(path).unwrap().flat_map(|entry| walk(entry.unwrap().path())).collect()
 }
+
+/// A disk that takes no more leaves what was there; here, a limit on the length of files.
+#[test]
+#[cfg(unix)]
+fn a_full_disk_leaves_the_files_that_were_there() {
+    let folder = run("full");
+    for command in [&["view", "run", "-o", "page.html", "-q"][..], &["log", "run", "--csv", "csv", "-q"]] {
+        assert!(pong(&folder, command).status.success());
+    }
+    let files =
+        ["page.html", "csv/states.csv", "csv/contacts.csv", "csv/wrenches.csv"].map(|file| folder.join(file));
+    let good = files.clone().map(|file| std::fs::read(file).unwrap());
+    for command in ["view run -o page.html", "view run -o other.html", "log run --csv csv"] {
+        // Without the signal the write is refused, as on a full disk. The limit is in blocks of 512 or 1,024 bytes.
+        let limited = format!("trap '' XFSZ; ulimit -f 8; exec {} {command} -q", env!("CARGO_BIN_EXE_pong"));
+        let output = Command::new("sh").args(["-c", &limited]).current_dir(&folder).output().unwrap();
+        assert!(!output.status.success(), "{command}");
+        assert!(text(&output.stderr).contains("cannot be written"), "{command}: {}", text(&output.stderr));
+        assert!(files.clone().map(|file| std::fs::read(file).unwrap()) == good, "{command}");
+    }
+    let left = |folder: &Path| std::fs::read_dir(folder).unwrap().count();
+    assert_eq!(
+        (left(&folder), left(&folder.join("csv"))),
+        (3, 3 + usize::from(folder.join("csv/energies.csv").exists()))
+    );
+}

@@ -52,7 +52,7 @@ fn stage(staging: &Path, files: &[(String, Vec<u8>)]) -> std::io::Result<()> {
     for (name, contents) in files {
         let path = staging.join(name);
         std::fs::create_dir_all(path.parent().unwrap_or(staging))?;
-        std::fs::write(path, contents)?;
+        pong_model::files::replace(&path, contents)?;
     }
     Ok(())
 }

@@ -164,7 +164,7 @@ mod number {
 /// Reads the events of a log; a last line that was cut off is passed over.
 pub(crate) fn load(folder: &Path) -> Result<Vec<LoggedEvent>, LogError> {
     let path = folder.join(FILE);
-    let text = match std::fs::read_to_string(&path) {
+    let text = match pong_model::files::read_text(&path) {
         Ok(text) => text,
         Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
         Err(reason) => return Err(LogError::unreadable(&path, &reason)),

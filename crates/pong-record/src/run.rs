@@ -152,7 +152,8 @@ impl Run {
     /// A file that cannot be read, is of another version, or names what is not there.
     pub fn load(folder: &Path) -> Result<Self, LogError> {
         let path = folder.join(FILE);
-        let text = std::fs::read_to_string(&path).map_err(|reason| LogError::unreadable(&path, &reason))?;
+        let text =
+            pong_model::files::read_text(&path).map_err(|reason| LogError::unreadable(&path, &reason))?;
         let damaged = |cause: String| LogError::damaged(&path, cause);
         let head: Head = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
         if head.format != FORMAT {

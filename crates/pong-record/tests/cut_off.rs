@@ -2,7 +2,8 @@
 
 mod support;
 
-use pong_record::{Event, Log, LogError, RecordOptions};
+use pong_record::{Event, Log, LogError, RecordOptions, ReplayOptions};
+use std::ops::ControlFlow;
 use std::path::Path;
 use support::{folder, scene};
 
@@ -85,6 +86,43 @@ fn last_pair_is_99(mut bytes: Vec<u8>) -> Vec<u8> {
     let at = bytes.len() - 180 + 8;
     bytes[at] = 99;
     bytes
+}
+
+/// Pipes and devices in place of files are refused at once: nobody waits for a writer, nobody reads until memory ends.
+#[test]
+#[cfg(unix)]
+fn only_regular_files_are_read() {
+    let folder = folder("regular");
+    let place = scene(&folder).record(&folder, 5, &RecordOptions::default());
+    let block = place.join("contact_state_0.bin");
+    std::fs::write(
+        place.join("events.jsonl"),
+        "{\"frame\":1,\"event\":\"restore\",\"file\":\"contact_state_0.bin\"}\n",
+    )
+    .unwrap();
+    let put_pipe = |path: &Path| {
+        assert!(std::process::Command::new("mkfifo").arg(path).status().unwrap().success());
+    };
+    let put_zeros = |path: &Path| std::os::unix::fs::symlink("/dev/zero", path).unwrap();
+    let files = ["run.json", "events.jsonl", "frames.npy", "states.npy", "wrenches.npy", "contacts.npy"];
+    for put in [&put_pipe as &dyn Fn(&Path), &put_zeros] {
+        for file in files.map(|file| place.join(file)) {
+            let whole = std::fs::read(&file).unwrap();
+            std::fs::remove_file(&file).unwrap();
+            put(&file);
+            let told = Log::open(&place).unwrap_err().to_string();
+            assert!(told.contains(file.to_str().unwrap()) && told.contains("not a regular file"), "{told}");
+            std::fs::remove_file(&file).unwrap();
+            std::fs::write(&file, whole).unwrap();
+        }
+        put(&block);
+        let mut log = Log::open(&place).unwrap();
+        let told =
+            pong_record::replay(&mut log, &ReplayOptions::default(), &mut |_| ControlFlow::Continue(()));
+        let told = told.unwrap_err().to_string();
+        assert!(told.contains("contact_state_0.bin") && told.contains("not a regular file"), "{told}");
+        std::fs::remove_file(&block).unwrap();
+    }
 }
 
 /// Version 1 had other names for some fields and events; the numbers are the same.

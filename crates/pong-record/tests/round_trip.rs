@@ -4,6 +4,7 @@ mod support;
 
 use pong_engine::{Contact, EngineError};
 use pong_record::{ContactRow, FrameRow, Log, LogError, RecordOptions, Recorder, WhenFull};
+use std::path::Path;
 use std::time::{Duration, Instant};
 use support::{HeldDisk, folder, scene};
 
@@ -205,6 +206,33 @@ fn files_that_take_nothing_are_given_up() {
     }
     // However slow the machine is.
     assert!(started.elapsed() < Duration::from_secs(15), "{:?}", started.elapsed());
+}
+
+/// As of a variable that a shell does not know.
+#[test]
+fn a_folder_without_a_name_is_refused_as_that() {
+    let scene = scene(&folder("unnamed"));
+    let refused = Recorder::start(&scene.world, Path::new(""), &scene.sources, &RecordOptions::default());
+    let told = refused.unwrap_err().to_string();
+    assert_eq!(told, "log: the name of its folder is empty; name the folder that is to hold it");
+}
+
+/// Files that were given up while a frame waited are not waited for again.
+#[test]
+fn a_log_that_was_given_up_closes_at_once() {
+    let folder = folder("given_up");
+    let mut scene = scene(&folder);
+    let disk = HeldDisk::hold();
+    let options = RecordOptions { longest_wait: Duration::from_secs(2), ..disk.options() };
+    let mut recorder = Recorder::start(&scene.world, &folder.join("log"), &scene.sources, &options).unwrap();
+    for n in 0..3000 {
+        scene.step(&mut recorder, n);
+        recorder.record(&scene.world, f64::from(n), 0, None).unwrap();
+    }
+    assert!(recorder.status().error.is_some(), "nothing was given up");
+    let begun = Instant::now();
+    assert!(recorder.finish().is_err());
+    assert!(begun.elapsed() < options.longest_wait, "{:?}", begun.elapsed());
 }
 
 #[test]

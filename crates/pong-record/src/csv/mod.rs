@@ -140,12 +140,14 @@ impl CsvTables {
         table.end()
     }
 
-    /// Writes out what is still in memory.
+    /// Writes out what is still in memory. Files that were there are replaced once all of the new ones are written.
     ///
     /// # Errors
     /// Files that cannot be written.
     pub fn finish(self) -> Result<(), LogError> {
         let tables = [Some(self.states), Some(self.wrenches), Some(self.contacts), self.energies];
-        tables.into_iter().flatten().try_for_each(Table::finish)
+        let mut tables: Vec<Table> = tables.into_iter().flatten().collect();
+        tables.iter_mut().try_for_each(Table::flush)?;
+        tables.into_iter().try_for_each(Table::finish)
     }
 }

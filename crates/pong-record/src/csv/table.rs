@@ -1,9 +1,9 @@
 //! One CSV file, line by line.
 
 use crate::error::LogError;
+use pong_model::files::NewFile;
 use pong_model::printable;
 use std::fmt::Write as _;
-use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub(super) struct Table {
     path: PathBuf,
-    out: BufWriter<File>,
+    out: BufWriter<NewFile>,
     line: String,
 }
 
@@ -19,7 +19,7 @@ impl Table {
     pub fn create(folder: &Path, name: &str, heading: &str) -> Result<Self, LogError> {
         std::fs::create_dir_all(folder).map_err(|reason| LogError::unwritable(folder, &reason))?;
         let path = folder.join(name);
-        let file = File::create(&path).map_err(|reason| LogError::unwritable(&path, &reason))?;
+        let file = NewFile::growing(&path).map_err(|reason| LogError::unwritable(&path, &reason))?;
         let mut table = Self { path, out: BufWriter::new(file), line: heading.to_owned() };
         table.end()?;
         Ok(table)
@@ -46,8 +46,16 @@ impl Table {
         self.out.write_all(self.line.as_bytes()).map_err(|reason| LogError::unwritable(&self.path, &reason))
     }
 
-    pub fn finish(mut self) -> Result<(), LogError> {
+    /// Writes out what is still in memory.
+    pub fn flush(&mut self) -> Result<(), LogError> {
         self.out.flush().map_err(|reason| LogError::unwritable(&self.path, &reason))
+    }
+
+    /// Puts the file into its place.
+    pub fn finish(self) -> Result<(), LogError> {
+        let Self { path, out, .. } = self;
+        let whole = out.into_inner().map_err(std::io::IntoInnerError::into_error).and_then(NewFile::finish);
+        whole.map_err(|reason| LogError::unwritable(&path, &reason))
     }
 }
 

@@ -111,7 +111,8 @@ impl Replay {
                 if !is_inside(file) {
                     return Err(LogError::damaged(&path, "it leads out of the folder of the log"));
                 }
-                let block = std::fs::read(&path).map_err(|reason| LogError::unreadable(&path, &reason))?;
+                let block =
+                    pong_model::files::read(&path).map_err(|reason| LogError::unreadable(&path, &reason))?;
                 self.world.restore_state(&block)?;
             }
             Event::Commit { pairs } if event.frame == frame => {

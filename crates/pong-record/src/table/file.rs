@@ -35,7 +35,7 @@ impl<R: Row> TableFile<R> {
     /// A file that cannot be read, is no NumPy file, or lacks a field.
     pub fn open(path: &Path, columns: Option<usize>) -> Result<Self, LogError> {
         let damaged = |cause: String| LogError::damaged(path, cause);
-        let mut file = File::open(path).map_err(|reason| LogError::unreadable(path, &reason))?;
+        let mut file = pong_model::files::open(path).map_err(|reason| LogError::unreadable(path, &reason))?;
         let read = NpyHeader::from_reader(&mut file);
         let header = read.map_err(|reason| damaged(format!("its header cannot be read: {reason}")))?;
         let start = file.stream_position().map_err(|reason| LogError::unreadable(path, &reason))?;

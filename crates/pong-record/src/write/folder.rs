@@ -13,6 +13,12 @@ pub(super) const CONTACT_STATE: &str = "contact_state_";
 
 /// Makes the folder, or empties it of another log if that is wanted.
 pub(super) fn prepare(folder: &Path, overwrite: bool) -> Result<(), LogError> {
+    if folder == Path::new("") {
+        return Err(LogError::refused(
+            "the name of its folder is empty",
+            "name the folder that is to hold it",
+        ));
+    }
     std::fs::create_dir_all(folder).map_err(|reason| LogError::unwritable(folder, &reason))?;
     let entries = std::fs::read_dir(folder).map_err(|reason| LogError::unwritable(folder, &reason))?;
     let mut found: Vec<String> =

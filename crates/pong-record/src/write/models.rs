@@ -55,7 +55,7 @@ fn keep_one(
     };
     let (text, base, name) = match source {
         ModelSource::File(path) => {
-            let text = std::fs::read_to_string(path).map_err(|reason| {
+            let text = pong_model::files::read_text(path).map_err(|reason| {
                 fails(format!("{}: {reason}", path.display()), "keep its file where it was")
             })?;
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -98,7 +98,8 @@ fn copy_meshes(text: &str, base: &Path, home: &Path) -> Result<(), LogError> {
         let (from, to) = (base.join(mesh), home.join(mesh));
         if from.is_file() {
             let copied = std::fs::create_dir_all(to.parent().unwrap_or(home))
-                .and_then(|()| std::fs::copy(&from, &to).map(|_| ()));
+                .and_then(|()| pong_model::files::read(&from))
+                .and_then(|bytes| std::fs::write(&to, bytes));
             copied.map_err(|reason| LogError::unwritable(&to, &reason))?;
         }
     }

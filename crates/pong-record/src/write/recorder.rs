@@ -47,6 +47,8 @@ pub struct Recorder {
     peak: usize,
     size: usize,
     longest_wait: Duration,
+    /// Whether the files took nothing for so long that the thread is not waited for any more.
+    gave_up: bool,
     /// The process whose log this is. A fork of it has no thread that writes.
     process: u32,
 }
@@ -150,6 +152,7 @@ impl Recorder {
             peak: 0,
             size: wanted,
             longest_wait: options.longest_wait,
+            gave_up: false,
             process: std::process::id(),
         };
         recorder.tell_how_it_begins(world, block)?;
@@ -296,7 +299,7 @@ impl Recorder {
         self.when_full = WhenFull::Wait;
         self.tell_lost();
         self.producer = None;
-        let Some(thread) = self.thread.take() else { return };
+        let Some(thread) = self.thread.take().filter(|_| !self.gave_up) else { return };
         thread.thread().unpark();
         let mut limit = WaitLimit::new(&self.shared, self.longest_wait);
         while !thread.is_finished() {
@@ -314,6 +317,7 @@ impl Recorder {
 
     /// The files take nothing: whatever the thread still has in hand is lost.
     fn give_up(&mut self) {
+        self.gave_up = true;
         let frames = self.shared.frames.load(Ordering::Relaxed);
         let waited = self.longest_wait.as_secs_f64();
         self.fail(format!("log: the files took nothing for {waited} s; the log ends after {frames} frames"));

@@ -137,10 +137,10 @@ impl Writer {
 
 /// Writes run.json beside itself and puts it in place: it is whole at any time.
 fn write_run(folder: &Path, run: &Run) -> Result<(), LogError> {
-    let (path, fresh) = (folder.join(run::FILE), folder.join("run.json.new"));
+    let path = folder.join(run::FILE);
     let text =
         serde_json::to_string_pretty(run).map_err(|error| LogError::damaged(&path, error.to_string()))?;
-    let written = std::fs::write(&fresh, text + "\n").and_then(|()| std::fs::rename(&fresh, &path));
+    let written = pong_model::files::replace(&path, (text + "\n").as_bytes());
     written.map_err(|reason| LogError::unwritable(&path, &reason))
 }
 

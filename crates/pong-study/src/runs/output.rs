@@ -2,7 +2,7 @@
 
 use crate::runs::subject::Subject;
 use crate::{Result, StudyError};
-use pong_model::{Model, grouping};
+use pong_model::{Model, files, grouping};
 use std::path::{Path, PathBuf};
 
 /// Where changed files go, and whether others there may be replaced.
@@ -65,8 +65,9 @@ impl Output {
         self.copy_meshes(subject, &folder)?;
         let name = place.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let staged = folder.join(format!(".{name}.{}", std::process::id()));
-        std::fs::write(&staged, text).map_err(|reason| unwritable(&staged, reason))?;
-        let moved = check(&staged, subject, expected)
+        let moved = files::replace(&staged, text.as_bytes())
+            .map_err(|reason| unwritable(&place, reason))
+            .and_then(|()| check(&staged, subject, expected))
             .and_then(|()| std::fs::rename(&staged, &place).map_err(|reason| unwritable(&place, reason)));
         if moved.is_err() {
             let _ = std::fs::remove_file(&staged);
@@ -77,23 +78,25 @@ impl Output {
     /// Meshes are found beside a model or below: in another folder they are needed as well.
     fn copy_meshes(&self, subject: &Subject, folder: &Path) -> Result<()> {
         let home = subject.file.parent().unwrap_or(Path::new(""));
-        let files =
+        let meshes =
             grouping::mesh_files(&subject.text).map_err(|line| StudyError::file(&subject.file, line))?;
-        for file in files {
+        for file in meshes {
             let (from, to) = (home.join(&file), folder.join(&file));
             let fails = |reason: std::io::Error| {
                 StudyError::file(&to, format!("{reason}; name another folder with -o"))
             };
-            let bytes = std::fs::read(&from).map_err(fails)?;
-            if std::fs::read(&to).is_ok_and(|there| there == bytes) {
+            let bytes = files::read(&from).map_err(fails)?;
+            if files::read(&to).is_ok_and(|there| there == bytes) {
                 continue;
             }
             if to.exists() && !self.force {
                 let line = "another mesh of that name is there; name another folder with -o, or replace it with --force";
                 return Err(StudyError::file(&to, line));
             }
-            let written =
-                to.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| std::fs::write(&to, bytes));
+            let written = to
+                .parent()
+                .map_or(Ok(()), std::fs::create_dir_all)
+                .and_then(|()| files::replace(&to, &bytes));
             written.map_err(fails)?;
         }
         Ok(())

@@ -31,7 +31,7 @@ pub(crate) fn hash_model(hash: &mut Fnv, file: &Path, extensions: &Extensions) -
 /// The bytes of a file, a piece at a time.
 pub(crate) fn hash_file(hash: &mut Fnv, path: &Path) -> Result<()> {
     let unreadable = |reason: std::io::Error| StudyError::file(path, reason);
-    let mut file = std::fs::File::open(path).map_err(unreadable)?;
+    let mut file = pong_model::files::open(path).map_err(unreadable)?;
     let mut piece = vec![0; 1 << 20];
     loop {
         let read = file.read(&mut piece).map_err(unreadable)?;

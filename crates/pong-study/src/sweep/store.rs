@@ -4,6 +4,7 @@
 
 use crate::sweep::record::Record;
 use crate::{Result, StudyError};
+use pong_model::files;
 use serde::{Serialize, de::DeserializeOwned};
 use std::path::{Path, PathBuf};
 
@@ -29,7 +30,7 @@ impl Store {
 
     /// What was kept under a key; what cannot be read counts as not there.
     pub fn get<T: DeserializeOwned>(&self, kind: &str, key: u64) -> Option<T> {
-        let text = std::fs::read_to_string(self.path(kind, key, "json")).ok()?;
+        let text = files::read_text(&self.path(kind, key, "json")).ok()?;
         serde_json::from_str(&text).ok()
     }
 
@@ -42,7 +43,7 @@ impl Store {
 
     /// A record kept under a key.
     pub fn record(&self, key: u64) -> Option<Record> {
-        read_record(&std::fs::read(self.path("record", key, "bin")).ok()?)
+        read_record(&files::read(&self.path("record", key, "bin")).ok()?)
     }
 
     /// Keeps a record under a key.
@@ -51,11 +52,9 @@ impl Store {
     }
 }
 
-/// Writes a file beside its place and moves it there.
+/// Writes a file that is there whole or not at all.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    let beside = path.with_extension("part");
-    let written = std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path));
-    written.map_err(|reason| StudyError::output(path, reason))
+    files::replace(path, bytes).map_err(|reason| StudyError::output(path, reason))
 }
 
 /// Little-endian words: bodies, instants in a frame, incomplete steps, number of rows' values; then all numbers.
