@@ -260,6 +260,17 @@ def tripod(pong, work, fmi):
     print(f"  saved in contact, rolled back and taken over by another instance: the same bits; {len(middle)} bytes")
     refusals(unit)
 
+    # 10 kg: what contact gives in a communication step is its mean force times the step.
+    means = Unit(make(pong, TRIPOD, fmi, work / f"means{fmi}.fmu", "--step-means"))
+    one = means.instance(exchange=False)
+    one.begin()
+    speed = one.get("tripod.state.velocity[3]")[0]
+    one.fmu.doStep(0.0, 0.5)
+    pushed = one.get("tripod.mean_contact_force[3]")[0] * 0.5
+    gained = 10.0 * (one.get("tripod.state.velocity[3]")[0] - speed + 9.81 * 0.5)
+    print(f"  mean force: {pushed:.9f} N s of contact in 0.5 s, {gained:.9f} by the momentum")
+    expect(abs(pushed / gained - 1.0) < 1e-9, "the mean force is not momentum over the step")
+
 
 def refusals(unit):
     one = unit.instance(exchange=False)
@@ -267,6 +278,7 @@ def refusals(unit):
     refused(unit, lambda: one.set("tripod.applied_force[1]", float("nan")), "give a finite number", "a force that is none")
     refused(unit, lambda: one.set("tripod.position[1]", 0.0), "cannot be set", "an output")
     refused(unit, lambda: one.fmu.doStep(5.0, 0.1), "begins at 5 s", "a step from elsewhere")
+    refused(unit, lambda: one.fmu.doStep(0.0, 1e300), "give a shorter communication step", "a step without end")
     refused(unit, lambda: unit.instance(False, token="another"), "instantiation token", "another description")
     model = unit.folder / "resources/models/0/tripod.ron"
     text = model.read_text()

@@ -26,6 +26,9 @@ pub(crate) struct Arguments {
     /// Has the importer move every body that is not fixed: the unit computes contact alone.
     #[arg(long, conflicts_with = "inputs")]
     contact_only: bool,
+    /// Adds the mean of every contact force and moment over the last communication step to the outputs.
+    #[arg(long)]
+    step_means: bool,
     /// The shared library that goes into the unit; without it the one that was built or installed with this program.
     #[arg(long, value_name = "FILE.so")]
     library: Option<PathBuf>,
@@ -39,7 +42,7 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments) -> Outcome {
     let output = arguments.output.clone().unwrap_or_else(|| arguments.scene.with_extension("fmu"));
     let package = package(arguments)?;
-    write_whole(&output, &package.bytes).map_err(|reason| unwritable(&output, &reason))?;
+    pong_model::files::replace(&output, &package.bytes).map_err(|reason| unwritable(&output, &reason))?;
     for warning in &package.warnings {
         tell(format!("warning: {warning}"));
     }
@@ -55,6 +58,7 @@ fn package(arguments: &Arguments) -> Result<Package, String> {
     let options = Options {
         inputs: arguments.inputs.clone(),
         all_inputs: arguments.contact_only,
+        step_means: arguments.step_means,
         extensions: arguments.allowed.extensions(),
     };
     let fmi = if arguments.fmi == 2 { Fmi::V2 } else { Fmi::V3 };
@@ -94,18 +98,6 @@ fn library(named: Option<&Path>) -> Result<(PathBuf, Vec<u8>), String> {
 fn places(folder: &Path) -> Vec<PathBuf> {
     let relative = ["", "deps", "../lib/pong", "../lib/x86_64-linux-gnu/pong", "../lib64/pong"];
     relative.iter().map(|place| folder.join(place).join(LIBRARY_FILE)).collect()
-}
-
-/// Writes a file that is there whole or not at all: a unit that was there stays until the new one is complete.
-fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut name = path.file_name().ok_or(std::io::ErrorKind::InvalidInput)?.to_owned();
-    name.push(format!(".{}.part", std::process::id()));
-    let part = path.with_file_name(name);
-    let written = std::fs::write(&part, bytes).and_then(|()| std::fs::rename(&part, path));
-    if written.is_err() {
-        let _ = std::fs::remove_file(&part);
-    }
-    written
 }
 
 fn summary(arguments: &Arguments, output: &Path, package: &Package) -> String {

@@ -3,7 +3,7 @@
 
 use pong_model::Fnv;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
+use std::path::{Component, Path};
 
 /// The list's own file.
 pub(crate) const CONTENTS_FILE: &str = "contents.ron";
@@ -23,6 +23,9 @@ pub(crate) struct Contents {
     pub inputs: Vec<String>,
     /// Every model file as it stands in the scene, and where it is here.
     pub models: Vec<(String, String)>,
+    /// Whether outputs have means over a communication step beside them.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub step_means: bool,
     /// Scene, models and meshes.
     files: Vec<Entry>,
 }
@@ -42,6 +45,7 @@ fn hash(bytes: &[u8]) -> String {
 impl Contents {
     pub fn new<'f>(
         inputs: Vec<String>,
+        step_means: bool,
         models: Vec<(String, String)>,
         files: impl IntoIterator<Item = (&'f str, &'f [u8])>,
     ) -> Self {
@@ -52,7 +56,7 @@ impl Contents {
         };
         let pong = env!("CARGO_PKG_VERSION").to_owned();
         let files = files.into_iter().map(entry).collect();
-        Self { format: FORMAT.to_owned(), version: VERSION, pong, inputs, models, files }
+        Self { format: FORMAT.to_owned(), version: VERSION, pong, inputs, models, step_means, files }
     }
 
     /// The list as a file, and its token.
@@ -70,8 +74,7 @@ impl Contents {
     pub fn read(resources: &Path, token: &str) -> Result<Self, String> {
         let cure = "unpack the FMU again, or make it anew with `pong fmu`";
         let path = resources.join(CONTENTS_FILE);
-        let text = pong_model::files::read_text(&path)
-            .map_err(|reason| format!("{}: cannot be read: {reason}; {cure}", path.display()))?;
+        let text = read_text(resources, CONTENTS_FILE).map_err(|line| format!("{line}; {cure}"))?;
         let contents: Self =
             ron::from_str(&text).map_err(|error| format!("{}: {error}; {cure}", path.display()))?;
         if contents.format != FORMAT || contents.version != VERSION {
@@ -93,23 +96,60 @@ impl Contents {
         let own = hash(text.as_bytes());
         if token != own {
             return Err(format!(
-                "instantiation token: modelDescription.xml has `{token}`, and what lies in {} has `{own}`: the two are not \
-                 of one FMU; {cure}",
+                "instantiation token: `{token}` of modelDescription.xml is not that of what lies in {}; {cure}",
                 resources.display()
             ));
         }
+        contents.check_paths(&path).map_err(|line| format!("{line}; {cure}"))?;
         let changed: Vec<String> = contents.files.iter().filter_map(|entry| entry.fault(resources)).collect();
         if !changed.is_empty() {
             return Err(format!("{}; {cure}", changed.join("; ")));
         }
         Ok(contents)
     }
+
+    /// Refuses names that lead out of `resources/`, and models that are not among the files, before anything is opened.
+    fn check_paths(&self, list: &Path) -> Result<(), String> {
+        let named =
+            self.models.iter().map(|(_, file)| file).chain(self.files.iter().map(|entry| &entry.path));
+        for file in named {
+            let mut parts = Path::new(file).components();
+            if file.is_empty() || !parts.all(|part| matches!(part, Component::Normal(_))) {
+                return Err(format!(
+                    "{}: the file `{file}` leads out of the folder of the FMU",
+                    list.display()
+                ));
+            }
+        }
+        let lists = |file: &str| self.files.iter().any(|entry| entry.path == file);
+        let mut wanted = self.models.iter().map(|(_, file)| file.as_str()).chain([SCENE_FILE]);
+        match wanted.find(|file| !lists(file)) {
+            Some(file) => Err(format!("{}: `{file}` is not among its files", list.display())),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The text of a file of `resources/`. Links that lead out of it are refused.
+///
+/// # Errors
+/// Thing and cause.
+pub(crate) fn read_text(resources: &Path, file: &str) -> Result<String, String> {
+    let told = |reason: &dyn std::fmt::Display| {
+        format!("{}: cannot be read: {reason}", resources.join(file).display())
+    };
+    let bytes = read(resources, file).map_err(|reason| told(&reason))?;
+    String::from_utf8(bytes).map_err(|_| told(&"it is no UTF-8 text"))
+}
+
+fn read(resources: &Path, file: &str) -> std::io::Result<Vec<u8>> {
+    pong_model::files::read_below(&resources.join(file), [resources])
 }
 
 impl Entry {
     fn fault(&self, resources: &Path) -> Option<String> {
         let path = resources.join(&self.path);
-        match pong_model::files::read(&path) {
+        match read(resources, &self.path) {
             Err(reason) => Some(format!("{}: cannot be read: {reason}", path.display())),
             Ok(bytes) if bytes.len() as u64 == self.bytes && hash(&bytes) == self.hash => None,
             Ok(_) => Some(format!("{}: it has changed since the FMU was made", path.display())),

@@ -20,6 +20,9 @@ const NORM_ERROR_MAX: f64 = 1e-3;
 /// communication steps, and less than any step that is meant.
 const STEP_TOLERANCE: f64 = 1e-6;
 
+/// Most steps of the scene in one communication step: minutes of work, so that a wrong unit of time is told at once.
+const STEPS_MAX: f64 = 1e8;
+
 /// Who integrates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
@@ -93,6 +96,9 @@ pub(crate) struct Instance {
     pub(crate) inputs_changed: bool,
     /// Of the last evaluation, if it was asked for.
     pub(crate) summary: Option<Summary>,
+    /// Mean contact wrench on every body over the last communication step; empty where there is none, and the wrenches of the
+    /// instant stand for their means.
+    pub(crate) means: Vec<Wrench>,
     pub(crate) flags: Flags,
     /// The flags as they will be after the next event.
     pub(crate) next_flags: Flags,
@@ -126,6 +132,7 @@ impl Instance {
             is_current: false,
             inputs_changed: true,
             summary: None,
+            means: Vec::new(),
             flags: Flags::default(),
             next_flags: Flags::default(),
             warned: Flags::default(),
@@ -146,6 +153,7 @@ impl Instance {
         self.states = self.unit.simulation.state_numbers();
         (self.mode, self.time) = (Mode::Instantiated, 0.0);
         (self.is_current, self.inputs_changed, self.summary) = (false, true, None);
+        self.means.clear();
         (self.flags, self.next_flags, self.warned, self.left_out) = Default::default();
         Ok(())
     }
@@ -182,9 +190,10 @@ impl Instance {
             Slot::State(place) => self.current_states()[place],
             Slot::Rate(place) => self.rates[place],
             Slot::Motion(body, number) => motion_numbers(simulation, body)[number],
-            Slot::Wrench(body, number) => {
-                let wrench = simulation.contact_wrench(body);
-                if number < 3 { wrench.force[number] } else { wrench.moment[number - 3] }
+            Slot::Wrench(body, number) => component(&simulation.contact_wrench(body), number),
+            Slot::MeanWrench(body, number) => {
+                let mean = self.means.get(body.index()).copied();
+                component(&mean.unwrap_or_else(|| simulation.contact_wrench(body)), number)
             }
             Slot::Count => self.summary().count,
             Slot::LargestDepth => self.summary().largest_depth,
@@ -578,6 +587,14 @@ impl Instance {
     /// The event: flags change, quaternions are normalised.
     pub fn update_discrete_states(&mut self) -> Outcome<EventOutcome> {
         self.expect_mode("update of discrete states", &[Mode::Event])?;
+        if let Some(place) = self.quaternions().position(|q| !is_direction(&q)) {
+            let body = self.unit.simulation.free_bodies().nth(place);
+            let found = body.and_then(|id| self.unit.simulation.bodies().nth(id.index()));
+            return Err(Refusal::discard(format!(
+                "states of `{}`: the quaternion has no direction; set one of unit length (w, x, y, z)",
+                found.map_or("", |(_, body)| body.name.as_str())
+            )));
+        }
         self.flags = self.next_flags;
         let mut states_changed = false;
         for state in self.states.as_chunks_mut::<{ Simulation::STATE_NUMBERS }>().0 {
@@ -609,12 +626,19 @@ impl Instance {
                 self.time
             )));
         }
+        let step = self.unit.simulation.step_length();
+        if length / step > STEPS_MAX {
+            return Err(Refusal::error(format!(
+                "DoStep: {length} s are more than {STEPS_MAX:e} steps of the scene ({step} s); give a shorter communication step"
+            )));
+        }
         self.undo.clear();
         self.unit.simulation.save(&mut self.undo);
         let inputs_changed = self.inputs_changed;
         match self.advance(from + length) {
-            Ok(flags) => {
+            Ok((flags, means)) => {
                 self.time = from + length;
+                self.means = means;
                 (self.is_current, self.summary) = (true, None);
                 (self.flags, self.next_flags) = (flags, flags);
                 self.warn_of(flags);
@@ -628,7 +652,8 @@ impl Instance {
         }
     }
 
-    fn advance(&mut self, target: f64) -> Outcome<Flags> {
+    /// Answers flags and mean wrenches of the communication step.
+    fn advance(&mut self, target: f64) -> Outcome<(Flags, Vec<Wrench>)> {
         // What belongs to the instant before the step must be read before contacts are computed anew.
         self.summary();
         if self.inputs_changed {
@@ -638,13 +663,14 @@ impl Instance {
         let left = (target - self.unit.simulation.time()) / step;
         let whole = (left + STEP_TOLERANCE).floor().max(0.0) as u64;
         let mut flags = Flags::default();
+        let mut impulses = Impulses::default();
         for _ in 0..whole {
-            self.one_step(&mut flags)?;
+            self.one_step(&mut flags, &mut impulses)?;
         }
         let rest = target - self.unit.simulation.time();
         if rest > STEP_TOLERANCE * step {
             self.unit.simulation.set_step(rest).map_err(of_simulation)?;
-            let stepped = self.one_step(&mut flags);
+            let stepped = self.one_step(&mut flags, &mut impulses);
             self.unit.simulation.set_step(step).map_err(of_simulation)?;
             stepped?;
         } else if whole == 0 {
@@ -652,11 +678,14 @@ impl Instance {
             self.unit.simulation.commit_initial_states().map_err(of_trial)?;
             flags = self.frame_flags();
         }
-        Ok(flags)
+        Ok((flags, impulses.means()))
     }
 
-    fn one_step(&mut self, flags: &mut Flags) -> Outcome {
+    fn one_step(&mut self, flags: &mut Flags, impulses: &mut Impulses) -> Outcome {
         self.unit.simulation.step().map_err(of_trial)?;
+        if self.unit.step_means {
+            impulses.add(&self.unit.simulation);
+        }
         let now = self.frame_flags();
         flags.touching = now.touching;
         flags.tunnelled |= now.tunnelled;
@@ -675,6 +704,45 @@ impl Instance {
 fn motion_name(variables: &crate::variables::Variables, place: usize) -> usize {
     let found = variables.list.iter().position(|variable| variable.slot == Slot::Input(place));
     found.expect("every input is a variable")
+}
+
+/// Contact wrenches on all bodies, integrated over the steps of a communication step.
+#[derive(Default)]
+struct Impulses {
+    /// s.
+    time: f64,
+    of_bodies: Vec<Wrench>,
+}
+
+impl Impulses {
+    /// Takes in the last step.
+    fn add(&mut self, simulation: &Simulation) {
+        self.time += simulation.step_length();
+        self.of_bodies.resize(simulation.bodies().len(), Wrench::zero());
+        for ((id, _), sum) in simulation.bodies().zip(&mut self.of_bodies) {
+            let impulse = simulation.contact_impulse(id).unwrap_or_else(Wrench::zero);
+            sum.force += impulse.force;
+            sum.moment += impulse.moment;
+        }
+    }
+
+    fn means(mut self) -> Vec<Wrench> {
+        for sum in &mut self.of_bodies {
+            sum.force /= self.time;
+            sum.moment /= self.time;
+        }
+        self.of_bodies
+    }
+}
+
+fn component(wrench: &Wrench, number: usize) -> f64 {
+    if number < 3 { wrench.force[number] } else { wrench.moment[number - 3] }
+}
+
+/// Whether a quaternion can be normalised.
+fn is_direction(quaternion: &[f64]) -> bool {
+    let length = norm(quaternion);
+    length > 0.0 && length.is_finite()
 }
 
 fn norm(quaternion: &[f64]) -> f64 {

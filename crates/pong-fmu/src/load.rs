@@ -1,6 +1,6 @@
 //! From the folder `resources/` to a unit that can run. No other file is read.
 
-use crate::contents::{Contents, SCENE_FILE};
+use crate::contents::{self, Contents, SCENE_FILE};
 use crate::unit::{Inputs, Unit};
 use pong_executive::scene::{Scene, Variation};
 use pong_geometry::extension::Extensions;
@@ -14,15 +14,17 @@ use std::sync::Arc;
 /// Files that are missing, changed, or of another FMU: thing, cause and cure.
 pub(crate) fn load(resources: &Path, token: &str) -> Result<Unit, String> {
     let contents = Contents::read(resources, token)?;
+    let unpack = |line: String| format!("{line}; unpack the FMU again");
     let mut models: Vec<(PathBuf, Arc<Model>)> = Vec::new();
     for (in_scene, file) in &contents.models {
-        let model = pong_model::load(&resources.join(file), &Extensions::new());
+        let path = resources.join(file);
+        let text = contents::read_text(resources, file).map_err(unpack)?;
+        let model = pong_model::parse(&text, &path.display().to_string(), path.parent(), &Extensions::new());
         let model = model.map_err(|errors| errors.to_string())?;
         models.push((PathBuf::from(in_scene), Arc::new(model)));
     }
     let path = resources.join(SCENE_FILE);
-    let text = pong_model::files::read_text(&path)
-        .map_err(|reason| format!("{}: cannot be read: {reason}; unpack the FMU again", path.display()))?;
+    let text = contents::read_text(resources, SCENE_FILE).map_err(unpack)?;
     // Without a folder the scene names its models as the list does.
     let scene = Scene::parse(&text, &path.display().to_string(), Path::new(""));
     let scene = scene.map_err(|errors| errors.to_string())?;
@@ -31,7 +33,7 @@ pub(crate) fn load(resources: &Path, token: &str) -> Result<Unit, String> {
     };
     let variation = Variation { instead: Some(&of_file), ..Variation::default() };
     let built = scene.build_varied(&variation).map_err(|errors| errors.to_string())?;
-    let mut unit = Unit::new(built, &Inputs::Named(contents.inputs))?;
+    let mut unit = Unit::new(built, &Inputs::Named(contents.inputs), contents.step_means)?;
     unit.token = token.to_owned();
     Ok(unit)
 }

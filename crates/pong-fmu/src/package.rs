@@ -19,6 +19,8 @@ pub struct Options {
     pub inputs: Vec<String>,
     /// Whether the importer gives the motion of every body that is not fixed: the FMU is contact alone.
     pub all_inputs: bool,
+    /// Whether contact wrenches have means over a communication step beside them.
+    pub step_means: bool,
     /// Where models may read files from.
     pub extensions: Extensions,
 }
@@ -58,7 +60,8 @@ pub fn package(path: &Path, library: &[u8], fmi: Fmi, options: &Options) -> Resu
         true => Inputs::All,
         false => Inputs::Named(options.inputs.clone()),
     };
-    let unit = Unit::new(built, &inputs).map_err(|line| format!("{}: {line}", path.display()))?;
+    let unit = Unit::new(built, &inputs, options.step_means)
+        .map_err(|line| format!("{}: {line}", path.display()))?;
 
     let mut files = vec![(SCENE_FILE.to_owned(), text.into_bytes())];
     let mut models: Vec<(String, String)> = Vec::new();
@@ -69,7 +72,7 @@ pub fn package(path: &Path, library: &[u8], fmi: Fmi, options: &Options) -> Resu
         }
     }
     let listed = files.iter().map(|(path, bytes)| (path.as_str(), bytes.as_slice()));
-    let (contents, token) = Contents::new(unit.input_bodies(), models, listed).write()?;
+    let (contents, token) = Contents::new(unit.input_bodies(), options.step_means, models, listed).write()?;
     files.push((CONTENTS_FILE.to_owned(), contents.into_bytes()));
 
     let identifier = identifier(&unit.name);

@@ -2,16 +2,17 @@
 //!
 //! ```text
 //! magic 8 | version 8 | token 8 + n | kind, mode, current, changed, flags 8 | time 8
-//! | parameters, inputs, states, rates: count 8 and numbers | summary 16 | saved instant of the simulation
+//! | parameters, inputs, states, rates, mean wrenches: count 8 and numbers | summary 16 | saved instant of the simulation
 //! | checksum 8 (FNV-1a of everything before)
 //! ```
 
 use crate::instance::{Flags, Instance, Kind, Mode, Summary};
 use crate::refusal::Refusal;
+use pong_executive::{Vec3, Wrench};
 use pong_model::Fnv;
 
 const MAGIC: &[u8; 8] = b"PONGFMUS";
-const VERSION: u64 = 1;
+const VERSION: u64 = 2;
 const MODES: [Mode; 6] =
     [Mode::Instantiated, Mode::Initialization, Mode::Event, Mode::Continuous, Mode::Step, Mode::Terminated];
 
@@ -34,6 +35,9 @@ impl Instance {
             word(out, numbers.len() as u64);
             numbers.iter().for_each(|number| word(out, number.to_bits()));
         }
+        let means = self.means.iter().flat_map(|mean| mean.force.iter().chain(&mean.moment));
+        word(out, 6 * self.means.len() as u64);
+        means.for_each(|number| word(out, number.to_bits()));
         word(out, summary.count.to_bits());
         word(out, summary.largest_depth.to_bits());
         self.unit.simulation.save(out);
@@ -57,7 +61,7 @@ impl Instance {
         (self.flags, self.next_flags) = (state.flags, state.next_flags);
         self.summary = state.is_current.then_some(state.summary);
         (self.parameters, self.inputs) = (state.parameters, state.inputs);
-        (self.states, self.rates) = (state.states, state.rates);
+        (self.states, self.rates, self.means) = (state.states, state.rates, state.means);
         Ok(())
     }
 
@@ -93,6 +97,7 @@ impl Instance {
         let inputs = reader.numbers(self.inputs.len())?;
         let states = reader.numbers(self.states.len())?;
         let rates = reader.numbers(self.rates.len())?;
+        let means = reader.wrenches(self.unit.simulation.bodies().len())?;
         let [count, largest_depth] = [reader.word()?, reader.word()?].map(f64::from_bits);
         Ok(State {
             mode,
@@ -105,6 +110,7 @@ impl Instance {
             inputs,
             states,
             rates,
+            means,
             summary: Summary { count, largest_depth },
             simulation: reader.bytes,
         })
@@ -128,6 +134,7 @@ struct State<'b> {
     inputs: Vec<f64>,
     states: Vec<f64>,
     rates: Vec<f64>,
+    means: Vec<Wrench>,
     summary: Summary,
     simulation: &'b [u8],
 }
@@ -159,6 +166,16 @@ impl<'b> Reader<'b> {
         let (first, rest) = self.bytes.split_first_chunk::<8>().ok_or(DAMAGED)?;
         self.bytes = rest;
         Ok(u64::from_le_bytes(*first))
+    }
+
+    /// None, or one for each body.
+    fn wrenches(&mut self, bodies: usize) -> Result<Vec<Wrench>, Fault> {
+        let is_empty = self.bytes.starts_with(&[0; 8]);
+        let numbers = self.numbers(if is_empty { 0 } else { 6 * bodies })?;
+        let (sixes, _) = numbers.as_chunks::<6>();
+        let wrench =
+            |&[a, b, c, d, e, f]: &[f64; 6]| Wrench { force: Vec3::new(a, b, c), moment: Vec3::new(d, e, f) };
+        Ok(sixes.iter().map(wrench).collect())
     }
 
     fn numbers(&mut self, count: usize) -> Result<Vec<f64>, Fault> {

@@ -12,6 +12,8 @@ pub(crate) struct Unit {
     pub simulation: Simulation,
     pub variables: Variables,
     pub surfaces: Vec<ScaledSurface>,
+    /// Whether contact wrenches have means over a communication step beside them.
+    pub step_means: bool,
     /// Friction that is there at the start.
     pub preload: Vec<(PairId, FrictionPreload)>,
     /// The simulation before anything happened.
@@ -38,7 +40,7 @@ impl Unit {
     ///
     /// # Errors
     /// Bodies that are not there or named twice: thing, cause and cure.
-    pub fn new(built: BuiltScene, inputs: &Inputs) -> Result<Self, String> {
+    pub fn new(built: BuiltScene, inputs: &Inputs, step_means: bool) -> Result<Self, String> {
         let mut simulation = built.simulation;
         let led = led_bodies(&simulation, inputs)?;
         let failed = |error: pong_executive::ExecutiveError| error.to_string();
@@ -47,14 +49,28 @@ impl Unit {
             simulation.lead(*body, simulation.time(), pose, twist).map_err(failed)?;
         }
         let surfaces = scaled_surfaces(simulation.world());
-        let variables = Variables::new(&simulation, &led, &surfaces);
+        let variables = Variables::new(&simulation, &led, &surfaces, step_means);
+        if step_means {
+            simulation.keep_contact_impulses();
+        }
         let mut begin = Vec::new();
         simulation.save(&mut begin);
         let duration = built.steps as f64 * simulation.step_length();
         let warnings = built.warnings.into_iter().chain(built.seal.warnings.iter().map(ToString::to_string));
         let (warnings, preload, name) = (warnings.collect(), built.preload, built.name);
         let token = String::new();
-        Ok(Self { name, simulation, variables, surfaces, preload, begin, duration, warnings, token })
+        Ok(Self {
+            name,
+            simulation,
+            variables,
+            surfaces,
+            step_means,
+            preload,
+            begin,
+            duration,
+            warnings,
+            token,
+        })
     }
 
     /// Names of the bodies that the importer moves.

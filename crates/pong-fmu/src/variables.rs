@@ -37,6 +37,8 @@ pub(crate) enum Slot {
     Motion(BodyId, usize),
     /// Contact wrench on a body.
     Wrench(BodyId, usize),
+    /// Mean of it over the last communication step.
+    MeanWrench(BodyId, usize),
     /// How many contacts there are.
     Count,
     LargestDepth,
@@ -119,7 +121,12 @@ const STATE: [(&str, usize, &str, &str, &str); 4] = [
 
 impl Variables {
     /// The variables of a scene; bodies that the importer moves are led already.
-    pub fn new(simulation: &Simulation, inputs: &[BodyId], surfaces: &[ScaledSurface]) -> Self {
+    pub fn new(
+        simulation: &Simulation,
+        inputs: &[BodyId],
+        surfaces: &[ScaledSurface],
+        step_means: bool,
+    ) -> Self {
         let mut variables = Self::default();
         variables.add("time".to_owned(), "Time".to_owned(), "s", Causality::Independent, Slot::Time, None);
         let mut flag = |name: &str, what: &str, slot| {
@@ -147,7 +154,7 @@ impl Variables {
             None,
         );
         for (id, body) in simulation.bodies() {
-            variables.add_body(simulation, id, body, inputs.contains(&id));
+            variables.add_body(simulation, id, body, (inputs.contains(&id), step_means));
         }
         variables.add_states(simulation);
         for (place, surface) in surfaces.iter().enumerate() {
@@ -196,7 +203,13 @@ impl Variables {
         self.add(name, description, unit, Causality::Input, slot, Some(start));
     }
 
-    fn add_body(&mut self, simulation: &Simulation, id: BodyId, body: &RigidBody, is_input: bool) {
+    fn add_body(
+        &mut self,
+        simulation: &Simulation,
+        id: BodyId,
+        body: &RigidBody,
+        (is_input, step_means): (bool, bool),
+    ) {
         let path = structured(&body.name);
         let start = motion_numbers(simulation, id);
         let mut number = 0;
@@ -222,6 +235,15 @@ impl Variables {
                 let name = format!("{path}.contact_{part}[{}]", index + 1);
                 let what = format!("{what} `{}`, along the common axes", body.name);
                 self.add(name, what, unit, Causality::Output, Slot::Wrench(id, 3 * block + index), None);
+            }
+        }
+        let means = forces("Mean contact").into_iter().enumerate().filter(|_| step_means);
+        for (block, (part, unit, what)) in means {
+            for index in 0..3 {
+                let name = format!("{path}.mean_contact_{part}[{}]", index + 1);
+                let what =
+                    format!("{what} `{}` over the last communication step, along the common axes", body.name);
+                self.add(name, what, unit, Causality::Output, Slot::MeanWrench(id, 3 * block + index), None);
             }
         }
         let Motion::Free(_) = &body.motion else { return };

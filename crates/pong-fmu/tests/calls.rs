@@ -82,6 +82,12 @@ fn a_step_that_is_no_multiple_ends_where_it_should() {
     assert!(odd.last().contains("begins at 0.5 s, and the instance is at 0.025"), "{}", odd.last());
     assert_eq!(odd.do_step(0.025, f64::NAN), ERROR);
     assert_eq!(odd.do_step(0.025, -1.0), ERROR);
+    // A hundred million steps of the scene are the most: a time in other units is told at once.
+    for length in [1e300, 2e4] {
+        assert_eq!(odd.do_step(0.025, length), ERROR);
+        assert!(odd.last().contains("steps of the scene (0.0001 s)"), "{}", odd.last());
+    }
+    assert_eq!(odd.do_step(0.025, 1e-4), OK, "what was refused has changed nothing");
 }
 
 /// Classic Runge-Kutta as an importer does it: derivatives at each stage, completed step at the end, events where asked for.
@@ -188,6 +194,53 @@ fn saved_states_go_on_to_the_same_bits_in_both_kinds() {
     }
 }
 
+/// What contact gives the body in a communication step is its mean force times the step: the momentum that is not gravity's.
+/// The wrench of the instant misses a bounce that begins and ends within the step.
+#[test]
+fn mean_forces_are_momentum_over_the_step() {
+    let options = Options { step_means: true, ..Options::default() };
+    for integrator in ["RungeKutta4", "SemiImplicitEuler", "ZeroOrderHold(delay_frames: 1)"] {
+        let folder = scratch(&format!("means_{}", &integrator[..4]));
+        let scene = write_scene(&folder, "");
+        let text = std::fs::read_to_string(&scene).unwrap();
+        std::fs::write(&scene, text.replace("integrator: RungeKutta4", &format!("integrator: {integrator}")))
+            .unwrap();
+        let unit = unpack(&make(&scene, Fmi::V3, &options), &folder.join("unit"));
+        let mut fmu = Importer::new(&unit, false).unwrap();
+        assert_eq!(fmu.begin(0.0), OK, "{}", fmu.last());
+        let mean = |fmu: &mut Importer| fmu.get_vector::<3>(&format!("{BALL}.mean_contact_force"));
+        assert_eq!(
+            mean(&mut fmu),
+            fmu.get_vector(&format!("{BALL}.contact_force")),
+            "of the instant at the start"
+        );
+        let (length, mut time, mut bounced) = (0.03, 0.0, false);
+        for _ in 0..3 {
+            let before: [f64; 3] = fmu.get_vector(&format!("{BALL}.state.velocity"));
+            assert_eq!(fmu.do_step(time, length), OK, "{}", fmu.last());
+            time += length;
+            let after: [f64; 3] = fmu.get_vector(&format!("{BALL}.state.velocity"));
+            let (mean, instant) = (mean(&mut fmu), fmu.get_vector::<3>(&format!("{BALL}.contact_force")));
+            for (axis, gravity) in [0.0, 0.0, -9.81].into_iter().enumerate() {
+                // 1 kg.
+                let expected = (after[axis] - before[axis]) / length - gravity;
+                assert!(
+                    (mean[axis] - expected).abs() < 1e-10 * (1.0 + expected.abs()),
+                    "{integrator}, {axis}: {mean:?}"
+                );
+            }
+            bounced |= mean[2] > 0.1 && (instant[2] - mean[2]).abs() > 0.1 * mean[2];
+            let saved = fmu.save();
+            let mut other = Importer::new(&unit, false).unwrap();
+            assert_eq!(other.restore(&saved), OK, "{}", other.last());
+            assert_eq!(other.get_vector::<3>(&format!("{BALL}.mean_contact_force")), mean);
+        }
+        assert!(bounced, "{integrator}: no bounce that the instant misses");
+    }
+    let (_, plain) = unit("no_means", &Options::default());
+    assert!(!plain.references.keys().any(|name| name.contains("mean_contact")));
+}
+
 #[test]
 fn reset_is_a_new_instance() {
     let (_, unit) = unit("reset", &Options::default());
@@ -285,6 +338,16 @@ fn a_quaternion_that_has_left_unit_length_is_normalised_at_an_event() {
     assert!((norm - 1.0).abs() < 1e-15);
     // States that are none are refused, and others may succeed.
     let good = fmu.states();
+    assert_eq!(fmu.enter_event(), OK);
+    for quaternion in [0.0, f64::NAN, f64::INFINITY, 1e200] {
+        let mut none = good.clone();
+        none[6..10].fill(quaternion);
+        assert_eq!((fmu.set_states(&none), fmu.try_update()), (OK, Err(DISCARD)), "{quaternion}");
+        assert!(fmu.last().contains("`my ball`") && fmu.last().contains("no direction"), "{}", fmu.last());
+        assert_eq!(fmu.try_rates(), Err(DISCARD), "{quaternion}");
+    }
+    assert_eq!((fmu.set_states(&good), fmu.try_update()), (OK, Ok(false)));
+    assert_eq!(fmu.enter_continuous(), OK);
     x[0] = f64::NAN;
     assert_eq!(fmu.set_states(&x), OK);
     assert_eq!(fmu.try_rates(), Err(DISCARD));
@@ -341,5 +404,42 @@ fn files_that_have_changed_are_refused_with_their_names() {
         assert!(told.contains(file) && told.contains("cannot be read"), "{told}");
         std::fs::write(&path, good).unwrap();
     }
+    assert!(Importer::new(&unit, true).is_ok());
+}
+
+/// A list that names files outside, with a token that fits: nothing of them is opened, and nothing of them is told.
+#[test]
+fn nothing_outside_its_folder_is_read() {
+    let (scene, unit) = unit("outside", &Options::default());
+    let list = unit.resources.join("contents.ron");
+    let good = std::fs::read_to_string(&list).unwrap();
+    let outside = std::fs::canonicalize(&scene).unwrap().with_file_name("ball.ron").display().to_string();
+    let refused = |text: &str, told: &str| {
+        std::fs::write(&list, text).unwrap();
+        let token = format!("{:016x}", pong_model::Fnv::of(text.as_bytes()));
+        let line =
+            Importer::with_token(&unit, true, &token).err().unwrap_or_else(|| panic!("{told}: it runs"));
+        assert!(line.contains(told), "{line}");
+        let plain = Importer::new(&unit, true).err().unwrap();
+        assert!(text == good || !plain.contains(&token), "the token that fits is told: {plain}");
+    };
+    for place in [outside.as_str(), "../../ball.ron", "models/../../../ball.ron", "./models/0/ball.ron", ""] {
+        refused(&good.replace("\"models/0/ball.ron\"", &format!("{place:?}")), "leads out of the folder");
+    }
+    refused(&good.replacen("\"models/0/ball.ron\"", "\"models/9/ball.ron\"", 1), "not among its files");
+    // A link inside that leads out, in place of each file.
+    for file in ["models/0/ball.ron", "models/2/tile.obj", "scene.ron", "contents.ron"] {
+        let path = unit.resources.join(file);
+        std::fs::write(&list, &good).unwrap();
+        let away = scene.with_file_name("away");
+        std::fs::rename(&path, &away).unwrap();
+        std::os::unix::fs::symlink(std::fs::canonicalize(&away).unwrap(), &path).unwrap();
+        let line =
+            Importer::new(&unit, true).err().unwrap_or_else(|| panic!("{file} is a link, and it runs"));
+        assert!(line.contains(file) && line.contains("outside the folder"), "{line}");
+        std::fs::remove_file(&path).unwrap();
+        std::fs::rename(&away, &path).unwrap();
+    }
+    std::fs::write(&list, &good).unwrap();
     assert!(Importer::new(&unit, true).is_ok());
 }

@@ -9,6 +9,7 @@ pub(crate) fn euler(system: &mut System, states: &mut [FreeState], stages: &mut 
     let contact = std::mem::take(&mut system.contact);
     system.rates(time, states, &contact, &mut stages.rates[0]);
     system.contact = contact;
+    stages.add_contact(&system.contact, h);
     for (((_, inertia), state), rates) in system.free.iter().zip(states).zip(&stages.rates[0]) {
         *state = state.semi_implicit(inertia, rates, h);
     }

@@ -21,6 +21,16 @@ pub(crate) enum Contact<'a> {
     Held(&'a [Wrench]),
 }
 
+impl Contact<'_> {
+    /// The wrenches of a stage.
+    fn wrenches<'s>(&'s self, system: &'s System) -> &'s [Wrench] {
+        match self {
+            Self::Fresh => &system.contact,
+            Self::Held(wrenches) => wrenches,
+        }
+    }
+}
+
 /// Advances the states over a step. The system must be placed at the start.
 pub(crate) fn runge_kutta(
     system: &mut System,
@@ -34,6 +44,7 @@ pub(crate) fn runge_kutta(
     stages.pushed.begin(states.len());
     rates(system, &trial, contact, time, &mut stages.rates[0]);
     stages.pushed.add(system, &trial, contact, h / 6.0);
+    stages.add_contact(contact.wrenches(system), h / 6.0);
     for (stage, share) in [(1, 0.5), (2, 0.5), (3, 1.0)] {
         for ((trial, state), rates) in trial.iter_mut().zip(&*states).zip(&stages.rates[stage - 1]) {
             *trial = state.along(rates, share * h);
@@ -43,7 +54,9 @@ pub(crate) fn runge_kutta(
             system.touch(time + share * h)?;
         }
         rates(system, &trial, contact, time + share * h, &mut stages.rates[stage]);
-        stages.pushed.add(system, &trial, contact, h / if stage == 3 { 6.0 } else { 3.0 });
+        let weight = h / if stage == 3 { 6.0 } else { 3.0 };
+        stages.pushed.add(system, &trial, contact, weight);
+        stages.add_contact(contact.wrenches(system), weight);
     }
     let [a, b, c, d] = &stages.rates;
     for (index, state) in states.iter_mut().enumerate() {

@@ -9,6 +9,28 @@ pub(crate) struct Stages {
     pub rates: [Vec<Rates>; 4],
     /// What contact did to the bodies in the last step, if it was evaluated at stages.
     pub pushed: Pushed,
+    /// ∫ contact wrench dt on every body over the last step, N·s and N·m·s about the origins of their groups, with the weights
+    /// of the integrator; `None` unless a host wants them.
+    pub contact_impulses: Option<Vec<Wrench>>,
+}
+
+impl Stages {
+    /// Begins the integrals of a step.
+    pub fn begin_step(&mut self, bodies: usize) {
+        if let Some(impulses) = &mut self.contact_impulses {
+            impulses.clear();
+            impulses.resize(bodies, Wrench::zero());
+        }
+    }
+
+    /// Takes in the wrenches of a stage of a weight (s).
+    pub fn add_contact(&mut self, wrenches: &[Wrench], weight: f64) {
+        let Some(impulses) = &mut self.contact_impulses else { return };
+        for (impulse, wrench) in impulses.iter_mut().zip(wrenches) {
+            impulse.force += wrench.force * weight;
+            impulse.moment += wrench.moment * weight;
+        }
+    }
 }
 
 /// What contact did to the bodies over a step, with the weights of the stages.

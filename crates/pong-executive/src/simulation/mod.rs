@@ -5,12 +5,14 @@ mod exchange;
 mod setup;
 mod view;
 
+use crate::body::BodyId;
 use crate::energy::Powers;
 use crate::error::{ExecutiveError, Result};
 use crate::integrate::{Contact, Held, Integrator, Stages, euler, hold, runge_kutta};
 use crate::state::FreeState;
 use crate::system::System;
 use pong_engine::{FrictionPreload, PairId, World};
+use pong_geometry::Wrench;
 
 /// Something that looks at a running simulation.
 pub trait Observer {
@@ -121,6 +123,7 @@ impl Simulation {
         self.commit_initial_states()?;
         let (time, h) = (self.time(), self.step);
         self.earlier.clone_from(&self.states);
+        self.stages.begin_step(self.system.bodies.len());
         let Self { system, states, stages, held, .. } = self;
         match self.integrator {
             Integrator::SemiImplicitEuler => euler(system, states, stages, time, h),
@@ -144,6 +147,17 @@ impl Simulation {
             None => self.work_in -= 0.5 * h * (before.on_led + self.powers.on_led),
         }
         Ok(())
+    }
+
+    /// Has every step keep [`contact_impulse`](Self::contact_impulse) from now on.
+    pub fn keep_contact_impulses(&mut self) {
+        self.stages.contact_impulses.get_or_insert_default();
+    }
+
+    /// ∫ contact wrench dt on a body over the last step, as the integrator takes it: N·s, and N·m·s about the origin of its
+    /// group, along the common axes. `None` before the first step, or if [nobody keeps it](Self::keep_contact_impulses).
+    pub fn contact_impulse(&self, body: BodyId) -> Option<Wrench> {
+        self.stages.contact_impulses.as_ref()?.get(body.index()).copied()
     }
 
     /// Advances by the whole number of steps nearest to a duration (s).

@@ -378,12 +378,20 @@ impl Importer {
 
     /// Whether the event has changed states.
     pub fn update(&mut self) -> bool {
+        self.try_update().unwrap_or_else(|_| panic!("{}", self.last()))
+    }
+
+    /// Whether the event has changed states, or the status.
+    pub fn try_update(&mut self) -> Result<bool, c_int> {
         let (mut a, mut b, mut c, mut changed, mut d, mut next) = (true, true, true, false, true, 0.0);
         let status = unsafe {
             fmi3UpdateDiscreteStates(self.instance, &mut a, &mut b, &mut c, &mut changed, &mut d, &mut next)
         };
-        assert_eq!((status, a, b, c, d), (OK, false, false, false, false), "{}", self.last());
-        changed
+        if status != OK {
+            return Err(status);
+        }
+        assert_eq!((a, b, c, d), (false, false, false, false), "{}", self.last());
+        Ok(changed)
     }
 
     pub fn set_time(&mut self, time: f64) -> c_int {
