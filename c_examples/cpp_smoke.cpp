@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <new>
 #include <random>
 #include <string>
 #include <utility>
@@ -23,12 +24,17 @@ const std::string ball_model = head + "name: \"ball\", root: (name: \"ball\", su
 const std::string ground_model = head + "name: \"ground\", root: (name: \"ground\", surface: \"rubber\", "
                                         "primitives: [Plane(name: \"floor\", normal: (0, 0, 1), offset: 0)]))";
 
+// Memory that the program itself asks for: the C++ header must ask for none in a frame.
+std::size_t allocations = 0;
+
 void require(bool holds, const char* what) {
     if (!holds) {
         std::fprintf(stderr, "not so: %s\n", what);
         std::exit(1);
     }
 }
+
+pong::SealReport sealed{};
 
 pong::World build() {
     pong_config config = pong_default_config();
@@ -48,7 +54,7 @@ pong::World build() {
     plan.step = 1e-5;
     plan.wrench_coupling = PONG_COUPLING_SEMI_IMPLICIT;
     world.plan_step(plan);
-    const pong::SealReport sealed = world.seal();
+    sealed = world.seal();
     require(sealed.warning_count == 0 && sealed.note_count == 0 && sealed.surely_stable_step > 1e-3, "a stable step");
     return world;
 }
@@ -105,6 +111,48 @@ void list_and_restore(pong::World& world) {
     require(clone.save_contact_state() == saved && clone.get() != world.get(), "a clone remembers the same");
 }
 
+// Contacts and contact state go into memory that the caller has: a frame allocates nothing.
+void use_memory_again(pong::World& world) {
+    const pong::InterfaceId ball = world.interface(world.object("ball"));
+    std::vector<pong::Contact> contacts;
+    std::vector<unsigned char> bytes;
+    contacts.reserve(sealed.contact_capacity);
+    bytes.reserve(sealed.contact_state_size);
+    pong::Contact own[4];
+    const std::size_t before = allocations;
+    for (int frame = 0; frame < 100; ++frame) {
+        pong::State state;
+        state.position = {1e-5 * frame, 0.0, frame % 3 == 0 ? 0.2 : 0.098};
+        world.set_state(ball, state);
+        world.step();
+        world.contacts(contacts);
+        world.save_contact_state(bytes);
+        world.restore_contact_state(bytes.data(), bytes.size());
+        require(contacts.size() == (frame % 3 == 0 ? 0u : 1u) && world.contacts(own, 4) == contacts.size(),
+                "the contacts of the frame");
+    }
+    require(allocations == before, "a frame allocates nothing");
+    require(own[0].depth == contacts[0].depth || contacts.empty(), "the same contact both ways");
+    require(world.save_contact_state() == bytes, "the same state both ways");
+}
+
+// Primitives have numbers, and the host's numbers stay with them.
+void keep_numbers(pong::World& world) {
+    const pong::ObjectId object = world.object("ball");
+    const pong::InterfaceId ball = world.interface(object);
+    require(world.primitive_count(ball) == 1 && world.find_primitive(ball, "ball/shell") == 0, "one primitive");
+    require(world.user_data(object) == 0 && world.user_data(ball, 0) == 0, "nothing is kept yet");
+    world.set_user_data(object, 7);
+    world.set_user_data(ball, 0, 11);
+    require(world.user_data(object) == 7 && world.user_data(ball, 0) == 11, "the numbers are kept");
+    pong::State state;
+    state.position[2] = 0.098;
+    world.set_state(ball, state);
+    world.step();
+    const pong::StepCheck check = world.check_step();
+    require(check.stable_step > 1e-3 && check.stable_step < 1.0, "what one contact leaves of the step");
+}
+
 void look(pong::World& world) {
     world.prewake(std::chrono::microseconds(100));
     world.step();
@@ -137,6 +185,18 @@ void record(pong::World& world) {
 
 } // namespace
 
+void* operator new(std::size_t size) {
+    ++allocations;
+    void* memory = std::malloc(size);
+    if (memory == nullptr) {
+        throw std::bad_alloc();
+    }
+    return memory;
+}
+
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
 int main() {
     try {
         pong::World built = build();
@@ -144,6 +204,8 @@ int main() {
         drop(world);
         refuse(world);
         list_and_restore(world);
+        use_memory_again(world);
+        keep_numbers(world);
         look(world);
         record(world);
     } catch (const pong::Error& error) {

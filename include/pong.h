@@ -798,8 +798,10 @@ pong_status pong_get_wrench(const struct pong_world *world,
                             pong_reference_frame frame,
                             struct pong_wrench *wrench);
 
-/// Creates a world. It is the caller's: destroy it with pong_destroy_world(). On failure `world` gets NULL.
-pong_status pong_create_world(const struct pong_config *config, struct pong_world **world);
+/// Creates a world. It is the caller's: destroy it with pong_destroy_world(). On failure `world` gets NULL. The first call
+/// of a process reads the environment variable PONG_SIMD (docs/c_api.md).
+pong_status pong_create_world(const struct pong_config *config,
+                              struct pong_world **world);
 
 /// Destroys a world and everything it gave out: ids become stale, names, warnings and notes must not be read any more.
 /// NULL is allowed and does nothing. No other call on the world may follow. PONG_STATUS_BUSY: a call on it is running, or
@@ -1185,8 +1187,9 @@ pong_status pong_log_frame(struct pong_world *world,
 /// How the log stands.
 pong_status pong_get_log_report(const struct pong_world *world, struct pong_log_report *report);
 
-/// Writes what is left and closes the log; waits for the disk, until it has taken nothing for 30 s. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files
-/// could not be written to the end; the message tells why, and where the log ends. It is closed all the same.
+/// Writes what is left and closes the log; waits for the disk, until it has taken nothing for 30 s; a log that has failed
+/// of that already closes at once. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files could not be written to the end;
+/// the message tells why, and where the log ends. It is closed all the same.
 /// pong_destroy_world() closes a log too, and tells nothing.
 pong_status pong_stop_log(struct pong_world *world,
                           struct pong_log_report *report);

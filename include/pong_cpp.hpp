@@ -53,7 +53,8 @@ using Worker = pong_worker;
 using LogOptions = pong_log_options;
 using Mass = pong_mass;
 using StepPlan = pong_step_plan;
-using Acting = pong_step_check;
+using StepCheck = pong_step_check;
+using Acting = StepCheck;
 using LogReport = pong_log_report;
 using Vec3 = std::array<double, 3>;
 
@@ -187,8 +188,29 @@ public:
     const char* primitive_path(InterfaceId interface, std::uint32_t primitive) const {
         return result<const char*>([&](const char** out) { return pong_primitive_path(get(), interface, primitive, out); });
     }
+    std::uint32_t primitive_count(InterfaceId interface) const {
+        return result<std::uint32_t>([&](std::uint32_t* out) { return pong_primitive_count(get(), interface, out); });
+    }
+    std::uint32_t find_primitive(InterfaceId interface, const std::string& path) const {
+        return result<std::uint32_t>(
+            [&](std::uint32_t* out) { return pong_find_primitive(get(), interface, path.c_str(), out); });
+    }
     State authored_state(InterfaceId interface) const {
         return result<pong_state>([&](pong_state* out) { return pong_get_authored_state(get(), interface, out); });
+    }
+
+    // Numbers of the host's; the engine never looks at them.
+
+    void set_user_data(ObjectId object, std::uint64_t data) { check(pong_set_object_user_data(get(), object, data)); }
+    std::uint64_t user_data(ObjectId object) const {
+        return result<std::uint64_t>([&](std::uint64_t* out) { return pong_get_object_user_data(get(), object, out); });
+    }
+    void set_user_data(InterfaceId interface, std::uint32_t primitive, std::uint64_t data) {
+        check(pong_set_primitive_user_data(get(), interface, primitive, data));
+    }
+    std::uint64_t user_data(InterfaceId interface, std::uint32_t primitive) const {
+        return result<std::uint64_t>(
+            [&](std::uint64_t* out) { return pong_get_primitive_user_data(get(), interface, primitive, out); });
     }
 
     // Frames.
@@ -215,6 +237,19 @@ public:
     void wrenches(const InterfaceId* interfaces, Frame frame, pong_wrench* out, std::size_t n) const {
         check(pong_get_wrenches(get(), interfaces, static_cast<pong_reference_frame>(frame), out, n));
     }
+    std::size_t contact_count() const {
+        return result<std::size_t>([&](std::size_t* out) { return pong_contact_count(get(), out); });
+    }
+    /// Into memory of the caller, which has room for `capacity`; returns how many there are. Allocates nothing.
+    std::size_t contacts(Contact* out, std::size_t capacity) const {
+        return result<std::size_t>([&](std::size_t* count) { return pong_get_contacts(get(), out, capacity, count); });
+    }
+    /// Into a vector that is used again: with SealReport::contact_capacity reserved, it allocates nothing.
+    void contacts(std::vector<Contact>& out) const {
+        out.resize(contact_count());
+        contacts(out.data(), out.size());
+    }
+    /// In a vector of its own: allocates.
     std::vector<Contact> contacts() const {
         return list<Contact>([&](Contact* out, std::size_t capacity, std::size_t* count) {
             return pong_get_contacts(get(), out, capacity, count);
@@ -231,6 +266,10 @@ public:
             all[i] = {stiffness[i], damping[i]};
         }
         return all;
+    }
+    /// What the contacts of the last frame leave of the planned step: pong_check_step(). Allocates.
+    StepCheck check_step() const {
+        return result<StepCheck>([&](StepCheck* out) { return pong_check_step(get(), out); });
     }
     Report report() const {
         return result<Report>([&](Report* out) { return pong_get_report(get(), out); });
@@ -288,14 +327,30 @@ public:
 
     // Between frames.
 
+    /// Bytes that the contact state takes now.
+    std::size_t contact_state_used() const {
+        return result<std::size_t>([&](std::size_t* out) { return pong_contact_state_used(get(), out); });
+    }
+    /// Into memory of the caller of `size` bytes, at least contact_state_used(). Allocates nothing.
+    void save_contact_state(unsigned char* out, std::size_t size) const {
+        check(pong_save_contact_state(get(), out, size));
+    }
+    /// Into a vector that is used again: with SealReport::contact_state_size reserved, it allocates nothing.
+    void save_contact_state(std::vector<unsigned char>& out) const {
+        out.resize(contact_state_used());
+        save_contact_state(out.data(), out.size());
+    }
+    /// In a vector of its own: allocates.
     std::vector<unsigned char> save_contact_state() const {
-        std::vector<unsigned char> bytes(
-            result<std::size_t>([&](std::size_t* out) { return pong_contact_state_used(get(), out); }));
-        check(pong_save_contact_state(get(), bytes.data(), bytes.size()));
+        std::vector<unsigned char> bytes;
+        save_contact_state(bytes);
         return bytes;
     }
+    void restore_contact_state(const unsigned char* bytes, std::size_t size) {
+        check(pong_restore_contact_state(get(), bytes, size));
+    }
     void restore_contact_state(const std::vector<unsigned char>& bytes) {
-        check(pong_restore_contact_state(get(), bytes.data(), bytes.size()));
+        restore_contact_state(bytes.data(), bytes.size());
     }
     /// Friction as if what slides had slid for long: pong_preload_friction(). Returns how many bristles were set.
     std::size_t preload_sliding(PairId pair) {

@@ -49,6 +49,7 @@ mod guard;
 mod handle;
 mod host_data;
 pub mod ids;
+mod instructions;
 pub mod interfaces;
 mod law_adapters;
 pub mod law_types;

@@ -150,8 +150,9 @@ pub unsafe extern "C" fn pong_get_log_report(
     get(world, (report, "report"), |inner| Ok((&inner.log.as_ref().ok_or_else(no_log)?.status()).into()))
 }
 
-/// Writes what is left and closes the log; waits for the disk, until it has taken nothing for 30 s. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files
-/// could not be written to the end; the message tells why, and where the log ends. It is closed all the same.
+/// Writes what is left and closes the log; waits for the disk, until it has taken nothing for 30 s; a log that has failed
+/// of that already closes at once. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files could not be written to the end;
+/// the message tells why, and where the log ends. It is closed all the same.
 /// pong_destroy_world() closes a log too, and tells nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_stop_log(world: *mut pong_world, report: *mut pong_log_report) -> pong_status {

@@ -9,6 +9,7 @@ use crate::guard::guarded;
 use crate::handle::Inner;
 pub use crate::handle::pong_world;
 use crate::host_data::UserData;
+use crate::instructions;
 use crate::law_adapters::LawFaults;
 use crate::memory;
 use crate::names::Names;
@@ -19,7 +20,8 @@ use pong_engine::WorldBuilder;
 use std::ffi::CString;
 use std::sync::{Mutex, PoisonError, TryLockError};
 
-/// Creates a world. It is the caller's: destroy it with pong_destroy_world(). On failure `world` gets NULL.
+/// Creates a world. It is the caller's: destroy it with pong_destroy_world(). On failure `world` gets NULL. The first call
+/// of a process reads the environment variable PONG_SIMD (docs/c_api.md).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_create_world(
     config: *const pong_config,
@@ -33,6 +35,7 @@ pub unsafe extern "C" fn pong_create_world(
         let config = unsafe { one(config, "config")? };
         let wanted = config.check()?;
         memory::require_little()?;
+        instructions::obey_environment()?;
         let mut builder = WorldBuilder::new(wanted.engine);
         if wanted.times {
             builder.set_clock(clock::now_ns);

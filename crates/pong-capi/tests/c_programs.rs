@@ -36,6 +36,28 @@ const PROGRAMS: [&str; 11] = [
     "cpp_smoke",
 ];
 
+/// A host keeps wide instructions away by the environment, as for a tool that does not know them all.
+#[test]
+fn the_environment_limits_the_instructions() {
+    let out = out_dir("instructions");
+    run(Command::new("make")
+        .arg("-C")
+        .arg(root().join("c_examples"))
+        .arg(format!("LIB_DIR={}", lib_dir().display()))
+        .arg(format!("OUT={}", out.display()))
+        .arg("PROGRAMS=minimal"));
+    let minimal = |level: &str| {
+        let mut program = Command::new(out.join("shared/minimal"));
+        program.env("LD_LIBRARY_PATH", out.join("shared")).env("PONG_SIMD", level).output().unwrap()
+    };
+    let [narrow, wide] = ["portable", "avx512"].map(minimal);
+    assert!(narrow.status.success() && wide.status.success());
+    assert_eq!(narrow.stdout, wide.stdout, "the same numbers");
+    let refused = minimal("sse");
+    let told = String::from_utf8(refused.stderr).unwrap();
+    assert!(!refused.status.success() && told.contains("PONG_SIMD is `sse`"), "{told}");
+}
+
 /// What a C host logged goes through the engine again and comes out with the same bits: forgotten Objects, switched
 /// pairs, commits of some pairs and frames without a commit included.
 #[test]

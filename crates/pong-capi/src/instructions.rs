@@ -1,0 +1,44 @@
+//! The widest instructions that the process may use, as its environment says.
+
+use crate::failure::{Failure, Outcome};
+use crate::status::pong_status;
+use pong_geometry::simd::{Level, set_level};
+use std::sync::OnceLock;
+
+/// Variable of the environment.
+const VARIABLE: &str = "PONG_SIMD";
+const NAMES: [(&str, Level); 3] =
+    [("portable", Level::Portable), ("avx2", Level::Avx2), ("avx512", Level::Avx512)];
+
+/// Does what the environment says, once in a process. Results are the same bits at every level.
+pub(crate) fn obey_environment() -> Outcome {
+    static OBEYED: OnceLock<Result<(), String>> = OnceLock::new();
+    let obeyed = OBEYED.get_or_init(|| match std::env::var_os(VARIABLE) {
+        None => Ok(()),
+        Some(text) => level(&text.to_string_lossy()).map(|level| {
+            set_level(level);
+        }),
+    });
+    obeyed.clone().map_err(|message| Failure::new(pong_status::Config, message))
+}
+
+fn level(text: &str) -> Result<Level, String> {
+    let known = NAMES.iter().find(|(name, _)| *name == text);
+    known.map(|(_, level)| *level).ok_or_else(|| {
+        let names = NAMES.map(|(name, _)| name).join(", ");
+        format!("environment: {VARIABLE} is `{text}`; set it to one of {names}, or leave it out")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_levels() {
+        assert_eq!(level("portable"), Ok(Level::Portable));
+        assert_eq!(level("avx2"), Ok(Level::Avx2));
+        assert!(level("AVX").unwrap_err().contains("portable, avx2, avx512"));
+        assert!(level("").is_err());
+    }
+}
