@@ -3,7 +3,8 @@
 use crate::errors::bad_value;
 use numpy::ndarray::{ArrayView2, ArrayViewMut2};
 use numpy::{
-    AllowTypeChange, PyArray2, PyArrayLike2, PyArrayMethods, PyReadwriteArray2, PyUntypedArrayMethods,
+    AllowTypeChange, PyArray2, PyArrayLike1, PyArrayLike2, PyArrayMethods, PyReadwriteArray2,
+    PyUntypedArrayMethods,
 };
 use pong_engine::{InterfaceId, State};
 use pong_geometry::{Pose, Twist, Wrench};
@@ -20,23 +21,54 @@ pub(crate) type Rows<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 /// An array of rows, of the caller or given to it.
 pub(crate) type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
-/// Checks the shape of an argument: `rows` × `columns`.
-pub(crate) fn rows<'a>(
+/// An argument of numbers, `rows` × `columns`.
+pub(crate) fn rows<'py>(
     thing: &str,
-    array: &'a Rows<'_>,
+    given: &Bound<'py, PyAny>,
     rows: usize,
     columns: usize,
-) -> PyResult<ArrayView2<'a, f64>> {
-    check_shape(thing, array.shape(), [rows, columns])?;
-    Ok(array.as_array())
+) -> PyResult<Rows<'py>> {
+    let refused = || refused(thing, given, &format!("give one of shape ({rows}, {columns})"));
+    if is_complex(given) {
+        return Err(refused());
+    }
+    let array = given.extract::<Rows<'py>>().map_err(|_| refused())?;
+    if array.shape() == [rows, columns] { Ok(array) } else { Err(refused()) }
 }
 
-fn check_shape(thing: &str, shape: &[usize], [rows, columns]: [usize; 2]) -> PyResult<()> {
-    if shape == [rows, columns] {
-        return Ok(());
+/// Some numbers in a row: an array or a sequence of whatever NumPy takes for numbers.
+pub(crate) fn vector<const N: usize>(thing: &str, given: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
+    let refused = || refused(thing, given, &format!("give {N} numbers"));
+    if is_complex(given) {
+        return Err(refused());
     }
-    let cause = format!("the array has shape ({}, {})", shape[0], shape[1]);
-    Err(bad_value(thing, cause, &format!("give one of shape ({rows}, {columns})")))
+    let array = given.extract::<PyArrayLike1<'_, f64, AllowTypeChange>>().map_err(|_| refused())?;
+    let view = array.as_array();
+    if view.len() == N { Ok(std::array::from_fn(|index| view[index])) } else { Err(refused()) }
+}
+
+/// NumPy would leave the imaginary parts out.
+fn is_complex(given: &Bound<'_, PyAny>) -> bool {
+    let kind = given.getattr("dtype").and_then(|dtype| dtype.getattr("kind")?.extract::<char>());
+    kind.is_ok_and(|kind| kind == 'c')
+}
+
+/// An argument that is no array of such numbers.
+pub(crate) fn refused(thing: &str, given: &Bound<'_, PyAny>, cure: &str) -> PyErr {
+    bad_value(thing, format!("got {}", described(given)), cure)
+}
+
+/// What was given, in words: type and shape of an array, the beginning of anything else.
+pub(crate) fn described(given: &Bound<'_, PyAny>) -> String {
+    let attribute = |name: &str| Some(given.getattr(name).ok()?.str().ok()?.to_string());
+    if let (Some(dtype), Some(shape)) = (attribute("dtype"), attribute("shape")) {
+        return format!("an array of {dtype} with shape {shape}");
+    }
+    let told = given.repr().map_or_else(|_| "something".to_owned(), |repr| repr.to_string());
+    let kind = given.get_type().name().map_or_else(|_| "object".to_owned(), |name| name.to_string());
+    let begin: String = told.chars().take(60).collect();
+    let dots = if begin.len() < told.len() { "…" } else { "" };
+    format!("{begin}{dots}, which is of type {kind}")
 }
 
 /// States given as rows of 13 numbers, appended to `out`.
@@ -56,13 +88,13 @@ pub(crate) fn states(view: &ArrayView2<'_, f64>, ids: &[InterfaceId], out: &mut 
 /// One of the four parts of states that are given apart.
 pub(crate) fn part<const N: usize>(
     thing: &str,
-    given: Option<&Rows<'_>>,
+    given: Option<&Bound<'_, PyAny>>,
     count: usize,
     default: [f64; N],
 ) -> PyResult<Vec<[f64; N]>> {
     let Some(array) = given else { return Ok(vec![default; count]) };
-    let view = rows(thing, array, count, N)?;
-    Ok(view.rows().into_iter().map(|row| std::array::from_fn(|i| row[i])).collect())
+    let array = rows(thing, array, count, N)?;
+    Ok(array.as_array().rows().into_iter().map(|row| std::array::from_fn(|i| row[i])).collect())
 }
 
 /// The 13 numbers of a motion.
@@ -80,15 +112,18 @@ pub(crate) fn wrench_row(wrench: &Wrench) -> [f64; WRENCH] {
 /// Fills an array of the caller, or a new one, row by row.
 pub(crate) fn fill<'py, const N: usize>(
     py: Python<'py>,
-    out: Option<Matrix<'py>>,
+    out: Option<Bound<'py, PyAny>>,
     count: usize,
     row: impl Fn(usize) -> PyResult<[f64; N]>,
 ) -> PyResult<Matrix<'py>> {
     let array = match out {
-        Some(array) => {
-            check_shape("out", array.shape(), [count, N])?;
-            array
-        }
+        Some(given) => match given.cast::<PyArray2<f64>>() {
+            Ok(array) if array.shape() == [count, N] => array.clone(),
+            _ => {
+                let cure = format!("give an array of float64 with shape ({count}, {N})");
+                return Err(refused("out", &given, &cure));
+            }
+        },
         None => PyArray2::zeros(py, [count, N], false),
     };
     let mut lent: PyReadwriteArray2<'_, f64> = array.try_readwrite().map_err(|reason| {

@@ -1,5 +1,6 @@
 //! Set-up of a world.
 
+use crate::arrays::refused;
 use crate::errors::{PhaseError, bad_value, lock, of_engine};
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
 use crate::model::{Model, extensions};
@@ -28,6 +29,7 @@ struct Setup {
 enum ModelRef<'py> {
     Model(PyRef<'py, Model>),
     Path(PathBuf),
+    Other(Bound<'py, PyAny>),
 }
 
 /// What is given where a model that was added is wanted.
@@ -79,6 +81,10 @@ impl WorldBuilder {
         allow_files_below: Vec<PathBuf>,
     ) -> PyResult<Self> {
         let accounts = accounts.map(|name| coupling("accounts", name, delay_frames)).transpose()?;
+        if accounts.is_none() && delay_frames > 0 {
+            let cure = "give accounts=\"zero_order_hold\" beside it, or leave it out";
+            return Err(bad_value("delay_frames", format!("it is {delay_frames} without `accounts`"), cure));
+        }
         let workers = worker_settings(workers)?;
         let config = Config { contact_capacity, ledger, accounts, workers };
         let extensions = extensions(allow_files_below.clone());
@@ -95,6 +101,9 @@ impl WorldBuilder {
                 ModelRef::Path(path) => {
                     let loaded = Model::load(py, path, setup.folders.clone())?;
                     (loaded.model, loaded.source)
+                }
+                ModelRef::Other(given) => {
+                    return Err(refused("model", &given, "give a pong.Model, or the path of a model file"));
                 }
             };
             let name = shared.name.clone();
@@ -164,6 +173,10 @@ fn sealed() -> PyErr {
 
 /// What a host does with wrenches, by name.
 pub(crate) fn coupling(thing: &str, name: &str, delay_frames: u32) -> PyResult<WrenchCoupling> {
+    if delay_frames > 0 && ["stages", "semi_implicit"].contains(&name) {
+        let cause = format!("it is {delay_frames}, and {thing} is \"{name}\", which never comes late");
+        return Err(bad_value("delay_frames", cause, "give it with \"zero_order_hold\", or leave it out"));
+    }
     match name {
         "stages" => Ok(WrenchCoupling::Stages),
         "semi_implicit" => Ok(WrenchCoupling::SemiImplicit),

@@ -1,5 +1,6 @@
 //! Masses and springs of a scene as dictionaries.
 
+use crate::arrays;
 use crate::errors::{bad_value, of_executive};
 use pong_executive::{BodyId, MassProperties, Simulation, Spring};
 use pong_geometry::{Mat3, Vec3};
@@ -39,11 +40,12 @@ pub(crate) fn set_mass(
 ) -> PyResult<()> {
     mass_of(simulation, body)?;
     whole("mass", values, &MASS)?;
-    let rows: [[f64; 3]; 3] = value("mass", values, "inertia")?;
+    let inertia = arrays::rows("mass: inertia", &value(values, "inertia")?, 3, 3)?;
+    let mass = value(values, "mass")?;
     let properties = MassProperties {
-        mass: value("mass", values, "mass")?,
-        inertia: Mat3::from_fn(|row, column| rows[row][column]),
-        mass_center: Vec3::from(value::<[f64; 3]>("mass", values, "mass_center")?),
+        mass: mass.extract().map_err(|_| arrays::refused("mass", &mass, "give a number, kg"))?,
+        inertia: Mat3::from_fn(|row, column| inertia.as_array()[[row, column]]),
+        mass_center: Vec3::from(arrays::vector::<3>("mass: mass_center", &value(values, "mass_center")?)?),
     };
     simulation.set_mass(body, properties).map_err(of_executive)
 }
@@ -76,38 +78,35 @@ pub(crate) fn set_spring(
 ) -> PyResult<()> {
     let known = spring_of(simulation, number)?;
     whole("spring", values, &SPRING)?;
-    let [stiffness, damping, preload] = SPRING.map(|name| value::<[f64; 6]>("spring", values, name));
+    let [stiffness, damping, preload] =
+        SPRING.map(|name| arrays::vector::<6>(&format!("spring: {name}"), &value(values, name)?));
     let spring = Spring { stiffness: stiffness?, damping: damping?, preload: preload?, ..known };
     simulation.set_spring(number, spring).map_err(of_executive)
 }
 
 /// Refuses a dictionary with a key too few or too many: what is misspelt must not stay as it was without a word.
-fn whole(thing: &str, values: &Bound<'_, PyDict>, names: &[&str]) -> PyResult<()> {
+pub(crate) fn whole(thing: &str, values: &Bound<'_, PyDict>, names: &[&str]) -> PyResult<()> {
     for key in values.keys() {
-        let key: String = key.extract()?;
+        let key = key.str()?.to_string();
         if !names.contains(&key.as_str()) {
-            let cure = format!("give {}", names.join(", "));
+            let near = values.py().import("difflib")?.call_method1("get_close_matches", (&key, names, 1))?;
+            let cure = match near.extract::<Vec<String>>()?.first() {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("give {}", names.join(", ")),
+            };
             return Err(bad_value(thing, format!("there is no value `{key}`"), &cure));
         }
     }
     for name in names {
         if !values.contains(name)? {
-            let cure = format!("give all of {}, as `{thing}` of the simulation gives them", names.join(", "));
+            let cure = format!("give all of {}, changed or as they were", names.join(", "));
             return Err(bad_value(thing, format!("`{name}` is missing"), &cure));
         }
     }
     Ok(())
 }
 
-fn value<T: for<'a, 'py> FromPyObject<'a, 'py>>(
-    thing: &str,
-    values: &Bound<'_, PyDict>,
-    name: &str,
-) -> PyResult<T> {
-    let given = values.get_item(name)?;
-    let read = given.as_ref().and_then(|given| given.extract::<T>().ok());
-    read.ok_or_else(|| {
-        let cause = format!("`{name}` cannot be read as numbers");
-        bad_value(thing, cause, "give it in the shape in which the simulation gives it")
-    })
+/// A value of a dictionary that is [whole].
+fn value<'py>(values: &Bound<'py, PyDict>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    values.as_any().get_item(name)
 }

@@ -1,5 +1,6 @@
 //! Models, Objects, pairs and Interfaces of a world, and how a call names them.
 
+use crate::arrays::refused;
 use crate::errors::of_engine;
 use pong_engine::{InterfaceId, ModelId, ObjectId, PairId, Scene};
 use pyo3::prelude::*;
@@ -57,6 +58,7 @@ handle!(
 pub(crate) enum ObjectRef<'py> {
     Id(PyRef<'py, Object>),
     Name(String),
+    Other(Bound<'py, PyAny>),
 }
 
 impl ObjectRef<'_> {
@@ -65,6 +67,7 @@ impl ObjectRef<'_> {
         match self {
             Self::Id(object) => Ok(object.id),
             Self::Name(name) => scene.object(name).map_err(of_engine),
+            Self::Other(given) => Err(refused("object", given, "give a pong.Object, or its name")),
         }
     }
 }

@@ -1,10 +1,12 @@
 //! Model files.
 
-use crate::errors::of_model;
+use crate::arrays::refused;
+use crate::dynamics::whole;
+use crate::errors::{bad_value, of_model};
 use pong_geometry::extension::Extensions;
 use pong_record::{ModelSource, SurfaceValues};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyList, PyString};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -80,7 +82,7 @@ impl Model {
         let Some(group) = self.model.bodies.get(group) else {
             let cause =
                 format!("there is no movable group {group}, the model has {}", self.model.bodies.len());
-            return Err(crate::errors::bad_value("group", cause, "count from 0"));
+            return Err(bad_value("group", cause, "count from 0"));
         };
         let surface = |index: u32| self.model.surfaces[index as usize].name.clone();
         let row = |info: &pong_model::PrimitiveInfo| {
@@ -121,22 +123,82 @@ pub(crate) fn surface_values<'py>(
     Ok(values)
 }
 
-/// A surface from values that [`surface_values`] gave, changed or not.
+/// A surface from values that [`surface_values`] gave of a known one, changed or not.
 pub(crate) fn surface_from(
     py: Python<'_>,
-    name: &str,
+    known: &pong_model::Surface,
     values: &Bound<'_, PyDict>,
 ) -> PyResult<pong_model::Surface> {
-    let values = values.copy()?;
-    if let Some(stiffness) = values.get_item("stiffness")?
-        && stiffness.extract::<f64>().is_ok_and(|stiffness| stiffness == f64::INFINITY)
-    {
-        values.set_item("stiffness", "inf")?;
-    }
-    let text: String = py.import("json")?.call_method1("dumps", (values,))?.extract()?;
+    let thing = format!("surface `{}`", known.name);
+    let like = surface_values(py, known)?;
+    let plain = plain_values(&thing, values, like.cast::<PyDict>()?)?;
+    let text: String = py.import("json")?.call_method1("dumps", (plain,))?.extract()?;
     let read: Result<SurfaceValues, _> = serde_json::from_str(&text);
     let cure = "change values of what `surface` gives and keep its fields";
-    Ok(read
-        .map_err(|error| crate::errors::bad_value(&format!("surface `{name}`"), error, cure))?
-        .surface(name))
+    Ok(read.map_err(|error| bad_value(&thing, error, cure))?.surface(&known.name))
+}
+
+/// The values as JSON has them, if they have the fields and kinds of the known ones.
+fn plain_values<'py>(
+    thing: &str,
+    values: &Bound<'py, PyDict>,
+    known: &Bound<'py, PyDict>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let plain = PyDict::new(values.py());
+    let law = |of: &Bound<'py, PyDict>| of.get_item("law").map(|law| law.map(|law| law.to_string()));
+    // Another law has other fields; that laws cannot change is the engine's to say.
+    if law(values)? == law(known)? {
+        let names: Vec<String> = known.keys().iter().map(|key| key.to_string()).collect();
+        whole(thing, values, &names.iter().map(String::as_str).collect::<Vec<_>>())?;
+    }
+    for (key, value) in values {
+        let like = known.get_item(&key)?;
+        plain.set_item(&key, plain_value(&format!("{thing}: {key}"), &value, like.as_ref())?)?;
+    }
+    Ok(plain)
+}
+
+fn plain_value<'py>(
+    thing: &str,
+    value: &Bound<'py, PyAny>,
+    known: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = value.py();
+    let Some(known) = known else { return Ok(value.clone()) };
+    if let Ok(known) = known.cast::<PyDict>() {
+        let cure = "give a dictionary, as `surface` does";
+        let value = value.cast::<PyDict>().map_err(|_| refused(thing, value, cure))?;
+        return Ok(plain_values(thing, value, known)?.into_any());
+    }
+    if known.is_instance_of::<PyList>() {
+        let numbers = value.try_iter().map_err(|_| refused(thing, value, "give a list of numbers"))?;
+        let numbers = numbers.map(|number| finite(thing, &number?)).collect::<PyResult<Vec<_>>>()?;
+        return Ok(PyList::new(py, numbers)?.into_any());
+    }
+    if let Ok(truth) = known.extract::<bool>() {
+        let given = value.extract::<bool>();
+        return given
+            .map_err(|_| refused(thing, value, if truth { "give True" } else { "give False" }))
+            .map(|given| PyBool::new(py, given).to_owned().into_any());
+    }
+    if known.is_instance_of::<PyString>() {
+        return value
+            .is_instance_of::<PyString>()
+            .then(|| value.clone())
+            .ok_or_else(|| refused(thing, value, "give a name"));
+    }
+    // Only a stiffness may be left to the engine, or be infinite.
+    if thing.ends_with("friction: stiffness") && value.is_none() {
+        return Ok(value.clone());
+    }
+    if value.extract::<f64>().is_ok_and(|number| number == f64::INFINITY) && thing.ends_with("stiffness") {
+        return Ok(PyString::new(py, "inf").into_any());
+    }
+    Ok(PyFloat::new(py, finite(thing, value)?).into_any())
+}
+
+/// Any finite number: Python's, NumPy's, an array of one.
+fn finite(thing: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let number = value.extract::<f64>().ok().filter(|number| number.is_finite());
+    number.ok_or_else(|| refused(thing, value, "give a finite number"))
 }

@@ -96,6 +96,13 @@ impl Scene {
                 return Err(bad_value("integrator", format!("there is no `{other}`"), cure));
             }
         };
+        let holds = matches!(integrator, Some(Integrator::ZeroOrderHold { .. }));
+        for (name, value, default) in [("substeps", substeps, 1), ("delay_frames", delay_frames, 0)] {
+            if value != default && !holds {
+                let cure = "give integrator=\"ZeroOrderHold\" beside it, or leave it out";
+                return Err(bad_value(name, format!("it is {value} for an integrator that has none"), cure));
+            }
+        }
         let workers = worker_settings(workers)?;
         let built = py.detach(|| {
             let variation = Variation { step, integrator, workers, alternative, ..Variation::default() };

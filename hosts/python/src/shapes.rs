@@ -1,8 +1,8 @@
 //! What keeps shapes from being taken, and the bounding volumes of those that are.
 
-use crate::arrays::{Rows, rows};
+use crate::arrays::{refused, rows};
 use crate::errors::bad_value;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayLike3, PyUntypedArrayMethods, TypeMustMatch};
+use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray2, PyArrayLike3, PyUntypedArrayMethods};
 use pong_geometry::bounding::Volume;
 use pong_geometry::{Mat3, Vec3};
 use pong_model::shapes;
@@ -15,11 +15,12 @@ use std::collections::HashSet;
 #[pyo3(signature = (vertices, faces, inactive = Vec::new()))]
 pub(crate) fn check_polyhedron<'py>(
     py: Python<'py>,
-    vertices: Rows<'py>,
+    vertices: Bound<'py, PyAny>,
     faces: Vec<Vec<u32>>,
     inactive: Vec<usize>,
 ) -> PyResult<Vec<Bound<'py, PyDict>>> {
-    let places = rows("vertices", &vertices, vertices.shape()[0], 3)?;
+    let array = rows("vertices", &vertices, vertices.len()?, 3)?;
+    let places = array.as_array();
     if let Some(face) = inactive.iter().find(|&&face| face >= faces.len()) {
         let cause = format!("there is no face {face} among {}", faces.len());
         return Err(bad_value("inactive", cause, "faces count from 0"));
@@ -45,19 +46,17 @@ pub(crate) fn check_polyhedron<'py>(
 
 /// Lists what is wrong, or odd, about the triangles of one body, given as an array (n, 3, 3) of corners.
 #[pyfunction]
+#[pyo3(signature = (corners))]
 pub(crate) fn check_triangles<'py>(
     py: Python<'py>,
-    corners: PyArrayLike3<'py, f64, TypeMustMatch>,
+    corners: Bound<'py, PyAny>,
 ) -> PyResult<Vec<Bound<'py, PyDict>>> {
+    let given = corners;
+    let cure = "give three corners (x, y, z) for each triangle: shape (n, 3, 3)";
+    let corners = given.extract::<PyArrayLike3<'py, f64, AllowTypeChange>>();
+    let corners = corners.ok().filter(|corners| corners.shape()[1..] == [3, 3]);
+    let corners = corners.ok_or_else(|| refused("corners", &given, cure))?;
     let shape = corners.shape();
-    if shape[1..] != [3, 3] {
-        let cause = format!("the array has shape ({}, {}, {})", shape[0], shape[1], shape[2]);
-        return Err(bad_value(
-            "corners",
-            cause,
-            "give three corners (x, y, z) for each triangle: shape (n, 3, 3)",
-        ));
-    }
     let view = corners.as_array();
     let place = |t: usize, k: usize| Vec3::new(view[[t, k, 0]], view[[t, k, 1]], view[[t, k, 2]]);
     let triangles: Vec<[Vec3; 3]> = (0..shape[0]).map(|t| [0, 1, 2].map(|k| place(t, k))).collect();

@@ -1,6 +1,6 @@
 //! A scene in the built-in executive.
 
-use crate::arrays::{self, Matrix, Rows, STATE};
+use crate::arrays::{self, Matrix, STATE};
 use crate::contacts;
 use crate::dynamics;
 use crate::errors::{bad_value, lock, of_engine, of_executive};
@@ -12,6 +12,7 @@ use pong_executive::{BodyId, Energy};
 use pong_geometry::{Pose, Twist, Vec3};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
+use std::collections::HashSet;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard};
 
@@ -112,7 +113,7 @@ impl Simulation {
 
     /// States of the bodies: a row of 13 numbers for each.
     #[pyo3(signature = (out = None))]
-    fn states<'py>(&self, py: Python<'py>, out: Option<Matrix<'py>>) -> PyResult<Matrix<'py>> {
+    fn states<'py>(&self, py: Python<'py>, out: Option<Bound<'py, PyAny>>) -> PyResult<Matrix<'py>> {
         let built = self.lock()?;
         let simulation = &built.simulation;
         arrays::fill(py, out, self.ids.len(), |index| {
@@ -122,7 +123,7 @@ impl Simulation {
 
     /// Contact wrenches on the bodies along the common axes: a row (force, moment about the group's origin) for each.
     #[pyo3(signature = (out = None))]
-    fn wrenches<'py>(&self, py: Python<'py>, out: Option<Matrix<'py>>) -> PyResult<Matrix<'py>> {
+    fn wrenches<'py>(&self, py: Python<'py>, out: Option<Bound<'py, PyAny>>) -> PyResult<Matrix<'py>> {
         let built = self.lock()?;
         let wrench = |index: usize| built.simulation.contact_wrench(self.ids[index]);
         arrays::fill(py, out, self.ids.len(), |index| Ok(arrays::wrench_row(&wrench(index))))
@@ -149,8 +150,13 @@ impl Simulation {
     }
 
     /// Puts free or fixed bodies elsewhere: a row of 13 numbers for each body named. The contacts' past stays.
-    fn set_states(&self, states: Rows<'_>, bodies: Vec<String>) -> PyResult<()> {
+    fn set_states(&self, states: Bound<'_, PyAny>, bodies: Vec<String>) -> PyResult<()> {
         let rows = arrays::rows("states", &states, bodies.len(), STATE)?;
+        let rows = rows.as_array();
+        let mut seen = HashSet::new();
+        if let Some(twice) = bodies.iter().find(|name| !seen.insert(*name)) {
+            return Err(bad_value("bodies", format!("`{twice}` is given twice"), "give each body once"));
+        }
         let ids: Vec<BodyId> = bodies.iter().map(|name| self.body(name)).collect::<PyResult<_>>()?;
         if let Some(value) = rows.iter().find(|value| !value.is_finite()) {
             return Err(bad_value("states", format!("they hold {value}"), "give finite numbers"));
@@ -173,7 +179,8 @@ impl Simulation {
     }
 
     /// Sets gravity, m/s², along the common axes.
-    fn set_gravity(&self, gravity: [f64; 3]) -> PyResult<()> {
+    fn set_gravity(&self, gravity: Bound<'_, PyAny>) -> PyResult<()> {
+        let gravity = arrays::vector::<3>("gravity", &gravity)?;
         if let Some(value) = gravity.iter().find(|value| !value.is_finite()) {
             return Err(bad_value("gravity", format!("it holds {value}"), "give finite numbers"));
         }
@@ -238,9 +245,10 @@ impl Simulation {
         name: &str,
         values: &Bound<'_, PyDict>,
     ) -> PyResult<()> {
-        let surface = surface_from(py, name, values)?;
         let mut built = self.lock()?;
         let id = model_id(built.simulation.world(), model)?;
+        let known = built.simulation.world().surface(id, name).map_err(of_engine)?;
+        let surface = surface_from(py, known, values)?;
         let set = built.simulation.world_mut().set_surface(id, &surface);
         set.map_err(of_engine)
     }

@@ -1,5 +1,6 @@
 //! Bounding volumes and leaves that cost least, for the same bits (docs/tune.md).
 
+use crate::arrays::refused;
 use crate::errors::{StudyError, in_range};
 use crate::model::extensions;
 use crate::replay::Interrupt;
@@ -37,6 +38,7 @@ impl Tuned {
 pub(crate) enum Runs {
     One(PathBuf),
     Several(Vec<PathBuf>),
+    Other(Py<PyAny>),
 }
 
 /// Looks for bounding volumes and leaves with which the frames of runs take less time, and writes new model files.
@@ -67,6 +69,13 @@ pub(crate) fn tune(
     let runs = match runs {
         Runs::One(run) => vec![run],
         Runs::Several(runs) => runs,
+        Runs::Other(given) => {
+            return Err(refused(
+                "runs",
+                given.bind(py),
+                "give the path of a scene or log, or a list of them",
+            ));
+        }
     };
     let runs: Vec<&Path> = runs.iter().map(PathBuf::as_path).collect();
     let mut interrupt = Interrupt::default();

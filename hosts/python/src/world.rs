@@ -1,6 +1,6 @@
 //! A sealed world: frames.
 
-use crate::arrays::{self, Matrix, Rows, STATE, WRENCH};
+use crate::arrays::{self, Matrix, STATE, WRENCH};
 use crate::contacts;
 use crate::errors::{PhaseError, bad_value, lock, of_engine};
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
@@ -10,6 +10,7 @@ use pong_engine::{EngineError, FrictionPreload, InterfaceId, SealReport, State};
 use pong_record::{ModelSource, RecordOptions, Recorder, WhenFull};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict};
+use std::collections::HashSet;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard};
 
@@ -88,8 +89,14 @@ impl World {
     }
 
     /// The Interfaces that a call means: all, in their order, unless it names some.
-    fn chosen(&self, interfaces: Option<Vec<PyRef<'_, Interface>>>) -> Option<Vec<InterfaceId>> {
-        interfaces.map(|chosen| chosen.iter().map(|interface| interface.id).collect())
+    fn chosen(&self, interfaces: Option<Vec<PyRef<'_, Interface>>>) -> PyResult<Option<Vec<InterfaceId>>> {
+        let Some(chosen) = interfaces else { return Ok(None) };
+        let mut seen = HashSet::new();
+        if let Some(twice) = chosen.iter().find(|interface| !seen.insert(interface.id)) {
+            let cause = format!("`{}` is given twice", twice.name);
+            return Err(bad_value("interfaces", cause, "give each Interface once"));
+        }
+        Ok(Some(chosen.iter().map(|interface| interface.id).collect()))
     }
 }
 
@@ -183,14 +190,14 @@ impl World {
     ))]
     fn set_states(
         &self,
-        states: Option<Rows<'_>>,
-        position: Option<Rows<'_>>,
-        orientation: Option<Rows<'_>>,
-        linear_velocity: Option<Rows<'_>>,
-        angular_velocity: Option<Rows<'_>>,
+        states: Option<Bound<'_, PyAny>>,
+        position: Option<Bound<'_, PyAny>>,
+        orientation: Option<Bound<'_, PyAny>>,
+        linear_velocity: Option<Bound<'_, PyAny>>,
+        angular_velocity: Option<Bound<'_, PyAny>>,
         interfaces: Option<Vec<PyRef<'_, Interface>>>,
     ) -> PyResult<()> {
-        let chosen = self.chosen(interfaces);
+        let chosen = self.chosen(interfaces)?;
         let ids = chosen.as_deref().unwrap_or(&self.ids);
         let mut inner = self.lock()?;
         let Inner { world, states: room, .. } = &mut **inner;
@@ -198,7 +205,8 @@ impl World {
         let parts = [&position, &orientation, &linear_velocity, &angular_velocity];
         match &states {
             Some(array) if parts.iter().all(|part| part.is_none()) => {
-                arrays::states(&arrays::rows("states", array, ids.len(), STATE)?, ids, room);
+                let array = arrays::rows("states", array, ids.len(), STATE)?;
+                arrays::states(&array.as_array(), ids, room);
             }
             None if position.is_some() => {
                 let count = ids.len();
@@ -233,7 +241,7 @@ impl World {
 
     /// The states as they were set, a row for each Interface; a row of NaN where none was.
     #[pyo3(signature = (out = None))]
-    fn states<'py>(&self, py: Python<'py>, out: Option<Matrix<'py>>) -> PyResult<Matrix<'py>> {
+    fn states<'py>(&self, py: Python<'py>, out: Option<Bound<'py, PyAny>>) -> PyResult<Matrix<'py>> {
         let inner = self.lock()?;
         arrays::fill(py, out, self.ids.len(), |index| {
             let state = inner.world.state_as_set(self.ids[index]).map_err(of_engine)?;
@@ -289,7 +297,12 @@ impl World {
 
     /// Wrenches of the last frame, a row (force, moment) for each Interface, about the origin of its group.
     #[pyo3(signature = (out = None, *, axes = "common"))]
-    fn wrenches<'py>(&self, py: Python<'py>, out: Option<Matrix<'py>>, axes: &str) -> PyResult<Matrix<'py>> {
+    fn wrenches<'py>(
+        &self,
+        py: Python<'py>,
+        out: Option<Bound<'py, PyAny>>,
+        axes: &str,
+    ) -> PyResult<Matrix<'py>> {
         let common = match axes {
             "common" => true,
             "group" => false,
@@ -387,8 +400,9 @@ impl World {
         name: &str,
         values: &Bound<'_, PyDict>,
     ) -> PyResult<()> {
-        let surface = surface_from(py, name, values)?;
         let mut inner = self.lock()?;
+        let known = inner.world.surface(model.id, name).map_err(of_engine)?;
+        let surface = surface_from(py, known, values)?;
         let Inner { world, recorder, .. } = &mut **inner;
         world.set_surface(model.id, &surface).map_err(of_engine)?;
         recorder.iter_mut().for_each(|recorder| recorder.surface_set(model.id, &surface));
@@ -398,9 +412,9 @@ impl World {
     /// Commits, and preloads the bristles of a pair: `holding` is the force on its first Object, N; without it, what
     /// moves is taken to slide. Answers how many bristles were set.
     #[pyo3(signature = (pair, holding = None))]
-    fn preload_friction(&self, pair: &Pair, holding: Option<[f64; 3]>) -> PyResult<usize> {
+    fn preload_friction(&self, pair: &Pair, holding: Option<Bound<'_, PyAny>>) -> PyResult<usize> {
         let preload = match holding {
-            Some(force) => FrictionPreload::Holding(force.into()),
+            Some(force) => FrictionPreload::Holding(arrays::vector::<3>("holding", &force)?.into()),
             None => FrictionPreload::Sliding,
         };
         let mut inner = self.lock()?;

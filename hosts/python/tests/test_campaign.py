@@ -4,12 +4,14 @@ import itertools
 import json
 import math
 import os
+import resource
 import signal
 import threading
 import time
 
 import numpy as np
 import pyarrow
+import pyarrow.parquet
 import pytest
 from dask.distributed import Client, LocalCluster
 from support import SCENE, scene_folder
@@ -51,6 +53,14 @@ def run(plan, folder, cluster, **options):
 
 
 def test_values_depend_on_seed_and_run_alone(tmp_path):
+    numbers = plan_of(
+        tmp_path,
+        runs=np.int64(12),
+        seed=np.array(7),
+        duration=np.float32(0.5),
+        dispersions=[campaign.Uniform("ball.position.z", np.float32(-0.5), np.int32(1))],
+    )
+    assert json.loads(json.dumps(numbers.to_json()))["dispersions"][0]["low"] == -0.5, "numbers of NumPy are Python's"
     few, many = plan_of(tmp_path), plan_of(tmp_path, runs=40)
     assert np.array_equal(_dispersions.values(many)[:12], _dispersions.values(few))
     assert not np.array_equal(_dispersions.values(plan_of(tmp_path, seed=8)), _dispersions.values(few))
@@ -197,6 +207,65 @@ def test_a_campaign_that_was_stopped_goes_on(tmp_path, cluster, monkeypatch):
     # A file that was being written when the power failed is none.
     (tmp_path / "part" / "parts" / "part-00000099.parquet.half").write_bytes(b"PAR1")
     assert run(plan, tmp_path / "part", cluster).equals(whole)
+    assert not (tmp_path / "part" / "parts" / "part-00000099.parquet.half").exists()
+
+
+def test_damaged_results_are_told_and_done_again(tmp_path, cluster, capsys):
+    plan, out = plan_of(tmp_path), tmp_path / "out"
+    whole = run(plan, out, cluster)
+    assert whole.schema.metadata is None
+    for number, content in ((2, b""), (5, (out / "parts" / "part-00000005.parquet").read_bytes()[:100])):
+        part = out / "parts" / f"part-{number:08d}.parquet"
+        part.write_bytes(content)
+        refused(lambda: campaign.results(out), part.name, "cannot be read", "call run again")
+        # Another plan is refused, and nothing is moved.
+        refused(lambda: run(plan_of(tmp_path, seed=8), out, cluster), "the plan", "changed")
+        assert part.read_bytes() == content
+        assert run(plan, out, cluster).equals(whole)
+        assert part.name in capsys.readouterr().err and (out / "damaged" / part.name).read_bytes() == content
+    (out / "failures.jsonl").write_text('{"run": 3\n{"run": 99}\n')
+    refused(lambda: campaign.failures(out), "line 1 of failures.jsonl", "take the line out")
+
+
+def test_results_tell_their_campaign_when_its_file_is_lost(tmp_path, cluster):
+    plan, out = plan_of(tmp_path), tmp_path / "out"
+    whole = run(plan, out, cluster)
+    head = out / "campaign.json"
+    text = head.read_text()
+    head.write_text("{")
+    refused(lambda: run(plan, out, cluster), "cannot be read", "remove campaign.json and call run again")
+    head.unlink()
+    refused(lambda: run(plan_of(tmp_path, seed=8), out, cluster), "the plan changed", "another folder")
+    (out / "parts" / "part-00000007.parquet").unlink()
+    assert run(plan, out, cluster).equals(whole) and head.read_text() == text
+    # Results that say nothing of their campaign, as those of earlier versions.
+    head.unlink()
+    for part in (out / "parts").iterdir():
+        pyarrow.parquet.write_table(pyarrow.parquet.read_table(part).replace_schema_metadata(None), part)
+    refused(lambda: run(plan, out, cluster), "campaign.json is missing", "bring it back")
+
+
+def test_a_full_disk_is_told_and_loses_nothing(tmp_path, cluster):
+    """Here, a limit on the length of files: what the process writes beyond it is refused, as on a full disk."""
+    plan, out = plan_of(tmp_path), tmp_path / "out"
+    whole = run(plan, out, cluster)
+    store, good = campaign._store.Store(out), whole.to_pylist()[0]
+    failed = {"run": 1, "error": "RunError", "message": "none" * 100}
+    for number in (0, 1):
+        (out / "parts" / f"part-{number:08d}.parquet").unlink()
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, before[1]))
+    try:
+        refused(lambda: store.add([good]), "part-00000000.parquet cannot be written", "call run again")
+        refused(lambda: store.add([failed]), "failures.jsonl cannot be written", "call run again")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert (out / "failures.jsonl").read_bytes() and not campaign.failures(out), "a cut line is none"
+    store.add([failed])
+    assert [row["run"] for row in campaign.failures(out)] == [1]
+    (out / "failures.jsonl").unlink()
+    assert run(plan, out, cluster).equals(whole)
+    assert not list(out.rglob("*.half"))
 
 
 def test_two_processes_cannot_run_one_campaign(tmp_path, cluster):

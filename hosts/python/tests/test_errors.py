@@ -42,6 +42,28 @@ def test_arguments_of_another_kind(tmp_path):
     scene = pong.Scene.load(scene_folder(tmp_path))
     told(pong.BadValueError, lambda: scene.build(workers=-2), "workers: -2", "or 0")
     told(pong.BadValueError, lambda: builder().create_object("ball", "ball"), "'ball'", "add_model")
+    told(pong.BadValueError, lambda: builder().add_model(None), "model: got None", "path of a model file")
+    told(pong.BadValueError, lambda: builder().pair(0, "ground"), "object: got 0", "or its name")
+    told(pong.BadValueError, lambda: pong.tune(3), "runs: got 3", "list of them")
+
+
+def test_a_delay_that_would_be_ignored():
+    told(pong.BadValueError, lambda: pong.WorldBuilder(delay_frames=3), "delay_frames: it is 3", "zero_order_hold")
+    told(pong.BadValueError, lambda: pong.WorldBuilder(accounts="stages", delay_frames=3), "delay_frames", "never comes late")
+    pong.WorldBuilder(accounts="zero_order_hold", delay_frames=3)
+
+
+def test_the_same_body_twice(tmp_path):
+    w = world()
+    ball, ground = w.interfaces
+    w.set_states(touching(1e-3))
+    twice = touching(1e-3)
+    twice[1] = twice[0]
+    told(pong.BadValueError, lambda: w.set_states(twice, interfaces=[ball, ball]), "`ball/ball` is given twice", "once")
+    assert np.array_equal(w.states(), touching(1e-3))
+    simulation = pong.Scene.load(scene_folder(tmp_path)).build()
+    told(pong.BadValueError, lambda: simulation.set_states(twice, ["ball", "ball"]), "`ball` is given twice")
+    told(pong.BadValueError, lambda: pong.Scene.load(tmp_path / "drop.ron").build(delay_frames=2), "delay_frames", "ZeroOrderHold")
 
 
 def test_a_name_given_twice():
@@ -87,10 +109,15 @@ def test_arrays_of_another_shape():
     locked.setflags(write=False)
     told(pong.BadValueError, lambda: w.wrenches(locked), "out", "written")
     told(pong.BadValueError, lambda: w.wrenches(axes="world"), "axes", "common")
-    with pytest.raises(ValueError, match="could not convert"):
-        w.set_states("states")
-    with pytest.raises((TypeError, ValueError), match="dimension"):
-        w.set_states(np.zeros(13))
+    shape = "give one of shape (2, 13)"
+    told(pong.BadValueError, lambda: w.set_states("states"), "states: got 'states', which is of type str", shape)
+    told(pong.BadValueError, lambda: w.set_states(np.zeros(13)), "states: got an array of float64 with shape (13,)", shape)
+    told(pong.BadValueError, lambda: w.set_states(np.zeros((2, 13, 1))), "with shape (2, 13, 1)", shape)
+    told(pong.BadValueError, lambda: w.set_states(touching(0).astype(complex)), "complex128", shape)
+    told(pong.BadValueError, lambda: w.set_states([[1, 2], [3]]), "states: got [[1, 2], [3]]", shape)
+    for out in (np.empty((2, 6), np.float32), [[0.0] * 6] * 2, np.empty(12)):
+        told(pong.BadValueError, lambda: w.wrenches(out), "out: got ", "give an array of float64 with shape (2, 6)")
+    told(pong.BadValueError, lambda: w.preload_friction(w.pairs[0], [1.0, 2.0]), "holding", "give 3 numbers")
 
 
 def test_contact_states_that_do_not_fit():
@@ -112,6 +139,18 @@ def test_surfaces_that_are_refused():
     values = w.surface(ball, "rubber")
     told(pong.BadValueError, lambda: w.set_surface(ball, "rubber", {"stiffness": 1.0}), "surface `rubber`", "normal")
     told(pong.BadValueError, lambda: w.set_surface(ball, "rubber", values | {"stiffness": -1.0}), "stiffness")
+    told(pong.BadValueError, lambda: w.set_surface(ball, "rubber", values | {"stifness": 5.0}), "stifness", "did you mean `stiffness`?")
+    friction = values["friction"]
+    for wrong, words in (
+        (friction | {"mue": 0.1}, ("`mue`", "did you mean `mu`?")),
+        ({"law": "Bristle", "mu": 0.1}, ("is missing",)),
+        (friction | {"mu": "0.3"}, ("friction: mu: got '0.3'", "finite number")),
+        (friction | {"mu": np.nan}, ("friction: mu: got ", "finite number")),
+        (None, ("friction: got None", "dictionary")),
+    ):
+        told(pong.BadValueError, lambda: w.set_surface(ball, "rubber", values | {"friction": wrong}), *words)
+    for stiffness in (None, [1.0], {"a": 1}):
+        told(pong.BadValueError, lambda: w.set_surface(ball, "rubber", values | {"stiffness": stiffness}), "stiffness: got", "number")
     told(pong.NotFoundError, lambda: w.surface(ball, "chalk"), "chalk", "rubber")
     assert w.surface(ball, "rubber") == values
 

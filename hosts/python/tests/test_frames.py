@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from support import DAMPING, STIFFNESS, builder, states, touching, turned, world
+from support import BALL, DAMPING, STIFFNESS, builder, scene_folder, states, touching, turned, world
 
 import pong
 
@@ -80,6 +80,29 @@ def test_arrays_may_be_views_lists_and_single_precision():
     single = world()
     single.set_states(touching(0.25, velocity=(0, 0, -0.5)).astype(np.float32))
     assert np.array_equal(single.states(), touching(0.25, velocity=(0, 0, -0.5)).astype(np.float32).astype(float))
+
+
+def test_numbers_of_numpy_are_numbers(tmp_path):
+    w = world()
+    rubber, values = w.models[0], w.surface(w.models[0], "rubber")
+    for number in (np.float32(0.25), np.array(0.25), np.float16(0.25)):
+        w.set_surface(rubber, "rubber", values | {"friction": values["friction"] | {"mu": number}, "stiffness": np.int64(30000)})
+        now = w.surface(rubber, "rubber")
+        assert now["friction"]["mu"] == 0.25 and now["stiffness"] == 3e4
+    stone = w.surface(w.models[1], "stone")
+    w.set_surface(w.models[1], "stone", stone | {"stiffness": np.float32(np.inf)})
+    assert w.surface(w.models[1], "stone") == stone
+    simulation = pong.Scene.load(scene_folder(tmp_path)).build(step=np.float32(2.0**-13))
+    simulation.set_gravity(np.array([0, 0, -9]))
+    assert simulation.gravity == (0.0, 0.0, -9.0) and simulation.step_length == 2.0**-13
+    simulation.set_mass("ball", {"mass": np.array(2.0), "inertia": np.eye(3, dtype=np.float32), "mass_center": np.zeros(3)})
+    assert simulation.mass("ball")["mass"] == 2.0 and simulation.mass("ball")["inertia"][1][1] == 1.0
+    simulation.run(steps=np.int64(2))
+    w.set_states(touching(1e-3))
+    assert w.preload_friction(w.pairs[0], np.array([0.5, 0, 0], np.float32)) == 1
+    data = pong.model.parse(BALL)
+    data["root"]["primitives"][0]["Sphere"]["radius"] = np.array(0.5)
+    assert "radius: 0.5" in pong.model.write(data)
 
 
 def test_results_go_into_the_memory_of_the_caller():

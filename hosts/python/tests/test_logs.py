@@ -88,6 +88,24 @@ def test_a_log_that_was_cut_off_is_read_as_far_as_it_goes(tmp_path):
     assert len(log.frames) == len(log.states) == len(log.wrenches) == log.frame_count
 
 
+def test_pipes_and_devices_are_refused_at_once(tmp_path):
+    """A pipe has no writer that would come, a device has no end."""
+    logged(tmp_path / "log")
+    for name in ("run.json", "events.jsonl", "states.npy"):
+        file = tmp_path / "log" / name
+        content = file.read_bytes()
+        for put in (os.mkfifo, lambda file: file.symlink_to("/dev/zero")):
+            file.unlink()
+            put(file)
+            with pytest.raises(pong.LogError, match=f"{name}.*not a regular file"):
+                pong.Log(tmp_path / "log")
+            with pytest.raises(pong.LogError, match=f"{name}.*not a regular file"):
+                pong.replay(tmp_path / "log")
+        file.unlink()
+        file.write_bytes(content)
+    assert pong.Log(tmp_path / "log").is_whole
+
+
 def test_faults_of_logs_are_told(tmp_path):
     with pytest.raises(pong.LogError, match="nowhere"):
         pong.Log(tmp_path / "nowhere")

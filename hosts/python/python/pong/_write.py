@@ -83,6 +83,8 @@ def _value(value: Any) -> Any:
         return "None"
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        return _value(value.item())
     if isinstance(value, (Integral, Real)):
         return _number(value)
     if isinstance(value, str):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ._dispersions import take_numbers
 from ._errors import CampaignError
 from ._rigid import in_frame_of
 
@@ -33,6 +34,7 @@ class Within:
     speed: float = math.inf
 
     def __post_init__(self):
+        take_numbers(self, "speed")
         for end in ("low", "high"):
             object.__setattr__(self, end, triple(f"criterion `{self.name}`, {end}", "m", getattr(self, end)))
         for axis, low, high in zip("xyz", self.low, self.high):

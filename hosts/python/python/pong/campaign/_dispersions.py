@@ -13,6 +13,19 @@ import numpy as np
 
 from ._errors import CampaignError
 
+
+def number(given):
+    """A number as JSON has it: one of NumPy's, or an array of one, is one of Python's. What is none stays, to be told."""
+    if isinstance(given, np.generic | np.ndarray) and np.ndim(given) == 0 and np.asarray(given).dtype.kind in "fiu":
+        return given.item()
+    return given
+
+
+def take_numbers(entry, *names):
+    """Makes fields of a frozen dataclass numbers of Python's."""
+    for name in names:
+        object.__setattr__(entry, name, number(getattr(entry, name)))
+
 METHODS = ("random", "latin_hypercube", "corners")
 
 
@@ -23,6 +36,9 @@ class Uniform:
     parameter: str
     low: float
     high: float
+
+    def __post_init__(self):
+        take_numbers(self, "low", "high")
 
     def fault(self):
         """What is wrong with it, or nothing."""
@@ -45,6 +61,9 @@ class Normal:
     parameter: str
     mean: float
     deviation: float
+
+    def __post_init__(self):
+        take_numbers(self, "mean", "deviation")
 
     def fault(self):
         """What is wrong with it, or nothing."""

@@ -51,6 +51,7 @@ class Plan:
 
     def __post_init__(self):
         # Where symbolic links lead is the worker's affair: the path is kept as it was given.
+        dispersions_of.take_numbers(self, "runs", "seed", "duration", "step", "look_every")
         object.__setattr__(self, "scene", os.path.abspath(self.scene))
         kinds = (dispersions_of.Uniform, dispersions_of.Normal)
         object.__setattr__(self, "dispersions", listed("dispersions", kinds, self.dispersions))

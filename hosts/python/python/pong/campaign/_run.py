@@ -61,6 +61,7 @@ def run(plan, folder, *, workers=None, scheduler=None, runs_per_task=1, progress
     store = Store(folder)
     if not isinstance(plan, Plan):
         raise CampaignError(f"plan: it is {type(plan).__name__}; give a pong.campaign.Plan")
+    workers, runs_per_task = map(_dispersions.number, (workers, runs_per_task))
     for thing, given in (("workers", 1 if workers is None else workers), ("runs_per_task", runs_per_task)):
         if not (isinstance(given, int) and given >= 1):
             raise CampaignError(f"{thing}: it is {given!r}; give a whole number from 1 up")

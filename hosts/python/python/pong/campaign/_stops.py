@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ._criteria import met
+from ._dispersions import take_numbers
 from ._errors import CampaignError
 
 
@@ -24,6 +25,7 @@ class Held:
     time: float
 
     def __post_init__(self):
+        take_numbers(self, "time")
         positive(f"stop `{self.name}`, time", "s", self.time)
 
 
@@ -37,6 +39,7 @@ class Beyond:
     distance: float
 
     def __post_init__(self):
+        take_numbers(self, "distance")
         positive(f"stop `{self.name}`, distance", "m", self.distance)
 
 

@@ -5,7 +5,10 @@
     parts/part-….parquet   rows of runs that came to their end
     failures.jsonl         a line for each run that did not, with its values
 
+    damaged/               parts that could not be read, once their runs are done again
+
 A part is written under another name and renamed when it is whole; a line is written at once. What is there is whole.
+Every part has the contents of campaign.json among its metadata, so that parts tell what they belong to without it.
 """
 
 import contextlib
@@ -13,6 +16,7 @@ import fcntl
 import json
 import os
 import pathlib
+import sys
 
 import pyarrow
 import pyarrow.parquet
@@ -21,6 +25,8 @@ from ._errors import CampaignError
 from ._plan import Plan
 
 VERSION = 1
+# Key of the metadata of a part that hold the contents of campaign.json.
+HEAD = b"pong-campaign"
 
 
 class Store:
@@ -31,10 +37,22 @@ class Store:
         self.failed = self.folder / "failures.jsonl"
 
     @contextlib.contextmanager
+    def _writing(self, path):
+        """Tells what the system says of a file that is being written."""
+        try:
+            yield
+        except OSError as reason:
+            cure = "make room or name another folder, and call run again: the runs that are kept are not done again"
+            raise CampaignError(f"campaign `{self.folder}`: {path.name} cannot be written: {reason.strerror or reason}; {cure}") from None
+
+    @contextlib.contextmanager
     def locked(self):
         """Holds the folder: two processes that run one campaign would do the same runs. The system frees it when one dies."""
-        self.folder.mkdir(parents=True, exist_ok=True)
-        with (self.folder / "lock").open("w") as file:
+        lock = self.folder / "lock"
+        with contextlib.ExitStack() as held:
+            with self._writing(lock):
+                self.folder.mkdir(parents=True, exist_ok=True)
+                file = held.enter_context(lock.open("w"))
             try:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
@@ -52,8 +70,9 @@ class Store:
             "scene_hash": f"{job['scene_hash']:016x}",
             "plan": plan.to_json(),
         }
-        if self.head.exists():
-            known, entry = self._head(), json.loads(json.dumps(entry))
+        known = self._known()
+        if known is not None:
+            entry = json.loads(json.dumps(entry))
             different = sorted(key for key in entry if known.get(key) != entry[key])
             if different:
                 told = {"digest": "the scene", "scene_hash": "the models", "plan": "the plan", "pong": "the version of Pong"}
@@ -61,18 +80,58 @@ class Store:
                 raise CampaignError(
                     f"campaign `{self.folder}`: {what} changed since it began; name another folder, or bring back what it began with"
                 )
-            return
-        self.parts.mkdir(parents=True, exist_ok=True)
-        self._write(self.head, json.dumps(entry, indent=2).encode())
+        with self._writing(self.parts):
+            self.parts.mkdir(parents=True, exist_ok=True)
+            for half in (*self.folder.glob("*.half"), *self.parts.glob("*.half")):
+                half.unlink()
+        self._set_damaged_aside()
+        if not self.head.exists():
+            self._write(self.head, json.dumps(entry, indent=2).encode())
+
+    def _known(self):
+        """What the folder says of its campaign; `None` if it is new."""
+        if self.head.exists():
+            return self._head()
+        for _, head in self._parts():
+            if head is not None:
+                return json.loads(head)
+        if self.failed.exists() or any(self.parts.glob("part-*.parquet")):
+            cure = "bring it back, or name another folder"
+            raise CampaignError(f"campaign `{self.folder}`: there are results, but {self.head.name} is missing; {cure}")
+        return None
+
+    def _parts(self):
+        """Every part that can be read, with what it says of its campaign."""
+        for file in sorted(self.parts.glob("part-*.parquet")):
+            with contextlib.suppress(OSError, pyarrow.ArrowException):
+                yield file, (pyarrow.parquet.read_schema(file).metadata or {}).get(HEAD)
+
+    def _set_damaged_aside(self):
+        """Moves parts that cannot be read out of the way: their runs are done again."""
+        for file in sorted(self.parts.glob("part-*.parquet")):
+            try:
+                pyarrow.parquet.read_table(file)
+            except (OSError, pyarrow.ArrowException) as reason:
+                aside = self.folder / "damaged" / file.name
+                with self._writing(aside):
+                    aside.parent.mkdir(exist_ok=True)
+                    os.replace(file, aside)
+                told = f"its runs are done again, and it is kept in {aside.parent}"
+                print(f"campaign `{self.folder}`: parts/{file.name} cannot be read: {first_line(reason)}; {told}", file=sys.stderr)
 
     def _head(self):
         try:
             entry = json.loads(self.head.read_text(encoding="utf-8"))
         except (OSError, ValueError) as reason:
-            raise CampaignError(f"campaign `{self.folder}`: {self.head.name} cannot be read: {reason}; name the folder of a campaign") from None
+            raise CampaignError(f"campaign `{self.folder}`: {self.head.name} cannot be read: {reason}; {self._cure_of_head()}") from None
         if entry.get("format") != "pong-campaign" or entry.get("version") != VERSION:
             raise CampaignError(f"campaign `{self.folder}`: {self.head.name} is none that this version reads; name another folder")
         return entry
+
+    def _cure_of_head(self):
+        if any(head is not None for _, head in self._parts()):
+            return f"remove {self.head.name} and call run again with the same plan: it is made anew from the results"
+        return "name the folder of a campaign"
 
     def plan(self):
         return Plan.from_json(self._head()["plan"])
@@ -87,22 +146,34 @@ class Store:
         good = [row for row in rows if "error" not in row]
         for row in rows:
             if "error" in row:
-                with self.failed.open("a", encoding="utf-8") as file:
-                    file.write(json.dumps(row) + "\n")
-                    file.flush()
-                    os.fsync(file.fileno())
+                self._append(json.dumps(row).encode() + b"\n")
         if good:
             sink = pyarrow.BufferOutputStream()
-            pyarrow.parquet.write_table(pyarrow.Table.from_pylist(good), sink)
+            table = pyarrow.Table.from_pylist(good).replace_schema_metadata({HEAD: self.head.read_bytes()})
+            pyarrow.parquet.write_table(table, sink)
             self._write(self.parts / f"part-{good[0]['run']:08d}.parquet", sink.getvalue().to_pybytes())
+
+    def _append(self, line):
+        """Adds a line to the failures, behind the last whole one."""
+        with self._writing(self.failed), self.failed.open("ab+") as file:
+            file.seek(0)
+            there = file.read()
+            file.truncate(there.rfind(b"\n") + 1)
+            file.write(line)
+            file.flush()
+            os.fsync(file.fileno())
 
     def _write(self, path, content):
         half = path.with_suffix(path.suffix + ".half")
-        with half.open("wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(half, path)
+        try:
+            with self._writing(path):
+                with half.open("wb") as file:
+                    file.write(content)
+                    file.flush()
+                    os.fsync(file.fileno())
+                os.replace(half, path)
+        finally:
+            half.unlink(missing_ok=True)
 
     def table(self):
         """All rows, in the order of the runs."""
@@ -110,19 +181,38 @@ class Store:
         files = sorted(self.parts.glob("part-*.parquet"))
         if not files:
             return pyarrow.table({"run": pyarrow.array([], pyarrow.int64())})
-        tables = [pyarrow.parquet.read_table(file) for file in files]
+        tables = [self._read(file).replace_schema_metadata(None) for file in files]
         return pyarrow.concat_tables(tables, promote_options="default").sort_by("run")
+
+    def _read(self, file):
+        try:
+            return pyarrow.parquet.read_table(file)
+        except (OSError, pyarrow.ArrowException) as reason:
+            cure = "call run again with the same plan: it does the runs of this part anew"
+            raise CampaignError(f"campaign `{self.folder}`: parts/{file.name} cannot be read: {first_line(reason)}; {cure}") from None
 
     def failures(self):
         if not self.failed.exists():
             return []
         # A last line that was cut off is of a run that will be done again.
-        whole = self.failed.read_text(encoding="utf-8").rpartition("\n")[0]
-        return sorted((json.loads(line) for line in whole.splitlines()), key=lambda row: row["run"])
+        lines = self.failed.read_bytes().rpartition(b"\n")[0].splitlines()
+        rows = []
+        for number, line in enumerate(lines, 1):
+            try:
+                rows.append(json.loads(line))
+                rows[-1]["run"]
+            except (ValueError, TypeError, KeyError):
+                cure = "take the line out and call run again: its run is done anew"
+                raise CampaignError(f"campaign `{self.folder}`: line {number} of {self.failed.name} is damaged; {cure}") from None
+        return sorted(rows, key=lambda row: row["run"])
 
     def done(self):
         """The numbers of the runs that need not be done again."""
         return set(self.table()["run"].to_pylist()) | {row["run"] for row in self.failures()}
+
+
+def first_line(reason):
+    return str(reason).partition("\n")[0]
 
 
 def results(folder):
