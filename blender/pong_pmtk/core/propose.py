@@ -11,7 +11,7 @@ from .engine import PLANE_TOLERANCE, polyhedron_faults
 from .exact import meant_rows
 from .pieces import is_closed, pieces_of
 from .polygon import off_plane
-from .round_shape import FIT_TOLERANCE, ROUND_KINDS, fit, fitted_numbers, off, radii_of, widest_gap
+from .round_shape import FIT_TOLERANCE, ROUND_KINDS, fit, fitted_numbers, off, radii_of, shown_number, widest_gap
 from .snapshot import Mesh, SnapshotObject
 
 ROUND_VERTICES = 26  # fewer are a solid with corners: an icosahedron has 12
@@ -90,7 +90,7 @@ def _round(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal]:
         reason = f"its vertices lie on a sphere of radius {radius:.6g}{note}"
         return [Proposal("Sphere", reason, {"radius": radius}, fix)]
     shown = ", ".join(f"{a:.6g}" for a in axes)
-    semi_axes = tuple(float(f"{a:.7g}") for a in axes)
+    semi_axes = tuple(map(shown_number, axes.tolist()))
     reason = f"its vertices lie on an ellipsoid of semi-axes {shown}{note}"
     return [Proposal("Ellipsoid", reason, {"semi_axes": semi_axes}, fix)]
 
@@ -163,7 +163,7 @@ def fit_sphere(points: np.ndarray) -> float:
     fitted = fit_ellipsoid(points)
     if fitted is not None:
         center = fitted[0]
-    return float(f"{np.sqrt(((points - center) ** 2).sum(axis=1)).mean():.7g}")
+    return shown_number(float(np.sqrt(((points - center) ** 2).sum(axis=1)).mean()))
 
 
 def _solid(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal]:

@@ -49,7 +49,7 @@ def several(shape: Shape) -> list[np.ndarray] | None:
     """The pieces of a mesh that are bodies of their own, and says so; the rest as `bodies_shown`."""
     pieces = bodies_shown(shape.place.thing, shape.kind)
     if pieces:
-        cause = f"its mesh has {len(pieces)} pieces: each is exported as a {shape.kind} of its own, as it is shown"
+        cause = f"its mesh has {len(pieces)} pieces: each is exported, as it is shown, as a body of its own"
         shape.findings.hint("several-pieces", shape.where, cause, "join them, if they are to be one body")
     elif pieces is not None:
         modifiers = ", ".join(shape.place.thing.modifiers)

@@ -12,11 +12,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .exact import without_noise
+
 ROUND_KINDS = ("Capsule", "Cylinder", "Cone", "Bore")
 ONE_RADIUS = ("Capsule", "Cylinder")
 ALIKE = ("Cylinder", "Cone")  # a mesh of these shows the axis of a Capsule or Bore, too
 FIT_TOLERANCE = 2e-3  # of the size: how far vertices may lie off a fitted surface
 ROUND_ABOUT = 0.999 * np.pi  # rad: corners with a wider gap between neighbours stand on one side, and make no rim
+SHOWN_SHARE = 5e-7  # of a size: how far off it is on a mesh that was made in single precision
 LEAST_SHARE = 1e-6  # of the size: shorter is the rounding of single precision
 END_SHARE = 1e-3  # of the length: vertices so near to an end lie on its circle
 
@@ -124,6 +127,11 @@ def _turn(axis: np.ndarray) -> np.ndarray:
     return np.stack([side, np.cross(axis, side), axis], axis=1) + 0.0
 
 
+def shown_number(x: float) -> float:
+    """A size that was measured on a mesh: the short decimal that is as near as single precision, else seven digits."""
+    return float(f"{float(without_noise(x, SHOWN_SHARE * abs(x))):.7g}")
+
+
 def fitted_numbers(vertices: np.ndarray, kind: str) -> dict:
     """The numbers of a mark that suit a mesh, to seven digits: what 32 bits can say.
 
@@ -136,11 +144,10 @@ def fitted_numbers(vertices: np.ndarray, kind: str) -> dict:
     length, radii, _ = found
     if kind in ONE_RADIUS:
         radii = (max(radii),) * 2
-    seven = lambda x: float(f"{x:.7g}")  # noqa: E731
     least = LEAST_SHARE * max(*radii, abs(length))  # the tip of a cone in single precision
     if not max(radii) > 0.0 or length <= least and kind != "Capsule":
         return {}
-    numbers = numbers_of(kind, seven(length), tuple(seven(r) if r > least else 0.0 for r in radii))
+    numbers = numbers_of(kind, shown_number(length), tuple(shown_number(r) if r > least else 0.0 for r in radii))
     return numbers if length > least else {"radius": numbers["radius"]}
 
 

@@ -5,7 +5,7 @@ from ..core.engine import WheelMissing
 from ..core.marks import Mark
 from ..core.propose import Proposal, fit_ellipsoid, fit_sphere, propose
 from ..core.round_pieces import bodies_shown
-from ..core.round_shape import ROUND_KINDS, fault_of, fitted_numbers, numbers_of
+from ..core.round_shape import ROUND_KINDS, fault_of, fitted_numbers, numbers_of, shown_number
 from ..core.snapshot import SnapshotObject
 from ..store import exact
 from . import extract, meshes
@@ -92,4 +92,4 @@ def _fitted(vertices, kind):
         return {"radius": fit_sphere(vertices)}
     fitted = fit_ellipsoid(vertices)
     axes = fitted[1] if fitted is not None else abs(vertices).max(axis=0)
-    return {"semi_axes": tuple(float(f"{axis:.7g}") for axis in axes)}
+    return {"semi_axes": tuple(map(shown_number, axes.tolist()))}

@@ -321,9 +321,9 @@ def _compare_overrides(*_arguments):
     """Blender saves of an override what differs from its original, and compares nothing with what was never set there."""
     for obj in bpy.data.objects:
         if obj.override_library is not None and obj.override_library.reference is not None:
-            original = obj.override_library.reference
-            original.pong.version = original.pong.version
-            original.pong_model.entry_memory = original.pong_model.entry_memory
+            for each in (obj, obj.override_library.reference):  # a group is there once one of its values is set
+                each.pong.active_part = each.pong.active_part
+                each.pong_model.active_surface = each.pong_model.active_surface
 
 
 CLASSES = (*surfaces.CLASSES, PONG_PG_part, PONG_PG_mark, PONG_PG_model)
