@@ -116,6 +116,12 @@
 /// That of the surface it meets: of a rigid surface that names none. It stays rigid.
 #define PONG_NORMAL_INHERITED 4
 
+/// F = k d + c d^q d', with the q of the model file.
+#define PONG_NORMAL_POWER_LAW 5
+
+/// F = k d^(3/2) + c d^q d', with the q of the model file.
+#define PONG_NORMAL_POWER_LAW_HERTZ 6
+
 /// No friction.
 #define PONG_FRICTION_NONE 0
 
@@ -656,9 +662,9 @@ typedef struct pong_surface_values {
     int32_t normal_law;
     /// Which friction law the surface has: PONG_FRICTION_...
     int32_t friction_law;
-    /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_HUNT_CROSSLEY_HERTZ), 1e-100 to 1e100; infinite means rigid.
+    /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_..._HERTZ), 1e-100 to 1e100; infinite means rigid.
     double stiffness;
-    /// Linear: damping, N s/m.
+    /// Linear, power law: damping, N s/m (N s/m^(1+q) with the power law).
     double damping;
     /// Linear: depth over which the damping sets in, m; 0 means at once.
     double ramp;

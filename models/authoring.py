@@ -48,6 +48,12 @@ def hunt_crossley(exponent, dissipation=None, restitution=None):
     return _law("HuntCrossley", dissipation=dissipation, exponent=exponent, restitution=rebound)
 
 
+def power_law(exponent, damping_exponent, damping=None, restitution=None):
+    """Damping in N·s/m^(1 + damping_exponent); or `restitution=(e, speed, mass)`. `exponent` is 1.0 or 1.5."""
+    rebound = None if restitution is None else dict(zip(("e", "speed", "mass"), map(float, restitution), strict=True))
+    return _law("PowerLaw", exponent=exponent, damping_exponent=damping_exponent, damping=damping, restitution=rebound)
+
+
 def bristle(mu, static_excess=None, stiffness=None, damping=None):
     return _law("Bristle", mu=mu, static_excess=static_excess, stiffness=stiffness, damping=damping)
 

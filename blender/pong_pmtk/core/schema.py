@@ -76,6 +76,12 @@ NORMAL_LAWS: dict[str, tuple[Field, ...]] = {
         ("exponent", "exponent", REQUIRED),
         ("restitution", "restitution_speed"),
     ),
+    "PowerLaw": _fields(
+        ("exponent", "exponent", REQUIRED),
+        ("damping_exponent", "not_negative", REQUIRED),
+        ("damping", "not_negative"),
+        ("restitution", "restitution_impact"),
+    ),
     "Custom": _fields(("name", "text_value", REQUIRED), ("parameters", "numbers", ())),
 }
 

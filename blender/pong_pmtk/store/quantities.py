@@ -56,12 +56,13 @@ def parsed(text, unit):
     else:
         raise ValueError(f'"{text}" does not begin with a number')
     written = text[end:]
-    if written and written not in UNITS[unit]:
-        known = ", ".join(UNITS[unit])
+    units = UNITS.get(unit, {unit: 1.0})  # of a power of the depth there is only the one in SI
+    if written and written not in units:
+        known = ", ".join(units)
         raise ValueError(f'"{written}" is no unit of this field: ' + (f"write one of {known}" if known else "it has none"))
     if value != value:
         raise ValueError("a number is wanted, not nan")
-    return value * UNITS[unit][written] if written else value
+    return value * units[written] if written else value
 
 
 def refuse(reason):

@@ -14,6 +14,8 @@ NORMAL_LAWS = [
     ("DEFAULT", "Undamped", "A linear spring without damping", None),
     ("Linear", "Linear", "Spring and damper in parallel that never pull", {"damping": 0.0}),
     ("HuntCrossley", "Hunt-Crossley", "Damping that grows with depth", {"dissipation": 0.0, "exponent": 1.0}),
+    ("PowerLaw", "Power Law", "Spring and damper by powers of the depth: the rebound depends on speed and mass",
+     {"exponent": 1.5, "damping_exponent": 1.0, "damping": 0.0}),
     ("Custom", "Custom", "A law that is registered with the engine", {"name": "", "parameters": []}),
 ]
 FRICTION_LAWS = [
@@ -74,24 +76,40 @@ def _restitution(self):
     return spec.value_at(spec.read(self), ("normal", FIELDS, "restitution")) is not None
 
 
+# Of each law that takes a restitution: the field that it replaces, and what it goes with.
+RESTITUTIONS = {
+    "Linear": ("damping", {"mass": 1.0}),
+    "HuntCrossley": ("dissipation", {"speed": 0.1}),
+    "PowerLaw": ("damping", {"speed": 0.1, "mass": 1.0}),
+}
+
+
 def _set_restitution(self, on):
     """Restitution replaces damping (or dissipation) and the other way round."""
     if on == _restitution(self):
         return
-    linear = "Linear" in (spec.read(self).get("normal") or {})
-    spec.put(self, ("normal", FIELDS, "damping" if linear else "dissipation"), None if on else 0.0)
-    start = {"e": 0.5, "mass": 1.0} if linear else {"e": 0.5, "speed": 0.1}
-    spec.put(self, ("normal", FIELDS, "restitution"), start if on else None)
+    law = next(iter(spec.read(self).get("normal") or {}), None)
+    replaced, impact = RESTITUTIONS.get(law, RESTITUTIONS["HuntCrossley"])
+    spec.put(self, ("normal", FIELDS, replaced), None if on else 0.0)
+    spec.put(self, ("normal", FIELDS, "restitution"), {"e": 0.5, **impact} if on else None)
 
 
 def _stiffness_unit(self):
     return "N/m^1.5" if _exponent(self) else "N/m"
 
 
+def _damping_unit(self):
+    power = 1.0 + spec.value_at(spec.read(self), ("normal", FIELDS, "damping_exponent"), 0.0)
+    return "N·s/m" if power == 1.0 else f"N·s/m^{power:.12g}"
+
+
 # A number of both: unit, path, label, what it is. Scripts set `name`, in SI; panels show `name_text`, with its unit.
 NUMBERS = {
     "stiffness": (_stiffness_unit, ("stiffness",), "Stiffness", "Force over depth of one contact"),
-    "damping": ("N·s/m", ("normal", FIELDS, "damping"), "Damping", "Force over the speed at which a contact deepens"),
+    "damping": (_damping_unit, ("normal", FIELDS, "damping"), "Damping",
+                "Force over the speed at which a contact deepens; of a power law over that and a power of the depth"),
+    "damping_exponent": ("", ("normal", FIELDS, "damping_exponent"), "Damping Exponent",
+                         "Power of the depth that the damping goes with, 0 to the exponent of the spring"),
     "ramp": ("m", ("normal", FIELDS, "ramp"), "Ramp", "Depth over which the damping sets in"),
     "restitution": ("", ("normal", FIELDS, "restitution", "e"), "Restitution", "Rebound speed over impact speed"),
     "mass": ("kg", ("normal", FIELDS, "restitution", "mass"), "Mass", "Effective mass that one contact stops"),

@@ -196,18 +196,21 @@ class PONG_PT_surfaces(Panel, bpy.types.Panel):
 
 def draw_laws(layout, laws):
     layout.prop(laws, "normal")
-    if laws.normal in ("Linear", "HuntCrossley"):
+    if laws.normal in RESTITUTIONS:
         layout.prop(laws, "use_restitution")
-        linear = laws.normal == "Linear"
+        replaced, impact = RESTITUTIONS[laws.normal]
         if laws.use_restitution:
             draw_quantity(layout, laws, "restitution")
-            draw_quantity(layout, laws, "mass" if linear else "speed")
+            for name in impact:
+                draw_quantity(layout, laws, name)
         else:
-            draw_quantity(layout, laws, "damping" if linear else "dissipation")
-        if linear:
+            draw_quantity(layout, laws, replaced)
+        if laws.normal == "Linear":
             draw_optional(layout, laws, "ramp", "ramp_text")
         else:
             layout.prop(laws, "exponent")
+        if laws.normal == "PowerLaw":
+            draw_quantity(layout, laws, "damping_exponent")
     elif laws.normal == "Custom":
         layout.prop(laws, "normal_name")
         layout.prop(laws, "normal_parameters")

@@ -683,6 +683,11 @@ def exponent():
 
 
 @faulty
+def damping_exponent():
+    return _with_surface(stiffness=1e6, normal=Tagged("PowerLaw", {"exponent": 1.0, "damping_exponent": 1.5}))
+
+
+@faulty
 def either_or():
     law = {"damping": 1.0, "restitution": {"e": 0.5, "mass": 1.0}}
     return _with_surface(stiffness=1e6, normal={"Linear": law})

@@ -159,7 +159,7 @@ class Panels(InBlender):
             top.pong_model.surfaces[0].normal = "Linear"
             activate(mark(new(kind, parent=top), kind=kind))
             self.drawn()
-        for normal in ("DEFAULT", "Linear", "HuntCrossley", "Custom"):
+        for normal in ("DEFAULT", "Linear", "HuntCrossley", "PowerLaw", "Custom"):
             for friction in ("DEFAULT", "Bristle", "Coulomb", "Custom"):
                 surface = top.pong_model.surfaces[0]
                 surface.normal, surface.friction = normal, friction
@@ -184,7 +184,8 @@ class Panels(InBlender):
         bare = {"order", "leaf_size", "file_scale", "normal_length"}  # counts and shares
         seen = set()
         for normal, friction, restitution in (("Linear", "Bristle", True), ("Linear", "Coulomb", False),
-                                              ("HuntCrossley", "Bristle", True), ("HuntCrossley", "Bristle", False)):
+                                              ("HuntCrossley", "Bristle", True), ("HuntCrossley", "Bristle", False),
+                                              ("PowerLaw", "Bristle", True), ("PowerLaw", "Bristle", False)):
             surface.normal, surface.friction, surface.use_restitution = normal, friction, restitution
             for kind in ("Sphere", "Ellipsoid", "Ray", "TriangleMesh"):
                 obj = mark(new(kind, mesh(CUBE), top), kind=kind, file="a.obj", reach=0.01, thickness=0.01)

@@ -56,6 +56,13 @@ class Fields(InBlender):
         surface.normal = "HuntCrossley"
         surface.exponent = "HERTZ"
         self.assertEqual(surface.stiffness_text, "1e6 N/m^1.5")
+        surface.normal = "PowerLaw"
+        surface.damping_text = "4e7 N·s/m^2"
+        self.assertEqual((surface.damping, surface.damping_text), (4e7, "4e7 N·s/m^2"))
+        surface.damping_exponent = 0.5
+        self.assertEqual(surface.damping_text, "4e7 N·s/m^1.5")
+        surface.use_restitution = True
+        self.assertEqual((surface.speed_text, surface.mass_text), ("0.1 m/s", "1 kg"))
 
     def test_what_is_out_of_range_changes_nothing(self):
         surface = root().pong_model.surfaces[0]

@@ -94,6 +94,8 @@ class Settings(InBlender):
             "b": {"stiffness": math.inf},
             "c": {"stiffness": 2e5, "normal": Tagged("HuntCrossley", {"restitution": {"e": 0.5, "speed": 0.1},
                                                                       "exponent": 1.5})},
+            "e": {"stiffness": 2e9, "normal": Tagged("PowerLaw", {"exponent": 1.5, "damping_exponent": 0.5,
+                                                                  "damping": 1 / 3})},
             "d": {"stiffness": 1.0, "friction": Tagged("Custom", {"name": "x", "parameters": (1.0, 0.1)})},
         },
         pairs=[{"surfaces": ("a", "b"), "friction": None}, {"surfaces": ("a", "a"), "stiffness": 5.0}],

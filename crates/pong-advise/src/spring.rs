@@ -40,13 +40,11 @@ pub(crate) fn springs(
     speed: Option<f64>,
 ) -> Result<ContactSprings, &'static str> {
     let k = props.stiffness;
-    let depth = match (&props.normal, speed) {
-        (NormalProps::HuntCrossley { exponent: Exponent::ThreeHalves, .. }, None) => {
+    let depth = match (props.normal.exponent(), speed) {
+        (Exponent::ThreeHalves, None) => {
             return Err("a contact of exponent 3/2 is as stiff as it is deep, and no closing speed is given");
         }
-        (NormalProps::HuntCrossley { exponent: Exponent::ThreeHalves, .. }, Some(speed)) => {
-            hertz_depth(k, mass, speed)
-        }
+        (Exponent::ThreeHalves, Some(speed)) => hertz_depth(k, mass, speed),
         // Without a speed the damping is what it is at touch.
         _ => speed.map_or(0.0, |speed| speed * (mass / k).sqrt()),
     };
@@ -78,6 +76,13 @@ fn normal_spring(props: &PairProps, depth: f64) -> Result<(Spring, bool), &'stat
             let root = depth.sqrt();
             let damping = k * root * root * root * dissipation;
             (Spring { stiffness: 1.5 * k * root, damping }, false)
+        }
+        NormalProps::PowerLaw { damping, exponent, damping_exponent } => {
+            let damping = damping * libm::pow(depth, *damping_exponent);
+            match exponent {
+                Exponent::One => (Spring { stiffness: k, damping }, *damping_exponent == 0.0),
+                Exponent::ThreeHalves => (Spring { stiffness: 1.5 * k * depth.sqrt(), damping }, false),
+            }
         }
         NormalProps::Custom { .. } => return Err("a normal law of the host's is not known here"),
     })
@@ -125,6 +130,33 @@ mod tests {
         let slope = (force(depth * (1.0 + 1e-6), 0.0) - force(depth * (1.0 - 1e-6), 0.0)) / (2e-6 * depth);
         assert!((made.stiffness / slope - 1.0).abs() < 1e-8);
         assert!((made.damping / (force(depth, 1.0) - force(depth, 0.0)) - 1.0).abs() < 1e-8);
+    }
+
+    /// The power law's spring and damper at that depth; q = 0 on a linear spring is the linear law, q = p that of Hunt and
+    /// Crossley.
+    #[test]
+    fn a_power_law_is_judged_at_the_depth_of_the_bounce() {
+        let springs_of = |law, speed| springs(&props(law, FrictionProps::None), 2.0, speed).unwrap();
+        let power_law = |damping, exponent, damping_exponent| NormalProps::PowerLaw {
+            damping,
+            exponent,
+            damping_exponent,
+        };
+        for exponent in [Exponent::One, Exponent::ThreeHalves] {
+            let same = NormalProps::HuntCrossley { dissipation: 0.5, exponent };
+            let (same, own) = (
+                springs_of(same, Some(0.3)).normal,
+                springs_of(power_law(5e6, exponent, exponent.value()), Some(0.3)).normal,
+            );
+            assert!((own.stiffness / same.stiffness - 1.0).abs() < 1e-14);
+            assert!((own.damping / same.damping - 1.0).abs() < 1e-14);
+        }
+        let linear = springs_of(power_law(300.0, Exponent::One, 0.0), None);
+        assert_eq!((linear.normal.damping, linear.bounces_by_formula), (300.0, true));
+        assert!(!springs_of(power_law(300.0, Exponent::One, 0.5), Some(0.3)).bounces_by_formula);
+        assert_eq!(springs_of(power_law(300.0, Exponent::One, 0.5), None).normal.damping, 0.0);
+        let unknown = props(power_law(300.0, Exponent::ThreeHalves, 0.0), FrictionProps::None);
+        assert!(springs(&unknown, 2.0, None).is_err());
     }
 
     #[test]

@@ -20,6 +20,10 @@ pub const PONG_NORMAL_HUNT_CROSSLEY_HERTZ: i32 = 2;
 pub const PONG_NORMAL_CUSTOM: i32 = 3;
 /// That of the surface it meets: of a rigid surface that names none. It stays rigid.
 pub const PONG_NORMAL_INHERITED: i32 = 4;
+/// F = k d + c d^q d', with the q of the model file.
+pub const PONG_NORMAL_POWER_LAW: i32 = 5;
+/// F = k d^(3/2) + c d^q d', with the q of the model file.
+pub const PONG_NORMAL_POWER_LAW_HERTZ: i32 = 6;
 
 /// No friction.
 pub const PONG_FRICTION_NONE: i32 = 0;
@@ -41,9 +45,9 @@ pub struct pong_surface_values {
     pub normal_law: i32,
     /// Which friction law the surface has: PONG_FRICTION_...
     pub friction_law: i32,
-    /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_HUNT_CROSSLEY_HERTZ), 1e-100 to 1e100; infinite means rigid.
+    /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_..._HERTZ), 1e-100 to 1e100; infinite means rigid.
     pub stiffness: f64,
-    /// Linear: damping, N s/m.
+    /// Linear, power law: damping, N s/m (N s/m^(1+q) with the power law).
     pub damping: f64,
     /// Linear: depth over which the damping sets in, m; 0 means at once.
     pub ramp: f64,
@@ -127,6 +131,7 @@ impl From<&Surface> for pong_surface_values {
         match surface.normal {
             NormalLaw::Linear { damping, ramp } => (values.damping, values.ramp) = (damping, ramp),
             NormalLaw::HuntCrossley { dissipation, .. } => values.dissipation = dissipation,
+            NormalLaw::PowerLaw { damping, .. } => values.damping = damping,
             NormalLaw::Custom { .. } | NormalLaw::Inherited => {}
         }
         match surface.friction {
@@ -161,6 +166,7 @@ impl pong_surface_values {
         match &mut new.normal {
             NormalLaw::Linear { damping, ramp } => (*damping, *ramp) = (self.damping, self.ramp),
             NormalLaw::HuntCrossley { dissipation, .. } => *dissipation = self.dissipation,
+            NormalLaw::PowerLaw { damping, .. } => *damping = self.damping,
             NormalLaw::Custom { .. } | NormalLaw::Inherited => {}
         }
         match &mut new.friction {
@@ -183,6 +189,8 @@ fn normal_number(law: &NormalLaw) -> i32 {
         NormalLaw::Linear { .. } => PONG_NORMAL_LINEAR,
         NormalLaw::HuntCrossley { exponent: Exponent::One, .. } => PONG_NORMAL_HUNT_CROSSLEY,
         NormalLaw::HuntCrossley { exponent: Exponent::ThreeHalves, .. } => PONG_NORMAL_HUNT_CROSSLEY_HERTZ,
+        NormalLaw::PowerLaw { exponent: Exponent::One, .. } => PONG_NORMAL_POWER_LAW,
+        NormalLaw::PowerLaw { exponent: Exponent::ThreeHalves, .. } => PONG_NORMAL_POWER_LAW_HERTZ,
         NormalLaw::Custom { .. } => PONG_NORMAL_CUSTOM,
         NormalLaw::Inherited => PONG_NORMAL_INHERITED,
     }
@@ -195,5 +203,35 @@ fn friction_number(law: &FrictionLaw) -> i32 {
         FrictionLaw::Coulomb { .. } => PONG_FRICTION_COULOMB,
         FrictionLaw::Custom { .. } => PONG_FRICTION_CUSTOM,
         FrictionLaw::Inherited => PONG_FRICTION_INHERITED,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The damping of a power law can be set; its exponents are the law's, and another law is refused.
+    #[test]
+    fn values_of_a_power_law() {
+        for (exponent, number) in
+            [(Exponent::One, PONG_NORMAL_POWER_LAW), (Exponent::ThreeHalves, PONG_NORMAL_POWER_LAW_HERTZ)]
+        {
+            let law = |damping| NormalLaw::PowerLaw { damping, exponent, damping_exponent: 0.6 };
+            let with = |normal| Surface {
+                name: "s".to_owned(),
+                stiffness: 1e6,
+                normal,
+                friction: FrictionLaw::None,
+            };
+            let old = with(law(70.0));
+            let values = pong_surface_values::from(&old);
+            assert_eq!((values.normal_law, values.damping), (number, 70.0));
+            let Ok(new) = (pong_surface_values { damping: 90.0, ..values }).applied_to(&old) else {
+                panic!("refused")
+            };
+            assert_eq!(new, with(law(90.0)));
+            let linear = pong_surface_values { normal_law: PONG_NORMAL_LINEAR, ..values };
+            assert!(linear.applied_to(&old).is_err());
+        }
     }
 }

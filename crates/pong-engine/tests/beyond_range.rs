@@ -178,7 +178,11 @@ fn stiffnesses_at_the_ends_of_their_range_are_springs_in_series() {
 /// Whatever the built-in laws can be told, at the greatest speeds and turns that a state may have: a frame of numbers.
 #[test]
 fn what_a_model_may_say_stays_within_the_range_of_numbers() {
-    for normal in ["Linear(damping: 1e100)", "HuntCrossley(dissipation: 1e100, exponent: 1.0)"] {
+    for normal in [
+        "Linear(damping: 1e100)",
+        "HuntCrossley(dissipation: 1e100, exponent: 1.0)",
+        "PowerLaw(exponent: 1.0, damping_exponent: 0.6, damping: 1e100)",
+    ] {
         let mut rig = Rig::new("1e100", normal);
         for speed in [0.1, 1e50, State::LARGEST, -State::LARGEST] {
             rig.set(1, [0.1, 0.0, 0.0], speed);

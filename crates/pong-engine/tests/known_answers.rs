@@ -413,6 +413,53 @@ fn every_normal_law_follows_its_formula() {
     // Half of the depth in each surface: k·(δ/2)^(3/2) with k = 2e5.
     let hertz = force_of("normal: HuntCrossley(dissipation: 0.8, exponent: 1.5)");
     assert!((hertz - 2e5 * 2e-3_f64.powf(1.5) * factor).abs() < 1e-9);
+    // Two dampers that take half of depth and rate each: 2·c·½^(2 + q)·δ^q·δ'.
+    for q in [0.0_f64, 0.25, 0.5, 0.6, 1.0, 1.5] {
+        let law = format!("normal: PowerLaw(exponent: 1.5, damping_exponent: {q:?}, damping: 900.0)");
+        let damped = 2.0 * 900.0 * 0.5_f64.powf(2.0 + q) * 4e-3_f64.powf(q) * 0.5;
+        assert!((force_of(&law) / (2e5 * 2e-3_f64.powf(1.5) + damped) - 1.0).abs() < 1e-12, "{q}");
+    }
+    // No exponent of the damping is the linear law, to the bit.
+    assert_eq!(
+        force_of("normal: PowerLaw(exponent: 1.0, damping_exponent: 0.0, damping: 120.0)"),
+        force_of("normal: Linear(damping: 120.0)")
+    );
+}
+
+/// On a rigid floor, with q = p, the law is that of Hunt and Crossley with χ = c/k.
+#[test]
+fn a_power_law_with_equal_exponents_is_that_of_hunt_and_crossley() {
+    for exponent in ["1.0", "1.5"] {
+        for (depth, rate) in [(1e-4, 0.5), (4e-3, -0.3), (4e-3, 0.0), (2e-3, -5.0)] {
+            let on_rigid = |law: &str| {
+                let soft = surface(2e5, &format!("normal: {law}, friction: None"));
+                let mut rig = Rig::new(
+                    &model("tip", &soft, "Point(name: \"p\", position: (0,0,0))"),
+                    &model(
+                        "floor",
+                        "\"s\": (stiffness: inf)",
+                        "Plane(name: \"f\", normal: (0,0,1), offset: 0)",
+                    ),
+                );
+                let tip = moving(
+                    Vec3::new(0.0, 0.0, -depth),
+                    Quat::identity(),
+                    Vec3::new(0.0, 0.0, -rate),
+                    Vec3::zeros(),
+                );
+                rig.place([tip, State::identity()]);
+                rig.world.step().unwrap();
+                rig.world.contacts()[0].normal_force
+            };
+            let own = on_rigid(&format!(
+                "PowerLaw(exponent: {exponent}, damping_exponent: {exponent}, damping: 1.6e5)"
+            ));
+            let hunt = on_rigid(&format!("HuntCrossley(dissipation: 0.8, exponent: {exponent})"));
+            assert!((own - hunt).abs() <= 1e-14 * hunt, "{exponent} {depth} {rate}: {own} {hunt}");
+            // It lets go, and never pulls.
+            assert_eq!(hunt == 0.0, rate == -5.0);
+        }
+    }
 }
 
 /// What a spring stores is the integral of its force at rest, of every law: its slope is that force, and it begins at zero.
@@ -423,6 +470,8 @@ fn every_law_stores_the_integral_of_its_force() {
         "normal: Linear(damping: 120.0, ramp: 0.016)",
         "normal: HuntCrossley(dissipation: 0.8, exponent: 1.0)",
         "normal: HuntCrossley(dissipation: 0.8, exponent: 1.5)",
+        "normal: PowerLaw(exponent: 1.0, damping_exponent: 0.6, damping: 900.0)",
+        "normal: PowerLaw(exponent: 1.5, damping_exponent: 1.0, damping: 900.0)",
     ] {
         for depth in [1e-4, 4e-3] {
             let (force, stored) = pressed(law, depth, 0.0);

@@ -10,12 +10,16 @@ use pong_engine::{Config, State, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Quat, Vec3};
 
-const LAWS: [&str; 5] = [
+const LAWS: [&str; 9] = [
     "normal: Linear(damping: 300.0)",
     "normal: Linear(damping: 300.0, ramp: 5e-3)",
     "normal: Linear(damping: 300.0, ramp: 1e-3)",
     "normal: HuntCrossley(dissipation: 0.7, exponent: 1.0)",
     "normal: HuntCrossley(dissipation: 0.7, exponent: 1.5)",
+    "normal: PowerLaw(exponent: 1.0, damping_exponent: 0.6, damping: 3e4)",
+    "normal: PowerLaw(exponent: 1.5, damping_exponent: 0.25, damping: 2e3)",
+    "normal: PowerLaw(exponent: 1.5, damping_exponent: 0.5, damping: 2e3)",
+    "normal: PowerLaw(exponent: 1.5, damping_exponent: 1.0, damping: 4e4)",
 ];
 
 /// A tip on a floor, alike.
@@ -81,6 +85,10 @@ fn closed_forms() {
     // Two springs of 2e5 in a row: 1e5 N/m; two dampers of 300 N·s/m likewise 150.
     assert_eq!(rig(LAWS[0]).pressed(2e-3, 0.2).1, 1e5);
     assert!((rig(LAWS[0]).pressed(2e-3, 0.2).2 - 150.0).abs() < 1e-10);
+    // At touch, where the slope of the power law's damper is without end, the force has none.
+    assert_eq!(rig(LAWS[6]).pressed(0.0, 0.0).0, 0.0);
+    let touching = rig(LAWS[6]).pressed(1e-300, 0.2);
+    assert!(touching.1.is_finite() && touching.2.is_finite(), "{touching:?}");
     // What leaves so fast that the force is cut off at zero has no slope.
     assert_eq!(rig(LAWS[0]).pressed(1e-3, -9.0), (0.0, 0.0, 0.0));
 }

@@ -156,6 +156,15 @@ fn surface_values_change_between_frames_and_laws_do_not() {
         ..soft.clone()
     };
     assert!(rig.world.set_surface(model, &other_law).is_err());
+    let power_law = pong_model::Surface {
+        normal: NormalLaw::PowerLaw {
+            damping: 1.0,
+            exponent: pong_model::Exponent::One,
+            damping_exponent: 0.0,
+        },
+        ..soft.clone()
+    };
+    assert!(rig.world.set_surface(model, &power_law).is_err());
     let rough = pong_model::Surface { friction: FrictionLaw::Coulomb { mu: 0.1, slip_speed: 1e-3 }, ..soft };
     assert!(rig.world.set_surface(model, &rough).is_err());
     rig.world.step().unwrap();

@@ -24,6 +24,9 @@ impl Factor {
             (Self::Damping, NormalLaw::HuntCrossley { dissipation, .. }, _) => {
                 Some(("dissipation, s/m", *dissipation))
             }
+            (Self::Damping, NormalLaw::PowerLaw { damping, .. }, _) => {
+                Some(("damping, N.s/m^(1+damping_exponent)", *damping))
+            }
             (Self::Friction, _, FrictionLaw::Bristle { mu, .. } | FrictionLaw::Coulomb { mu, .. }) => {
                 Some(("friction coefficient", *mu))
             }
@@ -37,7 +40,8 @@ impl Factor {
             Self::Stiffness => surface.stiffness *= scale,
             Self::Damping => match &mut surface.normal {
                 NormalLaw::Linear { damping: value, .. }
-                | NormalLaw::HuntCrossley { dissipation: value, .. } => {
+                | NormalLaw::HuntCrossley { dissipation: value, .. }
+                | NormalLaw::PowerLaw { damping: value, .. } => {
                     *value *= scale;
                 }
                 NormalLaw::Custom { .. } | NormalLaw::Inherited => {}

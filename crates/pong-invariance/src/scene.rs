@@ -75,6 +75,15 @@ pub enum Normal {
         /// 1 or 1.5.
         exponent: f64,
     },
+    /// Spring and damper, each by a power of the depth.
+    PowerLaw {
+        /// N·s/m^(1 + damping_exponent).
+        damping: f64,
+        /// 1 or 1.5.
+        exponent: f64,
+        /// 0 to `exponent`.
+        damping_exponent: f64,
+    },
 }
 
 /// Law of friction.
@@ -249,7 +258,9 @@ impl Scene {
         let [a, b] = [0, 1].map(|body| {
             let surface = &self.bodies[body].surface;
             match surface.normal {
-                Normal::HuntCrossley { exponent, .. } if exponent > 1.0 => {
+                Normal::HuntCrossley { exponent, .. } | Normal::PowerLaw { exponent, .. }
+                    if exponent > 1.0 =>
+                {
                     surface.stiffness * self.size.sqrt()
                 }
                 _ => surface.stiffness,
@@ -271,6 +282,9 @@ impl Scene {
                 Normal::Linear { damping, .. } => damping,
                 Normal::HuntCrossley { dissipation, .. } => {
                     dissipation * surface.stiffness.min(1e12) * self.size
+                }
+                Normal::PowerLaw { damping, damping_exponent, .. } => {
+                    damping * libm::pow(self.size, damping_exponent)
                 }
             };
             let friction = match surface.friction {

@@ -26,6 +26,9 @@ fn surface(surface: &Surface) -> String {
         Normal::HuntCrossley { dissipation, exponent } => {
             format!("HuntCrossley(dissipation: {dissipation:?}, exponent: {exponent:?})")
         }
+        Normal::PowerLaw { damping, exponent, damping_exponent } => format!(
+            "PowerLaw(exponent: {exponent:?}, damping_exponent: {damping_exponent:?}, damping: {damping:?})"
+        ),
     };
     let friction = match surface.friction {
         Friction::Smooth => "None".to_owned(),

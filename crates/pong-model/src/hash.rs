@@ -85,6 +85,11 @@ impl ModelHash {
             }
             NormalLaw::Custom { name, parameters } => self.custom_law(3, name, parameters),
             NormalLaw::Inherited => self.word(4),
+            NormalLaw::PowerLaw { damping, exponent, damping_exponent } => {
+                self.word(if *exponent == Exponent::One { 5 } else { 6 });
+                self.number(*damping);
+                self.number(*damping_exponent);
+            }
         }
     }
 

@@ -15,7 +15,11 @@
 //! ln((1 + χv)/(1 − χev)) = χv·(1 + e)
 //! ```
 //!
-//! Both are solved by bisection, which gives the same bits everywhere.
+//! Both are solved by bisection, which gives the same bits everywhere. The power law has no closed form: `power_law.rs`.
+
+mod power_law;
+
+pub use power_law::{Impact, power_law_damping, restitution_of_power_law};
 
 /// Halvings of an interval of doubles until it cannot shrink any more.
 const HALVINGS: usize = 200;

@@ -76,6 +76,15 @@ pub enum NormalLaw {
         /// e.
         exponent: Exponent,
     },
+    /// F = max(0, k·δ^p + c·δ^q·δ').
+    PowerLaw {
+        /// c, N·s/m^(1+q).
+        damping: f64,
+        /// p.
+        exponent: Exponent,
+        /// q, from 0 to p.
+        damping_exponent: f64,
+    },
     /// A law registered with the engine under this name.
     Custom {
         /// Name of the registered law.
@@ -87,13 +96,33 @@ pub enum NormalLaw {
     Inherited,
 }
 
-/// Exponent of the depth in the Hunt-Crossley law.
+impl NormalLaw {
+    /// Exponent of the depth in the spring's force; 1 of a law of the host's.
+    pub fn exponent(&self) -> Exponent {
+        match self {
+            Self::HuntCrossley { exponent, .. } | Self::PowerLaw { exponent, .. } => *exponent,
+            Self::Linear { .. } | Self::Custom { .. } | Self::Inherited => Exponent::One,
+        }
+    }
+}
+
+/// Exponent of the depth in the Hunt-Crossley law and in the power law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exponent {
     /// e = 1.
     One,
     /// e = 3/2 (Hertz).
     ThreeHalves,
+}
+
+impl Exponent {
+    /// 1 or 1.5.
+    pub fn value(self) -> f64 {
+        match self {
+            Self::One => 1.0,
+            Self::ThreeHalves => 1.5,
+        }
+    }
 }
 
 /// The friction law of a surface (docs/theory.md, 4).

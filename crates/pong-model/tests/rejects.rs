@@ -132,6 +132,41 @@ fn faults_of_surfaces() {
         "surfaces/t",
         "\"t\": (stiffness: 1, normal: /*!*/HuntCrossley(dissipation: 1))",
     );
+    let power_law = |rule: &str, rest: &str| {
+        surface(rule, "surfaces/t", &format!("\"t\": (stiffness: 1e5, normal: PowerLaw({rest}))"));
+    };
+    for q in ["-0.1", "1.6"] {
+        power_law("damping-exponent", &format!("exponent: 1.5, /*!*/damping_exponent: {q}"));
+    }
+    power_law("damping-exponent", "exponent: 1.0, /*!*/damping_exponent: 1.1");
+    power_law("not-finite", "exponent: 1.0, /*!*/damping_exponent: NaN");
+    power_law("exponent", "/*!*/exponent: 2.0, damping_exponent: 1.0");
+    power_law("negative", "exponent: 1.0, damping_exponent: 1.0, /*!*/damping: -1");
+    power_law(
+        "either-or",
+        "exponent: 1.0, damping_exponent: 0.5, damping: 1, /*!*/restitution: (e: 0.5, speed: 1, mass: 1)",
+    );
+    for left in ["speed: 1, mass: 1", "e: 0.5, mass: 1", "e: 0.5, speed: 1"] {
+        power_law(
+            "missing-field",
+            &format!("exponent: 1.0, damping_exponent: 0.5, /*!*/restitution: ({left})"),
+        );
+    }
+    power_law(
+        "not-positive",
+        "exponent: 1.0, damping_exponent: 0.5, restitution: (e: 0.5, /*!*/speed: 0, mass: 1)",
+    );
+    power_law(
+        "restitution-range",
+        "exponent: 1.0, damping_exponent: 1.0, /*!*/restitution: (e: 0.01, speed: 1e-99, mass: 1)",
+    );
+    surface("missing-field", "surfaces/t", "\"t\": (stiffness: 1, normal: /*!*/PowerLaw(exponent: 1.0))");
+    surface(
+        "restitution-of-rigid",
+        "surfaces/t",
+        "\"t\": (stiffness: inf, normal: PowerLaw(exponent: 1.0, damping_exponent: 0.5, \
+         /*!*/restitution: (e: 0.5, speed: 1, mass: 1)))",
+    );
     for e in ["0", "-0.1", "1.1"] {
         let text = format!("\"t\": (stiffness: 1, normal: Linear(restitution: (/*!*/e: {e}, mass: 1)))");
         surface("restitution-range", "surfaces/t", &text);
@@ -196,6 +231,11 @@ fn faults_of_pairs() {
     pair(
         "restitution-without-stiffness",
         "(surfaces: (\"s\", \"b\"),\n/*!*/ normal: Linear(restitution: (e: 0.5, mass: 1)))",
+    );
+    pair(
+        "restitution-without-stiffness",
+        "(surfaces: (\"s\", \"b\"),\n/*!*/ normal: PowerLaw(exponent: 1, damping_exponent: 1, \
+         restitution: (e: 0.5, speed: 1, mass: 1)))",
     );
     let twice = "(format: \"pong-model\", version: 1, name: \"m\", surfaces: { \"s\": (stiffness: 1) }, pairs: [\n\
         (surfaces: (\"s\", \"b\")),\n/*!*/(surfaces: (\"b\", \"s\")) ],\

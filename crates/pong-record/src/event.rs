@@ -90,6 +90,12 @@ enum Normal {
         #[serde(rename = "hertz", with = "hertz")]
         exponent: Exponent,
     },
+    PowerLaw {
+        damping: f64,
+        #[serde(rename = "hertz", with = "hertz")]
+        exponent: Exponent,
+        damping_exponent: f64,
+    },
     Custom {
         name: String,
         parameters: Vec<f64>,
@@ -195,8 +201,16 @@ mod tests {
                 FrictionLaw::Coulomb { mu: 0.7, slip_speed: 1e-3 },
             ),
             (NormalLaw::Custom { name: "mine".to_owned(), parameters: vec![0.3] }, FrictionLaw::None),
+            (
+                NormalLaw::PowerLaw {
+                    damping: 1e7 / 3.0,
+                    exponent: Exponent::ThreeHalves,
+                    damping_exponent: 0.1 + 0.2,
+                },
+                FrictionLaw::None,
+            ),
         ];
-        for ((normal, friction), stiffness) in laws.into_iter().zip([f64::INFINITY, 1e5 / 3.0, 1.0]) {
+        for ((normal, friction), stiffness) in laws.into_iter().zip([f64::INFINITY, 1e5 / 3.0, 1.0, 1e9]) {
             let surface = Surface { name: "s".to_owned(), stiffness, normal, friction };
             let event = Event::Surface { model: 0, name: "s".to_owned(), values: (&surface).into() };
             let text = serde_json::to_string(&LoggedEvent { frame: 3, event }).unwrap();

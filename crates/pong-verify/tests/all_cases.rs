@@ -67,6 +67,7 @@ one_test_each! {
     w15_side_of_entry => "W15",
     w16_restitution => "W16",
     w17_orders_of_contact => "W17",
+    w18_power_law => "W18",
 }
 
 /// The picture beside the report.

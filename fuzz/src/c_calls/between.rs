@@ -221,16 +221,18 @@ impl Session<'_> {
                 let which = self.input.below(numbers.len());
                 *numbers.into_iter().nth(which).expect("one of them") = number;
                 let linear = values.normal_law == 0;
+                let power_law = matches!(values.normal_law, 5 | 6);
                 // Others may belong to a law that the surface has not.
                 match which {
                     0 => (1e-100..=1e100).contains(&number) || number == f64::INFINITY,
                     1 | 2 if linear => (0.0..=1e100).contains(&number),
+                    1 if power_law => (0.0..=1e100).contains(&number),
                     _ => true,
                 }
             }
             1 => {
-                values.normal_law = self.input.one_of(&[0, 1, 2, 3, 4, -1]);
-                (0..4).contains(&values.normal_law)
+                values.normal_law = self.input.one_of(&[0, 1, 2, 3, 4, 5, 6, -1]);
+                (0..=6).contains(&values.normal_law)
             }
             2 => {
                 values.friction_law = self.input.one_of(&[0, 1, 2, 3, 4, -1]);

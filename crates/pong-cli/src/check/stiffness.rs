@@ -2,7 +2,7 @@
 
 use super::named::Named;
 use crate::text::{count, number};
-use pong_engine::{Laws, NormalProps, combine_surfaces, has_tester};
+use pong_engine::{Laws, combine_surfaces, has_tester};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Exponent, Model, MovableGroup, PrimitiveInfo, Surface, pair_entries, printable};
 use std::collections::{BTreeMap, BTreeSet};
@@ -143,6 +143,5 @@ fn faces(body: &MovableGroup) -> BTreeSet<(PrimitiveKind, u32)> {
 fn pair_stiffness(model_a: &Model, a: &Surface, model_b: &Model, b: &Surface) -> Option<(f64, bool)> {
     let entry = pair_entries((model_a, a), (model_b, b)).first().map(|(_, entry)| *entry);
     let props = combine_surfaces(a, b, entry, &Laws::default()).ok()?;
-    let hertz = matches!(props.normal, NormalProps::HuntCrossley { exponent: Exponent::ThreeHalves, .. });
-    Some((props.stiffness, hertz))
+    Some((props.stiffness, props.normal.exponent() == Exponent::ThreeHalves))
 }

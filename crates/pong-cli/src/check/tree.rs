@@ -154,6 +154,12 @@ fn surface_line(surface: &Surface) -> String {
         NormalLaw::HuntCrossley { dissipation, exponent } => {
             format!("Hunt-Crossley, exponent {}, χ {} s/m", exponent_text(*exponent), number(*dissipation))
         }
+        NormalLaw::PowerLaw { damping, exponent, damping_exponent } => format!(
+            "power law, exponent {}, c {} N·s/m^{} with exponent {damping_exponent}",
+            exponent_text(*exponent),
+            number(*damping),
+            1.0 + damping_exponent
+        ),
         NormalLaw::Custom { name, .. } => format!("law `{name}`"),
         NormalLaw::Inherited => "the law of what it meets".to_owned(),
     };
@@ -168,9 +174,9 @@ fn surface_line(surface: &Surface) -> String {
         FrictionLaw::Custom { name, .. } => format!("friction law `{name}`"),
         FrictionLaw::Inherited => "friction of what it meets".to_owned(),
     };
-    let unit = match &surface.normal {
-        NormalLaw::HuntCrossley { exponent: Exponent::ThreeHalves, .. } => "N/m^1.5",
-        _ => "N/m",
+    let unit = match surface.normal.exponent() {
+        Exponent::One => "N/m",
+        Exponent::ThreeHalves => "N/m^1.5",
     };
     format!("`{}`: k {} {unit}, {normal}, {friction}", surface.name, number(surface.stiffness))
 }

@@ -4,11 +4,13 @@
 //! s_A = k_B/(k_A + k_B)     k = k_A·s_A     c = c_A·s_A² + c_B·s_B²     χ = χ_A·s_A + χ_B·s_B
 //! ```
 //!
+//! The power law's c is c_A·s_A^(2+q) + c_B·s_B^(2+q).
 //! With the exponent 3/2 the shares are those of κ_i = k_i^(2/3) and k = (κ_A·κ_B/(κ_A + κ_B))^(3/2).
 //! k_t by the series rule, c_t by squared shares of k_t, each μ by 2·μ_A·μ_B/(μ_A + μ_B).
 //!
 //! A rigid surface has no share: what it does not say of a law is said by the other.
 
+use super::power_law::series_damping;
 use super::props::{CombineError, FrictionProps, NormalProps, PairProps};
 use super::registry::Laws;
 use pong_model::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
@@ -80,13 +82,9 @@ fn completed<'s>(own: &'s Surface, other: &Surface) -> Result<Cow<'s, Surface>, 
 
 fn pair_exponent(a: &Surface, b: &Surface, table: Option<&PairOverride>) -> Exponent {
     let law = table.and_then(|entry| entry.normal.as_ref());
-    let of = |law: &NormalLaw| match law {
-        NormalLaw::HuntCrossley { exponent, .. } => *exponent,
-        _ => Exponent::One,
-    };
     match law {
-        Some(law) => of(law),
-        None if of(&a.normal) == of(&b.normal) => of(&a.normal),
+        Some(law) => law.exponent(),
+        None if a.normal.exponent() == b.normal.exponent() => a.normal.exponent(),
         None => Exponent::One,
     }
 }
@@ -129,6 +127,7 @@ fn law_name(surface: &Surface) -> String {
     match &surface.normal {
         NormalLaw::Linear { .. } => "Linear".to_owned(),
         NormalLaw::HuntCrossley { .. } => "HuntCrossley".to_owned(),
+        NormalLaw::PowerLaw { .. } => "PowerLaw".to_owned(),
         NormalLaw::Custom { name, parameters } => format!("Custom `{name}` with {parameters:?}"),
         NormalLaw::Inherited => "none".to_owned(),
     }
@@ -162,20 +161,41 @@ fn combined_normal(a: &Surface, b: &Surface, share_a: f64) -> Result<NormalLaw, 
             NormalLaw::HuntCrossley { dissipation: chi_b, exponent: other },
         ) => {
             if exponent != other {
-                return Err(needs_entry(a, b, "the exponent of their force law", |surface| {
-                    match surface.normal {
-                        NormalLaw::HuntCrossley { exponent: Exponent::ThreeHalves, .. } => "1.5".to_owned(),
-                        _ => "1".to_owned(),
-                    }
-                }));
+                return Err(exponents_differ(a, b));
             }
             Ok(NormalLaw::HuntCrossley {
                 dissipation: chi_a * share_a + chi_b * share_b,
                 exponent: *exponent,
             })
         }
+        (
+            NormalLaw::PowerLaw { damping: c_a, exponent, damping_exponent },
+            NormalLaw::PowerLaw { damping: c_b, exponent: other, damping_exponent: other_damping },
+        ) => {
+            if exponent != other {
+                return Err(exponents_differ(a, b));
+            }
+            if damping_exponent != other_damping {
+                return Err(needs_entry(a, b, "the exponent of their damping", damping_exponent_of));
+            }
+            let damping = series_damping(*c_a, *c_b, share_a, *damping_exponent);
+            Ok(NormalLaw::PowerLaw { damping, exponent: *exponent, damping_exponent: *damping_exponent })
+        }
         (custom @ NormalLaw::Custom { .. }, other) if custom == other => Ok(custom.clone()),
         _ => Err(needs_entry(a, b, "their normal force law", law_name)),
+    }
+}
+
+fn exponents_differ(a: &Surface, b: &Surface) -> CombineError {
+    needs_entry(a, b, "the exponent of their force law", |surface| {
+        surface.normal.exponent().value().to_string()
+    })
+}
+
+fn damping_exponent_of(surface: &Surface) -> String {
+    match &surface.normal {
+        NormalLaw::PowerLaw { damping_exponent, .. } => damping_exponent.to_string(),
+        _ => law_name(surface),
     }
 }
 
@@ -185,6 +205,11 @@ fn normal_props(law: &NormalLaw, laws: &Laws) -> Result<NormalProps, CombineErro
         NormalLaw::HuntCrossley { dissipation, exponent } => {
             NormalProps::HuntCrossley { dissipation: *dissipation, exponent: *exponent }
         }
+        NormalLaw::PowerLaw { damping, exponent, damping_exponent } => NormalProps::PowerLaw {
+            damping: *damping,
+            exponent: *exponent,
+            damping_exponent: *damping_exponent,
+        },
         NormalLaw::Custom { name, parameters } => {
             NormalProps::Custom { law: laws.normal(name)?, parameters: parameters.clone() }
         }
@@ -336,6 +361,37 @@ mod tests {
         assert_eq!(exponent, Exponent::One);
     }
 
+    /// Power law: what both dampers take of the motion is what that of the pair takes, at any depth; q = 0 is the linear law.
+    #[test]
+    fn dampers_of_the_power_law_dissipate_what_their_pair_does() {
+        for (exponent, q) in [
+            (Exponent::One, 0.0),
+            (Exponent::One, 0.6),
+            (Exponent::ThreeHalves, 0.25),
+            (Exponent::ThreeHalves, 1.0),
+            (Exponent::ThreeHalves, 1.5),
+        ] {
+            let power_law = |stiffness, damping| Surface {
+                normal: NormalLaw::PowerLaw { damping, exponent, damping_exponent: q },
+                ..surface(stiffness, 0.0)
+            };
+            let (a, b) = (power_law(3e5, 900.0), power_law(1e5, 100.0));
+            let props = combine(&a, &b, None, &Laws::default()).unwrap();
+            let NormalProps::PowerLaw { damping, .. } = props.normal else { panic!("not the law of both") };
+            for (depth, rate) in [(1e-3, 0.2), (0.3, -2.0)] {
+                let taken =
+                    |c: f64, share: f64| c * libm::pow(share * depth, q) * (share * rate) * (share * rate);
+                let both = taken(900.0, props.share_a) + taken(100.0, 1.0 - props.share_a);
+                assert!((taken(damping, 1.0) / both - 1.0).abs() < 1e-14, "{q}");
+            }
+            if q == 0.0 {
+                let linear =
+                    combine(&surface(3e5, 900.0), &surface(1e5, 100.0), None, &Laws::default()).unwrap();
+                assert_eq!((damping, props.share_a), (damping_of(&linear), linear.share_a));
+            }
+        }
+    }
+
     #[test]
     fn hertz_surfaces_carry_the_same_force_at_their_share_of_the_depth() {
         let hertz = |stiffness| Surface {
@@ -425,6 +481,7 @@ mod tests {
         let custom = |name: &str| NormalLaw::Custom { name: name.to_owned(), parameters: vec![] };
         let custom_friction = |name: &str| FrictionLaw::Custom { name: name.to_owned(), parameters: vec![] };
         let hunt_crossley = |exponent| NormalLaw::HuntCrossley { dissipation: 0.1, exponent };
+        let power_law = |exponent, q| NormalLaw::PowerLaw { damping: 1.0, exponent, damping_exponent: q };
         let normal = |normal| Surface { normal, ..surface(1e5, 0.0) };
         let friction = |friction| Surface { friction, ..surface(1e5, 0.0) };
         let coulomb = |slip_speed| FrictionLaw::Coulomb { mu: 0.5, slip_speed };
@@ -433,6 +490,17 @@ mod tests {
             (normal(custom("x")), normal(custom("y")), "their normal force law"),
             (normal(custom("x")), surface(1e5, 0.0), "their normal force law"),
             (normal(hunt_crossley(Exponent::One)), normal(hunt_crossley(Exponent::ThreeHalves)), "exponent"),
+            (
+                normal(power_law(Exponent::One, 0.5)),
+                normal(power_law(Exponent::ThreeHalves, 0.5)),
+                "the exponent of their force law: 1 and 1.5",
+            ),
+            (
+                normal(power_law(Exponent::One, 0.5)),
+                normal(power_law(Exponent::One, 0.25)),
+                "the exponent of their damping: 0.5 and 0.25",
+            ),
+            (normal(power_law(Exponent::One, 0.0)), surface(1e5, 0.0), "PowerLaw and Linear"),
             (friction(custom_friction("x")), friction(custom_friction("y")), "their friction law"),
             (friction(coulomb(1e-3)), friction(coulomb(2e-3)), "slip speed"),
             (friction(coulomb(1e-3)), friction(bristle), "their friction law"),
@@ -467,6 +535,7 @@ mod tests {
             NormalLaw::Linear { damping: 30.0, ramp: 1e-4 },
             NormalLaw::HuntCrossley { dissipation: 0.4, exponent: Exponent::One },
             NormalLaw::HuntCrossley { dissipation: 0.4, exponent: Exponent::ThreeHalves },
+            NormalLaw::PowerLaw { damping: 7.0, exponent: Exponent::ThreeHalves, damping_exponent: 1.0 },
         ];
         let frictions = [
             FrictionLaw::None,

@@ -1,12 +1,16 @@
 //! Normal force laws (docs/theory.md, 3): force and stored energy from depth and depth rate.
 
 mod combine;
+mod elastic;
 pub(crate) mod friction;
 mod hunt_crossley;
 mod linear;
 mod normal;
+mod power_law;
 mod props;
 pub(crate) mod registry;
+
+use power_law::Damper;
 
 pub use combine::combine;
 pub(crate) use combine::friction_name;
@@ -20,6 +24,10 @@ pub(crate) fn normal_force(props: &PairProps, w: f64, depth: f64, rate: f64) -> 
         NormalProps::Linear { damping, ramp } => linear::force(k, *damping, *ramp, depth, rate),
         NormalProps::HuntCrossley { dissipation, exponent } => {
             hunt_crossley::force(k, *dissipation, *exponent, depth, rate)
+        }
+        NormalProps::PowerLaw { damping, exponent, damping_exponent } => {
+            let damper = Damper { damping: *damping, exponent: *damping_exponent };
+            power_law::force(k, *exponent, damper, depth, rate)
         }
         NormalProps::Custom { law, parameters } => {
             law.force(&NormalInput { depth, rate, stiffness: k, parameters })
@@ -45,6 +53,10 @@ pub(crate) fn normal_tangent(props: &PairProps, w: f64, depth: f64, rate: f64) -
         NormalProps::HuntCrossley { dissipation, exponent } => {
             hunt_crossley::tangent(k, *dissipation, *exponent, depth, rate)
         }
+        NormalProps::PowerLaw { damping, exponent, damping_exponent } => {
+            let damper = Damper { damping: *damping, exponent: *damping_exponent };
+            power_law::tangent(k, *exponent, damper, depth, rate)
+        }
         NormalProps::Custom { .. } => return None,
     };
     let acts = if normal_force(props, w, depth, rate) > 0.0 { w } else { 0.0 };
@@ -56,7 +68,9 @@ pub(crate) fn stored_energy(props: &PairProps, w: f64, depth: f64) -> f64 {
     let k = props.stiffness;
     w * match &props.normal {
         NormalProps::Linear { .. } => linear::stored(k, depth),
-        NormalProps::HuntCrossley { exponent, .. } => hunt_crossley::stored(k, *exponent, depth),
+        NormalProps::HuntCrossley { exponent, .. } | NormalProps::PowerLaw { exponent, .. } => {
+            elastic::stored(k, *exponent, depth)
+        }
         NormalProps::Custom { law, parameters } => {
             law.stored(&NormalInput { depth, rate: 0.0, stiffness: k, parameters })
         }

@@ -24,7 +24,18 @@ pub struct PairProps {
 pub enum NormalProps {
     Linear { damping: f64, ramp: f64 },
     HuntCrossley { dissipation: f64, exponent: Exponent },
+    PowerLaw { damping: f64, exponent: Exponent, damping_exponent: f64 },
     Custom { law: Arc<dyn NormalForce>, parameters: Vec<f64> },
+}
+
+impl NormalProps {
+    /// Exponent of the depth in the spring's force; 1 of a law of the host's.
+    pub fn exponent(&self) -> Exponent {
+        match self {
+            Self::HuntCrossley { exponent, .. } | Self::PowerLaw { exponent, .. } => *exponent,
+            Self::Linear { .. } | Self::Custom { .. } => Exponent::One,
+        }
+    }
 }
 
 /// Friction law of a pair.

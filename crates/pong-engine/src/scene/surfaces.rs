@@ -55,6 +55,10 @@ fn check_change(old: &Surface, new: &Surface) -> Result<(), EngineError> {
     let same_normal = match (&old.normal, &new.normal) {
         (NormalLaw::Linear { .. }, NormalLaw::Linear { .. }) => true,
         (NormalLaw::HuntCrossley { exponent: a, .. }, NormalLaw::HuntCrossley { exponent: b, .. }) => a == b,
+        (
+            NormalLaw::PowerLaw { exponent: a, damping_exponent: q_a, .. },
+            NormalLaw::PowerLaw { exponent: b, damping_exponent: q_b, .. },
+        ) => a == b && q_a == q_b,
         (NormalLaw::Custom { name: a, .. }, NormalLaw::Custom { name: b, .. }) => a == b,
         (NormalLaw::Inherited, NormalLaw::Inherited) => true,
         _ => false,
@@ -93,6 +97,7 @@ fn check_change(old: &Surface, new: &Surface) -> Result<(), EngineError> {
     let numbers: &[f64] = match &new.normal {
         NormalLaw::Linear { damping, ramp } => &[*damping, *ramp],
         NormalLaw::HuntCrossley { dissipation, .. } => &[*dissipation],
+        NormalLaw::PowerLaw { damping, .. } => &[*damping],
         NormalLaw::Custom { parameters, .. } => parameters,
         NormalLaw::Inherited => &[],
     };

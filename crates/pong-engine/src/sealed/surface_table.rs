@@ -31,7 +31,13 @@ impl SurfaceTable {
         let linear = self.props.iter().flatten().filter_map(|props| match &props.normal {
             NormalProps::Linear { damping, .. } => Some((props.stiffness, *damping)),
             NormalProps::HuntCrossley { exponent: Exponent::One, .. } => Some((props.stiffness, 0.0)),
-            NormalProps::HuntCrossley { .. } | NormalProps::Custom { .. } => None,
+            NormalProps::PowerLaw { damping, exponent: Exponent::One, damping_exponent } => {
+                // At touch.
+                Some((props.stiffness, if *damping_exponent == 0.0 { *damping } else { 0.0 }))
+            }
+            NormalProps::HuntCrossley { .. } | NormalProps::PowerLaw { .. } | NormalProps::Custom { .. } => {
+                None
+            }
         });
         linear.max_by(|a, b| a.0.total_cmp(&b.0))
     }

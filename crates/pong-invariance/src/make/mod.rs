@@ -86,7 +86,9 @@ fn kinds_that_touch(shape: &Shape) -> &'static [&'static str] {
 /// Two surfaces that may meet: one law each of force and friction, other values. Damping is such that its forces are of
 /// the order of the spring's.
 fn surfaces(random: &mut Random, size: f64) -> [Surface; 2] {
-    let law = random.below(6);
+    // Half of the last two laws are power laws of one damping exponent each.
+    let draw = random.below(48);
+    let (law, damping_exponent) = (draw % 6, [0.0, 0.25, 0.6, 1.0].get(draw / 6).copied());
     let friction = random.below(4);
     let ramp = if random.chance(0.2) { random.log_between(1e-4, 1e-1) * size } else { 0.0 };
     let rigid = random.below(6);
@@ -97,8 +99,18 @@ fn surfaces(random: &mut Random, size: f64) -> [Surface; 2] {
         let normal = match law {
             0..=1 => Normal::Linear { damping: 0.0, ramp },
             2..=3 => Normal::Linear { damping: spring * random.between(0.0, 0.1), ramp },
-            4 => Normal::HuntCrossley { dissipation: random.between(0.0, 1.0) / size, exponent: 1.0 },
-            _ => Normal::HuntCrossley { dissipation: random.between(0.0, 1.0) / size, exponent: 1.5 },
+            _ => {
+                let exponent = if law == 4 { 1.0 } else { 1.5 };
+                let dissipation = random.between(0.0, 1.0) / size;
+                match damping_exponent {
+                    None => Normal::HuntCrossley { dissipation, exponent },
+                    Some(damping_exponent) => Normal::PowerLaw {
+                        damping: spring * dissipation * libm::pow(size, exponent - damping_exponent),
+                        exponent,
+                        damping_exponent,
+                    },
+                }
+            }
         };
         let excess = if random.chance(0.3) { random.between(0.0, 0.5) } else { 0.0 };
         let friction = match friction {

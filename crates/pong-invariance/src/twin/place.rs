@@ -130,6 +130,12 @@ pub fn scaled(scene: &Scene, random: &mut Random) -> Option<Twin> {
                     body.surface.stiffness /= s.sqrt();
                 }
             }
+            Normal::PowerLaw { damping, exponent, damping_exponent } => {
+                *damping /= libm::pow(s, *damping_exponent);
+                if *exponent > 1.0 {
+                    body.surface.stiffness /= s.sqrt();
+                }
+            }
         }
         if let Friction::Coulomb { slip_speed, .. } = &mut body.surface.friction {
             *slip_speed *= s;

@@ -1,11 +1,13 @@
 //! The tables of surfaces and of pairs of surfaces.
 
 use super::fields::Fields;
+use super::law_values::{either_or, exponent, not_rigid, restitution};
+use super::power_law::power_law;
 use super::reader::Reader;
 use crate::limits::LARGEST;
 use crate::restitution::{chi_for_restitution, zeta_for_restitution};
 use crate::ron_tree::{Node, Value};
-use crate::surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
+use crate::surface::{FrictionLaw, NormalLaw, PairOverride, Surface};
 use std::collections::HashSet;
 
 /// Reads the `surfaces` map, in the order of the file.
@@ -108,9 +110,10 @@ fn normal_law(
     path: &str,
     known_stiffness: Option<f64>,
 ) -> Option<NormalLaw> {
-    match reader.variant(node, path, &["Linear", "HuntCrossley", "Custom"])? {
+    match reader.variant(node, path, &["Linear", "HuntCrossley", "PowerLaw", "Custom"])? {
         "Linear" => linear(reader, node, path, known_stiffness),
         "HuntCrossley" => hunt_crossley(reader, node, path),
+        "PowerLaw" => power_law(reader, node, path, known_stiffness),
         _ => custom(reader, node, path).map(|(name, parameters)| NormalLaw::Custom { name, parameters }),
     }
 }
@@ -135,12 +138,7 @@ fn linear_damping(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: O
     let fields = Fields::open(reader, node, path, &["e", "mass"])?;
     let e = fields.required(reader, "e").and_then(|node| restitution(reader, node, path));
     let mass = fields.required(reader, "mass").and_then(|node| reader.positive(node, path, "the mass"));
-    let (e, mass, stiffness) = (e?, mass?, stiffness?);
-    if stiffness.is_infinite() {
-        let cause = "a rigid surface has no damping that a restitution could set";
-        let cure = "give the damping, or the restitution on the softer surface or in `pairs`";
-        return reader.refuse(node.at, path, "restitution-of-rigid", cause, cure);
-    }
+    let (e, mass, stiffness) = (e?, mass?, not_rigid(reader, node, path, stiffness?)?);
     let damping = 2.0 * zeta_for_restitution(e) * (stiffness * mass).sqrt();
     if damping <= LARGEST {
         return Some(damping);
@@ -162,15 +160,6 @@ fn hunt_crossley(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<Nor
     Some(NormalLaw::HuntCrossley { dissipation: dissipation?, exponent: exponent? })
 }
 
-fn exponent(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<Exponent> {
-    let value = reader.number(node, path)?;
-    match value {
-        1.0 => Some(Exponent::One),
-        1.5 => Some(Exponent::ThreeHalves),
-        _ => reader.refuse(node.at, path, "exponent", format!("the exponent is {value}"), "it is 1.0 or 1.5"),
-    }
-}
-
 fn chi(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
     let fields = Fields::open(reader, node, path, &["e", "speed"])?;
     let e = fields.required(reader, "e").and_then(|node| restitution(reader, node, path));
@@ -182,22 +171,6 @@ fn chi(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
     }
     let cause = format!("a restitution of {e:e} at {speed:e} m/s makes a dissipation beyond {LARGEST:e} s/m");
     reader.refuse(node.at, path, "restitution-range", cause, "give a larger restitution or speed")
-}
-
-fn restitution(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
-    let e = reader.number(node, path)?;
-    if e > 0.0 && e <= 1.0 {
-        return Some(e);
-    }
-    let cause = format!("the restitution e is {e}");
-    reader.refuse(node.at, path, "restitution-range", cause, "it lies above 0 and is at most 1")
-}
-
-fn either_or(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, one: &str, other: &str) {
-    if fields.optional(one).is_some() && fields.optional(other).is_some() {
-        let cause = format!("`{one}` and `{other}` say the same thing twice");
-        reader.fault(fields.at_field(other), path, "either-or", cause, "keep one of them");
-    }
 }
 
 fn friction_law(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<FrictionLaw> {
@@ -311,7 +284,7 @@ fn pair_normal(
     path: &str,
     stiffness: Option<f64>,
 ) -> Option<NormalLaw> {
-    if stiffness.is_none() && wants_linear_restitution(node) {
+    if stiffness.is_none() && wants_restitution_of_stiffness(node) {
         let cause = "a restitution of the pair needs the stiffness of the pair";
         return reader.refuse(
             node.at,
@@ -324,10 +297,11 @@ fn pair_normal(
     normal_law(reader, node, path, stiffness)
 }
 
-fn wants_linear_restitution(node: &Node) -> bool {
+fn wants_restitution_of_stiffness(node: &Node) -> bool {
     match &node.value {
         Value::Struct(Some(name), fields) => {
-            name.as_ref() == "Linear" && fields.iter().any(|field| field.name.as_ref() == "restitution")
+            matches!(name.as_ref(), "Linear" | "PowerLaw")
+                && fields.iter().any(|field| field.name.as_ref() == "restitution")
         }
         _ => false,
     }

@@ -49,10 +49,20 @@ fn restitutions(
     method: (Integrator, f64),
     phases: usize,
 ) -> Result<Vec<f64>, Failure> {
+    restitutions_of(duo, (MASS, SPEED), method, phases)
+}
+
+/// The same of a point of so much mass (kg) at a speed (m/s).
+pub(super) fn restitutions_of(
+    duo: impl Fn() -> Result<Duo, Failure>,
+    (mass, speed): (f64, f64),
+    method: (Integrator, f64),
+    phases: usize,
+) -> Result<Vec<f64>, Failure> {
     (0..phases)
         .map(|phase| {
-            let gap = SPEED * method.1 * (phase as f64 + 0.5) / phases as f64;
-            let start = point_mass(MASS).at(at(Vec3::z() * gap)).moving(moving(Vec3::z() * -SPEED));
+            let gap = speed * method.1 * (phase as f64 + 0.5) / phases as f64;
+            let start = point_mass(mass).at(at(Vec3::z() * gap)).moving(moving(Vec3::z() * -speed));
             let mut run = duo()?.on_ground(method, start)?;
             run.sim.step()?;
             while run.position().z <= 0.0 || run.velocity().z <= 0.0 {
@@ -61,12 +71,12 @@ fn restitutions(
                     return Err("the mass does not come back".into());
                 }
             }
-            Ok(run.velocity().z / SPEED)
+            Ok(run.velocity().z / speed)
         })
         .collect()
 }
 
-fn mean(values: &[f64]) -> f64 {
+pub(super) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 

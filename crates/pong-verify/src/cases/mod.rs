@@ -14,6 +14,7 @@ mod integrators;
 mod ledger;
 mod orders;
 mod peg;
+mod power_law;
 mod ramp;
 mod rays;
 mod resting;
@@ -72,6 +73,7 @@ pub fn cases() -> Vec<Case> {
         entry::W15,
         bounce::W16,
         orders::W17,
+        power_law::W18,
     ]
 }
 

@@ -166,8 +166,9 @@ class Surface:
     @staticmethod
     def change(held, name, path, value):
         place = held[path[0]] if len(path) == 2 else held
-        # A switch, such as `hertz`, is no number that could be spread.
-        numbers = [key for key, known in place.items() if isinstance(known, float | int) and not isinstance(known, bool)]
+        # A switch, such as `hertz`, is no number that could be spread; an exponent belongs to the law.
+        numbers = [key for key, known in place.items() if isinstance(known, float | int) and not isinstance(known, bool)
+                   and key != "damping_exponent"]
         if path[-1] not in numbers:
             raise CampaignError(f"parameter `{name}`: the surface has no value `{path[-1]}`; it has: {', '.join(numbers)}")
         place[path[-1]] = value
