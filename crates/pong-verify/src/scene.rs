@@ -76,16 +76,18 @@ impl Scene {
     pub fn add(&mut self, file: &str, name: &str) -> Result<ObjectId, Failure> {
         let model = match self.models.iter().find(|(known, _)| known == file) {
             Some((_, model)) => *model,
-            None => self.load(file)?,
+            None => self.load(file, |_| ())?,
         };
         Ok(self.world.create_object(model, name)?)
     }
 
-    fn load(&mut self, file: &str) -> Result<ModelId, Failure> {
+    /// Loads a file with another surface, whose laws may be others, too.
+    fn load(&mut self, file: &str, change: impl FnOnce(&mut Surface)) -> Result<ModelId, Failure> {
         let found = FILES.iter().find(|(name, _)| *name == file);
         let (_, text) = found.ok_or_else(|| format!("there is no model file `{file}`"))?;
-        let model = pong_model::parse(text, &format!("{file}.ron"), None, &Extensions::new())
+        let mut model = pong_model::parse(text, &format!("{file}.ron"), None, &Extensions::new())
             .map_err(|errors| errors.to_string())?;
+        change(&mut model.surfaces[0]);
         let id = self.world.add_model(Arc::new(model));
         self.models.push((file.to_owned(), id));
         Ok(id)
@@ -140,6 +142,15 @@ impl Duo {
     /// As [`new`](Self::new), the world keeping energies if asked.
     pub fn with_ledger(mover: &str, ground: &str, ledger: bool) -> Result<Self, Failure> {
         let mut scene = Scene::new(ledger);
+        let objects = [scene.add(mover, "mover")?, scene.add(ground, "ground")?];
+        scene.pair(objects[0], objects[1])?;
+        Ok(Self { scene, files: [mover, ground].map(str::to_owned), objects })
+    }
+
+    /// A mover whose surface has other laws than its file says, and a ground.
+    pub fn with_laws(mover: &str, ground: &str, change: impl FnOnce(&mut Surface)) -> Result<Self, Failure> {
+        let mut scene = Scene::new(false);
+        scene.load(mover, change)?;
         let objects = [scene.add(mover, "mover")?, scene.add(ground, "ground")?];
         scene.pair(objects[0], objects[1])?;
         Ok(Self { scene, files: [mover, ground].map(str::to_owned), objects })

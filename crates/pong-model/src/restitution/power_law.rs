@@ -22,7 +22,7 @@ use std::f64::consts::FRAC_PI_2;
 /// An impact and its restitution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
-    /// Rebound speed over impact speed, 0 < e ≤ 1.
+    /// Rebound speed over impact speed, 0 < e ≤ 1; no unit.
     pub e: f64,
     /// Impact speed, m/s.
     pub speed: f64,

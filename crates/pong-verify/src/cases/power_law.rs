@@ -52,7 +52,7 @@ fn bounced(
 /// The mean slope of a function of e in the logarithm of speed and of mass, between `1/factor` and `factor` times the
 /// nominal ones.
 fn slopes(law: (Exponent, f64), e: f64, factor: f64, of: impl Fn(f64) -> f64) -> Result<(f64, f64), Failure> {
-    let duo = || Duo::new("point_power_law", "ground_rigid")?.mover(|s| set_law(s, law, e));
+    let duo = || Duo::with_laws("point_power_law", "ground_rigid", |s| set_law(s, law, e));
     let at = |by_mass: f64, by_speed: f64| {
         let (mass, speed) = NOMINAL;
         bounced(duo, law.0, (mass * by_mass, speed * by_speed)).map(&of)
@@ -75,7 +75,7 @@ fn rows() -> Outcome {
         (Exponent::ThreeHalves, 0.5),
         (Exponent::ThreeHalves, 1.5),
     ] {
-        let duo = || Duo::new("point_power_law", "ground_rigid")?.mover(|s| set_law(s, law, 0.6));
+        let duo = || Duo::with_laws("point_power_law", "ground_rigid", |s| set_law(s, law, 0.6));
         let got = bounced(duo, law.0, NOMINAL)?;
         rows.push(Row::absolute(format!("{}: e, mean", named(law)), "", 0.6, got, 1e-4));
     }
