@@ -293,7 +293,7 @@ class Removed(WithScene):
                                item.animation_data and item.animation_data.action, tuple(map(tuple, item.matrix_world)))
                    for item in scene.objects}
         settings = [getattr(scene, name) for name in self.LOOK] + [render.fps, render.engine, render.resolution_x]
-        settings += [scene.view_settings.view_transform, scene.display.shading.color_type, sorted(set(scene.keys()) - {"pong_response_log"})]
+        settings += [scene.view_settings.view_transform, scene.display.shading.color_type, [key for key in scene.keys() if key in ("pong_before", "pong_response")]]
         kinds = (bpy.data.objects, bpy.data.meshes, bpy.data.actions, bpy.data.cameras, bpy.data.lights, bpy.data.materials,
                  bpy.data.collections, bpy.data.worlds)
         return objects, settings, [sorted(kind.keys()) for kind in kinds]
