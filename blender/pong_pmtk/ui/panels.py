@@ -5,7 +5,7 @@ import bpy
 
 from ..store.references import current_root
 from ..store.state import state
-from ..store.surfaces import shares_friction
+from ..store.surfaces import RESTITUTIONS, shares_friction
 from . import overlay
 
 SIZES = {
