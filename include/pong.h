@@ -676,7 +676,8 @@ typedef struct pong_surface_values {
     double friction_static_excess;
     /// Bristle: tangential stiffness, N/m, 1e-100 to 1e100; 0 takes two thirds of the normal stiffness.
     double friction_stiffness;
-    /// Bristle: tangential damping, N s/m.
+    /// Bristle: tangential damping, N s/m. Got, it is what acts, also where the model leaves it to the normal law; once set, it
+    /// no longer follows that law.
     double friction_damping;
     /// Coulomb: slip speed at which the full force is reached, m/s.
     double friction_slip_speed;

@@ -14,7 +14,7 @@ def rigid(friction=0.0):
 def _friction(friction, damping=None):
     if not friction:
         return ""
-    more = f", damping: {damping!r}" if damping else ""
+    more = "" if damping is None else f", damping: {damping!r}"
     return f", friction: Bristle(mu: {friction!r}{more})"
 
 

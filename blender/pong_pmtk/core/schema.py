@@ -91,6 +91,7 @@ FRICTION_LAWS: dict[str, tuple[Field, ...]] = {
         ("static_excess", "not_negative"),
         ("stiffness", "finite_stiffness"),
         ("damping", "not_negative"),
+        ("mass", "positive"),
     ),
     "Coulomb": _fields(("mu", "not_negative", REQUIRED), ("slip_speed", "positive", REQUIRED)),
     "Custom": _fields(("name", "text_value", REQUIRED), ("parameters", "numbers", ())),

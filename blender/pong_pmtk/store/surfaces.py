@@ -94,6 +94,21 @@ def _set_restitution(self, on):
     spec.put(self, ("normal", FIELDS, "restitution"), {"e": 0.5, **impact} if on else None)
 
 
+def _bristle_given(key, other, start):
+    """Whether a bristle gives its damping, or a mass for it: one of both at most."""
+
+    def get(self):
+        return spec.value_at(spec.read(self), ("friction", FIELDS, key)) is not None
+
+    def set_(self, on):
+        if on != get(self):
+            spec.put(self, ("friction", FIELDS, key), start if on else None)
+            if on:
+                spec.put(self, ("friction", FIELDS, other), None)
+
+    return {"get": get, "set": set_}
+
+
 def _stiffness_unit(self):
     return "N/m^1.5" if _exponent(self) else "N/m"
 
@@ -119,7 +134,10 @@ NUMBERS = {
     "static_excess": ("", ("friction", FIELDS, "static_excess"), "Static Excess", "Breaks away at (1 + a)·μ"),
     "bristle_stiffness": ("N/m", ("friction", FIELDS, "stiffness"), "Bristle Spring",
                           "Stiffness of the bristle; two thirds of the normal stiffness unless given"),
-    "bristle_damping": ("N·s/m", ("friction", FIELDS, "damping"), "Bristle Damper", "Damping of the bristle"),
+    "bristle_damping": ("N·s/m", ("friction", FIELDS, "damping"), "Bristle Damper",
+                        "Damping of the bristle: 0 is undamped; unless given, critical for the mass of the restitution, "
+                        "or with the damping ratio of the normal law"),
+    "bristle_mass": ("kg", ("friction", FIELDS, "mass"), "Bristle Mass", "Mass for which the bristle's damping is critical"),
     "slip_speed": ("m/s", ("friction", FIELDS, "slip_speed"), "Slip Speed", "Speed at which the full force is reached"),
 }
 
@@ -142,7 +160,8 @@ class Laws:
     normal_parameters: spec.numbers("normal", FIELDS, "parameters", name="Parameters")
     use_static_excess: spec.given("friction", FIELDS, "static_excess", name="Static Excess")
     use_bristle_stiffness: spec.given("friction", FIELDS, "stiffness", default=1e5, name="Bristle Spring")
-    use_bristle_damping: spec.given("friction", FIELDS, "damping", name="Bristle Damper")
+    use_bristle_damping: bpy.props.BoolProperty(name="Bristle Damper", **_bristle_given("damping", "mass", 0.0))
+    use_bristle_mass: bpy.props.BoolProperty(name="Bristle Mass", **_bristle_given("mass", "damping", 1.0))
     friction_name: spec.text("friction", FIELDS, "name", name="Law")
     friction_parameters: spec.numbers("friction", FIELDS, "parameters", name="Parameters")
 

@@ -117,14 +117,15 @@ class PONG_PT_object(Panel, bpy.types.Panel):
             layout.prop(mark, "parameters")
 
 
-def draw_optional(layout, holder, name, field=""):
-    """A number that need not be given, behind its switch; `field`: the property that shows it, if another one."""
+def draw_optional(layout, holder, name, field="", unset="default"):
+    """A number that need not be given, behind its switch; `field`: the property that shows it, if another one; `unset`: where
+    the number comes from if it is not given."""
     row = layout.row(heading=holder.bl_rna.properties[name].name)
     row.prop(holder, f"use_{name}", text="")
     if getattr(holder, f"use_{name}"):
         row.prop(holder, field or name, text="")
     else:
-        row.label(text="default")
+        row.label(text=unset)
 
 
 def draw_surface_choice(layout, context, holder, name="surface"):
@@ -218,13 +219,26 @@ def draw_laws(layout, laws):
     if laws.friction in ("Bristle", "Coulomb"):
         draw_quantity(layout, laws, "mu")
     if laws.friction == "Bristle":
-        for name in ("static_excess", "bristle_stiffness", "bristle_damping"):
+        for name in ("static_excess", "bristle_stiffness"):
             draw_optional(layout, laws, name, f"{name}_text")
+        draw_bristle_damping(layout, laws)
     elif laws.friction == "Coulomb":
         draw_quantity(layout, laws, "slip_speed")
     elif laws.friction == "Custom":
         layout.prop(laws, "friction_name")
         layout.prop(laws, "friction_parameters")
+
+
+def draw_bristle_damping(layout, laws):
+    """Damping, or a mass for it, and what it comes from without both."""
+    if laws.use_bristle_mass:
+        unset = "from the bristle's mass"
+    elif laws.normal == "Linear" and laws.use_restitution:
+        unset = "from the mass of the restitution"
+    else:
+        unset = "from the normal law"
+    draw_optional(layout, laws, "bristle_damping", "bristle_damping_text", unset)
+    draw_optional(layout, laws, "bristle_mass", "bristle_mass_text", "none")
 
 
 def draw_quantity(layout, holder, name):

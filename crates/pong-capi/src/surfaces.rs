@@ -59,7 +59,8 @@ pub struct pong_surface_values {
     pub friction_static_excess: f64,
     /// Bristle: tangential stiffness, N/m, 1e-100 to 1e100; 0 takes two thirds of the normal stiffness.
     pub friction_stiffness: f64,
-    /// Bristle: tangential damping, N s/m.
+    /// Bristle: tangential damping, N s/m. Got, it is what acts, also where the model leaves it to the normal law; once set, it
+    /// no longer follows that law.
     pub friction_damping: f64,
     /// Coulomb: slip speed at which the full force is reached, m/s.
     pub friction_slip_speed: f64,
@@ -135,11 +136,11 @@ impl From<&Surface> for pong_surface_values {
             NormalLaw::Custom { .. } | NormalLaw::Inherited => {}
         }
         match surface.friction {
-            FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
+            FrictionLaw::Bristle { mu, static_excess, stiffness, .. } => {
                 values.friction = mu;
                 values.friction_static_excess = static_excess;
                 values.friction_stiffness = stiffness.unwrap_or(0.0);
-                values.friction_damping = damping;
+                values.friction_damping = surface.bristle().map_or(0.0, |(_, c_t)| c_t);
             }
             FrictionLaw::Coulomb { mu, slip_speed } => {
                 (values.friction, values.friction_slip_speed) = (mu, slip_speed);
@@ -173,7 +174,7 @@ impl pong_surface_values {
             FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
                 (*mu, *static_excess) = (self.friction, self.friction_static_excess);
                 *stiffness = (self.friction_stiffness != 0.0).then_some(self.friction_stiffness);
-                *damping = self.friction_damping;
+                *damping = Some(self.friction_damping);
             }
             FrictionLaw::Coulomb { mu, slip_speed } => {
                 (*mu, *slip_speed) = (self.friction, self.friction_slip_speed);

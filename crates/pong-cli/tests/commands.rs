@@ -316,3 +316,59 @@ fn wrong_usage_ends_with_two() {
     assert_eq!(pong(&folder, &["--help"]).0, 0);
     assert!(pong(&folder, &["--version"]).1.starts_with("pong "));
 }
+
+/// `pong check` tells the spring and the damper of each bristle, and which bristles are undamped, why, and the cure.
+#[test]
+fn check_tells_of_the_damping_of_bristles() {
+    let surfaces = r#"
+        "by mass": (stiffness: 6e4, normal: Linear(restitution: (e: 0.5, mass: 1.0)), friction: Bristle(mu: 0.3)),
+        "by law": (stiffness: 6e4, normal: Linear(damping: 30.0), friction: Bristle(mu: 0.3, stiffness: 1.5e4)),
+        "on purpose": (stiffness: 6e4, normal: Linear(damping: 30.0), friction: Bristle(mu: 0.3, damping: 0)),
+        "no damper": (stiffness: 6e4, friction: Bristle(mu: 0.3)),
+        "no mass": (stiffness: 6e4, normal: HuntCrossley(dissipation: 0.5, exponent: 1), friction: Bristle(mu: 0.3)),
+        "slippery": (stiffness: 6e4, friction: Bristle(mu: 0.0)),
+        "rigid": (stiffness: inf, friction: Bristle(mu: 0.3))"#;
+    let pairs = r#"(surfaces: ("by mass", "stone"), friction: Bristle(mu: 0.1)),
+        (surfaces: ("by law", "stone"), normal: HuntCrossley(exponent: 1), friction: Bristle(mu: 0.1)),
+        (surfaces: ("on purpose", "stone"), friction: Bristle(mu: 0.1, damping: 0))"#;
+    let foot = |name: &str| format!("Point(name: \"{name}\", position: (0, 0, 0), surface: \"{name}\")");
+    let feet = ["by mass", "by law", "on purpose"].map(foot).join(", ");
+    let feet = format!(
+        "(format: \"pong-model\", version: 1, name: \"feet\", surfaces: {{ {surfaces} }}, pairs: [{pairs}],\n\
+         root: (name: \"feet\", primitives: [{feet}]))"
+    );
+    let floor = GROUND.replace("\"rigid\"", "\"stone\"");
+    let folder = common::folder("commands/bristles", &[("feet.ron", &feet), ("floor.ron", &floor)]);
+    let (code, out, err) = pong(&folder, &["check", "feet.ron", "floor.ron"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let effect = "it throws back along the surface what it has stored";
+    let cure = "write Bristle(mu: …, mass: …), or `damping: …`, with 0 if this is meant";
+    assert_holds(
+        &out,
+        &[
+            "bristle, μ_k 0.3, μ_s 0.3, k_t 40000 N/m, c_t 400 N·s/m\n",
+            "bristle, μ_k 0.3, μ_s 0.3, k_t 15000 N/m, c_t 15 N·s/m from the normal law\n",
+            "`on purpose`: k 60000 N/m, linear, c 30 N·s/m, ramp 0 m, bristle, μ_k 0.3, μ_s 0.3, k_t 40000 N/m, c_t 0 N·s/m\n",
+            &format!(
+                "  note: the bristle of surface `on purpose` is undamped, as `damping: 0` says: {effect}\n"
+            ),
+            &format!(
+                "  note: the bristle of surface `no damper` is undamped, because the normal law has no damping, and no mass is \
+                 named: {effect}; {cure}\n"
+            ),
+            &format!(
+                "  note: the bristle of surface `no mass` is undamped, because no mass is named: {effect}; {cure}\n"
+            ),
+            "`rigid`: k inf N/m, the law of what it meets, bristle, μ_k 0.3, μ_s 0.3\n",
+            &format!(
+                "  note: the bristle of the pair `on purpose` and `stone` is undamped, as `damping: 0` says: {effect}\n"
+            ),
+            "  bristle of the pair `by mass` and `stone`: k_t 40000 N/m, c_t 400 N·s/m\n",
+            "  bristle of the pair `by law` and `stone`: k_t 40000 N/m, c_t 0 N·s/m\n",
+            &format!(
+                "  note: the bristle of the pair `by law` and `stone` is undamped, because no mass is named: {effect}; {cure}\n"
+            ),
+        ],
+    );
+    assert_eq!(out.matches("note: the bristle").count(), 5, "{out}");
+}

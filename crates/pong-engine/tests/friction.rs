@@ -243,3 +243,44 @@ fn what_slipped_has_no_step_in_place_velocity_or_load() {
         }
     }
 }
+
+/// Tangential speed after an oblique impact that sticks throughout, over the one before: a point mass that meets the floor at 1 m/s
+/// along both axes, without normal damping, so that it stays for π/ω_n.
+fn thrown_back(friction: &str) -> f64 {
+    const MASS: f64 = 2.0;
+    let steps = 20_000;
+    let surface = format!(
+        "\"s\": (stiffness: 5e4, normal: Linear(restitution: (e: 1, mass: {MASS:?})), friction: {friction})"
+    );
+    let mut rig = Rig::new(
+        &model("tip", &surface, "Point(name: \"p\", position: (0,0,0))"),
+        &model("floor", "\"s\": (stiffness: inf)", "Plane(name: \"f\", normal: (0,0,1), offset: 0)"),
+    );
+    let duration = std::f64::consts::PI * (MASS / 5e4_f64).sqrt();
+    let step = duration / f64::from(steps);
+    let (mut place, mut velocity) = (Vec3::zeros(), Vec3::new(1.0, 0.0, -1.0));
+    for _ in 0..steps + 2 {
+        rig.place([moving(place, Quat::identity(), velocity, Vec3::zeros()), State::identity()]);
+        rig.world.step().unwrap();
+        velocity +=
+            rig.world.contacts().first().map_or(Vec3::zeros(), |contact| contact.force) * (step / MASS);
+        place += velocity * step;
+    }
+    assert!((velocity.z - 1.0).abs() < 1e-3, "{velocity:?}");
+    velocity.x
+}
+
+/// Undamped the bristle has thrown back cos(√⅔·π) = −0.84 of the tangential speed when the contact ends; critically damped it
+/// has taken it up, but for (1 − x)·exp(−x) with x = √⅔·π.
+#[test]
+fn an_undamped_bristle_throws_back_along_the_floor_and_the_default_does_not() {
+    let x = std::f64::consts::PI * (2.0_f64 / 3.0).sqrt();
+    for (friction, expected) in [
+        ("Bristle(mu: 1e3, damping: 0)", x.cos()),
+        ("Bristle(mu: 1e3)", (1.0 - x) * (-x).exp()),
+        ("Bristle(mu: 1e3, mass: 2)", (1.0 - x) * (-x).exp()),
+    ] {
+        let found = thrown_back(friction);
+        assert!((found - expected).abs() < 2e-3, "{friction}: {found} {expected}");
+    }
+}

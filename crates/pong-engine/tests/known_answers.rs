@@ -92,6 +92,19 @@ fn a_dragged_point_sticks_then_slips_then_sticks_again() {
     assert!(force > 0.0, "{force}");
 }
 
+/// c_t of both in series as c is: 120·√⅔ N·s/m, at the first touch, before the bristle has moved.
+#[test]
+fn friction_has_the_damping_ratio_of_the_normal_law() {
+    let (a, b) = unequal("friction: Bristle(mu: 50)");
+    let mut rig = Rig::new(&a, &b);
+    let state = moving(Vec3::new(0.0, 0.0, 0.196), Quat::identity(), Vec3::new(0.3, 0.0, 0.0), Vec3::zeros());
+    rig.place([state, State::identity()]);
+    rig.world.step().unwrap();
+    let force = rig.world.contacts()[0].friction_force;
+    let expected = -0.3 * 120.0 * (2.0_f64 / 3.0).sqrt();
+    assert!((force - Vec3::new(expected, 0.0, 0.0)).norm() < 1e-12, "{force:?}");
+}
+
 #[test]
 fn friction_damping_is_cut_to_the_limit() {
     let friction = "friction: Bristle(mu: 0.5, stiffness: 4e4, damping: 400.0)";

@@ -101,7 +101,11 @@ impl ModelHash {
                 self.number(*mu);
                 self.number(*static_excess);
                 self.option(*stiffness);
-                self.number(*damping);
+                match damping {
+                    Some(damping) => self.number(*damping),
+                    // The bits of no finite number.
+                    None => self.word(u64::MAX),
+                }
             }
             FrictionLaw::Coulomb { mu, slip_speed } => {
                 self.word(2);

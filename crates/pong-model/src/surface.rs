@@ -46,6 +46,16 @@ impl Surface {
         self.normal == NormalLaw::Inherited || self.friction == FrictionLaw::Inherited
     }
 
+    /// k_t (N/m) and c_t (N·s/m) of its bristle, values left out included; `None` without a bristle.
+    pub fn bristle(&self) -> Option<(f64, f64)> {
+        let FrictionLaw::Bristle { stiffness, damping, .. } = self.friction else { return None };
+        let k_t = stiffness.unwrap_or(Self::BRISTLE_SHARE * self.stiffness);
+        Some((k_t, damping.unwrap_or_else(|| self.normal.bristle_damping(self.stiffness, k_t))))
+    }
+
+    /// Stiffness of a bristle that gives none, over the normal stiffness.
+    pub const BRISTLE_SHARE: f64 = 2.0 / 3.0;
+
     /// The stiffest that is not rigid, N/m (N/m^1.5 with the exponent 3/2), of surface, pair and bristle. As no place is
     /// beyond 1e100 m, energy and moment of a spring without damping stay below 1e301: within the range of numbers, and so
     /// do sums of stiffnesses.
@@ -104,6 +114,15 @@ impl NormalLaw {
             Self::Linear { .. } | Self::Custom { .. } | Self::Inherited => Exponent::One,
         }
     }
+
+    /// c_t (N·s/m) of a bristle of stiffness `k_t` that gives none, beside a normal spring of stiffness `k`: c·√(k_t/k) is the
+    /// damping ratio of the linear law on every mass. A rigid surface and the other laws have no such ratio, which leaves 0.
+    pub fn bristle_damping(&self, k: f64, k_t: f64) -> f64 {
+        match self {
+            Self::Linear { damping, .. } if k.is_finite() => damping * (k_t / k).sqrt(),
+            _ => 0.0,
+        }
+    }
 }
 
 /// Exponent of the depth in the Hunt-Crossley law and in the power law.
@@ -138,8 +157,8 @@ pub enum FrictionLaw {
         static_excess: f64,
         /// k_t, N/m; `None` takes ⅔ of the normal stiffness.
         stiffness: Option<f64>,
-        /// c_t, N·s/m.
-        damping: f64,
+        /// c_t, N·s/m; `None` takes the damping ratio of the normal law ([`NormalLaw::bristle_damping`]).
+        damping: Option<f64>,
     },
     /// Regularised Coulomb friction; creeps.
     Coulomb {
@@ -169,6 +188,7 @@ pub struct PairOverride {
     pub stiffness: Option<f64>,
     /// Normal law with its damping values, those of the pair.
     pub normal: Option<NormalLaw>,
-    /// Friction law with its values, those of the pair (`stiffness: None` keeps ⅔·k).
+    /// Friction law with its values, those of the pair. `stiffness: None` keeps ⅔·k. `damping: None` follows the normal law of
+    /// this entry, or without one keeps the damping ratio that the bristles of the two surfaces have together.
     pub friction: Option<FrictionLaw>,
 }

@@ -80,7 +80,7 @@ fn surfaces_and_pairs_are_read() {
     // c·2^(−0.2)·k^(−0.8)·m^(−0.2)·v^0.6 = 0.60744 gives e = 0.6 (an integration in time by another program).
     let group = damping * (1e9_f64.powf(-0.8) * (2.0_f64 * 0.04).powf(-0.2) * 2.0_f64.powf(0.6));
     assert!((group - 0.607_435).abs() < 1e-4, "{group}");
-    let bristle = FrictionLaw::Bristle { mu: 0.2, static_excess: 0.1, stiffness: None, damping: 3.0 };
+    let bristle = FrictionLaw::Bristle { mu: 0.2, static_excess: 0.1, stiffness: None, damping: Some(3.0) };
     assert_eq!(by_name("rubber").friction, bristle);
     assert_eq!(model.pair_overrides[0].surfaces, ["steel".to_owned(), "elsewhere".to_owned()]);
     assert_eq!(model.pair_overrides[0].friction, Some(FrictionLaw::None));
@@ -150,4 +150,108 @@ fn poses_of_nested_groups_turn_one_after_the_other() {
     assert!((body.planes[0].offset - 7.0).abs() < 1e-14);
     assert!(near(body.rays[0].direction, [-1.0, 0.0, 0.0]));
     assert!((body.ellipsoids[0].half_width(&Vec3::z()) - 2.0).abs() < 1e-14);
+}
+
+/// Surfaces and pairs in RON.
+fn with_tables(surfaces: &str, pairs: &str) -> pong_model::Model {
+    load(&format!(
+        "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{ \"s\": (stiffness: 1), {surfaces} }}, pairs: [{pairs}],\n\
+         root: (name: \"root\", surface: \"s\", primitives: [Point(name: \"p\", position: (0,0,0))]))"
+    ))
+}
+
+/// c_t = 2·√(k_t·m) of a mass that is named; else the damping ratio of the linear law, c·√(k_t/k); else 0.
+#[test]
+fn a_bristle_without_damping_takes_it_from_a_mass_or_from_the_normal_law() {
+    let rebound = "normal: Linear(restitution: (e: 0.5, mass: 3.0))";
+    let crossley = "normal: HuntCrossley(dissipation: 0.2, exponent: 1.5)";
+    let (k, third): (f64, f64) = (9e5, 2.0 / 3.0);
+    for (laws, k_t, c_t) in [
+        (format!("{rebound}, friction: Bristle(mu: 0.3)"), third * k, 2.0 * (third * k * 3.0).sqrt()),
+        (format!("{rebound}, friction: Bristle(mu: 0.3, stiffness: 4e4)"), 4e4, 2.0 * (4e4_f64 * 3.0).sqrt()),
+        (
+            format!("{rebound}, friction: Bristle(mu: 0.3, mass: 0.5)"),
+            third * k,
+            2.0 * (third * k * 0.5).sqrt(),
+        ),
+        (format!("{rebound}, friction: Bristle(mu: 0.3, damping: 7)"), third * k, 7.0),
+        (format!("{rebound}, friction: Bristle(mu: 0.3, damping: 0)"), third * k, 0.0),
+        (
+            format!("{crossley}, friction: Bristle(mu: 0.3, mass: 2)"),
+            third * k,
+            2.0 * (third * k * 2.0).sqrt(),
+        ),
+        (format!("{crossley}, friction: Bristle(mu: 0.3)"), third * k, 0.0),
+        ("friction: Bristle(mu: 0.3, mass: 2)".to_owned(), third * k, 2.0 * (third * k * 2.0).sqrt()),
+        ("friction: Bristle(mu: 0.3)".to_owned(), third * k, 0.0),
+        (
+            "normal: Linear(damping: 60), friction: Bristle(mu: 0.3)".to_owned(),
+            third * k,
+            60.0 * third.sqrt(),
+        ),
+        (
+            "normal: Linear(damping: 60), friction: Bristle(mu: 0.3, stiffness: 1e4)".to_owned(),
+            1e4,
+            60.0 / 90_f64.sqrt(),
+        ),
+    ] {
+        let model = with_tables(&format!("\"t\": (stiffness: 9e5, {laws})"), "");
+        let (found_k_t, found_c_t) = model.surfaces[1].bristle().unwrap();
+        assert!((found_k_t - k_t).abs() <= 1e-15 * k_t, "{laws}: {found_k_t}");
+        assert!((found_c_t - c_t).abs() <= 1e-15 * c_t, "{laws}: {found_c_t}");
+    }
+}
+
+/// A rigid surface has no share of the bristle; one with a soft bristle of its own may name the mass for it.
+#[test]
+fn a_bristle_of_a_rigid_surface_needs_no_damping() {
+    for (bristle, k_t, c_t) in [
+        ("Bristle(mu: 0.3)", f64::INFINITY, 0.0),
+        ("Bristle(mu: 0.3, stiffness: 4e4)", 4e4, 0.0),
+        ("Bristle(mu: 0.3, stiffness: 4e4, mass: 1)", 4e4, 400.0),
+    ] {
+        for normal in ["", "normal: Linear(damping: 60),"] {
+            let model = with_tables(&format!("\"t\": (stiffness: inf, {normal} friction: {bristle})"), "");
+            assert_eq!(model.surfaces[1].bristle(), Some((k_t, c_t)), "{normal} {bristle}");
+        }
+    }
+}
+
+/// An entry of `pairs` names mass and stiffness itself, or leaves the damping to the two surfaces.
+#[test]
+fn a_bristle_of_a_pair_takes_the_mass_that_its_entry_names() {
+    for (values, expected) in [
+        (
+            "stiffness: 6e4, normal: Linear(restitution: (e: 0.5, mass: 1)), friction: Bristle(mu: 0.3)",
+            Some(400.0),
+        ),
+        ("stiffness: 6e4, friction: Bristle(mu: 0.3, mass: 4)", Some(800.0)),
+        ("friction: Bristle(mu: 0.3, stiffness: 1e4, mass: 4)", Some(400.0)),
+        ("stiffness: 6e4, normal: Linear(damping: 9), friction: Bristle(mu: 0.3)", None),
+        ("friction: Bristle(mu: 0.3)", None),
+        ("friction: Bristle(mu: 0.3, damping: 0)", Some(0.0)),
+    ] {
+        let model = with_tables("", &format!("(surfaces: (\"s\", \"s\"), {values})"));
+        let Some(FrictionLaw::Bristle { damping, .. }) = model.pair_overrides[0].friction else { panic!() };
+        assert_eq!(damping, expected, "{values}");
+    }
+}
+
+/// Damping that is left out follows the normal law as it is, so it is another model than the same number or none.
+#[test]
+fn the_hash_knows_whether_a_bristle_gives_its_damping() {
+    let hash = |bristle: &str| {
+        with_tables(
+            &format!("\"t\": (stiffness: 1e5, normal: Linear(damping: 9), friction: Bristle({bristle}))"),
+            "",
+        )
+        .hash
+    };
+    let derived = format!("mu: 0.3, damping: {:?}", 9.0 * (2.0_f64 / 3.0).sqrt());
+    assert_ne!(hash("mu: 0.3"), hash("mu: 0.3, damping: 0"));
+    assert_ne!(hash("mu: 0.3"), hash(&derived));
+    assert_eq!(
+        hash("mu: 0.3, mass: 6"),
+        hash(&format!("mu: 0.3, damping: {:?}", 2.0 * (2.0 / 3.0 * 1e5 * 6.0_f64).sqrt()))
+    );
 }

@@ -192,6 +192,39 @@ fn faults_of_surfaces() {
         "surfaces/t",
         "\"t\": (stiffness: 1, friction: Bristle(mu: 1, /*!*/stiffness: 0))",
     );
+    for mass in ["0", "-1"] {
+        surface(
+            "not-positive",
+            "surfaces/t",
+            &format!("\"t\": (stiffness: 1, friction: Bristle(mu: 1, /*!*/mass: {mass}))"),
+        );
+    }
+    surface(
+        "either-or",
+        "surfaces/t",
+        "\"t\": (stiffness: 1, friction: Bristle(mu: 1, damping: 0,\n/*!*/ mass: 1))",
+    );
+    surface(
+        "mass-of-rigid",
+        "surfaces/t",
+        "\"t\": (stiffness: inf, friction: Bristle(mu: 1,\n/*!*/ mass: 1))",
+    );
+    // 2·√(⅔·1e100·1e100), once of each mass, and 1e100·√(1e100/1e-100).
+    surface(
+        "damping-range",
+        "surfaces/t",
+        "\"t\": (stiffness: 1e100, friction: Bristle(mu: 1, /*!*/mass: 1e100))",
+    );
+    surface(
+        "damping-range",
+        "surfaces/t",
+        "\"t\": (stiffness: 1e100, normal: Linear(restitution: (e: 0.9, mass: 1e100)), friction: /*!*/Bristle(mu: 1))",
+    );
+    surface(
+        "damping-range",
+        "surfaces/t",
+        "\"t\": (stiffness: 1e-100, normal: Linear(damping: 1e100), friction: /*!*/Bristle(mu: 1, stiffness: 1e100))",
+    );
     surface(
         "not-positive",
         "surfaces/t",
@@ -237,6 +270,7 @@ fn faults_of_pairs() {
         "(surfaces: (\"s\", \"b\"),\n/*!*/ normal: PowerLaw(exponent: 1, damping_exponent: 1, \
          restitution: (e: 0.5, speed: 1, mass: 1)))",
     );
+    pair("mass-without-stiffness", "(surfaces: (\"s\", \"b\"), friction: Bristle(mu: 1,\n/*!*/ mass: 1))");
     let twice = "(format: \"pong-model\", version: 1, name: \"m\", surfaces: { \"s\": (stiffness: 1) }, pairs: [\n\
         (surfaces: (\"s\", \"b\")),\n/*!*/(surfaces: (\"b\", \"s\")) ],\
         root: (name: \"root\", surface: \"s\", primitives: [Point(name: \"p\", position: (0,0,0))]))";

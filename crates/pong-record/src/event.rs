@@ -108,7 +108,7 @@ enum Normal {
 #[serde(remote = "FrictionLaw", tag = "law")]
 enum Friction {
     None,
-    Bristle { mu: f64, static_excess: f64, stiffness: Option<f64>, damping: f64 },
+    Bristle { mu: f64, static_excess: f64, stiffness: Option<f64>, damping: Option<f64> },
     Coulomb { mu: f64, slip_speed: f64 },
     Custom { name: String, parameters: Vec<f64> },
     Inherited,
@@ -194,13 +194,21 @@ mod tests {
         let laws = [
             (
                 NormalLaw::Linear { damping: 0.1 + 0.2, ramp: 1e-300 },
-                FrictionLaw::Bristle { mu: 1.0 / 3.0, static_excess: 0.1, stiffness: None, damping: 5e-324 },
+                FrictionLaw::Bristle {
+                    mu: 1.0 / 3.0,
+                    static_excess: 0.1,
+                    stiffness: None,
+                    damping: Some(5e-324),
+                },
             ),
             (
                 NormalLaw::HuntCrossley { dissipation: 2.0 / 3.0, exponent: Exponent::ThreeHalves },
                 FrictionLaw::Coulomb { mu: 0.7, slip_speed: 1e-3 },
             ),
-            (NormalLaw::Custom { name: "mine".to_owned(), parameters: vec![0.3] }, FrictionLaw::None),
+            (
+                NormalLaw::Custom { name: "mine".to_owned(), parameters: vec![0.3] },
+                FrictionLaw::Bristle { mu: 0.2, static_excess: 0.0, stiffness: Some(1e5), damping: None },
+            ),
             (
                 NormalLaw::PowerLaw {
                     damping: 1e7 / 3.0,

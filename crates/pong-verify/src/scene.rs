@@ -291,13 +291,13 @@ pub fn set_bristle(surface: &mut Surface, bristle: &Bristle) {
         mu: bristle.mu,
         static_excess: bristle.excess,
         stiffness: Some(bristle.stiffness),
-        damping: bristle.damping,
+        damping: Some(bristle.damping),
     };
 }
 
 /// Sets the friction of both surfaces of a pair, so that the pair has these values: the ground's bristle is rigid.
 pub fn with_friction(duo: Duo, bristle: &Bristle) -> Result<Duo, Failure> {
     let (mu, excess) = (bristle.mu, bristle.excess);
-    let ground = FrictionLaw::Bristle { mu, static_excess: excess, stiffness: None, damping: 0.0 };
+    let ground = FrictionLaw::Bristle { mu, static_excess: excess, stiffness: None, damping: Some(0.0) };
     duo.mover(|s| set_bristle(s, bristle))?.ground(|s| s.friction = ground)
 }

@@ -1,5 +1,6 @@
 //! `pong check`: what the engine makes of models, alone and together.
 
+mod bristles;
 mod doubled;
 mod named;
 mod pairs;
@@ -45,6 +46,7 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
         text += &tree::description(name, model);
         let warnings = model.warnings.iter().cloned().chain(doubled::warnings(model));
         warnings.for_each(|warning| text += &format!("  warning: {}\n", printable(&warning)));
+        bristles::notes(model).iter().for_each(|note| text += &format!("  note: {}\n", printable(note)));
     }
     if !arguments.alone {
         for (a, b) in meetings(&named) {

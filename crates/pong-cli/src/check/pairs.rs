@@ -1,5 +1,6 @@
 //! How two models would meet: the testers that run, the pairs of kinds that ignore each other.
 
+use super::bristles;
 use super::named::Named;
 use super::stiffness;
 use crate::text::{count, number};
@@ -26,7 +27,8 @@ pub(super) fn description(a: &Named, b: &Named) -> Result<String, Vec<String>> {
         count(report.contact_capacity, "contact", "contacts"),
         number(report.state_size as f64),
     );
-    for (kinds, pairs) in testers(&group_pairs(a, b, itself)) {
+    let group_pairs = group_pairs(a, b, itself);
+    for (kinds, pairs) in testers(&group_pairs) {
         text += &format!(
             "  {}–{}: {}\n",
             kinds.0,
@@ -40,8 +42,9 @@ pub(super) fn description(a: &Named, b: &Named) -> Result<String, Vec<String>> {
     for note in &report.notes {
         text += &format!("  note: {}\n", printable(&note.to_string()));
     }
+    text += &bristles::of_pairs((a, b), &group_pairs);
     let mut faces = Vec::new();
-    for (body_a, body_b) in group_pairs(a, b, itself) {
+    for (body_a, body_b) in group_pairs {
         faces.extend(stiffness::faces_pressed((a, body_a), (b, body_b)));
         faces.extend(stiffness::faces_pressed((b, body_b), (a, body_a)));
     }

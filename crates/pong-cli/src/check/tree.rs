@@ -1,5 +1,6 @@
 //! What one model holds: groups, primitives, extent, surfaces.
 
+use super::bristles;
 use crate::text::{count, number, numbers};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
@@ -166,7 +167,8 @@ fn surface_line(surface: &Surface) -> String {
     let friction = match &surface.friction {
         FrictionLaw::None => "no friction".to_owned(),
         FrictionLaw::Bristle { mu, static_excess, .. } => {
-            format!("bristle, μ_k {}, μ_s {}", number(*mu), number(mu * (1.0 + static_excess)))
+            let static_mu = number(mu * (1.0 + static_excess));
+            format!("bristle, μ_k {}, μ_s {static_mu}{}", number(*mu), bristles::springs(surface))
         }
         FrictionLaw::Coulomb { mu, slip_speed } => {
             format!("regularised Coulomb, μ {}, v_ε {} m/s", number(*mu), number(*slip_speed))

@@ -6,14 +6,15 @@
 //!
 //! The power law's c is c_A·s_A^(2+q) + c_B·s_B^(2+q).
 //! With the exponent 3/2 the shares are those of κ_i = k_i^(2/3) and k = (κ_A·κ_B/(κ_A + κ_B))^(3/2).
-//! k_t by the series rule, c_t by squared shares of k_t, each μ by 2·μ_A·μ_B/(μ_A + μ_B).
+//! k_t by the series rule, c_t by squared shares of k_t, each μ by 2·μ_A·μ_B/(μ_A + μ_B). A bristle that gives no damping takes
+//! the damping ratio of the normal law, c·√(k_t/k) (docs/theory.md, 4).
 //!
 //! A rigid surface has no share: what it does not say of a law is said by the other.
 
 use super::power_law::series_damping;
 use super::props::{CombineError, FrictionProps, NormalProps, PairProps};
 use super::registry::Laws;
-use pong_model::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
+use pong_model::{Exponent, FrictionLaw, LARGEST, NormalLaw, PairOverride, Surface};
 use std::borrow::Cow;
 
 /// Combines surface `a` (of A) with surface `b` (of B); what `table` gives for the pair goes first.
@@ -38,15 +39,46 @@ pub fn combine(
     let exponent = pair_exponent(a, b, table);
     let (share_a, series) = in_series(a.stiffness, b.stiffness, exponent);
     let stiffness = table.and_then(|entry| entry.stiffness).unwrap_or(series);
-    let normal = match table.and_then(|entry| entry.normal.as_ref()) {
-        Some(law) => normal_props(law, laws)?,
-        None => normal_props(&combined_normal(a, b, share_a)?, laws)?,
+    let law = match table.and_then(|entry| entry.normal.as_ref()) {
+        Some(law) => law.clone(),
+        None => combined_normal(a, b, share_a)?,
     };
-    let friction = match table.and_then(|entry| entry.friction.as_ref()) {
+    let normal = normal_props(&law, laws)?;
+    let mut friction = match table.and_then(|entry| entry.friction.as_ref()) {
         Some(law) => table_friction(law, stiffness, laws)?,
         None => combined_friction(a, b, laws)?,
     };
+    if let (FrictionProps::Bristle { stiffness: k_t, damping, .. }, Some(entry)) = (&mut friction, table)
+        && matches!(entry.friction, Some(FrictionLaw::Bristle { damping: None, .. }))
+    {
+        *damping = entry_damping((a, b), entry, *k_t, law.bristle_damping(stiffness, *k_t), laws)?;
+    }
     Ok(PairProps { share_a, stiffness, normal, friction })
+}
+
+/// c_t of a bristle of stiffness `k_t` to which an entry for the pair gives none: `by_normal_law` if the entry names that law, else
+/// by the damping ratio of the two surfaces' bristles in series, if both have one.
+fn entry_damping(
+    (a, b): (&Surface, &Surface),
+    entry: &PairOverride,
+    k_t: f64,
+    by_normal_law: f64,
+    laws: &Laws,
+) -> Result<f64, CombineError> {
+    let together = if entry.normal.is_none() { combined_friction(a, b, laws).ok() } else { None };
+    let c_t = match together {
+        Some(FrictionProps::Bristle { stiffness, damping, .. }) => damping * (k_t / stiffness).sqrt(),
+        _ => by_normal_law,
+    };
+    if c_t <= LARGEST {
+        return Ok(c_t);
+    }
+    Err(CombineError {
+        cause: format!(
+            "the bristle that the entry for the pair gives on {k_t:e} N/m has a damping of {c_t:e} N·s/m"
+        ),
+        cure: format!("give that bristle a `damping` of at most {LARGEST:e}"),
+    })
 }
 
 /// A surface with what it leaves to the one it meets.
@@ -221,11 +253,10 @@ fn combined_friction(a: &Surface, b: &Surface, laws: &Laws) -> Result<FrictionPr
     match (&a.friction, &b.friction) {
         (FrictionLaw::None, _) | (_, FrictionLaw::None) => Ok(FrictionProps::None),
         (
-            FrictionLaw::Bristle { mu: mu_a, static_excess: excess_a, stiffness: kt_a, damping: ct_a },
-            FrictionLaw::Bristle { mu: mu_b, static_excess: excess_b, stiffness: kt_b, damping: ct_b },
+            FrictionLaw::Bristle { mu: mu_a, static_excess: excess_a, .. },
+            FrictionLaw::Bristle { mu: mu_b, static_excess: excess_b, .. },
         ) => {
-            let kt_a = kt_a.unwrap_or(default_tangential(a.stiffness));
-            let kt_b = kt_b.unwrap_or(default_tangential(b.stiffness));
+            let ((kt_a, ct_a), (kt_b, ct_b)) = (spring_of(a), spring_of(b));
             let (share_a, stiffness) = in_series(kt_a, kt_b, Exponent::One);
             if stiffness.is_infinite() {
                 return Err(CombineError {
@@ -275,7 +306,8 @@ fn table_friction(
         FrictionLaw::None => FrictionProps::None,
         FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => FrictionProps::Bristle {
             stiffness: stiffness.unwrap_or(default_tangential(pair_stiffness)),
-            damping: *damping,
+            // Without one, `combine` finds it.
+            damping: damping.unwrap_or(0.0),
             mu_kinetic: *mu,
             mu_static: (1.0 + static_excess) * mu,
         },
@@ -298,8 +330,13 @@ fn no_law(which: &str) -> CombineError {
     }
 }
 
+/// k_t and c_t of a surface with a bristle.
+fn spring_of(surface: &Surface) -> (f64, f64) {
+    surface.bristle().expect("it has a bristle")
+}
+
 fn default_tangential(stiffness: f64) -> f64 {
-    2.0 / 3.0 * stiffness
+    Surface::BRISTLE_SHARE * stiffness
 }
 
 fn harmonic(mu_a: f64, mu_b: f64) -> f64 {
@@ -414,7 +451,7 @@ mod tests {
                 mu,
                 static_excess: 0.5,
                 stiffness: Some(stiffness),
-                damping: 4.0,
+                damping: Some(4.0),
             },
             ..surface(1e5, 0.0)
         };
@@ -427,10 +464,11 @@ mod tests {
         assert!((damping - 4.0 * (0.75 * 0.75 + 0.25 * 0.25)).abs() < 1e-12);
     }
 
-    /// k_t = ⅔·k and c_t = 0, of surfaces in series and of an entry for the pair.
+    /// k_t = ⅔·k, of surfaces in series and of an entry for the pair.
     #[test]
     fn what_is_not_said_of_friction_follows_the_normal_spring() {
-        let friction = || FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: None, damping: 0.0 };
+        let friction =
+            || FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: None, damping: None };
         let rough = |stiffness| Surface { friction: friction(), ..surface(stiffness, 0.0) };
         let stiffness_of = |a: &Surface, b: &Surface, table| {
             let props = combine(a, b, table, &Laws::default()).unwrap();
@@ -450,7 +488,7 @@ mod tests {
     #[test]
     fn an_entry_says_what_holds_for_the_pair() {
         let friction =
-            FrictionLaw::Bristle { mu: 0.4, static_excess: 0.5, stiffness: Some(9e3), damping: 7.0 };
+            FrictionLaw::Bristle { mu: 0.4, static_excess: 0.5, stiffness: Some(9e3), damping: Some(7.0) };
         let entry =
             PairOverride { stiffness: Some(6e4), friction: Some(friction), ..PairOverride::default() };
         let props = combine(&surface(3e5, 0.0), &surface(1e5, 0.0), Some(&entry), &Laws::default()).unwrap();
@@ -460,6 +498,94 @@ mod tests {
         };
         assert_eq!((stiffness, damping, mu_kinetic), (9e3, 7.0, 0.4));
         assert!((mu_static - 0.6).abs() < 1e-15);
+    }
+
+    fn bristle(mu: f64, stiffness: Option<f64>, damping: Option<f64>) -> FrictionLaw {
+        FrictionLaw::Bristle { mu, static_excess: 0.0, stiffness, damping }
+    }
+
+    /// Series, as of two of the surfaces with normal dampings in proportion to √k: both springs have one damping ratio.
+    #[test]
+    fn bristles_in_series_keep_the_damping_ratio_of_the_normal_law() {
+        let rough = |k: f64, c: f64| Surface { friction: bristle(0.3, None, None), ..surface(k, c) };
+        let ratios = |a: &Surface, b: &Surface| {
+            let props = combine(a, b, None, &Laws::default()).unwrap();
+            let FrictionProps::Bristle { stiffness, damping, .. } = props.friction else {
+                panic!("not a bristle")
+            };
+            (damping / stiffness.sqrt(), damping_of(&props) / props.stiffness.sqrt())
+        };
+        for (k_a, c_a, k_b, c_b) in
+            [(4e4, 40.0, 1e6, 200.0), (3e5, 900.0, 1e5, 100.0), (1e5, 70.0, f64::INFINITY, 0.0)]
+        {
+            let (tangential, normal) = ratios(&rough(k_a, c_a), &rough(k_b, c_b));
+            assert!((tangential / normal - 1.0).abs() < 1e-14, "{tangential} {normal}");
+        }
+    }
+
+    /// A rigid surface that says nothing, or only μ, leaves the other's damping as it is.
+    #[test]
+    fn a_rigid_surface_changes_no_damping_of_friction() {
+        let soft = Surface { friction: bristle(0.3, None, None), ..surface(1e5, 60.0) };
+        let rigid = |normal, friction| Surface { normal, friction, ..surface(f64::INFINITY, 0.0) };
+        let damped = NormalLaw::Linear { damping: 60.0, ramp: 0.0 };
+        for other in [
+            rigid(NormalLaw::Inherited, FrictionLaw::Inherited),
+            rigid(NormalLaw::Inherited, bristle(0.3, None, None)),
+            rigid(damped, bristle(0.3, None, None)),
+        ] {
+            for (a, b) in [(&soft, &other), (&other, &soft)] {
+                let found = bristle_damping(a, b, None).unwrap() / (60.0 * (2.0_f64 / 3.0).sqrt());
+                assert!((found - 1.0).abs() < 1e-15, "{found}");
+            }
+        }
+    }
+
+    fn bristle_damping(a: &Surface, b: &Surface, entry: Option<&PairOverride>) -> Result<f64, CombineError> {
+        match combine(a, b, entry, &Laws::default())?.friction {
+            FrictionProps::Bristle { damping, .. } => Ok(damping),
+            _ => panic!("not a bristle"),
+        }
+    }
+
+    /// What an entry gives goes first, then the two surfaces' bristles, then the normal law of the pair.
+    #[test]
+    fn an_entry_that_gives_no_damping_keeps_the_damping_ratio() {
+        let entry = |stiffness, normal, k_t| PairOverride {
+            stiffness,
+            normal,
+            friction: Some(bristle(0.1, k_t, None)),
+            ..PairOverride::default()
+        };
+        let linear = |damping| Some(NormalLaw::Linear { damping, ramp: 0.0 });
+        let hunt = Some(NormalLaw::HuntCrossley { dissipation: 0.1, exponent: Exponent::One });
+        let rough = |k, c_t| Surface { friction: bristle(0.3, None, c_t), ..surface(k, 60.0) };
+        // In series k_t is 5e4 and c_t is 300·(3/4)² + 90·(1/4)² on ⅔ of 1e5 and of 3e5.
+        let (a, b) = (rough(3e5, Some(90.0)), rough(1e5, Some(300.0)));
+        let series = 300.0 * 0.5625 + 90.0 * 0.0625;
+        let third = 2.0_f64 / 3.0;
+        let plain = surface(1e5, 60.0);
+        // Of the plain surface with itself: k 5e4, c 30.
+        for (a, b, entry, expected) in [
+            (&a, &b, entry(None, None, None), series),
+            (&a, &b, entry(None, None, Some(2e5)), series * 2.0),
+            (&a, &b, entry(Some(3e5), None, None), series * 2.0),
+            (&a, &b, entry(Some(6e4), linear(50.0), None), 50.0 * third.sqrt()),
+            (&a, &b, entry(None, linear(50.0), Some(7.5e4)), 50.0),
+            (&a, &b, entry(None, hunt, None), 0.0),
+            (&plain, &plain, entry(None, None, None), 30.0 * third.sqrt()),
+            (&plain, &plain, entry(None, None, Some(5e4)), 30.0),
+            (&rough(1e5, Some(0.0)), &rough(1e5, Some(0.0)), entry(None, None, None), 0.0),
+        ] {
+            let found = bristle_damping(a, b, Some(&entry)).unwrap();
+            assert!((found - expected).abs() <= 1e-14 * expected, "{entry:?}: {found} {expected}");
+        }
+        let beyond = entry(Some(1e-100), linear(1e100), Some(1e100));
+        let error = bristle_damping(&a, &b, Some(&beyond)).unwrap_err();
+        assert!(
+            error.cause.contains("damping of 1e200 N·s/m") && error.cure.contains("damping"),
+            "{error:?}"
+        );
     }
 
     #[test]
@@ -485,7 +611,7 @@ mod tests {
         let normal = |normal| Surface { normal, ..surface(1e5, 0.0) };
         let friction = |friction| Surface { friction, ..surface(1e5, 0.0) };
         let coulomb = |slip_speed| FrictionLaw::Coulomb { mu: 0.5, slip_speed };
-        let bristle = FrictionLaw::Bristle { mu: 0.5, static_excess: 0.0, stiffness: None, damping: 0.0 };
+        let bristle = FrictionLaw::Bristle { mu: 0.5, static_excess: 0.0, stiffness: None, damping: None };
         for (a, b, what) in [
             (normal(custom("x")), normal(custom("y")), "their normal force law"),
             (normal(custom("x")), surface(1e5, 0.0), "their normal force law"),
@@ -539,8 +665,8 @@ mod tests {
         ];
         let frictions = [
             FrictionLaw::None,
-            FrictionLaw::Bristle { mu: 0.3, static_excess: 0.2, stiffness: Some(7e3), damping: 5.0 },
-            FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: None, damping: 0.0 },
+            FrictionLaw::Bristle { mu: 0.3, static_excess: 0.2, stiffness: Some(7e3), damping: Some(5.0) },
+            FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: None, damping: None },
             FrictionLaw::Coulomb { mu: 0.3, slip_speed: 1e-3 },
         ];
         let text = |a: &Surface, b: &Surface| format!("{:?}", combine(a, b, None, &Laws::default()).unwrap());

@@ -274,7 +274,10 @@ fn own_kinds() -> Scene {
                    Plane(name: \"floor\", normal: (0,0,1), offset: 0.0), \
                    Plane(name: \"anvil\", normal: (0,0,1), offset: 0.01, surface: \"h\")";
     let targets = model("targets", &surfaces, targets);
-    let pairs = "pairs: [(surfaces: (\"h\", \"s\"), stiffness: 2e6, normal: Linear(damping: 20.0), friction: Bristle(mu: 0.2))],";
+    let friction = "friction: Bristle(mu: 0.2, damping: 0.0)";
+    let pairs = format!(
+        "pairs: [(surfaces: (\"h\", \"s\"), stiffness: 2e6, normal: Linear(damping: 20.0), {friction})],"
+    );
     let with_pairs = |text: String| text.replace("root: (", &format!("{pairs} root: ("));
     let mut scene = Scene::new("own_kinds", 300, vec![with_pairs(movers), with_pairs(targets)]);
     scene.contact_capacity = Some(1400);

@@ -41,6 +41,12 @@ impl<'n> Fields<'n> {
         Some(Self { at: node.at, path: path.to_owned(), fields })
     }
 
+    /// Opens a struct without noting faults, for a second look at what is read elsewhere.
+    pub(crate) fn peek(node: &'n Node) -> Option<Self> {
+        let Value::Struct(_, fields) = &node.value else { return None };
+        Some(Self { at: node.at, path: String::new(), fields })
+    }
+
     /// A field that may be left out; `Some(x)` is `x`, `None` is as if it were left out.
     pub(crate) fn optional(&self, name: &str) -> Option<&'n Node> {
         let node = &self.fields.iter().find(|field| field.name.as_ref() == name)?.value;

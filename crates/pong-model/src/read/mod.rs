@@ -1,5 +1,6 @@
 //! From the tree of values to drafts of bodies: every field of the format, with all faults collected.
 
+mod bristle;
 mod custom;
 mod document;
 mod fields;
@@ -15,6 +16,7 @@ mod reader;
 mod round;
 mod scalar;
 mod size;
+mod stiffness;
 mod suggest;
 mod surface;
 

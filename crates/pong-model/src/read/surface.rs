@@ -1,9 +1,11 @@
 //! The tables of surfaces and of pairs of surfaces.
 
+use super::bristle::{Beside, bristle};
 use super::fields::Fields;
 use super::law_values::{either_or, exponent, not_rigid, restitution};
 use super::power_law::power_law;
 use super::reader::Reader;
+use super::stiffness::{finite_stiffness, in_range};
 use crate::limits::LARGEST;
 use crate::restitution::{chi_for_restitution, zeta_for_restitution};
 use crate::ron_tree::{Node, Value};
@@ -51,11 +53,17 @@ fn surface(reader: &mut Reader<'_>, node: &Node, name: String, path: &str) -> Su
         // What it does not say below is said by what it meets.
         (surface.normal, surface.friction) = (NormalLaw::Inherited, FrictionLaw::Inherited);
     }
-    if let Some(node) = fields.optional("normal") {
+    let normal = fields.optional("normal");
+    if let Some(node) = normal {
         surface.normal = normal_law(reader, node, path, stiffness).unwrap_or(surface.normal);
     }
     if let Some(node) = fields.literal("friction") {
-        surface.friction = friction_law(reader, node, path).unwrap_or(FrictionLaw::None);
+        let beside = Beside { stiffness: Some(surface.stiffness), normal };
+        surface.friction = friction_law(reader, node, path, beside).unwrap_or(FrictionLaw::None);
+        if let Some((k_t, c_t)) = surface.bristle().filter(|(_, c_t)| *c_t > LARGEST) {
+            let cause = format!("the damping of the normal law makes one of {c_t:e} N·s/m on {k_t:e} N/m");
+            reader.fault(node.at, path, "damping-range", cause, "give the bristle a `damping`");
+        }
     }
     surface
 }
@@ -77,30 +85,6 @@ fn stiffness(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
         format!("the stiffness is {value}"),
         "it must be above zero; `inf` is rigid",
     )
-}
-
-/// So stiff that no sum or product of the laws leaves the range of numbers.
-fn in_range(
-    reader: &mut Reader<'_>,
-    node: &Node,
-    path: &str,
-    value: f64,
-    what: &str,
-    otherwise: &str,
-) -> Option<f64> {
-    if Surface::can_be_so_stiff(value) {
-        return Some(value);
-    }
-    let (least, most) = (Surface::SOFTEST, Surface::STIFFEST);
-    let cure = format!("give {least:e} to {most:e} N/m{otherwise}");
-    reader.refuse(node.at, path, "stiffness-range", format!("{what} is {value:e}"), cure)
-}
-
-/// Finite, above zero and within the range of stiffnesses.
-fn finite_stiffness(reader: &mut Reader<'_>, node: &Node, path: &str, what: &str) -> Option<f64> {
-    let value = reader.finite(node, path)?;
-    let value = reader.above_zero(node, path, what, value)?;
-    in_range(reader, node, path, value, what, "")
 }
 
 /// `known_stiffness` is that of the surface or pair, if it could be read.
@@ -173,40 +157,16 @@ fn chi(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
     reader.refuse(node.at, path, "restitution-range", cause, "give a larger restitution or speed")
 }
 
-fn friction_law(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<FrictionLaw> {
+fn friction_law(reader: &mut Reader<'_>, node: &Node, path: &str, beside: Beside<'_>) -> Option<FrictionLaw> {
     let node = match &node.value {
         Value::Tuple(Some(name), items) if name.as_ref() == "Some" && items.len() == 1 => &items[0],
         _ => node,
     };
     match reader.variant(node, path, &["None", "Bristle", "Coulomb", "Custom"])? {
         "None" => Some(FrictionLaw::None),
-        "Bristle" => bristle(reader, node, path),
+        "Bristle" => bristle(reader, node, path, beside),
         "Coulomb" => coulomb(reader, node, path),
         _ => custom(reader, node, path).map(|(name, parameters)| FrictionLaw::Custom { name, parameters }),
-    }
-}
-
-fn bristle(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<FrictionLaw> {
-    let fields = Fields::open(reader, node, path, &["mu", "static_excess", "stiffness", "damping"])?;
-    let mu = fields.required(reader, "mu").and_then(|node| reader.not_negative(node, path, "mu"));
-    let static_excess = optional_not_negative(reader, &fields, path, "static_excess");
-    let damping = optional_not_negative(reader, &fields, path, "damping");
-    let stiffness = match fields.optional("stiffness") {
-        Some(node) => Some(finite_stiffness(reader, node, path, "the bristle's stiffness")?),
-        None => None,
-    };
-    Some(FrictionLaw::Bristle { mu: mu?, static_excess: static_excess?, stiffness, damping: damping? })
-}
-
-fn optional_not_negative(
-    reader: &mut Reader<'_>,
-    fields: &Fields<'_>,
-    path: &str,
-    name: &str,
-) -> Option<f64> {
-    match fields.optional(name) {
-        Some(node) => reader.not_negative(node, path, name),
-        None => Some(0.0),
     }
 }
 
@@ -267,7 +227,10 @@ fn pair(reader: &mut Reader<'_>, node: &Node, path: &str, defined: Defined<'_>) 
         None => None,
     };
     let friction = match fields.literal("friction") {
-        Some(node) => Some(friction_law(reader, node, path)?),
+        Some(node) => {
+            let beside = Beside { stiffness, normal: fields.optional("normal") };
+            Some(friction_law(reader, node, path, beside)?)
+        }
         None => None,
     };
     Some(PairOverride { surfaces: names?, stiffness, normal, friction })
