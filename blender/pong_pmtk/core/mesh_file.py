@@ -49,55 +49,122 @@ def read(folder, name: str, scale: float = 1.0):
     return (vertices if scale == 1.0 else vertices * scale), faces
 
 
+def damaged(cause: str, line: int = 0) -> MeshFileError:
+    return MeshFileError("mesh-file-damaged", f"line {line}: {cause}" if line else cause)
+
+
+def marked(data: bytes) -> bytes:
+    """The file without the mark that some editors put before UTF-8."""
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        raise damaged("it is text in UTF-16; save it as UTF-8 or ASCII")
+    return data.removeprefix(b"\xef\xbb\xbf")
+
+
 def read_stl(data: bytes):
     """Every triangle has vertices of its own, as the file has it."""
     count = int.from_bytes(data[80:84], "little") if len(data) >= STL_HEAD else -1
-    if count >= 0 and len(data) == STL_HEAD + count * STL_TRIANGLE.itemsize:
+    length = STL_HEAD + count * STL_TRIANGLE.itemsize
+    # Binary files may begin with "solid": the length tells, or a zero byte where text has none.
+    is_text = _is_text_stl(data) and not (count >= 0 and len(data) == length)
+    if is_text:
+        corners = _text_stl(marked(data))
+    elif count >= 0 and len(data) >= length:
         corners = np.frombuffer(data, STL_TRIANGLE, count, STL_HEAD)["corners"].astype(np.float64)
-    elif data.lstrip()[:5] == b"solid":
-        corners = _text_stl(data)
-    elif count >= 0 and len(data) > STL_HEAD + count * STL_TRIANGLE.itemsize:
-        corners = np.frombuffer(data, STL_TRIANGLE, count, STL_HEAD)["corners"].astype(np.float64)
+    elif count >= 0:
+        there = (len(data) - STL_HEAD) // STL_TRIANGLE.itemsize
+        raise damaged(f"it ends before its last triangle: it has {there} of {count}")
     else:
-        raise MeshFileError("mesh-file-damaged", "it ends before its last triangle")
+        raise damaged(f"it is neither text nor long enough for a binary file: {len(data)} bytes")
     vertices = corners.reshape(-1, 3)
     return vertices, np.arange(len(vertices)).reshape(-1, 3)
 
 
+def _is_text_stl(data: bytes) -> bool:
+    words = marked(data).split(None, 1)
+    first = words[0].lower() if words else b""
+    return b"\0" not in data[:STL_HEAD] and first.startswith((b"solid", b"facet", b";", b"#"))
+
+
 def _text_stl(data: bytes) -> np.ndarray:
-    tokens = data.split()
-    places = [i for i, token in enumerate(tokens) if token == b"vertex"]
-    try:
-        numbers = [[np.float32(tokens[i + k]) for k in (1, 2, 3)] for i in places]
-    except (ValueError, IndexError):
-        raise MeshFileError("mesh-file-damaged", "a vertex has not three numbers") from None
-    if len(places) % 3:
-        raise MeshFileError("mesh-file-damaged", "a triangle has not three vertices")
+    """The triangles of all solids. Normals follow from the corners; some programs write `nan` there."""
+    numbers: list[bytes] = []
+    facet = corners = 0
+    for number, line in enumerate(data.splitlines(), 1):
+        words = iter(line.split())
+        for word in words:
+            keyword = word.lower()
+            if keyword == b"end":
+                keyword += next(words, b"").lower()
+            if keyword == b"vertex":
+                if not facet or corners == 3:
+                    raise damaged("a fourth vertex in a facet" if facet else "a vertex outside of a facet", number)
+                place = [next(words, b"") for _ in range(3)]
+                try:
+                    numbers += [np.float32(x) for x in place]
+                except ValueError:
+                    raise damaged("a vertex has not three numbers", number) from None
+                corners += 1
+            elif keyword == b"facet":
+                if facet:
+                    raise damaged(f"the facet that begins in line {facet} has no `endfacet`", number)
+                facet, corners = number, 0
+                for word in words:
+                    if word.lower() == b"outer":
+                        break
+            elif keyword == b"endfacet":
+                if corners != 3:
+                    raise damaged(f"a facet of {corners} vertices instead of three", number)
+                facet = corners = 0
+            elif keyword in (b"solid", b"endsolid", b"color") or keyword.startswith((b";", b"#", b"//")):
+                if facet and keyword.endswith(b"solid"):
+                    raise damaged(f"the facet that begins in line {facet} has no `endfacet`", number)
+                break
+            elif keyword not in (b"outer", b"loop", b"endloop", b"normal"):
+                raise damaged(f"`{word.decode('latin-1')}` is no keyword of a text STL file", number)
+    if facet:
+        raise damaged("it ends within the facet that begins here", facet)
     return np.array(numbers, dtype=np.float64).reshape(-1, 3, 3)
+
+
+def _obj_lines(data: bytes):
+    """Numbers and words of lines; a backslash at the end continues a line of numbers in the next one."""
+    lines = enumerate(marked(data).splitlines(), 1)
+    for number, line in lines:
+        words = line.partition(b"#")[0].split()
+        while words and words[0] in (b"v", b"f", b"l", b"p") and words[-1].endswith(b"\\"):
+            words[-1] = words[-1][:-1]
+            words += next(lines, (0, b""))[1].partition(b"#")[0].split()
+            words = [word for word in words if word]
+        if words:
+            yield number, words
 
 
 def read_obj(data: bytes):
     """Faces of any number of corners; materials, normals and texture coordinates are left aside."""
-    places: list[bytes] = []
+    places: list[float] = []
     widths: list[int] = []
     corners: list[int] = []
-    try:
-        for line in data.replace(b"\\\n", b" ").splitlines():
-            if line.startswith((b"v ", b"v\t")):
-                places.append(b" ".join(line.split()[1:4]))
-            elif line.startswith((b"f ", b"f\t")):
-                face = [int(corner.split(b"/", 1)[0]) for corner in line.split()[1:]]
+    for number, words in _obj_lines(data):
+        try:
+            if words[0] == b"v":
+                x, y, z = map(float, words[1:4])
+                places += (x, y, z)
+            elif words[0] == b"f":
+                count = len(places) // 3
+                face = [int(corner.split(b"/", 1)[0]) for corner in words[1:]]
+                face = [i - 1 if i >= 0 else count + i for i in face]
+                if face and (min(face) < 0 or max(face) >= count):
+                    raise damaged("a face names a vertex that does not exist before this line", number)
                 if len(face) > 2:
                     widths.append(len(face))
-                    corners += [i - 1 if i > 0 else len(places) + i for i in face]
-        vertices = np.array(list(map(float, b" ".join(places).split())), dtype=np.float64).reshape(-1, 3)
-    except ValueError as error:
-        raise MeshFileError("mesh-file-damaged", str(error)) from None
-    if len(vertices) != len(places):
-        raise MeshFileError("mesh-file-damaged", "a vertex has not three numbers")
+                    corners += face
+        except MeshFileError:
+            raise
+        except ValueError:
+            kind = "a vertex has not three numbers" if words[0] == b"v" else "a face has a corner that is no number"
+            raise damaged(kind, number) from None
+    vertices = np.array(places, dtype=np.float64).reshape(-1, 3)
     flat = np.array(corners, dtype=np.int64)
-    if len(flat) and (flat.min() < 0 or flat.max() >= len(vertices)):
-        raise MeshFileError("mesh-file-damaged", "a face names a vertex that does not exist")
     return vertices, unflattened(flat, np.array(widths, dtype=np.int64)) if len(widths) else np.zeros((0, 3), np.int64)
 
 

@@ -224,6 +224,33 @@ class MeshFiles(unittest.TestCase):
         text = b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0.1\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n"
         self.assertEqual(mesh_file.read_stl(text)[0].tolist(), [[0, 0, float(np.float32(0.1))], [1, 0, 0], [0, 1, 0]])
 
+    def test_text_of_all_kinds(self):
+        facet = b"facet normal nan nan nan\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+        for text in (
+            b"solid\n" + facet,
+            b"\xef\xbb\xbf  SOLID\tPi\xe8ce\n" + facet.upper() + b"END SOLID",
+            b"; a comment\nsolid my facet\n" + facet.replace(b"\n", b"\r") + b"endsolid",
+        ):
+            self.assertEqual(mesh_file.read_stl(text)[0].tolist(), [[0, 0, 0], [1, 0, 0], [0, 1, 0]], text)
+        self.assertEqual(len(mesh_file.read_stl(2 * (b"solid a\n" + facet + b"endsolid a\n"))[1]), 2)
+        obj = b"usemtl \ng\n\tv 0 0 0\nv 1 0 \\\r\n 0 # x\nv 0 1 0\no pi\xe8ce\nf 1/1 2//3 \\\n-1\n"
+        for text in (obj, obj.replace(b"\r\n", b"\n").replace(b"\n", b"\r")):
+            vertices, faces = mesh_file.read_obj(text)
+            self.assertEqual((vertices.tolist(), faces.tolist()), ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
+
+    def test_damaged_text_tells_the_line(self):
+        facet = b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+        for read, data, line in (
+            (mesh_file.read_stl, facet[:51], 2),
+            (mesh_file.read_stl, facet.replace(b"endloop", b"vertex 1 1 1"), 7),
+            (mesh_file.read_stl, facet.replace(b"vertex 1 0 0\n", b""), 7),
+            (mesh_file.read_obj, b"v 0 0 0\nv 1,5 0 0\n", 2),
+            (mesh_file.read_obj, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", 4),
+            (mesh_file.read_obj, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", 4),
+        ):
+            with self.assertRaisesRegex(mesh_file.MeshFileError, f"line {line}: "):
+                read(data)
+
     def test_damaged_ones_are_refused(self):
         for name, data in (
             ("a.stl", b"\0" * 80 + b"\5\0\0\0"),

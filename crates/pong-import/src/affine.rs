@@ -100,6 +100,8 @@ pub enum Up {
     Y,
     /// Nothing is turned.
     Z,
+    /// As Collada has it: −y becomes x, −z becomes y, x becomes z.
+    X,
 }
 
 impl Up {
@@ -108,15 +110,17 @@ impl Up {
         match self {
             Self::Y => Vector3::new(v.x, 0.0 - v.z, v.y),
             Self::Z => v,
+            Self::X => Vector3::new(0.0 - v.y, 0.0 - v.z, v.x),
         }
     }
 
     /// A node's transform in the axes of the model: its local axes are turned with everything else.
     pub fn turned_transform(self, transform: &Affine) -> Affine {
-        if self == Self::Z {
-            return *transform;
-        }
-        let turn = Matrix3::new(1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0);
+        let turn = match self {
+            Self::Z => return *transform,
+            Self::Y => Matrix3::new(1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0),
+            Self::X => Matrix3::new(0.0, -1.0, 0.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0),
+        };
         Affine {
             linear: turn * transform.linear * turn.transpose(),
             translation: self.turned(transform.translation),
@@ -159,7 +163,11 @@ mod tests {
     fn up_turns_nodes_with_their_vertices() {
         let node = turned([0.3, 0.2, -1.0], 1.1, [1.0, 2.0, 3.0]);
         let v = Vector3::new(0.3, -0.7, 1.9);
-        let turned_node = Up::Y.turned_transform(&node);
-        assert!((turned_node.point(&Up::Y.turned(v)) - Up::Y.turned(node.point(&v))).norm() < 1e-14);
+        for up in [Up::X, Up::Y, Up::Z] {
+            let turned_node = up.turned_transform(&node);
+            assert!((turned_node.point(&up.turned(v)) - up.turned(node.point(&v))).norm() < 1e-14);
+        }
+        assert_eq!(Up::X.turned(Vector3::x()), Vector3::z());
+        assert_eq!(Up::Y.turned(Vector3::y()), Vector3::z());
     }
 }

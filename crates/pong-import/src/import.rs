@@ -13,9 +13,10 @@ use std::path::{Path, PathBuf};
 /// How a mesh file is to be imported.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Which axis points up; `None` for what the format is known for: y in glTF, z in OBJ and STL.
+    /// Which axis points up; `None` for what the format is known for: y in glTF, z in OBJ and STL, in Collada what the
+    /// file says.
     pub up: Option<Up>,
-    /// Metres in one unit of the file.
+    /// Metres in one unit of the file; a Collada file gives its unit, and this is a factor to it.
     pub unit_m: f64,
     /// glTF: name of the scene; `None` for the default one.
     pub scene: Option<String>,
@@ -27,6 +28,10 @@ pub struct Options {
     pub surface: Option<DefaultSurface>,
     /// Vertices within this distance of each other are one, m; `None` for bit-equal ones only.
     pub weld_m: Option<f64>,
+    /// Whether triangles that run against their neighbours are turned, and closed surfaces that face inwards.
+    pub outward: bool,
+    /// Whether holes of surfaces are filled.
+    pub close: bool,
     /// Convex solids of more faces become surfaces, unless they are marked as polyhedra.
     pub faces_max: usize,
     /// Meshes of more triangles or faces go to files beside the model.
@@ -37,6 +42,8 @@ pub struct Options {
     /// Unmarked parts that are a capsule, a cylinder, a cone or a bore within this distance become that primitive, m; `None` leaves
     /// them polyhedra and surfaces.
     pub round_m: Option<f64>,
+    /// Triangles that a file may make by naming meshes several times.
+    pub triangles_max: usize,
     /// Folders beside the mesh file's own from which files that it names (buffers of glTF) may be read.
     pub allowed: Vec<PathBuf>,
 }
@@ -51,10 +58,13 @@ impl Default for Options {
             name: None,
             surface: None,
             weld_m: None,
+            outward: false,
+            close: false,
             faces_max: 1000,
             inline_max: usize::MAX,
             hull: None,
             round_m: None,
+            triangles_max: 2_000_000,
             allowed: Vec::new(),
         }
     }
@@ -64,18 +74,30 @@ impl Options {
     /// How the file is to be read.
     #[doc(hidden)]
     pub fn reading(&self) -> Reading {
-        let Self { up, unit_m, scene, allowed, .. } = self.clone();
-        Reading { up, unit_m, scene, allowed }
+        let Self { up, unit_m, scene, triangles_max, allowed, .. } = self.clone();
+        Reading { up, unit_m, scene, triangles_max, allowed }
     }
 
     /// How a model is to be made of it.
     #[doc(hidden)]
     pub fn building<'a>(&self, input: &Path, progress: &'a mut dyn FnMut(&str)) -> Building<'a> {
-        let Self { root, name, surface, weld_m, unit_m, faces_max, inline_max, hull, round_m, .. } =
-            self.clone();
+        let options = self.clone();
         let stem = || input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        let (file, name) = (input.display().to_string(), name.unwrap_or_else(stem));
-        Building { file, name, root, weld_m, unit_m, surface, faces_max, inline_max, hull, round_m, progress }
+        Building {
+            file: input.display().to_string(),
+            name: options.name.unwrap_or_else(stem),
+            root: options.root,
+            weld_m: options.weld_m,
+            outward: options.outward,
+            close: options.close,
+            unit_m: options.unit_m,
+            surface: options.surface,
+            faces_max: options.faces_max,
+            inline_max: options.inline_max,
+            hull: options.hull,
+            round_m: options.round_m,
+            progress,
+        }
     }
 }
 

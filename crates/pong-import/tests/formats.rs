@@ -6,7 +6,7 @@ use common::*;
 use pong_import::{Options, Up};
 use pong_model::Model;
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 fn corners(model: &Model) -> Vec<[f64; 3]> {
     let mut corners: Vec<[f64; 3]> =
@@ -41,6 +41,13 @@ fn cube_files(test: &str) -> Vec<PathBuf> {
         save("binary.stl", &binary_stl(&cube())),
         save("text.stl", text_stl(&cube()).as_bytes()),
         save("cube.obj", obj.as_bytes()),
+        save("triangles.dae", collada("<up_axis>Z_UP</up_axis>", "", &collada_list("triangles")).as_bytes()),
+        save(
+            "polylist.dae",
+            collada("", "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix>", &collada_list("polylist"))
+                .as_bytes(),
+        ),
+        save("polygons.dae", collada("<up_axis>X_UP</up_axis>", "", &collada_list("polygons")).as_bytes()),
         save("cube.glb", &gltf.glb()),
         save("beside.gltf", gltf.text("cube%20data.bin").as_bytes()),
         save("inline.gltf", gltf.text(&format!("data:application/octet-stream;base64,{data}")).as_bytes()),
@@ -183,7 +190,7 @@ fn big_meshes_go_to_files_beside_the_model_and_mean_the_same() {
     assert_eq!(names, ["sheet.ron", "sheet_sheet.obj"]);
 }
 
-fn write(folder: &std::path::Path, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
+fn write(folder: &Path, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
     let path = folder.join(name);
     std::fs::write(&path, bytes).unwrap();
     path
@@ -289,4 +296,315 @@ fn nodes_of_one_name_are_numbered() {
     let path = gltf.save(&folder, "bolts.glb");
     let (_, model) = run(&path, &options()).unwrap();
     assert!(model.bodies[0].primitives.iter().any(|info| info.path.contains("bolt_3000")));
+}
+
+type Triangles = Vec<[Place; 3]>;
+
+fn moved(triangles: &Triangles, by: f64) -> Triangles {
+    triangles.iter().map(|triangle| triangle.map(|[x, y, z]| [x + by, y, z])).collect()
+}
+
+fn turned(triangle: [Place; 3]) -> [Place; 3] {
+    let [a, b, c] = triangle;
+    [a, c, b]
+}
+
+/// Paths of primitives in a model, without the name of the model.
+fn paths(model: &Model) -> Vec<String> {
+    let paths = model.bodies[0].primitives.iter().map(|info| info.path.clone());
+    paths.map(|path| path.split_once('/').map_or(path.clone(), |(_, rest)| rest.to_owned())).collect()
+}
+
+/// Text of several solids, named 0, 1, …
+fn solids(parts: &[Triangles]) -> String {
+    let solid =
+        |(k, part): (usize, &Triangles)| text_stl(part).replace("solid cube", &format!("solid part {k}"));
+    parts.iter().enumerate().map(solid).collect()
+}
+
+#[test]
+fn every_solid_of_a_text_stl_becomes_a_group() {
+    let folder = folder("solids");
+    let parts = [Vec::new(), cube(), moved(&cube(), 5.0)];
+    let (imported, model) = run(&write(&folder, "parts.stl", solids(&parts)), &options()).unwrap();
+    assert_eq!((imported.triangles, imported.primitives.as_slice()), (24, &[("Polyhedron", 2)][..]));
+    assert_eq!(paths(&model), ["part 1/part 1", "part 2/part 2"]);
+    assert_eq!(note_rules(&imported), [""; 0]);
+    // A body whose faces are solids of their own is one body.
+    let sides: Vec<Triangles> = cube().chunks(2).map(<[_]>::to_vec).collect();
+    let (imported, model) = run(&write(&folder, "sides.stl", solids(&sides)), &options()).unwrap();
+    assert_eq!((imported.vertices, imported.primitives.as_slice()), (8, &[("Polyhedron", 1)][..]));
+    assert_eq!(corners(&model), sorted(CUBE.to_vec()));
+    assert_eq!(note_rules(&imported), ["solids-joined"]);
+}
+
+#[test]
+fn damage_of_text_files_is_told_with_its_line() {
+    let folder = folder("lines");
+    let stl = text_stl(&cube());
+    let end = stl.find("endfacet").unwrap() - 14;
+    let cases = [
+        ("cut.stl", stl[..end].to_owned(), 2),
+        ("word.stl", stl.replacen("endloop", "endlop", 1), 7),
+        ("index.obj", "v 0 0 0\n\nf 1 2 3\n".to_owned(), 3),
+        ("comma.obj", "v 0 0 0\rv 1,5 0 0\r".to_owned(), 2),
+        ("index.dae", collada("", "", &collada_list("triangles").replace("<p>0 ", "<p>8 ")), 9),
+        ("matrix.dae", collada("", "\n<matrix>1 2 3</matrix>", &collada_list("triangles")), 14),
+        (
+            "url.dae",
+            collada("", "", &collada_list("triangles")).replace("url=\"#cube-mesh", "url=\"#cub"),
+            13,
+        ),
+    ];
+    for (name, text, line) in cases {
+        let findings = run(&write(&folder, name, text), &options()).unwrap_err();
+        assert_eq!(rules(&findings), ["damaged"], "{name}: {findings}");
+        assert!(findings.faults[0].path.ends_with(&format!("{name}:{line}")), "{findings}");
+    }
+    // Without its last line a text file may be whole.
+    let (imported, _) =
+        run(&write(&folder, "no_end.stl", stl.replace("endsolid cube\n", "")), &options()).unwrap();
+    assert_eq!(note_rules(&imported), ["no-endsolid"]);
+}
+
+/// The cube as integers: as they are, or as fractions of the largest one.
+#[test]
+fn quantized_positions_are_read() {
+    let folder = folder("quantized");
+    let save = |name: &str, component: u32, normalized: bool, scale: f64, bytes: Vec<u8>, stride: usize| {
+        let mut gltf = Gltf::new();
+        let mesh = gltf.triangles(&cube());
+        gltf.node(None, json!({"mesh": mesh, "scale": [scale, scale, scale]}));
+        use base64::Engine;
+        let uri = base64::engine::general_purpose::STANDARD.encode(&bytes);
+        let count = bytes.len() / stride;
+        gltf.json["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
+        gltf.json["extensionsUsed"] = json!(["KHR_mesh_quantization"]);
+        gltf.json["buffers"] = json!([{"byteLength": bytes.len(), "uri": format!("data:application/octet-stream;base64,{uri}")}]);
+        gltf.json["bufferViews"] = json!([{"buffer": 0, "byteLength": bytes.len(), "byteStride": stride}]);
+        gltf.json["accessors"] = json!([{"bufferView": 0, "componentType": component, "normalized": normalized,
+            "count": count, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1]}]);
+        gltf.json["meshes"] = json!([{"primitives": [{"attributes": {"POSITION": 0}}]}]);
+        write(&folder, name, gltf.json.to_string())
+    };
+    let places = || cube().into_iter().flatten();
+    let words = |high: i32, low: i32| -> Vec<u8> {
+        let word = |x: f64| (if x > 0.0 { high } else { low } as u16).to_le_bytes();
+        places().flat_map(|place| [word(place[0]), word(place[1]), word(place[2]), [0, 0]].concat()).collect()
+    };
+    let bytes = |high: i8, low: i8| -> Vec<u8> {
+        let byte = |x: f64| (if x > 0.0 { high } else { low }) as u8;
+        places().flat_map(|place| [byte(place[0]), byte(place[1]), byte(place[2]), 0]).collect()
+    };
+    // Component types 5120 to 5123: signed and unsigned bytes, signed and unsigned words.
+    let files = [
+        (save("i16.gltf", 5122, false, 0.001, words(1000, -1000), 8), -1.0),
+        (save("i16n.gltf", 5122, true, 1.0, words(32767, -32768), 8), -1.0),
+        (save("u16n.gltf", 5123, true, 1.0, words(65535, 0), 8), 0.0),
+        (save("i8.gltf", 5120, false, 0.01, bytes(100, -100), 4), -1.0),
+        (save("i8n.gltf", 5120, true, 1.0, bytes(127, -128), 4), -1.0),
+        (save("u8n.gltf", 5121, true, 1.0, bytes(-1, 0), 4), 0.0),
+    ];
+    for (path, low) in files {
+        let (imported, model) = run(&path, &options()).unwrap_or_else(|findings| panic!("{findings}"));
+        assert_eq!(imported.primitives, [("Polyhedron", 1)], "{}", path.display());
+        let wanted: Vec<Place> =
+            CUBE.iter().map(|place| place.map(|x| if x > 0.0 { 1.0 } else { low })).collect();
+        // glTF has y up; the cube from 0 to 1 then reaches from −1 to 0 along y.
+        let wanted = wanted.into_iter().map(|[x, y, z]| [x, 0.0 - z, y]).collect();
+        assert_eq!(corners(&model), sorted(wanted), "{}", path.display());
+    }
+    // A third of the largest integer is a third, not the nearest number of single precision.
+    let third = save("third.gltf", 5123, true, 1.0, words(65535, 21845), 8);
+    assert!(corners(&run(&third, &options()).unwrap().1).iter().flatten().any(|x| *x == 0.333_333_333_333_3));
+}
+
+#[test]
+fn collada_has_its_unit_axis_and_tree() {
+    let folder = folder("collada");
+    let at = |name: &str, text: String, options: &Options| {
+        let (imported, model) = run(&write(&folder, name, text), options).unwrap_or_else(|f| panic!("{f}"));
+        assert_eq!(imported.primitives, [("Polyhedron", 1)], "{name}");
+        let all = corners(&model);
+        [all[0], all[7]]
+    };
+    let z_up = "<unit name=\"millimeter\" meter=\"0.001\"/><up_axis>Z_UP</up_axis>";
+    let list = collada_list("polylist");
+    let shift = "<translate>10 20 30</translate><rotate>0 0 1 90</rotate><scale>1 2 3</scale>";
+    assert_eq!(
+        at("tree.dae", collada(z_up, shift, &list), &options()),
+        [[0.008, 0.019, 0.027], [0.012, 0.021, 0.033]]
+    );
+    let inches = Options { unit_m: 25.4, ..options() };
+    assert_eq!(at("unit.dae", collada(z_up, "", &list), &inches), [[-0.0254; 3], [0.0254; 3]]);
+    let y_up = collada("<up_axis>Y_UP</up_axis>", "<translate>1 2 3</translate>", &list);
+    assert_eq!(at("y.dae", y_up.clone(), &options()), [[0.0, -4.0, 1.0], [2.0, -2.0, 3.0]]);
+    assert_eq!(
+        at("z.dae", y_up, &Options { up: Some(Up::Z), ..options() }),
+        [[0.0, 1.0, 2.0], [2.0, 3.0, 4.0]]
+    );
+    let x_up = collada("<up_axis>X_UP</up_axis>", "<translate>1 2 3</translate>", &list);
+    assert_eq!(at("x.dae", x_up, &options()), [[-3.0, -4.0, 0.0], [-1.0, -2.0, 2.0]]);
+    // A mirror turns the winding: the solid still faces outwards.
+    let mirror = "<matrix>-1 0 0 5  0 1 0 0  0 0 1 0  0 0 0 1</matrix>";
+    assert_eq!(at("mirror.dae", collada(z_up, mirror, &list), &options())[0], [0.004, -0.001, -0.001]);
+    // Nodes of a library, a second time through a node above.
+    let twice = collada(z_up, "", &list).replace(
+        "</visual_scene>",
+        "<node id=\"two\"><translate>9 0 0</translate><instance_node url=\"#part\"/></node></visual_scene>",
+    );
+    let (imported, model) = run(&write(&folder, "twice.dae", twice), &options()).unwrap();
+    assert_eq!(
+        (imported.triangles, paths(&model)),
+        (24, vec!["part/part".to_owned(), "two/part/part".to_owned()])
+    );
+    // Without a scene every geometry is read.
+    let bare = collada(z_up, "", &list);
+    let (from, to) = (bare.find("<library_visual").unwrap(), bare.find("</COLLADA>").unwrap());
+    let (imported, _) =
+        run(&write(&folder, "bare.dae", format!("{}{}", &bare[..from], &bare[to..])), &options()).unwrap();
+    assert_eq!((imported.triangles, note_rules(&imported)), (12, vec!["no-scene"]));
+}
+
+#[test]
+fn collada_that_cannot_be_read_is_refused() {
+    let folder = folder("collada_faults");
+    let list = collada_list("polylist");
+    let plain = || collada("", "", &list);
+    let cases = [
+        ("syntax.dae", plain().replace("</mesh>", ""), "damaged"),
+        ("root.dae", "<svg/>".to_owned(), "damaged"),
+        ("skin.dae", plain().replace("instance_geometry", "instance_controller"), "skin"),
+        ("spline.dae", plain().replace("mesh>", "spline>"), "free-form"),
+        ("hole.dae", collada("", "", &list.replace("<vcount>", "<ph/><vcount>")), "face-not-cut"),
+        ("skew.dae", collada("", "<skew>45 0 1 0 1 0 0</skew>", &list), "damaged"),
+        ("count.dae", collada("", "", &list.replace("4 4 4 4 4 4", "4 4 4 4 4 5")), "damaged"),
+        ("short.dae", collada("", "", &list.replace("4 4 4 4 4 4", "4 4 4 4 4")), "damaged"),
+        ("unit.dae", collada("<unit meter=\"0\"/>", "", &list), "damaged"),
+        ("promise.dae", plain().replace("count=\"8\" stride", "count=\"900000000000\" stride"), "damaged"),
+        ("empty.dae", plain().replace("<instance_geometry url=\"#cube-mesh\"/>", ""), "empty-mesh"),
+        ("itself.dae", collada("", "<instance_node url=\"#part\"/>", &list), "too-deep"),
+        ("entity.dae", format!("<!DOCTYPE a [<!ENTITY b \"c\">]>{}", &plain()[39..]), "damaged"),
+    ];
+    for (name, text, rule) in cases {
+        let findings = run(&write(&folder, name, text), &options()).unwrap_err();
+        assert_eq!(findings.faults[0].rule, rule, "{name}: {findings}");
+        assert!(findings.faults.iter().all(|fault| !fault.cure.is_empty()));
+    }
+}
+
+/// Short files that name one mesh many times: by nodes, by primitives of a mesh, by nodes without a mesh.
+#[test]
+fn copies_beyond_a_limit_are_refused() {
+    let folder = folder("copies");
+    let few = |triangles_max: usize| Options { triangles_max, ..options() };
+    let mut nodes = cube_file();
+    (0..999).for_each(|k| _ = nodes.node(None, json!({"mesh": 0, "name": format!("n{k}")})));
+    let nodes = nodes.save(&folder, "nodes.glb");
+    assert_eq!(run(&nodes, &few(12_400)).unwrap().0.triangles, 12_000);
+    let mut primitives = Gltf::new();
+    let mesh = primitives.triangles(&torus(1.0, 0.3, 32, 16));
+    primitives.node(None, json!({"mesh": mesh}));
+    let one = primitives.json["meshes"][0]["primitives"][0].clone();
+    primitives.json["meshes"][0]["primitives"] = json!(vec![one; 300]);
+    let primitives = primitives.save(&folder, "primitives.glb");
+    let list = collada_list("triangles");
+    let level = |k: u32| {
+        let below = format!("<instance_node url=\"#n{}\"/>", k + 1);
+        format!("<node id=\"n{k}\">{below}{below}</node>")
+    };
+    let library: String = (0..40).map(level).collect();
+    let doubled = collada("", "", &list).replace(
+        "<library_visual_scenes>",
+        &format!("<library_nodes>{library}<node id=\"n40\"><instance_geometry url=\"#cube-mesh\"/></node></library_nodes><library_visual_scenes>"),
+    );
+    let doubled = doubled.replace(
+        "</visual_scene>",
+        "<instance_node url=\"#n0\"/><node><instance_node url=\"#n0\"/></node></visual_scene>",
+    );
+    let doubled = write(&folder, "doubled.dae", doubled);
+    for path in [nodes, primitives, doubled] {
+        let findings = run(&path, &few(100)).unwrap_err();
+        assert_eq!(rules(&findings), ["too-many-copies"], "{}: {findings}", path.display());
+        assert!(findings.faults[0].cure.contains("--triangles-max"), "{findings}");
+    }
+    // Paths of nodes repeat the names above.
+    let mut long = Gltf::new();
+    let top = long.node(None, json!({"name": "a".repeat(100_000)}));
+    (0..800).for_each(|_| _ = long.node(Some(top), json!({"name": "b"})));
+    let findings = run(&long.save(&folder, "names.glb"), &options()).unwrap_err();
+    assert_eq!(rules(&findings), ["too-many-copies"], "{findings}");
+}
+
+/// The cube with these triangles, in every format.
+fn in_all_formats(folder: &Path, triangles: &Triangles) -> Vec<PathBuf> {
+    let mut gltf = Gltf::new();
+    let mesh = gltf.triangles(triangles);
+    gltf.node(None, json!({"name": "cube", "mesh": mesh}));
+    let number = |place: &Place| CUBE.iter().position(|corner| corner == place).unwrap().to_string();
+    let corners: Vec<String> = triangles.iter().flatten().map(number).collect();
+    let inputs = r##"<input semantic="VERTEX" source="#corners" offset="0"/>"##;
+    let list = format!("<triangles count=\"12\">{inputs}<p>{}</p></triangles>", corners.join(" "));
+    vec![
+        write(folder, "cube.stl", binary_stl(triangles)),
+        write(folder, "cube.obj", obj(triangles)),
+        write(folder, "cube.dae", collada("<up_axis>Z_UP</up_axis>", "", &list)),
+        gltf.save(folder, "cube.glb"),
+    ]
+}
+
+#[test]
+fn surfaces_that_face_the_wrong_way_are_told_and_turned_if_asked() {
+    let mut one = cube();
+    one[4] = turned(one[4]);
+    let all: Triangles = cube().into_iter().map(turned).collect();
+    for (test, triangles, rule) in [("one_turned", one, "winding"), ("all_turned", all, "inside-out")] {
+        for path in in_all_formats(&folder(test), &triangles) {
+            let (imported, _) = run(&path, &options()).unwrap();
+            let notes = &imported.findings.notes;
+            assert_eq!(imported.primitives, [("TriangleMesh", 1)]);
+            assert_eq!(notes.iter().filter(|note| note.rule == rule).count(), 1, "{}", imported.findings);
+            assert!(notes.iter().all(|note| [rule, "loader"].contains(&note.rule)), "{}", imported.findings);
+            let told =
+                if rule == "winding" { "1 of 12 triangles run against the others" } else { "8.000e0 m³" };
+            assert!(notes[0].cause.contains(told) && notes[0].cure.contains("--outward"), "{}", notes[0]);
+            let (imported, model) = run(&path, &Options { outward: true, ..options() }).unwrap();
+            assert_eq!(imported.primitives, [("Polyhedron", 1)], "{}", path.display());
+            assert_eq!((note_rules(&imported), corners(&model)), (vec!["turned"], sorted(CUBE.to_vec())));
+        }
+    }
+}
+
+#[test]
+fn holes_are_closed_if_asked_and_missing_sides_are_not() {
+    let folder = folder("holes");
+    let closing = Options { close: true, ..options() };
+    let run = |name: &str, triangles: &Triangles| run(&write(&folder, name, obj(triangles)), &closing);
+    // Two of twelve triangles are a side: 4 m² beside 20 m².
+    for missing in [1, 2] {
+        let (imported, model) = run("cube.obj", &cube()[..12 - missing].to_vec()).unwrap();
+        assert_eq!(imported.primitives, [("Polyhedron", 1)]);
+        assert_eq!((note_rules(&imported), corners(&model)), (vec!["closed"], sorted(CUBE.to_vec())));
+        let area = if missing == 1 { "2.000e0 m² added" } else { "4.000e0 m² added" };
+        assert!(imported.findings.notes[0].cause.contains(area), "{}", imported.findings);
+    }
+    // The upper end of a square tube is a ring of 8 m², and corners of its outline lie on straight lines.
+    let wall = |x: i32, y: i32| (x, y) != (1, 1);
+    let all: Vec<[i32; 3]> =
+        (0..36).map(|k| [k % 3, k / 3 % 3, k / 9]).filter(|&[x, y, _]| wall(x, y)).collect();
+    let tube: Triangles =
+        blocks(&all, 1.0).into_iter().filter(|t| t.iter().any(|place| place[2] < 4.0)).collect();
+    let (imported, _) = run("tube.obj", &tube).unwrap();
+    let note = &imported.findings.notes[0];
+    assert!(
+        note.rule == "closed" && note.cause.starts_with("1 hole closed") && note.cause.contains("8.000e0 m²"),
+        "{note}"
+    );
+    assert!(!imported.findings.notes.iter().any(|note| ["winding", "crowded-edge"].contains(&note.rule)));
+    // A sheet, and a cube of five sides without a triangle of a sixth: more than a quarter is missing.
+    for (name, triangles) in [("sheet.obj", cube()[..2].to_vec()), ("three.obj", cube()[..6].to_vec())] {
+        let findings = run(name, &triangles).unwrap_err();
+        assert_eq!(rules(&findings), ["not-closed"], "{findings}");
+        assert!(findings.faults[0].cause.contains("more than a quarter"), "{findings}");
+    }
 }

@@ -220,3 +220,47 @@ fn bad_files_are_told() {
     folder.write("lying.stl", &lying);
     assert_eq!(mesh("lying.stl"), "mesh-file-damaged");
 }
+
+#[test]
+fn every_solid_of_a_text_stl_is_read() {
+    let folder = Folder::new("solids");
+    let moved = |by: f32| -> Vec<_> {
+        cube_triangles().into_iter().map(|t| t.map(|[x, y, z]| [x + by, y, z])).collect()
+    };
+    let text = format!("SOLID\nEND SOLID\n{}{}", ascii_stl(&cube_triangles()), ascii_stl(&moved(5.0)));
+    folder.write("two.stl", text.as_bytes());
+    let model = folder.load("TriangleMesh(name: \"m\", file: \"two.stl\")").unwrap();
+    assert_eq!((model.bodies[0].triangles.triangles.len(), model.bodies[0].shell_count), (24, 2));
+    let end = text.rfind("endloop").unwrap();
+    folder.write("cut.stl", &text.as_bytes()[..end]);
+    let errors = folder.load("TriangleMesh(name: \"m\", file: \"cut.stl\")").expect_err("cut");
+    let line = text[..end].lines().count() - 4;
+    assert!(errors.0[0].cause.contains(&format!("line {line}: it ends within the facet")), "{errors}");
+    let end = text.rfind("endsolid").unwrap();
+    folder.write("open.stl", &text.as_bytes()[..end]);
+    let model = folder.load("TriangleMesh(name: \"m\", file: \"open.stl\")").unwrap();
+    assert!(
+        model.warnings.iter().any(|warning| warning.contains("without `endsolid`")),
+        "{:?}",
+        model.warnings
+    );
+}
+
+#[test]
+fn a_file_whose_mesh_faces_inwards_is_told() {
+    let folder = Folder::new("inward");
+    let turned: Vec<_> = cube_triangles().into_iter().map(|[a, b, c]| [a, c, b]).collect();
+    folder.write("in.stl", &binary_stl(&turned, b""));
+    folder.write("out.stl", &binary_stl(&cube_triangles(), b""));
+    folder.write("open.stl", &binary_stl(&turned[1..], b""));
+    let told = |name: &str, more: &str| {
+        let mesh = format!("TriangleMesh(name: \"m\", file: \"{name}\"{more})");
+        let model = folder.load(&mesh).unwrap();
+        model
+            .warnings
+            .iter()
+            .any(|warning| warning.contains("faces inwards") && warning.contains("8.000e0 m³"))
+    };
+    assert!(told("in.stl", ""));
+    assert!(!told("out.stl", "") && !told("open.stl", "") && !told("in.stl", ", two_sided: true"));
+}

@@ -13,6 +13,10 @@ pub struct Building<'a> {
     pub root: Option<String>,
     /// Vertices nearer than this are one, m; `None` joins only equal ones.
     pub weld_m: Option<f64>,
+    /// Whether triangles are made to run alike, and closed surfaces to face outwards.
+    pub outward: bool,
+    /// Whether holes are filled.
+    pub close: bool,
     /// Metres in one unit of the file, for lengths in marks.
     pub unit_m: f64,
     pub surface: Option<DefaultSurface>,

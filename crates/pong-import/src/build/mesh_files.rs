@@ -3,6 +3,7 @@
 use crate::findings::Findings;
 use crate::model::{Field, Model, Primitive, field, value_of};
 use nalgebra::Vector3;
+use pong_model::mesh_formats;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -109,19 +110,19 @@ fn stl(vertices: &[Vector3<f64>], faces: &[Vec<u32>]) -> Result<Vec<u8>, String>
     if let Some(x) = lost {
         return Err(format!("STL keeps single precision, and {x} needs more"));
     }
-    let single = |place: &Vector3<f64>| stl_io::Vertex::new([place.x as f32, place.y as f32, place.z as f32]);
-    let triangles: Option<Vec<stl_io::Triangle>> = faces
-        .iter()
-        .map(|face| {
-            let corners: [u32; 3] = face.as_slice().try_into().ok()?;
-            let [a, b, c] = corners.map(|vertex| vertices[vertex as usize]);
-            let normal = (b - a).cross(&(c - a)).normalize();
-            let vertices = corners.map(|vertex| single(&vertices[vertex as usize]));
-            Some(stl_io::Triangle { normal: single(&normal), vertices })
-        })
-        .collect();
-    let triangles = triangles.ok_or("STL has triangles only, and a face has more corners")?;
-    let mut bytes = Vec::new();
-    stl_io::write_stl(&mut bytes, triangles.iter()).map_err(|reason| reason.to_string())?;
+    let mut bytes = vec![0; mesh_formats::STL_HEAD - 4];
+    bytes.extend((faces.len() as u32).to_le_bytes());
+    for face in faces {
+        let corners: [u32; 3] = face
+            .as_slice()
+            .try_into()
+            .map_err(|_| "STL has triangles only, and a face has more corners".to_owned())?;
+        let [a, b, c] = corners.map(|vertex| vertices[vertex as usize]);
+        let normal = (b - a).cross(&(c - a)).normalize();
+        for x in [normal, a, b, c].iter().flat_map(|place| place.iter()) {
+            bytes.extend((*x as f32).to_le_bytes());
+        }
+        bytes.extend([0; 2]);
+    }
     Ok(bytes)
 }

@@ -3,7 +3,7 @@
 use super::building::Building;
 use crate::affine::Affine;
 use crate::findings::Findings;
-use crate::mesh::{self, Adjacency, Mesh};
+use crate::mesh::{self, Adjacency, Closed, Mesh, Turned};
 use crate::number::Grid;
 use crate::source::Shape;
 
@@ -64,7 +64,50 @@ pub fn triangles(shape: Shape, building: &Building<'_>, path: &str, findings: &m
         findings.note(path, "t-junction", cause, "");
         mesh::clean(&mut mesh);
     }
+    if !cleaning.two_sided {
+        mend(&mut mesh, building, path, findings);
+    }
     Placed { mesh: mesh.compact(), two_sided: cleaning.two_sided }
+}
+
+/// Turns triangles and fills holes, if that is asked for.
+fn mend(mesh: &mut Mesh, building: &Building<'_>, path: &str, findings: &mut Findings) {
+    let mut turned = Turned::default();
+    if building.outward {
+        turned.triangles = mesh::make_alike(mesh);
+    }
+    if building.close {
+        match mesh::close(mesh) {
+            Ok(Some(closed)) => {
+                let Closed { triangles, area_m2, largest_m2, at, bent_m, .. } = closed;
+                let cause = format!(
+                    "{} closed with {triangles} triangles: {area_m2:.3e} m² added, the largest {largest_m2:.3e} m² near ({}, {}, {}); corners up to {bent_m:.1e} m off their plane",
+                    mesh::count(closed.holes),
+                    at.x,
+                    at.y,
+                    at.z
+                );
+                findings.note(path, "closed", cause, "");
+            }
+            Ok(None) => {}
+            Err(cause) => {
+                let cure =
+                    "close it where it was made, or leave --close out; --outward makes triangles run alike";
+                findings.fault(path, "not-closed", format!("it cannot be closed: {cause}"), cure);
+            }
+        }
+    }
+    if building.outward {
+        turned.shells = mesh::turn_outward(mesh).shells;
+    }
+    if turned.triangles > 0 {
+        let cause = format!("{} triangles that ran against their neighbours were turned", turned.triangles);
+        findings.note(path, "turned", cause, "");
+    }
+    if turned.shells > 0 {
+        let cause = format!("{} closed surfaces that faced inwards were turned outwards", turned.shells);
+        findings.note(path, "turned", cause, "");
+    }
 }
 
 /// Tells of edges at which a surface of triangles does not run on.
@@ -80,16 +123,31 @@ pub fn tell_oddities(mesh: &Mesh, path: &str, findings: &mut Findings) {
         findings.note(path, "crowded-edge", cause, "there the surface has free edges; take inner walls away");
     }
     if let Some(&first) = adjacency.wound_against.first() {
-        let cause = format!(
-            "{} edges join neighbours wound against each other, {}",
-            adjacency.wound_against.len(),
-            at(first)
-        );
-        findings.note(
-            path,
-            "winding",
-            cause,
-            "there the surface has free edges; make the normals consistent",
-        );
+        let edges = adjacency.wound_against.len();
+        let cause = match mesh::shells(mesh).iter().find_map(|shell| Some((shell.against.first()?, shell))) {
+            Some((&triangle, shell)) => {
+                let [a, b, c] = mesh.corners(triangle as usize).map(|place| named(&place));
+                format!(
+                    "{} of {} triangles run against the others, so that {edges} edges are free; the first has the corners {a}, {b}, {c}",
+                    shell.against.len(),
+                    shell.triangles.len(),
+                )
+            }
+            None => format!("{edges} edges join neighbours wound against each other, {}", at(first)),
+        };
+        findings.note(path, "winding", cause, "--outward turns them; else make the normals consistent");
     }
+    for (triangles, volume_m3) in mesh::facing_inwards(mesh) {
+        let cause = format!(
+            "a closed surface of {} triangles faces inwards, {}: it holds bodies within its {:.3e} m³, and lets them in from outside",
+            triangles.len(),
+            at(triangles[0]),
+            -volume_m3
+        );
+        findings.note(path, "inside-out", cause, "--outward turns it; leave it if it is a room");
+    }
+}
+
+fn named(place: &nalgebra::Vector3<f64>) -> String {
+    format!("({}, {}, {})", place.x, place.y, place.z)
 }

@@ -48,12 +48,16 @@ pub enum Flaw {
 /// Signed volume, m³: above zero if the triangles face outwards.
 pub fn volume_m3(mesh: &Mesh) -> f64 {
     let (low, high) = bounds(&mesh.vertices);
-    let centre = 0.5 * (low + high);
+    volume_of(mesh, 0..mesh.triangles.len(), &(0.5 * (low + high)))
+}
+
+/// Signed volume between a place and some triangles, m³.
+pub(super) fn volume_of(mesh: &Mesh, triangles: impl Iterator<Item = usize>, place: &Vector3<f64>) -> f64 {
     let six = |triangle: usize| {
-        let [a, b, c] = mesh.corners(triangle).map(|place| place - centre);
+        let [a, b, c] = mesh.corners(triangle).map(|corner| corner - place);
         a.dot(&b.cross(&c))
     };
-    (0..mesh.triangles.len()).map(six).sum::<f64>() / 6.0
+    triangles.map(six).sum::<f64>() / 6.0
 }
 
 /// The part as a convex polyhedron of at most `faces_max` faces, or what keeps it from being one.

@@ -6,12 +6,13 @@ mod accessors;
 mod buffers;
 mod json;
 
+use super::budget::Budget;
 use super::reading::Reading;
 use super::tree::{Look, Node, Shape, Source, all_in_range};
 use super::welder::Welder;
 use crate::affine::{Affine, Up};
 use crate::findings::Findings;
-use accessors::{indices, positions};
+use accessors::{Positions, indices, positions};
 use json::Json;
 use serde_json::Value;
 use std::path::Path;
@@ -44,8 +45,10 @@ pub(super) fn read(bytes: &[u8], path: &Path, reading: &Reading, findings: &mut 
         settings: scene.get("extras").and_then(|extras| extras.get("pong")).cloned(),
         ..Source::default()
     };
+    let length = bytes.len() + reader.buffers.iter().map(Vec::len).sum::<usize>();
+    let mut budget = Budget::new(reading.triangles_max, length);
     for root in scene.list("nodes") {
-        reader.add_node(root, None, &mut source, findings);
+        reader.add_node(root, None, (&mut source, &mut budget), findings);
     }
     findings.faults.is_empty().then_some(source)
 }
@@ -82,7 +85,13 @@ impl Reader<'_> {
         found
     }
 
-    fn add_node(&self, index: &Value, parent: Option<usize>, source: &mut Source, findings: &mut Findings) {
+    fn add_node(
+        &self,
+        index: &Value,
+        parent: Option<usize>,
+        (source, budget): (&mut Source, &mut Budget),
+        findings: &mut Findings,
+    ) {
         let number = index.as_u64().unwrap_or(u64::MAX) as usize;
         let Some(node) = self.json.list("nodes").get(number) else { return };
         let mesh = node.index("mesh");
@@ -97,16 +106,19 @@ impl Reader<'_> {
             findings.fault(&self.place(&path), "too-deep", "nodes nest deeper than 200", "flatten the tree");
             return;
         }
+        if !budget.take_path(&path, &self.file, findings) {
+            return;
+        }
         let local = findings.ok(json::transform(node, &self.place(&path)));
         let mark = node.get("extras").and_then(|extras| extras.get("pong")).cloned();
         self.refuse_deformation(node, mesh, &self.place(&path), findings);
-        let mesh = mesh.and_then(|mesh| self.shape(mesh, &self.place(&path), findings));
+        let mesh = mesh.and_then(|mesh| self.shape(mesh, &self.place(&path), budget, findings));
         let mut local = self.up.turned_transform(&local.unwrap_or(Affine::identity()));
         local.translation *= self.unit_m;
         source.nodes.push(Node { name, parent, path, local, mark, mesh });
         let own = source.nodes.len() - 1;
         for child in node.list("children") {
-            self.add_node(child, Some(own), source, findings);
+            self.add_node(child, Some(own), (source, budget), findings);
         }
     }
 
@@ -150,17 +162,28 @@ impl Reader<'_> {
     }
 
     /// All primitives of a mesh as one shape.
-    fn shape(&self, mesh: usize, path: &str, findings: &mut Findings) -> Option<Shape> {
+    fn shape(&self, mesh: usize, path: &str, budget: &mut Budget, findings: &mut Findings) -> Option<Shape> {
         let mesh = self.document.meshes().nth(mesh)?;
         let mut shape = Shape::default();
         let mut welder = Welder::default();
         for primitive in mesh.primitives() {
             let look = self.look(primitive.material().index());
+            let Some(length) = findings.ok(accessors::length(&primitive, &self.buffers, path)) else {
+                continue;
+            };
+            if !budget.take(length, path, findings) {
+                return None;
+            }
             let read = positions(&primitive, &self.buffers, path).and_then(|places| {
                 indices(&primitive, &self.buffers, places.len(), path).map(|order| (places, order))
             });
             let Some((places, order)) = findings.ok(read) else { continue };
-            let numbers: Vec<u32> = places.into_iter().map(|place| welder.weld(place)).collect();
+            let numbers: Vec<u32> = match places {
+                Positions::Single(places) => places.into_iter().map(|place| welder.weld(place)).collect(),
+                Positions::Double(places) => {
+                    places.into_iter().map(|place| welder.weld_wide(place)).collect()
+                }
+            };
             let order: Vec<u32> = order.into_iter().map(|index| numbers[index as usize]).collect();
             add_elements(&mut shape, primitive.mode(), &order, look);
         }

@@ -1,5 +1,9 @@
-//! Mesh files, glTF, OBJ and STL, each read by its own reader to the same tree of nodes with geometry.
+//! Mesh files, glTF, Collada, OBJ and STL, each read by its own reader to the same tree of nodes with geometry.
 
+mod budget;
+mod collada;
+mod faces;
+mod format_fault;
 mod gltf;
 mod guesses;
 mod obj;
@@ -18,14 +22,15 @@ pub use tree::{Look, Node, Shape, Source};
 pub fn read(path: &Path, reading: &Reading, findings: &mut Findings) -> Option<Source> {
     let file = path.display().to_string();
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    if !matches!(ending.as_str(), "glb" | "gltf" | "obj" | "stl") {
-        let cause = "the name ends in none of .glb, .gltf, .obj and .stl";
+    if !matches!(ending.as_str(), "dae" | "glb" | "gltf" | "obj" | "stl") {
+        let cause = "the name ends in none of .glb, .gltf, .dae, .obj and .stl";
         return findings.refuse(&file, "unknown-format", cause, "export the mesh in one of these formats");
     }
     let bytes = findings.ok(bytes_of(path, &file))?;
     let source = match ending.as_str() {
         "obj" => obj::read(&bytes, path, reading, findings),
-        "stl" => stl::read(bytes, path, reading, findings),
+        "stl" => stl::read(&bytes, path, reading, findings),
+        "dae" => return collada::read(&bytes, path, reading, findings),
         _ => return gltf::read(&bytes, path, reading, findings),
     }?;
     guesses::tell(&source, reading, &file, findings);

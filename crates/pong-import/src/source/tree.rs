@@ -27,7 +27,7 @@ pub struct Node {
 }
 
 /// Vertices in the node's frame and what they span.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Shape {
     /// Distinct places.
     pub vertices: Vec<Vector3<f64>>,

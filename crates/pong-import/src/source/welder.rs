@@ -9,16 +9,11 @@ use pong_model::weld::WordMap;
 #[derive(Default)]
 pub(crate) struct Welder {
     numbers: WordMap<[u32; 3], u32>,
+    wide: pong_model::weld::Welder,
     pub(crate) vertices: Vec<Vector3<f64>>,
 }
 
 impl Welder {
-    pub(crate) fn with_capacity(places: usize) -> Self {
-        let mut welder = Self::default();
-        welder.numbers.reserve(places);
-        welder
-    }
-
     /// The number of a place; −0 and 0 are the same.
     pub(crate) fn weld(&mut self, place: [f32; 3]) -> u32 {
         let key = place.map(|x| (x + 0.0).to_bits());
@@ -27,5 +22,10 @@ impl Welder {
             vertices.push(Vector3::from(place.map(|x| widened(x + 0.0))));
             (vertices.len() - 1) as u32
         })
+    }
+
+    /// The number of a place of double precision.
+    pub(crate) fn weld_wide(&mut self, place: Vector3<f64>) -> u32 {
+        self.wide.weld(place, &mut self.vertices)
     }
 }

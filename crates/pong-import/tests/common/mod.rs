@@ -179,3 +179,47 @@ pub fn cube_file() -> Gltf {
     gltf.node(None, json!({"name": "cube", "mesh": mesh}));
     gltf
 }
+
+/// A Collada file of one node with the cube; `primitives` are lists that name its corners, `asset` and `transform` go in
+/// as they are.
+pub fn collada(asset: &str, transform: &str, primitives: &str) -> String {
+    let places: String = CUBE.iter().map(|[x, y, z]| format!("{x} {y} {z} ")).collect();
+    format!(
+        r##"<?xml version="1.0" encoding="utf-8"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+  <asset>{asset}</asset>
+  <library_geometries><geometry id="cube-mesh" name="Cube"><mesh>
+    <source id="places"><float_array id="numbers" count="24">{places}</float_array>
+      <technique_common><accessor source="#numbers" count="8" stride="3"/></technique_common></source>
+    <source id="normals"><float_array id="directions" count="3">0 0 1</float_array></source>
+    <vertices id="corners"><input semantic="POSITION" source="#places"/></vertices>
+    {primitives}
+  </mesh></geometry></library_geometries>
+  <library_visual_scenes><visual_scene id="Scene">
+    <node id="lamp"><lookat>0 0 0 1 1 1 0 0 1</lookat><instance_light url="#none"/></node>
+    <node id="part">{transform}<instance_geometry url="#cube-mesh"/></node>
+  </visual_scene></library_visual_scenes>
+  <scene><instance_visual_scene url="#Scene"/></scene>
+</COLLADA>"##
+    )
+}
+
+/// The cube as a list of Collada: `triangles`, `polylist` or `polygons`, with normals beside the corners.
+pub fn collada_list(kind: &str) -> String {
+    let corners = |side: &[usize]| side.iter().map(|corner| format!("{corner} 0 ")).collect::<String>();
+    let sides: String = match kind {
+        "triangles" => {
+            SIDES.iter().map(|[a, b, c, d]| corners(&[*a, *b, *c]) + &corners(&[*a, *c, *d])).collect()
+        }
+        "polygons" => SIDES.iter().map(|side| format!("<p>{}</p>", corners(side))).collect(),
+        _ => SIDES.iter().map(|side| corners(side)).collect(),
+    };
+    let numbers = match kind {
+        "polygons" => sides,
+        "polylist" => format!("<vcount>4 4 4 4 4 4</vcount><p>{sides}</p>"),
+        _ => format!("<p>{sides}</p>"),
+    };
+    let inputs = r##"<input semantic="VERTEX" source="#corners" offset="0"/><input semantic="NORMAL" source="#normals" offset="1"/>"##;
+    let count = if kind == "triangles" { 12 } else { 6 };
+    format!("<{kind} count=\"{count}\">{inputs}{numbers}</{kind}>")
+}

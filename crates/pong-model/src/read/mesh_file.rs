@@ -1,8 +1,9 @@
 //! Shapes from OBJ and STL files that lie beside the model file.
 
 use super::reader::Reader;
+use crate::files;
+use crate::mesh_formats::{self, FormatFault};
 use crate::ron_tree::Node;
-use crate::{files, mesh_formats};
 use pong_geometry::Vec3;
 use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
@@ -70,8 +71,23 @@ pub(super) fn from_file(
         }
     };
     let mesh = match extension(&name).as_str() {
-        "obj" => obj(&bytes),
-        "stl" => stl(bytes),
+        "obj" => obj(&bytes).map(|(mesh, without_area)| {
+            if without_area > 0 {
+                let what = format!(
+                    "{without_area} faces of \"{name}\" have fewer than three corners and were left out"
+                );
+                reader.warn(node.at, path, &what);
+            }
+            mesh
+        }),
+        "stl" => stl(&bytes).map(|(mesh, unfinished)| {
+            if unfinished {
+                let what =
+                    format!("\"{name}\" ends without `endsolid`: if it was cut off, triangles are missing");
+                reader.warn(node.at, path, &what);
+            }
+            mesh
+        }),
         _ => {
             let cause = format!("\"{name}\" is neither .obj nor .stl");
             return reader.refuse(node.at, path, "mesh-file-kind", cause, "export it as OBJ or STL");
@@ -85,9 +101,9 @@ pub(super) fn from_file(
             }
             Some(mesh)
         }
-        Err(reason) => {
-            let cause = format!("\"{name}\" is damaged: {reason}");
-            reader.refuse(node.at, path, "mesh-file-damaged", cause, "export it again")
+        Err(fault) => {
+            let cause = format!("\"{name}\" is damaged: {fault}");
+            reader.refuse(node.at, path, "mesh-file-damaged", cause, fault.cure)
         }
     }
 }
@@ -122,37 +138,38 @@ fn allowed_path(reader: &mut Reader<'_>, node: &Node, path: &str, name: &str) ->
     Some(folder.join(name))
 }
 
-/// Faces of any number of corners; materials, normals and texture coordinates are left aside.
-fn obj(bytes: &[u8]) -> Result<Mesh, String> {
-    // The mark that some editors put before UTF-8 would hide the keyword of the first line.
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+/// Faces of any number of corners of all objects; the vertices of each object in the order of their first use. With it
+/// the number of faces that were left out.
+fn obj(bytes: &[u8]) -> Result<(Mesh, usize), FormatFault> {
+    let found = mesh_formats::obj(bytes)?;
     let mut mesh = Mesh::default();
-    for model in mesh_formats::obj(bytes)? {
+    let mut number = vec![u32::MAX; found.places.len()];
+    for object in &found.objects {
         let first = mesh.vertices.len() as u32;
-        let positions = model.mesh.positions.chunks_exact(3);
-        mesh.vertices.extend(positions.map(|p| Vec3::new(p[0], p[1], p[2])));
-        mesh.corners.extend(model.mesh.indices.iter().map(|index| first + index));
-        let mut end = mesh.ends.last().copied().unwrap_or(0);
-        if model.mesh.face_arities.is_empty() {
-            mesh.ends.extend((0..model.mesh.indices.len() / 3).map(|k| end + 3 * (k as u32 + 1)));
-            continue;
+        for &corner in &object.corners {
+            let slot = &mut number[corner as usize];
+            // Numbers below `first` are those of an earlier object.
+            if *slot == u32::MAX || *slot < first {
+                *slot = mesh.vertices.len() as u32;
+                mesh.vertices.push(Vec3::from(found.places[corner as usize]));
+            }
+            mesh.corners.push(*slot);
         }
-        for arity in &model.mesh.face_arities {
-            end += arity;
-            mesh.ends.push(end);
-        }
+        let before = mesh.ends.last().copied().unwrap_or(0);
+        mesh.ends.extend(object.ends.iter().map(|end| before + end));
     }
-    Ok(mesh)
+    Ok((mesh, found.without_area))
 }
 
-fn stl(bytes: Vec<u8>) -> Result<Mesh, String> {
+/// The triangles of all solids, and whether the file ends without `endsolid`.
+fn stl(bytes: &[u8]) -> Result<(Mesh, bool), FormatFault> {
     let mut mesh = Mesh::default();
-    mesh_formats::stl(bytes, |corners| {
+    let found = mesh_formats::stl(bytes, |_, corners| {
         for [x, y, z] in corners.map(|corner| corner.map(f64::from)) {
             mesh.corners.push(mesh.vertices.len() as u32);
             mesh.vertices.push(Vec3::new(x, y, z));
         }
         mesh.ends.push(mesh.corners.len() as u32);
     })?;
-    Ok(mesh)
+    Ok((mesh, found.unfinished))
 }

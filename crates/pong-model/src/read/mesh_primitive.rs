@@ -1,5 +1,6 @@
 //! Triangles, meshes of triangles, and polyhedra: inline or from a file.
 
+use super::inward::inward_volume_m3;
 use super::mesh_file::{self, Mesh};
 use super::opened_primitive::Primitive;
 use super::reader::{LISTED_PER_MESH, Reader};
@@ -50,7 +51,26 @@ pub(super) fn triangle_mesh(
             "give it some, or remove it",
         );
     }
-    add_triangles(reader, p, info, &mesh, Some)
+    let info = add_triangles(reader, p, info, &mesh, Some)?;
+    tell_inward(reader, p, &info, &mesh);
+    Some(info)
+}
+
+/// Tells of a closed mesh of a file that faces inwards: in the model nothing shows it.
+fn tell_inward(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, info: &PrimitiveInfo, mesh: &Mesh) {
+    let (from_file, one_sided) = (mesh.at.is_empty(), info.first_mirror == info.elements.end);
+    if !from_file || !one_sided {
+        return;
+    }
+    let set = &p.draft.body.triangles;
+    let own = &set.triangles[info.elements.start as usize..info.elements.end as usize];
+    if let Some(volume_m3) = inward_volume_m3(set, own) {
+        let what = format!(
+            "the mesh is closed and faces inwards: it holds bodies within its {volume_m3:.3e} m³, and lets them in from \
+             outside; turn its normals unless it is a room"
+        );
+        reader.warn(p.at, &p.path, &what);
+    }
 }
 
 /// Thickness and sidedness.

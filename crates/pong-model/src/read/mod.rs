@@ -5,6 +5,7 @@ mod custom;
 mod document;
 mod fields;
 mod group;
+mod inward;
 mod law_values;
 mod mesh_file;
 mod mesh_primitive;

@@ -1,8 +1,9 @@
 //! Positions and indices of a primitive, checked before they are read.
 
 use crate::findings::Finding;
-use ::gltf::accessor::{DataType, Dimensions};
+use ::gltf::accessor::{DataType, Dimensions, Item, Iter};
 use ::gltf::mesh::Primitive;
+use nalgebra::Vector3;
 
 fn damaged(path: &str, cause: String) -> Finding {
     let cure = "export it again".to_owned();
@@ -29,33 +30,95 @@ fn check_count(
     Ok(())
 }
 
+/// Positions of a primitive, in the precision of the file.
+pub(super) enum Positions {
+    Single(Vec<[f32; 3]>),
+    /// Fractions of the largest integer.
+    Double(Vec<Vector3<f64>>),
+}
+
+impl Positions {
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Single(places) => places.len(),
+            Self::Double(places) => places.len(),
+        }
+    }
+}
+
+/// The larger of the numbers of positions and of indices, as the file promises them.
+pub(super) fn length(primitive: &Primitive<'_>, buffers: &[Vec<u8>], path: &str) -> Result<usize, Finding> {
+    let mut length = 0;
+    let positions = primitive.get(&::gltf::Semantic::Positions).map(|accessor| (accessor, "positions"));
+    let indices = primitive.indices().map(|accessor| (accessor, "indices"));
+    for (accessor, what) in positions.into_iter().chain(indices) {
+        check_count(&accessor, buffers, what, path)?;
+        length = length.max(accessor.count());
+    }
+    Ok(length)
+}
+
+/// Positions, whose number was checked by [`length`]: floats, or the integers of KHR_mesh_quantization.
 pub(super) fn positions(
     primitive: &Primitive<'_>,
     buffers: &[Vec<u8>],
     path: &str,
-) -> Result<Vec<[f32; 3]>, Finding> {
+) -> Result<Positions, Finding> {
     let Some(accessor) = primitive.get(&::gltf::Semantic::Positions) else {
         let cause = format!("primitive {} of its mesh has no positions", primitive.index());
         return Err(damaged(path, cause));
     };
-    if (accessor.data_type(), accessor.dimensions()) != (DataType::F32, Dimensions::Vec3) {
-        let cause = "its positions are not three 32-bit floats each".to_owned();
-        let cure = "export without quantization".to_owned();
-        return Err(Finding { path: path.to_owned(), rule: "unsupported-extension", cause, cure });
-    }
     if accessor.count() == 0 {
-        return Ok(Vec::new());
+        return Ok(Positions::Single(Vec::new()));
     }
-    check_count(&accessor, buffers, "positions", path)?;
-    let reader = primitive.reader(bytes_of(buffers));
-    let places: Vec<[f32; 3]> = reader.read_positions().map(Iterator::collect).unwrap_or_default();
-    match places.len() == accessor.count() {
-        true => Ok(places),
-        false => Err(damaged(path, "its positions lie outside their buffer".to_owned())),
+    if accessor.dimensions() != Dimensions::Vec3 {
+        return Err(damaged(path, "its positions are not three numbers each".to_owned()));
+    }
+    let whole = accessor.normalized();
+    let places = match accessor.data_type() {
+        DataType::F32 => all::<f32>(&accessor, buffers).map(Positions::Single),
+        DataType::I8 => integers::<i8>(&accessor, buffers, whole.then_some(f64::from(i8::MAX))),
+        DataType::U8 => integers::<u8>(&accessor, buffers, whole.then_some(f64::from(u8::MAX))),
+        DataType::I16 => integers::<i16>(&accessor, buffers, whole.then_some(f64::from(i16::MAX))),
+        DataType::U16 => integers::<u16>(&accessor, buffers, whole.then_some(f64::from(u16::MAX))),
+        DataType::U32 => {
+            let cause = "its positions are 32-bit integers, which no extension of glTF allows";
+            return Err(damaged(path, cause.to_owned()));
+        }
+    };
+    match places {
+        Some(places) if places.len() == accessor.count() => Ok(places),
+        _ => Err(damaged(path, "its positions lie outside their buffer".to_owned())),
     }
 }
 
-/// The corners in order; every position once if there are no indices.
+fn all<T: Copy>(accessor: &::gltf::Accessor<'_>, buffers: &[Vec<u8>]) -> Option<Vec<[T; 3]>>
+where
+    [T; 3]: Item,
+{
+    Iter::<[T; 3]>::new(accessor.clone(), bytes_of(buffers)).map(Iterator::collect)
+}
+
+/// Integers as they are, or as fractions of the largest one; the least one of signed integers is −1 as its neighbour is.
+fn integers<T: Copy + Into<f64> + Into<f32>>(
+    accessor: &::gltf::Accessor<'_>,
+    buffers: &[Vec<u8>],
+    largest: Option<f64>,
+) -> Option<Positions>
+where
+    [T; 3]: Item,
+{
+    let places = all::<T>(accessor, buffers)?.into_iter();
+    Some(match largest {
+        None => Positions::Single(places.map(|place| place.map(Into::into)).collect()),
+        Some(largest) => {
+            let fraction = |x: T| (Into::<f64>::into(x) / largest).max(-1.0);
+            Positions::Double(places.map(|place| Vector3::from(place.map(fraction))).collect())
+        }
+    })
+}
+
+/// The corners in order; every position once if there are no indices. Their number was checked by [`length`].
 pub(super) fn indices(
     primitive: &Primitive<'_>,
     buffers: &[Vec<u8>],
@@ -70,7 +133,6 @@ pub(super) fn indices(
     if accessor.count() == 0 {
         return Ok(Vec::new());
     }
-    check_count(&accessor, buffers, "indices", path)?;
     let reader = primitive.reader(bytes_of(buffers));
     let order: Vec<u32> = reader.read_indices().map(|all| all.into_u32().collect()).unwrap_or_default();
     if order.len() != accessor.count() {

@@ -7,9 +7,17 @@ use nalgebra::{Matrix3, Vector3};
 use serde_json::Value;
 use std::collections::HashSet;
 
-/// Required extensions that change nothing about geometry.
-const HARMLESS: [&str; 6] =
-    ["KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_", "MSFT_texture_", "KHR_node_visibility"];
+/// Beginnings of required extensions that change nothing about geometry, or that are read.
+const HARMLESS: [&str; 7] = [
+    "KHR_materials_",
+    "KHR_texture_",
+    "KHR_lights_",
+    "EXT_texture_",
+    "MSFT_texture_",
+    "KHR_node_visibility",
+    // Positions of integers are read by their types.
+    "KHR_mesh_quantization",
+];
 
 /// Look-ups that do not mind what is missing.
 pub(super) trait Json {
@@ -72,7 +80,6 @@ pub(super) fn refuse_extensions(value: &Value, file: &str, findings: &mut Findin
         let cure = match name {
             "KHR_draco_mesh_compression" => "switch Draco compression off in the export",
             "EXT_meshopt_compression" | "KHR_meshopt_compression" => "export without meshopt compression",
-            "KHR_mesh_quantization" => "export positions as 32-bit floats, without quantization",
             "EXT_mesh_gpu_instancing" => "export without instancing, one node per place",
             _ => "export without this extension",
         };
