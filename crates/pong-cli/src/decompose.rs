@@ -7,7 +7,8 @@ use pong_decompose::{DecomposeOptions, Decomposed, Method, Report};
 use pong_report::table;
 use std::process::ExitCode;
 
-/// Makes a group of convex polyhedra of a closed mesh that need not be convex: glTF (.glb, .gltf), OBJ or STL.
+/// Makes a group of convex polyhedra of a closed mesh that need not be convex: glTF (.glb, .gltf),
+/// Collada (.dae), OBJ or STL.
 ///
 /// Walls between the pieces are marked inactive. Prints how far the pieces protrude from the mesh and what of it they
 /// leave uncovered. docs/importing.md tells what the figures mean and when to model by hand instead.
@@ -18,6 +19,10 @@ pub(crate) struct Arguments {
     /// Refuses a result that protrudes, or leaves uncovered, more than this: 0.5mm.
     #[arg(long, value_name = "LENGTH", value_parser = length_m)]
     within: Option<f64>,
+    /// Cuts where pieces protrude by more than this, as long as --pieces-max allows it, instead of by voxels: 1mm keeps holes
+    /// wider than 2 mm.
+    #[arg(long, value_name = "LENGTH", value_parser = length_m)]
+    fit: Option<f64>,
     /// Most pieces.
     #[arg(long, value_name = "PIECES", default_value_t = 64, value_parser = at_least_one)]
     pieces_max: usize,
@@ -61,15 +66,18 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
         },
         resolution: arguments.resolution,
         concavity: arguments.concavity,
+        fit_m: arguments.fit,
         pieces_max: arguments.pieces_max,
         within_m: arguments.within,
         samples: arguments.samples,
     };
     let bar = progress(None, SPINNER, false);
-    let done =
-        pong_decompose::decompose(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {
-            show(&bar, what)
-        });
+    let done = pong_decompose::decompose(
+        &arguments.mesh.file.input,
+        &arguments.mesh.output,
+        &options,
+        &mut |what| show(&bar, what),
+    );
     bar.finish_and_clear();
     let Decomposed { report, files, findings } = done;
     if let Some(report) = &report {

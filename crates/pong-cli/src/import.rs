@@ -7,7 +7,7 @@ use pong_import::{DefaultSurface, Findings, Imported, Options, Up};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Makes a model file of a mesh file: glTF (.glb, .gltf), OBJ or STL.
+/// Makes a model file of a mesh file: glTF (.glb, .gltf), Collada (.dae), OBJ or STL.
 ///
 /// Nodes of a glTF file become groups and primitives as `extras.pong` says, which the modelling toolkit writes. Without
 /// it every node becomes a group, convex solids become polyhedra and other surfaces meshes of triangles.
@@ -36,29 +36,45 @@ pub(crate) struct Arguments {
 /// The mesh file, the model file, and how the one becomes the other.
 #[derive(clap::Args)]
 pub(crate) struct Mesh {
-    /// The mesh file.
-    #[arg(value_name = "MESH")]
-    pub(crate) input: PathBuf,
+    #[command(flatten)]
+    pub(crate) file: MeshFile,
     /// The model file to write.
     #[arg(short, long, value_name = "MODEL.ron")]
     pub(crate) output: PathBuf,
-    /// Axis of the file that points up; y in glTF and z in OBJ and STL unless given.
-    #[arg(long, value_enum, value_name = "AXIS")]
-    pub(crate) up: Option<Axis>,
-    /// Length of one unit of the file: 0.001, 1mm, 1in.
-    #[arg(long, value_name = "LENGTH", default_value = "1m", value_parser = length_m)]
-    pub(crate) unit: f64,
     /// Name of the model; that of the file unless given.
     #[arg(long)]
     pub(crate) name: Option<String>,
-    /// glTF: the scene to read.
-    #[arg(long)]
-    pub(crate) scene: Option<String>,
     #[command(flatten)]
     pub(crate) surface: Surface,
+}
+
+/// A mesh file and how it is read.
+#[derive(clap::Args)]
+pub(crate) struct MeshFile {
+    /// The mesh file.
+    #[arg(value_name = "MESH")]
+    pub(crate) input: PathBuf,
+    /// Axis of the file that points up; y in glTF, z in OBJ and STL, in Collada what the file says, unless given.
+    #[arg(long, value_enum, value_name = "AXIS")]
+    pub(crate) up: Option<Axis>,
+    /// Length of one unit of the file: 0.001, 1mm, 1in; a factor to the unit that a Collada file gives.
+    #[arg(long, value_name = "LENGTH", default_value = "1m", value_parser = length_m)]
+    pub(crate) unit: f64,
+    /// glTF and Collada: the scene to read.
+    #[arg(long)]
+    pub(crate) scene: Option<String>,
     /// Welds vertices within this distance of each other: 1e-6, 1um; only equal ones are welded unless given.
     #[arg(long, value_name = "LENGTH", value_parser = length_m)]
     pub(crate) weld: Option<f64>,
+    /// Turns triangles that run against their neighbours, and closed surfaces that face inwards.
+    #[arg(long)]
+    pub(crate) outward: bool,
+    /// Fills holes between their vertices; refused if more than a quarter of the surface is missing.
+    #[arg(long)]
+    pub(crate) close: bool,
+    /// Most triangles that meshes may make which the file names several times.
+    #[arg(long, value_name = "TRIANGLES", default_value_t = 2_000_000)]
+    pub(crate) triangles_max: usize,
     #[command(flatten)]
     pub(crate) allowed: AllowedFolders,
 }
@@ -133,7 +149,7 @@ pub(crate) fn length_m(text: &str) -> Result<f64, String> {
     if length > 0.0 && length.is_finite() { Ok(length) } else { Err("it must be above zero".to_owned()) }
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| format!("`{text}` is no number"))?;
     if value > 0.0 { Ok(value) } else { Err("it must be above zero".to_owned()) }
 }
@@ -144,15 +160,23 @@ fn not_negative(text: &str) -> Result<f64, String> {
 }
 
 impl Mesh {
+    /// What every command that makes a model of a mesh is told.
+    pub(crate) fn options(&self) -> Options {
+        Options { name: self.name.clone(), surface: self.surface.chosen(), ..self.file.options() }
+    }
+}
+
+impl MeshFile {
     /// What every command that reads a mesh is told.
-    pub fn options(&self) -> Options {
+    pub(crate) fn options(&self) -> Options {
         Options {
             up: self.up.map(Up::from),
             unit_m: self.unit,
             scene: self.scene.clone(),
-            name: self.name.clone(),
-            surface: self.surface.chosen(),
             weld_m: self.weld,
+            outward: self.outward,
+            close: self.close,
+            triangles_max: self.triangles_max,
             allowed: self.allowed.folders.clone(),
             ..Options::default()
         }
@@ -169,9 +193,10 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
         ..arguments.mesh.options()
     };
     let bar = progress(None, SPINNER, false);
-    let result = pong_import::import(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {
-        show(&bar, what)
-    });
+    let result =
+        pong_import::import(&arguments.mesh.file.input, &arguments.mesh.output, &options, &mut |what| {
+            show(&bar, what)
+        });
     bar.finish_and_clear();
     let imported = result.map_err(|findings| nothing_written(&findings))?;
     imported.findings.notes.iter().for_each(|note| tell(format!("note: {note}")));

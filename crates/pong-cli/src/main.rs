@@ -16,6 +16,7 @@ mod folders;
 mod import;
 mod log;
 mod man_pages;
+mod mass;
 mod replay;
 mod run;
 mod terminal;
@@ -48,6 +49,7 @@ enum Command {
     Run(run::Arguments),
     Log(log::Arguments),
     ManPages(man_pages::Arguments),
+    Mass(mass::Arguments),
     Replay(replay::Arguments),
     Trade(trade::Arguments),
     Trim(trim::Arguments),
@@ -71,6 +73,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run::main(&arguments),
         Command::Log(arguments) => log::main(&arguments),
         Command::ManPages(arguments) => man_pages::main(&arguments, Cli::command()),
+        Command::Mass(arguments) => mass::main(&arguments),
         Command::Replay(arguments) => replay::main(&arguments),
         Command::Trade(arguments) => trade::main(&arguments),
         Command::Trim(arguments) => trim::main(&arguments),

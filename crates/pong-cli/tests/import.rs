@@ -98,3 +98,33 @@ fn notes_go_to_standard_error_and_wrong_flags_end_with_two() {
         assert_eq!(code, 2, "{err}");
     }
 }
+
+/// A box of 40 × 20 × 10 mm with its corner at the origin: m/12·(b² + c²), …
+#[test]
+fn mass_and_inertia_are_printed_as_a_scene_has_them() {
+    let places: String =
+        (0..8).map(|k| format!("v {} {} {}\n", 40 * (k & 1), 20 * (k >> 1 & 1), 10 * (k >> 2))).collect();
+    let sides = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "2 4 8 6", "1 5 7 3"];
+    let faces: String = sides.iter().map(|side| format!("f {side}\n")).collect();
+    let folder = folder("mass");
+    std::fs::write(folder.join("box.obj"), places + &faces).unwrap();
+    let (code, out, err) = pong(&folder, &["mass", "box.obj", "--unit", "mm", "--density", "2700"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let lines: Vec<&str> = out.lines().collect();
+    assert_eq!(lines[0], "8 vertices and 12 triangles read: 1 solid");
+    assert_eq!(lines[1], "volume: 8e-6 m³, 2700 kg/m³");
+    let line = "mass: 0.0216, inertia: Diagonal(9e-07, 3.06e-06, 3.6e-06), mass_center: (0.02, 0.01, 0.005)";
+    assert_eq!(lines[3], line);
+    pong(&folder, &["import", "box.obj", "-o", "box.ron", "--unit", "mm", "--stiffness", "1e5"]);
+    let scene = format!(
+        r#"(format: "pong-scene", version: 1, name: "box", models: {{ "box": "box.ron" }},
+        objects: [(name: "box", model: "box", bodies: [(motion: Free, {line})])],
+        gravity: (0, 0, -9.81), integrator: RungeKutta4, step: 1e-3, duration: 0.01)"#
+    );
+    std::fs::write(folder.join("scene.ron"), scene).unwrap();
+    let (code, out, err) = pong(&folder, &["run", "scene.ron"]);
+    assert_eq!(code, 0, "{out}{err}");
+    let (_, out, _) = pong(&folder, &["mass", "part.obj", "--mass", "6"]);
+    assert!(out.contains("inertia: Full(xx: 4500.0,") && out.contains("xy: 750.0"), "{out}");
+    assert_eq!(pong(&folder, &["mass", "box.obj"]).0, 2, "neither a density nor a mass");
+}

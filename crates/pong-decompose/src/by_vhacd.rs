@@ -28,10 +28,10 @@ struct Attempt {
 pub(crate) fn pieces(
     solid: &SolidMesh,
     options: &DecomposeOptions,
-    pieces_max: usize,
-    near_m: f64,
+    (pieces_max, near_m): (usize, f64),
     pool: &mut Pool,
     file: &str,
+    progress: &mut dyn FnMut(&str),
     findings: &mut Findings,
 ) -> Option<(Vec<Piece>, usize)> {
     let failed = |cause: &str| Finding {
@@ -54,7 +54,8 @@ pub(crate) fn pieces(
     if by_flats.iter().all(|judged| cutting.is_convex(judged)) {
         ways.push(by_flats.iter().map(|judged| judged.cell).collect());
     } else {
-        for (balance, symmetry) in WEIGHTS {
+        for (number, (balance, symmetry)) in WEIGHTS.into_iter().enumerate() {
+            progress(&format!("voxels, weights {} of {}", number + 1, WEIGHTS.len()));
             let resolution = options.resolution.unwrap_or(100);
             let looking =
                 Looking { resolution, concavity, pieces_max, hollow: solid.hollow, balance, symmetry };
@@ -67,7 +68,9 @@ pub(crate) fn pieces(
     }
     let mut attempts = Vec::new();
     let mut fault = failed("VHACD gave up on this mesh");
-    for cells in ways {
+    let count = ways.len();
+    for (number, cells) in ways.into_iter().enumerate() {
+        progress(&format!("joining {} pieces, way {} of {count}", cells.len(), number + 1));
         let contents = cells.iter().map(|cell| content(&solid.mesh, &inside, cell).points);
         match hulls_of(contents.filter(|points| !points.is_empty()).collect(), pool, file) {
             Ok((mut pieces, flat)) => {

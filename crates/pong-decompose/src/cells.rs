@@ -27,6 +27,10 @@ pub(crate) struct Looking {
     pub(crate) symmetry: f64,
 }
 
+/// Voxels up to which VHACD tries every fourth plane, its default. Beyond, it tries as many planes as with so many: the time
+/// grows with the number of voxels instead of with its fourth part more.
+const FULLY_TRIED: u32 = 100;
+
 /// Cuts move onto flat faces of the mesh within this many voxels: VHACD weighs cuts near such a face nearly alike.
 const REACH: f64 = 2.0;
 /// Onto vertices they move within this many.
@@ -72,6 +76,7 @@ fn voxel_boxes(mesh: &Mesh, looking: &Looking) -> (Lattice, Vec<Voxels>) {
         // Its hulls double with every level; what is too many is joined again later.
         max_convex_hulls: looking.pieces_max.min(1 << 16) as u32,
         fill_mode: FillMode::FloodFill { detect_cavities: looking.hollow },
+        plane_downsampling: 4 * looking.resolution.div_ceil(FULLY_TRIED),
         alpha: looking.balance,
         beta: looking.symmetry,
         ..VHACDParameters::default()
@@ -167,6 +172,19 @@ impl Lattice {
 }
 
 impl Features {
+    /// The coordinate of the largest flat faces within a reach, else that of the nearest vertex, else the place itself.
+    pub(crate) fn near(&self, axis: usize, at: f64, reach_m: f64) -> f64 {
+        let along = &self.0[axis];
+        let first = along.partition_point(|(other, _)| *other < at - reach_m);
+        let near = along[first..].iter().take_while(|(other, _)| *other <= at + reach_m);
+        let best = near.copied().reduce(|best, other| match other.1.total_cmp(&best.1) {
+            std::cmp::Ordering::Greater => other,
+            std::cmp::Ordering::Equal if (other.0 - at).abs() < (best.0 - at).abs() => other,
+            _ => best,
+        });
+        best.map_or(at, |(near, _)| near)
+    }
+
     pub(crate) fn of(mesh: &Mesh) -> Self {
         Self([0, 1, 2].map(|axis| {
             let mut found: Vec<(f64, f64)> = mesh.vertices.iter().map(|place| (place[axis], 0.0)).collect();

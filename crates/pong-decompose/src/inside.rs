@@ -32,4 +32,10 @@ impl Solid {
         let place = Vector::new(place.x, place.y, place.z);
         (place - self.0.project_local_point(place, false).point).length()
     }
+
+    /// The nearest place of its surface.
+    pub(crate) fn nearest(&self, place: &Vector3<f64>) -> Vector3<f64> {
+        let nearest = self.0.project_local_point(Vector::new(place.x, place.y, place.z), false).point;
+        Vector3::new(nearest.x, nearest.y, nearest.z)
+    }
 }

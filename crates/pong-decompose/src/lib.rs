@@ -1,7 +1,9 @@
 //! From a closed mesh to a group of convex polyhedra, with figures of what that costs.
 //!
-//! `solids` (a file to closed meshes), `by_vhacd` (cuts by `flats` and `cells`, `content` between them) or `coacd`,
-//! `piece` (hulls), `join`, `walls` with `regions` and `seams` (inner walls), `measure` (how far off it is).
+//! `solids` (a file to closed meshes), `by_vhacd` (cuts by `flats` and `cells`, `content` between them), `fitted` (cuts where
+//! pieces protrude) or `coacd`,
+//! `piece` (hulls), `join`, `walls` with `regions` and `seams` (inner walls), `measure` (how far off it is). `mass`: volume,
+//! mass and inertia of closed meshes.
 
 #![forbid(unsafe_code)]
 
@@ -9,10 +11,12 @@ mod by_vhacd;
 mod cells;
 mod coacd;
 mod content;
+mod fitted;
 mod flats;
 mod hulls;
 mod inside;
 mod join;
+mod mass;
 mod measure;
 mod options;
 mod piece;
@@ -23,6 +27,7 @@ mod solids;
 mod sound;
 mod walls;
 
+pub use mass::{Mass, MassProperties, mass_properties};
 pub use measure::{Deviation, Distances};
 pub use options::{DecomposeOptions, Method};
 
@@ -151,6 +156,7 @@ fn tell_protrusion(figures: &Report, options: &DecomposeOptions, file: &str, fin
         return;
     }
     let voxel = match options.method {
+        Method::Vhacd if options.fit_m.is_some() => String::new(),
         Method::Vhacd => {
             let voxel_m = figures.size_m / f64::from(options.resolution.unwrap_or(100));
             format!("; walls and gaps thinner than a voxel, about {voxel_m:.1e} m, are not seen")
@@ -161,7 +167,7 @@ fn tell_protrusion(figures: &Report, options: &DecomposeOptions, file: &str, fin
         "at its worst place a piece protrudes {protrusion_m:.2e} m, {:.1} % of the mesh's size{voxel}",
         100.0 * share
     );
-    let cure = "a larger --resolution and a smaller --concavity follow the mesh closer; --within refuses what protrudes more";
+    let cure = "--fit LENGTH cuts where pieces protrude by more; a larger --resolution and a smaller --concavity follow the mesh closer; --within refuses what protrudes more";
     findings.note(file, "protrusion", cause, cure);
 }
 
@@ -195,7 +201,20 @@ fn pieces(
         solid.mesh.vertices.iter().for_each(|place| _ = pool.place(*place));
         let near_m = NEAR_SHARE * size_m;
         let (parts, forced) = match &options.method {
-            Method::Vhacd => by_vhacd::pieces(solid, options, share, near_m, &mut pool, file, findings)?,
+            Method::Vhacd => {
+                let cutting = format!("cutting solid {} of {}", number + 1, solids.len());
+                let mut told = |what: &str| progress(&format!("{cutting}: {what}"));
+                match options.fit_m {
+                    Some(fit_m) => {
+                        let fitting = fitted::Fitting { fit_m, pieces_max: share, near_m };
+                        fitted::pieces(solid, &fitting, &mut pool, file, &mut told, findings)?
+                    }
+                    None => {
+                        let limits = (share, near_m);
+                        by_vhacd::pieces(solid, options, limits, &mut pool, file, &mut told, findings)?
+                    }
+                }
+            }
             Method::Coacd(python) => {
                 let calling = coacd::Calling {
                     python,
@@ -285,7 +304,7 @@ fn within(report: &Report, options: &DecomposeOptions, file: &str, findings: &mu
             protrusion.max_m,
             at(&protrusion.at)
         );
-        let cure = "lower --concavity, raise --resolution and --pieces-max, or author the pieces by hand";
+        let cure = "cut by --fit with the same length, raise --pieces-max, or author the pieces by hand";
         findings.fault(file, "protrusion", cause, cure);
     }
     let missing_m = deficit.max_m.max(*inner_deficit_m);

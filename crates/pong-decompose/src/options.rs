@@ -23,6 +23,9 @@ pub struct DecomposeOptions {
     /// VHACD: share of the whole hull's volume by which a piece may exceed what it holds. CoACD: its threshold.
     /// `None` for 0.005 and 0.05.
     pub concavity: Option<f64>,
+    /// Cuts are made where pieces protrude by more than this, m, as long as `pieces_max` allows it: holes wider than twice
+    /// this are kept. `None` leaves the cuts to the method.
+    pub fit_m: Option<f64>,
     /// Most pieces.
     pub pieces_max: usize,
     /// Largest protrusion and deficit that are accepted, m.
@@ -38,6 +41,7 @@ impl Default for DecomposeOptions {
             method: Method::Vhacd,
             resolution: None,
             concavity: None,
+            fit_m: None,
             pieces_max: 64,
             within_m: None,
             samples: 30_000,
@@ -71,6 +75,13 @@ impl DecomposeOptions {
         }
         if let (Some(concavity), Method::Coacd(_)) = (self.concavity, &self.method) {
             refuse(concavity < 0.01, format!("a CoACD threshold of {concavity}"), "give 0.01 to 1");
+        }
+        if let Some(fit_m) = self.fit_m {
+            let cause = format!("pieces that protrude by at most {fit_m} m");
+            refuse(!above_zero(fit_m), cause, "give metres above zero");
+            let with = self.concavity.is_some() || self.resolution.is_some() || self.method != Method::Vhacd;
+            let cause = "cuts by --fit and by --concavity, --resolution or CoACD".to_owned();
+            refuse(with, cause, "choose one: --fit needs --pieces-max alone");
         }
         refuse(self.pieces_max == 0, "no pieces at all".to_owned(), "allow one piece or more");
         refuse(self.samples == 0, "no samples at all".to_owned(), "allow some thousands");

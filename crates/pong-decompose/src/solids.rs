@@ -63,6 +63,9 @@ pub(crate) fn solids(
     let largest = shape.vertices.iter().map(|place| place.amax()).fold(0.0, f64::max);
     meshes::place(&mut shape, &Affine::identity(), Grid::of_size(largest));
     let placed = meshes::triangles(shape, building, file, findings);
+    if !findings.faults.is_empty() {
+        return None;
+    }
     if placed.two_sided || placed.mesh.triangles.is_empty() {
         let cause = "its triangles have no inside: they lie back to back or have no area";
         return findings.refuse(
@@ -87,7 +90,7 @@ fn closed(mesh: &Mesh, file: &str, findings: &mut Findings) -> Option<()> {
         let [a, b] = [corner as usize, (corner as usize + 1) % 3].map(|corner| start(triangle, corner));
         let cause =
             format!("{} edges have a triangle on one side only, one from {a} to {b}", adjacency.free.len());
-        let cure = "close the holes; --weld joins vertices that nearly meet; keep a sheet as a TriangleMesh (`pong import`)";
+        let cure = "--close fills holes, --weld joins vertices that nearly meet; keep a sheet as a TriangleMesh (`pong import`)";
         findings.fault(file, "open-mesh", cause, cure);
     }
     if let Some(&triangle) = adjacency.crowded.first() {
@@ -100,12 +103,14 @@ fn closed(mesh: &Mesh, file: &str, findings: &mut Findings) -> Option<()> {
         findings.fault(file, "non-manifold", cause, cure);
     }
     if let Some(&triangle) = adjacency.wound_against.first() {
+        let odd = mesh::shells(mesh).iter().find_map(|shell| shell.against.first().copied());
+        let [a, b, c] = mesh.corners(odd.unwrap_or(triangle) as usize).map(|corner| named(&corner));
         let cause = format!(
-            "{} edges join triangles wound against each other, one at {}",
+            "{} edges join triangles wound against each other, the first of the triangle {a}, {b}, {c}",
             adjacency.wound_against.len(),
-            start(triangle, 0)
         );
-        findings.fault(file, "winding", cause, "make the normals consistent, outwards");
+        let cure = "--outward turns those that run against the rest; else make the normals consistent";
+        findings.fault(file, "winding", cause, cure);
     }
     findings.faults.is_empty().then_some(())
 }
@@ -148,7 +153,7 @@ fn sorted(parts: Vec<Mesh>, file: &str, findings: &mut Findings) -> Option<Vec<S
                     "the part at {} faces inwards, and no solid is around it",
                     named(&cavity.vertices[0])
                 );
-                findings.fault(file, "inside-out", cause, "turn its normals outwards");
+                findings.fault(file, "inside-out", cause, "--outward turns it");
             }
         }
     }

@@ -1,6 +1,6 @@
 //! `pong decompose`: shapes with known pieces, figures with known values, bad input.
 
-use pong_decompose::{DecomposeOptions, Decomposed, Method, Report};
+use pong_decompose::{DecomposeOptions, Decomposed, Distances, Mass, Method, Report};
 use pong_geometry::Vec3;
 use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::{Polyhedron, RimEdge};
@@ -309,4 +309,190 @@ fn a_dented_part_becomes_its_hull_if_asked() {
     assert!(note.cause.contains("became the convex hull"), "{note}");
     let model = pong_model::load(&output, &Extensions::new()).unwrap();
     assert_eq!(model.bodies[0].polyhedra.len(), 1);
+}
+
+/// A square plate with a round hole of 16 sides in its middle, thickness 1.
+fn plate(half: f64, radius: f64) -> Triangles {
+    let sides = 16;
+    let ring = |k: usize| {
+        let angle = std::f64::consts::TAU * (k % sides) as f64 / sides as f64;
+        let (x, y) = (angle.cos(), angle.sin());
+        let out = half / x.abs().max(y.abs());
+        ([radius * x, radius * y], [out * x, out * y])
+    };
+    let at = |[x, y]: [f64; 2], z: f64| [x, y, z];
+    let mut triangles = Vec::new();
+    for k in 0..sides {
+        let ((a, b), (c, d)) = (ring(k), ring(k + 1));
+        let mut quad =
+            |p: [f64; 3], q: [f64; 3], r: [f64; 3], s: [f64; 3]| triangles.extend([[p, q, r], [p, r, s]]);
+        quad(at(a, 1.0), at(b, 1.0), at(d, 1.0), at(c, 1.0));
+        quad(at(a, 0.0), at(c, 0.0), at(d, 0.0), at(b, 0.0));
+        quad(at(b, 0.0), at(d, 0.0), at(d, 1.0), at(b, 1.0));
+        quad(at(a, 0.0), at(a, 1.0), at(c, 1.0), at(c, 0.0));
+    }
+    triangles
+}
+
+/// By volume the hole is 0.2 % of the plate, and no voxels see it. In quarters the chords of a hole of radius 1 lie
+/// 1 − √½ within it at most; with one more cut each, 1 − cos 30° for a part of a third of a right angle.
+#[test]
+fn a_small_hole_is_kept_if_pieces_must_fit() {
+    let mesh = plate(20.0, 1.0);
+    let (report, _, _) = run("hole_filled", &mesh, &options());
+    assert!(report.pieces == 1 && report.deviation.protrusion.max_m > 0.95, "{report:?}");
+    for (fit_m, most) in [(0.3, 8), (0.15, 16)] {
+        let fitted = DecomposeOptions { fit_m: Some(fit_m), resolution: None, ..options() };
+        let (report, model, notes) = run("hole_kept", &mesh, &fitted);
+        assert!(report.pieces >= 4 && report.pieces <= most, "{report:?} {notes:?}");
+        let Distances { max_m, .. } = report.deviation.protrusion;
+        assert!(max_m <= fit_m && report.deviation.deficit.max_m == 0.0, "{report:?}");
+        assert_eq!(model.bodies[0].shell_count, 1, "{notes:?}");
+        assert!(!notes.contains(&"not-fitted"), "{notes:?}");
+    }
+    let few = DecomposeOptions { fit_m: Some(0.3), resolution: None, pieces_max: 2, ..options() };
+    let (report, _, notes) = run("hole_few", &mesh, &few);
+    assert!(report.pieces <= 2 && notes.contains(&"not-fitted"), "{report:?} {notes:?}");
+    let both = DecomposeOptions { fit_m: Some(0.3), ..options() };
+    assert_eq!(faults("hole_options", &mesh, &both), ["option"]);
+}
+
+/// Boxes, an L and a cup are cut along their faces, exactly, by the same rule.
+#[test]
+fn what_is_made_of_boxes_fits_exactly() {
+    let fitted = DecomposeOptions { fit_m: Some(1e-3), resolution: None, ..options() };
+    let (report, _, notes) = run("fit_ell", &ell(), &fitted);
+    assert_eq!((report.pieces, notes.len()), (2, 0), "{notes:?}");
+    assert_exact(&report, 3.0);
+    let (report, _, notes) = run("fit_cup", &cup(), &fitted);
+    assert!(report.pieces <= 8, "{report:?} {notes:?}");
+    assert_exact(&report, 0.073);
+}
+
+fn mass_of(test: &str, triangles: &Triangles, mass: Mass) -> pong_decompose::MassProperties {
+    let (found, findings) = pong_decompose::mass_properties(&save(test, triangles), &options().import, mass);
+    found.unwrap_or_else(|| panic!("{findings}"))
+}
+
+type Matrix = nalgebra::Matrix3<f64>;
+
+fn assert_inertia(found: &Matrix, wanted: &Matrix, share: f64) {
+    assert!((found - wanted).norm() <= share * wanted.norm(), "{found} is not {wanted}");
+}
+
+fn placed(triangles: &Triangles, place: impl Fn(Vec3) -> Vec3) -> Triangles {
+    triangles.iter().map(|triangle| triangle.map(|corner| place(Vec3::from(corner)).into())).collect()
+}
+
+#[test]
+fn boxes_have_their_mass_center_and_inertia() {
+    let (a, b, c): (f64, f64, f64) = (2.0 * 0.3, 2.0 * 0.5, 2.0 * 0.7);
+    let half = Vec3::new(0.3, 0.5, 0.7);
+    let solid = placed(&cube(), |p| p.component_mul(&half));
+    let density = 7850.0;
+    let mass = density * a * b * c;
+    let tensor =
+        Matrix::from_diagonal(&(Vec3::new(b * b + c * c, a * a + c * c, a * a + b * b) * (mass / 12.0)));
+    let found = mass_of("box", &solid, Mass::Density(density));
+    assert_eq!(found.solids, 1);
+    assert_close(found.mass_kg, mass, 1e-14);
+    assert!(Vec3::from(found.center_m).norm() < 1e-15);
+    assert_inertia(&found.inertia, &tensor, 1e-14);
+    // Far away and turned: the tensor turns, and stays about the centre of mass.
+    let turn = nalgebra::Rotation3::from_euler_angles(0.3, -0.7, 1.1);
+    let shift = Vec3::new(10.0, -20.0, 30.0);
+    let far = placed(&solid, |p| turn * p + shift);
+    let found = mass_of("box_far", &far, Mass::Total(5.0));
+    assert_close(found.mass_kg, 5.0, 1e-14);
+    assert!((Vec3::from(found.center_m) - shift).norm() < 1e-11);
+    assert_inertia(
+        &found.inertia,
+        &(turn.matrix() * tensor * turn.matrix().transpose() * (5.0 / mass)),
+        1e-9,
+    );
+    // A cavity is taken out, and a second solid counts.
+    let inner = placed(&solid, |p| p * 0.5);
+    let hollow: Triangles =
+        solid.iter().copied().chain(inner.into_iter().map(|[a, b, c]| [a, c, b])).collect();
+    let found = mass_of("box_hollow", &hollow, Mass::Density(density));
+    assert_eq!(found.solids, 1);
+    assert_close(found.mass_kg, mass * (1.0 - 0.125), 1e-14);
+    assert_inertia(&found.inertia, &(tensor * (1.0 - 0.03125)), 1e-14);
+    let pair: Triangles =
+        solid.iter().copied().chain(placed(&solid, |p| p + Vec3::new(4.0, 0.0, 0.0))).collect();
+    let found = mass_of("box_pair", &pair, Mass::Density(density));
+    let apart = Matrix::from_diagonal(&Vec3::new(0.0, 4.0, 4.0)) * (2.0 * mass);
+    assert_eq!((found.solids, found.center_m[0]), (2, 2.0));
+    assert_inertia(&found.inertia, &(tensor * 2.0 + apart), 1e-13);
+}
+
+/// Of a tetrahedron on the axes ∫x² = 1/60 and ∫xy = 1/120, and its centre is at a quarter.
+#[test]
+fn a_tetrahedron_has_its_products_of_inertia() {
+    let [o, x, y, z] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let found = mass_of("tetrahedron", &vec![[o, y, x], [o, x, z], [o, z, y], [x, y, z]], Mass::Density(1.0));
+    assert_close(found.volume_m3, 1.0 / 6.0, 1e-15);
+    assert!((Vec3::from(found.center_m) - Vec3::repeat(0.25)).norm() < 1e-15);
+    let wanted = Matrix::from_fn(|i, j| if i == j { 1.0 / 80.0 } else { 1.0 / 480.0 });
+    assert_inertia(&found.inertia, &wanted, 1e-14);
+}
+
+/// A ball of flat triangles has less of everything, by a share that falls with the square of their size.
+#[test]
+fn a_ball_of_triangles_comes_near_the_ball() {
+    let ball = |n: i32| {
+        let place = |side: [usize; 4], i: i32, j: i32| {
+            let corner = |k: usize| Vec3::from(pong_testkit::meshes::CUBE[k]);
+            let (s, t) = (f64::from(i) / f64::from(n), f64::from(j) / f64::from(n));
+            let [a, b, c, d] = side.map(corner);
+            let flat = (a * (1.0 - s) + b * s) * (1.0 - t) + (d * (1.0 - s) + c * s) * t;
+            // Rounded so that the sides of the cube have the same places along their common edges.
+            <[f64; 3]>::from(flat.normalize().map(|x| (x * 1e12).round() / 1e12))
+        };
+        let mut triangles = Vec::new();
+        for side in pong_testkit::meshes::SIDES {
+            for (i, j) in (0..n * n).map(|k| (k % n, k / n)) {
+                let [a, b, c, d] = [
+                    place(side, i, j),
+                    place(side, i + 1, j),
+                    place(side, i + 1, j + 1),
+                    place(side, i, j + 1),
+                ];
+                triangles.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+        mass_of(&format!("ball_{n}"), &triangles, Mass::Density(1.0))
+    };
+    let volume = 4.0 / 3.0 * std::f64::consts::PI;
+    let inertia = 0.4 * volume;
+    let short = |n: i32| {
+        let found = ball(n);
+        assert_inertia(
+            &found.inertia,
+            &(Matrix::identity() * found.inertia.trace() / 3.0),
+            1e-2 / f64::from(n),
+        );
+        [1.0 - found.volume_m3 / volume, 1.0 - found.inertia.trace() / 3.0 / inertia]
+    };
+    let (coarse, fine) = (short(8), short(16));
+    for k in 0..2 {
+        assert!(fine[k] > 0.0 && fine[k] < 0.015, "{fine:?}");
+        assert!((coarse[k] / fine[k] - 4.0).abs() < 0.2, "{coarse:?} {fine:?}");
+    }
+}
+
+#[test]
+fn a_mesh_without_an_inside_has_no_mass() {
+    let mut open = cube();
+    open.pop();
+    let path = save("mass_open", &open);
+    let told = |options: &pong_import::Options| {
+        let (found, findings) = pong_decompose::mass_properties(&path, options, Mass::Density(1.0));
+        (
+            found.map(|found| found.volume_m3),
+            findings.faults.iter().map(|fault| fault.rule).collect::<Vec<_>>(),
+        )
+    };
+    assert_eq!(told(&options().import), (None, vec!["open-mesh"]));
+    assert_eq!(told(&pong_import::Options { close: true, ..options().import }), (Some(8.0), vec![]));
 }
