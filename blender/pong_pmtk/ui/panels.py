@@ -233,10 +233,12 @@ def draw_bristle_damping(layout, laws):
     """Damping, or a mass for it, and what it comes from without both."""
     if laws.use_bristle_mass:
         unset = "from the bristle's mass"
-    elif laws.normal == "Linear" and laws.use_restitution:
+    elif laws.use_restitution and "mass" in RESTITUTIONS[laws.normal][1]:
         unset = "from the mass of the restitution"
-    else:
+    elif laws.normal == "Linear":
         unset = "from the normal law"
+    else:
+        unset = "from the two surfaces" if hasattr(laws, "first") and laws.normal == "DEFAULT" else "undamped"
     draw_optional(layout, laws, "bristle_damping", "bristle_damping_text", unset)
     draw_optional(layout, laws, "bristle_mass", "bristle_mass_text", "none")
 

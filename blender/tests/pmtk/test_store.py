@@ -116,6 +116,14 @@ class Settings(InBlender):
         fields = spec.from_plain(spec.read(surface))
         self.assertEqual(fields["friction"].fields["mu"], 0.7)
         self.assertEqual(fields["normal"], Tagged("Linear", {"restitution": {"e": 0.25, "mass": 100.0}}))
+        self.assertFalse(surface.use_bristle_damping or surface.use_bristle_mass)
+        surface.use_bristle_damping = True
+        self.assertEqual(spec.read(surface)["friction"]["Bristle"]["damping"], 0.0)
+        surface.use_bristle_mass = True  # instead of the damping
+        surface.bristle_mass = 2.5
+        self.assertEqual(spec.read(surface)["friction"]["Bristle"], {"mu": 0.7, "static_excess": 0.0, "mass": 2.5})
+        surface.use_bristle_mass = False
+        self.assertEqual(spec.read(surface)["friction"]["Bristle"], {"mu": 0.7, "static_excess": 0.0})
         surface.rigid, surface.friction = True, "DEFAULT"
         self.assertEqual(spec.read(surface)["stiffness"], math.inf)
         self.assertNotIn("friction", spec.read(surface))

@@ -165,6 +165,9 @@ fn with_tables(surfaces: &str, pairs: &str) -> pong_model::Model {
 fn a_bristle_without_damping_takes_it_from_a_mass_or_from_the_normal_law() {
     let rebound = "normal: Linear(restitution: (e: 0.5, mass: 3.0))";
     let crossley = "normal: HuntCrossley(dissipation: 0.2, exponent: 1.5)";
+    let power =
+        "normal: PowerLaw(exponent: 1, damping_exponent: 1, restitution: (e: 0.5, speed: 1.0, mass: 3.0))";
+    let damped_power = "normal: PowerLaw(exponent: 1, damping_exponent: 0, damping: 60)";
     let (k, third): (f64, f64) = (9e5, 2.0 / 3.0);
     for (laws, k_t, c_t) in [
         (format!("{rebound}, friction: Bristle(mu: 0.3)"), third * k, 2.0 * (third * k * 3.0).sqrt()),
@@ -182,6 +185,8 @@ fn a_bristle_without_damping_takes_it_from_a_mass_or_from_the_normal_law() {
             2.0 * (third * k * 2.0).sqrt(),
         ),
         (format!("{crossley}, friction: Bristle(mu: 0.3)"), third * k, 0.0),
+        (format!("{power}, friction: Bristle(mu: 0.3)"), third * k, 2.0 * (third * k * 3.0).sqrt()),
+        (format!("{damped_power}, friction: Bristle(mu: 0.3)"), third * k, 0.0),
         ("friction: Bristle(mu: 0.3, mass: 2)".to_owned(), third * k, 2.0 * (third * k * 2.0).sqrt()),
         ("friction: Bristle(mu: 0.3)".to_owned(), third * k, 0.0),
         (
