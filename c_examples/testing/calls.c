@@ -84,6 +84,21 @@ static void contacts(scene *s)
     TEST(memcmp(&state, &s->states[0], sizeof state) == 0);
 }
 
+/* A ground that is left where it is and says that it moves, as a belt would. */
+static void standing(scene *s)
+{
+    pong_interface_id group;
+    size_t count = 9;
+    int i;
+    for (i = 0; i < 3; i += 1) {
+        s->states[2].linear_velocity[0] = i == 1 ? 0.2 : 0.0;
+        slide_to(s, 0.0);
+        OK(pong_find_standing_groups(s->world, 1e-3, &group, 1, &count));
+        TEST(count == (i == 1 ? 1u : 0u) && (count == 0 || group.bits == s->interfaces[2].bits));
+    }
+    REFUSED(pong_find_standing_groups(s->world, 0.0, &group, 1, &count), BAD_VALUE, "step");
+}
+
 /* The ball turned by a quarter about x: what pushes up in the common frame pushes along the ball's own y. */
 static void frames(scene *s)
 {
@@ -626,6 +641,7 @@ int main(void)
     names(&s);
     user_data(&s);
     contacts(&s);
+    standing(&s);
     frames(&s);
     contact_state(&s);
     preload(&s);

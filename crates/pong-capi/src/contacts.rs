@@ -100,6 +100,31 @@ pub unsafe extern "C" fn pong_get_contacts(
     })
 }
 
+/// Movable groups in contact that stood still from one commit to the next, bit for bit, though their velocity would have moved
+/// them within `step`, the time between the two, s: the first `capacity` are copied, `count` gets their number. For use right
+/// after pong_step() or pong_commit(); none otherwise. Friction by bristles follows poses: a belt that is to carry needs a pose
+/// that moves, or Coulomb friction, which looks at velocities alone. A frame that is committed twice, as in a pause, is listed
+/// too. PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `groups` may be NULL. Allocates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_find_standing_groups(
+    world: *const pong_world,
+    step: f64,
+    groups: *mut pong_interface_id,
+    capacity: usize,
+    count: *mut usize,
+) -> pong_status {
+    with_world(world, |inner| {
+        apart(("groups", groups, capacity), ("count", count, 1))?;
+        let (mut out, count) = (OutArray::new(groups, capacity, "groups")?, Out::new(count, "count")?);
+        let found = inner.phase.frames("look for groups that stand still")?.standing_groups(step)?;
+        count.set(found.len());
+        for (index, group) in found.iter().take(capacity).enumerate() {
+            out.set(index, (*group).into());
+        }
+        too_small("groups", capacity, found.len())
+    })
+}
+
 /// How the normal force of each contact of the last frame changes with its depth (`stiffness`, N/m) and with the rate of that
 /// (`damping`, N s/m), with the weight of the contact, in the order of pong_get_contacts(): the first `capacity` of both are
 /// written, `count` gets their number. Zero where the force is cut off at zero; not a number (NaN) of a normal law of the

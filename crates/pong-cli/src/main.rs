@@ -1,7 +1,7 @@
 //! `pong`: the command line of the contact engine.
 //!
 //! Exit codes: 0 all is well, 1 something is wrong with what was named, or the answer could not be written (told on
-//! standard error), 2 wrong usage.
+//! standard error), 2 wrong usage, 3 a run in which paired objects could not touch.
 
 #![forbid(unsafe_code)]
 // `print!` and its kin end the program where they cannot write: all writing goes through `terminal`.

@@ -293,6 +293,88 @@ fn check_knows_round_parts() {
     assert_holds(&out, &parts);
 }
 
+/// Boxes without points or edges: nothing built in holds one on the other.
+const POST: &str = r#"(format: "pong-model", version: 1, name: "post", surfaces: { "s": (stiffness: 1e5) },
+    root: (name: "post", surface: "s", primitives: [Polyhedron(name: "solid",
+        vertices: [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1), (1, 1, 1)],
+        faces: [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]])]))"#;
+
+#[test]
+fn a_run_in_which_paired_objects_cannot_touch_ends_with_three() {
+    let folder = folder("passes_through");
+    std::fs::write(folder.join("post.ron"), POST).unwrap();
+    let scene = DROP.replace("ground.ron", "post.ron").replace("ball.ron", "post.ron");
+    std::fs::write(folder.join("boxes.ron"), &scene).unwrap();
+    let (code, out, err) = pong(&folder, &["run", "boxes.ron"]);
+    assert_eq!(code, 3, "{err}");
+    assert!(out.contains("0 contacts at once"), "{out}");
+    let parts = [
+        "`ball` and `ground`): they pass through each other; give one of them what the other can touch; Polyhedron can touch \
+         Point, LineSegment, Ray, Sphere, Ellipsoid, Capsule",
+        "boxes.ron: paired objects passed through each other",
+        "write passes_through: [(\"ball\", \"ground\")] in the scene if that is meant",
+    ];
+    assert_holds(&err, &parts);
+    // On purpose, in whatever order the two are named.
+    let meant = scene.replace("gravity:", "passes_through: [(\"ground\", \"ball\")], gravity:");
+    std::fs::write(folder.join("meant.ron"), meant).unwrap();
+    let (code, _, err) = pong(&folder, &["run", "meant.ron"]);
+    assert_eq!(code, 0, "{err}");
+}
+
+const PATCH: &str = r#"(format: "pong-model", version: 1, name: "patch", surfaces: { "rigid": (stiffness: inf) },
+    root: (name: "patch", surface: "rigid", primitives: [
+        TriangleMesh(name: "sheet", vertices: [(0, -1, 0), (2, -1, 0), (2, 1, 0), (0, 1, 0)], triangles: [(0, 1, 2), (0, 2, 3)]),
+        Sphere(name: "one", center: (0, 0, -3), radius: 0.1), Sphere(name: "two", center: (0, 0, -3), radius: 0.1),
+        Plane(name: "under", normal: (0, 0, 1), offset: 0)]))"#;
+
+/// A plane and a patch in it push twice, in one model and as two objects; so do two spheres in one place.
+#[test]
+fn what_is_there_twice_is_told() {
+    let folder = folder("twice");
+    std::fs::write(folder.join("patch.ron"), PATCH).unwrap();
+    let (code, out, _) = pong(&folder, &["check", "--alone", "patch.ron"]);
+    assert_eq!(code, 0);
+    let parts = [
+        "warning: `patch/two` and `patch/one` are the same Sphere in one place: their springs add; leave one out",
+        "warning: `patch/sheet` and `patch/under` lie in one plane and overlap: what touches both there is pushed twice",
+    ];
+    assert_holds(&out, &parts);
+    let flush = "objects `patch` and `ground`: `patch/sheet` and `ground/floor` lie in one plane and overlap: what touches both";
+    let scene = |pairs: &str, height: &str| {
+        let text = DROP
+            .replace("\"ground\": \"ground.ron\"", "\"ground\": \"ground.ron\", \"patch\": \"patch.ron\"")
+            .replace("pairs: [", &format!("pairs: [{pairs}"))
+            .replace("objects: [", &format!(
+                "objects: [(name: \"patch\", model: \"patch\", bodies: [(motion: Fixed, position: (0, 0, {height}))]),"
+            ));
+        std::fs::write(folder.join("scene.ron"), text).unwrap();
+        let (code, _, err) = pong(&folder, &["run", "scene.ron"]);
+        assert_eq!(code, 0, "{err}");
+        err
+    };
+    assert_holds(&scene("(\"ball\", \"patch\"), ", "0"), &[flush]);
+    // Below the ground it is not flush, and what the ball does not meet pushes once.
+    assert!(!scene("(\"ball\", \"patch\"), ", "-0.01").contains("in one plane"));
+    assert!(!scene("", "0").contains("in one plane"));
+}
+
+#[test]
+fn a_scene_is_no_model_and_a_model_no_scene() {
+    let folder = folder("kinds_of_files");
+    let (code, out, err) = pong(&folder, &["check", "drop.ron"]);
+    assert_eq!((code, out.as_str()), (1, ""));
+    assert_holds(
+        &err,
+        &["drop.ron:1:1: ", "this is a scene, not a model; run it with `pong run`", "1 fault"],
+    );
+    for command in ["run", "trade", "tune", "trim", "fmu"] {
+        let (code, _, err) = pong(&folder, &[command, "ball.ron"]);
+        assert_eq!(code, 1, "{command}: {err}");
+        assert_holds(&err, &["this is a model, not a scene; check it with `pong check`"]);
+    }
+}
+
 #[test]
 fn check_tells_every_fault_and_ends_with_one() {
     let folder = folder("check_faults");

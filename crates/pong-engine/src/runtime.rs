@@ -157,6 +157,18 @@ impl Runtime {
         }
     }
 
+    /// Poses of the last two commits, the earlier ones first, if both were of all pairs and nothing came in between.
+    pub fn last_two_commits(&self) -> Option<(&CommittedPoses, &CommittedPoses)> {
+        let now = &self.memory.poses;
+        let earlier = self
+            .spares
+            .iter()
+            .map(|spare| &spare.poses)
+            .filter(|poses| (1..now.frame()).contains(&poses.frame()));
+        let before = earlier.max_by_key(|poses| poses.frame())?;
+        (now.frame() == self.frame.number).then_some((before, now))
+    }
+
     /// Makes what the frame found the committed contact state.
     #[inline]
     pub fn commit(&mut self, states: &States) {

@@ -284,3 +284,28 @@ fn an_undamped_bristle_throws_back_along_the_floor_and_the_default_does_not() {
         assert!((found - expected).abs() < 2e-3, "{friction}: {found} {expected}");
     }
 }
+
+/// A belt whose pose is left where it is and that says it moves: it is named, and with `Coulomb` friction it carries all the
+/// same, for that looks at velocities alone.
+#[test]
+fn a_group_that_stands_and_says_it_moves_is_named() {
+    let mut rig = SOFT.rig(TIP, FLOOR);
+    let belt = |speed: f64, x: f64| {
+        moving(Vec3::new(5.0 + x, 0.0, 0.0), Quat::identity(), Vec3::new(speed, 0.0, 0.0), Vec3::zeros())
+    };
+    let tip = |x: f64| at(Vec3::new(x, 0.0, -1e-3), Quat::identity());
+    let mut commit = |states: [State; 2]| {
+        rig.place(states);
+        rig.world.step().unwrap();
+        rig.world.standing_groups(1e-3).unwrap()
+    };
+    assert_eq!(commit([tip(0.0), belt(0.2, 0.0)]), [], "one commit tells nothing");
+    let standing = commit([tip(1e-5), belt(0.2, 0.0)]);
+    assert_eq!(standing.len(), 1);
+    // A speed that rounding swallows, a group at rest, one that moves as it says, and none in contact.
+    assert_eq!(commit([tip(2e-5), belt(1e-17, 0.0)]), []);
+    assert_eq!(commit([tip(2e-5), belt(0.0, 0.0)]), []);
+    assert_eq!(commit([tip(2e-5), belt(0.2, 2e-4)]), []);
+    assert_eq!(commit([at(Vec3::new(0.0, 0.0, 1.0), Quat::identity()), belt(0.2, 2e-4)]), []);
+    assert!(rig.world.standing_groups(f64::NAN).is_err() && rig.world.standing_groups(0.0).is_err());
+}

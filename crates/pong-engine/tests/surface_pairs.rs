@@ -211,8 +211,14 @@ fn a_warning_about_two_models_is_told_once() {
             "models `floor` and `plate`: Plane and Triangle have no tester and ignore each other (`floor` and `plate 0` and \
              199 more pairs)",
             "models `floor` and `plate` are paired but nothing of one can touch anything of the other (`floor` and `plate 0` \
-             and 199 more pairs)",
+             and 199 more pairs): they pass through each other; give one of them what the other can touch; Plane can touch Point, \
+             LineSegment, Ray, Sphere, Ellipsoid, Capsule, Cylinder, Cone; Triangle can touch Ray, Sphere, Ellipsoid, Capsule",
         ]
     );
     assert!(matches!(report.warnings[0], SetupWarning::IgnoredPair { .. }));
+    assert_eq!(report.untouchable_pairs.len(), 200);
+    assert_eq!(
+        report.untouchable_pairs[..2],
+        [["plate 0", "floor"], ["floor", "plate 1"]].map(|pair| pair.map(str::to_owned))
+    );
 }

@@ -87,6 +87,11 @@ fn each_fault_is_told_by_name() {
         ("stiffness: (1,", "stiffness: (-1,", "springs[0]: a stiffness is below zero"),
         ("pairs: []", "pairs: [(\"a\", \"b\")]", "pairs/(a, b): there is no object `b`"),
         ("pairs: []", "pairs: [(\"a\", \"a\"), (\"a\", \"a\")]", "already there"),
+        (
+            "pairs: []",
+            "pairs: [], passes_through: [(\"a\", \"a\")]",
+            "passes_through/(a, a): `pairs` has no such entry; name two objects as an entry of `pairs` does",
+        ),
         ("1e-3", "0.0", "step: it is 0 s"),
         ("duration: 1.0", "duration: -1.0", "duration: it is -1 s"),
         ("duration: 1.0", "duration: 1.0, record_every: 0", "record_every: it is 0"),
@@ -135,6 +140,56 @@ fn faults_of_notation_are_told_with_their_place() {
     assert!(told[0].starts_with("test.ron:1:"), "{told:?}");
     let missing = Scene::load(&folder.join("none.ron")).unwrap_err().to_string();
     assert!(missing.contains("none.ron: scene: ") && missing.contains("name a scene file"), "{missing}");
+}
+
+/// What authors write who know the notation of other tools: the message names the field and shows how it is written.
+#[test]
+fn a_field_of_another_notation_is_named_with_its_own() {
+    let folder = folder("fields");
+    let cases = [
+        (
+            "Diagonal(1.0, 1.0, 1.0)",
+            "(1.0, 1.0, 1.0)",
+            "field `inertia`: ",
+            "write inertia: Diagonal(xx, yy, zz), or Full(",
+        ),
+        ("Fixed)", "Fixed, orientation: (90, 0, 0))", "field `orientation`: ", "orientation: (w, x, y, z)"),
+        ("Fixed)", "Fixed, position: 1.0)", "field `position`: ", "write position: (x, y, z), m"),
+        ("Fixed)", "fixed)", "field `motion`: ", "Free, Fixed or Prescribed"),
+        ("pairs: []", "pairs: [\"a\"]", "field `pairs`: ", "pairs: [(\"ball\", \"ground\"), …]"),
+        ("RungeKutta4", "\"rk4\"", "field `integrator`: ", "RungeKutta4, SemiImplicitEuler or ZeroOrderHold"),
+    ];
+    for (replace, by, field, cure) in cases {
+        let told = errors(&scene(replace, by), &folder);
+        assert!(told.len() == 1 && told[0].contains(field) && told[0].contains(cure), "`{by}`: {told:#?}");
+        assert!(told[0].starts_with("test.ron:"), "`{by}`: {told:#?}");
+    }
+}
+
+#[test]
+fn a_model_is_no_scene() {
+    let folder = folder("model");
+    let told = Scene::load(&folder.join("ball.ron")).unwrap_err().to_string();
+    assert!(
+        told.contains("ball.ron: scene: this is a model, not a scene; check it with `pong check`"),
+        "{told}"
+    );
+}
+
+/// That nothing may touch is said by an empty list, not by leaving it out.
+#[test]
+fn left_out_pairs_are_a_warning() {
+    let folder = folder("pairs");
+    let warnings = |text: &str| {
+        let scene = Scene::parse(text, "test.ron", &folder).unwrap_or_else(|errors| panic!("{errors}"));
+        scene.build().unwrap_or_else(|errors| panic!("{errors}")).warnings
+    };
+    assert_eq!(warnings(&scene("pairs: [],", "pairs: [],")), Vec::<String>::new());
+    let told = warnings(&scene("pairs: [],", ""));
+    assert!(
+        told.len() == 1 && told[0].starts_with("the scene has no `pairs`: nothing in it can touch"),
+        "{told:?}"
+    );
 }
 
 #[test]

@@ -16,6 +16,7 @@ mod draft;
 mod element;
 mod error;
 pub mod files;
+pub mod flush;
 mod fnv;
 pub mod grouping;
 mod hash;

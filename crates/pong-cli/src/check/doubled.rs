@@ -1,26 +1,99 @@
-//! Points that sit on the ends of segments: their springs add.
+//! What is there twice and pushes twice: points on ends of segments, primitives in one place, flat faces in one plane.
 
-use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::{Pose, Vec3};
+use pong_model::flush::{FlushPair, PlacedGroup, flush_pairs};
 use pong_model::{Model, MovableGroup};
+use std::collections::HashMap;
 
 /// A point this near a segment's end, by the segment's length, sits on it.
 const NEAR: f64 = 1e-6;
 /// How many are told one by one.
 const LISTED: usize = 20;
 
-/// One line for each point that sits on a segment's end.
+/// A line for each thing that is there twice in a movable group.
 pub(super) fn warnings(model: &Model) -> Vec<String> {
-    let mut lines: Vec<String> = model.bodies.iter().flat_map(|body| in_body(body, model)).collect();
+    let mut lines: Vec<String> =
+        model.bodies.iter().flat_map(|body| points_on_segments(body, model)).collect();
+    cut(&mut lines, "points sit on ends of segments");
+    let mut repeated: Vec<String> = model.bodies.iter().flat_map(in_one_place).collect();
+    cut(&mut repeated, "primitives are there twice");
+    let mut flush: Vec<String> = model.bodies.iter().flat_map(flush_faces).collect();
+    cut(&mut flush, "pairs of primitives are flush");
+    lines.extend(repeated.into_iter().chain(flush));
+    lines
+}
+
+fn cut(lines: &mut Vec<String>, what: &str) {
     let more = lines.len().saturating_sub(LISTED);
     if more > 0 {
         lines.truncate(LISTED);
-        lines.push(format!("{more} more points sit on ends of segments"));
+        lines.push(format!("{more} more {what}"));
+    }
+}
+
+/// Points, spheres, ellipsoids, segments and round parts of one body with the same numbers.
+fn in_one_place(body: &MovableGroup) -> Vec<String> {
+    let mut seen: HashMap<(PrimitiveKind, Vec<u64>), &str> = HashMap::new();
+    let mut lines = Vec::new();
+    for info in &body.primitives {
+        let Some(numbers) = numbers(body, info.kind, info.elements.start as usize) else { continue };
+        let bits = numbers.iter().map(|x| (x + 0.0).to_bits()).collect();
+        let first = *seen.entry((info.kind, bits)).or_insert(&info.path);
+        if first != info.path {
+            lines.push(format!(
+                "`{}` and `{first}` are the same {} in one place: their springs add; leave one out",
+                info.path,
+                info.kind.name(),
+            ));
+        }
     }
     lines
 }
 
-fn in_body(body: &MovableGroup, model: &Model) -> Vec<String> {
+/// Everything that makes one primitive differ from another of its kind; the order of two ends does not.
+fn numbers(body: &MovableGroup, kind: PrimitiveKind, index: usize) -> Option<Vec<f64>> {
+    let ends = |ends: &[Vec3; 2], radii: [f64; 2]| {
+        let mut ends = [(ends[0], radii[0]), (ends[1], radii[1])];
+        ends.sort_by(|a, b| a.0.as_slice().partial_cmp(b.0.as_slice()).unwrap_or(std::cmp::Ordering::Equal));
+        ends.iter().flat_map(|(end, radius)| [end.x, end.y, end.z, *radius]).collect()
+    };
+    Some(match kind {
+        PrimitiveKind::Point => body.points[index].position.as_slice().to_vec(),
+        PrimitiveKind::Sphere => {
+            let sphere = &body.spheres[index];
+            [sphere.center.as_slice(), &[sphere.radius]].concat()
+        }
+        PrimitiveKind::LineSegment => ends(&body.segments[index].ends, [0.0; 2]),
+        PrimitiveKind::Capsule => ends(&body.capsules[index].ends, [body.capsules[index].radius; 2]),
+        PrimitiveKind::Cylinder | PrimitiveKind::Cone => {
+            ends(&body.frusta[index].ends, body.frusta[index].radii)
+        }
+        PrimitiveKind::Bore => ends(&body.bores[index].hole.ends, body.bores[index].hole.radii),
+        _ => return None,
+    })
+}
+
+fn flush_faces(body: &MovableGroup) -> Vec<String> {
+    let pairs = flush_pairs(&[PlacedGroup { group: body, pose: Pose::identity() }]);
+    let path = |(_, primitive): (usize, usize)| &body.primitives[primitive].path;
+    let line = |FlushPair { primitives: [one, other], overlap }: FlushPair| match overlap {
+        true => format!(
+            "`{}` and `{}` lie in one plane and overlap: what touches both there is pushed twice; leave one out",
+            path(one),
+            path(other)
+        ),
+        false => format!(
+            "`{}` and `{}` are flush, but not one surface: what rolls or slides over their seam is pushed by both, up to twice; \
+             let them share vertices (triangles) or an inner wall (`inactive_faces` of polyhedra)",
+            path(one),
+            path(other)
+        ),
+    };
+    pairs.into_iter().map(line).collect()
+}
+
+fn points_on_segments(body: &MovableGroup, model: &Model) -> Vec<String> {
     let primitives = |kind| body.primitives.iter().filter(move |info| info.kind == kind);
     let mut points: Vec<(Vec3, usize)> = Vec::new();
     for (index, info) in body.primitives.iter().enumerate().filter(|(_, i)| i.kind == PrimitiveKind::Point) {

@@ -1,4 +1,6 @@
 //! `pong run`: runs a scene, records it, sums it up.
+//!
+//! Exit code 3: the run ended, but paired objects could not touch each other.
 
 mod acting;
 mod arguments;
@@ -44,7 +46,26 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
         tell(format!("warning: {advice}"));
     }
     ended.map_err(|reason| failure(format!("{}: {reason}", arguments.scene.display())))?;
-    Ok(ExitCode::SUCCESS)
+    if built.passing_through.is_empty() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    tell(passing_through(arguments, &built));
+    Ok(ExitCode::from(PASSING_THROUGH))
+}
+
+/// Exit code of a run in which paired objects could not touch: whatever came out, contact had no part in it.
+const PASSING_THROUGH: u8 = 3;
+
+fn passing_through(arguments: &Arguments, built: &BuiltScene) -> String {
+    let pairs: Vec<String> =
+        built.passing_through.iter().map(|[a, b]| format!("(\"{a}\", \"{b}\")")).collect();
+    format!(
+        "{}: paired objects passed through each other, for nothing of one can touch anything of the other: {}; give them what \
+         can (the warnings above say what), or write passes_through: [{}] in the scene if that is meant",
+        arguments.scene.display(),
+        pairs.join(", "),
+        pairs.join(", "),
+    )
 }
 
 fn run(

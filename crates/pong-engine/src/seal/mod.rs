@@ -45,6 +45,9 @@ pub struct SealReport {
     pub workers: Vec<WorkerStart>,
     /// Pairs of kinds that meet but have no tester: they are ignored, as the author may intend.
     pub warnings: Vec<SetupWarning>,
+    /// Names of the Objects of every pair in which nothing of one has a tester with anything of the other: the two pass
+    /// through each other.
+    pub untouchable_pairs: Vec<[String; 2]>,
     /// Friction that one surface has and the other has not, and known limits of the contact model that the scene may meet.
     pub notes: Vec<SetupNote>,
 }
@@ -112,13 +115,15 @@ pub(crate) fn seal(
         coupling,
         hash,
     };
+    let (warnings, untouchable_pairs) = warnings(scene);
     let report = SealReport {
         group_pairs: sealed.group_pairs.len(),
         contact_capacity,
         state_size: 0,
         memory: for_pairs.saturating_add(for_frames),
         workers: Vec::new(),
-        warnings: warnings(scene),
+        warnings,
+        untouchable_pairs,
         notes: friction_lost(scene, surfaces, &tables).into_iter().chain(known_limits(scene)).collect(),
     };
     Ok((sealed, tables, report))

@@ -1,7 +1,9 @@
 //! What sealing tells the author though the scene is valid.
 
 use super::testable::{can_be_tested, kind_name};
-use crate::scene::Scene;
+use crate::frame::narrow_phase::pair_table::has_tester;
+use crate::scene::{ObjectPair, Scene};
+use pong_geometry::primitive::PrimitiveKind;
 use pong_model::MovableGroup;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,6 +25,8 @@ pub enum SetupWarning {
         models: [String; 2],
         /// The pairs of Objects.
         met: MetIn,
+        /// Each kind of the two models with the built-in kinds that have a tester with it.
+        testable: Vec<(String, Vec<String>)>,
     },
 }
 
@@ -35,11 +39,16 @@ impl std::fmt::Display for SetupWarning {
                     "models `{a}` and `{b}`: {kind_a} and {kind_b} have no tester and ignore each other ({met})"
                 )
             }
-            Self::NothingToTest { models: [a, b], met } => {
+            Self::NothingToTest { models: [a, b], met, testable } => {
                 write!(
                     f,
-                    "models `{a}` and `{b}` are paired but nothing of one can touch anything of the other ({met})"
-                )
+                    "models `{a}` and `{b}` are paired but nothing of one can touch anything of the other ({met}): they pass \
+                     through each other; give one of them what the other can touch"
+                )?;
+                testable.iter().try_for_each(|(kind, others)| match others.is_empty() {
+                    true => write!(f, "; nothing built in touches {kind}"),
+                    false => write!(f, "; {kind} can touch {}", others.join(", ")),
+                })
             }
         }
     }
@@ -110,9 +119,9 @@ impl std::fmt::Display for SetupNote {
     }
 }
 
-/// Everything about a scene that its author may not have intended. What two models do is told once, however many Objects
-/// are made of them.
-pub(super) fn warnings(scene: &Scene) -> Vec<SetupWarning> {
+/// Everything about a scene that its author may not have intended: what two models do is told once, however many Objects
+/// are made of them. Beside it the pairs of Objects, by name, in which nothing can touch.
+pub(super) fn warnings(scene: &Scene) -> (Vec<SetupWarning>, Vec<[String; 2]>) {
     let mut paired: BTreeMap<([usize; 2], bool), MetIn> = BTreeMap::new();
     for pair in &scene.pairs {
         let models = [pair.a, pair.b].map(|object| scene.objects[object].model);
@@ -125,7 +134,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<SetupWarning> {
             .and_modify(|met| met.more += 1)
             .or_insert_with(|| MetIn { objects: objects(), more: 0 });
     }
-    let mut found = BTreeSet::new();
+    let (mut found, mut untouchable) = (BTreeSet::new(), BTreeSet::new());
     for (([first, second], itself), met) in paired {
         let models = [first, second].map(|model| scene.models[model].name.clone());
         let (ignored, anything) = kinds_that_meet(scene, [first, second], itself);
@@ -133,10 +142,35 @@ pub(super) fn warnings(scene: &Scene) -> Vec<SetupWarning> {
             found.insert(SetupWarning::IgnoredPair { models: models.clone(), kinds, met: met.clone() });
         }
         if !anything {
-            found.insert(SetupWarning::NothingToTest { models, met });
+            let testable = testable(scene, [first, second]);
+            found.insert(SetupWarning::NothingToTest { models, met, testable });
+            untouchable.insert(([first, second], itself));
         }
     }
-    found.into_iter().collect()
+    let models = |pair: &ObjectPair| [pair.a, pair.b].map(|object| scene.objects[object].model);
+    let is_untouchable = |pair: &&ObjectPair| {
+        let mut models = models(pair);
+        models.sort_unstable();
+        untouchable.contains(&(models, pair.a == pair.b))
+    };
+    let names = |pair: &ObjectPair| [pair.a, pair.b].map(|object| scene.objects[object].name.clone());
+    (found.into_iter().collect(), scene.pairs.iter().filter(is_untouchable).map(names).collect())
+}
+
+/// Every kind of two models with the built-in kinds that it has a tester with.
+fn testable(scene: &Scene, models: [usize; 2]) -> Vec<(String, Vec<String>)> {
+    let bodies = models.iter().flat_map(|model| &scene.models[*model].bodies);
+    let kinds: BTreeMap<&str, PrimitiveKind> = bodies
+        .flat_map(|body| body.primitives.iter().map(|info| (kind_name(body, info), info.kind)))
+        .collect();
+    let partners = |kind: PrimitiveKind| -> Vec<String> {
+        let others = PrimitiveKind::ALL.into_iter();
+        others
+            .filter(|other| has_tester(kind, *other) || has_tester(*other, kind))
+            .map(|k| k.name().to_owned())
+            .collect()
+    };
+    kinds.into_iter().map(|(name, kind)| (name.to_owned(), partners(kind))).collect()
 }
 
 /// Pairs of kinds without a tester in the movable groups of two models, and whether any two have one.

@@ -7,6 +7,7 @@
 //! | `results.rs` | wrenches, contacts and reports of the last frame |
 //! | `energy.rs` | energies of the last commit |
 //! | `contact_state.rs` | the contact state as a block of bytes |
+//! | `standing.rs` | poses that contradict velocities |
 //! | `workers.rs` | workers, and the times of a frame |
 //! | `clone.rs` | another world of the same sealed scene |
 
@@ -16,6 +17,7 @@ mod contact_state;
 mod energy;
 mod frame;
 mod results;
+mod standing;
 mod workers;
 
 use crate::inspect::Inspection;

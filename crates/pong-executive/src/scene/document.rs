@@ -20,8 +20,11 @@ pub(crate) struct Document {
     #[serde(deserialize_with = "pairs_of_map")]
     pub models: Vec<(String, String)>,
     pub objects: Vec<ObjectEntry>,
+    /// Left out, and written empty, are not the same: see [`Self::pairs`].
+    pairs: Option<Vec<(String, String)>>,
+    /// Entries of `pairs` in which nothing can touch, on purpose.
     #[serde(default)]
-    pub pairs: Vec<(String, String)>,
+    pub passes_through: Vec<(String, String)>,
     #[serde(default, deserialize_with = "gravity")]
     pub gravity: Triple,
     #[serde(default)]
@@ -42,6 +45,18 @@ pub(crate) struct Document {
     pub preload: Vec<PreloadEntry>,
     #[serde(default)]
     pub alternatives: Vec<AlternativeEntry>,
+}
+
+impl Document {
+    /// Objects that may touch; none if the scene leaves them out.
+    pub fn pairs(&self) -> &[(String, String)] {
+        self.pairs.as_deref().unwrap_or_default()
+    }
+
+    /// Whether several bodies are there and nothing is said of who may touch whom.
+    pub fn leaves_out_pairs(&self) -> bool {
+        self.pairs.is_none() && self.objects.iter().map(|object| object.bodies.len()).sum::<usize>() > 1
+    }
 }
 
 /// Friction between two objects at the start.

@@ -109,8 +109,8 @@ pub(super) fn preload(
     for PreloadEntry { pair: (a, b), friction } in &document.preload {
         let thing = format!("preload/({a}, {b})");
         let at = &mut faults.at(&thing);
-        let Some(place) = document.pairs.iter().position(|(one, other)| one == a && other == b) else {
-            let turned = document.pairs.iter().any(|(one, other)| one == b && other == a);
+        let Some(place) = document.pairs().iter().position(|(one, other)| one == a && other == b) else {
+            let turned = document.pairs().iter().any(|(one, other)| one == b && other == a);
             let cause =
                 if turned { "`pairs` has these two the other way round" } else { "`pairs` has no such pair" };
             at.note(cause, "name a pair of `pairs`, in its order");

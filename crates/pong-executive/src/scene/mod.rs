@@ -4,6 +4,8 @@ mod bodies;
 mod document;
 mod effects;
 mod error;
+mod flush;
+mod notation;
 mod poses;
 mod setting;
 mod variation;
@@ -41,6 +43,8 @@ pub struct BuiltScene {
     pub model_files: Vec<PathBuf>,
     /// What sealing the world told.
     pub seal: SealReport,
+    /// Objects of the pairs in which nothing can touch, but those that the scene names in `passes_through`.
+    pub passing_through: Vec<[String; 2]>,
     /// What the models' authors should know.
     pub warnings: Vec<String>,
     /// Steps that make up the duration.
@@ -96,13 +100,7 @@ impl Scene {
                 document,
                 extensions: Extensions::new(),
             }),
-            Err(error) => Err(SceneErrors(vec![SceneError {
-                file: file.to_owned(),
-                at: Some((error.span.start.line, error.span.start.col)),
-                thing: "scene".to_owned(),
-                cause: error.code.to_string(),
-                cure: "docs/scene_format.md lists every field".to_owned(),
-            }])),
+            Err(error) => Err(SceneErrors(vec![notation::fault(text, file, &error)])),
         }
     }
 
@@ -177,6 +175,8 @@ impl Scene {
         let loads = effects::loads(&setting, &bodies, &mut faults);
         let springs = effects::springs(&setting, &bodies, &mut faults);
         setting.pair(&mut faults);
+        setting.check_passes_through(&mut faults);
+        let flush = flush::warnings(&setting, &bodies);
         let (sealed, mut made) = setting.seal(&mut faults);
         let Some((world, seal)) = sealed.filter(|_| faults.list.is_empty()) else {
             return faults.unless_any(None);
@@ -192,8 +192,9 @@ impl Scene {
             objects: scene_objects(document, &made.objects, &simulation),
             simulation,
             model_files: made.model_files,
+            passing_through: passing_through(document, &seal),
             seal,
-            warnings: made.warnings,
+            warnings: made.warnings.into_iter().chain(flush).chain(left_out_pairs(document)).collect(),
             steps: libm::round(document.duration / document.step) as u64,
             record_every: document.record_every,
             ledger: document.ledger,
@@ -222,6 +223,20 @@ fn assemble(
         simulation.add_spring(spring)?;
     }
     Ok(simulation)
+}
+
+fn left_out_pairs(document: &Document) -> Option<String> {
+    let warning = "the scene has no `pairs`: nothing in it can touch; list who may touch whom, pairs: [(\"a\", \"b\")], or write \
+                   pairs: [] if nothing is meant to";
+    document.leaves_out_pairs().then(|| warning.to_owned())
+}
+
+fn passing_through(document: &Document, seal: &SealReport) -> Vec<[String; 2]> {
+    let on_purpose = |[a, b]: &[String; 2]| {
+        let pair = (a.clone(), b.clone());
+        document.passes_through.iter().any(|named| setting::is_same_pair(named, &pair))
+    };
+    seal.untouchable_pairs.iter().filter(|pair| !on_purpose(pair)).cloned().collect()
 }
 
 fn scene_objects(

@@ -108,7 +108,7 @@ impl<'a> Setting<'a> {
     }
 
     pub fn pair(&mut self, faults: &mut Faults<'_>) {
-        for (a, b) in &self.document.pairs {
+        for (a, b) in self.document.pairs() {
             let thing = format!("pairs/({a}, {b})");
             let objects = &self.document.objects;
             let find = |name: &str| objects.iter().position(|entry| entry.name == name);
@@ -124,6 +124,17 @@ impl<'a> Setting<'a> {
         }
     }
 
+    /// Checks that `passes_through` names pairs of the scene.
+    pub fn check_passes_through(&self, faults: &mut Faults<'_>) {
+        for named in &self.document.passes_through {
+            if !self.document.pairs().iter().any(|pair| is_same_pair(pair, named)) {
+                let cause = "`pairs` has no such entry";
+                let cure = "name two objects as an entry of `pairs` does, or leave it out";
+                faults.note(format!("passes_through/({}, {})", named.0, named.1), cause, cure);
+            }
+        }
+    }
+
     /// The sealed world, and what is left of the setting.
     pub fn seal(self, faults: &mut Faults<'_>) -> (Option<(World, SealReport)>, Made) {
         let Self { world, objects, model_files, warnings, .. } = self;
@@ -135,6 +146,11 @@ impl<'a> Setting<'a> {
         });
         (sealed.ok(), Made { objects, model_files, warnings })
     }
+}
+
+/// Whether two entries name the same two objects, in whatever order.
+pub(super) fn is_same_pair(one: &(String, String), other: &(String, String)) -> bool {
+    one == other || (&one.0, &one.1) == (&other.1, &other.0)
 }
 
 fn load_models<'a>(

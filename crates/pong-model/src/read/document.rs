@@ -12,6 +12,10 @@ const FIELDS: [&str; 7] = ["format", "version", "name", "entry_memory", "surface
 
 /// Reads the whole file; `None` only if it is no struct. Faults are with the reader.
 pub(crate) fn document(reader: &mut Reader<'_>, node: &Node) -> Option<ModelDraft> {
+    if is_scene(node) {
+        let cure = "run it with `pong run`; the models that it lists are files of their own";
+        return reader.refuse(node.at, "model", "format", "this is a scene, not a model", cure);
+    }
     let fields = Fields::open(reader, node, "model", &FIELDS)?;
     check_format(reader, &fields);
     let name = fields.required(reader, "name").and_then(|node| model_name(reader, node));
@@ -38,6 +42,13 @@ pub(crate) fn document(reader: &mut Reader<'_>, node: &Node) -> Option<ModelDraf
         pair_overrides,
         bodies,
     })
+}
+
+/// Whether the file says of itself that it is a scene: no field of it is then a fault of a model.
+fn is_scene(node: &Node) -> bool {
+    let Value::Struct(_, fields) = &node.value else { return false };
+    let format = fields.iter().find(|field| field.name.as_ref() == "format");
+    format.is_some_and(|field| field.value.value == Value::Text("pong-scene".to_owned()))
 }
 
 fn check_format(reader: &mut Reader<'_>, fields: &Fields<'_>) {
