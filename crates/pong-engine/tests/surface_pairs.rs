@@ -147,6 +147,8 @@ fn known_limits_are_noted_by_the_kinds_that_meet() {
     let bore = "Bore(name: \"b\", ends: ((0,0,0),(1,0,0)), radii: (0.1,0.1))";
     let solid = "Polyhedron(name: \"w\", vertices: [(1,0,0),(0,1,0),(0,0,1),(0,0,0)], faces: [[0,1,2],[0,3,1],[1,3,2],[2,3,0]])";
     let ball = "Sphere(name: \"s\", center: (0,0,0), radius: 0.1)";
+    let corner = "Point(name: \"t\", position: (1,0,0))";
+    let cornered = format!("{corner}, {solid}");
     for (a, b, expected) in [
         (capsule, capsule, vec![(1, "a Capsule, b Capsule"), (1, "b Capsule, a Capsule")]),
         (bar, capsule, vec![(1, "a LineSegment, b Capsule")]),
@@ -158,6 +160,10 @@ fn known_limits_are_noted_by_the_kinds_that_meet() {
         (&cone(0.0), FLOOR, vec![(1, "a Cone, b Plane")]),
         (&cone(0.05), FLOOR, vec![]),
         (ball, capsule, vec![]),
+        (bar, solid, vec![(1, "a LineSegment, b Polyhedron")]),
+        (corner, solid, vec![]),
+        // What stacks: corners and a solid on both sides.
+        (&cornered, &cornered, vec![(1, "a Point, b Polyhedron"), (1, "b Point, a Polyhedron")]),
         (capsule, FLOOR, vec![]),
     ] {
         let expected: Vec<_> = expected.into_iter().map(|(count, kinds)| (count, kinds.to_owned())).collect();

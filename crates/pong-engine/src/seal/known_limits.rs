@@ -50,6 +50,21 @@ const LIMITS: &[KnownLimit] = &[
                of how the face is cut: steps of up to 0.35·kδ; make what lies over edges of several capsules",
     },
     KnownLimit {
+        a: &[LineSegment],
+        b: &[Polyhedron],
+        may_show: always,
+        text: "a segment that overhangs its support on both sides has half of the stiffness, at one edge or at the other: the moment \
+               steps between them; make what lies over edges of two segments that meet on the support",
+    },
+    KnownLimit {
+        a: &[Point, LineSegment],
+        b: &[Polyhedron],
+        may_show: both_are_solids_with_corners,
+        text: "corners and edges that reach an edge of the other solid from outside are pushed out of its side: two boxes set edge on \
+               edge, to a depth or so, are not held and fall through each other; let one overhang by more than the depth, or give \
+               the lower one a Plane",
+    },
+    KnownLimit {
         a: &[Cylinder],
         b: &[Bore],
         may_show: has_short_pin,
@@ -71,6 +86,13 @@ fn always(_: &MovableGroup, _: &MovableGroup) -> bool {
 
 fn has_short_pin(a: &MovableGroup, _: &MovableGroup) -> bool {
     elements(a, Cylinder).any(|pin| a.frusta[pin].length < 0.5 * a.frusta[pin].radii[0])
+}
+
+/// Solids of which each has corners or edges for the other, as boxes that stack.
+fn both_are_solids_with_corners(a: &MovableGroup, b: &MovableGroup) -> bool {
+    [a, b]
+        .iter()
+        .all(|body| !body.polyhedra.is_empty() && !(body.points.is_empty() && body.segments.is_empty()))
 }
 
 /// A radius less than a hundredth of the other end's is a tip.
