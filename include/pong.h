@@ -1024,6 +1024,17 @@ pong_status pong_get_contacts(const struct pong_world *world,
                               size_t capacity,
                               size_t *count);
 
+/// Movable groups in contact that stood still from one commit to the next, bit for bit, though their velocity would have moved
+/// them within `step`, the time between the two, s: the first `capacity` are copied, `count` gets their number. For use right
+/// after pong_step() or pong_commit(); none otherwise. Friction by bristles follows poses: a belt that is to carry needs a pose
+/// that moves, or Coulomb friction, which looks at velocities alone. A frame that is committed twice, as in a pause, is listed
+/// too. PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `groups` may be NULL. Allocates.
+pong_status pong_find_standing_groups(const struct pong_world *world,
+                                      double step,
+                                      struct pong_interface_id *groups,
+                                      size_t capacity,
+                                      size_t *count);
+
 /// How the normal force of each contact of the last frame changes with its depth (`stiffness`, N/m) and with the rate of that
 /// (`damping`, N s/m), with the weight of the contact, in the order of pong_get_contacts(): the first `capacity` of both are
 /// written, `count` gets their number. Zero where the force is cut off at zero; not a number (NaN) of a normal law of the
