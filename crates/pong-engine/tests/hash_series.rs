@@ -30,7 +30,7 @@ const KNOWN: [(&str, u64, u64); 9] = [
     ("crowd", 0xa6efc9208413bcf4, 0x6900a47b22bdebb9),
     ("bowl", 0x776b53145068c012, 0xf1abfd87a2c723bd),
     ("swarm", 0x30fc36b416b03545, 0xc4dcb5fed059d14a),
-    ("round", 0x4a559161a30e17c1, 0x2936bf3c7188ae9c),
+    ("round", 0xa8b83a5cd3bcdd64, 0x29172c69aeb1b248),
 ];
 
 /// A scene run by the caller alone, with what is needed to go on from any frame.

@@ -87,11 +87,17 @@ fn random_rod(random: &mut Random, solid: &Solid) -> Capsule {
 
 /// Least overlap over all unit vectors, m, by descent from many of them: the definition of depth, with support functions only.
 fn depth_by_search(rod: &Capsule, solid: &Solid) -> f64 {
+    depth_by_descent(rod, solid, 1000, 20)
+}
+
+/// The same, from the best few of so many directions.
+fn depth_by_descent(rod: &Capsule, solid: &Solid, directions: usize, few: usize) -> f64 {
     let overlap = |n: &Vec3| solid.support(n) + Bounded::support(rod, &-n);
-    let mut starts: Vec<(f64, Vec3)> = fibonacci_sphere(1000).into_iter().map(|n| (overlap(&n), n)).collect();
+    let mut starts: Vec<(f64, Vec3)> =
+        fibonacci_sphere(directions).into_iter().map(|n| (overlap(&n), n)).collect();
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut least = f64::INFINITY;
-    for (_, start) in starts.into_iter().take(20) {
+    for (_, start) in starts.into_iter().take(few) {
         let (mut n, mut best, mut step) = (start, overlap(&start), 0.05);
         while step > 1e-8 {
             let (u, v) = frame(&n);
@@ -212,6 +218,37 @@ fn depths_are_the_least_translation_that_separates() {
         }
     }
     assert!(touching > 30);
+}
+
+/// Rods whose axes go through a cylinder or a cone, many poses for each pair: no direction of a search is a shorter way out.
+#[test]
+fn no_way_out_of_cylinders_and_cones_is_shorter_than_the_depth() {
+    const POSES: usize = 1000;
+    let mut random = Random::new(15, 0, 0);
+    let mut counts = [[0; 2]; 2];
+    while counts.iter().flatten().any(|&count| count < POSES) {
+        let solid = Solid::random(&mut random);
+        let Solid::Frustum(frustum) = solid else { continue };
+        let rod = random_rod(&mut random, &solid);
+        let count =
+            &mut counts[usize::from(rod.radius > 0.0)][usize::from(frustum.radii[0] != frustum.radii[1])];
+        let contacts = solid.touch(&rod);
+        let found = deepest(&contacts);
+        if *count == POSES || found <= rod.radius {
+            continue;
+        }
+        *count += 1;
+        let searched = depth_by_descent(&rod, &solid, 400, 5);
+        assert!(found < searched + 1e-9, "{found} {searched} {frustum:?} {rod:?}");
+        let deep = contacts
+            .iter()
+            .flatten()
+            .map(|contact| &contact.interference)
+            .find(|contact| contact.depth == found);
+        let n = deep.unwrap().normal_b;
+        let out = solid.support(&n) + Bounded::support(&rod, &-n);
+        assert!((out - found).abs() < 1e-12, "{found} {out} {frustum:?} {rod:?}");
+    }
 }
 
 #[test]

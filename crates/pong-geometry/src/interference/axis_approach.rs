@@ -276,28 +276,71 @@ impl<'a> WayOut<'a> {
         }
     }
 
-    /// Out across the segment: seen along it the solid is the hull of two ellipses and the segment a place in it.
+    /// Out across the segment: seen along it the solid is the hull of two ellipses and the segment a place in it. The shortest way is
+    /// the shortest out of one of the two ellipses, or one in which both are as far out.
     fn offer_across(&mut self) {
         let along = (self.segment[1] - self.segment[0]).normalize();
         let first = self.first_across(&along);
-        let second = along.cross(&first);
-        let directions = EVEN_DIRECTIONS.map(|(x, y)| first * x + second * y);
-        let lengths = directions.map(|normal| self.frustum.support(&normal) - normal.dot(&self.segment[0]));
-        let count = directions.len();
-        for i in 0..count {
-            let (before, after) = ((i + count - 1) % count, (i + 1) % count);
-            if lengths[i] <= lengths[before] && lengths[i] <= lengths[after] {
-                let normal = self.least_near(&along, [directions[before], directions[i], directions[after]]);
-                self.offer_at(&along, &normal);
+        for end in [0, 1] {
+            for toward in [first, -first] {
+                if let Some(normal) = self.least_of_end(end, &along, &toward) {
+                    self.offer_at(&along, &normal);
+                }
             }
+        }
+        for normal in self.jumps(&along).into_iter().flatten() {
+            self.offer_at(&along, &normal);
         }
     }
 
-    /// Where the search starts turns with the two bodies, so that no answer depends on their pose.
+    /// The direction across the segment, within 90° of the way of an ellipse's short axis, in which the way out of the ellipse is
+    /// least.
+    ///
+    /// With t the tangent of the angle from the short axis, ρ and p the semi-axes and (x, y) the centre seen from the segment, the
+    /// way changes as y − x·t + (ρ² − p²)·t/√(p² + ρ²t²). Less y that is odd and concave for t > 0: from 0 Newton's steps never pass
+    /// the first place where it is |y|.
+    fn least_of_end(&self, end: usize, along: &Vec3, toward: &Vec3) -> Option<Vec3> {
+        const STEPS: usize = 60;
+        /// The tangent of a right angle but for rounding.
+        const FAR: f64 = 1.0 / f64::EPSILON;
+        let (axis, radius) = (self.frustum.axis, self.frustum.radii[end]);
+        let sideways = along.cross(toward);
+        let center = self.frustum.ends[end] - self.segment[0];
+        let (x, y) = (center.dot(toward), center.dot(&sideways));
+        let (slant, short) = (axis.dot(toward), radius * axis.dot(along).abs().max(f64::EPSILON));
+        let stretch = radius * slant * radius * slant;
+        let mut tangent = 0.0;
+        for _ in 0..STEPS {
+            let aside = radius * tangent;
+            let root = (short * short + aside * aside).sqrt().max(f64::MIN_POSITIVE);
+            let missing = y.abs() - (stretch * tangent / root - x * tangent);
+            let flatness = short / root;
+            let slope = stretch / root * (flatness * flatness) - x;
+            if missing <= 0.0 {
+                break;
+            }
+            if slope * FAR <= missing {
+                if x > 0.0 {
+                    return None;
+                }
+                tangent = FAR;
+                break;
+            }
+            let step = missing / slope.max(f64::MIN_POSITIVE);
+            tangent += step;
+            if step <= f64::EPSILON * tangent {
+                break;
+            }
+        }
+        Some(unit(toward - sideways * (tangent * y.signum())))
+    }
+
+    /// The way across the segment along the short axis of the ellipses, which all directions are reckoned from. Where the ellipses are
+    /// circles, one that turns with the two bodies, so that no answer depends on their pose.
     fn first_across(&self, along: &Vec3) -> Vec3 {
         let across = |v: &Vec3| v - along * along.dot(v);
         let arm = self.segment[0] - self.frustum.ends[0];
-        for (v, least) in [(self.frustum.axis, 1e-6), (arm, 1e-9 * arm.norm())] {
+        for (v, least) in [(self.frustum.axis, 1e-9), (arm, 1e-9 * arm.norm())] {
             let part = across(&v);
             if part.norm() > least {
                 // Once more: what rounding leaves along the segment is much of a short part.
@@ -307,30 +350,7 @@ impl<'a> WayOut<'a> {
         any_perpendicular(along)
     }
 
-    /// The direction between three that follow each other in which the way is shortest.
-    fn least_near(&self, along: &Vec3, [before, middle, after]: [Vec3; 3]) -> Vec3 {
-        /// The sine of the angle to one of the three, far beyond rounding: a direction that is one of them counts as between.
-        const SLACK: f64 = 1e-9;
-        let (mut low, mut high) =
-            if self.slope(along, &middle) > 0.0 { (before, middle) } else { (middle, after) };
-        let turn = |from: &Vec3, to: &Vec3| along.dot(&from.cross(to));
-        for jump in self.jumps(along).into_iter().flatten() {
-            let [one, other] = self.farthest(&jump).map(|place| self.slope_at(along, &jump, &place));
-            let is_least = one.min(other) <= 0.0 && one.max(other) >= 0.0;
-            if is_least && turn(&before, &jump) > -SLACK && turn(&jump, &after) > -SLACK {
-                return jump;
-            }
-            if !is_least && turn(&low, &jump) > 0.0 && turn(&jump, &high) > 0.0 {
-                *(if one > 0.0 { &mut high } else { &mut low }) = jump;
-            }
-        }
-        let at = |share: f64| (low + (high - low) * share).normalize();
-        at(sign_change([&low, &high].map(|way| self.slope(along, way)), |share| {
-            self.slope(along, &at(share))
-        }))
-    }
-
-    /// Across the segment the directions in which both ends of the solid are as far out: where the slope jumps.
+    /// Across the segment the directions in which both ends of the solid are as far out.
     fn jumps(&self, along: &Vec3) -> Option<[Vec3; 2]> {
         let across = self.frustum.axis - along * along.dot(&self.frustum.axis);
         // No less than what is refused, and no root of less than nothing: a compiler may compute ahead of both questions.
@@ -357,18 +377,6 @@ impl<'a> WayOut<'a> {
         let aside = across.norm();
         let way = if aside > 0.0 { across / aside.max(f64::MIN_POSITIVE) } else { across };
         [0, 1].map(|end| self.frustum.ends[end] + way * self.frustum.radii[end])
-    }
-
-    /// How the way out grows as the direction turns about the segment.
-    fn slope(&self, along: &Vec3, normal: &Vec3) -> f64 {
-        let [one, other] = self.farthest(normal);
-        let farther = if normal.dot(&one) >= normal.dot(&other) { one } else { other };
-        self.slope_at(along, normal, &farther)
-    }
-
-    /// The same of one end of the solid, with its place that is farthest out.
-    fn slope_at(&self, along: &Vec3, normal: &Vec3, farthest: &Vec3) -> f64 {
-        along.cross(normal).dot(&(farthest - self.segment[0]))
     }
 
     /// How far along the segment the solid is touched on the shortest way out across it. The end of the solid that is farther out
@@ -410,6 +418,8 @@ impl<'a> WayOut<'a> {
 
     /// Of a segment along the wall both ends are last out, though rounding may say that one of them alone is.
     fn offer_at(&mut self, along: &Vec3, normal: &Vec3) {
+        /// One less the cosine between two directions that only rounding, and the root of it, keeps apart.
+        const SAME: f64 = 1e-14;
         let [one, other] = self.segment;
         let distance = normal.dot(one) - self.frustum.support(normal);
         // Of the coordinates, and of directions, found by halving, over the lengths of both.
@@ -418,7 +428,11 @@ impl<'a> WayOut<'a> {
             4.0 * ROUNDING * (one.amax().max(other.amax()).max(self.frustum.ends[0].amax()) + lengths);
         if distance > self.best.distance - rounding {
             let place = one + along * self.travelled(along, normal, rounding);
-            self.best = Approach { distance, normal_b: *normal, place_b: place, feature: Feature::face(0) };
+            // Along the wall the two directions in which both ends are as far out are one but for rounding, and its root.
+            let is_known =
+                normal.dot(&self.best.normal_b) > 1.0 - SAME && distance <= self.best.distance + rounding;
+            let normal_b = if is_known { self.best.normal_b } else { *normal };
+            self.best = Approach { distance, normal_b, place_b: place, feature: Feature::face(0) };
         }
     }
 }
@@ -428,26 +442,3 @@ impl<'a> WayOut<'a> {
 fn unit(v: Vec3) -> Vec3 {
     v / v.norm().max(f64::MIN_POSITIVE)
 }
-
-const C: f64 = 0.923_879_532_511_286_8;
-const D: f64 = std::f64::consts::FRAC_1_SQRT_2;
-const E: f64 = 0.382_683_432_365_089_8;
-/// Sixteen directions in a plane, every 22.5°.
-const EVEN_DIRECTIONS: [(f64, f64); 16] = [
-    (1.0, 0.0),
-    (C, E),
-    (D, D),
-    (E, C),
-    (0.0, 1.0),
-    (-E, C),
-    (-D, D),
-    (-C, E),
-    (-1.0, 0.0),
-    (-C, -E),
-    (-D, -D),
-    (-E, -C),
-    (0.0, -1.0),
-    (E, -C),
-    (D, -D),
-    (C, -E),
-];
