@@ -90,9 +90,8 @@ fn has_short_pin(a: &MovableGroup, _: &MovableGroup) -> bool {
 
 /// Solids of which each has corners or edges for the other, as boxes that stack.
 fn both_are_solids_with_corners(a: &MovableGroup, b: &MovableGroup) -> bool {
-    [a, b]
-        .iter()
-        .all(|body| !body.polyhedra.is_empty() && !(body.points.is_empty() && body.segments.is_empty()))
+    let has_corners = |body: &MovableGroup| !(body.points.is_empty() && body.segments.is_empty());
+    [a, b].iter().all(|body| has_corners(body) && !body.polyhedra.is_empty())
 }
 
 /// A radius less than a hundredth of the other end's is a tip.
