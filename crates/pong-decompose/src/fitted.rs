@@ -15,12 +15,13 @@ use crate::solids::SolidMesh;
 use nalgebra::Vector3;
 use pong_import::mesh::{Mesh, bounds};
 use pong_import::{Finding, Findings};
+use std::collections::BinaryHeap;
 
-/// Triangles of a hull smaller than this share of the distance are not cut further to find a farther place.
-const FINEST_SHARE: f64 = 0.25;
+/// How close to the largest distance the one that is found comes.
+const CLOSE: f64 = 0.02;
 /// Most places of a hull that are looked at; hulls of smaller cells are looked at more closely.
-const PLACES_MAX: usize = 40_000;
-/// Contents that lack no more than this share of the whole box are convex.
+const PLACES_MAX: usize = 100_000;
+/// Contents that lack no more than this share of their box or hull are convex.
 const EXACT_SHARE: f64 = 1e-9;
 /// Two planes that leave distances within this share of each other are equally good.
 const ALIKE: f64 = 0.01;
@@ -173,35 +174,45 @@ impl Cutting<'_> {
         };
         if let Ok(piece) = hull(&content.points) {
             fitted.excess_m3 = piece.volume_m3 - content.volume_m3;
-            (fitted.protrusion_m, fitted.at) = self.farthest(&piece.triangles());
+            if fitted.excess_m3 > EXACT_SHARE * piece.volume_m3 {
+                (fitted.protrusion_m, fitted.at) = self.farthest(&piece.triangles());
+            }
         }
         fitted
     }
 
     /// The largest distance from the solid over some triangles, as far as it is above `fit_m`, and where it is. Distances
-    /// change no faster than places do: triangles that cannot reach beyond what was found are left aside.
+    /// change no faster than places do: the triangle that could reach farthest is cut next, until none could reach beyond
+    /// what was found.
     fn farthest(&self, hull: &Mesh) -> (f64, Vector3<f64>) {
         let mut best = (0.0, hull.vertices[0]);
-        let mut open: Vec<[Vector3<f64>; 3]> = (0..hull.triangles.len()).map(|t| hull.corners(t)).collect();
-        let mut places = 0;
-        let finest_m = FINEST_SHARE * self.fit_m;
-        // In layers: the middles of large triangles first.
-        while !open.is_empty() && places + open.len() <= PLACES_MAX {
-            let mut next = Vec::new();
-            for [a, b, c] in open {
-                let middle = (a + b + c) / 3.0;
-                let reach_m = [a, b, c].iter().map(|corner| (corner - middle).norm()).fold(0.0, f64::max);
-                let distance_m = self.solid.outside_by_m(&middle);
-                places += 1;
-                if distance_m > best.0 {
-                    best = (distance_m, middle);
-                }
-                if distance_m + reach_m > best.0.max(self.fit_m) && reach_m > finest_m {
-                    let [ab, bc, ca] = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
-                    next.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
-                }
+        let mut triangles: Vec<[Vector3<f64>; 3]> = Vec::new();
+        // Bits of numbers that are not negative are ordered as the numbers are.
+        let mut open: BinaryHeap<(u64, usize)> = BinaryHeap::new();
+        let look = |corners: [Vector3<f64>; 3], best: &mut (f64, Vector3<f64>)| {
+            let middle = corners.iter().sum::<Vector3<f64>>() / 3.0;
+            let reach_m = corners.iter().map(|corner| (corner - middle).norm()).fold(0.0, f64::max);
+            let distance_m = self.solid.outside_by_m(&middle);
+            if distance_m > best.0 {
+                *best = (distance_m, middle);
             }
-            open = next;
+            (distance_m + reach_m).to_bits()
+        };
+        for corners in (0..hull.triangles.len()).map(|triangle| hull.corners(triangle)) {
+            open.push((look(corners, &mut best), triangles.len()));
+            triangles.push(corners);
+        }
+        while let Some((bound, index)) = open.pop() {
+            let enough_m = ((1.0 + CLOSE) * best.0).max(self.fit_m);
+            if f64::from_bits(bound) <= enough_m || triangles.len() >= PLACES_MAX {
+                break;
+            }
+            let [a, b, c] = triangles[index];
+            let [ab, bc, ca] = [0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)];
+            for corners in [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]] {
+                open.push((look(corners, &mut best), triangles.len()));
+                triangles.push(corners);
+            }
         }
         best
     }
