@@ -8,9 +8,9 @@
 //!
 //! and ω² = λ, the largest eigenvalue of K. Friction counts as if it stuck everywhere.
 
-use crate::coupling::surely_stable_step;
-use crate::mass::{GroupMass, StepPlan};
-use crate::mobility::{Mobility, Vec6, largest_eigenvalue};
+use crate::coupling::surely_stable_with;
+use crate::mass::{GroupMass, SpringRates, StepPlan};
+use crate::mobility::{Vec6, largest_eigenvalue};
 use crate::setting::Setting;
 use crate::spring::ContactSprings;
 use nalgebra::DMatrix;
@@ -55,17 +55,39 @@ pub fn acting_report(
         }
     }
     let ratio = acting.iter().map(|one| one.springs.least_damped()).fold(f64::INFINITY, f64::min);
-    let stiffness_rate = largest(&acting, |one| {
-        (one.weight * one.springs.normal.stiffness, one.springs.friction.map_or(0.0, |f| f.stiffness))
-    });
-    let damping_rate = largest(&acting, |one| {
-        (one.weight * one.springs.normal.damping, one.springs.friction.map_or(0.0, |f| f.damping))
-    });
+    let groups: BTreeSet<usize> = acting.iter().flat_map(|one| one.rows.iter().map(|row| row.0)).collect();
+    // Groups that share joints move together: each may have the whole of the largest mode.
+    let shared =
+        groups.iter().map(|body| groups.iter().filter(|other| same(&setting, *body, **other)).count());
+    let shared = shared.max().unwrap_or(1) as f64;
+    let springs = sum_of_springs(&setting, &groups);
+    let stiffness_rate = shared
+        * largest(&acting, |one| {
+            (one.weight * one.springs.normal.stiffness, one.springs.friction.map_or(0.0, |f| f.stiffness))
+        });
+    let damping_rate = shared
+        * largest(&acting, |one| {
+            (one.weight * one.springs.normal.damping, one.springs.friction.map_or(0.0, |f| f.damping))
+        });
+    let rates = SpringRates { stiffness: stiffness_rate, damping: damping_rate };
     let stable_step = match acting.is_empty() {
         true => f64::INFINITY,
-        false => surely_stable_step(plan.coupling, stiffness_rate, damping_rate, ratio),
+        false => surely_stable_with(plan.coupling, rates, ratio, springs),
     };
     Ok(ActingReport { contacts: acting.len(), not_judged, stiffness_rate, damping_rate, stable_step })
+}
+
+fn same(setting: &Setting<'_>, body: usize, other: usize) -> bool {
+    body == other || setting.share_joints(body, other)
+}
+
+/// The most that springs of the host add to any of these groups.
+fn sum_of_springs(setting: &Setting<'_>, groups: &BTreeSet<usize>) -> SpringRates {
+    let most = SpringRates::default();
+    groups.iter().fold(most, |most, body| {
+        let here = setting.springs_on(*body);
+        SpringRates { stiffness: most.stiffness.max(here.stiffness), damping: most.damping.max(here.damping) }
+    })
 }
 
 /// A contact that acts on something that yields.
@@ -82,18 +104,42 @@ impl Acting {
     /// `None` for what cannot be judged.
     fn new(setting: &Setting<'_>, contact: &PushingContact) -> Option<Self> {
         let (a, b) = (contact.group_a, contact.group_b);
-        let masses = [setting.masses[a].as_ref()?, setting.masses[b].as_ref()?];
+        if setting.masses[a].is_none() || setting.masses[b].is_none() {
+            return None;
+        }
         let springs = setting.pressed_springs(contact)?;
-        let x_ba = contact.x_ba;
-        let at_a = x_ba.rotation.tr_mul(&(contact.point_b - x_ba.translation));
-        let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
-        let on_a = Mobility::new(masses[0])
-            .map(|body| (a, axes.map(|axis| body.row(&x_ba.rotation.tr_mul(&axis), &at_a))));
-        let on_b =
-            Mobility::new(masses[1]).map(|body| (b, axes.map(|axis| body.row(&-axis, &contact.point_b))));
-        let rows = on_a.into_iter().chain(on_b).collect();
+        let rows = rows_of(setting, contact);
         Some(Self { springs, weight: contact.weight, normal: contact.normal_b, rows })
     }
+}
+
+/// The axes of B's frame, at a contact, as forces on the movable groups that yield.
+pub(crate) fn rows_of(setting: &Setting<'_>, contact: &PushingContact) -> Vec<(usize, [Vec6; 3])> {
+    let x_ba = contact.x_ba;
+    let at_a = x_ba.rotation.tr_mul(&(contact.point_b - x_ba.translation));
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let on_a = setting.mobilities[contact.group_a]
+        .as_ref()
+        .map(|body| (contact.group_a, axes.map(|axis| body.row(&x_ba.rotation.tr_mul(&axis), &at_a))));
+    let on_b = setting.mobilities[contact.group_b]
+        .as_ref()
+        .map(|body| (contact.group_b, axes.map(|axis| body.row(&-axis, &contact.point_b))));
+    on_a.into_iter().chain(on_b).collect()
+}
+
+/// Inverse of the effective mass at a contact along the normal, 1/kg, and its largest value along the surface.
+pub(crate) fn compliances_at(setting: &Setting<'_>, contact: &PushingContact) -> [f64; 2] {
+    let mut sum = pong_geometry::Mat3::zeros();
+    for (_, rows) in rows_of(setting, contact) {
+        sum += pong_geometry::Mat3::from_fn(|i, j| rows[i].dot(&rows[j]));
+    }
+    if setting.share_joints(contact.group_a, contact.group_b) {
+        sum *= 2.0;
+    }
+    let n = &contact.normal_b;
+    let flat = pong_geometry::Mat3::identity() - n * n.transpose();
+    let along = flat * sum * flat;
+    [n.dot(&(sum * n)), largest_eigenvalue(DMatrix::from_column_slice(3, 3, along.as_slice()))]
 }
 
 /// Largest eigenvalue of the sum over all contacts; `values` gives what acts along the normal and what across it.

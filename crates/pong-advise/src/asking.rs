@@ -4,13 +4,16 @@
 //! Asked is what would lengthen the step most if it were not there. Where no term alone does, because another as large is
 //! left, both are named.
 
-use crate::coupling::{longest_stable_step, surely_stable_step};
-use crate::mass::StepPlan;
+use crate::coupling::{longest_stable_step, surely_stable_with};
+use crate::mass::{SpringRates, StepPlan};
 use crate::setting::Setting;
 use crate::spring::{ContactSprings, Spring};
 use crate::term::{FAINT, Term};
 use crate::together::{Load, pair_load};
 use pong_engine::WrenchCoupling;
+
+/// Where springs of the host take more of the step than any term of the contacts.
+pub(crate) const BY_SPRINGS: &str = "its springs ask for that";
 
 /// One term, or two that are as large as each other.
 const SUSPECTS: [&[Term]; 6] = [
@@ -34,6 +37,7 @@ pub(crate) fn of_spring(spring: &Spring, coupling: WrenchCoupling, mass: f64) ->
 
 /// What asks for the surely stable step of a movable group, in words.
 pub(crate) fn of_group(setting: &Setting<'_>, body: usize, plan: &StepPlan) -> Option<String> {
+    let springs = setting.springs_on(body);
     let pairs = setting.scene.pairs().iter().filter(|pair| [pair.first, pair.second].contains(&body));
     let mut met = Vec::new();
     for pair in pairs {
@@ -42,20 +46,28 @@ pub(crate) fn of_group(setting: &Setting<'_>, body: usize, plan: &StepPlan) -> O
             met.push((pair, mass, setting.known(pair, mass, plan).0));
         }
     }
-    let step_without = |terms: &[Term]| {
+    let step_with = |terms: &[Term], springs: SpringRates| {
         let (mut load, mut ratio) = (Load::default(), f64::INFINITY);
         for (pair, mass, known) in &met {
             load = load.plus(pair_load(setting, pair, *mass, plan, terms));
             ratio = known.iter().map(|known| least_damped(&known.springs, terms)).fold(ratio, f64::min);
         }
-        surely_stable_step(plan.coupling, load.stiffness_rate, load.damping_rate, ratio)
+        let contacts = SpringRates { stiffness: load.stiffness_rate, damping: load.damping_rate };
+        surely_stable_with(plan.coupling, contacts, ratio, springs)
     };
+    let step_without = |terms: &[Term]| step_with(terms, springs);
     let whole = step_without(&[]);
     let longer = SUSPECTS.map(|terms| (terms, step_without(terms)));
     let longest = |suspects: &[(&'static [Term], f64)]| {
         // Of two that are alike the first.
         suspects.iter().rev().copied().max_by(|x, y| x.1.total_cmp(&y.1))
     };
+    if !springs.is_zero() {
+        let by_contacts = longer.iter().map(|(_, step)| *step).fold(whole, f64::max);
+        if met.is_empty() || step_with(&[], SpringRates::default()) > by_contacts {
+            return Some(BY_SPRINGS.to_owned());
+        }
+    }
     let (terms, step) =
         longest(&longer[..4]).filter(|(_, step)| *step > ALONE * whole).or(longest(&longer))?;
     if step <= whole {

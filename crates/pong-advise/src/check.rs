@@ -1,9 +1,9 @@
 //! Every pair of movable groups against the host's step: single contacts, and all that can act on one group at once.
 
-use crate::asking::of_group;
-use crate::coupling::surely_stable_step;
+use crate::asking::{BY_SPRINGS, of_group};
+use crate::coupling::surely_stable_with;
 use crate::limits::{GroupLimits, PairLimits, pair_limits};
-use crate::mass::{GroupMass, StepPlan};
+use crate::mass::{GroupMass, SpringRates, StepPlan};
 use crate::setting::Setting;
 use crate::spring::Spring;
 use crate::together::{Load, pair_load};
@@ -27,11 +27,10 @@ pub struct StepReport {
 }
 
 impl StepReport {
-    /// The least of the stable steps of single contacts, s; infinite if there are none.
+    /// The longest step at which every contact by itself is surely stable, with its friction and wherever its primitives can be
+    /// touched, s; infinite if there are none.
     pub fn stable_step(&self) -> f64 {
-        let friction = self.pairs.iter().filter_map(|pair| pair.friction);
-        let all = self.pairs.iter().map(|pair| pair.normal).chain(friction);
-        all.map(|limit| limit.stable_step).fold(f64::INFINITY, f64::min)
+        self.pairs.iter().map(|pair| pair.stable_step).fold(f64::INFINITY, f64::min)
     }
 
     /// The step at which the scene is surely stable, whatever touches at once, s; infinite if nothing can.
@@ -50,11 +49,27 @@ pub fn step_report(
     plan: &StepPlan,
     masses: &[(InterfaceId, GroupMass)],
 ) -> Result<StepReport, EngineError> {
-    plan.check()?;
-    Ok(report(&Setting::new(world, masses)?, plan))
+    step_report_with(world, plan, masses, &[])
 }
 
-fn report(setting: &Setting<'_>, plan: &StepPlan) -> StepReport {
+/// [`step_report`], and what springs of the host leave of the step for bodies that touch nothing, by their names.
+///
+/// # Errors
+/// As [`step_report`].
+pub fn step_report_with(
+    world: &World,
+    plan: &StepPlan,
+    masses: &[(InterfaceId, GroupMass)],
+    others: &[(String, GroupMass)],
+) -> Result<StepReport, EngineError> {
+    plan.check()?;
+    for (name, mass) in others {
+        mass.check(name)?;
+    }
+    Ok(report(&Setting::new(world, masses)?, plan, others))
+}
+
+fn report(setting: &Setting<'_>, plan: &StepPlan, others: &[(String, GroupMass)]) -> StepReport {
     let mut report = StepReport::default();
     let mut untold = BTreeSet::new();
     let mut loads: BTreeMap<usize, (Load, f64)> = BTreeMap::new();
@@ -81,13 +96,28 @@ fn report(setting: &Setting<'_>, plan: &StepPlan) -> StepReport {
             (*sum, *least) = (sum.plus(load), least.min(ratio));
         }
     }
-    let limits =
-        loads.iter().filter_map(|(&body, (load, ratio))| group_limits(setting, body, load, *ratio, plan));
+    for (body, known) in setting.masses.iter().enumerate() {
+        if known.is_some_and(|known| !known.springs.is_zero()) {
+            loads.entry(body).or_insert((Load::default(), f64::INFINITY));
+        }
+    }
+    // Groups that share joints move together: what acts on one acts on all.
+    let of_mechanism = |body: usize| {
+        let all = setting.mechanism_of(body).into_iter().filter_map(|other| loads.get(&other));
+        all.fold((Load::default(), f64::INFINITY), |(sum, least), (load, ratio)| {
+            (sum.plus(*load), least.min(*ratio))
+        })
+    };
+    let limits = loads.keys().filter_map(|&body| group_limits(setting, body, of_mechanism(body), plan));
     report.groups = limits.collect();
+    report.groups.extend(others.iter().filter_map(|(name, mass)| springs_alone(name, mass, plan)));
     report.not_judged.dedup();
     report.not_judged.extend(untold.iter().map(|name| format!("`{name}`: no mass is given")));
     report.warnings = warnings(&report.pairs, &report.not_judged, plan);
     let asks = |group: &str| {
+        if others.iter().any(|(name, _)| name == group) {
+            return Some(BY_SPRINGS.to_owned());
+        }
         let body = loads.keys().find(|body| setting.scene.group_name(**body) == group)?;
         of_group(setting, *body, plan)
     };
@@ -95,22 +125,36 @@ fn report(setting: &Setting<'_>, plan: &StepPlan) -> StepReport {
     report
 }
 
-/// `None` for what does not yield or cannot be touched.
+/// A body that only springs of the host act on.
+fn springs_alone(name: &str, mass: &GroupMass, plan: &StepPlan) -> Option<GroupLimits> {
+    let SpringRates { stiffness, damping } = mass.springs;
+    (mass.mass.is_finite() && !mass.springs.is_zero()).then(|| GroupLimits {
+        group: name.to_owned(),
+        mass: mass.mass,
+        contacts: 0,
+        spring: Spring { stiffness: stiffness * mass.mass, damping: damping * mass.mass },
+        least_damped: 0.0,
+        stable_step: surely_stable_with(plan.coupling, SpringRates::default(), 0.0, mass.springs),
+    })
+}
+
+/// `None` for what does not yield, or has neither contacts nor springs.
 fn group_limits(
     setting: &Setting<'_>,
     body: usize,
-    load: &Load,
-    ratio: f64,
+    (load, ratio): (Load, f64),
     plan: &StepPlan,
 ) -> Option<GroupLimits> {
     let mass = setting.masses[body].map(|known| known.mass).filter(|mass| mass.is_finite())?;
-    let (stiffness, damping) = (load.stiffness_rate, load.damping_rate);
-    (load.contacts > 0).then(|| GroupLimits {
+    let contacts = SpringRates { stiffness: load.stiffness_rate, damping: load.damping_rate };
+    let springs = setting.springs_on(body);
+    let (stiffness, damping) = (contacts.stiffness + springs.stiffness, contacts.damping + springs.damping);
+    (load.contacts > 0 || !springs.is_zero()).then(|| GroupLimits {
         group: setting.scene.group_name(body),
         mass,
         contacts: load.contacts,
         spring: Spring { stiffness: stiffness * mass, damping: damping * mass },
-        least_damped: ratio,
-        stable_step: surely_stable_step(plan.coupling, stiffness, damping, ratio),
+        least_damped: if springs.is_zero() { ratio } else { 0.0 },
+        stable_step: surely_stable_with(plan.coupling, contacts, ratio, springs),
     })
 }

@@ -11,6 +11,7 @@
 //!
 //! The last polynomial is that of the exact motion of a mass under a force that changes once a frame.
 
+use crate::mass::SpringRates;
 use pong_engine::WrenchCoupling;
 
 /// The longest step (s) at which a contact of stiffness `k` (N/m) and damping `c` (N·s/m) on an effective mass `m`
@@ -52,6 +53,34 @@ pub(crate) fn surely_stable_step(coupling: WrenchCoupling, k: f64, c: f64, ratio
         WrenchCoupling::Stages => most.min(least()).min(2.785 / c.max(0.5 * k.sqrt())),
         WrenchCoupling::SemiImplicit => most,
         WrenchCoupling::ZeroOrderHold { .. } => most.min(least()).min(ratio / coupling.lag()),
+    }
+}
+
+/// [`surely_stable_step`] of contacts with these rates, whose damping is nowhere less than `ratio` times the stiffness, beside
+/// springs of the host. Springs are integrated with the contacts, and the rates of both add; under a held wrench the host
+/// integrates them in between, and each is judged by itself.
+pub(crate) fn surely_stable_with(
+    coupling: WrenchCoupling,
+    contacts: SpringRates,
+    ratio: f64,
+    springs: SpringRates,
+) -> f64 {
+    let of = |coupling, rates: SpringRates, ratio| {
+        surely_stable_step(coupling, rates.stiffness, rates.damping, ratio)
+    };
+    if springs.is_zero() {
+        return of(coupling, contacts, ratio);
+    }
+    // Springs may be undamped.
+    match coupling {
+        WrenchCoupling::ZeroOrderHold { .. } => {
+            let alone = of(WrenchCoupling::Stages, springs, 0.0);
+            if contacts.is_zero() { alone } else { alone.min(of(coupling, contacts, ratio)) }
+        }
+        _ => {
+            let stiffness = contacts.stiffness + springs.stiffness;
+            of(coupling, SpringRates { stiffness, damping: contacts.damping + springs.damping }, 0.0)
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a step can hold of one contact, and of all that can act on one movable group at once.
 
 use crate::bounce::{Accuracy, BounceError, bounce_error, resolved_step};
-use crate::coupling::longest_stable_step;
+use crate::coupling::{longest_stable_step, surely_stable_step};
 use crate::mass::StepPlan;
 use crate::setting::Known;
 use crate::spring::{Spring, springs};
@@ -12,6 +12,8 @@ use pong_engine::{PairProps, WrenchCoupling};
 pub struct SpringLimit {
     /// The spring and damper of a whole contact.
     pub spring: Spring,
+    /// The least effective mass that it can feel, kg: at the place with the longest lever.
+    pub mass: f64,
     /// The longest step at which it is stable, s; 0 if no step is.
     pub stable_step: f64,
 }
@@ -32,12 +34,14 @@ pub struct BounceLimit {
 pub struct PairLimits {
     /// `object/path` of the two.
     pub groups: [String; 2],
-    /// Effective mass at a contact that is not off the mass centres, kg.
+    /// Effective mass at a contact in line with both mass centres, kg; that of the bounce.
     pub mass: f64,
     /// The normal spring that bears the least step.
     pub normal: SpringLimit,
     /// The friction spring that bears the least step, if there is friction.
     pub friction: Option<SpringLimit>,
+    /// The longest step at which one contact is surely stable, wherever it is, with its friction, s; 0 if there is none.
+    pub stable_step: f64,
     /// `model/surface` of the two that make the normal spring, and of those that make the friction spring.
     pub surfaces: [[String; 2]; 2],
     /// The bounce that is followed worst; `None` if no accuracy is asked, or for laws without a closed form.
@@ -72,7 +76,8 @@ pub fn judge_contact(
     mass: f64,
     plan: &StepPlan,
 ) -> Result<PairLimits, &'static str> {
-    let known = [Known { springs: springs(props, mass, plan.closing_speed)?, surfaces: groups.clone() }];
+    let springs = springs(props, mass, plan.closing_speed)?;
+    let known = [Known { springs, surfaces: groups.clone(), least_masses: [mass; 2] }];
     Ok(pair_limits(groups, mass, &known, plan).expect("one contact is known"))
 }
 
@@ -82,22 +87,40 @@ pub(crate) fn pair_limits(
     known: &[Known],
     plan: &StepPlan,
 ) -> Option<PairLimits> {
-    let limit = |spring: Spring| {
+    let limit = |spring: Spring, mass: f64| {
         let (k, c) = (spring.stiffness, spring.damping);
-        SpringLimit { spring, stable_step: longest_stable_step(plan.coupling, k, c, mass) }
+        SpringLimit { spring, mass, stable_step: longest_stable_step(plan.coupling, k, c, mass) }
     };
-    let (normal, surfaces) =
-        least(known.iter().map(|known| (limit(known.springs.normal), &known.surfaces)).collect())?;
-    let with_friction =
-        known.iter().filter_map(|known| Some((limit(known.springs.friction?), &known.surfaces)));
+    let normal =
+        known.iter().map(|known| (limit(known.springs.normal, known.least_masses[0]), &known.surfaces));
+    let (normal, surfaces) = least(normal.collect())?;
+    let with_friction = known
+        .iter()
+        .filter_map(|known| Some((limit(known.springs.friction?, known.least_masses[1]), &known.surfaces)));
     let friction = least(with_friction.collect());
     let surfaces = [surfaces, friction.map_or(surfaces, |(_, surfaces)| surfaces)].map(Clone::clone);
     let friction = friction.map(|(limit, _)| limit);
+    let whole = known.iter().map(|known| whole_contact(known, plan.coupling));
+    let stable_step =
+        friction.map_or(normal.stable_step, |friction| normal.stable_step.min(friction.stable_step));
+    let stable_step = whole.fold(stable_step, f64::min);
     let known: Vec<_> = known.iter().map(|known| known.springs).collect();
     let by_formula = known.iter().filter(|made| made.bounces_by_formula);
     let bounces = by_formula.filter_map(|made| bounce_limit(made.normal, mass, plan));
     let bounce = bounces.max_by(|x, y| x.error.rebound.total_cmp(&y.error.rebound));
-    Some(PairLimits { groups, mass, normal, friction, surfaces, bounce })
+    Some(PairLimits { groups, mass, normal, friction, stable_step, surfaces, bounce })
+}
+
+/// The longest step (s) at which a contact with its friction is surely stable. With Y the compliance at the place, its
+/// stiffest mode has at most max(k, k_t)·Y, and at most k·Y along the normal and k_t·Y along the surface added; dampers alike.
+fn whole_contact(known: &Known, coupling: WrenchCoupling) -> f64 {
+    let Some(friction) = known.springs.friction else { return f64::INFINITY };
+    let [normal_mass, mass] = known.least_masses;
+    let normal = known.springs.normal;
+    let most = |along: f64, across: f64| (along.max(across) / mass).min(along / normal_mass + across / mass);
+    let stiffness = most(normal.stiffness, friction.stiffness);
+    let damping = most(normal.damping, friction.damping);
+    surely_stable_step(coupling, stiffness, damping, known.springs.least_damped())
 }
 
 /// The spring that bears the least step; of two that are equally bad the stiffer.

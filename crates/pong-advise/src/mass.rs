@@ -1,6 +1,7 @@
 //! What the adviser is told of a movable group and of the host's step.
 
 use crate::bounce::Accuracy;
+use nalgebra::SMatrix;
 use pong_engine::WrenchCoupling;
 use pong_engine::{EngineError, State};
 use pong_geometry::Mat3;
@@ -15,6 +16,64 @@ pub struct GroupMass {
     pub inertia: [f64; 6],
     /// The mass centre in the group frame, m.
     pub mass_center: [f64; 3],
+    /// How the group yields if it hangs on joints; `None` for a free one.
+    pub joints: Option<Joints>,
+    /// The host's own springs and dampers that act on the group.
+    pub springs: SpringRates,
+}
+
+/// How a group on joints answers a wrench, at one pose of its mechanism.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Joints {
+    /// Inverse inertia: acceleration (linear of the group's origin, then angular) per wrench (force, then moment about the
+    /// origin), along the axes of the group frame; J·M⁻¹·Jᵀ of a mechanism with mass matrix M. Symmetric, no eigenvalue below
+    /// zero.
+    pub inverse_inertia: [[f64; 6]; 6],
+    /// Groups of one number share joints: a push on one moves the others.
+    pub mechanism: u32,
+}
+
+/// Springs and dampers of the host, beside contacts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SpringRates {
+    /// A bound of the largest eigenvalue of M⁻¹·K of the springs on the group, 1/s² ([`spring_rates`](crate::spring_rates)).
+    pub stiffness: f64,
+    /// The same of M⁻¹·C of the dampers, 1/s.
+    pub damping: f64,
+}
+
+impl SpringRates {
+    /// Whether nothing acts.
+    pub fn is_zero(&self) -> bool {
+        self.stiffness == 0.0 && self.damping == 0.0
+    }
+}
+
+impl Joints {
+    pub(crate) fn matrix(&self) -> SMatrix<f64, 6, 6> {
+        // The mean of what should be equal.
+        let m = &self.inverse_inertia;
+        SMatrix::from_fn(|i, j| 0.5 * (m[i][j] + m[j][i]))
+    }
+
+    /// Cause and cure, if no mechanism answers like this.
+    fn fault(&self) -> Option<&'static str> {
+        /// Relative size of what rounding may leave.
+        const ROUNDING: f64 = 1e-6;
+        let m = &self.inverse_inertia;
+        if m.iter().flatten().any(|x| x.is_nan() || x.abs() > State::LARGEST) {
+            return Some("the inverse inertia on joints is not finite or beyond 1e100; give J·M⁻¹·Jᵀ");
+        }
+        // Of entries that mix m and rad the size is that of their rows.
+        let size = |i: usize, j: usize| (m[i][i].abs() * m[j][j].abs()).sqrt();
+        let uneven = |i: usize, j: usize| (m[i][j] - m[j][i]).abs() > ROUNDING * size(i, j);
+        if (0..6).any(|i| (0..i).any(|j| uneven(i, j))) {
+            return Some("the inverse inertia on joints is not symmetric; give J·M⁻¹·Jᵀ");
+        }
+        let values = self.matrix().symmetric_eigenvalues();
+        (values.min() < -ROUNDING * values.amax())
+            .then_some("the inverse inertia on joints has a direction of negative mass; give J·M⁻¹·Jᵀ")
+    }
 }
 
 impl GroupMass {
@@ -25,7 +84,7 @@ impl GroupMass {
 
     /// A mass whose inertia is not known, its centre at the group's origin.
     pub fn point(mass: f64) -> Self {
-        Self { mass, inertia: [0.0; 6], mass_center: [0.0; 3] }
+        Self { mass, inertia: [0.0; 6], mass_center: [0.0; 3], joints: None, springs: SpringRates::default() }
     }
 
     /// The inertia tensor, kg·m²; `None` if it is not known or the group does not yield.
@@ -65,6 +124,14 @@ impl GroupMass {
         if self.tensor().is_some_and(|tensor| root_of(tensor).is_none()) {
             let cause = "no body has this inertia; its principal moments must be above zero, or all values zero if \
                          they are not known";
+            return bad(cause.to_owned());
+        }
+        if let Some(cause) = self.joints.as_ref().and_then(Joints::fault) {
+            return bad(cause.to_owned());
+        }
+        let SpringRates { stiffness, damping } = self.springs;
+        if [stiffness, damping].iter().any(|x| *x < 0.0 || beyond(x)) {
+            let cause = "the rates of its springs are below zero or not finite; give numbers from zero up";
             return bad(cause.to_owned());
         }
         Ok(())

@@ -3,10 +3,11 @@
 //! Before the run a law whose stiffness follows the depth, or whose damping follows the load, can only be judged for a closing
 //! speed that is guessed. Here nothing is guessed; the warnings are those of `warn.rs`, as for every other check of a step.
 
+use crate::acting::compliances_at;
 use crate::check::StepReport;
 use crate::limits::pair_limits;
 use crate::mass::{GroupMass, StepPlan};
-use crate::setting::{Known, Setting};
+use crate::setting::{Known, STIFF, Setting};
 use crate::warn::warnings;
 use pong_engine::inspect::PushingContact;
 use pong_engine::{EngineError, InterfaceId, World};
@@ -52,5 +53,7 @@ fn known_of(setting: &Setting<'_>, contact: &PushingContact) -> Option<Known> {
     springs.normal.damping *= contact.weight;
     let table = setting.scene.pairs()[contact.pair].tables[contact.flipped];
     let surfaces = setting.scene.surface_names(table, contact.surfaces(&setting.scene));
-    Some(Known { springs, surfaces })
+    // Along the normal, and the least along the surface.
+    let least_masses = compliances_at(setting, contact).map(|compliance| 1.0 / compliance.max(STIFF));
+    Some(Known { springs, surfaces, least_masses })
 }

@@ -1,16 +1,37 @@
 //! What the adviser looks at: a sealed world and the masses that are known.
 
-use crate::mass::{GroupMass, StepPlan};
+use crate::mass::{GroupMass, Joints, SpringRates, StepPlan};
+use crate::mobility::Mobility;
+use crate::places::{Compliance, Compliances, compliances};
 use crate::spring::{ContactSprings, pressed_springs, springs};
 use pong_engine::inspect::{GroupPair, Inspection, PushingContact};
 use pong_engine::{EngineError, InterfaceId, PairProps, World};
+use pong_geometry::primitive::PrimitiveKind;
+use pong_model::PrimitiveInfo;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Cause and cure of a lever that nothing bounds.
+const UNBOUNDED: &str = "a plane of a group that yields has levers of any length, and they are left out; give it a face of \
+                         a polyhedron or a patch of triangles instead";
+
+/// A compliance (1/kg) below which nothing yields: joints may leave a body no way to move.
+pub(crate) const STIFF: f64 = 1e-100;
+
+/// Two surfaces that can meet.
+pub(crate) struct Met<'w> {
+    pub props: &'w PairProps,
+    /// `model/surface` of both.
+    pub surfaces: [String; 2],
+    pub compliance: Compliance,
+}
 
 /// The contacts of one pair of movable groups by the names of their surfaces.
 pub(crate) struct Known {
     pub springs: ContactSprings,
     /// `model/surface` of both.
     pub surfaces: [String; 2],
+    /// Least effective masses at any place where they can touch, kg: along the normal, and along the surface.
+    pub least_masses: [f64; 2],
 }
 
 /// What the adviser looks at.
@@ -18,6 +39,10 @@ pub(crate) struct Setting<'w> {
     pub scene: Inspection<'w>,
     /// Of every movable group, where it is known.
     pub masses: Vec<Option<GroupMass>>,
+    /// Of every movable group that yields and whose mass is known.
+    pub mobilities: Vec<Option<Mobility>>,
+    /// Of every movable group, by kind and surface of its primitives.
+    compliances: Vec<Compliances>,
 }
 
 impl<'w> Setting<'w> {
@@ -28,7 +53,48 @@ impl<'w> Setting<'w> {
             mass.check(&world.scene().interface_name(*interface)?)?;
             all[interface.index()] = Some(*mass);
         }
-        Ok(Self { scene, masses: all })
+        let mobilities: Vec<_> = all.iter().map(|known| known.as_ref().and_then(Mobility::new)).collect();
+        let of = |(body, mobility): (usize, &Option<Mobility>)| {
+            mobility
+                .as_ref()
+                .map_or_else(Compliances::new, |mobility| compliances(scene.body(body), mobility))
+        };
+        let compliances = mobilities.iter().enumerate().map(of).collect();
+        Ok(Self { scene, masses: all, mobilities, compliances })
+    }
+
+    /// The least effective mass of a pair, kg, of a largest compliance (1/kg): at most the mass in line with both mass centres
+    /// unless joints make it more.
+    fn least_mass(&self, pair: &GroupPair, mass: f64, most: f64) -> f64 {
+        let inverse = 1.0 / most.max(STIFF);
+        let joined = [pair.first, pair.second].iter().any(|body| self.joints(*body).is_some());
+        if joined { inverse } else { inverse.min(mass) }
+    }
+
+    fn joints(&self, body: usize) -> Option<&Joints> {
+        self.masses[body].as_ref()?.joints.as_ref()
+    }
+
+    /// What springs of the host do to a group, and to all that shares joints with it.
+    pub(crate) fn springs_on(&self, body: usize) -> SpringRates {
+        let mut sum = SpringRates::default();
+        for rates in self.mechanism_of(body).iter().filter_map(|other| Some(self.masses[*other]?.springs)) {
+            sum.stiffness += rates.stiffness;
+            sum.damping += rates.damping;
+        }
+        sum
+    }
+
+    /// Whether two groups hang on one mechanism.
+    pub fn share_joints(&self, a: usize, b: usize) -> bool {
+        let number = |body: usize| self.joints(body).map(|joints| joints.mechanism);
+        number(a).is_some() && number(a) == number(b)
+    }
+
+    /// The groups that share joints with one, it among them.
+    pub fn mechanism_of(&self, body: usize) -> Vec<usize> {
+        let shared = (0..self.masses.len()).filter(|other| *other == body || self.share_joints(body, *other));
+        shared.collect()
     }
 
     /// The contacts that a pair of movable groups can make, and why some are not known.
@@ -39,9 +105,14 @@ impl<'w> Setting<'w> {
         plan: &StepPlan,
     ) -> (Vec<Known>, Vec<&'static str>) {
         let (mut known, mut causes) = (Vec::new(), Vec::new());
-        for (props, surfaces) in self.met(pair) {
+        for Met { props, surfaces, compliance } in self.met(pair) {
             match springs(props, mass, plan.closing_speed) {
-                Ok(springs) => known.push(Known { springs, surfaces }),
+                Ok(springs) => {
+                    let least_masses =
+                        [compliance.normal, compliance.along].map(|most| self.least_mass(pair, mass, most));
+                    known.push(Known { springs, surfaces, least_masses });
+                    causes.extend(compliance.is_unbounded.then_some(UNBOUNDED));
+                }
                 Err(cause) => causes.push(cause),
             }
         }
@@ -50,9 +121,13 @@ impl<'w> Setting<'w> {
 
     /// The springs of a contact that pushes, as deep and as hard pressed as it is; `None` for laws of the host's.
     pub(crate) fn pressed_springs(&self, contact: &PushingContact) -> Option<ContactSprings> {
+        pressed_springs(self.props(contact), contact.depth, contact.normal_force).ok()
+    }
+
+    /// The combined values of a contact's two surfaces.
+    pub(crate) fn props(&self, contact: &PushingContact) -> &'w PairProps {
         let table = self.scene.pairs()[contact.pair].tables[contact.flipped];
-        let props = self.scene.surface_values(table, contact.surfaces(&self.scene));
-        pressed_springs(props, contact.depth, contact.normal_force).ok()
+        self.scene.surface_values(table, contact.surfaces(&self.scene))
     }
 
     /// 1/(1/m₁ + 1/m₂); `None` if neither yields.
@@ -62,29 +137,37 @@ impl<'w> Setting<'w> {
         (sum > 0.0).then(|| 1.0 / sum)
     }
 
-    /// Values and names of all pairs of surfaces that can meet between two movable groups, each once.
-    pub(crate) fn met(&self, pair: &GroupPair) -> Vec<(&'w PairProps, [String; 2])> {
-        let mut met = BTreeMap::new();
+    /// All pairs of surfaces that can meet between two movable groups, each once.
+    pub(crate) fn met(&self, pair: &GroupPair) -> Vec<Met<'w>> {
+        let mut met: BTreeMap<_, (&PairProps, Compliance)> = BTreeMap::new();
         for (table, (a, b)) in pair.tables.iter().zip([(pair.first, pair.second), (pair.second, pair.first)])
         {
-            for (surfaces, props) in self.met_in_direction(*table, a, b) {
-                met.insert((*table, surfaces), props);
+            for (surfaces, (props, compliance)) in self.met_in_direction(*table, a, b) {
+                let entry = met.entry((*table, surfaces)).or_insert((props, compliance));
+                entry.1 = entry.1.or_larger(compliance);
             }
         }
-        met.into_iter()
-            .map(|((table, surfaces), props)| (props, self.scene.surface_names(table, surfaces)))
-            .collect()
+        let named = met.into_iter().map(|((table, surfaces), (props, compliance))| Met {
+            props,
+            surfaces: self.scene.surface_names(table, surfaces),
+            compliance,
+        });
+        named.collect()
     }
 
-    fn met_in_direction(&self, table: usize, a: usize, b: usize) -> BTreeMap<(u32, u32), &'w PairProps> {
+    fn met_in_direction(
+        &self,
+        table: usize,
+        a: usize,
+        b: usize,
+    ) -> BTreeMap<(u32, u32), (&'w PairProps, Compliance)> {
         let (body_a, body_b) = (self.scene.body(a), self.scene.body(b));
         let mut met = BTreeMap::new();
         let [in_a, in_b] = [body_a, body_b].map(|body| {
             let mut seen = BTreeSet::new();
             let new = body.primitives.iter().filter(move |info| {
                 // Kinds of the host's share one number; each is looked at.
-                info.kind == pong_geometry::primitive::PrimitiveKind::Custom
-                    || seen.insert((info.kind, info.surface))
+                info.kind == PrimitiveKind::Custom || seen.insert((info.kind, info.surface))
             });
             new.collect::<Vec<_>>()
         });
@@ -92,10 +175,26 @@ impl<'w> Setting<'w> {
             for info_b in &in_b {
                 if self.scene.can_be_tested((a, info_a), (b, info_b)) {
                     let surfaces = (info_a.surface, info_b.surface);
-                    met.insert(surfaces, self.scene.surface_values(table, surfaces));
+                    let compliance = self.compliance((a, info_a), (b, info_b));
+                    let props = self.scene.surface_values(table, surfaces);
+                    let entry = met.entry(surfaces).or_insert((props, compliance));
+                    entry.1 = entry.1.or_larger(compliance);
                 }
             }
         }
         met
+    }
+
+    /// Of two bodies that touch anywhere: the sum of both; twice that if a push on one moves the other.
+    fn compliance(
+        &self,
+        (a, info_a): (usize, &PrimitiveInfo),
+        (b, info_b): (usize, &PrimitiveInfo),
+    ) -> Compliance {
+        let of = |body: usize, info: &PrimitiveInfo| {
+            self.compliances[body].get(&(info.kind, info.surface)).copied().unwrap_or_default()
+        };
+        let both = of(a, info_a).plus(of(b, info_b));
+        if self.share_joints(a, b) { both.plus(both) } else { both }
     }
 }

@@ -66,15 +66,29 @@ impl Load {
 
 /// A primitive that can be in contact.
 struct ContactSite {
-    /// Where its normals pass, in its group's frame; of a segment the end that is farther from the mass centre.
+    /// Where its normals pass, in its group's frame; of a segment or capsule the middle of its axis.
     center: Vec3,
+    /// From there to an end of the axis; zero without one.
+    half_axis: Vec3,
     /// How far from there it touches, m.
     radius: f64,
+    /// Whether its normals pass anywhere within the radius.
+    is_loose: bool,
     /// Of all surfaces that it can meet the stiffest values.
     springs: ContactSprings,
 }
 
 impl ContactSite {
+    /// How far up a direction its lowest place is, m.
+    fn height(&self, up: &Vec3) -> f64 {
+        up.dot(&self.center) - up.dot(&self.half_axis).abs() - self.radius
+    }
+
+    /// From the centre to its farthest place, m.
+    fn reach(&self) -> f64 {
+        self.half_axis.norm() + self.radius
+    }
+
     fn friction(&self) -> (f64, f64) {
         self.springs.friction.map_or((0.0, 0.0), |friction| (friction.stiffness, friction.damping))
     }
@@ -117,8 +131,7 @@ impl Direction {
         without: &[Term],
     ) -> Self {
         let (body_a, body_b) = (setting.scene.body(a), setting.scene.body(b));
-        let mobility = |body: usize| setting.masses[body].as_ref().and_then(Mobility::new);
-        let mobility_a = mobility(a);
+        let mobility_a = setting.mobilities[a];
         let in_order = (flipped == 0) == pair.first_named_first;
         let table = pair.tables[flipped];
         let meets = |info_a: &PrimitiveInfo, info_b: &PrimitiveInfo| {
@@ -144,7 +157,7 @@ impl Direction {
                     made
                 }
             };
-            sites.extend(made.and_then(|springs| site(body_a, index, springs, mobility_a.as_ref())));
+            sites.extend(made.and_then(|springs| site(body_a, index, springs)));
         }
         let kinds: Vec<_> = body_a.primitives.iter().map(|info| info.kind).collect();
         let touched =
@@ -152,11 +165,9 @@ impl Direction {
         let planes =
             body_b.primitives.iter().filter(touched).filter(|info| info.kind == PrimitiveKind::Plane).count();
         let boxes = boxes(body_b, touched);
-        let softness_b = mobility(b).map_or(0.0, |mobility| {
-            let far = |(low, high): &(Vec3, Vec3)| {
-                (low - mobility.center()).abs().sup(&(high - mobility.center()).abs()).norm()
-            };
-            mobility.max_compliance(boxes.iter().map(far).fold(0.0, f64::max))
+        let softness_b = setting.mobilities[b].map_or(0.0, |mobility| {
+            let at_center = mobility.compliance(mobility.center());
+            boxes.iter().map(|extent| mobility.compliance_in(extent)).fold(at_center, f64::max)
         });
         Self { sites, mobility_a, softness_b, boxes, planes }
     }
@@ -171,9 +182,8 @@ impl Direction {
         let depth = SHALLOW * self.spread();
         let mut worst = Load::default();
         for normal in supports(&self.sites) {
-            let height = |site: &ContactSite| normal.dot(&site.center) - site.radius;
-            let lowest = self.sites.iter().map(height).fold(f64::INFINITY, f64::min);
-            let active = self.sites.iter().filter(|site| height(site) <= lowest + depth);
+            let lowest = self.sites.iter().map(|site| site.height(&normal)).fold(f64::INFINITY, f64::min);
+            let active = self.sites.iter().filter(|site| site.height(&normal) <= lowest + depth);
             worst = worst.or_larger(self.load(&active.collect::<Vec<_>>(), Some(&normal), &-normal));
         }
         worst.times(self.planes.min(CORNER))
@@ -189,7 +199,7 @@ impl Direction {
         }
         let diameter = (high - low).norm();
         let near = |at: &ContactSite| -> Vec<&ContactSite> {
-            let reach = |other: &ContactSite| diameter + at.radius + other.radius;
+            let reach = |other: &ContactSite| diameter + at.reach() + other.reach();
             let within = |other: &&ContactSite| (other.center - at.center).norm() <= reach(other);
             self.sites.iter().filter(within).collect()
         };
@@ -215,22 +225,10 @@ impl Direction {
     /// Of these sites at once: along a normal, or along any; friction acts at the skin towards a direction.
     fn load(&self, active: &[&ContactSite], normal: Option<&Vec3>, toward: &Vec3) -> Load {
         let rate = |values: fn(&ContactSite) -> (f64, f64)| {
-            let mut sum = Mat6::zeros();
-            let mut whole = 0.0;
-            for site in active {
-                let (along, across) = values(site);
-                whole += along.max(across);
-                if let Some(mobility) = &self.mobility_a {
-                    let skin = site.center + site.radius * toward;
-                    mobility.add_bushing(&mut sum, across, &skin);
-                    match normal {
-                        // The bushing above has some of it; what it has too much stays.
-                        Some(normal) => mobility.add(&mut sum, (along - across).max(0.0), normal, &skin),
-                        None => mobility.add_bushing(&mut sum, (along - across).max(0.0), &site.center),
-                    }
-                }
-            }
-            largest_eigenvalue(DMatrix::from_column_slice(6, 6, sum.as_slice())) + whole * self.softness_b
+            let whole: f64 =
+                active.iter().map(|site| values(site)).map(|(along, across)| along.max(across)).sum();
+            let at = |mobility| largest_of_ends(mobility, active, values, (normal, toward));
+            self.mobility_a.as_ref().map_or(0.0, at) + whole * self.softness_b
         };
         Load {
             contacts: active.len(),
@@ -242,10 +240,69 @@ impl Direction {
     /// Diameter of the box around all sites, m.
     fn spread(&self) -> f64 {
         let own = self.sites.iter().map(|site| {
-            let radius = Vec3::repeat(site.radius);
-            (site.center - radius, site.center + radius)
+            let around = Vec3::repeat(site.radius) + site.half_axis.abs();
+            (site.center - around, site.center + around)
         });
         own.reduce(around).map_or(0.0, |(low, high)| (high - low).norm())
+    }
+}
+
+/// Values of a site: along its normal, and across it.
+type Values = fn(&ContactSite) -> (f64, f64);
+
+/// The largest eigenvalue of the sum of all sites, wherever along their axes those with one are touched. An eigenvalue is
+/// convex in the shares of the two ends, so all of a spring at one end is the most; of many axes both ends have a whole spring.
+fn largest_of_ends(
+    mobility: &Mobility,
+    active: &[&ContactSite],
+    values: Values,
+    direction: (Option<&Vec3>, &Vec3),
+) -> f64 {
+    /// Axes whose ends are tried one by one.
+    const TRIED: usize = 4;
+    let (long, short): (Vec<&ContactSite>, Vec<&ContactSite>) =
+        active.iter().partition(|site| site.half_axis != Vec3::zeros());
+    let mut fixed = Mat6::zeros();
+    for site in short {
+        add_site(&mut fixed, mobility, site, values(site), &site.center, direction);
+    }
+    let ends = |site: &ContactSite| [site.center + site.half_axis, site.center - site.half_axis];
+    if long.len() > TRIED {
+        for site in &long {
+            for end in ends(site) {
+                add_site(&mut fixed, mobility, site, values(site), &end, direction);
+            }
+        }
+        return largest_eigenvalue(DMatrix::from_column_slice(6, 6, fixed.as_slice()));
+    }
+    let choice = |code: usize| {
+        let mut sum = fixed;
+        for (i, site) in long.iter().enumerate() {
+            add_site(&mut sum, mobility, site, values(site), &ends(site)[code >> i & 1], direction);
+        }
+        largest_eigenvalue(DMatrix::from_column_slice(6, 6, sum.as_slice()))
+    };
+    (0..1 << long.len()).map(choice).fold(0.0, f64::max)
+}
+
+/// Adds the springs of one site that is touched at a place.
+fn add_site(
+    sum: &mut Mat6,
+    mobility: &Mobility,
+    site: &ContactSite,
+    (along, across): (f64, f64),
+    at: &Vec3,
+    (normal, toward): (Option<&Vec3>, &Vec3),
+) {
+    if site.is_loose {
+        return mobility.add_bushing_around(sum, along.max(across), at, site.radius);
+    }
+    let skin = at + site.radius * toward;
+    mobility.add_bushing(sum, across, &skin);
+    match normal {
+        // The bushing above has some of it; what it has too much stays.
+        Some(normal) => mobility.add(sum, (along - across).max(0.0), normal, &skin),
+        None => mobility.add_bushing(sum, (along - across).max(0.0), at),
     }
 }
 
@@ -285,40 +342,39 @@ fn distinct(body: &MovableGroup) -> Vec<&PrimitiveInfo> {
     body.primitives.iter().filter(new).collect()
 }
 
-fn site(
-    body: &MovableGroup,
-    primitive: usize,
-    springs: ContactSprings,
-    mobility: Option<&Mobility>,
-) -> Option<ContactSite> {
+fn site(body: &MovableGroup, primitive: usize, springs: ContactSprings) -> Option<ContactSite> {
     let info = &body.primitives[primitive];
     let element = info.elements.start as usize;
-    let (center, radius) = match info.kind {
-        PrimitiveKind::Point => (body.points[element].position, 0.0),
-        PrimitiveKind::Sphere => (body.spheres[element].center, body.spheres[element].radius),
-        PrimitiveKind::LineSegment => {
-            let from = mobility.map_or_else(Vec3::zeros, |mobility| *mobility.center());
-            let [one, other] = body.segments[element].ends;
-            (if (one - from).norm() > (other - from).norm() { one } else { other }, 0.0)
+    let axis = |ends: &[Vec3; 2]| (0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0]));
+    let mut is_loose = false;
+    let ((center, half_axis), radius) = match info.kind {
+        PrimitiveKind::Point => ((body.points[element].position, Vec3::zeros()), 0.0),
+        PrimitiveKind::Sphere => {
+            ((body.spheres[element].center, Vec3::zeros()), body.spheres[element].radius)
         }
+        PrimitiveKind::LineSegment => (axis(&body.segments[element].ends), 0.0),
+        PrimitiveKind::Capsule => (axis(&body.capsules[element].ends), body.capsules[element].radius),
         // Box of an ellipsoid, of a round part, of a ray with its tip, of a kind of the host's.
         PrimitiveKind::Ellipsoid
-        | PrimitiveKind::Capsule
         | PrimitiveKind::Cylinder
         | PrimitiveKind::Cone
         | PrimitiveKind::Ray
         | PrimitiveKind::Custom => {
+            is_loose = true;
             let item = Item { primitive: primitive as u32, element: info.elements.start };
             let (low, high) = Element::new(body, item).extent();
-            (0.5 * (low + high), 0.5 * (high - low).norm())
+            ((0.5 * (low + high), Vec3::zeros()), 0.5 * (high - low).norm())
         }
         PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane | PrimitiveKind::Bore => {
             return None;
         }
     };
-    (center.iter().all(|x| x.is_finite()) && radius.is_finite()).then_some(ContactSite {
+    let numbers = center.iter().chain(&half_axis).chain([&radius]);
+    numbers.into_iter().all(|x| x.is_finite()).then_some(ContactSite {
         center,
+        half_axis,
         radius,
+        is_loose,
         springs,
     })
 }

@@ -84,12 +84,11 @@ pub(crate) fn notes(
 }
 
 fn unstable(pair: &PairLimits, plan: &StepPlan) -> Option<String> {
-    let mass = pair.mass;
-    if grows(&pair.normal, mass, plan) {
+    if grows(&pair.normal, plan) {
         let cure = cure(pair.normal.stable_step, "give the surfaces some");
         return Some(gains(pair, "a contact", &pair.normal, &pair.surfaces[0], plan) + &cure);
     }
-    let friction = pair.friction.filter(|friction| grows(friction, mass, plan))?;
+    let friction = pair.friction.filter(|friction| grows(friction, plan))?;
     let cure = cure(friction.stable_step, "give the friction some");
     Some(gains(pair, "friction", &friction, &pair.surfaces[1], plan) + &cure)
 }
@@ -98,9 +97,10 @@ fn unstable(pair: &PairLimits, plan: &StepPlan) -> Option<String> {
 fn gains(pair: &PairLimits, what: &str, limit: &SpringLimit, of: &[String; 2], plan: &StepPlan) -> String {
     let [a, b] = &pair.groups;
     let [one, other] = of;
-    let (k, c, mass) = (limit.spring.stiffness, limit.spring.damping, pair.mass);
+    let (k, c, mass) = (limit.spring.stiffness, limit.spring.damping, limit.mass);
+    let lever = if mass < 0.999 * pair.mass { " (where its lever is longest)" } else { "" };
     format!(
-        "`{a}` and `{b}`: {what} of {k:.3e} N/m and {c:.3e} N·s/m (surfaces `{one}` and `{other}`) on {mass:.3e} kg, by its \
+        "`{a}` and `{b}`: {what} of {k:.3e} N/m and {c:.3e} N·s/m (surfaces `{one}` and `{other}`) on {mass:.3e} kg{lever}, by its \
          {}, gains energy at a step of {:.3e} s; ",
         of_spring(&limit.spring, plan.coupling, mass),
         plan.step,
@@ -111,12 +111,13 @@ fn may_grow(group: &GroupLimits, plan: &StepPlan) -> bool {
     // Of springs without damping the sum is left to the host where one of them would be.
     let damping = if group.least_damped > 0.0 { group.spring.damping } else { 0.0 };
     let spring = Spring { damping, ..group.spring };
-    grows(&SpringLimit { spring, stable_step: group.stable_step }, group.mass, plan)
+    grows(&SpringLimit { spring, mass: group.mass, stable_step: group.stable_step }, plan)
 }
 
 fn may(worst: &GroupLimits, others: usize, plan: &StepPlan) -> String {
     let GroupLimits { group, contacts, spring, stable_step, .. } = worst;
     let who = match contacts {
+        0 => "its springs are".to_owned(),
         1 => "a contact with its lever and friction can be".to_owned(),
         _ => format!("up to {contacts} contacts can act on it at once, together"),
     };
@@ -135,11 +136,11 @@ fn may(worst: &GroupLimits, others: usize, plan: &StepPlan) -> String {
     )
 }
 
-fn grows(limit: &SpringLimit, mass: f64, plan: &StepPlan) -> bool {
+fn grows(limit: &SpringLimit, plan: &StepPlan) -> bool {
     if plan.step < limit.stable_step {
         return false;
     }
-    let frequency = (limit.spring.stiffness / mass).sqrt();
+    let frequency = (limit.spring.stiffness / limit.mass).sqrt();
     let held_undamped =
         matches!(plan.coupling, WrenchCoupling::ZeroOrderHold { .. }) && limit.spring.damping == 0.0;
     !(held_undamped && plan.step * frequency < HELD_UNDAMPED)

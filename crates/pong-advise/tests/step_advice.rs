@@ -1,5 +1,7 @@
 //! The step check, before anything touches and of what acts: sums over contacts, levers, two bodies. Expectations are closed forms.
 
+mod told;
+
 use pong_advise::{
     ActingReport, GroupMass, StepNote, StepPlan, StepReport, StepWarning, WrenchCoupling, acting_report,
     pressed_report, step_report,
@@ -163,12 +165,13 @@ fn a_note_tells_which_term_asks_for_the_step() {
 /// A point l off the mass centre finds 1/(1/m + l²/I): a rod of 3 kg and 4 m struck at its end weighs ¾ kg.
 #[test]
 fn a_lever_makes_a_contact_quicker() {
-    let rod = GroupMass { mass: 3.0, inertia: [1e-3, 4.0, 4.0, 0.0, 0.0, 0.0], mass_center: [0.0; 3] };
+    let rod = GroupMass { inertia: [1e-3, 4.0, 4.0, 0.0, 0.0, 0.0], ..GroupMass::point(3.0) };
     let tip = points(&[[2.0, 0.0, 0.0]]);
     let step = longest(K / 0.75);
     let report = meet([&tip, &floor()], [rod, GroupMass::immovable()], &plan(1.001 * step));
-    assert!(close(report.surely_stable_step(), step) && close(report.stable_step(), longest(K / 3.0)));
-    assert!(report.warnings.is_empty() && report.notes.len() == 1, "{:?}", report.notes);
+    assert!(close(report.surely_stable_step(), step) && close(report.stable_step(), step));
+    let told = report.warnings.iter().map(ToString::to_string).collect::<String>();
+    assert!(told.contains("on 7.500e-1 kg (where its lever is longest)"), "{told}");
     // Seen from another origin the rod is the same.
     let shifted = GroupMass { mass_center: [0.0, 0.0, 5.0], ..rod };
     let tip = points(&[[2.0, 0.0, 5.0]]);
@@ -217,9 +220,9 @@ fn the_feet_of_a_tripod_add_and_rock() {
         [0.5 * angle.cos(), 0.5 * angle.sin(), 0.0]
     });
     let of = |inertia: f64| GroupMass {
-        mass: 3.0,
         inertia: [inertia, inertia, 0.3, 0.0, 0.0, 0.0],
         mass_center: [0.0, 0.0, 0.3],
+        ..GroupMass::point(3.0)
     };
     for (inertia, squared) in [(0.2_f64, 1.875e6_f64), (0.9, 1e6)] {
         let masses = [of(inertia), GroupMass::immovable()];
@@ -229,11 +232,13 @@ fn the_feet_of_a_tripod_add_and_rock() {
         // Planes through two feet alone see a longer lever and less stiffness; the tripod's own mode is the bound.
         let told = report.groups[0].stable_step;
         assert!(told <= step * (1.0 + 1e-9) && told > 0.6 * step, "{told} {step}");
-        assert!(close(report.stable_step(), longest(K / 3.0)) && report.warnings.is_empty());
+        // One foot alone, pushed across its lever, may be quicker than all three.
+        let across = f64::max(0.34 / inertia, 0.09 / inertia + 0.25 / 0.3);
+        assert!(close(report.stable_step(), longest(K * (1.0 / 3.0 + across))), "{report:?}");
         let plan = plan(1.001 * step);
         let mut stands = Meeting::new(&[&points(&feet), &floor()], &masses);
         let before = stands.report(&plan);
-        assert!(before.warnings.is_empty() && before.notes.len() == 1, "{before:?}");
+        assert_eq!(before.warnings.len() + before.notes.len(), 1, "{before:?}");
         // What acts is exact: on all feet, and in the air.
         let acting = stands.at(&[[0.0, 0.0, -1e-3], [0.0; 3]], &plan);
         assert!(acting.contacts == 3 && (acting.stiffness_rate / squared - 1.0).abs() < 1e-9, "{acting:?}");
@@ -397,7 +402,7 @@ fn contacts_that_share_a_spring_act_by_their_weights() {
 /// A rod leans on a wall: turned as a whole, with the wall or seen from the other side, λ is that of its lever.
 #[test]
 fn what_acts_is_the_same_from_any_side() {
-    let rod = GroupMass { mass: 3.0, inertia: [1e-3, 4.0, 4.0, 0.0, 0.0, 0.0], mass_center: [0.0; 3] };
+    let rod = GroupMass { inertia: [1e-3, 4.0, 4.0, 0.0, 0.0, 0.0], ..GroupMass::point(3.0) };
     let tip = points(&[[2.0, 0.0, 0.0]]);
     let plan = plan(1e-4);
     // About x, and about the diagonal of all axes by a third of a turn.

@@ -1,6 +1,6 @@
 //! What the step adviser was told before the seal.
 
-use pong_advise::{GroupMass, StepPlan, StepReport};
+use pong_advise::{GroupMass, Joints, SpringRates, StepPlan, StepReport};
 use pong_engine::{EngineError, InterfaceId, Scene, World};
 use std::collections::BTreeMap;
 
@@ -20,6 +20,26 @@ impl Advice {
     ) -> Result<(), EngineError> {
         mass.check(&scene.interface_name(interface)?)?;
         self.masses.insert(interface, mass);
+        Ok(())
+    }
+
+    /// # Errors
+    /// A group whose mass is not told; values that no mechanism has.
+    pub fn set_joints(
+        &mut self,
+        scene: &Scene,
+        interface: InterfaceId,
+        joints: Joints,
+        springs: SpringRates,
+    ) -> Result<(), EngineError> {
+        let name = scene.interface_name(interface)?;
+        let Some(mass) = self.masses.get_mut(&interface) else {
+            let cause = "no mass is told; call pong_set_mass() first".to_owned();
+            return Err(EngineError::BadValue { what: format!("joints of `{name}`"), cause });
+        };
+        let told = GroupMass { joints: Some(joints), springs, ..*mass };
+        told.check(&name)?;
+        *mass = told;
         Ok(())
     }
 

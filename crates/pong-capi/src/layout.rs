@@ -10,7 +10,7 @@ use crate::report::{pong_ledger, pong_report};
 use crate::seal::pong_seal_report;
 use crate::states::pong_state;
 use crate::status::pong_status;
-use crate::step_plan::{pong_mass, pong_step_check, pong_step_plan};
+use crate::step_plan::{pong_joints, pong_mass, pong_step_check, pong_step_plan};
 use crate::surfaces::pong_surface_values;
 use crate::tally::pong_tally;
 use crate::worker::pong_worker;
@@ -67,6 +67,7 @@ layouts! {
         surely_stable_step, reserved,
     }
     pong_mass { mass, inertia, mass_center }
+    pong_joints { inverse_inertia, spring_rate, damper_rate, mechanism, reserved }
     pong_step_check { contacts, not_judged, stable_step, stiffness_rate, damping_rate }
     pong_step_plan { step, wrench_coupling, delay_frames, closing_speed, depth_within, rebound_within, reserved }
     pong_state { position, orientation, linear_velocity, angular_velocity }

@@ -7,7 +7,7 @@ use crate::handle::pong_world;
 use crate::ids::pong_interface_id;
 use crate::pointers::one;
 use crate::status::pong_status;
-use pong_advise::{Accuracy, GroupMass, StepPlan};
+use pong_advise::{Accuracy, GroupMass, Joints, SpringRates, StepPlan};
 
 /// Mass properties of a movable group, for the step adviser alone: no frame reads them.
 #[repr(C)]
@@ -21,6 +21,24 @@ pub struct pong_mass {
     pub inertia: [f64; 6],
     /// The mass centre in the group frame, m.
     pub mass_center: [f64; 3],
+}
+
+/// How a movable group on joints answers a wrench at one pose of its mechanism, for the step adviser alone. Make it with zeros
+/// and set what is known.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct pong_joints {
+    /// Acceleration (linear of the group's origin, then angular) per wrench (force, then moment about the origin), by rows,
+    /// along the axes of the group frame: J M^-1 J^T of a mechanism with the mass matrix M.
+    pub inverse_inertia: [f64; 36],
+    /// A bound of the largest eigenvalue of M^-1 K of the host's springs on the mechanism, 1/s^2; 0 without springs.
+    pub spring_rate: f64,
+    /// The same of M^-1 C of its dampers, 1/s.
+    pub damper_rate: f64,
+    /// Groups of one number share joints: a push on one moves the others.
+    pub mechanism: u32,
+    /// Zero.
+    pub reserved: u32,
 }
 
 /// The host's step and what it does with the wrench. Make it with pong_default_step_plan() and change what you like.
@@ -87,8 +105,29 @@ pub unsafe extern "C" fn pong_set_mass(
     setting_up(world, |inner| {
         let pong_mass { mass, inertia, mass_center } = *one(mass, "mass")?;
         let scene = inner.phase.set_up("set a mass")?.scene();
-        let mass = GroupMass { mass, inertia, mass_center };
+        let mass = GroupMass { inertia, mass_center, ..GroupMass::point(mass) };
         Ok(inner.advice.set_mass(scene, interface.id(), mass)?)
+    })
+}
+
+/// Tells how a movable group on joints yields, beside its mass of pong_set_mass(), which must be told first. Before sealing for
+/// the check of pong_plan_step(), and as often as the pose changes for pong_check_step().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_set_joints(
+    world: *mut pong_world,
+    interface: pong_interface_id,
+    joints: *const pong_joints,
+) -> pong_status {
+    setting_up(world, |inner| {
+        let joints = one(joints, "joints")?;
+        if joints.reserved != 0 {
+            let message = "joints: its reserved field is not zero; make it with zeros".to_owned();
+            return Err(Failure::new(pong_status::BadValue, message));
+        }
+        let rows = std::array::from_fn(|i| std::array::from_fn(|j| joints.inverse_inertia[6 * i + j]));
+        let springs = SpringRates { stiffness: joints.spring_rate, damping: joints.damper_rate };
+        let joints = Joints { inverse_inertia: rows, mechanism: joints.mechanism };
+        Ok(inner.advice.set_joints(inner.phase.scene(), interface.id(), joints, springs)?)
     })
 }
 

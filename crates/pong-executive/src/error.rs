@@ -18,16 +18,20 @@ pub enum ExecutiveError {
         /// What to give instead.
         cure: String,
     },
-    /// A state left the range of numbers.
+    /// A state left the range of numbers, or has energy from nowhere.
     #[error(
-        "body `{body}`: its state is no longer finite at t = {time} s; the step is too long for the \
-         stiffness and mass at hand: shorten it"
+        "body `{body}`: {what} at t = {time} s; the step is too long for the stiffness and mass at hand: shorten it{}{cure}",
+        if cure.is_empty() { "" } else { " " }
     )]
     Diverged {
         /// The body.
         body: String,
+        /// What is wrong with it.
+        what: String,
         /// When it was noticed, s.
         time: f64,
+        /// How far the step must be shortened, where that is known.
+        cure: String,
     },
 }
 
@@ -35,6 +39,11 @@ pub enum ExecutiveError {
 pub type Result<T, E = ExecutiveError> = std::result::Result<T, E>;
 
 impl ExecutiveError {
+    pub(crate) fn no_longer_finite(body: &str, time: f64) -> Self {
+        let what = "its state is no longer finite".to_owned();
+        Self::Diverged { body: body.to_owned(), what, time, cure: String::new() }
+    }
+
     pub(crate) fn invalid(
         what: impl Into<String>,
         cause: impl Into<String>,

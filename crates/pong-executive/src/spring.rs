@@ -122,6 +122,11 @@ impl Spring {
         }
     }
 
+    /// Angle of the deviation from rest, rad.
+    pub(crate) fn angle(&self, first: &(Pose, Twist), second: &(Pose, Twist)) -> f64 {
+        self.travel(first, second).0.angular.norm()
+    }
+
     /// Deviation from rest (d and θ) and the velocities ḋ and ω, along the axes of the first end.
     fn travel(&self, first: &(Pose, Twist), second: &(Pose, Twist)) -> (Twist, Twist) {
         let to_e = (first.0.orientation * self.first.frame.orientation).inverse();

@@ -107,7 +107,7 @@ impl System {
         for (body, (pose, twist)) in self.bodies.iter().zip(&self.motions) {
             let values = [pose.position, twist.linear, twist.angular, pose.orientation.imag()];
             if values.iter().flatten().any(|x| x.is_nan() || x.abs() > State::LARGEST) {
-                return Err(ExecutiveError::Diverged { body: body.name.clone(), time });
+                return Err(ExecutiveError::no_longer_finite(&body.name, time));
             }
             if let Some(interface) = body.interface {
                 self.states_in.push((interface, State::from_motion(pose, twist)));
@@ -136,6 +136,23 @@ impl System {
         }
     }
 
+    /// Force of loads, springs and the host on a body at the instant last placed, N.
+    pub fn applied_force(&self, time: f64, body: usize) -> Vec3 {
+        let mut force = self.external[body].force;
+        for load in self.loads.iter().filter(|load| load.body.index() == body) {
+            force += load.wrench(time, &self.motions[body].0).force;
+        }
+        for spring in &self.springs {
+            let action = self.spring_action(spring);
+            for (end, wrench) in [(spring.first, action.on_first), (spring.second, action.on_second)] {
+                if end.body.is_some_and(|end| end.index() == body) {
+                    force += wrench.force;
+                }
+            }
+        }
+        force
+    }
+
     /// Sums loads, springs and what the host applies.
     fn apply(&mut self, time: f64) {
         self.applied.copy_from_slice(&self.external);
@@ -154,11 +171,17 @@ impl System {
     }
 
     pub fn spring_action(&self, spring: &Spring) -> SpringAction {
+        spring.act(&self.motion_of(&spring.first), &self.motion_of(&spring.second))
+    }
+
+    /// Angle of a spring's deviation from rest, rad.
+    pub fn spring_angle(&self, spring: &Spring) -> f64 {
+        spring.angle(&self.motion_of(&spring.first), &self.motion_of(&spring.second))
+    }
+
+    fn motion_of(&self, end: &SpringEnd) -> (Pose, Twist) {
         let ground = (Pose::identity(), Twist::zero());
-        let motion = |end: &SpringEnd| {
-            let index = end.body.map_or(GROUND, |body| body.index());
-            *self.motions.get(index).unwrap_or(&ground)
-        };
-        spring.act(&motion(&spring.first), &motion(&spring.second))
+        let index = end.body.map_or(GROUND, |body| body.index());
+        *self.motions.get(index).unwrap_or(&ground)
     }
 }

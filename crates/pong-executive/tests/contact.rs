@@ -189,3 +189,48 @@ fn a_host_that_holds_wrenches_is_told_what_that_made() {
         }
     }
 }
+
+/// A ball that is thrown higher from bounce to bounce is stopped at a million times its energy: contact and time are named, and
+/// a step that would do.
+#[test]
+fn a_run_whose_contact_makes_energy_stops_at_once() {
+    for integrator in [Integrator::SemiImplicitEuler, Integrator::RungeKutta4] {
+        // 3,000 N·s/m on 1 kg is stable to 2.7e-3/3 s.
+        let (mut simulation, ball) = ball_on_plane(3e3, 1e-3, integrator, 2e-2);
+        let error = (0..20_000).find_map(|_| simulation.step().err()).expect("it diverges").to_string();
+        let parts =
+            ["body `ball`", "a million times", "the contact of `ball` and `ground`", "shorten it below"];
+        assert!(parts.iter().all(|part| error.contains(part)), "{integrator}: {error}");
+        assert!(simulation.pose(ball).position.norm() < 1e6, "{integrator}");
+    }
+}
+
+/// Violent and right: dropped from 1 km without a loss, and started so deep that it leaves at a hundred times any speed there
+/// was. Neither is stopped.
+#[test]
+fn violent_runs_go_on() {
+    let (mut simulation, ball) = ball_on_plane(0.0, 1e3, Integrator::RungeKutta4, 1e-4);
+    simulation.run_for(16.0).unwrap();
+    assert!(simulation.twist(ball).linear.z > 100.0);
+    let (mut simulation, ball) = ball_on_plane(0.0, -5.0, Integrator::RungeKutta4, 1e-4);
+    simulation.run_for(0.5).unwrap();
+    assert!(simulation.twist(ball).linear.z > 1e3);
+}
+
+/// Energy ½kδ² of a deep start beside that of the motion; none of a ball at rest on its floor, or of one that is let in slowly.
+#[test]
+fn a_deep_start_is_noted_and_a_rest_is_not() {
+    let notes = |height: f64, speed: f64| {
+        let (mut simulation, ball) = ball_on_plane(0.0, height, Integrator::RungeKutta4, 1e-4);
+        let twist = Twist { linear: Vec3::z() * speed, angular: Vec3::zeros() };
+        simulation.set_motion(ball, simulation.pose(ball), twist).unwrap();
+        simulation.commit_initial_states().unwrap();
+        simulation.start_notes()
+    };
+    let [note] = &notes(-1e-2, 0.5)[..] else { panic!("one note") };
+    // ½·1e5·1e-4 J, ½·1·0.25 J, √(2·5/1) m/s.
+    let parts = ["1.000e-2 m deep", "5.000e0 J", "1.250e-1 J", "3.162e0 m/s", "ball", "ground"];
+    assert!(parts.iter().all(|part| note.contains(part)), "{note}");
+    assert!(notes(-9.81e-5, 0.0).is_empty() && notes(-1.2e-4, 0.0).is_empty(), "it rests");
+    assert!(notes(-1e-2, 5.0).is_empty() && notes(1.0, 0.0).is_empty());
+}

@@ -325,3 +325,141 @@ fn masses_and_springs_that_cannot_be_are_refused_and_change_nothing() {
     simulation.run_for(2.0).unwrap();
     assert!((simulation.pose(body).position.x - 10.0_f64.cos()).abs() < 1e-9);
 }
+
+/// A link of 1 kg whose hinge is springs, to a base that is held; its stiffest mode by hand is that of the lever:
+/// k·(1/m + l²/I), 4 times that of the mass alone.
+#[test]
+fn springs_of_the_scene_count_for_the_step() {
+    let link = |integrator, step: f64| {
+        let mut simulation = Simulation::new(empty_world(), integrator, step).unwrap();
+        let body = RigidBody::free("link", MassProperties::principal(1.0, [1.0 / 12.0; 3]));
+        let body = simulation.add_body(body.at(Pose::new(Vec3::x() * 0.5, IDENTITY))).unwrap();
+        let hinge = SpringEnd::on(body, Pose::new(Vec3::x() * -0.5, IDENTITY));
+        let stiffness = [1e7, 1e7, 1e7, 0.0, 0.0, 0.0];
+        simulation.add_spring(Spring::new(SpringEnd::ground(Pose::identity()), hinge, stiffness)).unwrap();
+        let moving = Twist { linear: Vec3::zeros(), angular: Vec3::z() * 1e-3 };
+        simulation.set_motion(body, simulation.pose(body), moving).unwrap();
+        simulation
+    };
+    let omega = (1e7_f64 * 4.0).sqrt();
+    for (integrator, limit) in
+        [(Integrator::SemiImplicitEuler, 2.0), (Integrator::RungeKutta4, 8.0_f64.sqrt())]
+    {
+        let step = limit / omega;
+        let simulation = link(integrator, 1.1 * step);
+        let told = simulation.step_report(&simulation.step_plan()).unwrap().surely_stable_step();
+        assert!((told / step - 1.0).abs() < 1e-2, "{integrator}: {told} {step}");
+        let notes = simulation.step_notes();
+        assert!(notes.len() == 1 && notes[0].contains("its springs ask for that"), "{notes:?}");
+        let mut sure = link(integrator, 0.99 * told);
+        assert!(sure.step_notes().is_empty());
+        (0..3000).for_each(|_| sure.step().unwrap());
+        assert!(sure.energy().mechanical() < 1.0, "{integrator}");
+        let mut run = link(integrator, 1.6 * told);
+        let error = (0..3000).find_map(|_| run.step().err()).expect("it diverges").to_string();
+        assert!(error.contains("the spring of `the ground` and `link`"), "{integrator}: {error}");
+    }
+}
+
+/// The bound of springs between two bodies against all their modes, at any poses: not below the largest eigenvalue, and not
+/// far above.
+#[test]
+fn the_bound_of_springs_is_above_every_mode() {
+    let mut random = pong_testkit::Random(0x5b71);
+    let mut shares = Vec::new();
+    for number in 0..200 {
+        let mut simulation = Simulation::new(empty_world(), Integrator::SemiImplicitEuler, 1e-6).unwrap();
+        let bodies = [0, 1].map(|i| {
+            let moments = Vec3::from_fn(|_, _| random.between(1.0, 1.9)) * random.log_between(1e-3, 1.0);
+            let mass = MassProperties::principal(random.log_between(0.1, 10.0), moments.into());
+            let mass = mass.with_mass_center(random.vector(0.3));
+            let pose = Pose { position: random.vector(1.0), orientation: random.orientation() };
+            simulation.add_body(RigidBody::free(&format!("b{i}"), mass).at(pose)).unwrap()
+        });
+        let frame = |random: &mut pong_testkit::Random| Pose {
+            position: random.vector(0.3),
+            orientation: random.orientation(),
+        };
+        for _ in 0..=random.below(2) {
+            // At rest where the bodies are, so that nothing is stretched.
+            let (first, second) = (frame(&mut random), frame(&mut random));
+            let in_common = |i: usize, frame: &Pose| simulation.pose(bodies[i]).compose(frame);
+            let rest = in_common(0, &first).inverse().compose(&in_common(1, &second));
+            let stiffness = std::array::from_fn(|axis| {
+                let scale = if axis < 3 { 1e5 } else { 1e3 };
+                if random.chance(0.3) { 0.0 } else { scale * random.log_between(0.1, 10.0) }
+            });
+            let ends = (SpringEnd::on(bodies[0], first), SpringEnd::on(bodies[1], second));
+            simulation.add_spring(Spring { rest, ..Spring::new(ends.0, ends.1, stiffness) }).unwrap();
+        }
+        // Semi-implicit Euler without damping: told = 2/√λ.
+        let told = simulation.step_report(&simulation.step_plan()).unwrap().surely_stable_step();
+        let bound = (2.0 / told) * (2.0 / told);
+        let largest = largest_mode(&mut simulation, bodies);
+        if largest > 0.0 {
+            assert!(bound >= largest * (1.0 - 1e-6), "{number}: {bound} {largest}");
+            shares.push((largest / bound).sqrt());
+        }
+    }
+    shares.sort_by(f64::total_cmp);
+    println!("told over true: median {:.3}, worst {:.3}", shares[shares.len() / 2], shares[0]);
+    assert!(shares[shares.len() / 2] > 0.5);
+}
+
+/// ω² of the fastest mode: by powers of the rate of change of momentum with place, differenced.
+fn largest_mode(simulation: &mut Simulation, bodies: [BodyId; 2]) -> f64 {
+    let start = simulation.state_numbers();
+    let half = start.len() / 2;
+    let count = 12;
+    let mut matrix = vec![[0.0_f64; 12]; count];
+    let tiny = 1e-6;
+    let inverse = bodies.map(|body| {
+        let mass = *simulation.bodies().nth(body.index()).unwrap().1.mass().unwrap();
+        let turn = simulation.pose(body).orientation.to_rotation_matrix().into_inner();
+        (mass.mass, turn * mass.inertia.try_inverse().unwrap() * turn.transpose())
+    });
+    for column in 0..count {
+        let (body, axis) = (column / 6, column % 6);
+        let answers = [-tiny, tiny].map(|by| {
+            let mut moved = start.clone();
+            let at = body * half;
+            if axis < 3 {
+                moved[at + axis] += by;
+            } else {
+                let q = Quat::new_normalize(nalgebra_quaternion(&start[at + 6..at + 10]));
+                let mut about = Vec3::zeros();
+                about[axis - 3] = by;
+                let q = Quat::from_scaled_axis(about) * q;
+                moved[at + 6..at + 10].copy_from_slice(&[q.w, q.i, q.j, q.k]);
+            }
+            let mut rates = vec![0.0; start.len()];
+            simulation.try_states(0.0, &moved, &mut rates).unwrap();
+            rates
+        });
+        for row in 0..2 {
+            let at = row * half;
+            let change = |i: usize| (answers[1][at + i] - answers[0][at + i]) / (2.0 * tiny);
+            let moment = Vec3::new(change(10), change(11), change(12));
+            let spin = inverse[row].1 * moment;
+            for axis in 0..3 {
+                matrix[6 * row + axis][column] = -change(3 + axis);
+                matrix[6 * row + 3 + axis][column] = -spin[axis];
+            }
+        }
+    }
+    let mut x = [1.0_f64; 12];
+    let mut value = 0.0;
+    for _ in 0..4000 {
+        let y: Vec<f64> = matrix.iter().map(|row| row.iter().zip(&x).map(|(a, b)| a * b).sum()).collect();
+        value = y.iter().map(|v| v * v).sum::<f64>().sqrt();
+        if value == 0.0 {
+            return 0.0;
+        }
+        x = std::array::from_fn(|i| y[i] / value);
+    }
+    value
+}
+
+fn nalgebra_quaternion(wxyz: &[f64]) -> nalgebra::Quaternion<f64> {
+    nalgebra::Quaternion::new(wxyz[0], wxyz[1], wxyz[2], wxyz[3])
+}

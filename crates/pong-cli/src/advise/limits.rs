@@ -11,10 +11,11 @@ use pong_report::table;
 pub(super) fn told(report: &StepReport, plan: &StepPlan, friction_share: f64) -> String {
     let mut text = String::new();
     if !report.pairs.is_empty() {
-        text += "Single contacts, each on the effective mass of its two groups:\n";
+        text += "Single contacts, each on the effective mass of its two groups (a bounce), and on the least one (stability):\n";
         let heading = [
             "between",
             "kg",
+            "least kg",
             "k N/m",
             "c N·s/m",
             "stable to s",
@@ -30,9 +31,9 @@ pub(super) fn told(report: &StepReport, plan: &StepPlan, friction_share: f64) ->
                      farther off: ask without a file, with `--contacts n`.\n";
         }
         text += &friction(report, plan, friction_share);
-        text += &together(report);
-        text += &first_to_fail(report, plan);
     }
+    text += &together(report);
+    text += &first_to_fail(report, plan);
     for cause in &report.not_judged {
         text += &format!("not judged: {}\n", printable(cause));
     }
@@ -108,6 +109,7 @@ fn row(pair: &PairLimits, plan: &StepPlan) -> Vec<String> {
     vec![
         format!("{} · {}", pair.groups[0], pair.groups[1]),
         number(pair.mass),
+        number(pair.normal.mass),
         number(pair.normal.spring.stiffness),
         number(pair.normal.spring.damping),
         number(pair.normal.stable_step),
@@ -153,7 +155,10 @@ fn may_go_wrong(report: &StepReport, first: f64) -> String {
     match worst {
         Some(group) if group.stable_step < first => format!(
             "Before that, {} on `{}` may gain energy beyond {} s\n",
-            count(group.contacts, "contact", "contacts together"),
+            match group.contacts {
+                0 => "the springs".to_owned(),
+                contacts => count(contacts, "contact", "contacts together"),
+            },
             printable(&group.group),
             number(group.stable_step)
         ),

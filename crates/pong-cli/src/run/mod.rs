@@ -90,6 +90,9 @@ fn advance(
     let template = "{bar:40} {percent:>3} %  step {pos} of {len}, {eta} left";
     let bar = progress(Some(built.steps), template, arguments.quiet);
     built.simulation.commit_initial_states()?;
+    if !arguments.quiet {
+        built.simulation.start_notes().iter().for_each(|note| bar.suspend(|| tell(format!("note: {note}"))));
+    }
     statistics.start(&built.simulation);
     for done in 0..=built.steps {
         if done > 0 {

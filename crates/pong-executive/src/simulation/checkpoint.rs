@@ -71,6 +71,7 @@ impl Simulation {
         self.system.world.restore_state(instant.block)?;
         (self.step, self.epoch, self.steps, self.settled) =
             (instant.step, instant.epoch, instant.steps, instant.settled);
+        self.reference = None;
         self.spring_loss = instant.spring_loss;
         self.work_in = instant.work_in;
         self.contact_work = self.contact_work.map(|_| instant.contact_work);

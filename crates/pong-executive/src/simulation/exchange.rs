@@ -96,8 +96,7 @@ impl Simulation {
         self.trial.clear();
         for (numbers, (index, _)) in numbers.as_chunks().0.iter().zip(&self.system.free) {
             let Some(state) = FreeState::of_numbers(numbers) else {
-                let body = self.system.bodies[*index].name.clone();
-                return Err(ExecutiveError::Diverged { body, time });
+                return Err(ExecutiveError::no_longer_finite(&self.system.bodies[*index].name, time));
             };
             self.trial.push(state);
         }

@@ -1,8 +1,11 @@
 //! The executive: bodies, loads and an integrator around a sealed world.
 
 mod checkpoint;
+mod divergence;
 mod exchange;
+mod reference;
 mod setup;
+mod start;
 mod view;
 
 use crate::body::BodyId;
@@ -13,6 +16,7 @@ use crate::state::FreeState;
 use crate::system::System;
 use pong_engine::{FrictionPreload, PairId, World};
 use pong_geometry::Wrench;
+use reference::Reference;
 
 /// Something that looks at a running simulation.
 pub trait Observer {
@@ -52,6 +56,8 @@ pub struct Simulation {
     work_in: f64,
     /// Work of contact on the bodies, J, where it is evaluated at stages.
     contact_work: Option<f64>,
+    /// What the energies of the motion are held against; `None` until the next step if something was changed.
+    reference: Option<Reference>,
 }
 
 impl Simulation {
@@ -85,6 +91,7 @@ impl Simulation {
             spring_loss: 0.0,
             work_in: 0.0,
             contact_work: (integrator == Integrator::RungeKutta4).then_some(0.0),
+            reference: None,
         })
     }
 
@@ -111,16 +118,30 @@ impl Simulation {
         let time = self.time();
         self.system.place(time, &self.states);
         let set = self.system.preload_friction(time, pair, preload)?;
-        self.settled = false;
+        self.disturbed();
         Ok(set)
     }
 
     /// Advances by one step.
     ///
     /// # Errors
-    /// The engine's, or a state that is no longer finite.
+    /// The engine's, a state that is no longer finite, or a motion with a million times the energy that all forces gave it
+    /// ([`ExecutiveError::Diverged`]).
     pub fn step(&mut self) -> Result<()> {
         self.commit_initial_states()?;
+        self.refer_to_present();
+        let time = self.time();
+        match self.advance().and_then(|()| self.refuse_divergence()) {
+            Err(ExecutiveError::Diverged { body, what, .. }) => {
+                let index = self.system.bodies.iter().position(|known| known.name == body);
+                Err(self.divergence(index.unwrap_or_default(), &what, time))
+            }
+            ended => ended,
+        }
+    }
+
+    /// One step from committed states.
+    fn advance(&mut self) -> Result<()> {
         let (time, h) = (self.time(), self.step);
         self.earlier.clone_from(&self.states);
         self.stages.begin_step(self.system.bodies.len());

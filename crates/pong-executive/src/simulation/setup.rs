@@ -37,7 +37,7 @@ impl Simulation {
             self.states.push(FreeState::of_motion(inertia, &body.pose, &body.twist));
         }
         self.system.push(body, inertia);
-        self.settled = false;
+        self.disturbed();
         Ok(BodyId(self.system.bodies.len() - 1))
     }
 
@@ -67,6 +67,7 @@ impl Simulation {
             return Err(fault("spring", &cause));
         }
         self.system.springs.push(spring);
+        self.reference = None;
         self.powers = self.system.powers(self.time());
         Ok(())
     }
@@ -80,6 +81,7 @@ impl Simulation {
     /// Removes all springs.
     pub fn clear_springs(&mut self) {
         self.system.springs.clear();
+        self.reference = None;
         self.powers = self.system.powers(self.time());
     }
 
@@ -101,6 +103,7 @@ impl Simulation {
             return Err(fault(&what, &cause));
         }
         self.system.springs[number] = spring;
+        self.reference = None;
         self.powers = self.system.powers(self.time());
         Ok(())
     }
@@ -124,13 +127,14 @@ impl Simulation {
         self.states[slot] = FreeState::of_motion(&inertia, pose, twist);
         self.system.free[slot].1 = inertia;
         self.system.bodies[index].motion = Motion::Free(mass);
-        self.settled = false;
+        self.disturbed();
         Ok(())
     }
 
     /// Sets uniform gravity, m/s², along the common axes.
     pub fn set_gravity(&mut self, gravity: Vec3) {
         self.system.gravity = gravity;
+        self.reference = None;
     }
 
     /// Puts a free or fixed body elsewhere. The contacts' past stays: call [`World::clear_contact_history`](pong_engine::World::clear_contact_history) if it should not.
@@ -158,7 +162,7 @@ impl Simulation {
                 ));
             }
         }
-        self.settled = false;
+        self.disturbed();
         Ok(())
     }
 
@@ -179,6 +183,7 @@ impl Simulation {
         if let Some(slot) = self.system.free.iter().position(|(free, _)| *free == index) {
             self.system.free.remove(slot);
             self.states.remove(slot);
+            self.reference = None;
         }
         self.system.bodies[index].motion = Motion::Prescribed(Path::Led { since, pose, twist });
         self.system.motions[index] = (pose, twist);

@@ -12,6 +12,9 @@ use pong_advise::{ActingReport, GroupMass, StepPlan, StepReport, StepWarning};
 use pong_engine::{InterfaceId, World};
 use pong_geometry::{Pose, Twist, Vec3, Wrench};
 
+/// Of bodies with an Interface and without.
+type Masses = (Vec<(InterfaceId, GroupMass)>, Vec<(String, GroupMass)>);
+
 impl Simulation {
     /// Time, s.
     pub fn time(&self) -> f64 {
@@ -75,16 +78,29 @@ impl Simulation {
     /// # Errors
     /// A world that cannot be sealed; a plan out of range.
     pub fn step_report(&self, plan: &StepPlan) -> Result<StepReport> {
-        Ok(pong_advise::step_report(self.world(), plan, &self.group_masses())?)
+        let (touching, others) = self.masses_on_springs();
+        Ok(pong_advise::step_report_with(self.world(), plan, &touching, &others)?)
     }
 
-    /// What the contacts of the present instant leave of a step ([`pong_advise::acting_report`]); springs and other loads of the
-    /// scene are left out.
+    /// What the contacts of the present instant leave of a step, with the springs of the scene
+    /// ([`pong_advise::acting_report`]).
     ///
     /// # Errors
     /// A world without a frame; a plan out of range.
     pub fn acting_report(&self, plan: &StepPlan) -> Result<ActingReport> {
-        Ok(pong_advise::acting_report(self.world(), plan, &self.group_masses())?)
+        Ok(pong_advise::acting_report(self.world(), plan, &self.masses_on_springs().0)?)
+    }
+
+    /// Bodies with an Interface, and those that springs alone act on.
+    fn masses_on_springs(&self) -> Masses {
+        let mut masses: Masses = (Vec::new(), Vec::new());
+        for (body, mass) in self.system.bodies.iter().zip(self.system.masses_on_springs(self.integrator)) {
+            match body.interface {
+                Some(interface) => masses.0.push((interface, mass)),
+                None => masses.1.push((body.name.clone(), mass)),
+            }
+        }
+        masses
     }
 
     fn group_masses(&self) -> Vec<(InterfaceId, GroupMass)> {
@@ -99,7 +115,7 @@ impl Simulation {
     /// The world, to forget, switch pairs or change surfaces between steps. The present states are evaluated and
     /// committed again before the next step.
     pub fn world_mut(&mut self) -> &mut World {
-        self.settled = false;
+        self.disturbed();
         &mut self.system.world
     }
 

@@ -1,0 +1,95 @@
+//! Where the primitives of a movable group can be touched, and how far the group yields there.
+
+use crate::mobility::Mobility;
+use pong_geometry::primitive::PrimitiveKind;
+use pong_model::{Element, Item, MovableGroup, PrimitiveInfo};
+use std::collections::BTreeMap;
+
+/// Largest inverse of the effective mass at the places of a contact, 1/kg.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Compliance {
+    /// Along the normal.
+    pub normal: f64,
+    /// Along the surface, where friction acts.
+    pub along: f64,
+    /// Whether a place can be as far from the mass centre as it likes; its lever is left out.
+    pub is_unbounded: bool,
+}
+
+impl Compliance {
+    /// Of two bodies in contact.
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            normal: self.normal + other.normal,
+            along: self.along + other.along,
+            is_unbounded: self.is_unbounded || other.is_unbounded,
+        }
+    }
+
+    /// Of two places the worse, each value by itself.
+    pub fn or_larger(self, other: Self) -> Self {
+        Self {
+            normal: self.normal.max(other.normal),
+            along: self.along.max(other.along),
+            is_unbounded: self.is_unbounded || other.is_unbounded,
+        }
+    }
+}
+
+pub(crate) type Compliances = BTreeMap<(PrimitiveKind, u32), Compliance>;
+
+/// Of all primitives of a body, by kind and surface.
+pub(crate) fn compliances(body: &MovableGroup, mobility: &Mobility) -> Compliances {
+    let mut all = Compliances::new();
+    for (index, info) in body.primitives.iter().enumerate() {
+        let here = compliance_of(body, (index as u32, info), mobility);
+        all.entry((info.kind, info.surface)).and_modify(|most| *most = most.or_larger(here)).or_insert(here);
+    }
+    all
+}
+
+/// Of a place within a radius of a point through which the normal passes.
+fn round(mobility: &Mobility, center: &pong_geometry::Vec3, radius: f64) -> Compliance {
+    let (normal, along) = (mobility.compliance(center), mobility.compliance_around(center, radius));
+    Compliance { normal, along, is_unbounded: false }
+}
+
+fn compliance_of(
+    body: &MovableGroup,
+    (index, info): (u32, &PrimitiveInfo),
+    mobility: &Mobility,
+) -> Compliance {
+    let element = info.elements.start as usize;
+    let anywhere = |most: f64| Compliance { normal: most, along: most, is_unbounded: false };
+    let unbounded = || {
+        let at_center = mobility.compliance(mobility.center());
+        Compliance { is_unbounded: mobility.has_levers(), ..anywhere(at_center) }
+    };
+    match info.kind {
+        PrimitiveKind::Plane => unbounded(),
+        PrimitiveKind::Sphere => round(mobility, &body.spheres[element].center, body.spheres[element].radius),
+        // Compliance is convex in the place: of an axis an end has the largest.
+        PrimitiveKind::LineSegment => {
+            let ends = body.segments[element].ends;
+            ends.map(|end| round(mobility, &end, 0.0))
+                .into_iter()
+                .fold(Compliance::default(), Compliance::or_larger)
+        }
+        PrimitiveKind::Capsule => {
+            let part = &body.capsules[element];
+            let ends = part.ends.map(|end| round(mobility, &end, part.radius));
+            ends.into_iter().fold(Compliance::default(), Compliance::or_larger)
+        }
+        _ => {
+            let of = |element| Element::new(body, Item { primitive: index, element }).extent();
+            let whole = info.elements.clone().map(of).reduce(|a, b| (a.0.inf(&b.0), a.1.sup(&b.1)));
+            match whole {
+                None => Compliance::default(),
+                Some(extent) if extent.0.iter().chain(&extent.1).all(|x| x.is_finite()) => {
+                    anywhere(mobility.compliance_in(&extent))
+                }
+                Some(_) => unbounded(),
+            }
+        }
+    }
+}

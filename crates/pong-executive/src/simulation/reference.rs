@@ -1,0 +1,13 @@
+//! What a motion is held against to find energy from nowhere.
+
+use crate::energy::Energy;
+
+/// What a motion is held against.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reference {
+    pub energy: Energy,
+    /// In the contacts, J; infinite where it is not known.
+    pub stored: f64,
+    /// Diameter of the box around all bodies, m.
+    pub size: f64,
+}
