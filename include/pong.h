@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0x07d23175c7b296b2ULL
+#define PONG_LAYOUT_HASH 0x64447afe740eca53ULL
 
 /// Whether this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -403,6 +403,22 @@ typedef struct pong_mass {
     /// The mass centre in the group frame, m.
     double mass_center[3];
 } pong_mass;
+
+/// How a movable group on joints answers a wrench at one pose of its mechanism, for the step adviser alone. Make it with zeros
+/// and set what is known.
+typedef struct pong_joints {
+    /// Acceleration (linear of the group's origin, then angular) per wrench (force, then moment about the origin), by rows,
+    /// along the axes of the group frame: J M^-1 J^T of a mechanism with the mass matrix M.
+    double inverse_inertia[36];
+    /// A bound of the largest eigenvalue of M^-1 K of the host's springs on the mechanism, 1/s^2; 0 without springs.
+    double spring_rate;
+    /// The same of M^-1 C of its dampers, 1/s.
+    double damper_rate;
+    /// Groups of one number share joints: a push on one moves the others.
+    uint32_t mechanism;
+    /// Zero.
+    uint32_t reserved;
+} pong_joints;
 
 /// What the contacts of one frame leave of the planned step.
 typedef struct pong_step_check {
@@ -967,6 +983,12 @@ struct pong_step_plan pong_default_step_plan(void);
 pong_status pong_set_mass(struct pong_world *world,
                           struct pong_interface_id interface,
                           const struct pong_mass *mass);
+
+/// Tells how a movable group on joints yields, beside its mass of pong_set_mass(), which must be told first. Before sealing for
+/// the check of pong_plan_step(), and as often as the pose changes for pong_check_step().
+pong_status pong_set_joints(struct pong_world *world,
+                            struct pong_interface_id interface,
+                            const struct pong_joints *joints);
 
 /// Has the seal check every contact against the host's step, by the masses of pong_set_mass(). What the step is too
 /// long for, and what cannot be judged, is told by pong_seal_warning(); what it may be too long for, if enough contacts

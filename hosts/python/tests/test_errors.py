@@ -176,7 +176,7 @@ def test_a_run_that_diverges(tmp_path):
     spring = "springs: [(first: Ground(), second: On(body: \"ball\"), stiffness: (1e4, 1e4, 1e4, 0, 0, 0))],"
     text = scene_folder(tmp_path).read_text().replace("step: 1e-4", f"{spring} step: 1.0")
     simulation = pong.Scene.parse(text.replace("duration: 0.3", "duration: 1000.0"), folder=tmp_path).build()
-    told(pong.RunError, simulation.run, "body `ball`", "no longer finite", "shorten it")
+    told(pong.RunError, simulation.run, "body `ball`", "at t = ", "shorten it")
 
 
 def test_cases_and_wishes_that_are_not_there():

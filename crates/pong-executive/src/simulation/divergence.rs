@@ -64,10 +64,10 @@ impl Simulation {
         let (now, then) = (self.energy(), &reference.energy);
         let falls = then.potential - now.potential;
         let relaxes = then.springs - now.springs;
-        let put_in = now.work_in - then.work_in;
+        let worked = now.work_in - then.work_in;
         let heat = now.spring_loss - then.spring_loss;
-        let made = now.kinetic - then.kinetic - falls - relaxes + heat - put_in - reference.stored;
-        let sources = [falls, relaxes, put_in].map(|source| source.max(0.0));
+        let made = now.kinetic - then.kinetic - falls - relaxes + heat - worked - reference.stored;
+        let sources = [falls, relaxes, worked].map(|source| source.max(0.0));
         let masses = self.system.free.iter().map(|(_, inertia)| inertia.mass).sum::<f64>();
         let weight = masses * self.system.gravity.norm() * reference.size;
         let there =
