@@ -418,6 +418,7 @@ fn largest_mode(simulation: &mut Simulation, bodies: [BodyId; 2]) -> f64 {
         let turn = simulation.pose(body).orientation.to_rotation_matrix().into_inner();
         (mass.mass, turn * mass.inertia.try_inverse().unwrap() * turn.transpose())
     });
+    #[expect(clippy::needless_range_loop, reason = "a column of every row")]
     for column in 0..count {
         let (body, axis) = (column / 6, column % 6);
         let answers = [-tiny, tiny].map(|by| {
