@@ -313,26 +313,28 @@ static void certain_steps(void)
 }
 
 /* Friction of 2/3 k at the skin of a ball of 1 kg and 2/5 m r^2 finds 2/7 kg: with semi-implicit Euler that may be too
- * quick for a step that any spring by itself on 1 kg bears. k T^2/m + 2 c T/m = 4 with k 7/3 1e4 N/m and c 20 N s/m. */
+ * quick for a step that the normal spring bears. k T^2/m + 2 c T/m = 4 with k 7/3 1e4 N/m and c 7/2 sqrt(2/3) 20 N s/m, the
+ * damping that a bristle has by default beside a linear law. */
 static void possible_steps(void)
 {
     scene s;
     pong_step_plan plan = pong_default_step_plan();
     pong_seal_report sealed;
     pong_step_check acting;
-    const char *note = "";
-    const double k = 7e4 / 3.0, c = 20.0;
+    const char *warning = "";
+    const double k = 7e4 / 3.0, c = 70.0 * sqrt(2.0 / 3.0);
     const double surely = 4.0 / (c + sqrt(c * c + 4.0 * k));
     plan.step = 1.01 * surely;
     plan.wrench_coupling = PONG_COUPLING_SEMI_IMPLICIT;
     plan.depth_within = plan.rebound_within = 0.0;
     sealed = planned(&s, &plan, 1.0, 0.4 * 0.1 * 0.1);
-    TEST(sealed.warning_count == 0 && sealed.note_count == 1);
-    TEST(fabs(sealed.surely_stable_step / surely - 1.0) < 1e-9 && sealed.stable_step > 1.4 * surely);
-    OK(pong_seal_note(s.world, 0, &note));
-    TEST(strstr(note, "surely stable") != NULL && strstr(note, "may gain energy") != NULL);
+    TEST(sealed.warning_count == 1 && sealed.note_count == 0);
+    /* The bound takes normal and friction together, so it is below the limit of the quicker of the two. */
+    TEST(sealed.surely_stable_step < surely && sealed.surely_stable_step > 0.8 * surely && sealed.stable_step < surely);
+    OK(pong_seal_warning(s.world, 0, &warning));
+    TEST(strstr(warning, "gains energy") != NULL && strstr(warning, "longest stable step is 1.087e-2 s") != NULL);
     OK(pong_destroy_world(s.world));
-    plan.step = 0.99 * surely;
+    plan.step = 0.99 * sealed.surely_stable_step;
     sealed = planned(&s, &plan, 1.0, 0.4 * 0.1 * 0.1);
     TEST(sealed.warning_count == 0 && sealed.note_count == 0);
     REFUSED(pong_check_step(s.world, &acting), WRONG_PHASE, "frame");
@@ -342,7 +344,7 @@ static void possible_steps(void)
     TEST(acting.contacts == 1 && acting.not_judged == 0);
     /* 1 mm deep the lever is that much shorter than the radius, on either side. */
     TEST(fabs(acting.stable_step / surely - 1.0) < 0.02 && fabs(acting.stiffness_rate / k - 1.0) < 0.02);
-    TEST(fabs(acting.damping_rate / c - 1.0) < 1e-9);
+    TEST(fabs(acting.damping_rate / c - 1.0) < 0.02);
     s.states[0].position[2] = 1.0;
     OK(pong_set_states(s.world, s.interfaces, s.states, 3));
     OK(pong_step(s.world));
