@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0x64447afe740eca53ULL
+#define PONG_LAYOUT_HASH 0x5f1b17ea640b4b50ULL
 
 /// Whether this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -453,8 +453,10 @@ typedef struct pong_seal_report {
     double stable_step;
     /// The step up to which the scene is surely stable, whatever touches at once, s; likewise.
     double surely_stable_step;
+    /// Pairs of groups that filters keep apart: see pong_filter_groups().
+    uint64_t filters;
     /// Zero in this version.
-    uint64_t reserved[4];
+    uint64_t reserved[3];
 } pong_seal_report;
 
 /// One side of a contact.
@@ -921,6 +923,16 @@ pong_status pong_pair_by_name(struct pong_world *world,
                               const char *a,
                               const char *b,
                               struct pong_pair_id *pair);
+
+/// Keeps two groups apart, each with everything below it: nothing of one ever touches anything of the other, and a frame pays
+/// nothing for it. The groups may be movable or not, and belong to two Objects or to one (`a` and `b` alike). A group goes by
+/// its path in the model (`root/arm/tip`), its path below the root (`arm/tip`) or its bare name where only one group has it;
+/// an empty path is the whole Object. Before sealing; the Objects may be paired before or later.
+pong_status pong_filter_groups(struct pong_world *world,
+                               struct pong_object_id a,
+                               const char *group_a,
+                               struct pong_object_id b,
+                               const char *group_b);
 
 /// Switches a pair on (1, as it begins) or off (0). A pair that is off has no contacts; when it is switched on
 /// again it has no past.

@@ -163,11 +163,16 @@ impl<'w> Setting<'w> {
     ) -> BTreeMap<(u32, u32), (&'w PairProps, Compliance)> {
         let (body_a, body_b) = (self.scene.body(a), self.scene.body(b));
         let mut met = BTreeMap::new();
-        let [in_a, in_b] = [body_a, body_b].map(|body| {
+        let [in_a, in_b] = [(body_a, a, b), (body_b, b, a)].map(|(body, group, other)| {
             let mut seen = BTreeSet::new();
             let new = body.primitives.iter().filter(move |info| {
                 // Kinds of the host's share one number; each is looked at.
-                info.kind == PrimitiveKind::Custom || seen.insert((info.kind, info.surface))
+                info.kind == PrimitiveKind::Custom
+                    || seen.insert((
+                        info.kind,
+                        info.surface,
+                        self.scene.filters_that_hold((group, info), other),
+                    ))
             });
             new.collect::<Vec<_>>()
         });

@@ -139,21 +139,21 @@ impl Direction {
             (in_order || info_a.kind != info_b.kind || info_a.kind == PrimitiveKind::Custom)
                 && setting.scene.can_be_tested((a, info_a), (b, info_b))
         };
-        let partners = distinct(body_b);
+        let partners = distinct(body_b, |info| setting.scene.filters_that_hold((b, info), a));
         let mut sites = Vec::new();
-        let mut cached: Vec<(PrimitiveKind, u32, Option<ContactSprings>)> = Vec::new();
+        let mut cached: Vec<(Alike, Option<ContactSprings>)> = Vec::new();
         for (index, info) in body_a.primitives.iter().enumerate() {
-            let known =
-                cached.iter().find(|(kind, surface, _)| (*kind, *surface) == (info.kind, info.surface));
+            let of = (info.kind, info.surface, setting.scene.filters_that_hold((a, info), b));
+            let known = cached.iter().find(|(other, _)| *other == of);
             let made = match known {
-                Some((_, _, made)) => *made,
+                Some((_, made)) => *made,
                 None => {
                     let met = partners.iter().filter(|partner| meets(info, partner));
                     let values = met
                         .map(|partner| setting.scene.surface_values(table, (info.surface, partner.surface)));
                     let made = values.filter_map(|props| springs(props, mass, plan.closing_speed).ok());
                     let made = made.reduce(stiffest).map(|made| made.without(without));
-                    cached.push((info.kind, info.surface, made));
+                    cached.push((of, made));
                     made
                 }
             };
@@ -334,11 +334,15 @@ fn stiffest(a: ContactSprings, b: ContactSprings) -> ContactSprings {
     }
 }
 
+/// Kind, surface and filters: primitives that share them meet the same partners with the same values.
+type Alike = (PrimitiveKind, u32, Vec<usize>);
+
 /// One primitive for each kind and surface; every one of the host's own kinds.
-fn distinct(body: &MovableGroup) -> Vec<&PrimitiveInfo> {
+fn distinct(body: &MovableGroup, filters: impl Fn(&PrimitiveInfo) -> Vec<usize>) -> Vec<&PrimitiveInfo> {
     let mut seen = std::collections::BTreeSet::new();
-    let new =
-        |info: &&PrimitiveInfo| info.kind == PrimitiveKind::Custom || seen.insert((info.kind, info.surface));
+    let new = |info: &&PrimitiveInfo| {
+        info.kind == PrimitiveKind::Custom || seen.insert((info.kind, info.surface, filters(info)))
+    };
     body.primitives.iter().filter(new).collect()
 }
 

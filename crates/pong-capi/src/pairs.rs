@@ -45,6 +45,25 @@ pub unsafe extern "C" fn pong_pair_by_name(
     })
 }
 
+/// Keeps two groups apart, each with everything below it: nothing of one ever touches anything of the other, and a frame pays
+/// nothing for it. The groups may be movable or not, and belong to two Objects or to one (`a` and `b` alike). A group goes by
+/// its path in the model (`root/arm/tip`), its path below the root (`arm/tip`) or its bare name where only one group has it;
+/// an empty path is the whole Object. Before sealing; the Objects may be paired before or later.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_filter_groups(
+    world: *mut pong_world,
+    a: pong_object_id,
+    group_a: *const c_char,
+    b: pong_object_id,
+    group_b: *const c_char,
+) -> pong_status {
+    setting_up(world, |inner| {
+        let (group_a, group_b) = (text(group_a, "group_a")?, text(group_b, "group_b")?);
+        inner.phase.set_up("filter groups")?.filter(a.id(), group_a, b.id(), group_b)?;
+        Ok(())
+    })
+}
+
 /// Switches a pair on (1, as it begins) or off (0). A pair that is off has no contacts; when it is switched on
 /// again it has no past.
 #[unsafe(no_mangle)]

@@ -5,7 +5,7 @@ use crate::ids::{InterfaceId, ModelId, ObjectId, PairId};
 use crate::law::registry::Laws;
 use crate::report::Clock;
 use crate::runtime::Runtime;
-use crate::scene::{Config, GroupInstance, Object, ObjectPair, Scene, State, States, Surfaces};
+use crate::scene::{Config, GroupFilter, GroupInstance, Object, ObjectPair, Scene, State, States, Surfaces};
 use crate::seal::{self, SealReport};
 use crate::world::World;
 use pong_geometry::extension::Extensions;
@@ -159,6 +159,57 @@ impl WorldBuilder {
         Ok(PairId::new(scene.stamp, scene.pairs.len() - 1))
     }
 
+    /// Keeps two groups apart, each with everything below it: nothing of one ever touches anything of the other, and nothing is
+    /// paid for it in a frame. They may be movable or not, and belong to two Objects or to one. Names are as in
+    /// [`Scene::group_path`](Scene::group_path). The Objects may be paired before or later.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an Object of another world, [`EngineError::UnknownName`] for a name that leads to no group,
+    /// [`EngineError::Duplicate`] for a filter that is there already, [`EngineError::BadValue`] for two parts of one rigid body,
+    /// which never touch, and for more filters between two Objects than there may be.
+    pub fn filter(
+        &mut self,
+        a: ObjectId,
+        group_a: &str,
+        b: ObjectId,
+        group_b: &str,
+    ) -> Result<(), EngineError> {
+        /// Most filters between two Objects.
+        const MOST: usize = 1024;
+        let scene = &mut self.scene;
+        let side = |object, name| -> Result<_, EngineError> {
+            Ok((scene.object_index(object)?, scene.group_path(object, name)?.to_owned()))
+        };
+        let mut sides = [side(a, group_a)?, side(b, group_b)?];
+        sides.sort_unstable();
+        let [(a, group_a), (b, group_b)] = sides;
+        let what = || {
+            format!(
+                "filter of `{}/{group_a}` and `{}/{group_b}`",
+                scene.objects[a].name, scene.objects[b].name
+            )
+        };
+        let refused = |cause: &str| Err(EngineError::BadValue { what: what(), cause: cause.to_owned() });
+        let model = &scene.models[scene.objects[a].model];
+        if a == b && model.is_within_one_body([&group_a, &group_b]) {
+            return refused("both are parts of one rigid body, which never touch; leave it out");
+        }
+        if scene.filters.iter().filter(|filter| filter.objects == [a, b]).count() >= MOST {
+            return refused(
+                "there are 1,024 between these two Objects already; filter a group that holds several",
+            );
+        }
+        if scene
+            .filters
+            .iter()
+            .any(|filter| filter.objects == [a, b] && filter.groups == [&*group_a, &*group_b])
+        {
+            return Err(EngineError::Duplicate { what: what() });
+        }
+        scene.filters.push(GroupFilter { objects: [a, b], groups: [group_a, group_b] });
+        Ok(())
+    }
+
     /// Switches a pair on, as it begins, or off. See [`World::set_pair_enabled`].
     ///
     /// # Errors
@@ -223,7 +274,10 @@ impl WorldBuilder {
     /// A [`SealError`], which holds the builder as it was, and the reason: [`EngineError::Seal`] with every fault of the scene,
     /// [`EngineError::OutOfMemory`], or [`EngineError::Workers`].
     #[expect(clippy::result_large_err, reason = "a refusal for want of memory must not ask for a box")]
-    pub fn seal(self) -> Result<(World, SealReport), SealError> {
+    pub fn seal(mut self) -> Result<(World, SealReport), SealError> {
+        if let Err(error) = seal::part_groups(&mut self.scene) {
+            return Err(SealError { error, builder: self });
+        }
         let (sealed, tables, mut report) = match seal::seal(&self.scene, &self.surfaces.of_models) {
             Ok(made) => made,
             Err(error) => return Err(SealError { error, builder: self }),

@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use crate::seal::can_be_tested;
 pub use crate::sealed::GroupPair;
 use pong_geometry::{Pose, Transform, Vec3};
-use pong_model::{MovableGroup, PrimitiveInfo};
+use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 
 /// A view into a sealed world; see [`World::inspect`](crate::World::inspect).
 #[derive(Clone, Copy)]
@@ -74,9 +74,24 @@ impl<'w> Inspection<'w> {
         &self.runtime.sealed.group_pairs
     }
 
-    /// Whether primitives of two movable groups have a test, the first as A.
+    /// Whether primitives of two movable groups have a test, the first as A, and no filter keeps them apart.
     pub fn can_be_tested(&self, a: (usize, &PrimitiveInfo), b: (usize, &PrimitiveInfo)) -> bool {
+        let filters = self.filters(a.0, b.0);
+        if filters.is_some_and(|filters| filters.keep_apart(&a.1.path, &b.1.path)) {
+            return false;
+        }
         can_be_tested(&self.scene.extensions, (self.body(a.0), a.1), (self.body(b.0), b.1))
+    }
+
+    /// Numbers of the filters between two movable groups that hold a primitive of the first: alike for primitives that are kept
+    /// from the same others.
+    pub fn filters_that_hold(&self, (group, info): (usize, &PrimitiveInfo), other: usize) -> Vec<usize> {
+        self.filters(group, other).map_or_else(Vec::new, |filters| filters.that_hold(0, &info.path))
+    }
+
+    fn filters(&self, a: usize, b: usize) -> Option<&'w Filters> {
+        let [a, b] = [a, b].map(|group| self.scene.bodies[group].object);
+        self.runtime.sealed.filters.between(a, b)
     }
 
     /// The combined values of two surfaces that can meet, by the table of their direction ([`GroupPair::tables`]) and their

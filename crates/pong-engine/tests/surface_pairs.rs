@@ -126,7 +126,7 @@ fn limits_of(a: &str, b: &str) -> Vec<(usize, String)> {
             let [[kind_a, kind_b]] = &kinds[..] else { panic!("{kinds:?}") };
             Some((1, format!("{} {kind_a}, {} {kind_b}", models[0], models[1])))
         }
-        SetupNote::NoFriction { .. } => None,
+        SetupNote::NoFriction { .. } | SetupNote::IdleFilter { .. } => None,
     };
     let mut counted: Vec<(usize, String)> = Vec::new();
     for (one, kinds) in seal(&[&a, &b]).unwrap().notes.iter().filter_map(of) {

@@ -201,3 +201,17 @@ fn all_faults_are_told_at_once() {
     let told = errors(&text, &folder);
     assert_eq!(told.len(), 3, "{told:#?}");
 }
+
+/// Filters of a scene reach its world; names that lead nowhere are told with those there are.
+#[test]
+fn filters_are_taken_and_bad_names_told() {
+    let folder = folder("filters");
+    for (filter, expected) in [
+        ("(\"a/arm\", \"z\")", "there is no object `z`"),
+        ("(\"a/leg\", \"a/arm\")", "group `a/leg`"),
+        ("(\"a/core\", \"a/arm\"), (\"a/arm\", \"a/core\")", "already there"),
+    ] {
+        let told = errors(&scene("pairs:", &format!("filters: [{filter}], pairs:")), &folder);
+        assert!(told.len() == 1 && told[0].contains("filters/") && told[0].contains(expected), "{told:#?}");
+    }
+}

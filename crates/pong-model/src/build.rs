@@ -3,7 +3,7 @@
 use crate::draft::{BodyDraft, ModelDraft};
 use crate::model::{Model, MovableGroup};
 use crate::pieces::join_walls;
-use crate::read::{LISTED_PER_MESH, Reader};
+use crate::read::{LISTED_PER_MESH, Reader, group_paths};
 use crate::triangle_topology::{self, MeshWarning, TopologyReport};
 use crate::weld::Welder;
 use crate::weld::WordMap;
@@ -13,7 +13,7 @@ use pong_geometry::primitive::PrimitiveKind;
 
 /// Knits every body together; faults and warnings go to the reader. `None` if there was any fault.
 pub(crate) fn finish(reader: &mut Reader<'_>, draft: ModelDraft) -> Option<Model> {
-    let ModelDraft { name, entry_memory, surfaces, pair_overrides, bodies: mut drafts } = draft;
+    let ModelDraft { name, entry_memory, surfaces, pair_overrides, filters, bodies: mut drafts } = draft;
     for draft in &mut drafts {
         finish_body(reader, draft);
     }
@@ -22,7 +22,9 @@ pub(crate) fn finish(reader: &mut Reader<'_>, draft: ModelDraft) -> Option<Model
     }
     let bodies = drafts.iter_mut().map(|draft| std::mem::take(&mut draft.body)).collect();
     let warnings = std::mem::take(&mut reader.warnings);
-    let mut model = Model { name, hash: 0, entry_memory, surfaces, pair_overrides, bodies, warnings };
+    let groups = group_paths(&drafts);
+    let mut model =
+        Model { name, hash: 0, entry_memory, surfaces, pair_overrides, groups, filters, bodies, warnings };
     model.hash = hash::hash(&model, &drafts);
     Some(model)
 }

@@ -13,6 +13,7 @@ pub(crate) struct ModelDraft {
     pub(crate) entry_memory: bool,
     pub(crate) surfaces: Vec<Surface>,
     pub(crate) pair_overrides: Vec<PairOverride>,
+    pub(crate) filters: Vec<[String; 2]>,
     pub(crate) bodies: Vec<BodyDraft>,
 }
 

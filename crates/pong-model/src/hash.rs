@@ -1,7 +1,7 @@
 //! The hash of a model: FNV-1a, 64 bits, over everything that decides the numbers.
 //!
 //! Names of groups and primitives and bounding volumes are left out: they change no number. Names of surfaces
-//! are in, since tables of other models refer to them.
+//! are in, since tables of other models refer to them, and so are the groups that never touch each other.
 
 use crate::draft::BodyDraft;
 use crate::fnv::Fnv;
@@ -26,6 +26,10 @@ pub(crate) fn hash(model: &Model, drafts: &[BodyDraft]) -> u64 {
             hash.text(kind);
             hash.list(parameters, |hash, &x| hash.number(x));
         });
+    }
+    // A model without filters keeps the hash that it had before there were any.
+    for pair in model.filters_within().pairs() {
+        pair.iter().for_each(|group| hash.text(group));
     }
     hash.0.value()
 }

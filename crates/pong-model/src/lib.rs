@@ -16,6 +16,7 @@ mod draft;
 mod element;
 mod error;
 pub mod files;
+mod filters;
 pub mod flush;
 mod fnv;
 pub mod grouping;
@@ -44,6 +45,7 @@ pub mod weld;
 
 pub use element::Element;
 pub use error::{ModelError, ModelErrors};
+pub use filters::Filters;
 pub use fnv::Fnv;
 pub use limits::{LARGEST, LARGEST_SIZE, SMALLEST_SIZE};
 pub use model::{Balls, Batch, ChunkBoxes, Item, Model, MovableGroup, Node, PrimitiveInfo, Rods, Tree};

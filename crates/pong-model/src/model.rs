@@ -27,6 +27,10 @@ pub struct Model {
     pub surfaces: Vec<Surface>,
     /// Table of values for pairs of surfaces.
     pub pair_overrides: Vec<PairOverride>,
+    /// Paths of all groups as authored, the root's first.
+    pub groups: Vec<String>,
+    /// Pairs of groups of one Object that never touch each other, by their full paths.
+    pub filters: Vec<[String; 2]>,
     /// The movable groups; 0 is the root.
     pub bodies: Vec<MovableGroup>,
     /// What the author should know though the model is valid.

@@ -38,7 +38,7 @@ impl Model {
         })
     }
 
-    fn regrouped(
+    pub(crate) fn regrouped(
         &self,
         ext: &Extensions,
         groups: impl Fn(&MovableGroup) -> Vec<GroupDraft>,
@@ -58,7 +58,7 @@ impl Model {
 }
 
 /// The groups that the nodes of a body's tree came from.
-fn groups_of(body: &MovableGroup) -> Vec<GroupDraft> {
+pub(crate) fn groups_of(body: &MovableGroup) -> Vec<GroupDraft> {
     let nodes = body.tree.nodes.iter();
     nodes
         .map(|node| GroupDraft {

@@ -55,6 +55,9 @@ pub struct Run {
     pub bodies: Vec<RunBody>,
     /// The pairs of Objects.
     pub pairs: Vec<[usize; 2]>,
+    /// Groups that never touch each other, those of models aside.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub filters: Vec<RunFilter>,
     /// The primitives of all bodies.
     pub primitives: Vec<RunPrimitive>,
     /// The tables by name.
@@ -120,6 +123,15 @@ pub struct RunBody {
     pub path: String,
     /// Index of the movable group above.
     pub parent: Option<usize>,
+}
+
+/// Two groups that never touch each other.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RunFilter {
+    /// Indices of their Objects.
+    pub objects: [usize; 2],
+    /// Full paths of the groups in the models.
+    pub groups: [String; 2],
 }
 
 /// A primitive of a body.
@@ -195,6 +207,9 @@ impl Run {
         }
         for object in self.pairs.iter().flatten() {
             refers("a pair", *object, "objects", self.objects.len())?;
+        }
+        for object in self.filters.iter().flat_map(|filter| filter.objects) {
+            refers("a filter", object, "objects", self.objects.len())?;
         }
         for primitive in &self.primitives {
             let from = format!("primitive `{}`", primitive.path);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 const char *const contact_attributes[] = {"objects", "pairs", "bodies", "dir",   "prefix",           "text1",
-                                          "text2",   "text3", "text4",  "check_step", "contact_capacity"};
+                                          "text2",   "text3", "text4",  "check_step", "contact_capacity", "filters"};
 const int contact_attribute_count = sizeof contact_attributes / sizeof contact_attributes[0];
 
 /* Most contacts of a frame if the MJCF does not say: the state of a contact takes 160 bytes in every mjData and every copy of
@@ -102,6 +102,7 @@ int read_config(contact_config *config, const mjModel *m, int instance, message 
         !read_check_step(config, value_of(m, instance, "check_step"), why) ||
         !read_entries(&config->objects, "objects", value_of(m, instance, "objects"), '=', why) ||
         !read_entries(&config->pairs, "pairs", value_of(m, instance, "pairs"), ',', why) ||
+        !read_entries(&config->filters, "filters", value_of(m, instance, "filters"), ',', why) ||
         !read_entries(&config->bodies, "bodies", value_of(m, instance, "bodies"), '=', why))
         return 0;
     if (config->objects.count == 0)
@@ -123,6 +124,7 @@ void close_config(contact_config *config)
 {
     close_entries(&config->objects);
     close_entries(&config->pairs);
+    close_entries(&config->filters);
     close_entries(&config->bodies);
     memset(config, 0, sizeof *config);
 }

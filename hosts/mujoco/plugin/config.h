@@ -26,6 +26,7 @@ enum { MAX_CAPACITY = 65536 };
 typedef struct contact_config {
     entry_list objects; /* Object, model */
     entry_list pairs;   /* Object, Object */
+    entry_list filters; /* group, group: Object/path */
     entry_list bodies;  /* movable group, MuJoCo body */
     const char *folder, *prefix;
     const char *texts[TEXT_COUNT]; /* models written into the MJCF; "" if there is none */

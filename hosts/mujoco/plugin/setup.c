@@ -108,6 +108,27 @@ static entry pair_at(const contact_config *config, size_t index)
     return both;
 }
 
+/* Keeps two groups apart, each `Object` or `Object/path`; the texts are cut at the first `/`. */
+static int add_filter(contact_world *w, entry *groups, message *why)
+{
+    char *sides[2], *paths[2];
+    pong_object_id objects[2];
+    int i;
+    sides[0] = groups->first;
+    sides[1] = groups->second;
+    for (i = 0; i < 2; i++) {
+        paths[i] = strchr(sides[i], '/');
+        if (paths[i] != NULL)
+            *paths[i]++ = '\0';
+        if (pong_find_object(w->world, sides[i], &objects[i]) != PONG_STATUS_OK)
+            return fail_by_library(why, "key `filters`");
+    }
+    if (pong_filter_groups(w->world, objects[0], paths[0] != NULL ? paths[0] : "", objects[1],
+                           paths[1] != NULL ? paths[1] : "") != PONG_STATUS_OK)
+        return fail_by_library(why, "key `filters`");
+    return 1;
+}
+
 int open_world(contact_world *w, const contact_config *config, message *why)
 {
     pong_config settings = pong_default_config();
@@ -123,6 +144,9 @@ int open_world(contact_world *w, const contact_config *config, message *why)
         if (pong_pair_by_name(w->world, both.first, both.second, NULL) != PONG_STATUS_OK)
             return fail_by_library(why, "key `pairs`");
     }
+    for (i = 0; i < config->filters.count; i++)
+        if (!add_filter(w, &config->filters.entries[i], why))
+            return 0;
     w->bodies = malloc(w->group_count * sizeof *w->bodies);
     if (w->bodies == NULL)
         return fail(why, "no memory for the movable groups");

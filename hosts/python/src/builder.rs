@@ -132,6 +132,15 @@ impl WorldBuilder {
         })
     }
 
+    /// Keeps two groups of Objects apart, each with everything below it. They go by path or name; an empty one is the whole
+    /// Object.
+    fn filter(&self, a: ObjectRef<'_>, group_a: &str, b: ObjectRef<'_>, group_b: &str) -> PyResult<()> {
+        self.with(|setup| {
+            let (a, b) = (a.resolve(setup.builder.scene())?, b.resolve(setup.builder.scene())?);
+            setup.builder.filter(a, group_a, b, group_b).map_err(of_engine)
+        })
+    }
+
     /// The Interface of a movable group by its path or name. An empty path is the root.
     #[pyo3(signature = (object, path = ""))]
     fn interface(&self, object: ObjectRef<'_>, path: &str) -> PyResult<Interface> {

@@ -6,7 +6,7 @@ use super::stiffness;
 use crate::text::{count, number};
 use pong_engine::{Config, EngineError, SealReport, WorldBuilder, has_tester};
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{MovableGroup, printable};
+use pong_model::{Filters, MovableGroup, printable};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -22,13 +22,18 @@ pub(super) fn description(a: &Named, b: &Named) -> Result<String, Vec<String>> {
         false => format!("`{}` and `{}`: ", a.name, b.name),
     };
     text += &format!(
-        "{}, at most {}, contact state {} bytes\n",
+        "{}{}, at most {}, contact state {} bytes\n",
         count(report.group_pairs, "pair of movable groups", "pairs of movable groups"),
+        match report.filters {
+            0 => String::new(),
+            filters => format!(", filtered: {}", count(filters, "pair of groups", "pairs of groups")),
+        },
         count(report.contact_capacity, "contact", "contacts"),
         number(report.state_size as f64),
     );
+    let filters = if itself { a.model.filters_within() } else { Filters::default() };
     let group_pairs = group_pairs(a, b, itself);
-    for (kinds, pairs) in testers(&group_pairs) {
+    for (kinds, pairs) in testers(&group_pairs, &filters) {
         text += &format!(
             "  {}–{}: {}\n",
             kinds.0,
@@ -77,29 +82,40 @@ fn group_pairs<'m>(a: &'m Named, b: &'m Named, itself: bool) -> Vec<(&'m Movable
     pairs
 }
 
-/// Pairs of elements by pair of kinds, A's kind first.
-fn testers(group_pairs: &[(&MovableGroup, &MovableGroup)]) -> BTreeMap<(&'static str, &'static str), usize> {
+/// Pairs of elements by pair of kinds, A's kind first, without those that filters keep apart.
+fn testers(
+    group_pairs: &[(&MovableGroup, &MovableGroup)],
+    filters: &Filters,
+) -> BTreeMap<(&'static str, &'static str), usize> {
     let mut testers = BTreeMap::new();
     for (body_a, body_b) in group_pairs {
-        let (counts_a, counts_b) = (elements(body_a), elements(body_b));
-        for (kind_a, count_a) in &counts_a {
-            for (kind_b, count_b) in &counts_b {
+        let (counts_a, counts_b) = (elements(body_a, filters, 0), elements(body_b, filters, 1));
+        for ((kind_a, held_a), count_a) in &counts_a {
+            for ((kind_b, held_b), count_b) in &counts_b {
                 let named = match (has_tester(*kind_a, *kind_b), has_tester(*kind_b, *kind_a)) {
                     (true, _) => (kind_a.name(), kind_b.name()),
                     (_, true) => (kind_b.name(), kind_a.name()),
                     _ => continue,
                 };
-                *testers.entry(named).or_default() += count_a * count_b;
+                if !held_a.iter().any(|filter| held_b.contains(filter)) {
+                    *testers.entry(named).or_default() += count_a * count_b;
+                }
             }
         }
     }
     testers
 }
 
-fn elements(body: &MovableGroup) -> BTreeMap<PrimitiveKind, usize> {
+/// Elements by kind and by the filters that hold them.
+fn elements(
+    body: &MovableGroup,
+    filters: &Filters,
+    side: usize,
+) -> BTreeMap<(PrimitiveKind, Vec<usize>), usize> {
     let mut counts = BTreeMap::new();
     for item in &body.tree.items {
-        *counts.entry(body.primitives[item.primitive as usize].kind).or_default() += 1;
+        let info = &body.primitives[item.primitive as usize];
+        *counts.entry((info.kind, filters.that_hold(side, &info.path))).or_default() += 1;
     }
     counts
 }

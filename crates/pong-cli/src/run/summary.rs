@@ -25,8 +25,12 @@ pub(super) fn summary(built: &BuiltScene, statistics: &Statistics) -> String {
 
 fn heading(built: &BuiltScene, statistics: &Statistics) -> String {
     let simulation = &built.simulation;
+    let filters = match built.seal.filters {
+        0 => String::new(),
+        filters => format!(", filtered: {}", count(filters, "pair of groups", "pairs of groups")),
+    };
     format!(
-        "{}: t = {} s, step {} s, {:?}; {}, {}, at most {}\n",
+        "{}: t = {} s, step {} s, {:?}; {}, {}{filters}, at most {}\n",
         printable(&built.name),
         number(simulation.time()),
         number(simulation.step_length()),

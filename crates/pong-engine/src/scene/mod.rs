@@ -58,6 +58,14 @@ pub(crate) struct ObjectPair {
     pub b: usize,
 }
 
+/// Two groups, with everything below them, that never touch: of the Objects by their numbers, the lower first.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct GroupFilter {
+    pub objects: [usize; 2],
+    /// Full paths in their models.
+    pub groups: [String; 2],
+}
+
 /// The scene of a world: its models, Objects, pairs, laws and configuration, with their names and ids. A
 /// [`WorldBuilder`](crate::WorldBuilder) makes it; nothing changes it once the world is sealed.
 #[derive(Clone)]
@@ -71,6 +79,8 @@ pub struct Scene {
     pub(crate) objects: Vec<Object>,
     pub(crate) bodies: Vec<GroupInstance>,
     pub(crate) pairs: Vec<ObjectPair>,
+    /// Each once.
+    pub(crate) filters: Vec<GroupFilter>,
     /// Memory that the host wants to find left after the seal, for each pair of movable groups, bytes.
     pub(crate) room_per_pair: usize,
 }
@@ -87,6 +97,7 @@ impl Scene {
             objects: Vec::new(),
             bodies: Vec::new(),
             pairs: Vec::new(),
+            filters: Vec::new(),
             room_per_pair: 0,
         }
     }

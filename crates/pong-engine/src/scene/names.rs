@@ -1,6 +1,6 @@
 //! Names and ids: from one to the other, and to what they stand for.
 
-use super::{Scene, below_root};
+use super::{GroupFilter, Scene, below_root};
 use crate::energy::account::WrenchCoupling;
 use crate::error::EngineError;
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId};
@@ -45,6 +45,30 @@ impl Scene {
         let object = |index| ObjectId::new(self.stamp, index);
         let pairs = self.pairs.iter().enumerate();
         pairs.map(move |(index, pair)| (PairId::new(self.stamp, index), [object(pair.a), object(pair.b)]))
+    }
+
+    /// The filters that the builder was given: two Objects, and the full paths of the groups that never touch. Those of models
+    /// are not among them ([`Model::filters`]).
+    pub fn filters(&self) -> impl ExactSizeIterator<Item = ([ObjectId; 2], [&str; 2])> + '_ {
+        self.filters.iter().map(|GroupFilter { objects, groups: [a, b] }| {
+            (objects.map(|index| ObjectId::new(self.stamp, index)), [a.as_str(), b.as_str()])
+        })
+    }
+
+    /// The full path of a group of an Object, movable or not, from its full path (`root/arm/tip`), its path below the root
+    /// (`arm/tip`) or its bare name where only one group has it; of the root for an empty one.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an Object that this scene did not give out, [`EngineError::UnknownName`] for a name that
+    /// leads to no group.
+    pub fn group_path(&self, object: ObjectId, name: &str) -> Result<&str, EngineError> {
+        let object = &self.objects[self.object_index(object)?];
+        let model = &self.models[object.model];
+        model.group_path(name).ok_or_else(|| EngineError::UnknownName {
+            what: "group",
+            name: format!("{}/{name}", object.name),
+            known: model.groups.clone(),
+        })
     }
 
     /// The Object of a name.

@@ -1,5 +1,6 @@
 //! Sealing: which movable groups meet, what their surfaces make together, and how much must be remembered.
 
+mod filters;
 mod known_limits;
 mod limits;
 mod memory;
@@ -8,6 +9,7 @@ mod surfaces;
 mod testable;
 mod warnings;
 
+pub(crate) use filters::part_groups;
 pub use memory::{leave_room_for_small_things, require_memory};
 pub(crate) use surfaces::surface_tables;
 pub(crate) use testable::can_be_tested;
@@ -16,8 +18,9 @@ pub use warnings::{MetIn, SetupNote, SetupWarning};
 use crate::energy::account::WrenchCoupling;
 use crate::energy::contact::ContactEnergies;
 use crate::error::EngineError;
-use crate::scene::{ObjectPair, Scene};
+use crate::scene::{GroupFilter, ObjectPair, Scene};
 use crate::sealed::{GroupPair, NO_PLAN, Sealed, SurfaceTable};
+use filters::{drop_kept_apart, filter_count, filters_of_objects};
 use known_limits::known_limits;
 use limits::{limits, too_large, worst_case};
 use plan::plans;
@@ -28,7 +31,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use surfaces::friction_lost;
 pub(crate) use surfaces::law_state_len;
-use warnings::warnings;
+use warnings::{idle_filters, warnings};
 
 /// What sealing tells the host.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,12 +46,15 @@ pub struct SealReport {
     pub memory: usize,
     /// How every worker started: its core and priority, or why it has none.
     pub workers: Vec<WorkerStart>,
+    /// Pairs of groups that are kept apart by filters.
+    pub filters: usize,
     /// Pairs of kinds that meet but have no tester: they are ignored, as the author may intend.
     pub warnings: Vec<SetupWarning>,
     /// Names of the Objects of every pair in which nothing of one has a tester with anything of the other: the two pass
     /// through each other.
     pub untouchable_pairs: Vec<[String; 2]>,
-    /// Friction that one surface has and the other has not, and known limits of the contact model that the scene may meet.
+    /// Friction that one surface has and the other has not, known limits of the contact model that the scene may meet, and
+    /// filters that keep nothing apart.
     pub notes: Vec<SetupNote>,
 }
 
@@ -63,11 +69,13 @@ pub(crate) fn seal(
         for_pairs,
         "pair fewer Objects, or split the movable groups among Objects that need not all be paired",
     )?;
+    let filters = filters_of_objects(scene);
     let mut group_pairs = group_pairs(scene, pair_count);
+    drop_kept_apart(scene, &filters, &mut group_pairs);
     let volume_tests = VolumeTests::new(&scene.extensions);
     let mut problems = untestable_volumes(scene, &group_pairs, &volume_tests);
     let mut tables = Vec::new();
-    match surface_tables(scene, surfaces, &group_pairs) {
+    match surface_tables(scene, surfaces, &group_pairs, &filters) {
         Ok(made) => tables = made,
         Err(more) => problems.extend(more),
     }
@@ -103,10 +111,11 @@ pub(crate) fn seal(
         "ask for a smaller `contact_capacity` or fewer workers, or pair fewer Objects",
     )?;
     let sealed = Sealed {
-        plans: plans(scene, &mut group_pairs),
+        plans: plans(scene, &mut group_pairs, &filters),
         paired_bodies,
         rays_meet_groups: rays_meet_groups(scene, &group_pairs),
         group_pairs,
+        filters,
         limits,
         volume_tests,
         contact_capacity,
@@ -115,16 +124,21 @@ pub(crate) fn seal(
         coupling,
         hash,
     };
-    let (warnings, untouchable_pairs) = warnings(scene);
+    let (warnings, untouchable_pairs) = warnings(scene, &sealed.filters);
+    let notes = friction_lost(scene, surfaces, &tables)
+        .into_iter()
+        .chain(known_limits(scene))
+        .chain(idle_filters(scene));
     let report = SealReport {
         group_pairs: sealed.group_pairs.len(),
         contact_capacity,
         state_size: 0,
         memory: for_pairs.saturating_add(for_frames),
         workers: Vec::new(),
+        filters: filter_count(scene),
         warnings,
         untouchable_pairs,
-        notes: friction_lost(scene, surfaces, &tables).into_iter().chain(known_limits(scene)).collect(),
+        notes: notes.collect(),
     };
     Ok((sealed, tables, report))
 }
@@ -240,6 +254,10 @@ fn scene_hash(scene: &Scene, capacity: usize, law_state_len: usize) -> u64 {
     }
     for pair in &scene.pairs {
         text += &format!("pair {} {}\n", pair.a, pair.b);
+    }
+    let filters: BTreeSet<_> = scene.filters.iter().collect();
+    for GroupFilter { objects, groups } in filters {
+        text += &format!("filter {} {} {} {}\n", objects[0], groups[0], objects[1], groups[1]);
     }
     for law in scene.laws.names() {
         text += &format!("law {law}\n");

@@ -1,11 +1,14 @@
 //! What pairs of surfaces make together: combined once, when a scene is sealed or a surface is changed.
 
+use super::filters::{apart, representatives};
 use super::testable::{can_be_tested, kind_name};
 use super::warnings::SetupNote;
 use crate::law::{FrictionProps, PairProps, combine, friction_name};
 use crate::scene::Scene;
-use crate::sealed::{GroupPair, SurfaceTable};
-use pong_model::{FrictionLaw, Model, MovableGroup, PairOverride, Surface, pair_entries};
+use crate::sealed::{GroupPair, ObjectFilters, SurfaceTable};
+use pong_model::{
+    Filters, FrictionLaw, Model, MovableGroup, PairOverride, PrimitiveInfo, Surface, pair_entries,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Combines every pair of surfaces that can meet; all that cannot be combined are reported.
@@ -13,6 +16,7 @@ pub(crate) fn surface_tables(
     scene: &Scene,
     surfaces: &[Vec<Surface>],
     group_pairs: &[GroupPair],
+    filters: &ObjectFilters,
 ) -> Result<Vec<SurfaceTable>, Vec<String>> {
     let mut tables: Vec<SurfaceTable> = Vec::new();
     let (mut of_models, mut filled) = (BTreeMap::new(), BTreeSet::new());
@@ -20,8 +24,9 @@ pub(crate) fn surface_tables(
     for pair in group_pairs {
         for (a, b) in [(pair.first, pair.second), (pair.second, pair.first)] {
             let groups = [a, b].map(|body| scene.group_of_model(body));
+            let apart = filters.between(scene.bodies[a].object, scene.bodies[b].object);
             // One pair of instances speaks for all.
-            if !filled.insert(groups) {
+            if !filled.insert((groups, apart)) {
                 continue;
             }
             let [(model_a, _), (model_b, _)] = groups;
@@ -29,7 +34,8 @@ pub(crate) fn surface_tables(
                 tables.push(SurfaceTable::empty(model_a, model_b, surfaces));
                 tables.len() - 1
             });
-            fill_table((scene, surfaces), &mut tables[index], scene.body(a), scene.body(b), &mut problems);
+            let bodies = (scene.body(a), scene.body(b));
+            fill_table((scene, surfaces), &mut tables[index], bodies, apart, &mut problems);
         }
     }
     if problems.is_empty() { Ok(tables) } else { Err(problems.into_iter().collect()) }
@@ -38,23 +44,18 @@ pub(crate) fn surface_tables(
 fn fill_table(
     (scene, surfaces): (&Scene, &[Vec<Surface>]),
     table: &mut SurfaceTable,
-    body_a: &MovableGroup,
-    body_b: &MovableGroup,
+    (body_a, body_b): (&MovableGroup, &MovableGroup),
+    filters: Option<&Filters>,
     problems: &mut BTreeSet<String>,
 ) {
     // One representative per kind and surface: meshes of a thousand parts share a handful of them.
-    let distinct = |body: &MovableGroup| -> Vec<usize> {
-        let mut seen = BTreeSet::new();
-        (0..body.primitives.len())
-            .filter(|&i| {
-                let info = &body.primitives[i];
-                seen.insert((kind_name(body, info).to_owned(), info.surface))
-            })
-            .collect()
+    let distinct = |side: usize, body| {
+        let kind = |info: &PrimitiveInfo| (kind_name(body, info).to_owned(), info.surface);
+        representatives(filters, side, body, kind).collect::<Vec<_>>()
     };
-    let (in_a, in_b) = (distinct(body_a), distinct(body_b));
-    for info_a in in_a.iter().map(|&i| &body_a.primitives[i]) {
-        for info_b in in_b.iter().map(|&i| &body_b.primitives[i]) {
+    let (in_a, in_b) = (distinct(0, body_a), distinct(1, body_b));
+    for &info_a in &in_a {
+        for &info_b in in_b.iter().filter(|info_b| !apart(filters, info_a, info_b)) {
             let slot = info_a.surface as usize * table.columns + info_b.surface as usize;
             let met = can_be_tested(&scene.extensions, (body_a, info_a), (body_b, info_b));
             if !met || table.props[slot].is_some() {

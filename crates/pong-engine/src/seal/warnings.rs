@@ -1,10 +1,12 @@
 //! What sealing tells the author though the scene is valid.
 
+use super::filters::{apart, is_paired, representatives};
 use super::testable::{can_be_tested, kind_name};
 use crate::frame::narrow_phase::pair_table::has_tester;
-use crate::scene::{ObjectPair, Scene};
+use crate::scene::{GroupFilter, ObjectPair, Scene};
+use crate::sealed::ObjectFilters;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::MovableGroup;
+use pong_model::{Filters, PrimitiveInfo};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Something the author may not have intended.
@@ -101,6 +103,11 @@ pub enum SetupNote {
         /// What happens, how much, and the cure.
         limit: &'static str,
     },
+    /// A filter between Objects that are not paired.
+    IdleFilter {
+        /// `object/group` of the two.
+        groups: [String; 2],
+    },
 }
 
 impl std::fmt::Display for SetupNote {
@@ -115,19 +122,45 @@ impl std::fmt::Display for SetupNote {
                 let kinds: Vec<String> = kinds.iter().map(|[a, b]| format!("{a} on {b}")).collect();
                 write!(f, "models `{a}` and `{b}`, {}: {limit} (docs/theory.md, 6)", kinds.join(", "))
             }
+            Self::IdleFilter { groups: [a, b] } => write!(
+                f,
+                "filter of `{a}` and `{b}`: their Objects are not paired, so nothing of them touches; pair them or remove the \
+                 filter"
+            ),
         }
     }
 }
 
+/// Filters of Objects that are not paired.
+pub(super) fn idle_filters(scene: &Scene) -> Vec<SetupNote> {
+    let idle = scene.filters.iter().filter(|filter| !is_paired(scene, filter));
+    let name = |object: usize, group: &String| format!("{}/{group}", scene.objects[object].name);
+    idle.map(|GroupFilter { objects: [a, b], groups }| SetupNote::IdleFilter {
+        groups: [name(*a, &groups[0]), name(*b, &groups[1])],
+    })
+    .collect()
+}
+
+/// Two models in order, whether an Object meets itself, and the filters between the two Objects.
+type PairedModels<'f> = ([usize; 2], bool, Option<&'f Filters>);
+
+fn paired_models<'f>(
+    scene: &Scene,
+    pair: &ObjectPair,
+    filters: &'f ObjectFilters,
+) -> (PairedModels<'f>, [usize; 2]) {
+    let model = |object: usize| scene.objects[object].model;
+    let in_order = model(pair.a) <= model(pair.b);
+    let objects = if in_order { [pair.a, pair.b] } else { [pair.b, pair.a] };
+    ((objects.map(model), pair.a == pair.b, filters.between(objects[0], objects[1])), objects)
+}
+
 /// Everything about a scene that its author may not have intended: what two models do is told once, however many Objects
 /// are made of them. Beside it the pairs of Objects, by name, in which nothing can touch.
-pub(super) fn warnings(scene: &Scene) -> (Vec<SetupWarning>, Vec<[String; 2]>) {
-    let mut paired: BTreeMap<([usize; 2], bool), MetIn> = BTreeMap::new();
+pub(super) fn warnings(scene: &Scene, filters: &ObjectFilters) -> (Vec<SetupWarning>, Vec<[String; 2]>) {
+    let mut paired: BTreeMap<PairedModels<'_>, MetIn> = BTreeMap::new();
     for pair in &scene.pairs {
-        let models = [pair.a, pair.b].map(|object| scene.objects[object].model);
-        let in_order = models[0] <= models[1];
-        let (one, other) = if in_order { (pair.a, pair.b) } else { (pair.b, pair.a) };
-        let key = (if in_order { models } else { [models[1], models[0]] }, pair.a == pair.b);
+        let (key, [one, other]) = paired_models(scene, pair, filters);
         let objects = || [one, other].map(|object| scene.objects[object].name.clone());
         paired
             .entry(key)
@@ -135,24 +168,19 @@ pub(super) fn warnings(scene: &Scene) -> (Vec<SetupWarning>, Vec<[String; 2]>) {
             .or_insert_with(|| MetIn { objects: objects(), more: 0 });
     }
     let (mut found, mut untouchable) = (BTreeSet::new(), BTreeSet::new());
-    for (([first, second], itself), met) in paired {
+    for ((places @ [first, second], itself, apart), met) in paired {
         let models = [first, second].map(|model| scene.models[model].name.clone());
-        let (ignored, anything) = kinds_that_meet(scene, [first, second], itself);
+        let (ignored, anything) = kinds_that_meet(scene, places, itself, apart);
         for kinds in ignored {
             found.insert(SetupWarning::IgnoredPair { models: models.clone(), kinds, met: met.clone() });
         }
         if !anything {
-            let testable = testable(scene, [first, second]);
+            let testable = testable(scene, places);
             found.insert(SetupWarning::NothingToTest { models, met, testable });
-            untouchable.insert(([first, second], itself));
+            untouchable.insert((places, itself, apart));
         }
     }
-    let models = |pair: &ObjectPair| [pair.a, pair.b].map(|object| scene.objects[object].model);
-    let is_untouchable = |pair: &&ObjectPair| {
-        let mut models = models(pair);
-        models.sort_unstable();
-        untouchable.contains(&(models, pair.a == pair.b))
-    };
+    let is_untouchable = |pair: &&ObjectPair| untouchable.contains(&paired_models(scene, pair, filters).0);
     let names = |pair: &ObjectPair| [pair.a, pair.b].map(|object| scene.objects[object].name.clone());
     (found.into_iter().collect(), scene.pairs.iter().filter(is_untouchable).map(names).collect())
 }
@@ -174,30 +202,33 @@ fn testable(scene: &Scene, models: [usize; 2]) -> Vec<(String, Vec<String>)> {
 }
 
 /// Pairs of kinds without a tester in the movable groups of two models, and whether any two have one.
-fn kinds_that_meet(scene: &Scene, models: [usize; 2], itself: bool) -> (BTreeSet<[String; 2]>, bool) {
+fn kinds_that_meet(
+    scene: &Scene,
+    models: [usize; 2],
+    itself: bool,
+    filters: Option<&Filters>,
+) -> (BTreeSet<[String; 2]>, bool) {
     // One primitive of each kind.
-    let kinds = |body: &MovableGroup| -> BTreeMap<String, usize> {
-        let mut by_name = BTreeMap::new();
-        for (index, info) in body.primitives.iter().enumerate() {
-            by_name.entry(kind_name(body, info).to_owned()).or_insert(index);
-        }
-        by_name
+    let groups = |side: usize| {
+        let bodies = scene.models[models[side]].bodies.iter();
+        let kinds = |body| {
+            let kind = |info: &PrimitiveInfo| kind_name(body, info).to_owned();
+            (body, representatives(filters, side, body, kind).collect::<Vec<_>>())
+        };
+        bodies.map(kinds).collect::<Vec<_>>()
     };
-    let [first, second] = models.map(|model| {
-        let bodies = scene.models[model].bodies.iter();
-        bodies.map(|body| (body, kinds(body))).collect::<Vec<_>>()
-    });
+    let (first, second) = (groups(0), groups(1));
     let (mut ignored, mut anything) = (BTreeSet::new(), false);
     for (index, (body_a, kinds_a)) in first.iter().enumerate() {
         // A group never meets itself.
         for (body_b, kinds_b) in second.iter().skip(if itself { index + 1 } else { 0 }) {
-            for (name_a, a) in kinds_a {
-                for (name_b, b) in kinds_b {
-                    let (a, b) = ((*body_a, &body_a.primitives[*a]), (*body_b, &body_b.primitives[*b]));
+            for &a in kinds_a {
+                for &b in kinds_b.iter().filter(|b| !apart(filters, a, b)) {
+                    let (a, b) = ((*body_a, a), (*body_b, b));
                     if can_be_tested(&scene.extensions, a, b) || can_be_tested(&scene.extensions, b, a) {
                         anything = true;
                     } else {
-                        let mut kinds = [name_a.clone(), name_b.clone()];
+                        let mut kinds = [a, b].map(|(body, info)| kind_name(body, info).to_owned());
                         kinds.sort();
                         ignored.insert(kinds);
                     }

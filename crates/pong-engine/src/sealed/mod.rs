@@ -1,9 +1,11 @@
 //! What sealing makes of a scene: all that frames read and nothing changes.
 
+mod filters;
 mod limits;
 mod plan;
 mod surface_table;
 
+pub(crate) use filters::{LeafFilter, ObjectFilters};
 pub(crate) use limits::Limits;
 pub(crate) use plan::{Direction, Plan};
 pub(crate) use surface_table::SurfaceTable;
@@ -35,6 +37,8 @@ pub(crate) const NO_PLAN: u32 = u32::MAX;
 /// What sealing makes of a scene.
 pub(crate) struct Sealed {
     pub group_pairs: Vec<GroupPair>,
+    /// Groups that never touch.
+    pub filters: ObjectFilters,
     /// What is tested in the directions of those pairs.
     pub plans: Vec<Plan>,
     /// The movable groups of all pairs, each once.

@@ -1,5 +1,6 @@
 //! What is tested of one movable group against another.
 
+use super::LeafFilter;
 use pong_geometry::primitive::PrimitiveKind;
 
 /// One direction of a pair of movable groups.
@@ -11,7 +12,7 @@ pub(crate) struct Direction {
 }
 
 /// What of one movable group as A can touch what of another as B: the same for all pairs of the same two groups of
-/// models.
+/// models and filters.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     /// What an element of A of each kind may cost, ns, roughly; `None` for kinds that nothing of B can touch.
@@ -22,6 +23,8 @@ pub(crate) struct Plan {
     pub least_travel_m: f64,
     /// Greatest distance of anything of A from the origin of its movable group, m.
     pub reach_a_m: f64,
+    /// Leaves that are not tested against each other.
+    pub filter: Option<Box<LeafFilter>>,
 }
 
 impl Plan {
@@ -34,6 +37,16 @@ impl Plan {
     /// kind only with A in the Object that was named first; or by a registered test.
     pub fn tests(&self, kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
         self.touched[kind_a as usize] >> kind_b as u16 & 1 == 1
+    }
+
+    /// Whether a batch of A is tested against one of B, by their kinds and the groups that hold them.
+    pub fn tests_batches(
+        &self,
+        (a, kind_a): (usize, PrimitiveKind),
+        (b, kind_b): (usize, PrimitiveKind),
+    ) -> bool {
+        self.tests(kind_a, kind_b)
+            && !self.filter.as_ref().is_some_and(|filter| filter.keeps_batches_apart(a, b))
     }
 
     /// Whether anything of B can touch anything of A.

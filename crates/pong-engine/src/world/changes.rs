@@ -49,8 +49,13 @@ impl World {
     pub fn set_surface(&mut self, model: ModelId, surface: &Surface) -> Result<(), EngineError> {
         let model = self.scene.model_index(model)?;
         let before = self.surfaces.replace(model, surface)?;
-        let pairs = &self.runtime.sealed.group_pairs;
-        match seal::surface_tables(&self.scene, &self.surfaces.of_models, pairs) {
+        let sealed = &self.runtime.sealed;
+        match seal::surface_tables(
+            &self.scene,
+            &self.surfaces.of_models,
+            &sealed.group_pairs,
+            &sealed.filters,
+        ) {
             Ok(tables) => {
                 self.runtime.set_tables(tables);
                 Ok(())

@@ -40,7 +40,8 @@ impl World {
         }
         let scene = Scene { laws, ..Scene::clone(&self.scene) };
         let sealed = &self.runtime.sealed;
-        let tables = seal::surface_tables(&scene, &self.surfaces.of_models, &sealed.group_pairs)
+        let of_models = &self.surfaces.of_models;
+        let tables = seal::surface_tables(&scene, of_models, &sealed.group_pairs, &sealed.filters)
             .map_err(|problems| EngineError::Seal { problems })?;
         if seal::law_state_len(&tables) != sealed.law_state_len {
             return refused(

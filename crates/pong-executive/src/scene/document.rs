@@ -25,6 +25,9 @@ pub(crate) struct Document {
     /// Entries of `pairs` in which nothing can touch, on purpose.
     #[serde(default)]
     pub passes_through: Vec<(String, String)>,
+    /// Groups that never touch each other, `object/path`.
+    #[serde(default)]
+    pub filters: Vec<(String, String)>,
     #[serde(default, deserialize_with = "gravity")]
     pub gravity: Triple,
     #[serde(default)]

@@ -175,6 +175,7 @@ impl Scene {
         let loads = effects::loads(&setting, &bodies, &mut faults);
         let springs = effects::springs(&setting, &bodies, &mut faults);
         setting.pair(&mut faults);
+        setting.filter(&mut faults);
         setting.check_passes_through(&mut faults);
         let flush = flush::warnings(&setting, &bodies);
         let (sealed, mut made) = setting.seal(&mut faults);

@@ -135,6 +135,30 @@ impl<'a> Setting<'a> {
         }
     }
 
+    /// Keeps the groups of `filters` apart.
+    pub fn filter(&mut self, faults: &mut Faults<'_>) {
+        for (a, b) in &self.document.filters {
+            let thing = format!("filters/({a}, {b})");
+            let mut side = |name: &str| {
+                let (object, path) = name.split_once('/').unwrap_or((name, ""));
+                let found = self.document.objects.iter().position(|entry| entry.name == object);
+                if found.is_none() {
+                    let known: Vec<&str> =
+                        self.document.objects.iter().map(|entry| entry.name.as_str()).collect();
+                    let cure = format!("write `object/path of the group`; known: {}", known.join(", "));
+                    faults.note(&thing, format!("there is no object `{object}`"), cure);
+                }
+                // An object that could not be made has been told.
+                found.and_then(|index| self.objects[index]).map(|object| (object, path.to_owned()))
+            };
+            if let (Some((a, path_a)), Some((b, path_b))) = (side(a), side(b))
+                && let Err(error) = self.world.filter(a, &path_a, b, &path_b)
+            {
+                faults.note_line(&thing, &error.to_string());
+            }
+        }
+    }
+
     /// The sealed world, and what is left of the setting.
     pub fn seal(self, faults: &mut Faults<'_>) -> (Option<(World, SealReport)>, Made) {
         let Self { world, objects, model_files, warnings, .. } = self;

@@ -1,6 +1,7 @@
 //! The top level of a model file.
 
 use super::fields::Fields;
+use super::filters;
 use super::group::read_root;
 use super::place::GroupReader;
 use super::reader::Reader;
@@ -8,7 +9,8 @@ use super::surface;
 use crate::draft::{BodyDraft, ModelDraft};
 use crate::ron_tree::{Node, Value};
 
-const FIELDS: [&str; 7] = ["format", "version", "name", "entry_memory", "surfaces", "pairs", "root"];
+const FIELDS: [&str; 8] =
+    ["format", "version", "name", "entry_memory", "surfaces", "pairs", "filters", "root"];
 
 /// Reads the whole file; `None` only if it is no struct. Faults are with the reader.
 pub(crate) fn document(reader: &mut Reader<'_>, node: &Node) -> Option<ModelDraft> {
@@ -35,11 +37,16 @@ pub(crate) fn document(reader: &mut Reader<'_>, node: &Node) -> Option<ModelDraf
     if let Some(root) = fields.required(reader, "root") {
         read_root(&mut GroupReader { reader, surfaces: &surfaces, bodies: &mut bodies }, root);
     }
+    let filters = match fields.optional("filters") {
+        Some(node) => filters::filters(reader, node, &bodies),
+        None => Vec::new(),
+    };
     Some(ModelDraft {
         name: name.unwrap_or_default(),
         entry_memory: entry_memory.unwrap_or(true),
         surfaces,
         pair_overrides,
+        filters,
         bodies,
     })
 }

@@ -4,6 +4,7 @@ mod bristle;
 mod custom;
 mod document;
 mod fields;
+mod filters;
 mod group;
 mod inward;
 mod law_values;
@@ -22,5 +23,6 @@ mod suggest;
 mod surface;
 
 pub(crate) use document::document;
+pub(crate) use filters::group_paths;
 pub(crate) use mesh_primitive::{SLIVER, smallest_height_share};
 pub(crate) use reader::{LISTED_PER_MESH, Reader};

@@ -50,6 +50,10 @@ pub(super) fn world(log: &Log, options: &ReplayOptions<'_>) -> Result<(World, Ve
     for [a, b] in &run.pairs {
         builder.pair(objects[*a], objects[*b])?;
     }
+    for filter in &run.filters {
+        let ([a, b], [group_a, group_b]) = (filter.objects, &filter.groups);
+        builder.filter(objects[a], group_a, objects[b], group_b)?;
+    }
     let (world, _) = builder.seal()?;
     check(&world, log, options)?;
     Ok((world, models))

@@ -2,9 +2,9 @@
 
 use super::options::RecordOptions;
 use crate::format::{FORMAT, VERSION};
-use crate::run::{Run, RunAccounts, RunBody, RunModel, RunObject, RunPrimitive, RunTable};
+use crate::run::{Run, RunAccounts, RunBody, RunFilter, RunModel, RunObject, RunPrimitive, RunTable};
 use crate::table::{ContactRow, EnergyRow, FrameRow, Row, StateRow, WrenchRow};
-use pong_engine::{EngineError, World};
+use pong_engine::{EngineError, ObjectId, World};
 
 /// What run.json says as a log begins. `models` are the files of the models in the folder of the log.
 pub(crate) fn describe(
@@ -54,12 +54,21 @@ pub(crate) fn describe(
         objects,
         bodies,
         pairs: world.scene().pairs().map(|(_, pair)| pair.map(|object| object.index())).collect(),
+        filters: filters(world),
         primitives,
         tables: names.map(|name| (name.to_owned(), RunTable { file: file(name), rows: None })).collect(),
         finished: false,
         frames: None,
         lost: 0,
     })
+}
+
+fn filters(world: &World) -> Vec<RunFilter> {
+    let filter = |(objects, groups): ([ObjectId; 2], [&str; 2])| RunFilter {
+        objects: objects.map(|object| object.index()),
+        groups: groups.map(str::to_owned),
+    };
+    world.scene().filters().map(filter).collect()
 }
 
 /// The file of a table.

@@ -4,7 +4,7 @@ use super::shape::Shape;
 use pong_engine::{EngineError, World};
 use pong_geometry::Pose;
 use pong_model::Model;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A model: its hash and its name. Several files of a run may hold the same one.
 pub(crate) type Key = (u64, String);
@@ -41,6 +41,8 @@ pub(crate) fn testers(world: &World) -> BTreeMap<(String, String), usize> {
 pub(crate) struct Measure<'w> {
     bodies: Vec<Body<'w>>,
     pairs: Vec<Pair>,
+    /// Groups that filters name.
+    named: BTreeSet<(Key, String)>,
 }
 
 struct Body<'w> {
@@ -48,6 +50,8 @@ struct Body<'w> {
     /// Place among the movable groups of its model.
     index: usize,
     shapes: Vec<Shape<'w>>,
+    /// Path of each primitive.
+    paths: Vec<&'w str>,
     /// Least distance of each primitive so far, m.
     least: Vec<f64>,
 }
@@ -72,6 +76,7 @@ impl<'w> Measure<'w> {
                     key: key(model),
                     index,
                     shapes: (0..body.primitives.len()).map(|primitive| Shape::new(body, primitive)).collect(),
+                    paths: body.primitives.iter().map(|info| info.path.as_str()).collect(),
                     least: vec![f64::INFINITY; body.primitives.len()],
                 });
             }
@@ -90,7 +95,17 @@ impl<'w> Measure<'w> {
             }
             Pair { pair: pair.pair, bodies: groups, tested }
         });
-        Ok(Self { bodies, pairs: pairs.collect() })
+        let (pairs, mut named) = (pairs.collect(), BTreeSet::new());
+        for object in scene.objects() {
+            let model = scene.model_of(object)?;
+            named.extend(model.filters.iter().flatten().map(|group| (key(model), group.clone())));
+        }
+        for (objects, groups) in scene.filters() {
+            for (object, group) in objects.into_iter().zip(groups) {
+                named.insert((key(scene.model_of(object)?), group.to_owned()));
+            }
+        }
+        Ok(Self { bodies, pairs, named })
     }
 
     /// A frame of a world of the same Objects and pairs; its own models may be other copies.
@@ -124,6 +139,23 @@ impl<'w> Measure<'w> {
             let least = &mut model[body.index];
             least.resize(body.least.len(), f64::INFINITY);
             least.iter_mut().zip(&body.least).for_each(|(least, new)| *least = least.min(*new));
+        }
+        self.keep_named(nearness);
+    }
+
+    /// Has the nearest primitive of every group that a filter names stay, so that the name still leads somewhere.
+    fn keep_named(&self, nearness: &mut Nearness) {
+        for (model, group) in &self.named {
+            let below = format!("{group}/");
+            let of_model = self.bodies.iter().filter(|body| body.key == *model);
+            let primitives = of_model.flat_map(|body| {
+                let all = body.paths.iter().enumerate().filter(|(_, path)| path.starts_with(&below));
+                all.map(|(primitive, _)| (body.least[primitive], body.index, primitive))
+            });
+            let nearest = primitives.min_by(|a, b| a.0.total_cmp(&b.0));
+            if let (Some((_, body, primitive)), Some(least)) = (nearest, nearness.get_mut(model)) {
+                least[body][primitive] = 0.0;
+            }
         }
     }
 }

@@ -86,6 +86,11 @@ impl Layout<'_, '_> {
 
     fn visit_leaves(&mut self, node: u32) {
         let tree = &self.bodies.0.tree;
+        if let Some(filter) = &self.plan.filter
+            && filter.keeps_from_all(node)
+        {
+            return;
+        }
         let Node { volume, children, batches, .. } = &tree.nodes[node as usize];
         if !self.reaches_b(volume) {
             return;
@@ -225,6 +230,11 @@ pub(crate) fn batches_of_b<'a>(
         next += 1;
         for child in children {
             let below = &tree_b.nodes[child as usize];
+            if let Some(filter) = &plan.filter
+                && filter.keeps_apart(block.leaf, child)
+            {
+                continue;
+            }
             let meets = context.volume_tests.overlap_carried(&carried, &below.volume);
             if block.leads {
                 tallies.note(&below.volume, meets);

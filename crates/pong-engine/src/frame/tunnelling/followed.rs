@@ -42,11 +42,13 @@ impl<'a> Seen<'a> {
     /// Follows every place of every element of A that anything of B can touch.
     pub fn follow_lines(&self, plan: &Plan, events: &mut TunnellingEvents) {
         let (body_a, body_b) = (self.context.body_a, self.context.body_b);
-        for batch_a in body_a.tree.batches.iter().filter(|batch| plan.element_ns(batch.kind).is_some()) {
-            let meets = |batch: &&Batch| {
-                plan.tests(batch_a.kind, batch.kind) && travel::sweeps(self.context.motion, batch_a, batch)
+        let batches_a = body_a.tree.batches.iter().enumerate();
+        for (a, batch_a) in batches_a.filter(|(_, batch)| plan.element_ns(batch.kind).is_some()) {
+            let meets = |(b, batch): &(usize, &Batch)| {
+                plan.tests_batches((a, batch_a.kind), (*b, batch.kind))
+                    && travel::sweeps(self.context.motion, batch_a, batch)
             };
-            for batch_b in body_b.tree.batches.iter().filter(meets) {
+            for (_, batch_b) in body_b.tree.batches.iter().enumerate().filter(meets) {
                 for item in &body_a.tree.items[batch_a.items.start as usize..batch_a.items.end as usize] {
                     if swept::is_round(batch_b.kind) {
                         self.follow_axis(*item, batch_b, events);

@@ -1,0 +1,132 @@
+//! Groups that never touch: leaves that do not mix them with others, and the pairs of movable groups that are left.
+
+use crate::error::EngineError;
+use crate::scene::{GroupFilter, Scene};
+use crate::sealed::{GroupPair, LeafFilter, ObjectFilters};
+use pong_geometry::primitive::PrimitiveKind;
+use pong_model::{Filters, MovableGroup, PrimitiveInfo};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// Gives models whose leaves mix groups that are kept apart from something with others a finer tree.
+pub(crate) fn part_groups(scene: &mut Scene) -> Result<(), EngineError> {
+    let mut named: BTreeMap<usize, BTreeSet<String>> = BTreeMap::new();
+    for GroupFilter { objects, groups } in &scene.filters {
+        for (object, group) in objects.iter().zip(groups) {
+            named.entry(scene.objects[*object].model).or_default().insert(group.clone());
+        }
+    }
+    for pair in scene.pairs.iter().filter(|pair| pair.a == pair.b) {
+        let model = scene.objects[pair.a].model;
+        for group in scene.models[model].filters.iter().flatten() {
+            named.entry(model).or_default().insert(group.clone());
+        }
+    }
+    for (model, groups) in named {
+        let groups: Vec<&str> = groups.iter().map(String::as_str).collect();
+        let finer = scene.models[model].with_groups_apart(&groups, &scene.extensions);
+        if let Some(finer) = finer.map_err(|problem| EngineError::Seal { problems: vec![problem] })? {
+            scene.models[model] = Arc::new(finer);
+        }
+    }
+    Ok(())
+}
+
+/// Filters of all pairs of Objects, those of the models included.
+pub(super) fn filters_of_objects(scene: &Scene) -> ObjectFilters {
+    let mut of_pairs: BTreeMap<(usize, usize), Vec<[String; 2]>> = BTreeMap::new();
+    for pair in scene.pairs.iter().filter(|pair| pair.a == pair.b) {
+        let model = &scene.models[scene.objects[pair.a].model];
+        if !model.filters.is_empty() {
+            of_pairs.insert((pair.a, pair.b), model.filters_within().pairs().to_vec());
+        }
+    }
+    for GroupFilter { objects: [a, b], groups: [of_a, of_b] } in &scene.filters {
+        let entries = of_pairs.entry((*a, *b)).or_default();
+        entries.push([of_a.clone(), of_b.clone()]);
+        if a == b {
+            entries.push([of_b.clone(), of_a.clone()]);
+        }
+    }
+    ObjectFilters::new(of_pairs.into_iter().map(|(objects, pairs)| (objects, Filters::new(pairs))))
+}
+
+/// Leaves out the pairs of movable groups of which nothing may touch.
+pub(super) fn drop_kept_apart(scene: &Scene, filters: &ObjectFilters, group_pairs: &mut Vec<GroupPair>) {
+    group_pairs.retain(|pair| {
+        let bodies = [pair.first, pair.second];
+        let [a, b] = bodies.map(|body| scene.bodies[body].object);
+        let filter =
+            filters.between(a, b).map(|all| LeafFilter::new(all, bodies.map(|body| scene.body(body))));
+        !filter.is_some_and(|filter| filter.keeps_all_apart())
+    });
+}
+
+/// How many filters keep groups of paired Objects apart; one of a model counts for each Object that is paired with itself.
+pub(super) fn filter_count(scene: &Scene) -> usize {
+    let of_models = scene.pairs.iter().filter(|pair| pair.a == pair.b);
+    let of_models = of_models.map(|pair| scene.models[scene.objects[pair.a].model].filters.len());
+    of_models.sum::<usize>() + scene.filters.iter().filter(|filter| is_paired(scene, filter)).count()
+}
+
+/// Whether the Objects of a filter are paired.
+pub(super) fn is_paired(scene: &Scene, filter: &GroupFilter) -> bool {
+    scene.pairs.iter().any(|pair| [pair.a.min(pair.b), pair.a.max(pair.b)] == filter.objects)
+}
+
+/// One primitive of a movable group for every value of `kind` and, under filters, of every set of entries that hold it.
+pub(super) fn representatives<'m, K: Ord>(
+    filters: Option<&Filters>,
+    side: usize,
+    body: &'m MovableGroup,
+    kind: impl Fn(&PrimitiveInfo) -> K,
+) -> impl Iterator<Item = &'m PrimitiveInfo> {
+    let mut seen = BTreeSet::new();
+    body.primitives.iter().filter(move |info| {
+        let held = filters.map(|filters| filters.that_hold(side, &info.path));
+        seen.insert((kind(info), held.unwrap_or_default()))
+    })
+}
+
+/// Whether filters keep two primitives apart.
+pub(super) fn apart(filters: Option<&Filters>, a: &PrimitiveInfo, b: &PrimitiveInfo) -> bool {
+    filters.is_some_and(|filters| filters.keep_apart(&a.path, &b.path))
+}
+
+/// The shapes of a movable group without the primitives that are kept from all of another.
+pub(super) fn shapes_that_meet(
+    filters: &Filters,
+    body: &MovableGroup,
+    side: usize,
+    other: &MovableGroup,
+) -> MovableGroup {
+    let others: Vec<&PrimitiveInfo> = representatives(Some(filters), 1 - side, other, |_| ()).collect();
+    let meets = |info: &&PrimitiveInfo| {
+        others.iter().any(|other| match side {
+            0 => !filters.keep_apart(&info.path, &other.path),
+            _ => !filters.keep_apart(&other.path, &info.path),
+        })
+    };
+    let kept: Vec<PrimitiveInfo> = body.primitives.iter().filter(meets).cloned().collect();
+    let of = |kinds: &[PrimitiveKind]| -> Vec<usize> {
+        let infos = kept.iter().filter(|info| kinds.contains(&info.kind));
+        infos.flat_map(|info| info.elements.start as usize..info.elements.end as usize).collect()
+    };
+    fn pick<T: Clone>(all: &[T], of: Vec<usize>) -> Vec<T> {
+        of.into_iter().map(|element| all[element].clone()).collect()
+    }
+    MovableGroup {
+        points: pick(&body.points, of(&[PrimitiveKind::Point])),
+        segments: pick(&body.segments, of(&[PrimitiveKind::LineSegment])),
+        rays: pick(&body.rays, of(&[PrimitiveKind::Ray])),
+        spheres: pick(&body.spheres, of(&[PrimitiveKind::Sphere])),
+        ellipsoids: pick(&body.ellipsoids, of(&[PrimitiveKind::Ellipsoid])),
+        polyhedra: pick(&body.polyhedra, of(&[PrimitiveKind::Polyhedron])),
+        planes: pick(&body.planes, of(&[PrimitiveKind::Plane])),
+        capsules: pick(&body.capsules, of(&[PrimitiveKind::Capsule])),
+        frusta: pick(&body.frusta, of(&[PrimitiveKind::Cylinder, PrimitiveKind::Cone])),
+        bores: pick(&body.bores, of(&[PrimitiveKind::Bore])),
+        primitives: kept,
+        ..MovableGroup::default()
+    }
+}

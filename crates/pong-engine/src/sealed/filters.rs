@@ -1,0 +1,126 @@
+//! Groups that never touch, as frames look them up.
+
+use pong_model::{Filters, MovableGroup};
+use std::collections::BTreeMap;
+
+/// Filters of the pairs of Objects that have any, by the two Objects in both orders.
+#[derive(Default)]
+pub(crate) struct ObjectFilters(BTreeMap<(usize, usize), Filters>);
+
+impl ObjectFilters {
+    /// Filters of the pairs of Objects; those without entries are left out.
+    pub fn new(of_pairs: impl IntoIterator<Item = ((usize, usize), Filters)>) -> Self {
+        let mut all = BTreeMap::new();
+        for ((a, b), filters) in of_pairs.into_iter().filter(|(_, filters)| !filters.is_empty()) {
+            all.insert((b, a), filters.turned());
+            all.insert((a, b), filters);
+        }
+        Self(all)
+    }
+
+    /// Filters between two Objects, the first Object's groups first; `None` if there are none.
+    #[inline]
+    pub fn between(&self, a: usize, b: usize) -> Option<&Filters> {
+        // As a rule there are none at all.
+        if self.0.is_empty() { None } else { self.0.get(&(a, b)) }
+    }
+}
+
+/// Which leaves of A's tree are not tested against which of B's.
+#[derive(Clone, Debug)]
+pub(crate) struct LeafFilter {
+    /// Classes of the nodes of A's and B's trees; [`MIXED`] above leaves of several classes.
+    nodes: [Vec<u16>; 2],
+    /// Classes of their batches.
+    batches: [Vec<u16>; 2],
+    /// By the class of A and of B, row after row: whether they are kept apart.
+    apart: Vec<bool>,
+    /// Classes of B.
+    columns: usize,
+}
+
+/// In place of a class: leaves of several classes are below.
+const MIXED: u16 = u16::MAX;
+
+impl LeafFilter {
+    /// The filter between two movable groups whose leaves lie as a whole inside or outside each group that is named.
+    pub fn new(filters: &Filters, bodies: [&MovableGroup; 2]) -> Self {
+        let classes = [0, 1].map(|side| Classes::new(filters, side, bodies[side]));
+        let [a, b] = &classes;
+        let mut apart = vec![false; a.known.len() * b.known.len()];
+        for (of_a, row) in &a.known {
+            for (of_b, column) in &b.known {
+                let is_common = of_a.iter().any(|entry| of_b.contains(entry));
+                apart[*row as usize * b.known.len() + *column as usize] = is_common;
+            }
+        }
+        let columns = b.known.len();
+        let batches = [0, 1].map(|side| {
+            let nodes = bodies[side].tree.nodes.iter().zip(&classes[side].nodes);
+            let mut of_batches = vec![MIXED; bodies[side].tree.batches.len()];
+            nodes.for_each(|(node, class)| {
+                of_batches[node.batches.start as usize..node.batches.end as usize].fill(*class);
+            });
+            of_batches
+        });
+        Self { nodes: classes.map(|classes| classes.nodes), batches, apart, columns }
+    }
+
+    /// Whether everything of A below a node is kept from everything of B below another.
+    pub fn keeps_apart(&self, node_a: u32, node_b: u32) -> bool {
+        self.of_classes(self.nodes[0][node_a as usize], self.nodes[1][node_b as usize])
+    }
+
+    /// The same of two batches.
+    pub fn keeps_batches_apart(&self, batch_a: usize, batch_b: usize) -> bool {
+        self.of_classes(self.batches[0][batch_a], self.batches[1][batch_b])
+    }
+
+    /// Whether everything of A below a node is kept from all of B.
+    pub fn keeps_from_all(&self, node_a: u32) -> bool {
+        let row = usize::from(self.nodes[0][node_a as usize]) * self.columns;
+        self.apart.get(row..row + self.columns).is_some_and(|row| !row.contains(&false))
+    }
+
+    /// Whether nothing of A may touch anything of B.
+    pub fn keeps_all_apart(&self) -> bool {
+        !self.apart.contains(&false)
+    }
+
+    fn of_classes(&self, a: u16, b: u16) -> bool {
+        a != MIXED && b != MIXED && self.apart[usize::from(a) * self.columns + usize::from(b)]
+    }
+}
+
+/// Leaves by the entries of the filters that hold them.
+struct Classes {
+    known: BTreeMap<Vec<usize>, u16>,
+    nodes: Vec<u16>,
+}
+
+impl Classes {
+    fn new(filters: &Filters, side: usize, body: &MovableGroup) -> Self {
+        let mut classes = Self { known: BTreeMap::new(), nodes: vec![MIXED; body.tree.nodes.len()] };
+        classes.visit(filters, side, body, 0);
+        classes
+    }
+
+    /// The class of a node and all below it.
+    fn visit(&mut self, filters: &Filters, side: usize, body: &MovableGroup, node: u32) -> u16 {
+        let of = &body.tree.nodes[node as usize];
+        let class = if of.children.is_empty() {
+            let first = body.tree.items[of.items.start as usize..of.items.end as usize].first();
+            let path = first.map_or("", |item| &body.primitives[item.primitive as usize].path);
+            // Groups lie in each other or apart, so there are no more classes than entries, of which few are allowed.
+            let next = self.known.len() as u16;
+            *self.known.entry(filters.that_hold(side, path)).or_insert(next)
+        } else {
+            let mut below = of.children.clone().map(|child| self.visit(filters, side, body, child));
+            let first = below.next().unwrap_or(MIXED);
+            // All are visited.
+            below.fold(first, |class, other| if class == other { class } else { MIXED })
+        };
+        self.nodes[node as usize] = class;
+        class
+    }
+}
