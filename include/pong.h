@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0x5f1b17ea640b4b50ULL
+#define PONG_LAYOUT_HASH 0x64447afe740eca53ULL
 
 /// Whether this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -453,10 +453,8 @@ typedef struct pong_seal_report {
     double stable_step;
     /// The step up to which the scene is surely stable, whatever touches at once, s; likewise.
     double surely_stable_step;
-    /// Pairs of groups that filters keep apart: see pong_filter_groups().
-    uint64_t filters;
     /// Zero in this version.
-    uint64_t reserved[3];
+    uint64_t reserved[4];
 } pong_seal_report;
 
 /// One side of a contact.

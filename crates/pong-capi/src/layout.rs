@@ -64,7 +64,7 @@ layouts! {
     pong_friction_output { force_b, stored, sticks, reserved }
     pong_seal_report {
         group_pairs, contact_capacity, contact_state_size, warning_count, workers, note_count, stable_step,
-        surely_stable_step, filters, reserved,
+        surely_stable_step, reserved,
     }
     pong_mass { mass, inertia, mass_center }
     pong_joints { inverse_inertia, spring_rate, damper_rate, mechanism, reserved }

@@ -30,10 +30,8 @@ pub struct pong_seal_report {
     pub stable_step: f64,
     /// The step up to which the scene is surely stable, whatever touches at once, s; likewise.
     pub surely_stable_step: f64,
-    /// Pairs of groups that filters keep apart: see pong_filter_groups().
-    pub filters: u64,
     /// Zero in this version.
-    pub reserved: [u64; 3],
+    pub reserved: [u64; 4],
 }
 
 /// Ends set-up: checks that everything that may meet can be tested and combined, sizes all memory of the frames and
@@ -65,8 +63,7 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
             note_count: inner.seal_notes.len() as u64,
             stable_step: step.as_ref().map_or(0.0, StepReport::stable_step),
             surely_stable_step: step.as_ref().map_or(0.0, StepReport::surely_stable_step),
-            filters: sealed.filters as u64,
-            reserved: [0; 3],
+            reserved: [0; 4],
         });
         Ok(())
     })
