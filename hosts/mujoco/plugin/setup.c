@@ -108,23 +108,30 @@ static entry pair_at(const contact_config *config, size_t index)
     return both;
 }
 
-/* Keeps two groups apart, each `Object` or `Object/path`; the texts are cut at the first `/`. */
-static int add_filter(contact_world *w, entry *groups, message *why)
+/* The Object and the path below it of a text `Object` or `Object/path`. */
+static int find_group(contact_world *w, const char *text, pong_object_id *object, const char **path)
 {
-    char *sides[2], *paths[2];
+    const char *slash = strchr(text, '/');
+    size_t length = slash != NULL ? (size_t)(slash - text) : strlen(text);
+    char *name = malloc(length + 1);
+    pong_status found;
+    if (name == NULL)
+        return 0;
+    memcpy(name, text, length);
+    name[length] = '\0';
+    found = pong_find_object(w->world, name, object);
+    free(name);
+    *path = slash != NULL ? slash + 1 : "";
+    return found == PONG_STATUS_OK;
+}
+
+/* Keeps two groups apart. */
+static int add_filter(contact_world *w, const entry *groups, message *why)
+{
+    const char *paths[2];
     pong_object_id objects[2];
-    int i;
-    sides[0] = groups->first;
-    sides[1] = groups->second;
-    for (i = 0; i < 2; i++) {
-        paths[i] = strchr(sides[i], '/');
-        if (paths[i] != NULL)
-            *paths[i]++ = '\0';
-        if (pong_find_object(w->world, sides[i], &objects[i]) != PONG_STATUS_OK)
-            return fail_by_library(why, "key `filters`");
-    }
-    if (pong_filter_groups(w->world, objects[0], paths[0] != NULL ? paths[0] : "", objects[1],
-                           paths[1] != NULL ? paths[1] : "") != PONG_STATUS_OK)
+    if (!find_group(w, groups->first, &objects[0], &paths[0]) || !find_group(w, groups->second, &objects[1], &paths[1]) ||
+        pong_filter_groups(w->world, objects[0], paths[0], objects[1], paths[1]) != PONG_STATUS_OK)
         return fail_by_library(why, "key `filters`");
     return 1;
 }
