@@ -278,6 +278,22 @@ fn faults_of_pairs() {
 }
 
 #[test]
+fn faults_of_filters() {
+    let model = |filters: &str| {
+        format!(
+            "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{ \"s\": (stiffness: 1) }}, filters: [{filters}],\n\
+             root: (name: \"root\", surface: \"s\", groups: [\n\
+             (name: \"lugs\", primitives: [Point(name: \"p\", position: (0,0,0))]),\n\
+             (name: \"arm\", movable: true, primitives: [Point(name: \"q\", position: (0,0,0))])]))"
+        )
+    };
+    refused("unknown-group", "filters[0]", &model("(\n/*!*/\"lugz\", \"arm\")"));
+    refused("wrong-type", "filters[0]", &model("\n/*!*/\"lugs\""));
+    refused("idle-filter", "filters[0]", &model("\n/*!*/(\"lugs\", \"root/lugs\")"));
+    refused("repeated-filter", "filters[1]", &model("(\"lugs\", \"arm\"),\n/*!*/(\"arm\", \"lugs\")"));
+}
+
+#[test]
 fn faults_of_groups() {
     let p = "Point(name: \"p\", position: (0,0,0))";
     root("missing-field", "root", &format!("/*!*/(surface: \"s\", primitives: [{p}])"));
@@ -604,7 +620,9 @@ fn rules_of_the_source() -> BTreeSet<String> {
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).expect("the source") {
             let path = entry.expect("an entry").path();
-            if path.is_dir() {
+            if path.is_dir() && path.ends_with("mesh_formats") {
+                // A model tells these as `mesh-file-damaged`; docs/importing.md has them.
+            } else if path.is_dir() {
                 folders.push(path);
             } else if path.file_name().is_some_and(|name| name != "tests.rs") {
                 rules.extend(rules_of(&std::fs::read_to_string(path).expect("text")));
@@ -625,7 +643,11 @@ fn rules_of(source: &str) -> Vec<String> {
         let hyphened = text.contains('-') && !text.starts_with('-') && !text.ends_with('-');
         (hyphened && text.chars().all(|c| c.is_ascii_lowercase() || c == '-')) || single.contains(text)
     };
-    quoted.filter(is_rule).filter(|text| *text != "pong-model").map(str::to_owned).collect()
+    quoted
+        .filter(is_rule)
+        .filter(|text| !["pong-model", "pong-scene"].contains(text))
+        .map(str::to_owned)
+        .collect()
 }
 
 /// One fault of a primitive does not hide the next.
