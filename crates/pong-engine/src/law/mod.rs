@@ -20,7 +20,18 @@ pub use props::{CombineError, FrictionProps, NormalProps, PairProps};
 /// Normal force of a contact of weight `w`, N, never negative.
 pub(crate) fn normal_force(props: &PairProps, w: f64, depth: f64, rate: f64) -> f64 {
     let k = props.stiffness;
+    // The default law goes first: a choice among all is a jump by table for every contact.
     let force = match &props.normal {
+        NormalProps::Linear { damping, ramp } => linear::force(k, *damping, *ramp, depth, rate),
+        other => force_of_other_law(other, k, depth, rate),
+    };
+    (w * force).max(0.0)
+}
+
+/// Force of a law that is not `Linear`, N, with the weight 1; below zero where it would pull.
+#[inline(never)]
+fn force_of_other_law(law: &NormalProps, k: f64, depth: f64, rate: f64) -> f64 {
+    match law {
         NormalProps::Linear { damping, ramp } => linear::force(k, *damping, *ramp, depth, rate),
         NormalProps::HuntCrossley { dissipation, exponent } => {
             hunt_crossley::force(k, *dissipation, *exponent, depth, rate)
@@ -32,8 +43,7 @@ pub(crate) fn normal_force(props: &PairProps, w: f64, depth: f64, rate: f64) -> 
         NormalProps::Custom { law, parameters } => {
             law.force(&NormalInput { depth, rate, stiffness: k, parameters })
         }
-    };
-    (w * force).max(0.0)
+    }
 }
 
 /// How the normal force of a contact changes with its depth and with the rate of that.
