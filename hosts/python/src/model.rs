@@ -187,8 +187,10 @@ fn plain_value<'py>(
             .then(|| value.clone())
             .ok_or_else(|| refused(thing, value, "give a name"));
     }
-    // Only a stiffness may be left to the engine, or be infinite.
-    if thing.ends_with("friction: stiffness") && value.is_none() {
+    // A bristle's stiffness and damping may be left to the engine; only a stiffness may be infinite.
+    let may_be_left_out =
+        ["friction: stiffness", "friction: damping"].iter().any(|name| thing.ends_with(name));
+    if may_be_left_out && value.is_none() {
         return Ok(value.clone());
     }
     if value.extract::<f64>().is_ok_and(|number| number == f64::INFINITY) && thing.ends_with("stiffness") {
