@@ -38,7 +38,7 @@ pub struct Joints {
 pub struct SpringRates {
     /// A bound of the largest eigenvalue of M⁻¹·K of the springs on the group, 1/s² ([`spring_rates`](crate::spring_rates)).
     pub stiffness: f64,
-    /// The same of M⁻¹·C of the dampers, 1/s.
+    /// Bound of the largest eigenvalue of M⁻¹·C of the dampers, 1/s.
     pub damping: f64,
 }
 

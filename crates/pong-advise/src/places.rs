@@ -17,7 +17,7 @@ pub(crate) struct Compliance {
 }
 
 impl Compliance {
-    /// Of two bodies in contact.
+    /// Compliance of two bodies in contact.
     pub fn plus(self, other: Self) -> Self {
         Self {
             normal: self.normal + other.normal,
@@ -26,7 +26,7 @@ impl Compliance {
         }
     }
 
-    /// Of two places the worse, each value by itself.
+    /// The worse of two places, each value by itself.
     pub fn or_larger(self, other: Self) -> Self {
         Self {
             normal: self.normal.max(other.normal),
@@ -38,7 +38,7 @@ impl Compliance {
 
 pub(crate) type Compliances = BTreeMap<(PrimitiveKind, u32), Compliance>;
 
-/// Of all primitives of a body, by kind and surface.
+/// Compliance at all primitives of a body, by kind and surface.
 pub(crate) fn compliances(body: &MovableGroup, mobility: &Mobility) -> Compliances {
     let mut all = Compliances::new();
     for (index, info) in body.primitives.iter().enumerate() {
@@ -48,7 +48,7 @@ pub(crate) fn compliances(body: &MovableGroup, mobility: &Mobility) -> Complianc
     all
 }
 
-/// Of a place within a radius of a point through which the normal passes.
+/// Compliance at a place within a radius of a point through which the normal passes.
 fn round(mobility: &Mobility, center: &pong_geometry::Vec3, radius: f64) -> Compliance {
     let (normal, along) = (mobility.compliance(center), mobility.compliance_around(center, radius));
     Compliance { normal, along, is_unbounded: false }

@@ -39,9 +39,9 @@ pub(crate) struct Setting<'w> {
     pub scene: Inspection<'w>,
     /// Of every movable group, where it is known.
     pub masses: Vec<Option<GroupMass>>,
-    /// Of every movable group that yields and whose mass is known.
+    /// Mobility of every movable group that yields and whose mass is known.
     pub mobilities: Vec<Option<Mobility>>,
-    /// Of every movable group, by kind and surface of its primitives.
+    /// Compliance of every movable group, by kind and surface of its primitives.
     compliances: Vec<Compliances>,
 }
 
@@ -75,7 +75,7 @@ impl<'w> Setting<'w> {
         self.masses[body].as_ref()?.joints.as_ref()
     }
 
-    /// What springs of the host do to a group, and to all that shares joints with it.
+    /// Rates of the host's springs on a group and on all that shares joints with it.
     pub(crate) fn springs_on(&self, body: usize) -> SpringRates {
         let mut sum = SpringRates::default();
         for rates in self.mechanism_of(body).iter().filter_map(|other| Some(self.masses[*other]?.springs)) {
@@ -190,7 +190,7 @@ impl<'w> Setting<'w> {
         met
     }
 
-    /// Of two bodies that touch anywhere: the sum of both; twice that if a push on one moves the other.
+    /// Compliance of two bodies that touch anywhere: the sum of both; twice that if a push on one moves the other.
     fn compliance(
         &self,
         (a, info_a): (usize, &PrimitiveInfo),

@@ -9,7 +9,7 @@ use pong_engine::{EngineError, NormalProps, PairProps, World};
 use pong_model::Exponent;
 use std::collections::BTreeMap;
 
-/// What the contacts of two movable groups store.
+/// Energy that the contacts of two movable groups store.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoredEnergy {
     /// The two movable groups: indices of their Interfaces.
@@ -26,7 +26,7 @@ pub struct StoredEnergy {
     pub not_known: usize,
 }
 
-/// What the contacts of the last frame store, of every pair of movable groups in contact. Bristles are left out.
+/// Energy stored by the contacts of the last frame, for every pair of movable groups in contact. Bristles are left out.
 ///
 /// # Errors
 /// A world that has no frame yet.

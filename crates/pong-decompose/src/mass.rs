@@ -11,7 +11,7 @@ use std::path::Path;
 pub enum Mass {
     /// kg/m³.
     Density(f64),
-    /// Of all solids together, kg.
+    /// Mass of all solids together, kg.
     Total(f64),
 }
 
@@ -24,7 +24,7 @@ pub struct MassProperties {
     pub triangles: usize,
     /// Closed solids, cavities not counted.
     pub solids: usize,
-    /// Of all solids, without cavities, m³.
+    /// Volume of all solids, without cavities, m³.
     pub volume_m3: f64,
     /// kg.
     pub mass_kg: f64,

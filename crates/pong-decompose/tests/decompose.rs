@@ -427,7 +427,7 @@ fn boxes_have_their_mass_center_and_inertia() {
     assert_inertia(&found.inertia, &(tensor * 2.0 + apart), 1e-13);
 }
 
-/// Of a tetrahedron on the axes ∫x² = 1/60 and ∫xy = 1/120, and its centre is at a quarter.
+/// A tetrahedron on the axes has ∫x² = 1/60 and ∫xy = 1/120, and its centre is at a quarter.
 #[test]
 fn a_tetrahedron_has_its_products_of_inertia() {
     let [o, x, y, z] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

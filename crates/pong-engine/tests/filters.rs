@@ -161,7 +161,7 @@ fn nested_groups_of_one_object_are_kept_apart_by_its_model_or_by_the_host() {
     assert!(filters == 2 && none.iter().all(|&bits| f64::from_bits(bits) == 0.0));
 }
 
-/// What flies through a filtered group went through nothing.
+/// A flight through a filtered group is no tunnelling.
 #[test]
 fn filtered_groups_raise_no_tunnelling_event_and_combine_no_surfaces() {
     let wall = "(format: \"pong-model\", version: 1, name: \"wall\", surfaces: { \"w\": (stiffness: inf) }, root: (name: \"wall\",

@@ -13,7 +13,7 @@ pub enum ExecutiveError {
     Invalid {
         /// The thing.
         what: String,
-        /// What is wrong with it.
+        /// The fault of its state.
         cause: String,
         /// What to give instead.
         cure: String,

@@ -15,7 +15,7 @@ pub fn longest_stable_step(integrator: Integrator, k: f64, c: f64, m: f64) -> f6
     pong_advise::longest_stable_step(integrator.coupling(), k, c, m)
 }
 
-/// What the adviser must know of a body; springs are left out.
+/// Mass properties of a body as the adviser takes them; springs are left out.
 pub fn group_mass(body: &RigidBody) -> GroupMass {
     match &body.motion {
         Motion::Free(mass) => of_free(mass),
@@ -33,7 +33,7 @@ fn of_free(mass: &MassProperties) -> GroupMass {
 }
 
 impl System {
-    /// What the adviser must know of every body, with the springs as they are stretched now.
+    /// Mass properties of every body for the adviser, with the springs as they are stretched now.
     pub(crate) fn masses_on_springs(&self, integrator: Integrator) -> Vec<GroupMass> {
         let mut masses: Vec<GroupMass> = self.bodies.iter().map(group_mass).collect();
         let springs: Vec<HostSpring> = self.springs.iter().map(|spring| self.host_spring(spring)).collect();

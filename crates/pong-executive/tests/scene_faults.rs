@@ -142,7 +142,7 @@ fn faults_of_notation_are_told_with_their_place() {
     assert!(missing.contains("none.ron: scene: ") && missing.contains("name a scene file"), "{missing}");
 }
 
-/// What authors write who know the notation of other tools: the message names the field and shows how it is written.
+/// A field in the notation of other tools: the message names the field and shows how it is written.
 #[test]
 fn a_field_of_another_notation_is_named_with_its_own() {
     let folder = folder("fields");

@@ -194,7 +194,7 @@ fn saved_states_go_on_to_the_same_bits_in_both_kinds() {
     }
 }
 
-/// What contact gives the body in a communication step is its mean force times the step: the momentum that is not gravity's.
+/// The momentum from contact in a communication step is the mean force times the step: the momentum that is not gravity's.
 /// The wrench of the instant misses a bounce that begins and ends within the step.
 #[test]
 fn mean_forces_are_momentum_over_the_step() {

@@ -58,7 +58,7 @@ pub(crate) fn refused(thing: &str, given: &Bound<'_, PyAny>, cure: &str) -> PyEr
     bad_value(thing, format!("got {}", described(given)), cure)
 }
 
-/// What was given, in words: type and shape of an array, the beginning of anything else.
+/// Given value in words: type and shape of an array, the beginning of anything else.
 pub(crate) fn described(given: &Bound<'_, PyAny>) -> String {
     let attribute = |name: &str| Some(given.getattr(name).ok()?.str().ok()?.to_string());
     if let (Some(dtype), Some(shape)) = (attribute("dtype"), attribute("shape")) {

@@ -1,4 +1,4 @@
-//! What is there twice and pushes twice: points on ends of segments, primitives in one place, flat faces in one plane.
+//! Geometry that is there twice and pushes twice: points on ends of segments, primitives in one place, flat faces in one plane.
 
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Pose, Vec3};

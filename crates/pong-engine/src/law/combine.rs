@@ -548,7 +548,7 @@ mod tests {
         }
     }
 
-    /// What an entry gives goes first, then the two surfaces' bristles, then the normal law of the pair.
+    /// Values of an entry go first, then the two surfaces' bristles, then the normal law of the pair.
     #[test]
     fn an_entry_that_gives_no_damping_keeps_the_damping_ratio() {
         let entry = |stiffness, normal, k_t| PairOverride {

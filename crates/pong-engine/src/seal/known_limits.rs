@@ -16,7 +16,7 @@ struct KnownLimit {
     b: &'static [PrimitiveKind],
     /// Whether the primitives of two movable groups are such that it may show.
     may_show: fn(&MovableGroup, &MovableGroup) -> bool,
-    /// What happens, how much, and the cure.
+    /// Effect, size and cure.
     text: &'static str,
 }
 

@@ -100,7 +100,7 @@ pub enum SetupNote {
         models: [String; 2],
         /// Names of the kinds on both sides, in the order of the models.
         kinds: Vec<[&'static str; 2]>,
-        /// What happens, how much, and the cure.
+        /// Effect, size and cure.
         limit: &'static str,
     },
     /// A filter between Objects that are not paired.

@@ -26,7 +26,7 @@ impl ObjectFilters {
     }
 }
 
-/// Which leaves of A's tree are not tested against which of B's.
+/// Leaves of A's tree that are not tested against leaves of B's.
 #[derive(Clone, Debug)]
 pub(crate) struct LeafFilter {
     /// Classes of the nodes of A's and B's trees; [`MIXED`] above leaves of several classes.
@@ -71,7 +71,7 @@ impl LeafFilter {
         self.of_classes(self.nodes[0][node_a as usize], self.nodes[1][node_b as usize])
     }
 
-    /// The same of two batches.
+    /// Whether two batches are kept apart.
     pub fn keeps_batches_apart(&self, batch_a: usize, batch_b: usize) -> bool {
         self.of_classes(self.batches[0][batch_a], self.batches[1][batch_b])
     }

@@ -56,7 +56,7 @@ pub struct Simulation {
     work_in: f64,
     /// Work of contact on the bodies, J, where it is evaluated at stages.
     contact_work: Option<f64>,
-    /// What the energies of the motion are held against; `None` until the next step if something was changed.
+    /// Reference of the energies of the motion; `None` until the next step if something was changed.
     reference: Option<Reference>,
 }
 

@@ -1,8 +1,8 @@
-//! What a motion is held against to find energy from nowhere.
+//! Reference energies of a motion, to find energy from nowhere.
 
 use crate::energy::Energy;
 
-/// What a motion is held against.
+/// Reference energies of a motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reference {
     pub energy: Energy,

@@ -82,7 +82,7 @@ impl Simulation {
         Ok(pong_advise::step_report_with(self.world(), plan, &touching, &others)?)
     }
 
-    /// What the contacts of the present instant leave of a step, with the springs of the scene
+    /// The step that the contacts of the present instant leave, with the springs of the scene
     /// ([`pong_advise::acting_report`]).
     ///
     /// # Errors

@@ -13,7 +13,7 @@ const MOST_CORNERS: usize = 10_000;
 /// Heights above a plane that count as none, in sizes of an outline.
 const FLAT: f64 = 1e-6;
 
-/// What was filled.
+/// Figures of the filled holes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Closed {
     pub(crate) holes: usize,

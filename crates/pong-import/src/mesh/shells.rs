@@ -16,7 +16,7 @@ pub struct Shell {
     pub against: Vec<u32>,
 }
 
-/// What `turn_outward` did.
+/// Outcome of `turn_outward`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Turned {
     /// Triangles that ran against their neighbours.

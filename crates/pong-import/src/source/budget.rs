@@ -5,7 +5,7 @@ use crate::findings::Findings;
 /// Bytes of the paths of all nodes, unless the file is as long: each path repeats the names of the nodes above.
 const PATH_BYTES: usize = 64 << 20;
 
-/// What a file may still make.
+/// Remaining budget of a file.
 pub(super) struct Budget {
     corners: usize,
     path_bytes: usize,

@@ -11,7 +11,7 @@ use crate::surface::{FrictionLaw, Surface};
 /// Values that stand beside a friction law.
 #[derive(Clone, Copy)]
 pub(super) struct Beside<'n> {
-    /// Of the surface or pair; `None` if an entry of `pairs` gives none.
+    /// Stiffness of the surface or pair; `None` if an entry of `pairs` gives none.
     pub(super) stiffness: Option<f64>,
     /// The normal law as it is written.
     pub(super) normal: Option<&'n Node>,

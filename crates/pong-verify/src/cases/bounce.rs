@@ -52,7 +52,7 @@ fn restitutions(
     restitutions_of(duo, (MASS, SPEED), method, phases)
 }
 
-/// The same of a point of so much mass (kg) at a speed (m/s).
+/// Bounce of a point of so much mass (kg) at a speed (m/s).
 pub(super) fn restitutions_of(
     duo: impl Fn() -> Result<Duo, Failure>,
     (mass, speed): (f64, f64),

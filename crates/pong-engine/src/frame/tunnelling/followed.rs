@@ -117,7 +117,7 @@ impl<'a> Seen<'a> {
         }
     }
 
-    /// What a line did to an element of B.
+    /// Outcome of a line for an element of B.
     fn met(&self, item_a: Item, line: &Line, kind_b: PrimitiveKind, item_b: Item) -> Option<Met> {
         let body = self.context.body_b;
         match kind_b {
