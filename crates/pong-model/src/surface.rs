@@ -119,7 +119,8 @@ impl NormalLaw {
     /// damping ratio of the linear law on every mass. A rigid surface and the other laws have no such ratio, which leaves 0.
     pub fn bristle_damping(&self, k: f64, k_t: f64) -> f64 {
         match self {
-            Self::Linear { damping, .. } if k.is_finite() => damping * (k_t / k).sqrt(),
+            // Finite on both sides: a compiler may divide before it asks for k, and ∞/∞ traps.
+            Self::Linear { damping, .. } if k.is_finite() => damping * (k_t.min(f64::MAX) / k.min(f64::MAX)).sqrt(),
             _ => 0.0,
         }
     }

@@ -2,7 +2,10 @@
 
 use super::session::{Session, Sure};
 use crate::count;
-use pong::contacts::{pong_contact, pong_contact_count, pong_get_contact_stiffness, pong_get_contacts};
+use pong::contacts::{
+    pong_contact, pong_contact_count, pong_find_standing_groups, pong_get_contact_stiffness,
+    pong_get_contacts,
+};
 use pong::frames::{pong_commit, pong_commit_pairs, pong_evaluate, pong_step};
 use pong::ids::{pong_interface_id, pong_pair_id};
 use pong::report::{pong_get_ledger, pong_get_report, pong_ledger, pong_report};
@@ -14,7 +17,7 @@ const LARGEST: f64 = 1e100;
 
 impl Session<'_> {
     pub fn call_of_a_frame(&mut self) {
-        match self.input.below(17) {
+        match self.input.below(18) {
             0..=3 => self.move_one(),
             4 => self.set_many(),
             5 => self.set_any(),
@@ -26,6 +29,7 @@ impl Session<'_> {
             13 => self.contacts(),
             14 => self.report(),
             15 => self.accounts(),
+            16 => self.standing_groups(),
             _ => self.get_state(),
         }
     }
@@ -209,6 +213,23 @@ impl Session<'_> {
         let sure = sure.only_if(frame == 0 || frame == 1);
         if self.call("get wrench", sure, || unsafe { pong_get_wrench(world, id, frame, place.pointer) }) {
             finite(place.get().force.iter().chain(&place.get().moment), "wrench");
+        }
+    }
+
+    fn standing_groups(&mut self) {
+        let (world, known) = self.world();
+        let step = self.input.number();
+        let mut groups = [pong_interface_id { bits: 0 }; 4];
+        let capacity = self.input.below(5);
+        let place = self.place::<usize>();
+        let sure = known.and(place.sure).and(Sure::Unknown);
+        if self.call("standing groups", sure, || unsafe {
+            pong_find_standing_groups(world, step, groups.as_mut_ptr(), capacity, place.pointer)
+        }) {
+            let found = place.get();
+            assert!(found <= capacity, "{found} standing groups where {capacity} fit");
+            let known = self.host().expect("it has a world").ids.interfaces.clone();
+            assert!(groups[..found].iter().all(|group| known.contains(group)), "an unknown group stands");
         }
     }
 

@@ -11,7 +11,7 @@ use pong::interfaces::pong_list_interfaces;
 use pong::laws::{pong_register_friction_law, pong_register_normal_law};
 use pong::models::{pong_allow_files_below, pong_load_model, pong_load_model_text};
 use pong::objects::pong_create_object;
-use pong::pairs::{pong_pair_by_name, pong_pair_objects};
+use pong::pairs::{pong_filter_groups, pong_pair_by_name, pong_pair_objects};
 use pong::seal::{pong_seal, pong_seal_note, pong_seal_report, pong_seal_warning};
 use pong::version::{pong_check_abi, pong_layout_hash};
 use pong::world::{pong_create_world, pong_destroy_world};
@@ -29,6 +29,8 @@ const OWN_LAWS: usize = 2;
 const FAULTY: usize = 4;
 /// Names of Objects.
 pub const OBJECTS: [&str; 5] = ["a", "b", "c", "a/b", ""];
+/// Groups of the models by path, by name and not at all.
+const GROUPS: [&str; 6] = ["", "ball/latch", "latch", "shell", "ball/shell", "nope"];
 /// Names of laws; the first two are those of the model.
 const LAWS: [&str; 4] = ["force", "friction", "other", ""];
 /// Models, Objects and pairs of one world: more would only be slow.
@@ -93,12 +95,13 @@ impl Session<'_> {
     }
 
     pub fn set_up(&mut self) {
-        match self.input.below(9) {
+        match self.input.below(10) {
             0 => self.create_any(),
             1 => self.register(),
             2 | 3 => self.load(),
             4 | 5 => self.create_any_object(),
             6 => self.pair(),
+            9 => self.filter(),
             7 => self.seal_any(),
             _ => self.seal_warning(),
         }
@@ -349,6 +352,19 @@ impl Session<'_> {
         if done && !place.pointer.is_null() {
             self.host().expect("it has a world").ids.pairs.push(place.get());
         }
+    }
+
+    /// Keeps two groups apart, known or not.
+    fn filter(&mut self) {
+        let (world, known) = self.world();
+        let sealed = self.host().is_none_or(|host| host.sealed);
+        let [a, b] = [0; 2].map(|_| self.id(|ids| &ids.objects, |bits| pong_object_id { bits }));
+        let [group_a, group_b] = [0; 2].map(|_| self.text(&GROUPS));
+        let sure =
+            known.and(a.1).and(b.1).and(group_a.sure).and(group_b.sure).and(Sure::Unknown).only_if(!sealed);
+        self.call("filter groups", sure, || unsafe {
+            pong_filter_groups(world, a.0, group_a.pointer(), b.0, group_b.pointer())
+        });
     }
 
     fn seal_any(&mut self) {

@@ -3,7 +3,8 @@
 use super::session::{Session, Sure};
 use pong::ids::pong_interface_id;
 use pong::step_plan::{
-    pong_check_step, pong_default_step_plan, pong_mass, pong_plan_step, pong_set_mass, pong_step_check,
+    pong_check_step, pong_default_step_plan, pong_joints, pong_mass, pong_plan_step, pong_set_joints,
+    pong_set_mass, pong_step_check,
 };
 
 impl Session<'_> {
@@ -43,6 +44,8 @@ impl Session<'_> {
         let pointer = if nothing { std::ptr::null() } else { std::ptr::from_ref(&mass) };
         self.call("set mass", sure.only_if(!nothing), || unsafe { pong_set_mass(world, interface, pointer) });
 
+        self.joints();
+
         let mut plan = pong_default_step_plan();
         plan.step = self.input.number();
         plan.wrench_coupling = self.input.one_of(&[0, 1, 2, 3, 3, 4, u32::MAX]);
@@ -71,5 +74,34 @@ impl Session<'_> {
             let numbers = [acting.stable_step, acting.stiffness_rate, acting.damping_rate];
             assert!(numbers.into_iter().all(|x| x >= 0.0), "what acts: {acting:?}");
         }
+    }
+
+    /// Joints of any group: symmetric or not, with springs or without.
+    fn joints(&mut self) {
+        let (world, known) = self.world();
+        let (interface, good) = self.id(|ids| &ids.interfaces, |bits| pong_interface_id { bits });
+        let mut inverse_inertia = [0.0; 36];
+        for row in 0..6 {
+            inverse_inertia[7 * row] = 0.5;
+        }
+        if self.input.chance(128) {
+            let index = self.input.byte() as usize % 36;
+            inverse_inertia[index] = self.input.number();
+        }
+        let joints = pong_joints {
+            inverse_inertia,
+            spring_rate: self.input.number(),
+            damper_rate: self.input.number(),
+            mechanism: self.input.one_of(&[0, 1, u32::MAX]),
+            reserved: u32::from(self.input.chance(16)),
+        };
+        let fit = [joints.spring_rate, joints.damper_rate]
+            .iter()
+            .chain(&joints.inverse_inertia)
+            .all(|x| x.is_finite());
+        let nothing = self.input.chance(4);
+        let pointer = if nothing { std::ptr::null() } else { std::ptr::from_ref(&joints) };
+        let sure = known.and(good).and(Sure::Unknown).only_if(fit && !nothing && joints.reserved == 0);
+        self.call("set joints", sure, || unsafe { pong_set_joints(world, interface, pointer) });
     }
 }
