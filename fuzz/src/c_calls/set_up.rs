@@ -101,8 +101,8 @@ impl Session<'_> {
             2 | 3 => self.load(),
             4 | 5 => self.create_any_object(),
             6 => self.pair(),
-            9 => self.filter(),
             7 => self.seal_any(),
+            8 => self.filter(),
             _ => self.seal_warning(),
         }
     }
