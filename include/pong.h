@@ -12,7 +12,7 @@
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
 #define PONG_LAYOUT_HASH 0x64447afe740eca53ULL
 
-/// Whether this header fits the library: call it first.
+/// Checks that this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
 
 /// Number of the binary interface: the N of libpong.so.N.
@@ -39,12 +39,12 @@
 /// The frame had more contacts than the world's capacity: the deepest were kept.
 #define PONG_FLAG_CONTACT_LIMIT 1
 
-/// More contacts of one ball with one surface than could be shared exactly: the deepest were.
+/// One ball had more contacts with one surface than could be shared exactly: the deepest were shared.
 #define PONG_FLAG_LOAD_SHARING_LIMIT 2
 
-/// Something went right through something else since the last commit, or came out on the far side of what pushed it back:
-/// a contact was missed. Shorter frames, a thicker wall or a stiffer surface cure it; before a jump that is meant, call
-/// pong_clear_contact_history().
+/// A contact was missed: something passed right through something else since the last commit, or came out on
+/// the far side of what pushed it back. Remedy: shorter frames, a thicker wall or a stiffer surface. Before
+/// an intended jump call pong_clear_contact_history().
 #define PONG_FLAG_TUNNELLED 4
 
 /// `stage_ns` of states in and relative motion.
@@ -71,7 +71,7 @@
 /// `work_ns` of contact tests.
 #define PONG_WORK_NARROW_PHASE 1
 
-/// `work_ns` of which contacts count, and their weights.
+/// `work_ns` of load sharing: which contacts count, and their weights.
 #define PONG_WORK_LOAD_SHARING 2
 
 /// `work_ns` of normal and friction forces.
@@ -95,10 +95,10 @@
 /// The configuration did not ask for it.
 #define PONG_GRANT_NOT_ASKED 0
 
-/// It is so.
+/// It was asked for and granted.
 #define PONG_GRANT_GRANTED 1
 
-/// It was asked for and refused; pong_worker_text() tells why.
+/// It was asked for and refused; pong_worker_text() has the reason.
 #define PONG_GRANT_REFUSED 2
 
 /// F = k d + c d', with a ramp.
@@ -110,10 +110,10 @@
 /// F = k d^(3/2) (1 + chi d').
 #define PONG_NORMAL_HUNT_CROSSLEY_HERTZ 2
 
-/// A law of the user's; its parameters stay as the model gives them.
+/// A law given by callback; its parameters stay as the model gives them.
 #define PONG_NORMAL_CUSTOM 3
 
-/// That of the surface it meets: of a rigid surface that names none. It stays rigid.
+/// Law of the surface it meets, for a rigid surface that names none. It stays rigid.
 #define PONG_NORMAL_INHERITED 4
 
 /// F = k d + c d^q d', with the q of the model file.
@@ -131,22 +131,22 @@
 /// Regularised Coulomb friction.
 #define PONG_FRICTION_COULOMB 2
 
-/// A law of the user's; its parameters stay as the model gives them.
+/// A law given by callback; its parameters stay as the model gives them.
 #define PONG_FRICTION_CUSTOM 3
 
-/// That of the surface it meets: of a rigid surface that names none. It stays rigid.
+/// Law of the surface it meets, for a rigid surface that names none. It stays rigid.
 #define PONG_FRICTION_INHERITED 4
 
-/// `when_full`: frames for which there is no room are left out of the log, whole, counted and marked.
+/// `when_full`: frames for which there is no room are left out of the log as a whole, counted and marked.
 #define PONG_LOG_DROP 0
 
-/// `when_full`: pong_log_frame() waits until there is room: for runs that nobody watches.
+/// `when_full`: pong_log_frame() waits until there is room: for unattended runs.
 #define PONG_LOG_WAIT 1
 
-/// What became of a call. The numbers never change and are never used again for something else.
+/// Outcome of a call. The numbers never change and are never used again for something else.
 ///
-/// A call that fails has changed nothing that a later frame can see; pong_last_message() tells the thing, the cause
-/// and what to do.
+/// A call that fails has changed nothing that a later frame can see; pong_last_message() names the thing, the
+/// cause and the remedy.
 enum pong_status
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t
@@ -175,7 +175,7 @@ enum pong_status
     PONG_STATUS_BAD_VALUE = 9,
     /// The bytes are not a contact state of this world.
     PONG_STATUS_BAD_STATE_BLOCK = 10,
-    /// The caller's buffer is too small; the message tells the size that is needed.
+    /// The caller's buffer is too small; the message has the required size.
     PONG_STATUS_BUFFER_TOO_SMALL = 11,
     /// The model has faults; the message has one line for each.
     PONG_STATUS_MODEL_ERROR = 12,
@@ -190,10 +190,10 @@ enum pong_status
     PONG_STATUS_LAW_FAILED = 16,
     /// A response log cannot be written; the message names file and cause.
     PONG_STATUS_LOG_FAILED = 17,
-    /// The world is destroyed, but a worker had not ended after a second because the system does not run it. It ends by
-    /// itself; until then `user` pointers of laws must live, and the library must not be unloaded.
+    /// The world is destroyed, but a worker had not ended after a second because the system does not run it.
+    /// It ends by itself; until then `user` pointers of laws must live, and the library must not be unloaded.
     PONG_STATUS_WORKER_LEFT = 18,
-    /// The system does not give the memory that set-up asks for; the message tells how much.
+    /// The system does not give the memory that set-up asks for; the message has its size.
     PONG_STATUS_OUT_OF_MEMORY = 19,
 };
 #ifndef __cplusplus
@@ -239,10 +239,10 @@ typedef struct pong_config {
     /// How long the calling thread waits for a worker that has begun a part of the frame and does not finish it, us;
     /// then it does that work again by itself. 1000 by default, 1 to 1000000.
     uint32_t worker_timeout_us;
-    /// 1 binds each worker to a core of its own; 0 by default. The calling thread stays as it is: bind it to the
-    /// first core of its mask, which the workers leave free. What became of it: pong_get_worker().
+    /// 1 binds each worker to a core of its own; 0 by default. The calling thread stays as it is: bind it to
+    /// the first core of its mask, which the workers leave free. Outcome: pong_get_worker().
     uint32_t pin_workers;
-    /// Ask for SCHED_FIFO with this priority, 1 to 99, for the workers; 0 (default) does not ask. What became of it:
+    /// SCHED_FIFO priority to ask for, 1 to 99, for the workers; 0 (default) does not ask. Outcome:
     /// pong_get_worker().
     uint32_t fifo_priority;
     /// With pin_workers: the cores of the workers, bit n for core n, the lowest for the first worker. They may be
@@ -279,7 +279,7 @@ typedef struct pong_interface_id {
     uint64_t bits;
 } pong_interface_id;
 
-/// In which frame a wrench is expressed: PONG_REFERENCE_FRAME_GROUP or PONG_REFERENCE_FRAME_COMMON.
+/// Frame in which a wrench is expressed: PONG_REFERENCE_FRAME_GROUP or PONG_REFERENCE_FRAME_COMMON.
 typedef int32_t pong_reference_frame;
 
 /// Wrench that the contacts put on a movable group. The moment is about the group's origin in either frame.
@@ -290,7 +290,7 @@ typedef struct pong_wrench {
     double moment[3];
 } pong_wrench;
 
-/// What a normal force law is given.
+/// Input of a normal force law.
 typedef struct pong_normal_input {
     /// Depth, m; positive.
     double depth;
@@ -300,21 +300,22 @@ typedef struct pong_normal_input {
     double stiffness;
     /// The law's parameters as the model gives them; valid during the call.
     const double *parameters;
-    /// How many there are.
+    /// Number of parameters.
     size_t parameter_count;
 } pong_normal_input;
 
 /// A normal force law, or the energy it stores: returns N, or J. See pong_register_normal_law().
 typedef double (*pong_normal_law)(const struct pong_normal_input *input, void *user);
 
-/// What a friction law is given. Vectors are expressed in the frame of B's movable group and lie in the present
+/// Input of a friction law. Vectors are expressed in the frame of B's movable group and lie in the present
 /// contact plane.
 typedef struct pong_friction_input {
     /// Present normal force, N; positive.
     double normal_force;
     /// Unit normal, from B to A.
     double normal_b[3];
-    /// Tangential displacement of A against B since the last commit, m; in the step a contact is born, since the touch.
+    /// Tangential displacement of A against B since the last commit, m; in the step in which a contact
+    /// begins, since the touch.
     double slip_b[3];
     /// Tangential velocity of A against B, m/s.
     double slip_velocity_b[3];
@@ -324,7 +325,7 @@ typedef struct pong_friction_input {
     double stiffness;
     /// The law's parameters as the model gives them; valid during the call.
     const double *parameters;
-    /// How many there are.
+    /// Number of parameters.
     size_t parameter_count;
     /// 1 if the contact stuck at the last commit or is new, else 0.
     int32_t stuck;
@@ -332,7 +333,7 @@ typedef struct pong_friction_input {
     int32_t reserved;
 } pong_friction_input;
 
-/// What a friction law answers. It is all zero when the law is called.
+/// Output of a friction law. It is all zero when the law is called.
 typedef struct pong_friction_output {
     /// Force on A, N, in the frame of B's movable group. A part along the normal is removed.
     double force_b[3];
@@ -340,7 +341,7 @@ typedef struct pong_friction_output {
     double stored;
     /// 1 if the contact sticks, 0 if it slips.
     int32_t sticks;
-    /// Leave it.
+    /// Leave it zero.
     int32_t reserved;
 } pong_friction_output;
 
@@ -352,8 +353,8 @@ typedef void (*pong_friction_law)(const struct pong_friction_input *input,
                                   struct pong_friction_output *output,
                                   void *user);
 
-/// A model of a world. Zero is none. Ids are plain numbers: copy, compare and store them freely. An id of another
-/// world, of one that was destroyed too, is told and refused.
+/// A model of a world. Zero is none. Ids are plain numbers: copy, compare and store them freely. An id of
+/// another world, or of a destroyed one, is recognised and refused.
 typedef struct pong_model_id {
     /// Do not build it yourself.
     uint64_t bits;
@@ -383,10 +384,10 @@ typedef struct pong_step_plan {
     /// Speed at which things touch, m/s; 0 (default) if it is not known. Laws whose stiffness or damping follows the
     /// depth are judged at the depth that this speed makes.
     double closing_speed;
-    /// How near the depth of a bounce must come to its closed form, a fraction of it; 0.05 by default. 0 in both
-    /// accuracies: warn of contacts that gain energy alone.
+    /// Largest relative error of the depth of a bounce against its closed form; 0.05 by default. 0 in both
+    /// accuracies: warn only of contacts that gain energy.
     double depth_within;
-    /// How near the rebound of a bounce must come to its closed form, a fraction of it; 0.02 by default.
+    /// Largest relative error of the rebound of a bounce against its closed form; 0.02 by default.
     double rebound_within;
     /// Zero.
     uint64_t reserved[4];
@@ -396,45 +397,47 @@ typedef struct pong_step_plan {
 typedef struct pong_mass {
     /// Mass, kg; INFINITY for a group that does not yield (fixed, or on a prescribed path).
     double mass;
-    /// Inertia about the mass centre along the axes of the group frame, kg m^2: Ixx, Iyy, Izz, Ixy, Ixz, Iyz, the
-    /// products those of the tensor itself (Ixy = minus the integral of x y dm). All zero if it is not known: lever
-    /// arms are then left out.
+    /// Inertia about the mass centre along the axes of the group frame, kg m^2: Ixx, Iyy, Izz, Ixy, Ixz, Iyz,
+    /// the products as elements of the tensor itself (Ixy = minus the integral of x y dm). All zero if it is
+    /// not known: lever arms are then left out.
     double inertia[6];
     /// The mass centre in the group frame, m.
     double mass_center[3];
 } pong_mass;
 
-/// How a movable group on joints answers a wrench at one pose of its mechanism, for the step adviser alone. Make it with zeros
-/// and set what is known.
+/// Response of a movable group on joints to a wrench at one pose of its mechanism, for the step adviser
+/// alone. Make it with zeros and set what is known.
 typedef struct pong_joints {
     /// Acceleration (linear of the group's origin, then angular) per wrench (force, then moment about the origin), by rows,
     /// along the axes of the group frame: J M^-1 J^T of a mechanism with the mass matrix M.
     double inverse_inertia[36];
-    /// A bound of the largest eigenvalue of M^-1 K of the host's springs on the mechanism, 1/s^2; 0 without springs.
+    /// Upper bound of the largest eigenvalue of M^-1 K of the host's springs on the mechanism, 1/s^2; 0
+    /// without springs.
     double spring_rate;
-    /// The same of M^-1 C of its dampers, 1/s.
+    /// Upper bound of the largest eigenvalue of M^-1 C of the host's dampers on the mechanism, 1/s; 0 without
+    /// dampers.
     double damper_rate;
-    /// Groups of one number share joints: a push on one moves the others.
+    /// Groups with the same number share joints: a push on one moves the others.
     uint32_t mechanism;
     /// Zero.
     uint32_t reserved;
 } pong_joints;
 
-/// What the contacts of one frame leave of the planned step.
+/// Stability of the contacts of one frame at the planned step.
 typedef struct pong_step_check {
-    /// Contacts that push something that yields.
+    /// Contacts with at least one movable body that yields.
     uint64_t contacts;
     /// Contacts whose masses or laws are not known.
     uint64_t not_judged;
     /// The longest step at which they are surely stable together, s; 0 if there is none, infinite if nothing acts.
     double stable_step;
-    /// Stiffness over mass of the stiffest way to move, 1/s^2: the square of its frequency in rad/s.
+    /// Stiffness over mass of the stiffest mode, 1/s^2: the square of its frequency in rad/s.
     double stiffness_rate;
-    /// Damping over mass of the most damped way to move, 1/s.
+    /// Damping over mass of the most damped mode, 1/s.
     double damping_rate;
 } pong_step_check;
 
-/// What sealing tells.
+/// Result of sealing.
 typedef struct pong_seal_report {
     /// Pairs of movable groups that will be tested.
     uint64_t group_pairs;
@@ -442,16 +445,17 @@ typedef struct pong_seal_report {
     uint64_t contact_capacity;
     /// Size of the largest contact state that can be saved, bytes.
     uint64_t contact_state_size;
-    /// How many warnings there are: see pong_seal_warning().
+    /// Number of warnings: see pong_seal_warning().
     uint64_t warning_count;
     /// Workers that were started, which may be fewer than the configuration asks for: see pong_get_worker().
     uint64_t workers;
-    /// How many notes there are: see pong_seal_note().
+    /// Number of notes: see pong_seal_note().
     uint64_t note_count;
     /// The longest step at which no contact by itself gains energy, s; infinite if nothing that yields can be touched, 0
     /// if no step is stable or none was planned (pong_plan_step()).
     double stable_step;
-    /// The step up to which the scene is surely stable, whatever touches at once, s; likewise.
+    /// The step up to which the scene is surely stable for any set of simultaneous contacts, s; infinite or 0
+    /// as above.
     double surely_stable_step;
     /// Zero in this version.
     uint64_t reserved[4];
@@ -480,15 +484,15 @@ typedef struct pong_contact {
     struct pong_contact_side a;
     /// Side B.
     struct pong_contact_side b;
-    /// What of B pushes: PONG_FEATURE_FACE, PONG_FEATURE_EDGE or PONG_FEATURE_VERTEX.
+    /// Feature of B that pushes: PONG_FEATURE_FACE, PONG_FEATURE_EDGE or PONG_FEATURE_VERTEX.
     uint32_t feature_kind;
-    /// Which one of its kind.
+    /// Index of that feature among those of its kind.
     uint32_t feature_index;
-    /// Of a body with two ends: 0 and 1 at its ends, 2 and above between them; 0 otherwise.
+    /// End of an elongated body: 0 and 1 at its ends, 2 and above between them; 0 for other bodies.
     uint32_t end;
     /// 1 if friction sticks, 0 if it slips.
     int32_t sticks;
-    /// Where the force acts, m.
+    /// Point at which the force acts, m.
     double point[3];
     /// Unit normal from B to A.
     double normal[3];
@@ -510,13 +514,13 @@ typedef struct pong_contact {
     double stored;
 } pong_contact;
 
-/// What the last frame did.
+/// Counts, times, memory use and flags of the last frame.
 typedef struct pong_report {
-    /// What the last frame had to leave out, PONG_FLAG_...; 0 if nothing. See pong_flag_name().
+    /// Limits that the last frame hit, PONG_FLAG_...; 0 if none. See pong_flag_name().
     uint32_t flags;
     /// Contacts listed.
     uint32_t contacts;
-    /// Contacts there would have been without the limit: the capacity to ask for after PONG_FLAG_CONTACT_LIMIT.
+    /// Contacts before the limit was applied: the capacity to ask for after PONG_FLAG_CONTACT_LIMIT.
     uint32_t contacts_wanted;
     /// Largest `contacts_wanted` of any frame of this world.
     uint32_t peak_contacts_wanted;
@@ -528,13 +532,13 @@ typedef struct pong_report {
     uint64_t boxes_tested;
     /// Pairs of primitives tested. By kind: pong_get_tally().
     uint64_t primitives_tested;
-    /// Evaluations since the world was made, those that a step or a commit asked for included.
+    /// Evaluations since the world was made, including those made by a step or a commit.
     uint64_t evaluations;
     /// Commits since the world was made.
     uint64_t commits;
     /// Duration of the last evaluation, ns.
     uint64_t evaluate_ns;
-    /// Duration of the last commit without the evaluation it may have asked for, ns.
+    /// Duration of the last commit, ns, without an evaluation made by it.
     uint64_t commit_ns;
     /// With report_times: duration of each stage of the last frame, ns, at PONG_STAGE_...; else zero.
     uint64_t stage_ns[8];
@@ -545,21 +549,21 @@ typedef struct pong_report {
     /// The contact_capacity to ask for after a limit was hit in the last frame; 0 if none was. After
     /// PONG_FLAG_LOAD_SHARING_LIMIT alone it is twice the present one, and may have to be doubled again.
     uint64_t advised_capacity;
-    /// Most contacts that a frame of this world had to hold, those included that touch nobody any more and are only
-    /// remembered.
+    /// Largest number of contacts that a frame of this world had to hold, including contacts that have ended
+    /// and are only remembered.
     uint64_t contacts_peak;
-    /// How many there is room for: more than the contact capacity.
+    /// Number of contacts that there is room for: more than the contact capacity.
     uint64_t contacts_capacity;
-    /// Most memory that the testers of one part of a frame needed, bytes.
+    /// Largest memory that the testers of one part of a frame needed, bytes.
     uint64_t arena_peak;
-    /// What there is for them, bytes.
+    /// Memory available to them, bytes.
     uint64_t arena_capacity;
-    /// Most memory that sharing among the contacts of one surface needed, bytes.
+    /// Largest memory that sharing among the contacts of one surface needed, bytes.
     uint64_t scratch_peak;
-    /// What there is for it, bytes.
+    /// Memory available to it, bytes.
     uint64_t scratch_capacity;
-    /// Rounds of work since the world was sealed that the calling thread did by itself because a worker did not come back
-    /// in time. The results are the same; the time is not.
+    /// Rounds of work since the world was sealed that the calling thread did by itself because a worker did
+    /// not come back in time. The results are the same; the frame takes longer.
     uint64_t worker_timeouts;
     /// Zero in this version.
     uint64_t reserved[3];
@@ -571,21 +575,22 @@ typedef struct pong_ledger {
     double stored;
     /// Work done on the bodies since the world began, J, by the trapezoid rule between commits.
     double work;
-    /// Left the contacts for good since the world began, J: −work − stored. What is forgotten counts as lost; what the host
-    /// put in, by a contact that it set up or by a preload, less than nothing.
+    /// Energy that left the contacts for good since the world began, J: −work − stored. Forgotten energy
+    /// counts as lost; energy that the host put in, by a contact that it set up or by a preload, counts as
+    /// negative.
     double dissipated;
 } pong_ledger;
 
 /// Energies, J. To rounding  work_in + inserted + hold_error = work_out + stored + damping_loss + friction_loss.
 typedef struct pong_energy_account {
-    /// What the bodies gave: work of the wrench on them, where it was negative.
+    /// Energy that the bodies gave: work of the wrench on them, where it was negative.
     double work_in;
-    /// What the bodies got back: work of the wrench on them, where it was positive.
+    /// Energy that the bodies got back: work of the wrench on them, where it was positive.
     double work_out;
-    /// Stored without work: where the host put bodies into each other, less what it let be forgotten. Of a contact that
-    /// began while its pair was in contact already: what it may have taken over from another.
+    /// Stored without work: where the host put bodies into each other, less what it cleared. For a contact
+    /// that began while its pair was already in contact: what it may have taken over from another contact.
     double inserted;
-    /// Made by holding the wrench: its work less that of the force as it would have followed the motion.
+    /// Error of holding the wrench: its work less that of the force as it would have followed the motion.
     double hold_error;
     /// Stored in normal springs and friction now.
     double stored;
@@ -593,7 +598,7 @@ typedef struct pong_energy_account {
     double damping_loss;
     /// Lost in friction.
     double friction_loss;
-    /// What `work_out - work_in` may be off by, rounding apart; 0 except with PONG_COUPLING_STAGES.
+    /// Uncertainty of `work_out - work_in`, rounding apart; 0 except with PONG_COUPLING_STAGES.
     double resolution;
     /// PONG_VERDICT_...
     uint32_t verdict;
@@ -601,8 +606,8 @@ typedef struct pong_energy_account {
     uint32_t reserved;
 } pong_energy_account;
 
-/// Accounts of two movable groups. A contact episode lasts from their first contact until nothing of them touches any
-/// more, and no delayed wrench is on its way.
+/// Accounts of two movable groups. A contact episode lasts from their first contact until they no longer
+/// touch and no delayed wrench is pending.
 typedef struct pong_pair_energy_account {
     /// The pair of Objects.
     struct pong_pair_id pair;
@@ -610,21 +615,21 @@ typedef struct pong_pair_energy_account {
     struct pong_interface_id interfaces[2];
     /// Since the world began.
     struct pong_energy_account total;
-    /// Of the contact episode that lasts; zero if none does.
+    /// Account of the contact episode in progress; zero if there is none.
     struct pong_energy_account episode;
-    /// 1 if an episode lasts.
+    /// 1 if an episode is in progress.
     int32_t in_contact;
-    /// 1 if an episode, over or not, has gained energy. What to do: pong_pair_remedy().
+    /// 1 if an episode, over or not, has gained energy. Remedy: pong_pair_remedy().
     int32_t gains_energy;
     /// Episodes that have ended.
     uint64_t episodes;
-    /// Of those, the ones that gained energy.
+    /// Ended episodes that gained energy.
     uint64_t episodes_gained;
-    /// Of those, the ones of which the accounts cannot tell.
+    /// Ended episodes whose accounts leave it open.
     uint64_t episodes_unresolved;
-    /// Energy that the episodes gained, all together, J.
+    /// Energy gained in all episodes together, J.
     double excess;
-    /// Energy that one episode gained, at most, J.
+    /// Most energy gained in one episode, J.
     double worst_excess;
     /// Stiffness of the stiffest contact that the two can have, N/m; 0 if it depends on the depth.
     double stiffness;
@@ -634,7 +639,7 @@ typedef struct pong_pair_energy_account {
 
 /// Tests of one kind against another in the last frame.
 typedef struct pong_tally {
-    /// What was tested: PONG_TALLY_...
+    /// Kind of the tests: PONG_TALLY_...
     uint32_t what;
     /// Tests.
     uint32_t tested;
@@ -649,34 +654,35 @@ typedef struct pong_tally {
     char kind_b[16];
 } pong_tally;
 
-/// What became of a worker, and what it did last.
+/// Placement of a worker, and its share of the last frame.
 typedef struct pong_worker {
-    /// 0 is the calling thread, 1 the first worker.
+    /// Thread: 0 is the calling thread, 1 the first worker.
     uint32_t index;
-    /// Whether it is bound to a core: PONG_GRANT_...
+    /// Outcome of binding it to a core: PONG_GRANT_...
     uint32_t core_grant;
     /// The core that was asked for; 0 if none was.
     uint32_t core;
-    /// Whether it runs under SCHED_FIFO as asked: PONG_GRANT_...
+    /// Outcome of asking for SCHED_FIFO: PONG_GRANT_...
     uint32_t fifo_grant;
     /// The priority that was asked for; 0 if none was.
     uint32_t fifo_priority;
-    /// Blocks of work that it did in the last round of work that was shared out. A frame with too little work to share
-    /// has none, and the number stays that of an earlier frame.
+    /// Blocks of work done in the last round of work that was shared out. A frame with too little work to
+    /// share has none, and the number stays that of an earlier frame.
     uint32_t blocks;
-    /// With report_times: time in them, ns; else 0.
+    /// With report_times: time spent on them, ns; else 0.
     uint64_t busy_ns;
-    /// With report_times: where the time of the last frame's contacts went on this thread, ns, at PONG_WORK_...; else 0. All
-    /// rounds of the frame together; of the calling thread also what it did by itself.
+    /// With report_times: time of this thread in each part of the last frame's contacts, ns, at
+    /// PONG_WORK_...; else 0. All rounds of the frame together; for the calling thread including what it did
+    /// by itself.
     uint64_t work_ns[4];
 } pong_worker;
 
-/// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's laws
-/// do not use are 0 when got and ignored when set. None but a rigid stiffness is beyond 1e100.
+/// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's
+/// laws do not use are 0 when got and ignored when set. No value but a rigid stiffness is beyond 1e100.
 typedef struct pong_surface_values {
-    /// Which normal law the surface has: PONG_NORMAL_...
+    /// Normal law of the surface: PONG_NORMAL_...
     int32_t normal_law;
-    /// Which friction law the surface has: PONG_FRICTION_...
+    /// Friction law of the surface: PONG_FRICTION_...
     int32_t friction_law;
     /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_..._HERTZ), 1e-100 to 1e100; infinite means rigid.
     double stiffness;
@@ -692,14 +698,15 @@ typedef struct pong_surface_values {
     double friction_static_excess;
     /// Bristle: tangential stiffness, N/m, 1e-100 to 1e100; 0 takes two thirds of the normal stiffness.
     double friction_stiffness;
-    /// Bristle: tangential damping, N s/m. Got, it is what acts, also where the model leaves it to the normal law; once set, it
-    /// no longer follows that law.
+    /// Bristle: tangential damping, N s/m. When read, it is the damping that acts, also where the model
+    /// leaves it to the normal law; once set, it no longer follows that law.
     double friction_damping;
     /// Coulomb: slip speed at which the full force is reached, m/s.
     double friction_slip_speed;
 } pong_surface_values;
 
-/// How a log is written. Make it with pong_default_log_options(), change what you like, hand it to pong_start_log().
+/// Options of a log. Make it with pong_default_log_options(), change what you like, hand it to
+/// pong_start_log().
 typedef struct pong_log_options {
     /// Set by pong_default_log_options(): size of this struct, bytes.
     uint32_t struct_size;
@@ -713,37 +720,38 @@ typedef struct pong_log_options {
     double step;
     /// Bytes that may wait for the disk; raised to what the largest frame takes. 0 (default) for 16 MiB.
     uint64_t buffer_bytes;
-    /// How often what was written is made to count, ms; 1000 by default. A run that is cut off keeps what was
-    /// flushed.
+    /// Time between two flushes, ms; 1000 by default. A run that is cut off keeps what was flushed.
     uint32_t flush_ms;
-    /// What happens when the disk is slower than the run: PONG_LOG_DROP (default) or PONG_LOG_WAIT. A disk that takes
-    /// nothing for 30 s has failed.
+    /// Behaviour when the disk is slower than the run: PONG_LOG_DROP (default) or PONG_LOG_WAIT. A disk that
+    /// accepts nothing for 30 s has failed.
     uint32_t when_full;
     /// 1 replaces a log that lies in the folder; 0 (default) refuses to.
     uint32_t overwrite;
-    /// How many commits each logged frame stands for, for readers of the log; 0 (default) if that varies.
+    /// Number of commits that each logged frame stands for, for readers of the log; 0 (default) if that
+    /// varies.
     uint32_t commits_per_frame;
     /// Zero.
     uint64_t reserved[8];
 } pong_log_options;
 
-/// How a log stands.
+/// Progress of a log.
 typedef struct pong_log_report {
     /// Frames logged, lost ones included.
     uint64_t frames;
-    /// Frames in the files that count: a run that is cut off now keeps them.
+    /// Frames flushed to the files: a run that is cut off now keeps them.
     uint64_t flushed;
     /// Frames that are not and will not be in the log.
     uint64_t lost;
     /// Changes between frames that are not in the log; it cannot be replayed exactly beyond them.
     uint64_t events_lost;
-    /// Bytes of the rows that count.
+    /// Bytes of the rows flushed.
     uint64_t bytes;
-    /// Most bytes that waited for the disk.
+    /// Largest number of bytes that waited for the disk.
     uint64_t buffer_peak;
-    /// Bytes that may wait for it.
+    /// Number of bytes that may wait for the disk.
     uint64_t buffer_size;
-    /// 1 if the files cannot be written any more: every frame from then on is lost. pong_stop_log() tells why.
+    /// 1 if the files cannot be written any more: every frame from then on is lost. pong_stop_log() returns
+    /// the cause.
     uint32_t failed;
     /// Zero in this version.
     uint32_t reserved_flags;
@@ -765,9 +773,8 @@ extern "C" {
 /// as the library.
 const char *pong_status_name(int32_t status);
 
-/// What the last call of this thread had to say: empty after a success, never NULL.
-/// Valid until this thread's next call; calls of other threads do not touch it. This call and
-/// pong_status_name() leave it as it is.
+/// Message of the last call of this thread: empty after a success, never NULL. Valid until this thread's next
+/// call; calls of other threads do not touch it. This call and pong_status_name() leave it as it is.
 const char *pong_last_message(void);
 
 /// Version of the library, "major.minor.patch". Lives as long as the library.
@@ -776,11 +783,11 @@ const char *pong_version_string(void);
 /// PONG_ABI_VERSION of the library; compare it with that of your header, or use PONG_CHECK_ABI().
 uint32_t pong_abi_version(void);
 
-/// Hash of the layout of every struct and of every status number in the library; PONG_LAYOUT_HASH is that of the
-/// header.
+/// Hash of the layout of every struct and of every status number in the library; compare it with
+/// PONG_LAYOUT_HASH of the header.
 uint64_t pong_layout_hash(void);
 
-/// Whether header and library fit: call it first, as PONG_CHECK_ABI(). PONG_STATUS_CONFIG if they do not.
+/// Checks that header and library fit: call it first, as PONG_CHECK_ABI(). PONG_STATUS_CONFIG if they do not.
 /// A header of an earlier release of the same ABI fits.
 pong_status pong_check_abi(uint32_t abi_version, uint64_t hash);
 
@@ -826,17 +833,19 @@ pong_status pong_get_wrench(const struct pong_world *world,
 pong_status pong_create_world(const struct pong_config *config,
                               struct pong_world **world);
 
-/// Destroys a world and everything it gave out: ids become stale, names, warnings and notes must not be read any more.
-/// NULL is allowed and does nothing. No other call on the world may follow. PONG_STATUS_BUSY: a call on it is running, or
-/// this is called from inside one of its laws; the world is as it was. PONG_STATUS_WORKER_LEFT: it is destroyed, but a worker
-/// that the system does not run was left behind after a second. Closes a log that is running.
+/// Destroys a world and everything it gave out: ids become stale; names, warnings and notes must not be read
+/// any more. NULL is allowed and does nothing. No other call on the world may follow. PONG_STATUS_BUSY: a
+/// call on it is running, or this is called from inside one of its laws; the world is as it was.
+/// PONG_STATUS_WORKER_LEFT: it is destroyed, but a worker that the system does not run was left behind after
+/// a second. Closes a log that is running.
 pong_status pong_destroy_world(struct pong_world *world);
 
-/// Makes another world of a sealed one, as it stands: with its states, pairs, surfaces, contact state and user data, and the
-/// same ids. It takes a fraction of the time of loading and sealing again. From here on both are independent; given the same
-/// calls, they give the same bits. The clone has memory and workers of its own; it has computed no frame yet and has no log.
-/// Both call the same laws: what a law's `user` names must live as long as either. The clone is the caller's: destroy it with
-/// pong_destroy_world(). On failure `clone` gets NULL. PONG_STATUS_WRONG_PHASE before the seal.
+/// Clones a sealed world as it stands: with its states, pairs, surfaces, contact state and user data, and the
+/// same ids. It takes a fraction of the time of loading and sealing again. From here on both are independent;
+/// given the same calls, they give the same bits. The clone has memory and workers of its own; it has
+/// computed no frame yet and has no log. Both call the same laws: the `user` data of a law must live as long
+/// as either. The clone is the caller's: destroy it with pong_destroy_world(). On failure `clone` gets NULL.
+/// PONG_STATUS_WRONG_PHASE before the seal.
 pong_status pong_clone_world(const struct pong_world *world,
                              struct pong_world **clone);
 
@@ -861,8 +870,9 @@ pong_status pong_register_friction_law(struct pong_world *world,
                                        void *user);
 
 /// Loads a model file (UTF-8 path); meshes are looked for beside it. One model serves any number of Objects.
-/// Before sealing. PONG_STATUS_MODEL_ERROR: the message has one line for every fault, with file, line and column.
-/// PONG_STATUS_OUT_OF_MEMORY, of this and every other call of set-up: the message has the size that was asked for.
+/// Before sealing. PONG_STATUS_MODEL_ERROR: the message has one line for every fault, with file, line and
+/// column. PONG_STATUS_OUT_OF_MEMORY, of this and every other call of set-up: the message has the size that
+/// was asked for.
 pong_status pong_load_model(struct pong_world *world,
                             const char *path,
                             struct pong_model_id *model);
@@ -877,13 +887,13 @@ pong_status pong_load_model_text(struct pong_world *world,
                                  const char *mesh_dir,
                                  struct pong_model_id *model);
 
-/// Lets models that are loaded from now on read the meshes that they name from `folder` (UTF-8 path) and those below it
-/// too. Without it a mesh that lies outside the model's own folder, through a link, is refused. Before sealing; may be
-/// called for several folders.
+/// Lets models loaded from now on also read meshes from `folder` (UTF-8 path) and the folders below it.
+/// Without it a mesh that lies outside the model's own folder, through a link, is refused. Before sealing;
+/// may be called for several folders.
 pong_status pong_allow_files_below(struct pong_world *world,
                                    const char *folder);
 
-/// How many warnings loading a model left: what its author should know though the model is valid.
+/// Number of warnings that loading a model left: things its author should know though the model is valid.
 pong_status pong_model_warning_count(const struct pong_world *world,
                                      struct pong_model_id model,
                                      size_t *count);
@@ -900,13 +910,13 @@ pong_status pong_create_object(struct pong_world *world,
                                const char *name,
                                struct pong_object_id *object);
 
-/// The Object of a name.
+/// The Object with this name.
 pong_status pong_find_object(const struct pong_world *world, const char *name, struct pong_object_id *object);
 
 /// Name of an Object. The text lives as long as the world.
 pong_status pong_object_name(const struct pong_world *world, struct pong_object_id object, const char **name);
 
-/// Clears an Object's contact state: after a teleport or a reset nothing of its past counts. After sealing.
+/// Clears an Object's contact state, after a teleport or a reset. After sealing.
 pong_status pong_clear_contact_history(struct pong_world *world, struct pong_object_id object);
 
 /// Declares that two Objects may touch. An Object paired with itself has its movable groups tested against each
@@ -922,18 +932,18 @@ pong_status pong_pair_by_name(struct pong_world *world,
                               const char *b,
                               struct pong_pair_id *pair);
 
-/// Keeps two groups apart, each with everything below it: nothing of one ever touches anything of the other, and a frame pays
-/// nothing for it. The groups may be movable or not, and belong to two Objects or to one (`a` and `b` alike). A group goes by
-/// its path in the model (`root/arm/tip`), its path below the root (`arm/tip`) or its bare name where only one group has it;
-/// an empty path is the whole Object. Before sealing; the Objects may be paired before or later.
+/// Excludes contacts between two groups, each with everything below it, at no cost in a frame. The groups may
+/// be movable or not, and belong to two Objects or to one (`a` and `b` alike). A group is named by its path
+/// in the model (`root/arm/tip`), its path below the root (`arm/tip`) or its bare name where only one group
+/// has it; an empty path is the whole Object. Before sealing; the Objects may be paired before or later.
 pong_status pong_filter_groups(struct pong_world *world,
                                struct pong_object_id a,
                                const char *group_a,
                                struct pong_object_id b,
                                const char *group_b);
 
-/// Switches a pair on (1, as it begins) or off (0). A pair that is off has no contacts; when it is switched on
-/// again it has no past.
+/// Switches a pair on (1, the initial value) or off (0). A pair that is off has no contacts; when it is
+/// switched on again it has no contact history.
 pong_status pong_set_pair_enabled(struct pong_world *world,
                                   struct pong_pair_id pair,
                                   int32_t enabled);
@@ -963,13 +973,13 @@ pong_status pong_interface_object(const struct pong_world *world,
                                   struct pong_interface_id interface,
                                   struct pong_object_id *object);
 
-/// Where the model's author placed a movable group in the frame of the root group, at rest: a place to start
-/// from. The identity for the root.
+/// Pose that the model's author gave a movable group in the frame of the root group, at rest: an initial
+/// state. The identity for the root.
 pong_status pong_get_authored_state(const struct pong_world *world,
                                     struct pong_interface_id interface,
                                     struct pong_state *state);
 
-/// How many primitives a movable group has; a mesh is one.
+/// Number of primitives of a movable group; a mesh is one.
 pong_status pong_primitive_count(const struct pong_world *world,
                                  struct pong_interface_id interface,
                                  uint32_t *count);
@@ -989,25 +999,26 @@ pong_status pong_find_primitive(const struct pong_world *world,
 /// A plan without a step: held wrenches, depth within 5 % and rebound within 2 %.
 struct pong_step_plan pong_default_step_plan(void);
 
-/// Tells the mass properties of a movable group, for the check that pong_plan_step() asks for. Before sealing.
+/// Sets the mass properties of a movable group, for the check that pong_plan_step() asks for. Before sealing.
 pong_status pong_set_mass(struct pong_world *world,
                           struct pong_interface_id interface,
                           const struct pong_mass *mass);
 
-/// Tells how a movable group on joints yields, beside its mass of pong_set_mass(), which must be told first. Before sealing for
-/// the check of pong_plan_step(), and as often as the pose changes for pong_check_step().
+/// Sets how a movable group on joints yields, in addition to its mass of pong_set_mass(), which must be set
+/// first. Before sealing for the check of pong_plan_step(), and as often as the pose changes for
+/// pong_check_step().
 pong_status pong_set_joints(struct pong_world *world,
                             struct pong_interface_id interface,
                             const struct pong_joints *joints);
 
-/// Has the seal check every contact against the host's step, by the masses of pong_set_mass(). What the step is too
-/// long for, and what cannot be judged, is told by pong_seal_warning(); what it may be too long for, if enough contacts
-/// act at once, by pong_seal_note(). Before sealing.
+/// Has the seal check every contact against the host's step, by the masses of pong_set_mass(). Contacts for
+/// which the step is too long, or which cannot be judged, appear in pong_seal_warning(); those for which it
+/// may be too long, if enough contacts act at once, in pong_seal_note(). Before sealing.
 pong_status pong_plan_step(struct pong_world *world,
                            const struct pong_step_plan *plan);
 
-/// What the contacts of the last frame leave of the planned step, with their true levers and normals. Needs the plan and
-/// the masses from before the seal, and a frame. Allocates.
+/// Checks the planned step against the contacts of the last frame, with their true levers and normals. Needs
+/// the plan and the masses from before the seal, and a frame. Allocates.
 pong_status pong_check_step(const struct pong_world *world,
                             struct pong_step_check *check);
 
@@ -1017,24 +1028,24 @@ pong_status pong_check_step(const struct pong_world *world,
 pong_status pong_seal(struct pong_world *world,
                       struct pong_seal_report *report);
 
-/// A warning of sealing: something the author may not have intended, or a contact that gains energy at the planned step.
-/// The text lives as long as the world.
+/// A warning of sealing: something the author may not have intended, or a contact that gains energy at the
+/// planned step. The text lives as long as the world.
 pong_status pong_seal_warning(const struct pong_world *world,
                               size_t index,
                               const char **warning);
 
-/// A note of sealing: what may go wrong at the planned step if enough contacts act at once, and need not. The text lives
-/// as long as the world.
+/// A note of sealing: something that may, but need not, go wrong at the planned step if enough contacts act
+/// at once. The text lives as long as the world.
 pong_status pong_seal_note(const struct pong_world *world,
                            size_t index,
                            const char **note);
 
-/// Computes contacts and wrenches from the states and the committed contact state. Changes nothing that a later
-/// evaluate or commit can see: integrators call it any number of times, at times in any order. A frame that hit a
+/// Computes contacts and wrenches from the states and the committed contact state. Does not affect any later
+/// evaluate or commit: integrators call it any number of times, at times in any order. A frame that hit a
 /// limit succeeds; its report has a flag.
 pong_status pong_evaluate(struct pong_world *world);
 
-/// Accepts the states presently set, evaluating them first if they are not the ones last evaluated. The only
+/// Accepts the states presently set, evaluating them first if the last evaluation used other ones. The only
 /// writer of contact state: call it once per accepted step, never from a stage of an integrator.
 pong_status pong_commit(struct pong_world *world);
 
@@ -1056,42 +1067,44 @@ pong_status pong_get_contacts(const struct pong_world *world,
                               size_t capacity,
                               size_t *count);
 
-/// Movable groups in contact that stood still from one commit to the next, bit for bit, though their velocity would have moved
-/// them within `step`, the time between the two, s: the first `capacity` are copied, `count` gets their number. For use right
-/// after pong_step() or pong_commit(); none otherwise. Friction by bristles follows poses: a belt that is to carry needs a pose
-/// that moves, or Coulomb friction, which looks at velocities alone. A frame that is committed twice, as in a pause, is listed
-/// too. PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `groups` may be NULL. Allocates.
+/// Movable groups in contact whose pose stayed the same, bit for bit, from one commit to the next, though
+/// their velocity would have moved them within `step`, the time between the two, s: the first `capacity` are
+/// copied, `count` gets their number. For use right after pong_step() or pong_commit(); none otherwise.
+/// Friction by bristles follows poses: a belt that is to carry needs a pose that moves, or Coulomb friction,
+/// which uses velocities alone. A frame that is committed twice, as in a pause, is listed too.
+/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `groups` may be NULL. Allocates.
 pong_status pong_find_standing_groups(const struct pong_world *world,
                                       double step,
                                       struct pong_interface_id *groups,
                                       size_t capacity,
                                       size_t *count);
 
-/// How the normal force of each contact of the last frame changes with its depth (`stiffness`, N/m) and with the rate of that
-/// (`damping`, N s/m), with the weight of the contact, in the order of pong_get_contacts(): the first `capacity` of both are
-/// written, `count` gets their number. Zero where the force is cut off at zero; not a number (NaN) of a normal law of the
-/// host's. After pong_set_surface() they are those of the new values, the contacts still those of the frame: evaluate first.
-/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 both arrays may be NULL.
+/// Derivatives of the normal force of each contact of the last frame by its depth (`stiffness`, N/m) and by
+/// its depth rate (`damping`, N s/m), with the weight of the contact, in the order of pong_get_contacts():
+/// the first `capacity` of both are written, `count` gets their number. Zero where the force is cut off at
+/// zero; not a number (NaN) for a normal law of the host's. After pong_set_surface() they follow the new
+/// values, but the contacts are still those of the frame: evaluate first. PONG_STATUS_BUFFER_TOO_SMALL if not
+/// all fit. With capacity 0 both arrays may be NULL.
 pong_status pong_get_contact_stiffness(const struct pong_world *world,
                                        double *stiffness,
                                        double *damping,
                                        size_t capacity,
                                        size_t *count);
 
-/// Counts, times, memory and flags of the last frame; before the first all zero, but for what there is room for.
+/// Counts, times, memory and flags of the last frame; before the first all zero, except the capacities.
 pong_status pong_get_report(const struct pong_world *world,
                             struct pong_report *report);
 
-/// What a flag of the report means, in words: "contact limit", "load sharing limit", "tunnelled"; "unknown limit" for a number that is
-/// no single flag. Lives as long as the library.
+/// Meaning of a flag of the report, in words: "contact limit", "load sharing limit", "tunnelled"; "unknown
+/// limit" for a number that is no single flag. Lives as long as the library.
 const char *pong_flag_name(uint32_t flag);
 
-/// Name of a stage, PONG_STAGE_...: "input", "contacts", "order", "energy", "output", "commit"; empty for a place
-/// of `stage_ns` that has no stage. Lives as long as the library.
+/// Name of a stage, PONG_STAGE_...: "input", "contacts", "order", "energy", "output", "commit"; empty for an
+/// index of `stage_ns` that has no stage. Lives as long as the library.
 const char *pong_stage_name(size_t stage);
 
-/// Name of a part of the contacts' work, PONG_WORK_...: "broad phase", "narrow phase", "load sharing", "forces"; empty for a place of
-/// `work_ns` that there is not. Lives as long as the library.
+/// Name of a part of the contacts' work, PONG_WORK_...: "broad phase", "narrow phase", "load sharing",
+/// "forces"; empty for an index outside `work_ns`. Lives as long as the library.
 const char *pong_work_name(size_t work);
 
 /// The energies; work and dissipation are zero unless the configuration has keep_ledger.
@@ -1100,7 +1113,8 @@ pong_status pong_get_ledger(const struct pong_world *world, struct pong_ledger *
 /// The accounts of all pairs together at the last commit; zero unless the configuration has energy_accounts.
 pong_status pong_get_energy_account(const struct pong_world *world, struct pong_energy_account *account);
 
-/// Number of pairs of movable groups that accounts are kept of; 0 unless the configuration has energy_accounts.
+/// Number of pairs of movable groups for which accounts are kept; 0 unless the configuration has
+/// energy_accounts.
 pong_status pong_pair_energy_account_count(const struct pong_world *world,
                                            size_t *count);
 
@@ -1109,8 +1123,8 @@ pong_status pong_get_pair_energy_account(const struct pong_world *world,
                                          size_t index,
                                          struct pong_pair_energy_account *account);
 
-/// What to do about a pair of movable groups that makes energy: in words, with the numbers of the pair. The text lives until
-/// the next call of this function for the world.
+/// Remedy, in words with the numbers of the pair, for a pair of movable groups that gains energy. The text
+/// lives until the next call of this function for the world.
 pong_status pong_pair_remedy(const struct pong_world *world,
                              size_t index,
                              const char **remedy);
@@ -1123,7 +1137,7 @@ pong_status pong_get_contact_energy_accounts(const struct pong_world *world,
                                              size_t capacity,
                                              size_t *count);
 
-/// Number of tallies of the last frame: pairs of kinds of which something was tested. It may differ from frame to
+/// Number of tallies of the last frame: pairs of kinds with at least one test. It may differ from frame to
 /// frame; 0 before the first.
 pong_status pong_tally_count(const struct pong_world *world,
                              size_t *count);
@@ -1148,45 +1162,48 @@ pong_status pong_quiesce(struct pong_world *world);
 /// PONG_STATUS_WRONG_PHASE before the seal.
 pong_status pong_worker_count(const struct pong_world *world, size_t *count);
 
-/// What became of a worker and what it did last. `index` is 1 to pong_worker_count(), or 0 for the calling thread.
-/// PONG_STATUS_WRONG_PHASE before the seal.
+/// Placement of a worker and its share of the last frame. `index` is 1 to pong_worker_count(), or 0 for the
+/// calling thread. PONG_STATUS_WRONG_PHASE before the seal.
 pong_status pong_get_worker(const struct pong_world *world,
                             size_t index,
                             struct pong_worker *worker);
 
-/// What became of a worker, in words: its core and priority, or why it has not got them. `index` is 1 to
+/// Placement of a worker, in words: its core and priority, or why it does not have them. `index` is 1 to
 /// pong_worker_count(). The text lives as long as the world. PONG_STATUS_WRONG_PHASE before the seal.
 pong_status pong_worker_text(const struct pong_world *world, size_t index, const char **text);
 
-/// Size of the largest contact state that this world can save, bytes; fixed when the world is sealed. A buffer of this size,
-/// made once, is large enough for ever.
+/// Size of the largest contact state that this world can save, bytes; fixed when the world is sealed. A
+/// buffer of this size is always large enough.
 pong_status pong_contact_state_size(const struct pong_world *world,
                                     size_t *size);
 
-/// Size of the contact state as it is to be saved now, bytes. It grows and shrinks with the contacts of the last commit, and
-/// is mostly far below pong_contact_state_size().
+/// Size of the present contact state when saved, bytes. It grows and shrinks with the contacts of the last
+/// commit, and is mostly far below pong_contact_state_size().
 pong_status pong_contact_state_used(const struct pong_world *world,
                                     size_t *size);
 
-/// Saves the committed contact state into the caller's buffer of `size` bytes, pong_contact_state_used() or more. It takes
-/// the first pong_contact_state_used() bytes; those behind, up to pong_contact_state_size(), become zero. The bytes hold no
-/// pointer: write them to a file, keep them, compare them. To save often and fast give no more than is used.
+/// Saves the committed contact state into the caller's buffer of `size` bytes, pong_contact_state_used() or
+/// more. It takes the first pong_contact_state_used() bytes; the rest, up to pong_contact_state_size(),
+/// becomes zero. The bytes hold no pointer: write them to a file, keep them, compare them. To save often and
+/// fast give a buffer of pong_contact_state_used() bytes.
 pong_status pong_save_contact_state(const struct pong_world *world,
                                     void *buffer,
                                     size_t size);
 
-/// Restores a contact state that was saved by this world or by one that was built by the same calls: the bytes that saving
-/// used, or more of the buffer, up to pong_contact_state_size(). The states of the movable groups are the host's and are
-/// not part of it. PONG_STATUS_BAD_STATE_BLOCK: the world keeps the contact state it had.
+/// Restores a contact state that was saved by this world or by one built by the same calls: the bytes that
+/// saving used, or more of the buffer, up to pong_contact_state_size(). The states of the movable groups are
+/// the host's and are not part of it. PONG_STATUS_BAD_STATE_BLOCK: the world keeps the contact state it had.
 pong_status pong_restore_contact_state(struct pong_world *world,
                                        const void *buffer,
                                        size_t size);
 
-/// Accepts the states presently set, as pong_commit(), and preloads the bristles between the two Objects of a pair: for the first
-/// frame of a run, and after pong_clear_contact_history(). `force` NULL: what moves along what it touches has slid for long and has its
-/// kinetic friction, against its present motion. Otherwise friction holds `force`, N, three numbers along the common axes, on the
-/// Object that was named first in the pair: as much of it as lies in the contact planes and as sticks. `count`, which may be
-/// NULL, tells how many bristles were set; contacts without a bristle or without load have none. Allocates: not in frames.
+/// Accepts the states presently set, as pong_commit(), and preloads the bristles between the two Objects of a
+/// pair: for the first frame of a run, and after pong_clear_contact_history(). With `force` NULL, contacts
+/// that slide are preloaded to their kinetic friction, against their present motion, as after a long slide.
+/// Otherwise friction holds `force`, N, three numbers along the common axes, on the Object that was named
+/// first in the pair: as much of it as lies in the contact planes and as sticks. `count`, which may be NULL,
+/// gets the number of bristles that were set; contacts without a bristle or without load have none.
+/// Allocates: not in frames.
 pong_status pong_preload_friction(struct pong_world *world,
                                   struct pong_pair_id pair,
                                   const double *force,
@@ -1217,30 +1234,32 @@ pong_status pong_set_surface(struct pong_world *world,
 /// The default options.
 struct pong_log_options pong_default_log_options(void);
 
-/// Begins a response log (docs/response_logs.md) of a sealed world in a folder (UTF-8 path), which is made if it is not
-/// there. `options` may be NULL for the defaults. The log may begin at any time: what the world remembers goes into it.
-/// Model files are copied; they must be as they were when they were loaded. Takes memory, files and a thread.
-/// PONG_STATUS_LOG_FAILED: the folder cannot be written or holds a log, or a model has changed. PONG_STATUS_OUT_OF_MEMORY:
-/// the system has not what the buffer takes. The log is this process's: a fork of it logs nothing into it.
+/// Begins a response log (docs/response_logs.md) of a sealed world in a folder (UTF-8 path), which is created
+/// if it does not exist. `options` may be NULL for the defaults. The log may begin at any time: it starts
+/// with the contact state of the world. Model files are copied; they must be unchanged since they were
+/// loaded. Takes memory, files and a thread. PONG_STATUS_LOG_FAILED: the folder cannot be written or holds a
+/// log, or a model has changed. PONG_STATUS_OUT_OF_MEMORY: the system does not have the memory for the
+/// buffer. The log belongs to this process: a fork of it logs nothing into it.
 pong_status pong_start_log(struct pong_world *world,
                            const char *folder,
                            const struct pong_log_options *options);
 
-/// Logs the frame last evaluated, of this time (s): states, wrenches and contacts. Call it after the commit of the frame
-/// (pong_step() or pong_commit()) and before states change: once per commit, if the log is to be replayed exactly. Takes
-/// no memory, touches no file and waits for nobody, unless `when_full` says so. A frame that is lost succeeds and
-/// is counted: see pong_get_log_report(). PONG_STATUS_WRONG_PHASE: there is no log, or the states, pairs or surfaces
-/// are not those of the frame any more.
+/// Logs the frame last evaluated, with this time (s): states, wrenches and contacts. Call it after the commit
+/// of the frame (pong_step() or pong_commit()) and before states change: once per commit, if the log is to be
+/// replayed exactly. Takes no memory, touches no file and does not wait, unless `when_full` says so. A call
+/// whose frame is lost succeeds; the frame is counted: see pong_get_log_report(). PONG_STATUS_WRONG_PHASE:
+/// there is no log, or states, pairs or surfaces have changed since the frame.
 pong_status pong_log_frame(struct pong_world *world,
                            double time);
 
-/// How the log stands.
+/// The progress of the log.
 pong_status pong_get_log_report(const struct pong_world *world, struct pong_log_report *report);
 
-/// Writes what is left and closes the log; waits for the disk, until it has taken nothing for 30 s; a log that has failed
-/// of that already closes at once. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files could not be written to the end;
-/// the message tells why, and where the log ends. It is closed all the same.
-/// pong_destroy_world() closes a log too, and tells nothing.
+/// Writes the rest and closes the log. Waits for the disk until it has accepted nothing for 30 s; a log that
+/// has already failed for that reason closes at once. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files
+/// could not be written to the end; the message has the cause and where the log ends. It is closed all the
+/// same.
+/// pong_destroy_world() closes a log too, without a report.
 pong_status pong_stop_log(struct pong_world *world,
                           struct pong_log_report *report);
 

@@ -101,10 +101,10 @@ struct Wrench {
         : force{c.force[0], c.force[1], c.force[2]}, moment{c.moment[0], c.moment[1], c.moment[2]} {}
 };
 
-/// In which frame a wrench is expressed.
+/// Frame in which a wrench is expressed.
 enum class Frame : pong_reference_frame { group = PONG_REFERENCE_FRAME_GROUP, common = PONG_REFERENCE_FRAME_COMMON };
 
-/// Owner of a world. Moves, does not copy; texts that it returns by pointer live as long as it does.
+/// Owner of a world. Movable, not copyable; texts that it returns by pointer live as long as it does.
 class World {
 public:
     explicit World(const pong_config& config = pong_default_config()) {
@@ -114,7 +114,7 @@ public:
         world_.reset(made);
     }
 
-    /// Another world of this sealed one, as it stands; both are independent from here on. See pong_clone_world().
+    /// Clones this sealed world as it stands; both are independent from here on. See pong_clone_world().
     World clone() const {
         World made(nullptr);
         pong_world* world = nullptr;
@@ -123,7 +123,7 @@ public:
         return made;
     }
 
-    /// For calls that this class does not have.
+    /// Handle for calls that this class does not have.
     pong_world* get() const noexcept { return world_.get(); }
 
     // Set-up.
@@ -152,7 +152,7 @@ public:
     PairId pair(const std::string& a, const std::string& b) {
         return result<PairId>([&](PairId* out) { return pong_pair_by_name(get(), a.c_str(), b.c_str(), out); });
     }
-    /// For the check that plan_step() asks for; no frame reads masses.
+    /// Masses for the check that plan_step() asks for; no frame reads them.
     void set_mass(InterfaceId interface, const Mass& mass) { check(pong_set_mass(get(), interface, &mass)); }
     /// Start from pong_default_step_plan() and set the step.
     void plan_step(const StepPlan& plan) { check(pong_plan_step(get(), &plan)); }
@@ -199,7 +199,7 @@ public:
         return result<pong_state>([&](pong_state* out) { return pong_get_authored_state(get(), interface, out); });
     }
 
-    // Numbers of the host's; the engine never looks at them.
+    // User data: numbers of the host's that the engine never looks at.
 
     void set_user_data(ObjectId object, std::uint64_t data) { check(pong_set_object_user_data(get(), object, data)); }
     std::uint64_t user_data(ObjectId object) const {
@@ -219,7 +219,7 @@ public:
         const pong_state c = state;
         check(pong_set_state(get(), interface, &c));
     }
-    /// One call for all: `n` ids and as many states of pong.h.
+    /// All states in one call: `n` ids and as many states of pong.h.
     void set_states(const InterfaceId* interfaces, const pong_state* states, std::size_t n) {
         check(pong_set_states(get(), interfaces, states, n));
     }
@@ -233,23 +233,25 @@ public:
             return pong_get_wrench(get(), interface, static_cast<pong_reference_frame>(frame), out);
         });
     }
-    /// One call for all: `n` ids and room for as many wrenches of pong.h.
+    /// All wrenches in one call: `n` ids and room for as many wrenches of pong.h.
     void wrenches(const InterfaceId* interfaces, Frame frame, pong_wrench* out, std::size_t n) const {
         check(pong_get_wrenches(get(), interfaces, static_cast<pong_reference_frame>(frame), out, n));
     }
     std::size_t contact_count() const {
         return result<std::size_t>([&](std::size_t* out) { return pong_contact_count(get(), out); });
     }
-    /// Into memory of the caller, which has room for `capacity`; returns how many there are. Allocates nothing.
+    /// Writes to the caller's memory, with room for `capacity`; returns the number of contacts. Allocates
+    /// nothing.
     std::size_t contacts(Contact* out, std::size_t capacity) const {
         return result<std::size_t>([&](std::size_t* count) { return pong_get_contacts(get(), out, capacity, count); });
     }
-    /// Into a vector that is used again: with SealReport::contact_capacity reserved, it allocates nothing.
+    /// Writes to a vector that is used again: with SealReport::contact_capacity reserved, it allocates
+    /// nothing.
     void contacts(std::vector<Contact>& out) const {
         out.resize(contact_count());
         contacts(out.data(), out.size());
     }
-    /// In a vector of its own: allocates.
+    /// Returns a new vector: allocates.
     std::vector<Contact> contacts() const {
         return list<Contact>([&](Contact* out, std::size_t capacity, std::size_t* count) {
             return pong_get_contacts(get(), out, capacity, count);
@@ -267,7 +269,7 @@ public:
         }
         return all;
     }
-    /// What the contacts of the last frame leave of the planned step: pong_check_step(). Allocates.
+    /// Checks the planned step against the contacts of the last frame: pong_check_step(). Allocates.
     StepCheck check_step() const {
         return result<StepCheck>([&](StepCheck* out) { return pong_check_step(get(), out); });
     }
@@ -296,7 +298,7 @@ public:
             return pong_get_contact_energy_accounts(get(), out, capacity, count);
         });
     }
-    /// What to do about a pair (a place in pair_accounts()) that makes energy.
+    /// Remedy for a pair (an index in pair_accounts()) that gains energy.
     std::string pair_remedy(std::size_t pair) const {
         return result<const char*>([&](const char** out) { return pong_pair_remedy(get(), pair, out); });
     }
@@ -327,20 +329,21 @@ public:
 
     // Between frames.
 
-    /// Bytes that the contact state takes now.
+    /// Present size of the contact state, bytes.
     std::size_t contact_state_used() const {
         return result<std::size_t>([&](std::size_t* out) { return pong_contact_state_used(get(), out); });
     }
-    /// Into memory of the caller of `size` bytes, at least contact_state_used(). Allocates nothing.
+    /// Writes to the caller's memory of `size` bytes, at least contact_state_used(). Allocates nothing.
     void save_contact_state(unsigned char* out, std::size_t size) const {
         check(pong_save_contact_state(get(), out, size));
     }
-    /// Into a vector that is used again: with SealReport::contact_state_size reserved, it allocates nothing.
+    /// Writes to a vector that is used again: with SealReport::contact_state_size reserved, it allocates
+    /// nothing.
     void save_contact_state(std::vector<unsigned char>& out) const {
         out.resize(contact_state_used());
         save_contact_state(out.data(), out.size());
     }
-    /// In a vector of its own: allocates.
+    /// Returns a new vector: allocates.
     std::vector<unsigned char> save_contact_state() const {
         std::vector<unsigned char> bytes;
         save_contact_state(bytes);
@@ -352,7 +355,7 @@ public:
     void restore_contact_state(const std::vector<unsigned char>& bytes) {
         restore_contact_state(bytes.data(), bytes.size());
     }
-    /// Friction as if what slides had slid for long: pong_preload_friction(). Returns how many bristles were set.
+    /// Preloads friction as after a long slide: pong_preload_friction(). Returns how many bristles were set.
     std::size_t preload_sliding(PairId pair) {
         return result<std::size_t>([&](std::size_t* out) { return pong_preload_friction(get(), pair, nullptr, out); });
     }
@@ -375,7 +378,7 @@ public:
     void start_log(const std::string& folder, const LogOptions& options = pong_default_log_options()) {
         check(pong_start_log(get(), folder.c_str(), &options));
     }
-    /// After the commit of a frame and before states change; the time in s.
+    /// Logs a frame; call it after the commit and before states change. `time` in s.
     void log_frame(double time) { check(pong_log_frame(get(), time)); }
     LogReport log_report() const {
         return result<LogReport>([&](LogReport* out) { return pong_get_log_report(get(), out); });

@@ -1,13 +1,15 @@
-//! The number of the binary interface, and which headers fit this library (docs/c_api.md, The binary interface).
+//! Number of the binary interface, and the headers that fit this library (docs/c_api.md, The binary
+//! interface).
 
 /// Number of the binary interface: the N of libpong.so.N.
 pub const PONG_ABI_VERSION: u32 = 1;
 
-/// PONG_LAYOUT_HASH of the headers of earlier releases of this ABI. Their structs and status numbers are all here, with
-/// the same layouts and values: a release only adds some, and that changes its own hash. There is no earlier release.
+/// PONG_LAYOUT_HASH of the headers of earlier releases of this ABI. A release only adds structs and status
+/// numbers, which changes its hash; those of earlier headers keep their layouts and values here. There is no
+/// earlier release.
 const EARLIER_LAYOUTS: &[u64] = &[];
 
-/// Whether a program that was compiled with a header of this number and hash can call a library of layout `own`.
+/// True if a program compiled with a header of this number and hash can call a library of layout `own`.
 pub fn fits(abi_version: u32, hash: u64, own: u64) -> bool {
     fits_one_of(abi_version, hash, own, EARLIER_LAYOUTS)
 }

@@ -21,14 +21,14 @@ pub const PONG_VERDICT_GAINED: u32 = 2;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct pong_energy_account {
-    /// What the bodies gave: work of the wrench on them, where it was negative.
+    /// Energy that the bodies gave: work of the wrench on them, where it was negative.
     pub work_in: f64,
-    /// What the bodies got back: work of the wrench on them, where it was positive.
+    /// Energy that the bodies got back: work of the wrench on them, where it was positive.
     pub work_out: f64,
-    /// Stored without work: where the host put bodies into each other, less what it let be forgotten. Of a contact that
-    /// began while its pair was in contact already: what it may have taken over from another.
+    /// Stored without work: where the host put bodies into each other, less what it cleared. For a contact
+    /// that began while its pair was already in contact: what it may have taken over from another contact.
     pub inserted: f64,
-    /// Made by holding the wrench: its work less that of the force as it would have followed the motion.
+    /// Error of holding the wrench: its work less that of the force as it would have followed the motion.
     pub hold_error: f64,
     /// Stored in normal springs and friction now.
     pub stored: f64,
@@ -36,7 +36,7 @@ pub struct pong_energy_account {
     pub damping_loss: f64,
     /// Lost in friction.
     pub friction_loss: f64,
-    /// What `work_out - work_in` may be off by, rounding apart; 0 except with PONG_COUPLING_STAGES.
+    /// Uncertainty of `work_out - work_in`, rounding apart; 0 except with PONG_COUPLING_STAGES.
     pub resolution: f64,
     /// PONG_VERDICT_...
     pub verdict: u32,
@@ -44,8 +44,8 @@ pub struct pong_energy_account {
     pub reserved: u32,
 }
 
-/// Accounts of two movable groups. A contact episode lasts from their first contact until nothing of them touches any
-/// more, and no delayed wrench is on its way.
+/// Accounts of two movable groups. A contact episode lasts from their first contact until they no longer
+/// touch and no delayed wrench is pending.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct pong_pair_energy_account {
@@ -55,21 +55,21 @@ pub struct pong_pair_energy_account {
     pub interfaces: [pong_interface_id; 2],
     /// Since the world began.
     pub total: pong_energy_account,
-    /// Of the contact episode that lasts; zero if none does.
+    /// Account of the contact episode in progress; zero if there is none.
     pub episode: pong_energy_account,
-    /// 1 if an episode lasts.
+    /// 1 if an episode is in progress.
     pub in_contact: i32,
-    /// 1 if an episode, over or not, has gained energy. What to do: pong_pair_remedy().
+    /// 1 if an episode, over or not, has gained energy. Remedy: pong_pair_remedy().
     pub gains_energy: i32,
     /// Episodes that have ended.
     pub episodes: u64,
-    /// Of those, the ones that gained energy.
+    /// Ended episodes that gained energy.
     pub episodes_gained: u64,
-    /// Of those, the ones of which the accounts cannot tell.
+    /// Ended episodes whose accounts leave it open.
     pub episodes_unresolved: u64,
-    /// Energy that the episodes gained, all together, J.
+    /// Energy gained in all episodes together, J.
     pub excess: f64,
-    /// Energy that one episode gained, at most, J.
+    /// Most energy gained in one episode, J.
     pub worst_excess: f64,
     /// Stiffness of the stiffest contact that the two can have, N/m; 0 if it depends on the depth.
     pub stiffness: f64,
@@ -88,7 +88,8 @@ pub unsafe extern "C" fn pong_get_energy_account(
     })
 }
 
-/// Number of pairs of movable groups that accounts are kept of; 0 unless the configuration has energy_accounts.
+/// Number of pairs of movable groups for which accounts are kept; 0 unless the configuration has
+/// energy_accounts.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_pair_energy_account_count(
     world: *const pong_world,
@@ -111,8 +112,8 @@ pub unsafe extern "C" fn pong_get_pair_energy_account(
     })
 }
 
-/// What to do about a pair of movable groups that makes energy: in words, with the numbers of the pair. The text lives until
-/// the next call of this function for the world.
+/// Remedy, in words with the numbers of the pair, for a pair of movable groups that gains energy. The text
+/// lives until the next call of this function for the world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_pair_remedy(
     world: *const pong_world,
@@ -152,7 +153,7 @@ pub unsafe extern "C" fn pong_get_contact_energy_accounts(
 }
 
 impl Inner {
-    /// None before the seal.
+    /// Accounts of all pairs; empty before the seal.
     fn pair_accounts(&self) -> impl Iterator<Item = PairEnergyAccount> + '_ {
         self.phase.sealed().into_iter().flat_map(World::pair_accounts)
     }

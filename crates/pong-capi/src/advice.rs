@@ -1,10 +1,10 @@
-//! What the step adviser was told before the seal.
+//! Masses, joints and step plan that the host gave the step adviser before the seal.
 
 use pong_advise::{GroupMass, Joints, SpringRates, StepPlan, StepReport};
 use pong_engine::{EngineError, InterfaceId, Scene, World};
 use std::collections::BTreeMap;
 
-/// What the adviser was told before the seal.
+/// Masses, joints and step plan that the host gave the step adviser before the seal.
 #[derive(Clone, Default)]
 pub(crate) struct Advice {
     masses: BTreeMap<InterfaceId, GroupMass>,
@@ -24,7 +24,7 @@ impl Advice {
     }
 
     /// # Errors
-    /// A group whose mass is not told; values that no mechanism has.
+    /// Fails for a group without a mass, and for values that no mechanism has.
     pub fn set_joints(
         &mut self,
         scene: &Scene,
@@ -47,7 +47,7 @@ impl Advice {
         self.masses.iter().map(|(interface, mass)| (*interface, *mass)).collect()
     }
 
-    /// What the planned step can hold in the sealed world; nothing without a plan.
+    /// Report of the planned step in the sealed world; `None` without a plan.
     pub fn report(&self, world: &World) -> Result<Option<StepReport>, EngineError> {
         self.plan.as_ref().map(|plan| pong_advise::step_report(world, plan, &self.masses())).transpose()
     }

@@ -7,7 +7,7 @@ use crate::status::pong_status;
 use pong_engine::{Config, WorkerSettings, WrenchCoupling};
 use std::time::Duration;
 
-/// Tells a configuration that pong_default_config() made from one that nobody filled in.
+/// Marks a configuration made by pong_default_config().
 const COOKIE: u64 = 0x706f_6e67_2d63_6667;
 
 /// Settings of a world. Make it with pong_default_config(), change what you like, hand it to
@@ -41,10 +41,10 @@ pub struct pong_config {
     /// How long the calling thread waits for a worker that has begun a part of the frame and does not finish it, us;
     /// then it does that work again by itself. 1000 by default, 1 to 1000000.
     pub worker_timeout_us: u32,
-    /// 1 binds each worker to a core of its own; 0 by default. The calling thread stays as it is: bind it to the
-    /// first core of its mask, which the workers leave free. What became of it: pong_get_worker().
+    /// 1 binds each worker to a core of its own; 0 by default. The calling thread stays as it is: bind it to
+    /// the first core of its mask, which the workers leave free. Outcome: pong_get_worker().
     pub pin_workers: u32,
-    /// Ask for SCHED_FIFO with this priority, 1 to 99, for the workers; 0 (default) does not ask. What became of it:
+    /// SCHED_FIFO priority to ask for, 1 to 99, for the workers; 0 (default) does not ask. Outcome:
     /// pong_get_worker().
     pub fifo_priority: u32,
     /// With pin_workers: the cores of the workers, bit n for core n, the lowest for the first worker. They may be
@@ -85,15 +85,15 @@ pub extern "C" fn pong_default_config() -> pong_config {
     }
 }
 
-/// What a configuration asks for.
+/// Settings that a configuration asks for.
 pub(crate) struct Wanted {
     pub engine: Config,
-    /// Whether the engine is to be given a clock.
+    /// True if the engine gets a clock.
     pub times: bool,
 }
 
 impl pong_config {
-    /// The engine's settings, if the struct is one this library made and every value can be.
+    /// Returns the engine's settings, if the struct was made by this library and every value is allowed.
     pub(crate) fn check(&self) -> Outcome<Wanted> {
         self.check_origin()?;
         let contact_capacity = match self.contact_capacity {
@@ -150,7 +150,7 @@ impl pong_config {
         Ok(wrench_coupling)
     }
 
-    /// Checked whether there will be workers or not: a wrong value must not wait for the day that asks for one.
+    /// Checks the settings of workers even when there are none, so that a wrong value is found at once.
     fn worker_settings(&self) -> Outcome<Option<WorkerSettings>> {
         let most = pong_threads::MAX_WORKERS as u64;
         let workers =
@@ -182,13 +182,13 @@ impl pong_config {
     }
 }
 
-/// Beyond this a slip of the pen is likelier than a scene, and the memory could not be had.
+/// Upper limit: a larger value is more likely a typing error than a scene, and its memory could not be had.
 const MOST_CONTACTS: u64 = 1 << 24;
 
-/// Longest time of a setting, us: more is likelier a slip of the unit.
+/// Longest time of a setting, us: a larger value is more likely a wrong unit.
 const MOST_US: u64 = 1_000_000;
 
-/// A number of the configuration between two that make sense.
+/// Refuses a value of the configuration outside `least..=most`.
 fn within(name: &str, value: u64, least: u64, most: u64, or: &str) -> Outcome<u64> {
     if (least..=most).contains(&value) {
         return Ok(value);

@@ -10,8 +10,8 @@ use pong_engine::FrictionPreload;
 use pong_geometry::Vec3;
 use std::ffi::c_void;
 
-/// Size of the largest contact state that this world can save, bytes; fixed when the world is sealed. A buffer of this size,
-/// made once, is large enough for ever.
+/// Size of the largest contact state that this world can save, bytes; fixed when the world is sealed. A
+/// buffer of this size is always large enough.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_contact_state_size(world: *const pong_world, size: *mut usize) -> pong_status {
     get(world, (size, "size"), |inner| {
@@ -19,8 +19,8 @@ pub unsafe extern "C" fn pong_contact_state_size(world: *const pong_world, size:
     })
 }
 
-/// Size of the contact state as it is to be saved now, bytes. It grows and shrinks with the contacts of the last commit, and
-/// is mostly far below pong_contact_state_size().
+/// Size of the present contact state when saved, bytes. It grows and shrinks with the contacts of the last
+/// commit, and is mostly far below pong_contact_state_size().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_contact_state_used(world: *const pong_world, size: *mut usize) -> pong_status {
     get(world, (size, "size"), |inner| {
@@ -28,9 +28,10 @@ pub unsafe extern "C" fn pong_contact_state_used(world: *const pong_world, size:
     })
 }
 
-/// Saves the committed contact state into the caller's buffer of `size` bytes, pong_contact_state_used() or more. It takes
-/// the first pong_contact_state_used() bytes; those behind, up to pong_contact_state_size(), become zero. The bytes hold no
-/// pointer: write them to a file, keep them, compare them. To save often and fast give no more than is used.
+/// Saves the committed contact state into the caller's buffer of `size` bytes, pong_contact_state_used() or
+/// more. It takes the first pong_contact_state_used() bytes; the rest, up to pong_contact_state_size(),
+/// becomes zero. The bytes hold no pointer: write them to a file, keep them, compare them. To save often and
+/// fast give a buffer of pong_contact_state_used() bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_save_contact_state(
     world: *const pong_world,
@@ -51,9 +52,9 @@ pub unsafe extern "C" fn pong_save_contact_state(
     })
 }
 
-/// Restores a contact state that was saved by this world or by one that was built by the same calls: the bytes that saving
-/// used, or more of the buffer, up to pong_contact_state_size(). The states of the movable groups are the host's and are
-/// not part of it. PONG_STATUS_BAD_STATE_BLOCK: the world keeps the contact state it had.
+/// Restores a contact state that was saved by this world or by one built by the same calls: the bytes that
+/// saving used, or more of the buffer, up to pong_contact_state_size(). The states of the movable groups are
+/// the host's and are not part of it. PONG_STATUS_BAD_STATE_BLOCK: the world keeps the contact state it had.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_restore_contact_state(
     world: *mut pong_world,
@@ -64,18 +65,20 @@ pub unsafe extern "C" fn pong_restore_contact_state(
         let block = array(buffer.cast::<u8>(), size, "buffer")?;
         let world = inner.phase.frames_mut("restore the contact state")?;
         world.restore_state(block)?;
-        // The block ends where what is remembered now does.
+        // The logged block ends where the present contact state does.
         let used = world.state_used();
         inner.tell_log(|log| log.restored(&block[..used]));
         Ok(())
     })
 }
 
-/// Accepts the states presently set, as pong_commit(), and preloads the bristles between the two Objects of a pair: for the first
-/// frame of a run, and after pong_clear_contact_history(). `force` NULL: what moves along what it touches has slid for long and has its
-/// kinetic friction, against its present motion. Otherwise friction holds `force`, N, three numbers along the common axes, on the
-/// Object that was named first in the pair: as much of it as lies in the contact planes and as sticks. `count`, which may be
-/// NULL, tells how many bristles were set; contacts without a bristle or without load have none. Allocates: not in frames.
+/// Accepts the states presently set, as pong_commit(), and preloads the bristles between the two Objects of a
+/// pair: for the first frame of a run, and after pong_clear_contact_history(). With `force` NULL, contacts
+/// that slide are preloaded to their kinetic friction, against their present motion, as after a long slide.
+/// Otherwise friction holds `force`, N, three numbers along the common axes, on the Object that was named
+/// first in the pair: as much of it as lies in the contact planes and as sticks. `count`, which may be NULL,
+/// gets the number of bristles that were set; contacts without a bristle or without load have none.
+/// Allocates: not in frames.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_preload_friction(
     world: *mut pong_world,
@@ -94,7 +97,7 @@ pub unsafe extern "C" fn pong_preload_friction(
         inner.phase.scene().objects_of(pair.id())?;
         inner.phase.frames("preload friction")?;
         let set = inner.commit(|world| world.preload_friction(pair.id(), &preload))?;
-        // For the log it is what a restored contact state is.
+        // The log treats it as a restored contact state.
         if inner.log.is_some() {
             let mut block = Vec::new();
             inner.phase.frames("preload friction")?.save_state_packed(&mut block);

@@ -42,15 +42,15 @@ pub struct pong_contact {
     pub a: pong_contact_side,
     /// Side B.
     pub b: pong_contact_side,
-    /// What of B pushes: PONG_FEATURE_FACE, PONG_FEATURE_EDGE or PONG_FEATURE_VERTEX.
+    /// Feature of B that pushes: PONG_FEATURE_FACE, PONG_FEATURE_EDGE or PONG_FEATURE_VERTEX.
     pub feature_kind: u32,
-    /// Which one of its kind.
+    /// Index of that feature among those of its kind.
     pub feature_index: u32,
-    /// Of a body with two ends: 0 and 1 at its ends, 2 and above between them; 0 otherwise.
+    /// End of an elongated body: 0 and 1 at its ends, 2 and above between them; 0 for other bodies.
     pub end: u32,
     /// 1 if friction sticks, 0 if it slips.
     pub sticks: i32,
-    /// Where the force acts, m.
+    /// Point at which the force acts, m.
     pub point: [f64; 3],
     /// Unit normal from B to A.
     pub normal: [f64; 3],
@@ -100,11 +100,12 @@ pub unsafe extern "C" fn pong_get_contacts(
     })
 }
 
-/// Movable groups in contact that stood still from one commit to the next, bit for bit, though their velocity would have moved
-/// them within `step`, the time between the two, s: the first `capacity` are copied, `count` gets their number. For use right
-/// after pong_step() or pong_commit(); none otherwise. Friction by bristles follows poses: a belt that is to carry needs a pose
-/// that moves, or Coulomb friction, which looks at velocities alone. A frame that is committed twice, as in a pause, is listed
-/// too. PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `groups` may be NULL. Allocates.
+/// Movable groups in contact whose pose stayed the same, bit for bit, from one commit to the next, though
+/// their velocity would have moved them within `step`, the time between the two, s: the first `capacity` are
+/// copied, `count` gets their number. For use right after pong_step() or pong_commit(); none otherwise.
+/// Friction by bristles follows poses: a belt that is to carry needs a pose that moves, or Coulomb friction,
+/// which uses velocities alone. A frame that is committed twice, as in a pause, is listed too.
+/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `groups` may be NULL. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_find_standing_groups(
     world: *const pong_world,
@@ -125,11 +126,12 @@ pub unsafe extern "C" fn pong_find_standing_groups(
     })
 }
 
-/// How the normal force of each contact of the last frame changes with its depth (`stiffness`, N/m) and with the rate of that
-/// (`damping`, N s/m), with the weight of the contact, in the order of pong_get_contacts(): the first `capacity` of both are
-/// written, `count` gets their number. Zero where the force is cut off at zero; not a number (NaN) of a normal law of the
-/// host's. After pong_set_surface() they are those of the new values, the contacts still those of the frame: evaluate first.
-/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 both arrays may be NULL.
+/// Derivatives of the normal force of each contact of the last frame by its depth (`stiffness`, N/m) and by
+/// its depth rate (`damping`, N s/m), with the weight of the contact, in the order of pong_get_contacts():
+/// the first `capacity` of both are written, `count` gets their number. Zero where the force is cut off at
+/// zero; not a number (NaN) for a normal law of the host's. After pong_set_surface() they follow the new
+/// values, but the contacts are still those of the frame: evaluate first. PONG_STATUS_BUFFER_TOO_SMALL if not
+/// all fit. With capacity 0 both arrays may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_contact_stiffness(
     world: *const pong_world,

@@ -1,8 +1,8 @@
-//! What the C side counts and times.
+//! Counters and times of the C interface.
 
 use pong_engine::FrameReport;
 
-/// What the C side counts.
+/// Counters and times of the C interface.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counters {
     /// Most contacts of a frame, fixed when the world is sealed.

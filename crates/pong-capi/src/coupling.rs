@@ -1,4 +1,4 @@
-//! What the host does with a wrench: one choice, for energy accounts and for the step adviser.
+//! Use of a wrench by the host: one choice, for energy accounts and for the step adviser.
 
 use pong_engine::WrenchCoupling;
 
@@ -9,7 +9,7 @@ pub const PONG_COUPLING_SEMI_IMPLICIT: u32 = 2;
 /// The wrench is evaluated once a frame and held from one commit to the next.
 pub const PONG_COUPLING_ZERO_ORDER_HOLD: u32 = 3;
 
-/// The coupling of this number; none if there is none.
+/// The coupling of this number; `None` if there is no such number.
 pub(crate) fn of_number(coupling: u32, delay_frames: u32) -> Option<WrenchCoupling> {
     match coupling {
         PONG_COUPLING_STAGES => Some(WrenchCoupling::Stages),

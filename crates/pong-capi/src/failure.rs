@@ -1,21 +1,21 @@
-//! Why a call failed, and which status tells it.
+//! Failure of a call: its status and its message.
 
 use crate::status::pong_status;
 use pong_engine::EngineError;
 use pong_model::ModelErrors;
 
-/// Why a call failed.
+/// Failure of a call.
 #[derive(Debug)]
 pub(crate) struct Failure {
     pub status: pong_status,
     pub why: Why,
 }
 
-/// What the message will say.
+/// Source of the message.
 #[derive(Debug)]
 pub(crate) enum Why {
     Text(String),
-    /// To be worded in memory that is there already: that of set-up has none.
+    /// Formatted into the thread's fixed buffer: no memory is taken.
     Error(EngineError),
 }
 

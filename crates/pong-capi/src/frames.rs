@@ -10,15 +10,15 @@ use pong_engine::{EngineError, World};
 use pong_record::Recorder;
 use std::time::Instant;
 
-/// Computes contacts and wrenches from the states and the committed contact state. Changes nothing that a later
-/// evaluate or commit can see: integrators call it any number of times, at times in any order. A frame that hit a
+/// Computes contacts and wrenches from the states and the committed contact state. Does not affect any later
+/// evaluate or commit: integrators call it any number of times, at times in any order. A frame that hit a
 /// limit succeeds; its report has a flag.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_evaluate(world: *mut pong_world) -> pong_status {
     with_world(world, Inner::evaluate)
 }
 
-/// Accepts the states presently set, evaluating them first if they are not the ones last evaluated. The only
+/// Accepts the states presently set, evaluating them first if the last evaluation used other ones. The only
 /// writer of contact state: call it once per accepted step, never from a stage of an integrator.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_commit(world: *mut pong_world) -> pong_status {
@@ -60,8 +60,8 @@ impl Inner {
     fn evaluate(&mut self) -> Outcome {
         let start = Instant::now();
         let evaluated = self.phase.frames_mut("evaluate")?.evaluate();
-        // A frame that overflows may do so by a law's fault, which is then the cause to tell; and a fault that was left for
-        // the next frame would be told of a good one.
+        // Collect faults even when the evaluation failed: a law's fault may be the cause of an overflow and
+        // is then the one to report, and a fault left over would be reported for the next, good frame.
         self.law_faults.collect();
         if let Ok(report) = &evaluated {
             self.tell_log(Recorder::evaluated);
@@ -80,7 +80,8 @@ impl Inner {
         Ok(())
     }
 
-    /// Evaluates first where the engine would, so that a law's fault is seen before anything is accepted.
+    /// Evaluates first where the engine would, so that a law's fault is seen before the commit accepts
+    /// anything.
     pub(crate) fn commit<T>(
         &mut self,
         commit: impl FnOnce(&mut World) -> Result<T, EngineError>,
@@ -94,7 +95,7 @@ impl Inner {
         let committed = commit(world)?;
         self.counters.commit_ns = elapsed_ns(start);
         self.counters.commits += 1;
-        // A commit of some pairs may have no room for all that it is to remember.
+        // A commit of some pairs may lack room for all contact records.
         self.counters.note_wanted(&world.report());
         Ok(committed)
     }

@@ -1,4 +1,4 @@
-//! What stands between C and the engine at every entry.
+//! Guards of every entry from C: floating-point environment, lock, panics, message.
 
 use crate::failure::{Failure, Outcome, Why};
 use crate::handle::{Inner, pong_world};
@@ -10,8 +10,8 @@ use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::TryLockError;
 
-/// Runs an entry that has no world: in the engine's floating-point environment, catches panics, turns the outcome into
-/// a status and leaves its message, or none.
+/// Runs an entry that has no world: sets the engine's floating-point environment, catches panics, and turns
+/// the outcome into a status and a message (empty on success).
 pub(crate) fn guarded(call: impl FnOnce() -> Outcome) -> pong_status {
     pong_fpenv::guarded(|| caught(call))
 }
@@ -19,7 +19,8 @@ pub(crate) fn guarded(call: impl FnOnce() -> Outcome) -> pong_status {
 fn caught(call: impl FnOnce() -> Outcome) -> pong_status {
     let failure = match catch_unwind(AssertUnwindSafe(call)) {
         Ok(Ok(())) => {
-            // At the end, not at the beginning: a law that this call called may have made a call of its own.
+            // Cleared at the end, not at the beginning: a law called meanwhile may have called Pong and left
+            // a message.
             message::clear();
             return pong_status::Ok;
         }
@@ -63,7 +64,8 @@ pub(crate) unsafe fn with_world(
     })
 }
 
-/// As [`with_world`], for calls that give one answer back: into `place`, which has this name.
+/// As [`with_world`], for calls that return one value: written to `place`, which messages call by the given
+/// name.
 ///
 /// # Safety
 /// As [`with_world`]; `place` is NULL or may be written.
@@ -79,7 +81,7 @@ pub(crate) unsafe fn get<T>(
     })
 }
 
-/// As [`with_world`], for calls of set-up that take little memory: refused if there is none.
+/// As [`with_world`], for calls of set-up that take little memory: refused if that memory is not available.
 ///
 /// # Safety
 /// As [`with_world`].
@@ -100,7 +102,7 @@ fn fault(payload: Box<dyn Any + Send>) -> Failure {
         _ => "no reason given",
     };
     let message = format!("a fault inside the library: {said}; destroy the world and report this");
-    // Dropping a payload runs code of unknown origin, outside the guard.
+    // Forgotten, not dropped: the payload's destructor is unknown code, and would run outside the guard.
     std::mem::forget(payload);
     Failure::new(pong_status::Panic, message)
 }

@@ -1,4 +1,4 @@
-//! A world as C holds it, and what the C side remembers with it.
+//! World handle of C, and the data that the C interface keeps with it.
 
 use crate::advice::Advice;
 use crate::counters::Counters;
@@ -20,7 +20,7 @@ pub struct pong_world {
     pub(crate) inner: Mutex<Inner>,
 }
 
-/// What the lock guards.
+/// Data guarded by the lock.
 pub(crate) struct Inner {
     pub phase: Phase,
     pub names: Names,
@@ -28,21 +28,21 @@ pub(crate) struct Inner {
     pub advice: Advice,
     pub seal_warnings: Vec<CString>,
     pub seal_notes: Vec<CString>,
-    /// What `pong_pair_remedy` gave out last.
+    /// Text last returned by `pong_pair_remedy`.
     pub remedy: CString,
     /// The workers; none before the world is sealed.
     pub workers: Vec<Started>,
-    /// How many pairs of Objects there are.
+    /// Number of pairs of Objects.
     pub pair_count: usize,
-    /// For `pong_set_states`: its memory stays.
+    /// Scratch for `pong_set_states`, kept to avoid allocation.
     pub states: Vec<(InterfaceId, State)>,
-    /// For `pong_commit_pairs`: its memory stays.
+    /// Scratch for `pong_commit_pairs`, kept to avoid allocation.
     pub pairs: Vec<PairId>,
     pub counters: Counters,
     pub law_faults: LawFaults,
     /// The registered laws.
     pub callbacks: Vec<Callback>,
-    /// Where each model came from.
+    /// Source of each model.
     pub sources: Vec<ModelSource>,
     pub log: Option<Recorder>,
 }

@@ -1,8 +1,8 @@
-//! Numbers of the host's that are kept with Objects and primitives.
+//! User data of Objects and primitives.
 
 use std::collections::HashMap;
 
-/// What was set; everything else is 0.
+/// Values that were set; all others are 0.
 #[derive(Clone, Default)]
 pub(crate) struct UserData {
     pub objects: HashMap<u64, u64>,

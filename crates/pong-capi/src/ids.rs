@@ -18,8 +18,8 @@ macro_rules! id_conversions {
     };
 }
 
-/// A model of a world. Zero is none. Ids are plain numbers: copy, compare and store them freely. An id of another
-/// world, of one that was destroyed too, is told and refused.
+/// A model of a world. Zero is none. Ids are plain numbers: copy, compare and store them freely. An id of
+/// another world, or of a destroyed one, is recognised and refused.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct pong_model_id {

@@ -1,16 +1,16 @@
-//! The widest instructions that the process may use, as its environment says.
+//! The widest vector instructions that the process may use, by its environment.
 
 use crate::failure::{Failure, Outcome};
 use crate::status::pong_status;
 use pong_geometry::simd::{Level, set_level};
 use std::sync::OnceLock;
 
-/// Variable of the environment.
+/// Name of the environment variable.
 const VARIABLE: &str = "PONG_SIMD";
 const NAMES: [(&str, Level); 3] =
     [("portable", Level::Portable), ("avx2", Level::Avx2), ("avx512", Level::Avx512)];
 
-/// Does what the environment says, once in a process. Results are the same bits at every level.
+/// Applies the environment variable, once in a process. Results are the same bits at every level.
 pub(crate) fn obey_environment() -> Outcome {
     static OBEYED: OnceLock<Result<(), String>> = OnceLock::new();
     let obeyed = OBEYED.get_or_init(|| match std::env::var_os(VARIABLE) {

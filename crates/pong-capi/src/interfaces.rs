@@ -75,8 +75,8 @@ pub unsafe extern "C" fn pong_interface_object(
     get(world, (object, "object"), |inner| Ok(inner.names.object_of(interface)?.into()))
 }
 
-/// Where the model's author placed a movable group in the frame of the root group, at rest: a place to start
-/// from. The identity for the root.
+/// Pose that the model's author gave a movable group in the frame of the root group, at rest: an initial
+/// state. The identity for the root.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_authored_state(
     world: *const pong_world,

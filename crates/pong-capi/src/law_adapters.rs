@@ -17,15 +17,15 @@ pub(crate) struct User(pub *mut c_void);
 // SAFETY: the pointer is only handed back to the caller's functions, which may be called from any thread by the
 // contract of `pong_register_normal_law`.
 unsafe impl Send for User {}
-// SAFETY: as above; from several at once, too.
+// SAFETY: as above; also from several threads at once.
 unsafe impl Sync for User {}
 
-/// Whether a law has answered with a number that is not finite.
+/// Flag that is set when a law returns a number that is not finite.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Fault(Arc<AtomicBool>);
 
 impl Fault {
-    /// The number, or zero and a note.
+    /// Returns the number, or zero and sets the flag if it is not finite.
     fn finite(&self, value: f64) -> f64 {
         if value.is_finite() {
             return value;
@@ -44,14 +44,14 @@ pub(crate) struct LawFaults {
 }
 
 impl LawFaults {
-    /// A new law's fault.
+    /// Adds a fault flag for a new law.
     pub fn watch(&mut self, name: &str) -> Fault {
         let fault = Fault::default();
         self.watched.push((name.to_owned(), fault.clone()));
         fault
     }
 
-    /// The same laws for another world, their faults noted here.
+    /// Clones the laws for another world, with fault flags in `self`.
     pub fn watch_again(&mut self, callbacks: &[Callback]) -> (Vec<Callback>, Laws) {
         let (mut callbacks, mut laws) = (callbacks.to_vec(), Laws::default());
         for callback in &mut callbacks {
@@ -64,7 +64,7 @@ impl LawFaults {
         (callbacks, laws)
     }
 
-    /// Takes note of what an evaluation has shown.
+    /// Notes which law failed in the last evaluation, and clears the flags.
     pub fn collect(&mut self) {
         self.failed = None;
         for (index, (_, fault)) in self.watched.iter().enumerate().rev() {
@@ -74,7 +74,7 @@ impl LawFaults {
         }
     }
 
-    /// Refuses to go on with a spoilt frame.
+    /// Fails if a law spoilt the frame.
     pub fn check(&self) -> Outcome {
         let Some(index) = self.failed else { return Ok(()) };
         let message = format!(
@@ -94,7 +94,7 @@ pub(crate) enum Callback {
 }
 
 impl Callback {
-    /// Adds it to the laws of a world.
+    /// Adds the law to the laws of a world.
     pub fn add_to(&self, laws: &mut Laws) {
         match self {
             Self::Normal { name, law } => laws.add_normal(name, Arc::new(law.clone())),

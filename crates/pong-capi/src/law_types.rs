@@ -1,8 +1,8 @@
-//! What the laws that C gives are handed, and what they answer.
+//! Inputs and outputs of the force laws given by C callbacks.
 
 use std::ffi::c_void;
 
-/// What a normal force law is given.
+/// Input of a normal force law.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pong_normal_input {
@@ -14,11 +14,11 @@ pub struct pong_normal_input {
     pub stiffness: f64,
     /// The law's parameters as the model gives them; valid during the call.
     pub parameters: *const f64,
-    /// How many there are.
+    /// Number of parameters.
     pub parameter_count: usize,
 }
 
-/// What a friction law is given. Vectors are expressed in the frame of B's movable group and lie in the present
+/// Input of a friction law. Vectors are expressed in the frame of B's movable group and lie in the present
 /// contact plane.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,8 @@ pub struct pong_friction_input {
     pub normal_force: f64,
     /// Unit normal, from B to A.
     pub normal_b: [f64; 3],
-    /// Tangential displacement of A against B since the last commit, m; in the step a contact is born, since the touch.
+    /// Tangential displacement of A against B since the last commit, m; in the step in which a contact
+    /// begins, since the touch.
     pub slip_b: [f64; 3],
     /// Tangential velocity of A against B, m/s.
     pub slip_velocity_b: [f64; 3],
@@ -37,7 +38,7 @@ pub struct pong_friction_input {
     pub stiffness: f64,
     /// The law's parameters as the model gives them; valid during the call.
     pub parameters: *const f64,
-    /// How many there are.
+    /// Number of parameters.
     pub parameter_count: usize,
     /// 1 if the contact stuck at the last commit or is new, else 0.
     pub stuck: i32,
@@ -45,7 +46,7 @@ pub struct pong_friction_input {
     pub reserved: i32,
 }
 
-/// What a friction law answers. It is all zero when the law is called.
+/// Output of a friction law. It is all zero when the law is called.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct pong_friction_output {
@@ -55,7 +56,7 @@ pub struct pong_friction_output {
     pub stored: f64,
     /// 1 if the contact sticks, 0 if it slips.
     pub sticks: i32,
-    /// Leave it.
+    /// Leave it zero.
     pub reserved: i32,
 }
 

@@ -1,4 +1,5 @@
-//! The layout of every struct, as data: hashed for `pong_check_abi`, compared with what C compilers make of it.
+//! Layout of every struct, as data: hashed for `pong_check_abi`, compared with the layout that C compilers
+//! give.
 
 use crate::accounts::{pong_energy_account, pong_pair_energy_account};
 use crate::config::pong_config;

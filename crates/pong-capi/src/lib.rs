@@ -18,9 +18,9 @@
 //! | `contact_state.rs`, `surfaces.rs`, `user_data.rs` | between frames |
 //! | `log.rs` | response logs |
 //!
-//! Every entry goes through `guard.rs`: a message of its own, one call at a time, no panic into C, the floating-point
-//! environment of `pong-fpenv`; but for those that return a constant. Those of set-up ask for their memory first
-//! (`memory.rs`). Pointers are touched in `pointers.rs` alone.
+//! Every entry, except those that return a constant, goes through `guard.rs`: a message of its own, one call
+//! at a time, no panic into C, the floating-point environment of `pong-fpenv`. Entries of set-up ask for
+//! their memory first (`memory.rs`). Pointers are touched in `pointers.rs` alone.
 //!
 //! # Safety of all entries
 //!

@@ -1,4 +1,4 @@
-//! Response logs: what happened, frame by frame, written beside the frames.
+//! Response logs, written frame by frame beside the run.
 
 use crate::abi::PONG_ABI_VERSION;
 use crate::failure::{Failure, Outcome};
@@ -12,19 +12,20 @@ use std::ffi::c_char;
 use std::path::Path;
 use std::time::Duration;
 
-/// `when_full`: frames for which there is no room are left out of the log, whole, counted and marked.
+/// `when_full`: frames for which there is no room are left out of the log as a whole, counted and marked.
 pub const PONG_LOG_DROP: u32 = 0;
-/// `when_full`: pong_log_frame() waits until there is room: for runs that nobody watches.
+/// `when_full`: pong_log_frame() waits until there is room: for unattended runs.
 pub const PONG_LOG_WAIT: u32 = 1;
 
-/// Tells options that pong_default_log_options() made from some that nobody filled in.
+/// Marks options made by pong_default_log_options().
 const COOKIE: u64 = 0x706f_6e67_2d6c_6f67;
 /// Longest time between two flushes, ms.
 const MOST_MS: u32 = 3_600_000;
-/// Beyond this a slip of the unit is likelier than a wish.
+/// Upper limit: a larger value is more likely a wrong unit.
 const MOST_BYTES: u64 = 1 << 36;
 
-/// How a log is written. Make it with pong_default_log_options(), change what you like, hand it to pong_start_log().
+/// Options of a log. Make it with pong_default_log_options(), change what you like, hand it to
+/// pong_start_log().
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pong_log_options {
@@ -40,39 +41,40 @@ pub struct pong_log_options {
     pub step: f64,
     /// Bytes that may wait for the disk; raised to what the largest frame takes. 0 (default) for 16 MiB.
     pub buffer_bytes: u64,
-    /// How often what was written is made to count, ms; 1000 by default. A run that is cut off keeps what was
-    /// flushed.
+    /// Time between two flushes, ms; 1000 by default. A run that is cut off keeps what was flushed.
     pub flush_ms: u32,
-    /// What happens when the disk is slower than the run: PONG_LOG_DROP (default) or PONG_LOG_WAIT. A disk that takes
-    /// nothing for 30 s has failed.
+    /// Behaviour when the disk is slower than the run: PONG_LOG_DROP (default) or PONG_LOG_WAIT. A disk that
+    /// accepts nothing for 30 s has failed.
     pub when_full: u32,
     /// 1 replaces a log that lies in the folder; 0 (default) refuses to.
     pub overwrite: u32,
-    /// How many commits each logged frame stands for, for readers of the log; 0 (default) if that varies.
+    /// Number of commits that each logged frame stands for, for readers of the log; 0 (default) if that
+    /// varies.
     pub commits_per_frame: u32,
     /// Zero.
     pub reserved: [u64; 8],
 }
 
-/// How a log stands.
+/// Progress of a log.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct pong_log_report {
     /// Frames logged, lost ones included.
     pub frames: u64,
-    /// Frames in the files that count: a run that is cut off now keeps them.
+    /// Frames flushed to the files: a run that is cut off now keeps them.
     pub flushed: u64,
     /// Frames that are not and will not be in the log.
     pub lost: u64,
     /// Changes between frames that are not in the log; it cannot be replayed exactly beyond them.
     pub events_lost: u64,
-    /// Bytes of the rows that count.
+    /// Bytes of the rows flushed.
     pub bytes: u64,
-    /// Most bytes that waited for the disk.
+    /// Largest number of bytes that waited for the disk.
     pub buffer_peak: u64,
-    /// Bytes that may wait for it.
+    /// Number of bytes that may wait for the disk.
     pub buffer_size: u64,
-    /// 1 if the files cannot be written any more: every frame from then on is lost. pong_stop_log() tells why.
+    /// 1 if the files cannot be written any more: every frame from then on is lost. pong_stop_log() returns
+    /// the cause.
     pub failed: u32,
     /// Zero in this version.
     pub reserved_flags: u32,
@@ -98,11 +100,12 @@ pub extern "C" fn pong_default_log_options() -> pong_log_options {
     }
 }
 
-/// Begins a response log (docs/response_logs.md) of a sealed world in a folder (UTF-8 path), which is made if it is not
-/// there. `options` may be NULL for the defaults. The log may begin at any time: what the world remembers goes into it.
-/// Model files are copied; they must be as they were when they were loaded. Takes memory, files and a thread.
-/// PONG_STATUS_LOG_FAILED: the folder cannot be written or holds a log, or a model has changed. PONG_STATUS_OUT_OF_MEMORY:
-/// the system has not what the buffer takes. The log is this process's: a fork of it logs nothing into it.
+/// Begins a response log (docs/response_logs.md) of a sealed world in a folder (UTF-8 path), which is created
+/// if it does not exist. `options` may be NULL for the defaults. The log may begin at any time: it starts
+/// with the contact state of the world. Model files are copied; they must be unchanged since they were
+/// loaded. Takes memory, files and a thread. PONG_STATUS_LOG_FAILED: the folder cannot be written or holds a
+/// log, or a model has changed. PONG_STATUS_OUT_OF_MEMORY: the system does not have the memory for the
+/// buffer. The log belongs to this process: a fork of it logs nothing into it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_start_log(
     world: *mut pong_world,
@@ -126,11 +129,11 @@ pub unsafe extern "C" fn pong_start_log(
     })
 }
 
-/// Logs the frame last evaluated, of this time (s): states, wrenches and contacts. Call it after the commit of the frame
-/// (pong_step() or pong_commit()) and before states change: once per commit, if the log is to be replayed exactly. Takes
-/// no memory, touches no file and waits for nobody, unless `when_full` says so. A frame that is lost succeeds and
-/// is counted: see pong_get_log_report(). PONG_STATUS_WRONG_PHASE: there is no log, or the states, pairs or surfaces
-/// are not those of the frame any more.
+/// Logs the frame last evaluated, with this time (s): states, wrenches and contacts. Call it after the commit
+/// of the frame (pong_step() or pong_commit()) and before states change: once per commit, if the log is to be
+/// replayed exactly. Takes no memory, touches no file and does not wait, unless `when_full` says so. A call
+/// whose frame is lost succeeds; the frame is counted: see pong_get_log_report(). PONG_STATUS_WRONG_PHASE:
+/// there is no log, or states, pairs or surfaces have changed since the frame.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_log_frame(world: *mut pong_world, time: f64) -> pong_status {
     with_world(world, |inner| {
@@ -141,7 +144,7 @@ pub unsafe extern "C" fn pong_log_frame(world: *mut pong_world, time: f64) -> po
     })
 }
 
-/// How the log stands.
+/// The progress of the log.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_log_report(
     world: *const pong_world,
@@ -150,10 +153,11 @@ pub unsafe extern "C" fn pong_get_log_report(
     get(world, (report, "report"), |inner| Ok((&inner.log.as_ref().ok_or_else(no_log)?.status()).into()))
 }
 
-/// Writes what is left and closes the log; waits for the disk, until it has taken nothing for 30 s; a log that has failed
-/// of that already closes at once. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files could not be written to the end;
-/// the message tells why, and where the log ends. It is closed all the same.
-/// pong_destroy_world() closes a log too, and tells nothing.
+/// Writes the rest and closes the log. Waits for the disk until it has accepted nothing for 30 s; a log that
+/// has already failed for that reason closes at once. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files
+/// could not be written to the end; the message has the cause and where the log ends. It is closed all the
+/// same.
+/// pong_destroy_world() closes a log too, without a report.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_stop_log(world: *mut pong_world, report: *mut pong_log_report) -> pong_status {
     with_world(world, |inner| {
@@ -170,7 +174,7 @@ pub unsafe extern "C" fn pong_stop_log(world: *mut pong_world, report: *mut pong
 }
 
 impl Inner {
-    /// Tells the log, if there is one.
+    /// Calls `tell` with the log's recorder, if there is a log.
     pub(crate) fn tell_log(&mut self, tell: impl FnOnce(&mut Recorder)) {
         if let Some(log) = &mut self.log {
             tell(log);
@@ -260,11 +264,12 @@ fn no_log() -> Failure {
     Failure::new(pong_status::WrongPhase, "log: there is none; begin one with pong_start_log()")
 }
 
-/// A new thread has the real-time priority of the thread that starts it, if that has one: the disk must not keep
-/// the host from its next frame.
+/// Gives the calling thread normal priority. A new thread inherits the real-time priority of its creator, and
+/// writing to disk must not delay the host's next frame.
 fn lower_priority() {
     #[cfg(target_os = "linux")]
-    // SAFETY: a call of the system with a valid struct, for the calling thread. Should it fail, the thread stays as it is.
+    // SAFETY: a system call with a valid struct, for the calling thread. If it fails, the thread keeps its
+    // priority.
     unsafe {
         let none: libc::sched_param = std::mem::zeroed();
         libc::sched_setscheduler(0, libc::SCHED_OTHER, &none);

@@ -6,10 +6,10 @@ use std::ffi::c_char;
 use std::fmt;
 use std::io::Write as _;
 
-/// Room for a message without asking for memory, the zero byte at its end included. What a frame can say fits.
+/// Size of the fixed message buffer, with the zero byte at its end. Every message of a frame fits.
 const SHORT: usize = 512;
 
-/// Which text is the last one.
+/// Buffer that holds the last message.
 #[derive(Clone, Copy)]
 enum Last {
     Nothing,
@@ -18,19 +18,19 @@ enum Last {
 }
 
 thread_local! {
-    // These two need nothing at the end of a thread. That is why a thread's first call of the library, which looks at
-    // them alone if it succeeds, asks for no memory.
+    // Neither of these two needs a destructor at the end of a thread. Therefore a thread's first call of the
+    // library allocates nothing if it succeeds, because it then uses these two alone.
     static LAST: Cell<Last> = const { Cell::new(Last::Nothing) };
     static SHORT_TEXT: RefCell<[u8; SHORT]> = const { RefCell::new([0; SHORT]) };
     static LONG_TEXT: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Forgets what was said.
+/// Clears the message.
 pub(crate) fn clear() {
     LAST.set(Last::Nothing);
 }
 
-/// Says something. Hosts print it: names in it steer no terminal.
+/// Sets the message. Hosts print it, so control characters in names are escaped.
 pub(crate) fn set(text: &str) {
     let text = &*printable_lines(text);
     if text.len() < SHORT {
@@ -42,7 +42,7 @@ pub(crate) fn set(text: &str) {
         LAST.set(Last::Short);
         return;
     }
-    // A thread that is ending has no long message any more; that is no reason to fail.
+    // A thread that is ending has no long message any more; that is not an error.
     let kept = LONG_TEXT.try_with(|long| {
         let mut long = long.borrow_mut();
         long.clear();
@@ -51,11 +51,11 @@ pub(crate) fn set(text: &str) {
     LAST.set(if kept.is_ok() { Last::Long } else { Last::Nothing });
 }
 
-/// Says something in memory that is there already; what does not fit is cut off.
+/// Sets the message in the fixed buffer; the excess is cut off.
 pub(crate) fn set_short(text: fmt::Arguments<'_>) {
     SHORT_TEXT.with_borrow_mut(|short| {
         let mut room = &mut short[..SHORT - 1];
-        // An error tells that the text was cut off.
+        // An error means that the text was cut off.
         let _ = room.write_fmt(text);
         let length = SHORT - 1 - room.len();
         short[length] = 0;
@@ -63,12 +63,12 @@ pub(crate) fn set_short(text: fmt::Arguments<'_>) {
     LAST.set(Last::Short);
 }
 
-/// The bytes with a zero at the end and none before it, which would end the text early.
+/// Bytes of the text, with a zero at the end and none before it, which would end the text early.
 fn as_c(text: &str) -> impl Iterator<Item = u8> {
     text.bytes().map(|byte| if byte == 0 { b'?' } else { byte }).chain([0])
 }
 
-/// What was said, as C reads it.
+/// The message as a C string.
 pub(crate) fn pointer() -> *const c_char {
     let nothing = c"".as_ptr();
     match LAST.get() {

@@ -16,8 +16,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Loads a model file (UTF-8 path); meshes are looked for beside it. One model serves any number of Objects.
-/// Before sealing. PONG_STATUS_MODEL_ERROR: the message has one line for every fault, with file, line and column.
-/// PONG_STATUS_OUT_OF_MEMORY, of this and every other call of set-up: the message has the size that was asked for.
+/// Before sealing. PONG_STATUS_MODEL_ERROR: the message has one line for every fault, with file, line and
+/// column. PONG_STATUS_OUT_OF_MEMORY, of this and every other call of set-up: the message has the size that
+/// was asked for.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_load_model(
     world: *mut pong_world,
@@ -68,9 +69,9 @@ pub unsafe extern "C" fn pong_load_model_text(
     })
 }
 
-/// Lets models that are loaded from now on read the meshes that they name from `folder` (UTF-8 path) and those below it
-/// too. Without it a mesh that lies outside the model's own folder, through a link, is refused. Before sealing; may be
-/// called for several folders.
+/// Lets models loaded from now on also read meshes from `folder` (UTF-8 path) and the folders below it.
+/// Without it a mesh that lies outside the model's own folder, through a link, is refused. Before sealing;
+/// may be called for several folders.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_allow_files_below(
     world: *mut pong_world,
@@ -93,7 +94,7 @@ impl Inner {
     }
 }
 
-/// How many warnings loading a model left: what its author should know though the model is valid.
+/// Number of warnings that loading a model left: things its author should know though the model is valid.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_model_warning_count(
     world: *const pong_world,

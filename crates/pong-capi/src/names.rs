@@ -1,4 +1,4 @@
-//! Names as C reads them, kept for the world's life.
+//! Names as C strings, kept for the world's life.
 
 use crate::failure::{Failure, Outcome};
 use crate::ids::{pong_interface_id, pong_model_id, pong_object_id};
@@ -10,13 +10,13 @@ use std::collections::HashMap;
 use std::ffi::{CString, c_char};
 use std::sync::Arc;
 
-/// All names. A `CString` does not move when the collection around it grows, so its pointer stays good.
+/// All names. A `CString` keeps its buffer when the collection around it grows, so its pointer stays valid.
 #[derive(Clone, Default)]
 pub(crate) struct Names {
     models: HashMap<u64, Arc<ModelNames>>,
     objects: HashMap<u64, CString>,
     interfaces: HashMap<u64, InterfaceNames>,
-    /// Lists of Interfaces that were looked through.
+    /// Number of lists of Interfaces checked so far.
     lists: Cell<u64>,
 }
 
@@ -32,13 +32,13 @@ struct BodyNames {
     primitives: Vec<CString>,
 }
 
-/// Where the names of an Interface are.
+/// Indices of the names of an Interface.
 #[derive(Clone)]
 struct InterfaceNames {
     object: ObjectId,
     model: Arc<ModelNames>,
     body: usize,
-    /// The list that named it last.
+    /// The list that last named it.
     listed: Cell<u64>,
 }
 
@@ -69,7 +69,7 @@ impl Names {
         self.models.get(&id.bits).map(Arc::as_ref).ok_or_else(|| unknown("model"))
     }
 
-    /// How many movable groups a model has.
+    /// Number of movable groups of a model.
     pub fn group_count(&self, id: pong_model_id) -> Outcome<usize> {
         Ok(self.model(id)?.bodies.len())
     }
@@ -86,7 +86,7 @@ impl Names {
         self.interfaces.contains_key(&id.bits)
     }
 
-    /// The place in a list of the first id that is no Interface, or one that an earlier place names too.
+    /// Index, in a list, of the first id that is no Interface or that occurs earlier in the list.
     pub fn unknown_or_named_twice(&self, ids: &[pong_interface_id]) -> Option<usize> {
         let list = self.lists.get() + 1;
         self.lists.set(list);
@@ -116,25 +116,25 @@ impl Names {
     }
 }
 
-/// The refusal of an id.
+/// Failure for an unknown id.
 pub(crate) fn unknown(what: &str) -> Failure {
     let message =
         format!("{what}: the id is zero, stale or of another world; use an id that this world returned");
     Failure::new(pong_status::UnknownId, message)
 }
 
-/// The text at a place of a list; it lives as long as the list.
+/// Text at an index of a list; it lives as long as the list.
 pub(crate) fn text_at(what: &str, texts: &[CString], index: usize) -> Outcome<*const c_char> {
     texts.get(index).map(|text| text.as_ptr()).ok_or_else(|| no_such(what, index, texts.len()))
 }
 
-/// The refusal of an index.
+/// Failure for an index out of range.
 pub(crate) fn no_such(what: &str, index: usize, count: usize) -> Failure {
     let message = format!("{what} {index}: there are {count}, counted from 0; ask for the count first");
     Failure::new(pong_status::UnknownId, message)
 }
 
-/// Text as C reads it; a zero byte inside becomes a question mark.
+/// Text as a C string; a zero byte inside becomes a question mark.
 pub(crate) fn c_text(text: &str) -> CString {
     CString::new(text.replace('\0', "?")).unwrap_or_default()
 }

@@ -29,7 +29,7 @@ pub unsafe extern "C" fn pong_create_object(
     })
 }
 
-/// The Object of a name.
+/// The Object with this name.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_find_object(
     world: *const pong_world,
@@ -53,7 +53,7 @@ pub unsafe extern "C" fn pong_object_name(
     get(world, (name, "name"), |inner| Ok(inner.names.object(object)?.as_ptr()))
 }
 
-/// Clears an Object's contact state: after a teleport or a reset nothing of its past counts. After sealing.
+/// Clears an Object's contact state, after a teleport or a reset. After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_clear_contact_history(
     world: *mut pong_world,

@@ -1,4 +1,4 @@
-//! Pairs of Objects that are tested.
+//! Pairs of Objects to test.
 
 use crate::failure::{Failure, Outcome};
 use crate::guard::{setting_up, with_world};
@@ -45,10 +45,10 @@ pub unsafe extern "C" fn pong_pair_by_name(
     })
 }
 
-/// Keeps two groups apart, each with everything below it: nothing of one ever touches anything of the other, and a frame pays
-/// nothing for it. The groups may be movable or not, and belong to two Objects or to one (`a` and `b` alike). A group goes by
-/// its path in the model (`root/arm/tip`), its path below the root (`arm/tip`) or its bare name where only one group has it;
-/// an empty path is the whole Object. Before sealing; the Objects may be paired before or later.
+/// Excludes contacts between two groups, each with everything below it, at no cost in a frame. The groups may
+/// be movable or not, and belong to two Objects or to one (`a` and `b` alike). A group is named by its path
+/// in the model (`root/arm/tip`), its path below the root (`arm/tip`) or its bare name where only one group
+/// has it; an empty path is the whole Object. Before sealing; the Objects may be paired before or later.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_filter_groups(
     world: *mut pong_world,
@@ -64,8 +64,8 @@ pub unsafe extern "C" fn pong_filter_groups(
     })
 }
 
-/// Switches a pair on (1, as it begins) or off (0). A pair that is off has no contacts; when it is switched on
-/// again it has no past.
+/// Switches a pair on (1, the initial value) or off (0). A pair that is off has no contacts; when it is
+/// switched on again it has no contact history.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_pair_enabled(
     world: *mut pong_world,

@@ -1,4 +1,5 @@
-//! The two phases of a world. A Rust host cannot call in the wrong one; a C host is refused here, and nowhere else.
+//! The two phases of a world. Rust's types keep a Rust host from calling in the wrong one; a C host is
+//! refused here.
 
 use pong_engine::{
     Config, EngineError, FrameReport, InterfaceId, ModelId, PairId, Scene, SealReport, State, World,
@@ -14,7 +15,7 @@ pub(crate) enum Phase {
 }
 
 impl Phase {
-    /// What was set up, in either phase.
+    /// The scene, in either phase.
     pub fn scene(&self) -> &Scene {
         match self {
             Self::SetUp(builder) => builder.scene(),
@@ -22,7 +23,7 @@ impl Phase {
         }
     }
 
-    /// For a call that belongs before the seal.
+    /// The builder, for a call that belongs before the seal.
     pub fn set_up(&mut self, call: &'static str) -> Result<&mut WorldBuilder, EngineError> {
         match self {
             Self::SetUp(builder) => Ok(builder),
@@ -32,12 +33,12 @@ impl Phase {
         }
     }
 
-    /// For a call that belongs after it.
+    /// The world, for a call that belongs after the seal.
     pub fn frames(&self, call: &'static str) -> Result<&World, EngineError> {
         self.sealed().ok_or(not_sealed(call))
     }
 
-    /// For a call that belongs after it and changes something.
+    /// The world, for a call after the seal that changes it.
     pub fn frames_mut(&mut self, call: &'static str) -> Result<&mut World, EngineError> {
         match self {
             Self::SetUp(_) => Err(not_sealed(call)),
@@ -45,7 +46,7 @@ impl Phase {
         }
     }
 
-    /// The world, for what is nothing or zero before the seal.
+    /// The world, or `None` before the seal.
     pub fn sealed(&self) -> Option<&World> {
         match self {
             Self::SetUp(_) => None,
@@ -53,15 +54,16 @@ impl Phase {
         }
     }
 
-    /// The last frame in short.
+    /// Report of the last frame.
     pub fn report(&self) -> FrameReport {
         self.sealed().map_or_else(FrameReport::default, World::report)
     }
 
-    /// Ends set-up. After a failure it goes on as if nothing had been asked.
+    /// Ends set-up. After a failure set-up goes on, unchanged.
     pub fn seal(&mut self) -> Result<SealReport, EngineError> {
         self.set_up("seal")?;
-        // An empty world keeps the place; should the seal panic, the lock is poisoned and nobody sees it.
+        // Replaced by an empty world meanwhile; should the seal panic, the lock is poisoned and nobody sees
+        // it.
         let kept = Self::SetUp(WorldBuilder::new(Config::default()));
         let Self::SetUp(builder) = std::mem::replace(self, kept) else { unreachable!("asked above") };
         match builder.seal() {

@@ -1,4 +1,4 @@
-//! Everything that C hands over by pointer, checked as far as that can be done.
+//! Pointers from C, checked as far as possible.
 
 use crate::failure::{Failure, Outcome};
 use crate::status::pong_status;
@@ -22,7 +22,7 @@ fn check<T>(pointer: *const T, name: &str) -> Outcome {
     Ok(())
 }
 
-/// A place for one result, or none: then the caller does not want to know.
+/// Destination of one result, or none if the caller passed NULL.
 pub(crate) struct Out<T>(Option<NonNull<T>>);
 
 impl<T> Out<T> {
@@ -33,7 +33,7 @@ impl<T> Out<T> {
         Ok(Self(NonNull::new(pointer)))
     }
 
-    /// As [`new`](Self::new), where NULL means that the caller does not want to know.
+    /// As [`new`](Self::new), but NULL is allowed and discards the result.
     ///
     /// # Safety
     /// As [`new`](Self::new).
@@ -50,7 +50,7 @@ impl<T> Out<T> {
     }
 }
 
-/// Places for many results.
+/// Destination of several results.
 pub(crate) struct OutArray<T> {
     pointer: *mut T,
     len: usize,
@@ -67,12 +67,12 @@ impl<T> OutArray<T> {
         Ok(Self { pointer, len })
     }
 
-    /// How many fit.
+    /// Number of elements that fit.
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Writes one element; one that does not fit is left out.
+    /// Writes one element; one beyond the end is dropped.
     pub fn set(&mut self, index: usize, value: T) {
         if index < self.len {
             // SAFETY: `new` has checked the pointer, the index is inside.
@@ -95,7 +95,7 @@ impl OutArray<u8> {
     }
 }
 
-/// An array that is only read.
+/// Returns an array that is only read.
 ///
 /// # Safety
 /// `pointer` may be NULL if `len` is 0; else `len` elements can be read and do not change for `'a`.
@@ -109,7 +109,7 @@ pub(crate) unsafe fn array<'a, T>(pointer: *const T, len: usize, name: &str) -> 
     Ok(unsafe { std::slice::from_raw_parts(pointer, len) })
 }
 
-/// One thing that is only read.
+/// Returns a value that is only read.
 ///
 /// # Safety
 /// `pointer` is NULL or can be read and does not change for `'a`.
@@ -119,8 +119,8 @@ pub(crate) unsafe fn one<'a, T>(pointer: *const T, name: &str) -> Outcome<&'a T>
     Ok(unsafe { &*pointer })
 }
 
-/// Refuses two arrays that share memory, of which at least one is written: what is written into it would change the other
-/// while it is in use. Each is its name, where it begins and how many elements it has.
+/// Refuses two arrays that overlap, of which at least one is written, because writing one would change the
+/// other while it is in use. Each is given by its name, address and number of elements.
 pub(crate) fn apart<T, U>(a: (&str, *const T, usize), b: (&str, *const U, usize)) -> Outcome {
     let [a_bytes, b_bytes] = [bytes(a.1, a.2), bytes(b.1, b.2)];
     if a_bytes.start < b_bytes.end && b_bytes.start < a_bytes.end {
@@ -135,7 +135,7 @@ fn bytes<T>(pointer: *const T, len: usize) -> Range<usize> {
     start..start.saturating_add(len.saturating_mul(size_of::<T>()))
 }
 
-/// UTF-8 text that ends with a zero byte.
+/// Returns UTF-8 text that ends with a zero byte.
 ///
 /// # Safety
 /// `pointer` is NULL or the text can be read and does not change for `'a`.

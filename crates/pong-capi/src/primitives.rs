@@ -1,4 +1,4 @@
-//! Primitives, as contacts name them: an Interface and an index.
+//! Primitives as contacts name them: an Interface and an index.
 
 use crate::failure::Failure;
 use crate::guard::{get, with_world};
@@ -9,7 +9,7 @@ use crate::pointers::{Out, text};
 use crate::status::pong_status;
 use std::ffi::c_char;
 
-/// How many primitives a movable group has; a mesh is one.
+/// Number of primitives of a movable group; a mesh is one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_primitive_count(
     world: *const pong_world,
@@ -57,5 +57,5 @@ pub unsafe extern "C" fn pong_find_primitive(
     })
 }
 
-/// How many primitives a message lists.
+/// Number of primitives that a message lists at most.
 const MOST_NAMED: usize = 20;

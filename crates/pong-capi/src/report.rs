@@ -11,11 +11,11 @@ use std::ffi::{CStr, c_char};
 
 /// The frame had more contacts than the world's capacity: the deepest were kept.
 pub const PONG_FLAG_CONTACT_LIMIT: u32 = 1;
-/// More contacts of one ball with one surface than could be shared exactly: the deepest were.
+/// One ball had more contacts with one surface than could be shared exactly: the deepest were shared.
 pub const PONG_FLAG_LOAD_SHARING_LIMIT: u32 = 2;
-/// Something went right through something else since the last commit, or came out on the far side of what pushed it back:
-/// a contact was missed. Shorter frames, a thicker wall or a stiffer surface cure it; before a jump that is meant, call
-/// pong_clear_contact_history().
+/// A contact was missed: something passed right through something else since the last commit, or came out on
+/// the far side of what pushed it back. Remedy: shorter frames, a thicker wall or a stiffer surface. Before
+/// an intended jump call pong_clear_contact_history().
 pub const PONG_FLAG_TUNNELLED: u32 = 4;
 
 /// `stage_ns` of states in and relative motion.
@@ -35,28 +35,28 @@ pub const PONG_STAGE_COMMIT: usize = 5;
 pub const PONG_WORK_BROAD_PHASE: usize = 0;
 /// `work_ns` of contact tests.
 pub const PONG_WORK_NARROW_PHASE: usize = 1;
-/// `work_ns` of which contacts count, and their weights.
+/// `work_ns` of load sharing: which contacts count, and their weights.
 pub const PONG_WORK_LOAD_SHARING: usize = 2;
 /// `work_ns` of normal and friction forces.
 pub const PONG_WORK_FORCES: usize = 3;
 
-/// At PONG_STAGE_....
+/// Names, by PONG_STAGE_....
 const STAGE_NAMES: [&CStr; 6] = [c"input", c"contacts", c"order", c"energy", c"output", c"commit"];
-/// At PONG_WORK_....
+/// Names, by PONG_WORK_....
 const WORK_NAMES: [&CStr; 4] = [c"broad phase", c"narrow phase", c"load sharing", c"forces"];
 
-/// Room for stages in pong_report.
+/// Number of stages that pong_report has room for.
 const STAGES: usize = 8;
 
-/// What the last frame did.
+/// Counts, times, memory use and flags of the last frame.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct pong_report {
-    /// What the last frame had to leave out, PONG_FLAG_...; 0 if nothing. See pong_flag_name().
+    /// Limits that the last frame hit, PONG_FLAG_...; 0 if none. See pong_flag_name().
     pub flags: u32,
     /// Contacts listed.
     pub contacts: u32,
-    /// Contacts there would have been without the limit: the capacity to ask for after PONG_FLAG_CONTACT_LIMIT.
+    /// Contacts before the limit was applied: the capacity to ask for after PONG_FLAG_CONTACT_LIMIT.
     pub contacts_wanted: u32,
     /// Largest `contacts_wanted` of any frame of this world.
     pub peak_contacts_wanted: u32,
@@ -68,13 +68,13 @@ pub struct pong_report {
     pub boxes_tested: u64,
     /// Pairs of primitives tested. By kind: pong_get_tally().
     pub primitives_tested: u64,
-    /// Evaluations since the world was made, those that a step or a commit asked for included.
+    /// Evaluations since the world was made, including those made by a step or a commit.
     pub evaluations: u64,
     /// Commits since the world was made.
     pub commits: u64,
     /// Duration of the last evaluation, ns.
     pub evaluate_ns: u64,
-    /// Duration of the last commit without the evaluation it may have asked for, ns.
+    /// Duration of the last commit, ns, without an evaluation made by it.
     pub commit_ns: u64,
     /// With report_times: duration of each stage of the last frame, ns, at PONG_STAGE_...; else zero.
     pub stage_ns: [u64; 8],
@@ -85,27 +85,27 @@ pub struct pong_report {
     /// The contact_capacity to ask for after a limit was hit in the last frame; 0 if none was. After
     /// PONG_FLAG_LOAD_SHARING_LIMIT alone it is twice the present one, and may have to be doubled again.
     pub advised_capacity: u64,
-    /// Most contacts that a frame of this world had to hold, those included that touch nobody any more and are only
-    /// remembered.
+    /// Largest number of contacts that a frame of this world had to hold, including contacts that have ended
+    /// and are only remembered.
     pub contacts_peak: u64,
-    /// How many there is room for: more than the contact capacity.
+    /// Number of contacts that there is room for: more than the contact capacity.
     pub contacts_capacity: u64,
-    /// Most memory that the testers of one part of a frame needed, bytes.
+    /// Largest memory that the testers of one part of a frame needed, bytes.
     pub arena_peak: u64,
-    /// What there is for them, bytes.
+    /// Memory available to them, bytes.
     pub arena_capacity: u64,
-    /// Most memory that sharing among the contacts of one surface needed, bytes.
+    /// Largest memory that sharing among the contacts of one surface needed, bytes.
     pub scratch_peak: u64,
-    /// What there is for it, bytes.
+    /// Memory available to it, bytes.
     pub scratch_capacity: u64,
-    /// Rounds of work since the world was sealed that the calling thread did by itself because a worker did not come back
-    /// in time. The results are the same; the time is not.
+    /// Rounds of work since the world was sealed that the calling thread did by itself because a worker did
+    /// not come back in time. The results are the same; the frame takes longer.
     pub worker_timeouts: u64,
     /// Zero in this version.
     pub reserved: [u64; 3],
 }
 
-/// Counts, times, memory and flags of the last frame; before the first all zero, but for what there is room for.
+/// Counts, times, memory and flags of the last frame; before the first all zero, except the capacities.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_report(world: *const pong_world, report: *mut pong_report) -> pong_status {
     get(world, (report, "report"), |inner| Ok(report_of(&inner.phase, &inner.counters)))
@@ -151,13 +151,13 @@ fn by_stage(times: &StageTimes) -> [u64; STAGES] {
     all
 }
 
-/// The parts of a lane's work, or of all lanes', in order.
+/// Times of the parts of the work of one thread, or of all together, in order.
 pub(crate) fn by_work(times: &WorkTimes) -> [u64; 4] {
     Work::ALL.map(|work| times.of(work))
 }
 
-/// What a flag of the report means, in words: "contact limit", "load sharing limit", "tunnelled"; "unknown limit" for a number that is
-/// no single flag. Lives as long as the library.
+/// Meaning of a flag of the report, in words: "contact limit", "load sharing limit", "tunnelled"; "unknown
+/// limit" for a number that is no single flag. Lives as long as the library.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_flag_name(flag: u32) -> *const c_char {
     let name: &CStr = match flag {
@@ -169,15 +169,15 @@ pub extern "C" fn pong_flag_name(flag: u32) -> *const c_char {
     name.as_ptr()
 }
 
-/// Name of a stage, PONG_STAGE_...: "input", "contacts", "order", "energy", "output", "commit"; empty for a place
-/// of `stage_ns` that has no stage. Lives as long as the library.
+/// Name of a stage, PONG_STAGE_...: "input", "contacts", "order", "energy", "output", "commit"; empty for an
+/// index of `stage_ns` that has no stage. Lives as long as the library.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_stage_name(stage: usize) -> *const c_char {
     STAGE_NAMES.get(stage).unwrap_or(&c"").as_ptr()
 }
 
-/// Name of a part of the contacts' work, PONG_WORK_...: "broad phase", "narrow phase", "load sharing", "forces"; empty for a place of
-/// `work_ns` that there is not. Lives as long as the library.
+/// Name of a part of the contacts' work, PONG_WORK_...: "broad phase", "narrow phase", "load sharing",
+/// "forces"; empty for an index outside `work_ns`. Lives as long as the library.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_work_name(work: usize) -> *const c_char {
     WORK_NAMES.get(work).unwrap_or(&c"").as_ptr()
@@ -191,8 +191,9 @@ pub struct pong_ledger {
     pub stored: f64,
     /// Work done on the bodies since the world began, J, by the trapezoid rule between commits.
     pub work: f64,
-    /// Left the contacts for good since the world began, J: −work − stored. What is forgotten counts as lost; what the host
-    /// put in, by a contact that it set up or by a preload, less than nothing.
+    /// Energy that left the contacts for good since the world began, J: −work − stored. Forgotten energy
+    /// counts as lost; energy that the host put in, by a contact that it set up or by a preload, counts as
+    /// negative.
     pub dissipated: f64,
 }
 

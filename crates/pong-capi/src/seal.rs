@@ -9,7 +9,7 @@ use pong_advise::StepReport;
 use pong_model::printable;
 use std::ffi::c_char;
 
-/// What sealing tells.
+/// Result of sealing.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct pong_seal_report {
@@ -19,16 +19,17 @@ pub struct pong_seal_report {
     pub contact_capacity: u64,
     /// Size of the largest contact state that can be saved, bytes.
     pub contact_state_size: u64,
-    /// How many warnings there are: see pong_seal_warning().
+    /// Number of warnings: see pong_seal_warning().
     pub warning_count: u64,
     /// Workers that were started, which may be fewer than the configuration asks for: see pong_get_worker().
     pub workers: u64,
-    /// How many notes there are: see pong_seal_note().
+    /// Number of notes: see pong_seal_note().
     pub note_count: u64,
     /// The longest step at which no contact by itself gains energy, s; infinite if nothing that yields can be touched, 0
     /// if no step is stable or none was planned (pong_plan_step()).
     pub stable_step: f64,
-    /// The step up to which the scene is surely stable, whatever touches at once, s; likewise.
+    /// The step up to which the scene is surely stable for any set of simultaneous contacts, s; infinite or 0
+    /// as above.
     pub surely_stable_step: f64,
     /// Zero in this version.
     pub reserved: [u64; 4],
@@ -42,7 +43,7 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
     setting_up(world, |inner| {
         let out = Out::optional(report, "report")?;
         let sealed = inner.phase.seal()?;
-        // Plan and masses were checked when they were told: nothing is refused any more.
+        // Plan and masses were checked when they were set: this refuses nothing.
         let step = inner.advice.report(inner.phase.frames("plan the step")?)?;
         let of_step = step.iter().flat_map(|step| step.warnings.iter().map(ToString::to_string));
         let warnings = sealed.warnings.iter().map(ToString::to_string).chain(of_step);
@@ -69,8 +70,8 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
     })
 }
 
-/// A warning of sealing: something the author may not have intended, or a contact that gains energy at the planned step.
-/// The text lives as long as the world.
+/// A warning of sealing: something the author may not have intended, or a contact that gains energy at the
+/// planned step. The text lives as long as the world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_seal_warning(
     world: *const pong_world,
@@ -80,8 +81,8 @@ pub unsafe extern "C" fn pong_seal_warning(
     get(world, (warning, "warning"), |inner| text_at("warning", &inner.seal_warnings, index))
 }
 
-/// A note of sealing: what may go wrong at the planned step if enough contacts act at once, and need not. The text lives
-/// as long as the world.
+/// A note of sealing: something that may, but need not, go wrong at the planned step if enough contacts act
+/// at once. The text lives as long as the world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_seal_note(
     world: *const pong_world,

@@ -80,7 +80,7 @@ pub unsafe extern "C" fn pong_get_state(
 }
 
 impl Inner {
-    /// Refuses ids of other worlds, telling their place in the caller's array.
+    /// Refuses ids of other worlds; the message has their index in the caller's array.
     pub(crate) fn check_interfaces(&self, ids: &[pong_interface_id]) -> Outcome {
         match ids.iter().position(|id| !self.names.has_interface(*id)) {
             None => Ok(()),
@@ -90,7 +90,8 @@ impl Inner {
 }
 
 impl Inner {
-    /// Refuses ids of other worlds, and a group that was given two states, telling their places in the caller's array.
+    /// Refuses ids of other worlds, and a group that is given two states; the message has their index in the
+    /// caller's array.
     fn check_named_once(&self, ids: &[pong_interface_id]) -> Outcome {
         let Some(place) = self.names.unknown_or_named_twice(ids) else { return Ok(()) };
         let Ok(path) = self.names.path(ids[place]) else {

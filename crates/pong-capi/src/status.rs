@@ -3,11 +3,11 @@
 use std::ffi::c_char;
 use strum::VariantArray;
 
-/// What became of a call. The numbers never change and are never used again for something else.
+/// Outcome of a call. The numbers never change and are never used again for something else.
 ///
-/// A call that fails has changed nothing that a later frame can see; pong_last_message() tells the thing, the cause
-/// and what to do.
-// Their names end with a zero byte, for C.
+/// A call that fails has changed nothing that a later frame can see; pong_last_message() names the thing, the
+/// cause and the remedy.
+// The names end with a zero byte, for C.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::IntoStaticStr, strum::VariantArray)]
 #[strum(serialize_all = "SCREAMING_SNAKE_CASE", prefix = "PONG_STATUS_", suffix = "\0")]
@@ -35,7 +35,7 @@ pub enum pong_status {
     BadValue = 9,
     /// The bytes are not a contact state of this world.
     BadStateBlock = 10,
-    /// The caller's buffer is too small; the message tells the size that is needed.
+    /// The caller's buffer is too small; the message has the required size.
     BufferTooSmall = 11,
     /// The model has faults; the message has one line for each.
     ModelError = 12,
@@ -50,10 +50,10 @@ pub enum pong_status {
     LawFailed = 16,
     /// A response log cannot be written; the message names file and cause.
     LogFailed = 17,
-    /// The world is destroyed, but a worker had not ended after a second because the system does not run it. It ends by
-    /// itself; until then `user` pointers of laws must live, and the library must not be unloaded.
+    /// The world is destroyed, but a worker had not ended after a second because the system does not run it.
+    /// It ends by itself; until then `user` pointers of laws must live, and the library must not be unloaded.
     WorkerLeft = 18,
-    /// The system does not give the memory that set-up asks for; the message tells how much.
+    /// The system does not give the memory that set-up asks for; the message has its size.
     OutOfMemory = 19,
 }
 
@@ -65,9 +65,8 @@ pub extern "C" fn pong_status_name(status: i32) -> *const c_char {
     known.map_or("unknown status\0", <&str>::from).as_ptr().cast()
 }
 
-/// What the last call of this thread had to say: empty after a success, never NULL.
-/// Valid until this thread's next call; calls of other threads do not touch it. This call and
-/// pong_status_name() leave it as it is.
+/// Message of the last call of this thread: empty after a success, never NULL. Valid until this thread's next
+/// call; calls of other threads do not touch it. This call and pong_status_name() leave it as it is.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_last_message() -> *const c_char {
     crate::message::pointer()

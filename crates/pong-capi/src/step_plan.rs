@@ -1,4 +1,4 @@
-//! What the step adviser is told before the seal: masses, and what the host does with the wrench.
+//! Input of the step adviser before the seal: masses, and the host's use of the wrench.
 
 use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD};
 use crate::failure::{Failure, Outcome};
@@ -15,27 +15,29 @@ use pong_advise::{Accuracy, GroupMass, Joints, SpringRates, StepPlan};
 pub struct pong_mass {
     /// Mass, kg; INFINITY for a group that does not yield (fixed, or on a prescribed path).
     pub mass: f64,
-    /// Inertia about the mass centre along the axes of the group frame, kg m^2: Ixx, Iyy, Izz, Ixy, Ixz, Iyz, the
-    /// products those of the tensor itself (Ixy = minus the integral of x y dm). All zero if it is not known: lever
-    /// arms are then left out.
+    /// Inertia about the mass centre along the axes of the group frame, kg m^2: Ixx, Iyy, Izz, Ixy, Ixz, Iyz,
+    /// the products as elements of the tensor itself (Ixy = minus the integral of x y dm). All zero if it is
+    /// not known: lever arms are then left out.
     pub inertia: [f64; 6],
     /// The mass centre in the group frame, m.
     pub mass_center: [f64; 3],
 }
 
-/// How a movable group on joints answers a wrench at one pose of its mechanism, for the step adviser alone. Make it with zeros
-/// and set what is known.
+/// Response of a movable group on joints to a wrench at one pose of its mechanism, for the step adviser
+/// alone. Make it with zeros and set what is known.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct pong_joints {
     /// Acceleration (linear of the group's origin, then angular) per wrench (force, then moment about the origin), by rows,
     /// along the axes of the group frame: J M^-1 J^T of a mechanism with the mass matrix M.
     pub inverse_inertia: [f64; 36],
-    /// A bound of the largest eigenvalue of M^-1 K of the host's springs on the mechanism, 1/s^2; 0 without springs.
+    /// Upper bound of the largest eigenvalue of M^-1 K of the host's springs on the mechanism, 1/s^2; 0
+    /// without springs.
     pub spring_rate: f64,
-    /// The same of M^-1 C of its dampers, 1/s.
+    /// Upper bound of the largest eigenvalue of M^-1 C of the host's dampers on the mechanism, 1/s; 0 without
+    /// dampers.
     pub damper_rate: f64,
-    /// Groups of one number share joints: a push on one moves the others.
+    /// Groups with the same number share joints: a push on one moves the others.
     pub mechanism: u32,
     /// Zero.
     pub reserved: u32,
@@ -55,28 +57,28 @@ pub struct pong_step_plan {
     /// Speed at which things touch, m/s; 0 (default) if it is not known. Laws whose stiffness or damping follows the
     /// depth are judged at the depth that this speed makes.
     pub closing_speed: f64,
-    /// How near the depth of a bounce must come to its closed form, a fraction of it; 0.05 by default. 0 in both
-    /// accuracies: warn of contacts that gain energy alone.
+    /// Largest relative error of the depth of a bounce against its closed form; 0.05 by default. 0 in both
+    /// accuracies: warn only of contacts that gain energy.
     pub depth_within: f64,
-    /// How near the rebound of a bounce must come to its closed form, a fraction of it; 0.02 by default.
+    /// Largest relative error of the rebound of a bounce against its closed form; 0.02 by default.
     pub rebound_within: f64,
     /// Zero.
     pub reserved: [u64; 4],
 }
 
-/// What the contacts of one frame leave of the planned step.
+/// Stability of the contacts of one frame at the planned step.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct pong_step_check {
-    /// Contacts that push something that yields.
+    /// Contacts with at least one movable body that yields.
     pub contacts: u64,
     /// Contacts whose masses or laws are not known.
     pub not_judged: u64,
     /// The longest step at which they are surely stable together, s; 0 if there is none, infinite if nothing acts.
     pub stable_step: f64,
-    /// Stiffness over mass of the stiffest way to move, 1/s^2: the square of its frequency in rad/s.
+    /// Stiffness over mass of the stiffest mode, 1/s^2: the square of its frequency in rad/s.
     pub stiffness_rate: f64,
-    /// Damping over mass of the most damped way to move, 1/s.
+    /// Damping over mass of the most damped mode, 1/s.
     pub damping_rate: f64,
 }
 
@@ -95,7 +97,7 @@ pub extern "C" fn pong_default_step_plan() -> pong_step_plan {
     }
 }
 
-/// Tells the mass properties of a movable group, for the check that pong_plan_step() asks for. Before sealing.
+/// Sets the mass properties of a movable group, for the check that pong_plan_step() asks for. Before sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_mass(
     world: *mut pong_world,
@@ -110,8 +112,9 @@ pub unsafe extern "C" fn pong_set_mass(
     })
 }
 
-/// Tells how a movable group on joints yields, beside its mass of pong_set_mass(), which must be told first. Before sealing for
-/// the check of pong_plan_step(), and as often as the pose changes for pong_check_step().
+/// Sets how a movable group on joints yields, in addition to its mass of pong_set_mass(), which must be set
+/// first. Before sealing for the check of pong_plan_step(), and as often as the pose changes for
+/// pong_check_step().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_joints(
     world: *mut pong_world,
@@ -131,9 +134,9 @@ pub unsafe extern "C" fn pong_set_joints(
     })
 }
 
-/// Has the seal check every contact against the host's step, by the masses of pong_set_mass(). What the step is too
-/// long for, and what cannot be judged, is told by pong_seal_warning(); what it may be too long for, if enough contacts
-/// act at once, by pong_seal_note(). Before sealing.
+/// Has the seal check every contact against the host's step, by the masses of pong_set_mass(). Contacts for
+/// which the step is too long, or which cannot be judged, appear in pong_seal_warning(); those for which it
+/// may be too long, if enough contacts act at once, in pong_seal_note(). Before sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_plan_step(world: *mut pong_world, plan: *const pong_step_plan) -> pong_status {
     setting_up(world, |inner| {
@@ -146,8 +149,8 @@ pub unsafe extern "C" fn pong_plan_step(world: *mut pong_world, plan: *const pon
     })
 }
 
-/// What the contacts of the last frame leave of the planned step, with their true levers and normals. Needs the plan and
-/// the masses from before the seal, and a frame. Allocates.
+/// Checks the planned step against the contacts of the last frame, with their true levers and normals. Needs
+/// the plan and the masses from before the seal, and a frame. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_check_step(
     world: *const pong_world,

@@ -16,9 +16,9 @@ pub const PONG_NORMAL_LINEAR: i32 = 0;
 pub const PONG_NORMAL_HUNT_CROSSLEY: i32 = 1;
 /// F = k d^(3/2) (1 + chi d').
 pub const PONG_NORMAL_HUNT_CROSSLEY_HERTZ: i32 = 2;
-/// A law of the user's; its parameters stay as the model gives them.
+/// A law given by callback; its parameters stay as the model gives them.
 pub const PONG_NORMAL_CUSTOM: i32 = 3;
-/// That of the surface it meets: of a rigid surface that names none. It stays rigid.
+/// Law of the surface it meets, for a rigid surface that names none. It stays rigid.
 pub const PONG_NORMAL_INHERITED: i32 = 4;
 /// F = k d + c d^q d', with the q of the model file.
 pub const PONG_NORMAL_POWER_LAW: i32 = 5;
@@ -31,19 +31,19 @@ pub const PONG_FRICTION_NONE: i32 = 0;
 pub const PONG_FRICTION_BRISTLE: i32 = 1;
 /// Regularised Coulomb friction.
 pub const PONG_FRICTION_COULOMB: i32 = 2;
-/// A law of the user's; its parameters stay as the model gives them.
+/// A law given by callback; its parameters stay as the model gives them.
 pub const PONG_FRICTION_CUSTOM: i32 = 3;
-/// That of the surface it meets: of a rigid surface that names none. It stays rigid.
+/// Law of the surface it meets, for a rigid surface that names none. It stays rigid.
 pub const PONG_FRICTION_INHERITED: i32 = 4;
 
-/// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's laws
-/// do not use are 0 when got and ignored when set. None but a rigid stiffness is beyond 1e100.
+/// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's
+/// laws do not use are 0 when got and ignored when set. No value but a rigid stiffness is beyond 1e100.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct pong_surface_values {
-    /// Which normal law the surface has: PONG_NORMAL_...
+    /// Normal law of the surface: PONG_NORMAL_...
     pub normal_law: i32,
-    /// Which friction law the surface has: PONG_FRICTION_...
+    /// Friction law of the surface: PONG_FRICTION_...
     pub friction_law: i32,
     /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_..._HERTZ), 1e-100 to 1e100; infinite means rigid.
     pub stiffness: f64,
@@ -59,8 +59,8 @@ pub struct pong_surface_values {
     pub friction_static_excess: f64,
     /// Bristle: tangential stiffness, N/m, 1e-100 to 1e100; 0 takes two thirds of the normal stiffness.
     pub friction_stiffness: f64,
-    /// Bristle: tangential damping, N s/m. Got, it is what acts, also where the model leaves it to the normal law; once set, it
-    /// no longer follows that law.
+    /// Bristle: tangential damping, N s/m. When read, it is the damping that acts, also where the model
+    /// leaves it to the normal law; once set, it no longer follows that law.
     pub friction_damping: f64,
     /// Coulomb: slip speed at which the full force is reached, m/s.
     pub friction_slip_speed: f64,
@@ -152,7 +152,7 @@ impl From<&Surface> for pong_surface_values {
 }
 
 impl pong_surface_values {
-    /// A surface with these values and the laws of the old one.
+    /// The old surface with these values and its own laws.
     fn applied_to(&self, old: &Surface) -> Outcome<Surface> {
         if (self.normal_law, self.friction_law)
             != (normal_number(&old.normal), friction_number(&old.friction))

@@ -1,4 +1,4 @@
-//! How often what was tested in the last frame, and what that found.
+//! Tallies of the tests of the last frame and their results.
 
 use crate::guard::get;
 use crate::handle::{Inner, pong_world};
@@ -16,7 +16,7 @@ pub const PONG_TALLY_PRIMITIVES: u32 = 1;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct pong_tally {
-    /// What was tested: PONG_TALLY_...
+    /// Kind of the tests: PONG_TALLY_...
     pub what: u32,
     /// Tests.
     pub tested: u32,
@@ -31,7 +31,7 @@ pub struct pong_tally {
     pub kind_b: [c_char; 16],
 }
 
-/// Number of tallies of the last frame: pairs of kinds of which something was tested. It may differ from frame to
+/// Number of tallies of the last frame: pairs of kinds with at least one test. It may differ from frame to
 /// frame; 0 before the first.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_tally_count(world: *const pong_world, count: *mut usize) -> pong_status {
@@ -53,7 +53,7 @@ pub unsafe extern "C" fn pong_get_tally(
     })
 }
 
-/// None of anything before the seal.
+/// Counts of the last frame; all zero before the seal.
 fn counts_of(inner: &Inner) -> FrameCounts {
     inner.phase.sealed().map(World::counts).unwrap_or_default()
 }
@@ -70,7 +70,7 @@ fn in_c(what: u32, a: &str, b: &str, tally: Tally) -> pong_tally {
     pong_tally { what, tested, met, reserved: 0, kind_a: letters(a), kind_b: letters(b) }
 }
 
-/// A name as C reads it; the last byte stays zero.
+/// A name as a C string; the last byte stays zero.
 fn letters(name: &str) -> [c_char; 16] {
     let mut all = [0; 16];
     for (place, byte) in all[..15].iter_mut().zip(name.bytes()) {

@@ -1,4 +1,4 @@
-//! A number of the host's on Objects and primitives.
+//! User data of Objects and primitives: a number of the host's.
 
 use crate::guard::{get, with_world};
 use crate::handle::pong_world;

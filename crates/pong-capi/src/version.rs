@@ -1,4 +1,4 @@
-//! Which library this is, and whether the header fits it.
+//! Version of the library, and the check that the header fits it.
 
 pub use crate::abi::PONG_ABI_VERSION;
 use crate::abi::fits;
@@ -22,14 +22,14 @@ pub extern "C" fn pong_abi_version() -> u32 {
     PONG_ABI_VERSION
 }
 
-/// Hash of the layout of every struct and of every status number in the library; PONG_LAYOUT_HASH is that of the
-/// header.
+/// Hash of the layout of every struct and of every status number in the library; compare it with
+/// PONG_LAYOUT_HASH of the header.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_layout_hash() -> u64 {
     layout_hash()
 }
 
-/// Whether header and library fit: call it first, as PONG_CHECK_ABI(). PONG_STATUS_CONFIG if they do not.
+/// Checks that header and library fit: call it first, as PONG_CHECK_ABI(). PONG_STATUS_CONFIG if they do not.
 /// A header of an earlier release of the same ABI fits.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_check_abi(abi_version: u32, hash: u64) -> pong_status {

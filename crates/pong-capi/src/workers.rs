@@ -1,4 +1,4 @@
-//! Workers: waking them, letting them sleep, what became of them and what they did.
+//! Workers: waking, sleeping, placement and shares of work.
 
 use crate::failure::{Failure, Outcome};
 use crate::guard::{get, with_world};
@@ -15,9 +15,9 @@ use std::time::Duration;
 
 /// The configuration did not ask for it.
 pub const PONG_GRANT_NOT_ASKED: u32 = 0;
-/// It is so.
+/// It was asked for and granted.
 pub const PONG_GRANT_GRANTED: u32 = 1;
-/// It was asked for and refused; pong_worker_text() tells why.
+/// It was asked for and refused; pong_worker_text() has the reason.
 pub const PONG_GRANT_REFUSED: u32 = 2;
 
 /// Wakes the workers shortly before a frame (some 100 us): they look for its work until it comes or `at_most_us` has
@@ -51,8 +51,8 @@ pub unsafe extern "C" fn pong_worker_count(world: *const pong_world, count: *mut
     })
 }
 
-/// What became of a worker and what it did last. `index` is 1 to pong_worker_count(), or 0 for the calling thread.
-/// PONG_STATUS_WRONG_PHASE before the seal.
+/// Placement of a worker and its share of the last frame. `index` is 1 to pong_worker_count(), or 0 for the
+/// calling thread. PONG_STATUS_WRONG_PHASE before the seal.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_worker(
     world: *const pong_world,
@@ -68,7 +68,7 @@ pub unsafe extern "C" fn pong_get_worker(
     })
 }
 
-/// What became of a worker, in words: its core and priority, or why it has not got them. `index` is 1 to
+/// Placement of a worker, in words: its core and priority, or why it does not have them. `index` is 1 to
 /// pong_worker_count(). The text lives as long as the world. PONG_STATUS_WRONG_PHASE before the seal.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_worker_text(
@@ -105,7 +105,7 @@ impl From<&WorkerStart> for Started {
     }
 }
 
-/// The outcome as a number, and what was asked for.
+/// A grant as PONG_GRANT_... and the value asked for.
 fn grant<T: Copy>(grant: &Grant<T>, number: impl FnOnce(T) -> u32) -> (u32, u32) {
     match grant {
         Grant::NotAsked => (PONG_GRANT_NOT_ASKED, 0),

@@ -1,4 +1,4 @@
-//! A world's beginning and end.
+//! Creation and destruction of a world.
 
 use crate::advice::Advice;
 use crate::clock;
@@ -63,10 +63,11 @@ pub unsafe extern "C" fn pong_create_world(
     })
 }
 
-/// Destroys a world and everything it gave out: ids become stale, names, warnings and notes must not be read any more.
-/// NULL is allowed and does nothing. No other call on the world may follow. PONG_STATUS_BUSY: a call on it is running, or
-/// this is called from inside one of its laws; the world is as it was. PONG_STATUS_WORKER_LEFT: it is destroyed, but a worker
-/// that the system does not run was left behind after a second. Closes a log that is running.
+/// Destroys a world and everything it gave out: ids become stale; names, warnings and notes must not be read
+/// any more. NULL is allowed and does nothing. No other call on the world may follow. PONG_STATUS_BUSY: a
+/// call on it is running, or this is called from inside one of its laws; the world is as it was.
+/// PONG_STATUS_WORKER_LEFT: it is destroyed, but a worker that the system does not run was left behind after
+/// a second. Closes a log that is running.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_destroy_world(world: *mut pong_world) -> pong_status {
     guarded(|| {

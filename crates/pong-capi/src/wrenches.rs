@@ -8,7 +8,7 @@ use crate::pointers::{OutArray, apart, array};
 use crate::status::pong_status;
 use pong_engine::EngineError;
 
-/// In which frame a wrench is expressed: PONG_REFERENCE_FRAME_GROUP or PONG_REFERENCE_FRAME_COMMON.
+/// Frame in which a wrench is expressed: PONG_REFERENCE_FRAME_GROUP or PONG_REFERENCE_FRAME_COMMON.
 pub type pong_reference_frame = i32;
 
 /// Along the axes of the movable group.

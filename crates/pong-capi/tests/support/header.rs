@@ -61,7 +61,7 @@ pub fn generate() -> String {
 fn config() -> cbindgen::Config {
     let check = format!(
         "\n/// Hash of every layout in this header; see PONG_CHECK_ABI().\n#define PONG_LAYOUT_HASH {:#018x}ULL\n\n\
-         /// Whether this header fits the library: call it first.\n\
+         /// Checks that this header fits the library: call it first.\n\
          #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)",
         pong::layout::layout_hash()
     );
