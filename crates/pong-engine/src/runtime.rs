@@ -1,5 +1,5 @@
-//! What a seal starts: the memory, the workers and the frames of a world. [`World`](crate::World) checks what a host gives
-//! and keeps the states; everything here has been checked.
+//! Run-time part of a sealed world: its memory, its workers and its frames. [`World`](crate::World) checks
+//! the host's input and keeps the states; everything here has already been checked.
 
 use crate::energy::account::EnergyAccount;
 use crate::energy::contact::ContactEnergies;
@@ -27,25 +27,26 @@ pub(crate) struct Runtime {
     pub tables: Arc<Vec<SurfaceTable>>,
     /// The committed contact state.
     pub memory: Arc<ContactMemory>,
-    /// Where the next contact state is written. A worker that is stuck may still read one that was committed once,
-    /// so there is one more than the two that take turns.
+    /// Back buffers for the next contact state. A stuck worker may still read an earlier one, so with workers
+    /// there is one buffer more than the two that are swapped.
     spares: Vec<Arc<ContactMemory>>,
-    /// A contact state without room.
+    /// Contact state without capacity; the workers hold it between frames.
     nothing: Arc<ContactMemory>,
     pub frame: EvaluationBuffers,
     pub pool: Option<WorkerPool>,
-    /// Whether `frame` belongs to the states presently set.
+    /// True if `frame` was computed from the current states and is not yet committed.
     pub evaluated: bool,
-    /// Whether `frame` belongs to the states, pairs and surfaces as they are set now, committed or not.
+    /// True if `frame` was computed from the current states, pairs and surfaces, whether committed or not.
     pub current: bool,
     pub clock: Clock,
     contacts_peak: usize,
-    /// Of every pair of Objects whether a commit of some accepts it; written anew by each.
+    /// For each pair of Objects: true if the current partial commit accepts it. Rewritten by each partial
+    /// commit.
     accepted: Box<[bool]>,
 }
 
 impl Runtime {
-    /// Takes all memory and starts the workers.
+    /// Allocates all memory and starts the workers.
     pub fn start(
         scene: &Arc<Scene>,
         sealed: Arc<Sealed>,
@@ -74,7 +75,7 @@ impl Runtime {
             blocks: Vec::with_capacity(ROUND),
             clock,
         };
-        // Before the workers: the allocator reserves address space for every thread.
+        // Allocate before the workers start: the allocator reserves address space for every thread.
         let committed = memory();
         let spares = if scene.config.workers.is_some() { 2 } else { 1 };
         let spares = (0..spares).map(|_| memory()).collect();
@@ -110,8 +111,8 @@ impl Runtime {
         })
     }
 
-    /// Another of the same sealed scene, with these values of surfaces, that remembers the same contacts. It has memory and
-    /// workers of its own and no frame yet.
+    /// Starts a copy of this runtime for the same sealed scene, with other surface values and the same
+    /// contact history. The copy has its own memory and workers, and no frame yet.
     pub fn start_clone(
         &self,
         scene: &Arc<Scene>,
@@ -122,16 +123,16 @@ impl Runtime {
         Ok(clone)
     }
 
-    /// What is set now is no longer what the last frame was computed from.
+    /// Marks the last frame as out of date.
     pub fn changed(&mut self) {
         (self.evaluated, self.current) = (false, false);
     }
 
-    /// Computes a frame.
+    /// Computes a frame from the states.
     #[inline]
     pub fn evaluate(&mut self, scene: &Scene, states: &States) -> Result<FrameReport, EngineError> {
         frame::require_states(scene, &self.sealed, states)?;
-        // Should a law of the host's panic or a sum overflow, there is no frame until the next one.
+        // If a host's law panics or a sum overflows, no frame is valid until the next evaluate.
         (self.evaluated, self.current, self.frame.computed) = (false, false, false);
         let given =
             EvaluationInput { scene, sealed: &self.sealed, states, memory: &self.memory, clock: self.clock };
@@ -139,7 +140,7 @@ impl Runtime {
         self.let_go_of_memory();
         self.contacts_peak = self.contacts_peak.max(self.frame.order.len());
         if let Some(body) = self.frame.overflows(&self.sealed) {
-            // Nobody is to see its contacts.
+            // Discard the contacts of a frame whose wrench overflowed.
             self.frame.order.clear();
             self.frame.report = FrameReport::default();
             return Err(EngineError::NotFinite { interface: scene.body_name(body) });
@@ -148,8 +149,8 @@ impl Runtime {
         Ok(self.frame.report)
     }
 
-    /// Once a frame is done, or a law of the host's has panicked in it, only a worker that is stuck may still hold a
-    /// contact state.
+    /// Makes the workers release the contact state. Afterwards only a stuck worker may still hold one, even
+    /// if a host's law panicked.
     #[inline]
     fn let_go_of_memory(&mut self) {
         if let Some(pool) = &mut self.pool {
@@ -157,7 +158,8 @@ impl Runtime {
         }
     }
 
-    /// Poses of the last two commits, the earlier ones first, if both were of all pairs and nothing came in between.
+    /// Poses of the last two commits, earlier first, if both covered all pairs and no other commit lies
+    /// between them.
     pub fn last_two_commits(&self) -> Option<(&CommittedPoses, &CommittedPoses)> {
         let now = &self.memory.poses;
         let earlier = self
@@ -169,7 +171,7 @@ impl Runtime {
         (now.frame() == self.frame.number).then_some((before, now))
     }
 
-    /// Makes what the frame found the committed contact state.
+    /// Commits the contact state of the last frame.
     #[inline]
     pub fn commit(&mut self, states: &States) {
         let mut watch = self.clock.start();
@@ -184,12 +186,12 @@ impl Runtime {
         self.evaluated = false;
     }
 
-    /// As [`commit`](Self::commit) for some pairs of Objects; the others keep their contact state. Both
-    /// together may be more than there is room for: then the strongest stay, and the status says so.
+    /// Commits some pairs of Objects; the others keep their contact state. If both together exceed the
+    /// capacity, the strongest contacts are kept and the status reports the limit.
     ///
     /// # Errors
-    /// [`EngineError::BadValue`] if the others were last committed at more moments than there is room for beside this one.
-    /// Nothing is committed then.
+    /// [`EngineError::BadValue`] if there is no room for one more commit epoch beside those of the pairs that
+    /// are kept. Nothing is committed then.
     pub fn commit_pairs(
         &mut self,
         states: &States,
@@ -241,8 +243,8 @@ impl Runtime {
         Ok(())
     }
 
-    /// Preloads the bristles of a pair of Objects after a commit of the last frame; answers how many there are. What they store
-    /// more is booked as put in by the host.
+    /// Preloads the bristles of a pair of Objects after a commit of the last frame; returns the number of
+    /// bristles. The energy that they gain is booked as work inserted by the host.
     pub fn preload(&mut self, scene: &Scene, pair: usize, preload: &FrictionPreload) -> usize {
         self.let_go_of_memory();
         let preloaded = self.frame.preloaded(scene, &self.sealed, &self.memory, pair, preload);
@@ -254,7 +256,7 @@ impl Runtime {
         preloaded.len()
     }
 
-    /// Drops what is remembered of some pairs of Objects.
+    /// Clears the contact history of some pairs of Objects.
     pub fn clear_history(&mut self, scene: &Scene, cleared: impl Fn(usize) -> bool) {
         self.let_go_of_memory();
         let pairs = &self.sealed.group_pairs;
@@ -265,7 +267,8 @@ impl Runtime {
         self.changed();
     }
 
-    /// Pairs of movable groups with their accounts, what they have stored taken in, and the stiffest of their contacts.
+    /// Pairs of movable groups with their energies and accounts (stored energy included), and stiffness and
+    /// damping of their stiffest contact.
     pub fn pair_energies(
         &self,
     ) -> impl Iterator<Item = (&GroupPair, &PairEnergy, EnergyAccount, EnergyAccount, Option<(f64, f64)>)>
@@ -282,7 +285,7 @@ impl Runtime {
         })
     }
 
-    /// Stiffness and damping of the stiffest contact of a pair, where they do not depend on the depth.
+    /// Stiffness and damping of the stiffest contact of a pair, if they do not depend on the depth.
     pub fn stiffest(&self, pair: &GroupPair) -> Option<(f64, f64)> {
         let tables = pair.tables.iter().map(|&table| &self.tables[table]);
         tables.filter_map(SurfaceTable::stiffest).max_by(|a, b| a.0.total_cmp(&b.0))
@@ -317,11 +320,11 @@ impl Runtime {
         Ok(())
     }
 
-    /// Replaces the values of surfaces.
+    /// Replaces the surface values.
     pub fn set_tables(&mut self, tables: Vec<SurfaceTable>) {
         self.tables = Arc::new(tables);
         self.frame.input.tables = Arc::clone(&self.tables);
-        // Not left to the next frame, which would give the old ones back.
+        // Update the workers now: the next frame would otherwise hand the old tables back.
         self.pool.iter().for_each(|pool| pool.set_tables(&self.tables));
         self.changed();
     }
@@ -334,7 +337,7 @@ impl Runtime {
         self.pool.iter().flat_map(|pool| pool.pool().work())
     }
 
-    /// WorkerContext by lane, the caller's first: what it did alone, and its part of what was shared.
+    /// Work times per thread, the caller's first: serial work and the thread's share of parallel work.
     pub fn lane_times(&self) -> impl Iterator<Item = WorkTimes> + '_ {
         let workers = self.pool.iter().flat_map(WorkerPool::times);
         std::iter::once(self.frame.caller.out.times).chain(workers.copied())
@@ -352,7 +355,7 @@ impl Runtime {
         self.pool.iter_mut().for_each(WorkerPool::quiesce);
     }
 
-    /// Ends the workers; how many were left behind.
+    /// Joins the workers; returns the number of workers that did not end in time.
     pub fn end(&mut self) -> usize {
         self.pool.as_mut().map_or(0, WorkerPool::end)
     }
@@ -371,7 +374,7 @@ impl Runtime {
     }
 }
 
-/// Writes the next contact state and makes it the committed one. The old one waits for its turn.
+/// Writes the next contact state into a free back buffer and swaps it with the committed one.
 #[inline]
 fn take_turns(
     memory: &mut Arc<ContactMemory>,

@@ -1,4 +1,5 @@
-//! One block of work: bounding, testers, sharing and forces for some elements as A against one movable group as B.
+//! One block of work: broad phase, narrow phase, load sharing and forces for some elements of A against one
+//! movable group B.
 
 use crate::frame::broad_phase::blocks::batches_of_b;
 use crate::frame::broad_phase::candidate_pairs::{
@@ -25,15 +26,15 @@ use pong_model::Batch;
 use pong_model::box_tree::lanes;
 use std::sync::atomic::{Ordering, compiler_fence};
 
-/// Bytes of the arena of a worker's context that a block asks for: against trees of so many nodes and batches.
+/// Arena bytes that a block needs against trees with this many nodes and batches.
 pub(crate) fn arena_bytes(nodes: usize, batches: usize) -> usize {
-    /// The arena rounds every piece up to its grain.
+    /// Pieces taken from the arena; it rounds each up to `GRAIN`.
     const PIECES: usize = 3;
     const GRAIN: usize = 16;
     batches * (size_of::<&Batch>() + size_of::<Reach<'_>>()) + nodes * size_of::<u32>() + PIECES * GRAIN
 }
 
-/// By which tests a block is worked off, and the motion of its pair.
+/// Tester plan and relative motion of a block.
 #[inline(always)]
 pub(crate) fn plan_of<'a>(round: &Round<'a>, block: &Block) -> (&'a Plan, &'a Motion) {
     let Round { sealed, input, .. } = *round;
@@ -42,7 +43,7 @@ pub(crate) fn plan_of<'a>(round: &Round<'a>, block: &Block) -> (&'a Plan, &'a Mo
     (&sealed.plans[plan as usize], input.motions[block.slot as usize].of(block.direction))
 }
 
-/// Shares out and works out what was found for a chunk of A; then nothing is found.
+/// Computes load sharing and forces for the candidates of a chunk of A, then empties the candidates.
 #[inline(always)]
 pub(crate) fn finish_chunk(
     (context, sealed): (&PairContext<'_>, &Sealed),
@@ -65,7 +66,7 @@ pub(crate) fn finish_chunk(
     }
 }
 
-/// Runs a block; what it finds goes to the context of the thread.
+/// Kernel that runs one block and writes its results to the worker's context.
 pub(crate) struct BlockWork<'a, L> {
     pub round: &'a Round<'a>,
     pub block: Block,
@@ -118,8 +119,8 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
     }
 }
 
-/// The chunk of a group that is one element by itself: its own box in B's frame is much tighter than its turned one. It
-/// is the last of its batch.
+/// The chunk of `group` that has a single element, if any; it is the last chunk of its batch. A single
+/// element uses its own box in B's frame, which is much tighter than the rotated box of A's tree.
 #[inline(always)]
 fn lone_chunk(batch: &Batch, group: u32) -> LaneBits {
     let last = batch.items.end - batch.items.start - 1;
@@ -127,18 +128,18 @@ fn lone_chunk(batch: &Batch, group: u32) -> LaneBits {
     LaneBits::from(is_one) << (last / LANES as u32 % LANES as u32)
 }
 
-/// A chunk of A, carried into B's frame, and the batches of B that its group reaches.
+/// A chunk of A in B's frame, and the batches of B that its group reaches.
 struct AtChunk<'a> {
     context: &'a PairContext<'a>,
     chunk: &'a Chunk<'a>,
     reach: &'a [Reach<'a>],
-    /// Which chunk of its group it is.
+    /// Index of the chunk in its group.
     lane: usize,
 }
 
 impl AtChunk<'_> {
-    /// Tests the chunk against the elements of B that it may touch: those that were gathered for its group or, if there was
-    /// no room for `whole` groups, those on its own traversal through the trees.
+    /// Tests the chunk against the elements of B that it may touch: the candidates gathered for its group or,
+    /// unless all were gathered (`whole`), the candidates of a traversal for this chunk alone.
     #[inline(always)]
     fn test_all<S: Simd>(
         &self,
@@ -176,8 +177,8 @@ impl AtChunk<'_> {
         for number in candidates.of(lane) {
             let candidate = &pairs[number];
             let batch = reach[candidate.reach as usize].batch;
-            // Read again for every candidate: most chunks have one or two, and a compiler that fetches all boxes ahead of the
-            // loop moves more numbers than they need.
+            // Stops the compiler from loading all boxes of the chunk ahead of the loop: most chunks have one
+            // or two candidates.
             compiler_fence(Ordering::SeqCst);
             let near = chunk.reach(simd, &candidate.box_b);
             if near != 0 {
@@ -191,7 +192,7 @@ impl AtChunk<'_> {
         }
     }
 
-    /// Tests an element by itself, the only one of the chunk, against the elements of B on its own way through the trees.
+    /// Tests the only element of a chunk against the elements of B found by its own tree traversal.
     #[inline(always)]
     fn test_element<S: Simd>(
         &self,

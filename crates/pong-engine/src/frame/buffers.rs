@@ -1,4 +1,4 @@
-//! What a frame writes, grouped by the stage that writes it.
+//! Buffers that a frame writes, grouped by stage.
 
 use crate::frame::energy::buffers::EnergyBuffers;
 use crate::frame::forces::contact::FrameContact;
@@ -17,11 +17,11 @@ use crate::state::CommittedPoses;
 use pong_arena::Table;
 use pong_geometry::{Pose, Twist, Wrench};
 
-/// Everything that evaluate writes, but for what the workers hold while they work.
+/// Everything that evaluate writes, except the workers' own contexts.
 pub(crate) struct EvaluationBuffers {
-    /// Whether a frame has been computed since the world was sealed.
+    /// True if a frame has been computed since the seal.
     pub computed: bool,
-    /// Of the frame; the first is 1.
+    /// Frame number; the first frame is 1.
     pub number: u64,
     // state in
     pub poses: Vec<Pose>,
@@ -30,29 +30,30 @@ pub(crate) struct EvaluationBuffers {
     pub near: NearPairs,
     // relative, bounding
     pub input: WorkerInput,
-    // testers, sharing, forces: in no order
-    /// Boxed: a world that is made or cloned is moved a few times over the stack.
+    // narrow phase, load sharing, forces: unordered
+    /// Boxed, because a world is moved over the stack a few times while it is built or cloned.
     pub caller: Box<WorkerContext>,
-    /// What workers have found in the last round, if it was taken over as it is; otherwise it stands in the caller's context.
+    /// Contacts of the workers in the last round, if their buffers were swapped in; otherwise the caller's
+    /// context holds them.
     pub workers: WorkerBuffers,
-    // order, limit: where the contacts that count stand, in the order of every sum
+    // order, limit: references to the active contacts, in summation order
     pub order: Table<Place>,
     pub tunnelling: TunnellingEvents,
     // ledger
     pub energy: EnergyBuffers,
     // reduce
     pub wrenches: Vec<Wrench>,
-    /// Whose contact has numbers that nearly leave the range of numbers, if any.
+    /// Pair direction with a contact whose values come close to overflow, if any.
     pub beyond_range: Option<Direction>,
     pub report: FrameReport,
     pub times: StageTimes,
 }
 
 impl EvaluationBuffers {
-    /// Buffers for a frame that so many workers may share.
+    /// Allocates the buffers of a frame that this many workers may share.
     pub fn new(scene: &Scene, sealed: &Sealed, input: WorkerInput, workers: usize) -> Self {
         let bodies = scene.bodies.len();
-        // Of rays the first hit is sought among the contacts themselves.
+        // The search for the first hit of each ray needs all contacts in the caller's buffer.
         let as_they_are = sealed.limits.lanes_write_records && !sealed.rays_meet_groups;
         let taken_over = if as_they_are { workers } else { 0 };
         let contacts = sealed.limits.worker_contacts(workers + 1);
@@ -76,7 +77,7 @@ impl EvaluationBuffers {
         }
     }
 
-    /// Empties the buffers for the next frame; their memory stays.
+    /// Empties the buffers for the next frame and keeps their memory.
     #[inline]
     pub fn begin(&mut self, sealed: &Sealed) {
         self.number += 1;
@@ -91,18 +92,18 @@ impl EvaluationBuffers {
         self.times = StageTimes::default();
     }
 
-    /// The motions of this frame since these poses.
+    /// Motions of this frame relative to the committed poses.
     pub fn motions<'a>(&'a self, sealed: &'a Sealed, committed: &'a CommittedPoses) -> Motions<'a> {
         Motions { sealed, poses: &self.poses, twists: &self.twists, committed }
     }
 
-    /// The contacts that push, in the order of every sum.
+    /// Contacts that push, in summation order.
     pub fn pushing(&self) -> impl Iterator<Item = &FrameContact> {
         let pushing = self.order.iter().filter(|place| place.pushes());
         pushing.map(|place| self.found().contact(place))
     }
 
-    /// What all lanes have found.
+    /// Contacts found by all threads.
     pub fn found(&self) -> FoundContacts<'_> {
         FoundContacts { caller: &self.caller.out, workers: &self.workers }
     }

@@ -1,7 +1,8 @@
 //! Blocks of one element each, such as the wheels of a rover: several at a time.
 //!
-//! A step of one element waits for the step before: down a tree, from a triangle to its vertices, through the products that
-//! tell whether the two may touch. What several elements do in turns does not wait, and pairs of all of them fill the lanes.
+//! The steps of one element depend on each other (down a tree, from a triangle to its vertices, through the
+//! test whether the two may touch). Interleaving several elements hides these latencies, and their pairs
+//! together fill the SIMD lanes.
 
 use crate::frame::block::{finish_chunk, plan_of};
 use crate::frame::broad_phase::blocks::batches_of_b;
@@ -19,8 +20,8 @@ use pong_geometry::simd::{Kernel, LaneBits, Simd};
 use pong_model::Batch;
 use pong_model::box_tree::lanes;
 
-/// Works off as many of some blocks of one element as go together; answers how many. None if the first has more trees to go
-/// down than there are ways.
+/// Kernel that runs as many single-element blocks together as fit. Returns the number of blocks done: 0 if
+/// the first needs more than `LONE_MAX` traversals.
 pub(crate) struct LoneBlocks<'a, L> {
     pub round: &'a Round<'a>,
     pub blocks: &'a [Block],
@@ -28,17 +29,18 @@ pub(crate) struct LoneBlocks<'a, L> {
     pub laps: L,
 }
 
-/// An element, carried into B's frame.
+/// An element of A in B's frame.
 struct TransformedElement<'a> {
     context: PairContext<'a>,
     chunk: Chunk<'a>,
 }
 
-/// Elements and, of every way, which of them goes it and through which batch of B: the ways of one after those of another.
+/// Elements, and per traversal its element's index and its batch of B. Traversals of one element are
+/// consecutive.
 struct Ways<'a> {
     elements: [Option<TransformedElement<'a>>; LONE_MAX],
     ways: [Option<(usize, &'a Batch)>; LONE_MAX],
-    /// How many there are of each.
+    /// Number of elements and number of traversals.
     counts: (usize, usize),
 }
 
@@ -84,7 +86,8 @@ impl<L: Laps> Kernel for LoneBlocks<'_, L> {
 }
 
 impl<'a> Ways<'a> {
-    /// Carries the elements of as many blocks as there are ways for, and finds the batches that each may touch.
+    /// Transforms the elements of as many blocks as there are traversals for, and finds the batches of B that
+    /// each may touch.
     #[inline(always)]
     fn carry<'l: 'a, S: Simd>(
         &mut self,
@@ -121,7 +124,7 @@ impl<'a> Ways<'a> {
     }
 }
 
-/// Goes down some trees, each with its element, in turns, until each is through or has no more room.
+/// Advances the tree traversals in turns until each has ended or has no room for more results.
 #[inline(always)]
 fn go_on_together<S: Simd>(simd: S, lone: &mut [LoneElement; LONE_MAX], pairs: &[Option<LonePair<'_>>]) {
     let mut going = LaneBits::MAX.checked_shr((LONE_MAX - pairs.len()) as u32).unwrap_or(0);

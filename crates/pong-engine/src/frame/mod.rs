@@ -42,7 +42,7 @@ use input::states;
 use output::{order, reduce};
 use run_blocks::run_blocks;
 
-/// Computes everything that the present states and the committed contact state say. Writes `frame` alone.
+/// Computes a frame from the current states and the committed contact state. Writes only `frame`.
 #[inline]
 pub(crate) fn evaluate(
     given: &EvaluationInput<'_>,
@@ -69,7 +69,8 @@ pub(crate) fn evaluate(
     watch.lap(Stage::Output, &mut frame.times);
 }
 
-/// Bounding, testers, sharing and forces: block by block, by all workers or by the caller alone.
+/// Finds all contacts: broad phase, narrow phase, load sharing and forces, block by block, on the workers or
+/// on the caller.
 #[inline]
 fn find_contacts(
     given: &EvaluationInput<'_>,
@@ -83,12 +84,13 @@ fn find_contacts(
     if let Some(pool) = &mut pool {
         pool.begin_frame();
     }
-    // What is between the rounds is the caller's.
+    // Time between the rounds is spent by the caller in the broad phase.
     let (mut laps, mut layout) = (clock.start(), WorkTimes::default());
     let mut work = |input: &mut WorkerInput, caller: &mut WorkerContext, cost_ns| {
         laps.lap_work(Work::BroadPhase, &mut layout);
         input.phase += 1;
-        // There may be more than one round: what workers have found in the one before gives way to what they find in this one.
+        // A frame may have several rounds: move the workers' contacts of the last round into the caller's
+        // buffer first.
         for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
             assert!(caller.out.absorb(worker), "what was taken over has room in the caller's buffer");
         }
@@ -116,7 +118,8 @@ fn find_contacts(
     }
 }
 
-/// Whether the workers have done this round, which may cost so much, ns. If not, the buffer is as it was before.
+/// Runs a round on the workers; `cost_ns` is its estimated cost. Returns false, with the buffers unchanged,
+/// if the caller has to run the round.
 fn run_parallel(
     given: &EvaluationInput<'_>,
     pool: &mut WorkerPool,

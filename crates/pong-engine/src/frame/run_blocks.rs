@@ -1,4 +1,4 @@
-//! Runs blocks of work, those of one element several together.
+//! Runs blocks of work; single-element blocks run several at a time.
 
 use crate::frame::block::BlockWork;
 use crate::frame::broad_phase::blocks::joined;
@@ -9,8 +9,8 @@ use crate::report::{Timed, Untimed};
 use pong_geometry::simd;
 use std::ops::Range;
 
-/// Runs some blocks; what they find goes to the context of the thread. Those of one element by itself go several together, and
-/// neighbours are run as one: to begin a block takes as long as to test a few elements.
+/// Runs blocks and writes the results to the worker's context. Single-element blocks run several at a time,
+/// and contiguous blocks run as one: starting a block costs as much as testing a few elements.
 pub(crate) fn run_blocks(round: &Round<'_>, blocks: Range<usize>, worker: &mut WorkerContext) {
     let mut left = &round.input.blocks[blocks];
     while let Some(first) = left.first() {
@@ -25,7 +25,7 @@ pub(crate) fn run_blocks(round: &Round<'_>, blocks: Range<usize>, worker: &mut W
     }
 }
 
-/// Where no clock was lent, there is no trace of one either.
+/// Runs one block, timed only if the host lent a clock.
 #[inline(always)]
 fn run_block(round: &Round<'_>, block: Block, worker: &mut WorkerContext) {
     worker.arena.reset();
@@ -35,7 +35,7 @@ fn run_block(round: &Round<'_>, block: Block, worker: &mut WorkerContext) {
     }
 }
 
-/// Blocks of one element each.
+/// Runs blocks of one element each, several at a time.
 fn run_lone(round: &Round<'_>, blocks: &[Block], worker: &mut WorkerContext) {
     let mut left = blocks;
     while let Some((&first, rest)) = left.split_first() {

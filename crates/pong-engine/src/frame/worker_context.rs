@@ -1,4 +1,4 @@
-//! What the calling thread or a worker writes while it works.
+//! Buffers that the calling thread or a worker writes while it works.
 
 use crate::frame::broad_phase::candidate_pairs::CandidatePairs;
 use crate::frame::broad_phase::chunk::ChunkSpace;
@@ -11,42 +11,43 @@ use crate::sealed::Sealed;
 use pong_arena::{Arena, Table};
 use std::fmt::Debug;
 
-/// The memory of the calling thread or of a worker.
+/// Working memory of the calling thread or of a worker.
 ///
-/// What a block fills one chunk after another stands in tables: they are there before it begins.
+/// Buffers that are filled once per chunk are preallocated tables.
 #[derive(Debug)]
 pub(crate) struct WorkerContext {
-    /// The broad phase at work: gone with the block.
+    /// Broad-phase memory; reset for each block.
     pub arena: Arena,
-    /// For one solution among contacts of one key.
+    /// Solver memory for one load-sharing problem.
     pub scratch: Arena,
     pub(crate) candidates: CandidatePairs,
-    /// The ways of elements by themselves that go down trees together. Boxed, as what follows: a context is made on the stack.
+    /// Tree traversals of single elements. Boxed, as is the next field, because a context is built on the
+    /// stack.
     pub(crate) lone: Box<[LoneElement; LONE_MAX]>,
-    /// Each of them in B's frame.
+    /// Elements of these traversals, in B's frame.
     pub(crate) lone_carried: Box<[ChunkSpace; LONE_MAX]>,
-    /// A chunk of A in B's frame. Not boxed: of all that a block asks for it is asked most often.
+    /// A chunk of A in B's frame. Not boxed: it is the most frequently used buffer of a block.
     pub(crate) carried: ChunkSpace,
     pub(crate) deferred: DeferredPairs,
-    /// What contact testers find for a chunk.
+    /// Candidates that the contact testers find for one chunk.
     pub(crate) found: Table<ContactCandidate>,
-    /// Those that share a spring.
+    /// Contacts that share a spring.
     pub(crate) shared: Table<SharedContact>,
     pub out: ContactBuffer,
 }
 
 impl WorkerContext {
-    /// Bytes of what does not grow with the contacts of a frame, the arenas aside: with room for so many interferences of one
-    /// chunk.
+    /// Bytes of the tables of a context, without arenas and contact buffers; `found` is the number of
+    /// candidates per chunk.
     pub fn table_bytes(found: usize) -> usize {
         let lone = size_of::<LoneElement>() + size_of::<ChunkSpace>() + ChunkSpace::BYTES;
         LONE_MAX * lone + ChunkSpace::BYTES + found * Self::BYTES_PER_FOUND
     }
 
-    /// Bytes of one interference of a chunk.
+    /// Bytes per candidate of a chunk.
     pub const BYTES_PER_FOUND: usize = size_of::<ContactCandidate>() + size_of::<SharedContact>();
 
-    /// The context of a lane, 0 for the caller's, with room for so many contacts.
+    /// Context of thread `lane` (0: the caller) with room for this many contacts.
     pub fn new(sealed: &Sealed, lane: usize, contacts: usize) -> Self {
         Self {
             arena: Arena::with_capacity(sealed.limits.arena_bytes),
@@ -62,13 +63,13 @@ impl WorkerContext {
         }
     }
 
-    /// For what a lane finds.
+    /// Output buffer of thread `lane`.
     pub fn buffer(sealed: &Sealed, lane: usize, contacts: usize) -> ContactBuffer {
         ContactBuffer::new(lane, sealed.law_state_len, contacts, sealed.limits.lane_records())
     }
 }
 
-/// As many as an array has, without an array on the stack.
+/// Builds a boxed array without a temporary on the stack.
 fn boxed<T: Debug, const N: usize>(make: impl FnMut() -> T) -> Box<[T; N]> {
     let made: Box<[T]> = std::iter::repeat_with(make).take(N).collect();
     made.try_into().expect("so many were made")

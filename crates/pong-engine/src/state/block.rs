@@ -2,15 +2,15 @@
 //!
 //! ```text
 //! magic 8 | version 4 | record count 4 | world hash 8 | ledger 2 × 8
-//! | moments 8, poses of every moment: 7 × 8 per movable group that meets others
-//! | the moment of every pair of Objects: 1 each, 255 if nothing is remembered; zeros up to a multiple of 8
-//! | accounts, if they are kept: PairEnergy::NUMBERS × 8, and 6 × 8 for each frame that wrenches come late, per pair
-//! | records: RECORD_LEN + 8 × numbers of its friction law and of its energies, for each contact that is remembered
+//! | epochs 8, poses of every epoch: 7 × 8 per movable group that is in a pair
+//! | epoch of every pair of Objects: 1 each, 255 without history; zeros up to a multiple of 8
+//! | accounts, if kept: PairEnergy::NUMBERS × 8, and 6 × 8 per delay frame of the wrenches, per pair
+//! | records: RECORD_LEN + 8 × (numbers of its friction law and of its energies) per contact
 //! | checksum 8 (FNV-1a of everything before)
 //! ```
 //!
-//! Little-endian. The block is as long as what is remembered; the sealed world alone says how long it can become. A buffer of
-//! any size between the two holds a block: behind it are zeros.
+//! Little-endian. The block is as long as the recorded contacts require; its maximum length is a property of
+//! the sealed world. A longer buffer, up to the maximum, holds the block followed by zeros.
 
 use super::memory::ContactMemory;
 use super::poses::{CommittedPoses, NEVER};
@@ -70,12 +70,12 @@ pub enum StateError {
     Damaged,
 }
 
-/// Size of the largest block of a memory, bytes.
+/// Length of the largest block of a memory, bytes.
 pub(crate) fn largest_len(memory: &ContactMemory) -> usize {
     used_len(memory, memory.poses.capacity(), memory.records.capacity()) + CHECKSUM_LEN
 }
 
-/// Size of the block of what a memory holds now, bytes.
+/// Length of the block of the current contents, bytes.
 pub(crate) fn needed_len(memory: &ContactMemory) -> usize {
     let (_, moments) = memory.poses.numbered();
     used_len(memory, usize::from(moments), memory.records.len()) + CHECKSUM_LEN
@@ -85,20 +85,20 @@ fn accounts_len(memory: &ContactMemory) -> usize {
     PairEnergies::block_len(memory.pair_energies.pairs.len(), memory.pair_energies.delay)
 }
 
-/// What is written for a number of moments and records, without the checksum, bytes.
+/// Length of a block with this many epochs and records, without the checksum, bytes.
 fn used_len(memory: &ContactMemory, moments: usize, records: usize) -> usize {
     let poses = 8 + moments * memory.poses.bodies().len() * POSE_LEN + padded(memory.poses.pairs());
     let contacts = records * (RECORD_LEN + 8 * memory.numbers_each());
     HEADER_LEN + poses + accounts_len(memory) + contacts
 }
 
-/// Up to a multiple of 8.
+/// Rounds up to a multiple of 8.
 fn padded(bytes: usize) -> usize {
     bytes.next_multiple_of(8)
 }
 
-/// Writes the block into a buffer of at least [`needed_len`] bytes. What the buffer has room for beyond that, up to the
-/// largest block, is set to zero: buffers of one size can be compared and kept whole.
+/// Writes the block into a buffer of at least [`needed_len`] bytes. The rest of the buffer, up to the largest
+/// block, is zeroed, so that buffers of one size can be compared as a whole.
 pub(crate) fn write_block(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> Result<(), StateError> {
     let (needed, most) = (needed_len(memory), largest_len(memory));
     if out.len() < needed {
@@ -112,7 +112,7 @@ pub(crate) fn write_block(memory: &ContactMemory, world_hash: u64, out: &mut [u8
     Ok(())
 }
 
-/// Writes all but the checksum; answers how many bytes that is.
+/// Writes everything except the checksum; returns the number of bytes.
 fn write_used(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> usize {
     let mut writer = Writer { out, at: 0 };
     writer.bytes(&MAGIC);
@@ -131,11 +131,11 @@ fn write_used(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> usize 
     writer.at
 }
 
-/// Reads a block, with or without zeros behind it, into a memory of the world that it belongs to. `exists` tells whether the
-/// primitive of A that a key names is there; it is asked of pairs that are.
+/// Reads a block, with or without zeros behind it, into a memory of the same world. `exists` returns true if
+/// the primitive of A in a key exists; it is called only for valid pairs.
 ///
 /// # Errors
-/// A block that is refused leaves the memory as it was.
+/// If the block is refused, the memory is unchanged.
 pub(crate) fn read_block(
     memory: &mut ContactMemory,
     world_hash: u64,
@@ -160,7 +160,7 @@ pub(crate) fn read_block(
     Ok(())
 }
 
-/// Everything that may be wrong with a block; answers the number of its records.
+/// Validates a block; returns the number of its records.
 fn check(
     like: &ContactMemory,
     world_hash: u64,
@@ -179,13 +179,13 @@ fn check(
     if reader.u64() != world_hash {
         return Err(StateError::World);
     }
-    // Such a count would give any length.
+    // Reject an impossible count before it enters a length.
     if count > like.records.capacity() {
         return Err(StateError::Damaged);
     }
     reader.at = MOMENTS_AT;
     let moments = if block.len() < MOMENTS_AT + 8 { 0 } else { reader.u64() as usize };
-    // So would such a number of moments.
+    // The same for the number of epochs.
     if moments > like.poses.capacity() {
         return Err(StateError::Damaged);
     }
@@ -210,10 +210,10 @@ fn check(
     }
 }
 
-/// Whether all poses are some that a host may set, and every pair's moment is one of them.
+/// Returns true if all poses are valid host poses and every pair's epoch exists.
 fn poses_make_sense(like: &CommittedPoses, reader: &mut Reader<'_>) -> bool {
     let moments = reader.u64();
-    // False for what is no number, too. Nothing of a unit quaternion is larger than 1 by more than rounding.
+    // Comparisons are false for NaN. No component of a unit quaternion exceeds 1 by more than rounding.
     let can_be = |pose: &Pose| {
         pose.position.iter().all(|x| x.abs() <= LARGEST)
             && pose.orientation.coords.iter().all(|x| x.abs() < 2.0)
@@ -233,7 +233,7 @@ fn is_finite_record(record: &ContactRecord) -> bool {
     vectors.into_iter().flatten().chain(&numbers).all(|x| x.is_finite())
 }
 
-/// Whether every record is possible, and their keys in order: all that looks them up relies on it.
+/// Returns true if every record is valid and the keys are in order, as all lookups require.
 fn records_make_sense(
     like: &ContactMemory,
     mut reader: Reader<'_>,
@@ -256,7 +256,7 @@ fn records_make_sense(
     })
 }
 
-/// Whether all bytes are zero. By pieces, since room for all contacts that there could be is a million bytes.
+/// Returns true if all bytes are zero. Works in pieces of 64, because the padding can be a megabyte.
 fn is_zero(bytes: &[u8]) -> bool {
     let (pieces, rest) = bytes.as_chunks::<64>();
     pieces.iter().all(|piece| piece.iter().fold(0, |any, byte| any | byte) == 0)
@@ -368,7 +368,7 @@ impl Reader<'_> {
     fn pose(&mut self) -> Pose {
         let position = self.vec3();
         let [x, y, z, w] = [self.f64(), self.f64(), self.f64(), self.f64()];
-        // Stored bits are unit already; normalising again would change them.
+        // Stored quaternions are unit already; normalising again would change their bits.
         let orientation = nalgebra::Unit::new_unchecked(nalgebra::Quaternion::new(w, x, y, z));
         Pose { position, orientation }
     }
@@ -396,7 +396,7 @@ impl Reader<'_> {
         energies.delayed.iter_mut().for_each(|wrench| *wrench = self.wrench());
     }
 
-    /// The energies of the record that was read last.
+    /// Reads the energies of the last record.
     fn contact_energy(&mut self, energies: &mut ContactEnergies) {
         if energies.numbers() == 0 {
             return;

@@ -1,4 +1,4 @@
-//! Looks up what is remembered of contacts while a frame is worked out.
+//! Looks up contact records during a frame.
 
 use super::memory::ContactMemory;
 use super::record::{ContactKey, ContactRecord, ContactRole};
@@ -6,26 +6,26 @@ use super::records::RecordRange;
 use pong_geometry::Vec3;
 use pong_geometry::interference::Feature;
 
-/// A contact continues another of the same key only if the cosine of their normals exceeds this (60°).
+/// A contact continues a record of the same key only if the cosine between their normals exceeds this (60°).
 pub(crate) const SAME_WAY_COSINE_MIN: f64 = 0.5;
 
-/// What is remembered under one key, in the order of pieces and features.
+/// Records of one key, ordered by piece and feature.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RecordsOfKey<'m> {
-    /// Where the records stand: whoever notes that need not search for them again in this frame.
+    /// Index range of the records, kept so that the frame need not search again.
     pub range: RecordRange,
     pub records: &'m [ContactRecord],
 }
 
 impl ContactMemory {
-    /// The records under one key.
+    /// Records of a key.
     #[inline]
     pub fn under(&self, key: &ContactKey) -> RecordsOfKey<'_> {
         let range = self.records.of_key(key);
         self.at(range)
     }
 
-    /// Records that were found before.
+    /// Records of a range from an earlier search.
     #[inline(always)]
     pub fn at(&self, range: RecordRange) -> RecordsOfKey<'_> {
         RecordsOfKey { range, records: self.records.in_range(&range) }
@@ -33,16 +33,16 @@ impl ContactMemory {
 }
 
 impl<'m> RecordsOfKey<'m> {
-    /// The record of the given role, and its index, that a present contact with normal `n` continues: the one with
-    /// the normal n' nearest to it, ties by feature, if n·n' exceeds [`SAME_WAY_COSINE_MIN`].
+    /// Record of the given role that a contact with this normal continues, with its index: the one with the
+    /// nearest normal, ties by feature, if the cosine exceeds [`SAME_WAY_COSINE_MIN`].
     ///
-    /// Nearest is told by |n − n'|, which is exact: the cosines of normals 1e-8 apart and nearer are all one, and among
-    /// the faces of a plate folded by so little a contact would continue another's bristle.
+    /// Nearest in |n − n'|: cosines of normals less than 1e-8 apart all round to 1, and on a plate folded by
+    /// such an angle a contact would continue another one's bristle.
     #[inline(always)]
     pub fn matching(&self, normal: &Vec3, role: ContactRole) -> Option<(usize, &'m ContactRecord)> {
         let may =
             |record: &ContactRecord| record.role == role && record.normal_b.dot(normal) > SAME_WAY_COSINE_MIN;
-        // As a rule.
+        // Usual case: one record.
         if let [one] = self.records {
             return may(one).then_some((self.range.first(), one));
         }
@@ -59,8 +59,8 @@ impl<'m> RecordsOfKey<'m> {
         best.map(|(i, _)| (self.range.first() + i, &self.records[i]))
     }
 
-    /// The role of the record that is nearest to a present contact, of whatever role: of the nearest normal, as for
-    /// [`matching`](Self::matching), and where several have that normal, the contact's own feature.
+    /// Role of the record with the nearest normal, as in [`matching`](Self::matching) but for any role. Ties:
+    /// the contact's own feature first.
     pub fn role_of_nearest(&self, normal: &Vec3, feature: Feature) -> Option<ContactRole> {
         let same_way = self.records.iter().filter(|record| record.normal_b.dot(normal) > SAME_WAY_COSINE_MIN);
         let apart = |record: &ContactRecord| (record.normal_b - normal).norm_squared();

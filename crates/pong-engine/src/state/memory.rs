@@ -1,4 +1,4 @@
-//! Contact records under their keys, with all else that is remembered.
+//! Contact records by key, with everything else that is remembered.
 
 use super::poses::CommittedPoses;
 use super::record::{ContactRecord, ContactRole};
@@ -7,32 +7,32 @@ use crate::energy::contact::{ContactEnergies, ContactEnergyRef};
 use crate::energy::episodes::PairEnergies;
 use pong_arena::{Full, Table};
 
-/// All that is remembered of one contact.
+/// Everything that is remembered of one contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Remembered<'a> {
     pub record: ContactRecord,
-    /// What its registered friction law remembers.
+    /// State of its registered friction law.
     pub law_state: &'a [f64],
     /// Its energies, if the world keeps accounts.
     pub energy: Option<ContactEnergyRef<'a>>,
 }
 
-/// All contact state of a world. Its size is fixed when it is made; nothing in it asks for memory afterwards.
+/// Complete contact state of a world. Its size is fixed at creation; no later call allocates.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ContactMemory {
     /// Poses of the movable groups at the last commit of every pair of Objects.
     pub poses: CommittedPoses,
     /// Pairs of movable groups.
     pub group_pairs: usize,
-    /// Sorted by key, then piece and feature.
+    /// Ordered by key, then piece and feature.
     pub records: Records,
-    /// What registered friction laws remember: `law_state_len` numbers per record.
+    /// State of registered friction laws, `law_state_len` numbers per record.
     pub law_state: Table<f64>,
     /// Energies of the records; none unless the world keeps accounts.
     pub energies: ContactEnergies,
     /// Energies of pairs; none unless the world keeps accounts.
     pub pair_energies: PairEnergies,
-    /// How many numbers each record has in `law_state`.
+    /// Numbers per record in `law_state`.
     pub law_state_len: usize,
     /// Energy that left the contacts for good since the world began, J.
     pub dissipated: f64,
@@ -41,7 +41,7 @@ pub(crate) struct ContactMemory {
 }
 
 impl ContactMemory {
-    /// An empty memory with room for so many records of so many numbers each.
+    /// Empty memory with room for this many records, each with `law_state_len` numbers.
     pub fn with_capacity(
         poses: CommittedPoses,
         group_pairs: usize,
@@ -61,17 +61,17 @@ impl ContactMemory {
         }
     }
 
-    /// The same with room for what lanes write, each so many records.
+    /// Adds one record table of capacity `each` per thread.
     pub fn with_lanes(self, lanes: usize, each: usize) -> Self {
         Self { records: self.records.with_lanes(lanes, each), ..self }
     }
 
-    /// The same with room for energies.
+    /// Adds the energies.
     pub fn with_energies(self, energies: ContactEnergies, pair_energies: PairEnergies) -> Self {
         Self { energies, pair_energies, ..self }
     }
 
-    /// Numbers that a record has in a block beside its own.
+    /// Numbers stored with each record in a block.
     pub fn numbers_each(&self) -> usize {
         self.law_state_len + self.energies.numbers()
     }
@@ -79,17 +79,17 @@ impl ContactMemory {
     /// Appends a record; keys must come in order.
     ///
     /// # Errors
-    /// [`Full`] if there is no room; the memory stays as it is.
+    /// [`Full`] if there is no room; the memory is unchanged.
     #[inline]
     pub fn push(&mut self, remembered: &Remembered<'_>) -> Result<(), Full> {
         let Remembered { record, law_state, energy } = remembered;
         self.push_with(law_state, *energy, |slot| *slot = *record)
     }
 
-    /// As [`push`](Self::push), of a record that `write` writes in place.
+    /// Appends a record that `write` writes in place; otherwise as [`push`](Self::push).
     ///
     /// # Errors
-    /// As there.
+    /// As [`push`](Self::push).
     #[inline(always)]
     pub fn push_with(
         &mut self,
@@ -105,14 +105,14 @@ impl ContactMemory {
         self.energies.push(energy)
     }
 
-    /// Drops all records; everything else stays.
+    /// Drops all records and keeps everything else.
     pub fn clear_records(&mut self) {
         self.records.clear();
         self.law_state.clear();
         self.energies.clear();
     }
 
-    /// Becomes equal to a memory of the same size.
+    /// Copies another memory of the same world.
     pub fn copy_from(&mut self, other: &Self) {
         self.poses.copy_from(&other.poses);
         self.clear_records();
@@ -126,7 +126,7 @@ impl ContactMemory {
         (self.work, self.dissipated) = (other.work, other.dissipated);
     }
 
-    /// All that is remembered of contacts, in order.
+    /// All records with their data, in order.
     pub fn iter(&self) -> impl Iterator<Item = Remembered<'_>> + Clone {
         self.records.iter().enumerate().map(|(index, record)| Remembered {
             record: *record,
@@ -135,13 +135,13 @@ impl ContactMemory {
         })
     }
 
-    /// What the friction law of a record remembers.
+    /// Friction-law state of a record.
     pub fn law_state_of(&self, record: usize) -> &[f64] {
         &self.law_state[record * self.law_state_len..(record + 1) * self.law_state_len]
     }
 
-    /// Drops everything remembered of the pairs of Objects that `cleared` names; `pair_of` tells that of a pair of movable
-    /// groups. What they had stored has left the contacts for good: where a ledger is kept, it is booked there.
+    /// Clears the history of the pairs of Objects for which `cleared` is true; `pair_of` maps a pair of
+    /// movable groups to its pair of Objects. With a ledger, the stored energy is booked as dissipated.
     pub fn clear_history(
         &mut self,
         cleared: impl Fn(usize) -> bool,

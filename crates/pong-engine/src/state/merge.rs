@@ -1,8 +1,8 @@
-//! What a commit makes of the memory.
+//! Merges the contacts of a commit into the next contact state.
 //!
-//! Records of pairs of movable groups that are not committed stay, those of the others are replaced. Each of the two
-//! parts was small enough once, but at different times: together they may be more than the memory has room for. Then
-//! those with the largest force stay, ties in key order; of what is only remembered, the force is zero.
+//! Records of committed pairs of movable groups are replaced, the others kept. Together they may exceed the
+//! capacity. Then the records with the largest force are kept, ties in key order; contacts that do not push
+//! have zero force.
 
 use super::memory::{ContactMemory, Remembered};
 use super::record::ContactRecord;
@@ -11,11 +11,12 @@ use crate::energy::ledger::LedgerEntry;
 use std::iter::Peekable;
 
 impl ContactMemory {
-    /// Writes into `next` what is remembered of contacts after a commit of the pairs of movable groups that `accepted`
-    /// names: of those `fresh` and `energies`, of all others what is remembered now. The totals of the ledger get what the
-    /// accepted pairs have `added`; of every pair of movable groups, or of none where no ledger is kept.
+    /// Writes the contact state after a partial commit into `next`: `fresh` and `energies` for the pairs of
+    /// movable groups that `accepted` selects, the current state for all others. `added` holds the ledger
+    /// entries per pair of movable groups (empty without a ledger); those of the accepted pairs enter the
+    /// totals.
     ///
-    /// Answers how many records were left out because `next` has no room for them.
+    /// Returns the number of records dropped because `next` is full.
     pub fn accept_into<'a>(
         &'a self,
         fresh: impl Iterator<Item = Remembered<'a>> + Clone,
@@ -40,7 +41,7 @@ impl ContactMemory {
         next.fill(InKeyOrder { kept, fresh })
     }
 
-    /// Replaces all records by the given ones, the strongest if there are too many. Answers how many were left out.
+    /// Replaces all records, keeping the strongest if there are too many. Returns the number dropped.
     fn fill<'a>(&mut self, records: impl Iterator<Item = Remembered<'a>> + Clone) -> usize {
         if self.take(records.clone()) {
             return 0;
@@ -51,14 +52,14 @@ impl ContactMemory {
         records.count() - self.records.len()
     }
 
-    /// Replaces all records, as long as there is room; whether there was.
+    /// Replaces all records; returns false when there is no more room.
     fn take<'a>(&mut self, mut records: impl Iterator<Item = Remembered<'a>>) -> bool {
         self.clear_records();
         records.all(|remembered| self.push(&remembered).is_ok())
     }
 }
 
-/// Two sources with no pair of movable groups in common, as one in key order.
+/// Merges two sources that share no pair of movable groups into one in key order.
 #[derive(Clone)]
 struct InKeyOrder<'a, K: Iterator<Item = Remembered<'a>>, F: Iterator<Item = Remembered<'a>>> {
     kept: Peekable<K>,
@@ -81,20 +82,21 @@ where
     }
 }
 
-/// Of two records, the one of the larger force has the larger rank: squares of sizes, whose bits are in their order.
+/// Sort rank by force: squared norms are non-negative, so their bits compare as integers.
 fn rank(record: &ContactRecord) -> u64 {
     record.force_b.norm_squared().to_bits()
 }
 
-/// Lets in a given number of the highest ranks, ties as they come.
+/// Threshold that admits a given number of the highest ranks, ties in input order.
 struct Bar {
     rank: u64,
-    /// How many more of just this rank.
+    /// Remaining number of records to admit at exactly this rank.
     ties: usize,
 }
 
 impl Bar {
-    /// The bar for `count` of more than `count` ranks: the highest that as many reach, found by halving.
+    /// Threshold for `count` of more than `count` ranks: the highest rank that at least `count` reach, by
+    /// bisection over bits.
     fn letting_in(count: usize, ranks: impl Iterator<Item = u64> + Clone) -> Self {
         let reach = |rank: u64| ranks.clone().filter(|other| *other >= rank).count();
         let mut rank = 0;

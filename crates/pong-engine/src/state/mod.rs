@@ -1,4 +1,4 @@
-//! Contact state: all that the engine remembers between frames (docs/theory.md, 5).
+//! Contact state: everything that the engine remembers between frames (docs/theory.md, 5).
 
 mod block;
 mod lookup;

@@ -1,57 +1,59 @@
-//! Poses of the movable groups at the commits from which pairs are remembered.
+//! Poses of the movable groups at the last commits of the pairs.
 //!
-//! What a pair has moved since its last commit is told by the poses of its two movable groups then and now. A commit of
-//! all pairs is one *moment*: one pose per movable group, however many pairs there are. Only where some pairs are
-//! committed and others keep their past do the poses of several moments have to be known. The relative poses of a
-//! moment are computed when they are asked for, by the function and from the numbers of the frame that was committed.
+//! The motion of a pair since its last commit follows from the poses of its two movable groups then and now.
+//! A commit of all pairs is one *epoch* (`moment` in code): one pose per movable group, for any number of
+//! pairs. Several epochs must be kept only if some pairs are committed and others keep their history.
+//! Relative poses of an epoch are computed on demand, by the same function and from the same numbers as in
+//! the committed frame.
 
 use pong_geometry::Pose;
 use std::sync::Arc;
 
-/// In place of a moment: nothing is remembered of the pair.
+/// Epoch of a pair without history.
 pub(crate) const NEVER: u8 = u8::MAX;
 
-/// Poses for which there is room where that allows more than [`LEAST_MOMENTS`].
+/// Capacity in poses, where that allows more than [`LEAST_MOMENTS`] epochs.
 const ROOM: usize = 1 << 14;
 
-/// Moments for which there is room in a world of however many movable groups.
+/// Minimum capacity in epochs.
 const LEAST_MOMENTS: usize = 8;
 
-/// Poses of the movable groups at the last commits of the pairs.
+/// Committed poses of the movable groups, per epoch.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct CommittedPoses {
-    /// The movable groups that meet others. Nobody asks for the poses of the rest.
+    /// Movable groups that are part of a pair. No other poses are stored.
     bodies: Arc<[usize]>,
-    /// Movable groups of the world.
+    /// Number of movable groups of the world.
     stride: usize,
-    /// Moment after moment, a pose of every movable group of the world.
+    /// Poses, epoch by epoch, one per movable group of the world.
     poses: Box<[Pose]>,
-    /// The moment of the last commit of every pair of Objects, or [`NEVER`].
+    /// Epoch of the last commit of each pair of Objects, or [`NEVER`].
     pub(super) moment_of: Box<[u8]>,
-    /// Number of the present `moment_of`: of two states of one world, those of equal number are equal.
+    /// Version of `moment_of`: two states of one world with equal versions have equal epochs.
     version: u64,
-    /// Whether every pair that is on is of moment 0 and every other of none: the next commit changes no moment.
+    /// True if every enabled pair is in epoch 0 and every other pair has none; the next full commit then
+    /// changes no epoch.
     settled: bool,
     past: Past,
-    /// Number of the frame whose poses these are, if a commit of all pairs has made them of it and nothing was changed since;
-    /// 0 otherwise.
+    /// Number of the frame whose commit of all pairs stored these poses, if nothing has changed them since; 0
+    /// otherwise.
     frame: u64,
 }
 
-/// How many moments pairs may be of.
+/// Number of epochs in use, as a class.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Past {
-    /// Nothing was committed yet.
+    /// No commit yet.
     #[default]
     Nothing,
-    /// No other than moment 0, as every commit of the whole world leaves it.
+    /// Only epoch 0, as every commit of the whole world leaves it.
     OneMoment,
-    /// Several: some pairs were committed and others not.
+    /// Several epochs: some pairs were committed without the others.
     Several,
 }
 
 impl CommittedPoses {
-    /// Of nothing yet: of so many pairs of Objects in a world of so many movable groups, of which `bodies` meet others.
+    /// Empty state for this many pairs of Objects and `stride` movable groups; `bodies` are those in a pair.
     pub fn new(bodies: Arc<[usize]>, stride: usize, object_pairs: usize) -> Self {
         let room = Self::moments(stride, object_pairs) * stride;
         Self {
@@ -66,42 +68,42 @@ impl CommittedPoses {
         }
     }
 
-    /// Moments for which there is room: in a small world one for every pair, so that each may be committed by itself.
+    /// Capacity in epochs; small worlds have one for each pair, so that each pair can be committed alone.
     fn moments(stride: usize, object_pairs: usize) -> usize {
         object_pairs.min((ROOM / stride.max(1)).clamp(LEAST_MOMENTS, usize::from(NEVER)))
     }
 
-    /// Memory of a world's poses, bytes.
+    /// Size of the committed poses of a world, bytes.
     pub fn bytes(stride: usize, object_pairs: usize) -> usize {
         Self::moments(stride, object_pairs) * stride * size_of::<Pose>() + object_pairs
     }
 
-    /// Most moments that can be remembered.
+    /// Capacity in epochs.
     pub fn capacity(&self) -> usize {
         self.poses.len().checked_div(self.stride).unwrap_or(0)
     }
 
-    /// Pairs of Objects.
+    /// Number of pairs of Objects.
     pub fn pairs(&self) -> usize {
         self.moment_of.len()
     }
 
-    /// The movable groups of which poses are remembered.
+    /// Movable groups whose poses are stored.
     pub fn bodies(&self) -> &[usize] {
         &self.bodies
     }
 
-    /// The moment of the last commit of a pair of Objects, or [`NEVER`].
+    /// Epoch of the last commit of a pair of Objects, or [`NEVER`].
     pub fn moment_of(&self, pair: usize) -> u8 {
         self.moment_of[pair]
     }
 
-    /// Whether anything is remembered of any pair.
+    /// Returns true if any pair has a history.
     pub fn knows_any(&self) -> bool {
         self.moment_of.iter().any(|moment| *moment != NEVER)
     }
 
-    /// Pose of a movable group at a moment.
+    /// Pose of a movable group in an epoch.
     pub fn pose(&self, moment: u8, body: usize) -> &Pose {
         &self.poses[usize::from(moment) * self.stride + body]
     }
@@ -113,12 +115,12 @@ impl CommittedPoses {
         (moment != NEVER).then(|| Pose::relative(self.pose(moment, a), self.pose(moment, b)))
     }
 
-    /// How many moments pairs may be of.
+    /// Class of the epochs in use.
     pub fn past(&self) -> Past {
         self.past
     }
 
-    /// The number of the frame that a commit of all pairs has made these poses of; 0 if anything else has.
+    /// Number of the frame whose commit of all pairs stored these poses; 0 if anything else changed them.
     pub fn frame(&self) -> u64 {
         self.frame
     }
@@ -131,8 +133,8 @@ impl CommittedPoses {
         }
     }
 
-    /// A commit of all pairs of a frame, told by its number, after `before`: those that are on are of this moment, and nothing
-    /// is remembered of the others. Grows with the movable groups, but for the first commit after some pairs were treated apart.
+    /// Commits all pairs of a frame after the state `before`: enabled pairs get epoch 0, all others lose
+    /// their history. Costs O(movable groups), except for the first full commit after a partial one.
     #[inline]
     pub fn commit(&mut self, before: &Self, (frame, poses): (u64, &[Pose]), enabled: &[bool]) {
         if !before.settled {
@@ -150,7 +152,7 @@ impl CommittedPoses {
         (self.past, self.frame) = (Past::OneMoment, frame);
     }
 
-    /// A moment that no pair needs once the accepted ones are committed; `None` if all are taken.
+    /// An epoch that is free once the accepted pairs are committed; `None` if there is none.
     pub fn free_moment(&self, accepted: impl Fn(usize) -> bool) -> Option<u8> {
         let mut taken = [false; NEVER as usize + 1];
         for (pair, moment) in self.moment_of.iter().enumerate() {
@@ -159,7 +161,7 @@ impl CommittedPoses {
         (0..self.capacity() as u8).find(|moment| !taken[usize::from(*moment)])
     }
 
-    /// A commit of the accepted pairs after `before`, at a moment that is free; the others stay as they were.
+    /// Commits the accepted pairs after `before` into a free epoch; the others are unchanged.
     pub fn commit_some(
         &mut self,
         before: &Self,
@@ -176,7 +178,7 @@ impl CommittedPoses {
         self.is_changed();
     }
 
-    /// Drops what is remembered of some pairs of Objects.
+    /// Clears the history of some pairs of Objects.
     pub fn clear_history(&mut self, cleared: impl Fn(usize) -> bool) {
         for (pair, moment) in self.moment_of.iter_mut().enumerate() {
             if cleared(pair) {
@@ -191,7 +193,8 @@ impl CommittedPoses {
         self.settled = false;
     }
 
-    /// Becomes equal to the poses of another state of the same world. All but a commit of all pairs begins with this.
+    /// Copies the poses of another state of the same world. Every change except a commit of all pairs starts
+    /// with this.
     pub fn copy_from(&mut self, other: &Self) {
         self.moment_of.copy_from_slice(&other.moment_of);
         self.poses.copy_from_slice(&other.poses);
@@ -199,8 +202,8 @@ impl CommittedPoses {
         self.frame = 0;
     }
 
-    /// The moments that pairs are of, numbered in the order of the first pair of each: the numbers of a block, which do not
-    /// depend on what moments there were before. With how many there are.
+    /// Epoch numbers as written to a block, in the order of first use by a pair, so that they do not depend
+    /// on earlier epochs; and their count.
     pub fn numbered(&self) -> ([u8; NEVER as usize + 1], u8) {
         let mut number = [NEVER; NEVER as usize + 1];
         let mut count = 0;
@@ -214,12 +217,12 @@ impl CommittedPoses {
         (number, count)
     }
 
-    /// Puts a pose in place, as a block says it.
+    /// Stores a pose read from a block.
     pub fn put_pose(&mut self, moment: u8, body: usize, pose: Pose) {
         self.poses[usize::from(moment) * self.stride + body] = pose;
     }
 
-    /// Puts the moments of all pairs in place, as a block says them.
+    /// Stores the epochs of all pairs read from a block.
     pub fn put_moments(&mut self, count: u8, moments: impl Iterator<Item = u8>) {
         self.past = match count {
             0 => Past::Nothing,
@@ -231,7 +234,7 @@ impl CommittedPoses {
     }
 }
 
-/// Equal if the same is remembered of every pair, whatever the moments' numbers are.
+/// Equal if all pairs have the same history, independent of the epochs' numbering.
 impl PartialEq for CommittedPoses {
     fn eq(&self, other: &Self) -> bool {
         let (own, others) = (self.numbered(), other.numbered());

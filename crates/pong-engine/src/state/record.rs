@@ -1,12 +1,12 @@
-//! What is remembered of one contact, and under which key.
+//! Contact records and their keys.
 
 use crate::sealed::Direction;
 use pong_geometry::Vec3;
 
-/// In [`ContactRecord::entry_face`]: no side of entry is remembered.
+/// Value of [`ContactRecord::entry_face`] if no side of entry is known.
 pub(crate) const NO_FACE: u32 = u32::MAX;
 
-/// What a contact is remembered under. Its order is the order of every sum.
+/// Key of a contact record. Key order is summation order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct ContactKey {
     /// Index of the pair of movable groups.
@@ -22,31 +22,31 @@ pub(crate) struct ContactKey {
 }
 
 impl ContactKey {
-    /// The fields one after another, as two numbers: they compare faster than five.
+    /// Fields packed into two words, which compare faster than five fields.
     #[inline]
     fn rank(&self) -> (u64, u64) {
         (self.head(), self.tail())
     }
 
-    /// The pair of movable groups, and which of them holds A.
+    /// Pair of movable groups, and which of them holds A.
     #[inline]
     pub fn direction(&self) -> Direction {
         Direction { group_pair: self.group_pair, flipped: self.flipped }
     }
 
-    /// That of all keys with this head.
+    /// Direction of all keys with this high word.
     #[inline]
     pub fn direction_of(head: u64) -> Direction {
         Direction { group_pair: (head >> 33) as u32, flipped: (head >> 32) as u32 & 1 }
     }
 
-    /// The first number: few contacts have it in common.
+    /// High word; shared by few contacts.
     #[inline]
     pub fn head(&self) -> u64 {
         u64::from(self.group_pair) << 33 | u64::from(self.flipped) << 32 | u64::from(self.primitive_a)
     }
 
-    /// The second number.
+    /// Low word.
     #[inline]
     pub fn tail(&self) -> u64 {
         u64::from(self.shell_b) << 32 | u64::from(self.end)
@@ -67,12 +67,12 @@ impl PartialOrd for ContactKey {
     }
 }
 
-/// Why a contact is remembered.
+/// Reason why a contact is remembered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ContactRole {
     /// It pushes.
     Active,
-    /// Its centre came through the surface from behind: overlaps, but is not pushed to the front.
+    /// It overlaps, but its centre came through the surface from behind, so it is not pushed to the front.
     WrongSide,
     /// Its share of the spring is zero; only its side of entry matters.
     Tracked,
@@ -83,33 +83,33 @@ impl ContactRole {
         self as u32
     }
 
-    /// `None` for a word that no role has.
+    /// Role with this code, if any.
     pub fn from_word(word: u32) -> Option<Self> {
         [Self::Active, Self::WrongSide, Self::Tracked].into_iter().find(|role| role.to_word() == word)
     }
 }
 
-/// What is remembered of one contact. Vectors are in the frame of B's movable group.
+/// Memory of one contact. Vectors are in the frame of B's movable group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ContactRecord {
     pub key: ContactKey,
-    /// Feature of B, for ties.
+    /// Feature of B; breaks ties.
     pub feature: u32,
     /// Primitive element of B (the piece of a shell).
     pub element_b: u32,
     /// Face reached by the walk from the side of entry, in that piece.
     pub entry_face: u32,
-    /// Whether the bristle sticks.
+    /// True if the bristle sticks.
     pub sticks: bool,
-    /// Whether the contact pushes, or is only remembered.
+    /// Role: pushes, or is only remembered.
     pub role: ContactRole,
     /// Unit vector n from B to A.
     pub normal_b: Vec3,
-    /// c, m.
+    /// Contact point c, m.
     pub point_b: Vec3,
-    /// p, m.
+    /// Bristle deflection p, m.
     pub bristle_b: Vec3,
-    /// Force on A, N: the ledger's trapezoid needs it.
+    /// Force on A, N, for the ledger's trapezoidal rule.
     pub force_b: Vec3,
     /// Energy stored in the normal spring and in the bristle, J.
     pub stored: f64,
@@ -120,7 +120,7 @@ pub(crate) struct ContactRecord {
 }
 
 impl ContactRecord {
-    /// Something to fill memory with.
+    /// Placeholder to fill memory.
     pub fn blank() -> Self {
         let zero = Vec3::zeros();
         Self {

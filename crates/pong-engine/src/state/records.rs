@@ -1,4 +1,4 @@
-//! Contact records in the order of their keys.
+//! Contact records in key order.
 
 use super::record::{ContactKey, ContactRecord};
 use super::slot::Slot;
@@ -6,31 +6,33 @@ use pong_arena::{Full, Table};
 use std::num::NonZeroU32;
 use std::ops::{Index, IndexMut};
 
-/// Records, counted in the order of their keys. What tells most keys apart stands beside them, closely packed: a search reads
-/// few cache lines, and of the records themselves only those that it finds.
+/// Contact records, indexed in key order. The high words of the keys are packed in a separate array, so that
+/// a search reads few cache lines.
 ///
-/// They stand in that order in one table, or as the lanes of a frame have written them, each lane's in a table of its own.
-/// Then a commit moves none, and the core that reads a record is most often the one that has written it.
+/// The records are either stored in that order in one table, or stay in the tables where the threads of a
+/// frame wrote them. In the second case a commit moves no record, and a record is usually read by the core
+/// that wrote it.
 #[derive(Clone, Debug)]
 pub(crate) struct Records {
-    /// The head of every record's key.
+    /// High word of each record's key.
     heads: Table<u64>,
-    /// Where the first record of a head is, by some bits of the head; or was once, or that of another one. Nothing but the time
-    /// depends on it: most searches end where it says.
+    /// Hash table from high word to the index of its first record. Entries may be stale or belong to another
+    /// word; they affect only the search time.
     hints: Box<[u16]>,
-    /// So many of them are in use, a power of two.
+    /// Number of hints in use, a power of two.
     hints_used: usize,
-    /// Where every record stands, if lanes have written them.
+    /// Location of each record, if the threads' tables are used.
     slots: Table<Slot>,
     in_order: Table<ContactRecord>,
-    /// What each lane has written.
+    /// Records per thread.
     lanes: Vec<Table<ContactRecord>>,
 }
 
-/// Which records those of one key or of one head are, in the order of keys. Small: every contact of a frame notes one, or none.
+/// Index range of the records of one key or high word. Compact, because each contact of a frame stores one or
+/// none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct RecordRange {
-    /// The index of the first, and one more. Anything if there are none.
+    /// Index of the first record plus one; arbitrary if the range is empty.
     first: NonZeroU32,
     count: u32,
 }
@@ -40,52 +42,52 @@ impl RecordRange {
         Self { first: NonZeroU32::MIN.saturating_add(first as u32), count: count as u32 }
     }
 
-    /// The index of the first record, if there is any.
+    /// Index of the first record; arbitrary if the range is empty.
     #[inline]
     pub fn first(&self) -> usize {
         (self.first.get() - 1) as usize
     }
 }
 
-/// So many are twice as many as most frames have contacts, and do not displace them from the cache.
+/// Minimum number of hints: twice the contacts of most frames, and small enough for the cache.
 const HINTS_MIN: usize = 512;
 
-/// Of more than this, few would be in a cache.
+/// Maximum number of hints; more would not stay in the cache.
 const HINTS_MAX: usize = 8192;
 
-/// How many hints so many records are worth: two each, and few are displaced by another's.
+/// Number of hints for this many records: two per record, so that few collide.
 fn hints_for(records: usize) -> usize {
     (2 * records).next_power_of_two().clamp(HINTS_MIN, HINTS_MAX)
 }
 
-/// Fewer records than this are searched as quickly without a hint.
+/// Below this number of records a search is as fast without hints.
 const WORTH_A_HINT: usize = 16;
 
-/// Which hint is that of a head, of so many.
+/// Index of the hint of a high word, of `used` hints.
 #[inline]
 fn hint_of(head: u64, used: usize) -> usize {
-    /// Neighbouring primitives have neighbouring hints, in each direction of each pair from another place on.
+    /// Neighbouring primitives get neighbouring hints; each direction of each pair starts at another offset.
     const DIRECTION_APART: u64 = 0x9e37;
     ((head >> 32).wrapping_mul(DIRECTION_APART).wrapping_add(head)) as usize & (used - 1)
 }
 
-/// As many elements as bring all of a table into the cache.
+/// One element per cache line, to load the whole table into the cache.
 fn one_of_each_line<T>(table: &[T]) -> impl Iterator<Item = &T> {
     const LINE: usize = 64;
     table.iter().step_by(LINE / size_of::<T>())
 }
 
-/// The lane of records in order.
+/// Thread index that denotes the table in key order.
 const IN_ORDER: usize = Slot::NO_LANE;
 
 impl Records {
-    /// Bytes of a record.
+    /// Bytes per record.
     pub const BYTES: usize = Self::LANE_BYTES + size_of::<u64>();
 
-    /// Bytes of one that a lane has written.
+    /// Bytes per record in a thread's table.
     pub const LANE_BYTES: usize = size_of::<ContactRecord>();
 
-    /// Room for so many.
+    /// Room for this many records.
     pub fn with_capacity(capacity: usize) -> Self {
         Self {
             heads: Table::with_capacity(capacity, 0),
@@ -97,7 +99,7 @@ impl Records {
         }
     }
 
-    /// With room, besides, for what so many lanes write, each so many records.
+    /// Adds record tables for `lanes` threads, `each` records in each.
     pub fn with_lanes(mut self, lanes: usize, each: usize) -> Self {
         if lanes > 0 && each > 0 {
             self.slots = Table::with_capacity(self.capacity(), Slot::NOWHERE);
@@ -107,42 +109,42 @@ impl Records {
         self
     }
 
-    /// How many fit.
+    /// Capacity in records.
     pub fn capacity(&self) -> usize {
         self.heads.capacity()
     }
 
-    /// How many there are.
+    /// Number of records.
     pub fn len(&self) -> usize {
         self.heads.len()
     }
 
-    /// The head of a record's key.
+    /// High word of a record's key.
     #[inline]
     pub fn head(&self, index: usize) -> u64 {
         self.heads[index]
     }
 
-    /// Whether they stand where lanes have written them.
+    /// Returns true if the records are in the threads' tables.
     pub fn in_lanes(&self) -> bool {
         !self.slots.is_empty()
     }
 
-    /// The records, in the order of their keys.
+    /// Records in key order.
     pub fn iter(&self) -> impl Iterator<Item = &ContactRecord> + Clone {
         (0..self.len()).map(|index| &self[index])
     }
 
-    /// So many records are going to be written; there are none yet.
+    /// Sizes the hints for this many records; call before the first is written.
     #[inline]
     pub fn expect(&mut self, records: usize) {
         self.hints_used = hints_for(records).min(self.hints.len());
     }
 
-    /// Appends a record that `write` writes, all of it, in place; keys must come in order.
+    /// Appends a record that `write` writes completely, in place; keys must come in order.
     ///
     /// # Errors
-    /// [`Full`] if there is no room; the records stay as they are.
+    /// [`Full`] if there is no room; the records are unchanged.
     #[inline(always)]
     pub fn push_with(&mut self, write: impl FnOnce(&mut ContactRecord)) -> Result<(), Full> {
         debug_assert!(!self.in_lanes(), "records of lanes are whole");
@@ -155,11 +157,11 @@ impl Records {
         Ok(())
     }
 
-    /// Notes where the next record is to be found, if it is the first of its head.
+    /// Sets the hint for the next record, if it is the first of its high word.
     #[inline(always)]
     fn hint(&mut self, head: u64) {
         if self.heads.last() != Some(&head) {
-            // One that does not fit is a hint that nobody believes.
+            // An index that does not fit is truncated; the search rejects such a hint.
             self.hints[hint_of(head, self.hints_used)] = self.heads.len() as u16;
         }
     }
@@ -172,9 +174,9 @@ impl Records {
         other.iter().try_for_each(|record| self.push_with(|slot| *slot = *record))
     }
 
-    /// Replaces all records by those that lanes have written, whose heads and slots come in the order of keys; whether they
-    /// can stay where they are: there is room for lanes, and those of one head stand one after another. If not, there are no
-    /// records. The [tables of the lanes](Self::lane_mut) are the caller's to exchange.
+    /// Uses the records in the threads' tables, given their high words and slots in key order. Returns false,
+    /// and holds no record, if there are no such tables or if records of one high word are not contiguous.
+    /// The caller swaps the [tables](Self::lane_mut).
     #[inline]
     pub fn adopt(&mut self, written: impl Iterator<Item = (u64, Slot)>) -> bool {
         self.clear();
@@ -195,7 +197,7 @@ impl Records {
         true
     }
 
-    /// What a lane has written.
+    /// Record table of a thread.
     pub fn lane_mut(&mut self, lane: usize) -> &mut Table<ContactRecord> {
         &mut self.lanes[lane]
     }
@@ -207,7 +209,7 @@ impl Records {
         self.in_order.clear();
     }
 
-    /// Overwrites a record by another one, key and all; the order is the caller's to keep.
+    /// Copies a record, with its key, over another one; the caller preserves the order.
     pub fn copy_within(&mut self, from: usize, to: usize) {
         self[to] = self[from];
         self.heads[to] = self.heads[from];
@@ -220,17 +222,17 @@ impl Records {
         self.in_order.truncate(len);
     }
 
-    /// The records of a key.
+    /// Records of a key.
     #[inline]
     pub fn of_key(&self, key: &ContactKey) -> RecordRange {
         let range = self.of_head(key.head());
         let tail = key.tail();
         match self.in_range(&range) {
             [] => range,
-            // As a rule.
+            // Usual case: one record.
             [one] if one.key.tail() == tail => range,
             several => {
-                // Their heads are the key's.
+                // All have the key's high word; compare the low word.
                 let others = several.iter().take_while(|record| record.key.tail() < tail).count();
                 let same = several[others..].iter().take_while(|record| record.key.tail() == tail).count();
                 RecordRange::new(range.first() + others, same)
@@ -238,7 +240,7 @@ impl Records {
         }
     }
 
-    /// The records whose keys have one head.
+    /// Records with this high word.
     #[inline]
     pub fn of_head(&self, head: u64) -> RecordRange {
         let first = self.place_of_head(head);
@@ -249,7 +251,7 @@ impl Records {
         RecordRange::new(first, end - first)
     }
 
-    /// The records themselves: those of one head stand one after another.
+    /// Records of a range; those of one high word are contiguous in memory.
     #[inline]
     pub fn in_range(&self, range: &RecordRange) -> &[ContactRecord] {
         if range.count == 0 {
@@ -259,7 +261,7 @@ impl Records {
         &self.table(slot)[slot.index()..slot.index() + range.count as usize]
     }
 
-    /// The index of the first record whose key has this head, or would have its place there.
+    /// Index of the first record with this high word, or of the position where it would be inserted.
     #[inline]
     pub fn place_of_head(&self, head: u64) -> usize {
         let heads = &self.heads[..];
@@ -273,15 +275,15 @@ impl Records {
         heads.partition_point(|&other| other < head)
     }
 
-    /// The records of a pair of movable groups.
+    /// Records of a pair of movable groups.
     pub fn of_group_pair(&self, group_pair: u32) -> impl Iterator<Item = &ContactRecord> {
         let first_of = |group_pair| ContactKey { group_pair, ..ContactKey::default() }.head();
         let (first, next) = (first_of(group_pair), first_of(group_pair + 1));
         (self.place_of_head(first)..self.place_of_head(next)).map(|index| &self[index])
     }
 
-    /// Reads the heads, their hints, and where their records stand, all at once: a search would wait for one line after another
-    /// that another core has written.
+    /// Loads the high words, hints and slots into the cache, with overlapping misses. A search would miss on
+    /// one line after another that another core has written.
     pub fn fetch(&self) {
         let heads = one_of_each_line(&self.heads).fold(0, |all, head| all ^ head);
         let slots = one_of_each_line(&self.slots).fold(0, |all, slot| all ^ slot.index());
@@ -289,7 +291,7 @@ impl Records {
         std::hint::black_box((heads, slots, hints));
     }
 
-    /// The table of what stands in a slot.
+    /// Table that holds a slot.
     #[inline]
     fn table(&self, slot: Slot) -> &[ContactRecord] {
         match slot.lane() {
@@ -314,7 +316,7 @@ impl Index<usize> for Records {
     }
 }
 
-/// Keys are not to be changed.
+/// Mutable access; keys must not be changed.
 impl IndexMut<usize> for Records {
     #[inline]
     fn index_mut(&mut self, index: usize) -> &mut ContactRecord {
@@ -328,14 +330,14 @@ impl IndexMut<usize> for Records {
 }
 
 impl Default for Records {
-    /// No room at all.
+    /// No capacity.
     fn default() -> Self {
         Self::with_capacity(0)
     }
 }
 
 impl PartialEq for Records {
-    /// Whether the records are equal; where they stand and how many would fit does not matter.
+    /// Compares the records; storage and capacity do not matter.
     fn eq(&self, other: &Self) -> bool {
         self.iter().eq(other.iter())
     }

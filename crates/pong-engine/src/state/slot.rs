@@ -1,24 +1,24 @@
-//! Where something stands that the lanes of a frame have written.
+//! References into the buffers of the threads.
 
 use pong_threads::MAX_WORKERS;
 
-/// Where something stands that a lane has written: the lane, 0 for the caller's, in the highest bits; below, the index there.
+/// Reference into a thread's buffer: thread index (0 is the caller) in the high bits, element index below.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Slot(u32);
 
-/// Bits of the index; the others tell the lane.
+/// Number of index bits; the rest hold the thread index.
 const INDEX_BITS: u32 = 25;
 
 const _: () = assert!(MAX_WORKERS < Slot::NO_LANE);
 
 impl Slot {
-    /// Further than any index.
+    /// Number of distinct indices.
     pub const INDICES: usize = 1 << INDEX_BITS;
 
-    /// A number that is no lane's.
+    /// A value that is no thread index.
     pub const NO_LANE: usize = (u32::MAX >> INDEX_BITS) as usize;
 
-    /// Nothing stands here.
+    /// Reference to nothing.
     pub const NOWHERE: Self = Self(u32::MAX);
 
     #[inline]
@@ -36,7 +36,7 @@ impl Slot {
         self.0 as usize & (Self::INDICES - 1)
     }
 
-    /// The one behind it.
+    /// Next index of the same buffer.
     #[inline]
     pub const fn next(self) -> Self {
         Self(self.0 + 1)

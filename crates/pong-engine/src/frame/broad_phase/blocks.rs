@@ -1,4 +1,5 @@
-//! Trees of bounding volumes: lays out the blocks of work, and finds the leaves of B that a leaf of A may touch.
+//! Trees of bounding volumes: splits the work into blocks, and finds the leaves of B that a leaf of A may
+//! touch.
 
 use crate::frame::broad_phase::candidate_pairs::SUPERCHUNK;
 use crate::frame::input::{Block, PairContext, WorkerInput};
@@ -13,18 +14,19 @@ use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBox};
 use pong_model::{Batch, MovableGroup, Node};
 use std::ops::Range;
 
-/// Blocks of one round: when so many are laid out they are worked off before more are.
+/// Blocks per round: a full round is run before further blocks are laid out.
 pub(crate) const ROUND: usize = 4096;
 
-/// What the elements below a node of boxes may cost before its children are asked for themselves, ns.
+/// Cost of the elements below a box node above which its children are tested one by one, ns.
 const NODE_NS: u32 = 4000;
 
-/// What a block may cost before it is cut, ns: long against claiming one, short against a frame. What a thread claims together
-/// it runs as one, so small blocks cost little.
+/// Cost above which a block is split, ns: long compared with claiming a block, short compared with a frame. A
+/// thread runs the blocks of one claim as one, so small blocks cost little.
 const BLOCK_NS: u32 = 1000;
 
-/// Lays out all blocks of some pairs, whose motions stand in their order, and calls `work` with them whenever a round is
-/// full and at the end. Every call is told what the round may cost, ns. What is asked is counted where the caller counts.
+/// Lays out the blocks of some pairs, whose motions are in the same order, and calls `work` with each full
+/// round and with the last one. `work` receives the estimated cost of the round, ns. Overlap tests are
+/// counted in the caller's counts.
 pub(crate) fn lay_out(
     scene: &Scene,
     sealed: &Sealed,
@@ -62,11 +64,11 @@ pub(crate) fn lay_out(
 struct Layout<'a, 'w> {
     sealed: &'a Sealed,
     plan: &'a Plan,
-    /// A's and B's.
+    /// Movable groups A and B.
     bodies: (&'a MovableGroup, &'a MovableGroup),
     direction: Direction,
     slot: u32,
-    /// Whether no block of the batch in hand has been laid out yet.
+    /// True until the first block of the current batch has been laid out.
     leads: bool,
     input: &'a mut WorkerInput,
     caller: &'a mut WorkerContext,
@@ -75,7 +77,7 @@ struct Layout<'a, 'w> {
 }
 
 impl Layout<'_, '_> {
-    /// Whether a volume of A reaches the root of B's tree.
+    /// Returns true if a volume of A overlaps the root volume of B's tree.
     fn reaches_b(&mut self, volume: &Volume) -> bool {
         let root = &self.bodies.1.tree.nodes[0].volume;
         let x_ba = &self.input.motions[self.slot as usize].of(self.direction).x_ba;
@@ -104,7 +106,7 @@ impl Layout<'_, '_> {
             let (direction, slot, is_lone) = (self.direction, self.slot, items.len() == 1);
             let block = Block { direction, slot, leaf: node, batch, first: 0, end: 0, leads: false, is_lone };
             self.leads = true;
-            // There is nothing to cut: with one element for each pair this is a part of what a pair costs.
+            // A single element needs no split. (The split costs a measurable part of a one-element pair.)
             if is_lone {
                 self.add(Block { end: 1, ..block }, element_ns);
             } else {
@@ -113,8 +115,8 @@ impl Layout<'_, '_> {
         }
     }
 
-    /// Cuts the elements below a node of boxes into blocks; the children of a large node are first asked whether they
-    /// reach B at all.
+    /// Splits the elements below a box node into blocks, skipping children of a large node that do not reach
+    /// B.
     fn cut(&mut self, boxes: &BoxTree, node: u32, element_ns: u32, block: Block) {
         let node: &BoxNode = &boxes.nodes[node as usize];
         let elements = node.elements.clone();
@@ -135,11 +137,11 @@ impl Layout<'_, '_> {
         }
     }
 
-    /// Cuts consecutive elements into blocks, between groups of elements that are carried together.
+    /// Splits consecutive elements into blocks at superchunk boundaries.
     fn slice(&mut self, elements: Range<u32>, element_ns: u32, block: Block) {
         let Range { start: mut first, end: past } = elements;
         let of_group = |element: u32| (element / SUPERCHUNK) * SUPERCHUNK;
-        // Most are of one group, which is never cut: these need no division.
+        // Most ranges lie within one superchunk, which is never split; skip the division for them.
         if past <= of_group(first) + SUPERCHUNK {
             return self.add(Block { first, end: past, ..block }, element_ns);
         }
@@ -163,7 +165,7 @@ impl Layout<'_, '_> {
     }
 }
 
-/// Some blocks in their order, those that go on in the next one as one.
+/// Merges neighbouring blocks that continue each other; the order is kept.
 pub(crate) fn joined(blocks: &[Block]) -> impl Iterator<Item = Block> + '_ {
     let mut left = blocks;
     std::iter::from_fn(move || {
@@ -179,8 +181,8 @@ pub(crate) fn joined(blocks: &[Block]) -> impl Iterator<Item = Block> + '_ {
     })
 }
 
-/// Whether a block goes on in the next one, and no group of elements that are carried together is cut there: as one block
-/// the two find the same by the same tests.
+/// True if `next` continues `block` at a superchunk boundary. The merged block then finds the same contacts
+/// by the same tests.
 fn goes_on(block: &Block, next: &Block) -> bool {
     let of = |block: &Block| (block.direction, block.slot, block.leaf, block.batch);
     of(block) == of(next) && block.end == next.first && next.first.is_multiple_of(SUPERCHUNK)
@@ -192,8 +194,9 @@ fn as_volume(boxes: &BoxTree, narrow: &NarrowBox) -> Volume {
     if half.iter().all(|x| x.is_finite()) { Volume::Aabb { center, half } } else { Volume::Unbounded }
 }
 
-/// Takes the batches of B in leaves whose volumes a leaf of A overlaps and that a kind of A may touch. The tests are counted
-/// where the batch of A begins: how its blocks are joined depends on the threads, and no count may.
+/// Passes to `take` the batches of B that kind A may touch, in leaves of B that overlap the leaf of A. Tests
+/// are counted only in the first block of a batch of A, because the counts must not depend on how threads
+/// merge blocks.
 #[inline]
 pub(crate) fn batches_of_b<'a>(
     (context, plan): (&PairContext<'a>, &Plan),
@@ -211,7 +214,7 @@ pub(crate) fn batches_of_b<'a>(
             }
         }
     };
-    // The layout has asked about the root, and most trees have no more.
+    // The root was tested during the layout; most trees have no other node.
     let root = &tree_b.nodes[0];
     take(root);
     if root.children.is_empty() {
@@ -258,7 +261,7 @@ mod tests {
     use super::*;
     use pong_testkit::Random;
 
-    /// Of random blocks, some of which go on in the next: as many elements of every batch, and whatever is joined could be.
+    /// Merging random blocks keeps the elements of every batch and merges all blocks that can be merged.
     #[test]
     fn joined_blocks_hold_the_same_elements_and_cut_no_group() {
         let mut random = Random::new(17, 0, 0);

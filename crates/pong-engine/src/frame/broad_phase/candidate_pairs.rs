@@ -1,4 +1,4 @@
-//! Which elements of B the chunks of A may touch: B's trees are asked for eight chunks at once.
+//! Candidate pairs: elements of B that the chunks of A may touch, found for eight chunks at once.
 
 use crate::frame::broad_phase::chunk::{LaneBoxes, WideBox};
 use crate::frame::input::{Block, PairContext};
@@ -8,36 +8,36 @@ use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::Batch;
 use pong_model::box_tree::{BoxNode, Child, NarrowBox, NarrowBoxes, lanes};
 
-/// Elements whose boxes are carried together: eight chunks of eight.
+/// Elements whose boxes are transformed together: eight chunks of eight.
 pub(crate) const SUPERCHUNK: u32 = (LANES * LANES) as u32;
 
-/// CandidatePairs that there is room for; beyond them the chunks of a group go through the trees one by one.
+/// Capacity for candidate pairs; beyond it each chunk of the group traverses the trees alone.
 const CANDIDATE_PAIRS_MAX: usize = 1024;
 
-/// Words of eight pairs each.
+/// Number of mask words; each holds eight pairs.
 const WORDS: usize = CANDIDATE_PAIRS_MAX / LANES;
 
-/// Nodes that can wait at once: a tree of 2³¹ elements has eleven levels, each leaves at most seven waiting.
+/// Stack depth: a tree of 2³¹ elements has eleven levels, and each leaves at most seven nodes on the stack.
 pub(crate) const DEPTH_MAX: usize = 80;
 
-/// A batch of B, and the boxes around eight chunks of A as its tree sees them.
+/// A batch of B, with the boxes of eight chunks of A in the precision of its tree.
 #[derive(Clone, Copy)]
 pub(crate) struct Reach<'a> {
     pub batch: &'a Batch,
     boxes: NarrowBoxes,
-    /// The chunks that reach the batch at all.
+    /// Chunks that overlap the batch's root box.
     met: LaneBits,
 }
 
 impl Reach<'_> {
-    /// Whether a chunk reaches anything of the batch.
+    /// Returns true if a chunk overlaps a batch that is not empty.
     #[inline(always)]
     pub fn holds_for(&self, lane: usize) -> bool {
         self.met >> lane & 1 == 1 && !self.batch.boxes.nodes.is_empty()
     }
 }
 
-/// Which chunks of a group reach any batch of B.
+/// Returns the chunks of a group that reach any batch of B.
 #[inline(always)]
 #[allow(
     clippy::manual_map,
@@ -57,7 +57,7 @@ pub(crate) fn chunks_in_reach<'a, S: Simd>(
     let past_chunk = (block.end - group * SUPERCHUNK).div_ceil(LANES as u32).min(LANES as u32);
     let in_block = (LaneBits::MAX << first_chunk) & (LaneBits::MAX >> (LANES as u32 - past_chunk));
     let carried = match batch_a.chunks.get(group as usize) {
-        // An element by itself is asked when it is carried.
+        // A single element is tested later, with its own box.
         _ if batch_a.items.len() == 1 => None,
         Some(boxes) => Some(LaneBoxes::of_chunks(simd, boxes, &context.motion.x_ba)),
         None => None,
@@ -82,36 +82,36 @@ pub(crate) fn chunks_in_reach<'a, S: Simd>(
 /// An element of B that chunks of A may touch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CandidatePair {
-    /// Which batch in reach it is in.
+    /// Index of its batch in the reach list.
     pub reach: u32,
-    /// Its place in the batch.
+    /// Index in the batch.
     pub place: u32,
-    /// Its box.
+    /// Box of the element.
     pub box_b: WideBox,
 }
 
-/// A node of the tree in hand that waits, and the chunks that reach it.
+/// A pending node of the current tree, and the chunks that reach it.
 #[derive(Clone, Copy, Debug)]
 struct StackEntry {
     node: u32,
     chunks: LaneBits,
 }
 
-/// Candidate pairs of the chunks of a superchunk, in the order in which they are tested: for every chunk that in which it alone
-/// would find them. Empty between blocks.
+/// Candidate pairs of the chunks of a superchunk. For each chunk they are in the order in which a traversal
+/// for it alone finds them. Empty between blocks.
 #[derive(Debug)]
 pub(crate) struct CandidatePairs {
     list: Table<CandidatePair>,
-    /// For every pair a bit for every chunk, eight pairs to a word from the lowest byte.
+    /// Eight bits per pair, one for each chunk; eight pairs per word, lowest byte first.
     chunks: [u64; WORDS],
-    /// The first `depth` of them.
+    /// Stack of pending nodes; the first `depth` are valid.
     waiting: [StackEntry; DEPTH_MAX],
     depth: usize,
     any: LaneBits,
 }
 
 impl CandidatePairs {
-    /// Room for a few.
+    /// An empty list with its capacity allocated.
     pub fn new() -> Self {
         let nothing = CandidatePair { reach: 0, place: 0, box_b: WideBox::NOTHING };
         Self {
@@ -123,18 +123,18 @@ impl CandidatePairs {
         }
     }
 
-    /// The chunks that meet anything.
+    /// Chunks that have at least one candidate pair.
     pub fn chunks(&self) -> LaneBits {
         self.any
     }
 
-    /// Numbers of the candidate pairs of a chunk.
+    /// Indices of the candidate pairs of a chunk.
     #[inline(always)]
     pub fn of(&self, chunk: usize) -> NumbersOfChunk<'_> {
         NumbersOfChunk { words: &self.chunks[..self.words()], chunk, next: 0, bits: 0 }
     }
 
-    /// All pairs, by their numbers.
+    /// All pairs, by index.
     #[inline(always)]
     pub fn pairs(&self) -> &[CandidatePair] {
         &self.list
@@ -156,11 +156,11 @@ impl CandidatePairs {
         self.list.len() + LANES <= CANDIDATE_PAIRS_MAX
     }
 
-    /// Adds a pair of some chunks; its box is left to the caller.
+    /// Adds a pair for some chunks; the caller sets its box.
     #[inline(always)]
     fn add(&mut self, reach: usize, element: u32, chunks: LaneBits) -> &mut CandidatePair {
         let index = self.list.len();
-        // Not as bytes: a word that was just written in pieces would be waited for.
+        // Whole-word update: byte stores followed by a word load would stall (store forwarding).
         self.chunks[index / LANES] |= u64::from(chunks) << (index % LANES * LaneBits::BITS as usize);
         self.any |= chunks;
         let pair = self.list.slot().expect("room was asked for");
@@ -168,7 +168,7 @@ impl CandidatePairs {
         pair
     }
 
-    /// Gathers the candidate pairs of some chunks of a group; whether there was room for all.
+    /// Gathers the candidate pairs of some chunks of a group. Returns false if there was no room for all.
     #[inline(always)]
     pub fn gather<S: Simd>(
         &mut self,
@@ -191,7 +191,8 @@ impl CandidatePairs {
                     self.depth = 0;
                     return false;
                 }
-                // One chunk's box is asked itself; of several, first the box around all, then each box of B that it meets.
+                // One chunk: query with its own box. Several: query with the box around all, then with each
+                // box of B that it meets.
                 let lone = chunks.is_power_of_two();
                 let lone_box;
                 let query = if lone {
@@ -219,7 +220,8 @@ impl CandidatePairs {
         true
     }
 
-    /// A child that chunks reach: an element is a pair, whose box is left to the caller; a node waits.
+    /// Handles a child that chunks reach: adds a pair for an element (the caller sets its box), or pushes a
+    /// node.
     #[inline(always)]
     fn note(&mut self, reach: usize, child: Child, chunks: LaneBits) -> Option<&mut CandidatePair> {
         match child {
@@ -233,7 +235,7 @@ impl CandidatePairs {
 
     #[inline(always)]
     fn wait(&mut self, node: u32, chunks: LaneBits) {
-        // There is room for the deepest tree.
+        // The stack has room for the deepest tree.
         self.waiting[self.depth] = StackEntry { node, chunks };
         self.depth += 1;
     }
@@ -244,8 +246,8 @@ impl CandidatePairs {
         Some(self.waiting[self.depth])
     }
 
-    /// Goes on with the traversal of one chunk through the trees until it is through or there is no more room; whether it
-    /// is through. What was there before is gone.
+    /// Continues the traversal of one chunk until it ends or the list is full; returns true at the end.
+    /// Earlier pairs are discarded.
     #[inline(always)]
     pub fn go_on<S: Simd>(
         &mut self,
@@ -281,13 +283,13 @@ impl CandidatePairs {
     }
 }
 
-/// Numbers of the candidate pairs of one chunk, in their order.
+/// Indices of the candidate pairs of one chunk, in order.
 pub(crate) struct NumbersOfChunk<'a> {
     words: &'a [u64],
     chunk: usize,
-    /// The word that comes next.
+    /// Index of the next word.
     next: usize,
-    /// What is left of the word in hand: the lowest bit of every pair that the chunk has.
+    /// Remaining bits of the current word: the lowest bit of each pair's byte.
     bits: u64,
 }
 
@@ -296,7 +298,7 @@ impl Iterator for NumbersOfChunk<'_> {
 
     #[inline(always)]
     fn next(&mut self) -> Option<usize> {
-        /// The lowest bit of every pair in a word.
+        /// Lowest bit of each byte of a word.
         const LOWEST: u64 = 0x0101_0101_0101_0101;
         while self.bits == 0 {
             let word = self.words.get(self.next)?;
@@ -309,16 +311,16 @@ impl Iterator for NumbersOfChunk<'_> {
     }
 }
 
-/// How far one chunk has got through the trees of B.
+/// Progress of one chunk through the trees of B.
 pub(crate) struct Traversal {
     lane: usize,
-    /// The batch that comes next.
+    /// Index of the next batch.
     next: usize,
     query: NarrowBox,
 }
 
 impl Traversal {
-    /// From the start, for the chunk of a group.
+    /// A traversal from the start for chunk `lane` of a group.
     pub fn new(lane: usize) -> Self {
         Self { lane, next: 0, query: NarrowBox::NOTHING }
     }

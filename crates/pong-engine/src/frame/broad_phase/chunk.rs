@@ -1,4 +1,5 @@
-//! Up to eight elements of one kind as A, carried into B's frame together, and the boxes around them there.
+//! Up to eight elements of one kind as A, transformed into B's frame together, and the boxes around them
+//! there.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use pong_arena::Table;
@@ -10,27 +11,28 @@ use pong_geometry::{Transform, Vec3};
 use pong_model::box_tree::{BoxTree, NarrowBall, NarrowBox, NarrowBoxes};
 use pong_model::{Batch, ChunkBoxes, Item, MovableGroup};
 
-/// The elements and where they are.
+/// Up to eight elements of A in B's frame.
 #[derive(Clone, Copy)]
 pub(crate) struct Chunk<'a> {
     pub kind: PrimitiveKind,
     pub items: &'a [Item],
-    /// Points and spheres: their centres in A's frame.
+    /// Points and spheres: centres in A's frame.
     pub own_centers: Option<&'a Lanes>,
-    /// And in B's frame.
+    /// Points and spheres: centres in B's frame.
     pub centers: &'a Lanes,
-    /// Line segments and capsules: the first and the second ends of their axes in B's frame.
+    /// Line segments and capsules: first and second ends of their axes, in B's frame.
     pub ends: &'a [Lanes; 2],
-    /// Points, spheres, line segments and capsules: their radii, m.
+    /// Points, spheres, line segments and capsules: radii, m.
     pub radii: &'a [f64; LANES],
-    /// All other kinds of the tester table, in B's frame. Empty for kinds that only registered tests know.
+    /// Elements of all other kinds in the tester table, in B's frame. Empty for kinds with registered testers
+    /// only.
     carried: &'a [TransformedPrimitive],
     boxes: &'a LaneBoxes,
-    /// Balls around spheres and ellipsoids that may meet triangles.
+    /// Bounding spheres of spheres and ellipsoids that may meet triangles.
     balls: Option<&'a LaneBalls>,
 }
 
-/// What the chunks of a block have in common, before they are carried.
+/// Data shared by the chunks of a block, before the transformation into B's frame.
 #[derive(Clone, Copy)]
 pub(crate) struct ChunksOfA<'a> {
     kind: PrimitiveKind,
@@ -38,23 +40,24 @@ pub(crate) struct ChunksOfA<'a> {
     batch: &'a Batch,
     items: &'a [Item],
     x_ba: &'a Transform,
-    /// Many triangles lie in the corners of a ball's box: against them balls are kept as well.
+    /// Triangles may be near. Many of them lie in the corners of a sphere's box, so bounding spheres are kept
+    /// as well.
     meets_triangles: bool,
 }
 
-/// Where a chunk is written: to move it costs more than to work it out.
+/// Memory for one chunk, written in place because moving it costs more than computing it.
 #[derive(Debug)]
 pub(crate) struct ChunkSpace {
     centers: Lanes,
     ends: [Lanes; 2],
     boxes: LaneBoxes,
     balls: LaneBalls,
-    /// Those of which whole elements are carried.
+    /// Elements of the kinds that are transformed one by one.
     carried: Table<TransformedPrimitive>,
 }
 
 impl ChunkSpace {
-    /// Memory beside the structure itself, bytes.
+    /// Heap memory beside the structure itself, bytes.
     pub const BYTES: usize = LANES * size_of::<TransformedPrimitive>();
 
     pub fn new() -> Self {
@@ -69,14 +72,14 @@ impl ChunkSpace {
 }
 
 impl<'a> ChunksOfA<'a> {
-    /// Those of a batch, which is to meet triangles or not.
+    /// Chunks of one batch.
     pub fn new(body: &'a MovableGroup, batch: &'a Batch, x_ba: &'a Transform, meets_triangles: bool) -> Self {
         let items = &body.tree.items[batch.items.start as usize..batch.items.end as usize];
         Self { kind: batch.kind, body, batch, items, x_ba, meets_triangles }
     }
 
-    /// Carries the chunk that begins with the element `first` of the batch, a multiple of eight. Where it is an element `alone`
-    /// that is a point or a sphere, nobody asks for boxes.
+    /// Transforms the chunk that begins with element `first` of the batch (a multiple of eight) into B's
+    /// frame. With `alone`, the chunk is a single element; points and spheres then get no box.
     #[inline(always)]
     pub fn carry<'l, S: Simd>(
         &self,
@@ -94,7 +97,7 @@ impl<'a> ChunksOfA<'a> {
         let mut radii = &[0.0; LANES];
         let mut own_centers = None;
         let chunk = first as usize / LANES;
-        // What was carried before stays where it is while a chunk goes by lane.
+        // Chunks stored in lanes leave the list of single elements untouched.
         let mut each: &[TransformedPrimitive] = &[];
         match (batch.balls.get(chunk), batch.rods.get(chunk)) {
             (Some(balls), _) => {
@@ -131,28 +134,28 @@ impl<'a> ChunksOfA<'a> {
     }
 }
 
-/// A box of a tree in B's frame, m; infinite where it has no bound.
+/// Box of a tree element in B's frame, m; infinite where it is unbounded.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WideBox {
     low: [f64; 3],
     high: [f64; 3],
 }
 
-/// One ball per lane in B's frame: centres, m, and radii with room for rounding.
-// Eight numbers are one cache line: what spans two is loaded in two steps.
+/// One bounding sphere per lane in B's frame: centres, m, and radii with a rounding margin.
+// Eight f64 fill one cache line; an unaligned array would need two loads.
 #[derive(Debug)]
 #[repr(align(64))]
 struct LaneBalls {
     centers: [[f64; LANES]; 3],
-    /// Squares of the radii, m². Kept as such: a compiler that squares radii ahead of the loop that may need them does so
-    /// for a chunk without balls, too, and what it squares there may overflow.
+    /// Squared radii, m². Stored, not computed on use: a compiler may hoist the squaring out of a branch,
+    /// where the values of a chunk without spheres could overflow.
     squares: [f64; LANES],
-    /// Radius of the first, m.
+    /// Radius of the first sphere, m.
     first_radius: f64,
 }
 
-/// One box per lane in B's frame, m. What unused lanes hold is not asked for, but widens nothing.
-// Aligned as balls are.
+/// One box per lane in B's frame, m. Results of unused lanes are masked; their boxes never widen a union.
+// Aligned for the same reason as `LaneBalls`.
 #[derive(Debug)]
 #[repr(align(64))]
 pub(crate) struct LaneBoxes {
@@ -161,7 +164,7 @@ pub(crate) struct LaneBoxes {
 }
 
 impl Chunk<'_> {
-    /// Which elements reach an element of B.
+    /// Returns the lanes whose elements reach an element of B.
     #[inline(always)]
     pub fn reach<S: Simd>(&self, simd: S, box_b: &WideBox) -> LaneBits {
         let near = self.boxes.met_by(simd, box_b) & self.used();
@@ -171,13 +174,13 @@ impl Chunk<'_> {
         }
     }
 
-    /// Whether the elements are points or spheres.
+    /// Returns true if the elements are points or spheres.
     #[inline(always)]
     pub fn is_of_balls(&self) -> bool {
         self.own_centers.is_some()
     }
 
-    /// The box around an element alone, as a tree sees it.
+    /// Box around a single element, in the precision of the tree.
     #[inline(always)]
     pub fn lone_box(&self, tree: &BoxTree) -> NarrowBox {
         if self.is_of_balls() {
@@ -188,7 +191,8 @@ impl Chunk<'_> {
         tree.narrowed(&Vec3::new(x[0], y[0], z[0]), &Vec3::new(u[0], v[0], w[0]))
     }
 
-    /// A ball around an element alone, as a tree sees it: for points, spheres, and ellipsoids that may meet triangles.
+    /// Bounding sphere of a single element, in the precision of the tree: for points, spheres, and ellipsoids
+    /// that may meet triangles.
     #[inline(always)]
     pub fn lone_ball(&self, tree: &BoxTree) -> Option<NarrowBall> {
         if self.is_of_balls() {
@@ -198,14 +202,14 @@ impl Chunk<'_> {
         self.balls.map(|balls| balls.first_narrowed(tree))
     }
 
-    /// Centre and radius, with room for rounding, m.
+    /// Centre and radius with a rounding margin, m.
     #[inline(always)]
     fn lone_sphere(&self) -> (Vec3, f64) {
         let Sphere { center, radius } = self.sphere(0);
         (center, radius_with_room(&center, radius))
     }
 
-    /// The lanes that hold elements.
+    /// Lanes that hold elements.
     #[inline]
     pub fn used(&self) -> LaneBits {
         LaneBits::MAX >> (LANES - self.items.len())
@@ -217,7 +221,7 @@ impl Chunk<'_> {
         Sphere { center: self.centers.get(lane), radius: self.radii[lane] }
     }
 
-    /// One element of the kinds that are carried by lane.
+    /// One element of a kind that is stored in lanes (point, sphere, line segment, capsule).
     #[inline(always)]
     pub fn of_lane(&self, lane: usize) -> Option<TransformedPrimitive> {
         Some(match self.kind {
@@ -247,14 +251,14 @@ impl Chunk<'_> {
         }
     }
 
-    /// One element of another kind; `None` for kinds that are never A in the table.
+    /// One element of any other kind; `None` for kinds that are never A in the tester table.
     #[inline(always)]
     pub fn carried(&self, lane: usize) -> Option<&TransformedPrimitive> {
         self.carried.get(lane)
     }
 }
 
-/// An element whose pairs with triangles are told apart eight at a time.
+/// An element whose pairs with triangles are filtered eight at a time.
 #[derive(Clone, Copy)]
 pub(crate) enum Ellipsoidal<'a> {
     Sphere(Sphere),
@@ -262,7 +266,7 @@ pub(crate) enum Ellipsoidal<'a> {
 }
 
 impl<'a> Ellipsoidal<'a> {
-    /// The element of a chunk of spheres or ellipsoids in a lane.
+    /// Element of a chunk of spheres or ellipsoids.
     #[inline(always)]
     pub fn of(chunk: &'a Chunk<'_>, lane: usize) -> Self {
         match chunk.ellipsoid(lane) {
@@ -285,7 +289,7 @@ fn carry_each(
     }
 }
 
-/// The box in B's frame around the box that A's tree has for an element.
+/// Box in B's frame around the box that A's tree has for an element.
 fn carried_box(boxes: &BoxTree, element: u32, x_ba: &Transform) -> (Vec3, Vec3) {
     let (low, high) = boxes.bounds(element);
     if !low.iter().chain(high.iter()).all(|x| x.is_finite()) {
@@ -297,10 +301,10 @@ fn carried_box(boxes: &BoxTree, element: u32, x_ba: &Transform) -> (Vec3, Vec3) 
 }
 
 impl WideBox {
-    /// Something to fill memory with.
+    /// Empty box, to fill memory.
     pub const NOTHING: Self = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
 
-    /// Becomes one of a tree.
+    /// Sets this box from lane `lane` of a tree node.
     #[inline(always)]
     pub fn set(&mut self, tree: &BoxTree, boxes: &NarrowBoxes, lane: usize) {
         let [low, high] = &boxes.bounds;
@@ -312,8 +316,9 @@ impl WideBox {
 }
 
 impl LaneBoxes {
-    /// Boxes of trees have room for the rounding of numbers as large as their places and sizes. The centre of a ball that touches
-    /// one is no larger than these and its radius together, so what is left is room for the radius.
+    /// Sets the boxes of spheres. Tree boxes already have a margin for rounding at their own coordinates and
+    /// sizes. A sphere centre near such a box adds at most the radius to that, so only the radius needs a
+    /// margin here.
     #[inline(always)]
     fn set_to_balls<S: Simd>(&mut self, simd: S, centers: &Lanes, radii: &[f64; LANES]) {
         let radius = Numbers::load(simd, radii);
@@ -325,7 +330,8 @@ impl LaneBoxes {
         }
     }
 
-    /// As [`set_to_each`](Self::set_to_each) of what [`TransformedPrimitive::bounds`] has for them.
+    /// Sets the boxes of capsules or line segments to the values that [`set_to_each`](Self::set_to_each)
+    /// gives for [`TransformedPrimitive::bounds`].
     #[inline(always)]
     fn set_to_rods<S: Simd>(&mut self, simd: S, ends: &[Lanes; 2], radii: &[f64; LANES]) {
         let radius = Numbers::load(simd, radii);
@@ -339,7 +345,7 @@ impl LaneBoxes {
         }
     }
 
-    /// What the boxes reach along one axis, from their middles and half widths, m, with room for rounding.
+    /// Sets the extent along one axis from centres and half widths, m, with a rounding margin.
     #[inline(always)]
     fn set_along<S: Simd>(&mut self, axis: usize, center: Numbers<S>, half: Numbers<S>) {
         let half = half + (center.abs() + half) * half.all(ROUNDING);
@@ -347,7 +353,7 @@ impl LaneBoxes {
         self.high[axis] = (center + half).store();
     }
 
-    /// Boxes around turned boxes of A.
+    /// Boxes in B's frame around rotated boxes of A.
     #[inline(always)]
     pub fn of_chunks<S: Simd>(simd: S, chunks: &ChunkBoxes, x_ba: &Transform) -> Self {
         let center = chunks.center.carried_in(simd, x_ba);
@@ -372,7 +378,7 @@ impl LaneBoxes {
         }
     }
 
-    /// Which of the boxes a box of a tree meets.
+    /// Returns the lanes whose boxes overlap a tree box.
     #[inline(always)]
     fn met_by<S: Simd>(&self, simd: S, one: &WideBox) -> LaneBits {
         let mut met = simd.mask(LaneBits::MAX);
@@ -384,8 +390,8 @@ impl LaneBoxes {
         simd.bits(met)
     }
 
-    /// All boxes, as a tree sees them: rounded outward as [`BoxTree::narrowed`] does, eight at a time. What is no number
-    /// becomes the least, or the greatest.
+    /// All boxes in the precision of the tree, rounded outward as [`BoxTree::narrowed`] does, eight at a
+    /// time. NaN becomes the least or the greatest value.
     #[inline(always)]
     #[allow(clippy::manual_clamp, reason = "what is no number has to become one")]
     pub fn narrowed<S: Simd>(&self, simd: S, tree: &BoxTree) -> NarrowBoxes {
@@ -435,7 +441,7 @@ impl LaneBalls {
         self.set(&centers, &radii)
     }
 
-    /// Which of the balls reach a box of a tree.
+    /// Returns the lanes whose spheres reach a tree box.
     #[inline(always)]
     fn reach<S: Simd>(&self, simd: S, one: &WideBox) -> LaneBits {
         let mut distance = simd.splat(0.0);
@@ -447,7 +453,7 @@ impl LaneBalls {
         simd.bits(simd.at_least(simd.load(&self.squares), distance))
     }
 
-    /// The first ball, as a tree sees it.
+    /// First sphere, in the precision of the tree.
     #[inline(always)]
     fn first_narrowed(&self, tree: &BoxTree) -> NarrowBall {
         let [x, y, z] = &self.centers;
@@ -455,7 +461,7 @@ impl LaneBalls {
     }
 }
 
-/// A bound of a box of a tree; the greatest there is stands for no bound, unless all boxes of the tree have bounds.
+/// Bound of a tree box as f64; ±`f32::MAX` means unbounded, unless all boxes of the tree are bounded.
 #[inline(always)]
 fn widened(bound: f32, all_bounded: bool) -> f64 {
     if all_bounded || bound.abs() < f32::MAX {
@@ -465,7 +471,7 @@ fn widened(bound: f32, all_bounded: bool) -> f64 {
     }
 }
 
-/// Square of how far `x` lies outside `low`…`high`.
+/// Square of the distance by which `x` lies outside `low`…`high`.
 #[inline(always)]
 fn square_outside<S: Simd>(simd: S, x: S::Eight, low: S::Eight, high: S::Eight) -> S::Eight {
     let zero = simd.splat(0.0);
@@ -475,16 +481,16 @@ fn square_outside<S: Simd>(simd: S, x: S::Eight, low: S::Eight, high: S::Eight) 
     simd.mul(outside, outside)
 }
 
-/// The radius of a ball with room for rounding, m.
+/// Radius of a sphere with a rounding margin, m.
 #[inline(always)]
 fn radius_with_room(center: &Vec3, radius: f64) -> f64 {
     radius + margin(center.x.abs() + center.y.abs() + center.z.abs() + radius)
 }
 
-/// Room for rounding, as a share of the numbers that are rounded.
+/// Relative rounding margin.
 const ROUNDING: f64 = 4.0 * RELATIVE_MARGIN;
 
-/// Room for rounding in coordinates of this size, m.
+/// Rounding margin for coordinates of this size, m.
 #[inline(always)]
 fn margin(size: f64) -> f64 {
     ROUNDING * size
@@ -518,8 +524,8 @@ mod tests {
         }
     }
 
-    /// A ball and a place that it touches: rounding may put the ball beside the place, by more than the place's box has room
-    /// for where the ball is much larger.
+    /// A sphere that touches a point always reaches the point's box. Rounding of a large sphere may move it
+    /// off the point by more than the margin of the point's box.
     #[test]
     fn a_ball_of_any_size_reaches_the_box_of_what_it_touches() {
         let mut random = Random::new(13, 0, 0);
@@ -540,7 +546,7 @@ mod tests {
         }
     }
 
-    /// Of capsules and line segments of any size, anywhere, eight at a time and one by one.
+    /// Boxes of random capsules and line segments, computed eight at a time and one by one.
     #[test]
     fn boxes_of_eight_rods_are_those_of_each() {
         let mut random = Random::new(11, 0, 0);

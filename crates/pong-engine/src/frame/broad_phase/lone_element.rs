@@ -1,75 +1,76 @@
-//! Which elements of B an element of A by itself may touch: its own box in B's frame, which is much tighter than the turned
-//! one of its chunk, or its ball, goes down the trees.
+//! Tree traversal for a single element of A. The query is its own box in B's frame, which is much tighter
+//! than the rotated box of its chunk, or its bounding sphere.
 //!
-//! Every step down waits for the one before: a node says where the next is. So the steps of one element leave most of a
-//! processor idle, and several elements go down together, in turns.
+//! Each step depends on the one before, because a node holds the indices of the next. Several elements are
+//! therefore advanced in turns, to hide the latency.
 
 use crate::frame::broad_phase::chunk::Chunk;
 use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::box_tree::{BoxNode, BoxTree, NarrowBall, NarrowBox};
 
-/// Elements that go together, and their ways through trees: as many as there are lane bits.
+/// Traversals that run together: one per bit of `LaneBits`.
 pub(crate) const LONE_MAX: usize = LaneBits::BITS as usize;
 
-/// Elements of B that there is room for; when it is used up they are tested before the next ones are looked for.
+/// Capacity for elements of B; when it is used up they are tested before the traversal continues.
 const FOUND_MAX: usize = 32 * LANES;
 
-/// Levels of nodes of the deepest tree: of 2³¹ elements.
+/// Levels of the deepest tree (2³¹ elements).
 const LEVELS_MAX: usize = 11;
 
-/// Nodes of one level whose children are looked for in one step.
+/// Nodes of one level that one step expands.
 const AT_ONCE: usize = 8;
 
-/// The way of one element through one tree of B.
+/// Traversal of one tree of B by one element.
 ///
-/// A step asks up to eight nodes of one level. The last ones that were found are asked first, so what is found is in the same
-/// order as if they were asked one by one.
-// In this order what most ways need is on few cache lines.
+/// A step tests up to eight nodes of one level. It takes the nodes found last first, so the order of the
+/// results is that of a node-by-node traversal.
+// Field order: the fields that most traversals use share few cache lines.
 #[derive(Debug)]
 #[repr(C, align(64))]
 pub(crate) struct LoneElement {
     query: Query,
-    /// The level in hand, from the root down, and that of the bottom nodes.
+    /// Current level, 0 at the root, and the level of the bottom nodes.
     level: u32,
     bottom_level: u32,
-    /// Nodes asked that nobody has counted yet.
+    /// Nodes tested since the last `take_asked`.
     asked: u32,
-    /// How many elements were found last.
+    /// Number of valid entries in `found`.
     count: u32,
-    /// Where the nodes of every level that wait begin and end, from the root's to those of the level in hand. Apart: what is
-    /// read together should have been written together.
+    /// Ranges of pending nodes per level, from the root to the current level. Starts and ends are separate
+    /// arrays: a load that spans two earlier stores would stall.
     starts: [u16; LEVELS_MAX],
     ends: [u16; LEVELS_MAX],
-    /// Nodes that wait: of every level as many as what is asked at once has children, since then none of that level waits.
+    /// Pending nodes. A level has room for the children of one step, since a level is expanded again only
+    /// after it has become empty.
     nodes: [u32; LEVELS_MAX * AT_ONCE * LANES],
-    /// What was found last, in the order in which they are tested. Eight are written at a time, of which the last may not count.
+    /// Candidates found last, in test order. Written eight at a time; entries beyond `count` are unused.
     found: [u32; FOUND_MAX + LANES],
 }
 
-/// What boxes of a tree are compared with.
+/// Query volume that is compared with the boxes of a tree.
 #[derive(Clone, Copy, Debug)]
 enum Query {
     Box(NarrowBox),
-    /// A point or a sphere: its box would say no more.
+    /// A point or a sphere; its box would not reject more.
     Ball(NarrowBall),
-    /// An ellipsoid, which is in both.
+    /// An ellipsoid: inside both its box and its bounding sphere.
     BoxAndBall(NarrowBox, NarrowBall),
 }
 
-/// An element of B that may be touched.
+/// Candidate element of B.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Near(u32);
 
 impl Near {
     const OVER_FACE: u32 = 1 << 31;
 
-    /// The place in the batch. A tree has room for no more elements than leave a bit.
+    /// Index in the batch. Trees are small enough that the top bit is free for the flag.
     #[inline]
     pub fn place(self) -> usize {
         (self.0 & !Self::OVER_FACE) as usize
     }
 
-    /// Of a triangle that was narrowed down: whether the face alone may push.
+    /// For a triangle that has been narrowed down: true if only its face can push.
     #[inline]
     pub fn over_face(self) -> bool {
         self.0 & Self::OVER_FACE != 0
@@ -80,7 +81,8 @@ impl Query {
     #[inline(always)]
     fn new(chunk: &Chunk<'_>, tree: &BoxTree) -> Self {
         match chunk.lone_ball(tree) {
-            // A ball that is near everything is near empty boxes, too.
+            // An unbounded sphere would also meet the empty boxes of unused lanes; such a query needs its box
+            // as well.
             Some(ball) if chunk.is_of_balls() && ball.is_bounded() => Self::Ball(ball),
             Some(ball) => Self::BoxAndBall(chunk.lone_box(tree), ball),
             None => Self::Box(chunk.lone_box(tree)),
@@ -98,7 +100,7 @@ impl Query {
 }
 
 impl LoneElement {
-    /// On no way.
+    /// An idle traversal.
     pub const NONE: Self = Self {
         query: Query::Box(NarrowBox::NOTHING),
         level: 0,
@@ -111,7 +113,7 @@ impl LoneElement {
         asked: 0,
     };
 
-    /// Begins at the root of a tree that is not empty, with the first element of a chunk.
+    /// Starts at the root of a non-empty tree with the first element of a chunk.
     #[inline(always)]
     pub fn begin(&mut self, chunk: &Chunk<'_>, tree: &BoxTree) {
         self.query = Query::new(chunk, tree);
@@ -120,20 +122,20 @@ impl LoneElement {
         (self.count, self.asked) = (0, 0);
     }
 
-    /// Goes on until it is through or there is no more room. What was found before is gone.
+    /// Continues until the traversal ends or `found` is full. Earlier candidates are discarded.
     #[inline(always)]
     pub fn go_on<S: Simd>(&mut self, simd: S, tree: &BoxTree) {
         self.count = 0;
         while self.step(simd, tree) {}
     }
 
-    /// Whether nothing is left to be found.
+    /// Returns true at the end of the traversal.
     #[inline(always)]
     pub fn is_through(&self) -> bool {
         self.level == 0 && self.ends[0] == 0
     }
 
-    /// One step; whether there was any to make: it may be through, or there may be no more room.
+    /// Does one step; returns false if the traversal has ended or `found` is full.
     #[inline(always)]
     pub fn step<S: Simd>(&mut self, simd: S, tree: &BoxTree) -> bool {
         let level = self.level as usize;
@@ -162,7 +164,7 @@ impl LoneElement {
         for place in left..end {
             let node = &tree.nodes[self.nodes[place] as usize];
             let met = self.query.meets(simd, node);
-            // Eight places are written, whatever is found: which boxes are met follows no pattern that a processor could foresee.
+            // Always stores eight entries: a loop over the hits would be mispredicted.
             self.nodes[past..past + LANES].copy_from_slice(&node.nodes_in(simd, met));
             past += met.count_ones() as usize;
         }
@@ -171,7 +173,7 @@ impl LoneElement {
         true
     }
 
-    /// Goes up to the lowest level of which nodes wait; whether there is any.
+    /// Goes up to the nearest level that has pending nodes; returns false if there is none.
     #[inline(always)]
     fn go_up(&mut self) -> bool {
         while self.level > 0 {
@@ -184,32 +186,32 @@ impl LoneElement {
         false
     }
 
-    /// What was found last.
+    /// Candidates found last.
     #[inline(always)]
     pub fn found(&self) -> impl ExactSizeIterator<Item = Near> {
         self.found[..self.count as usize].iter().map(|&near| Near(near))
     }
 
-    /// Begins to keep some of what was found last, in its order; answers how many there are.
+    /// Starts to filter the candidates in place, in their order; returns their number.
     #[inline(always)]
     pub fn begin_keeping(&mut self) -> usize {
         std::mem::take(&mut self.count) as usize
     }
 
-    /// The place of what was found in a place among the others. Those that came before may be kept meanwhile.
+    /// Batch index of candidate `number`. Candidates before it may already have been overwritten by `keep`.
     #[inline(always)]
     pub fn place_of(&self, number: usize) -> u32 {
         self.found[number]
     }
 
-    /// Keeps an element by its place; `over_face`: whether the face alone may push.
+    /// Keeps an element by its batch index; `over_face`: only its face can push.
     #[inline(always)]
     pub fn keep(&mut self, place: u32, over_face: bool) {
         self.found[self.count as usize] = place | if over_face { Near::OVER_FACE } else { 0 };
         self.count += 1;
     }
 
-    /// How many nodes were asked since this was asked last.
+    /// Returns and resets the number of nodes tested.
     #[inline(always)]
     pub fn take_asked(&mut self) -> u64 {
         u64::from(std::mem::take(&mut self.asked))

@@ -1,4 +1,4 @@
-//! Which elements of B the elements of A may touch, by trees of bounding volumes and boxes.
+//! Broad phase: trees of bounding volumes and boxes give the elements of B that the elements of A may touch.
 
 pub(crate) mod blocks;
 pub(crate) mod candidate_pairs;

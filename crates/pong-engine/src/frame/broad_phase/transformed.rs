@@ -1,10 +1,10 @@
-//! A primitive that can be A, in B's frame.
+//! Primitives of A, transformed into B's frame.
 
 use pong_geometry::primitive::{Capsule, Ellipsoid, Frustum, LineSegment, Point, PrimitiveKind, Ray, Sphere};
 use pong_geometry::{Transform, Vec3};
 use pong_model::MovableGroup;
 
-/// The primitive.
+/// A primitive of A in B's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum TransformedPrimitive {
     Point(Point),
@@ -18,10 +18,10 @@ pub(crate) enum TransformedPrimitive {
 }
 
 impl TransformedPrimitive {
-    /// Something to fill memory with.
+    /// Placeholder to fill memory.
     pub const NOTHING: Self = Self::Point(Point { position: Vec3::new(0.0, 0.0, 0.0) });
 
-    /// `None` for kinds that are never A in the table.
+    /// Transforms an element; `None` for kinds that are never A in the tester table.
     #[inline(always)]
     pub fn new(body: &MovableGroup, kind: PrimitiveKind, element: u32, x_ba: &Transform) -> Option<Self> {
         let i = element as usize;
@@ -41,15 +41,16 @@ impl TransformedPrimitive {
         })
     }
 
-    /// Least and greatest coordinates, m, of what may touch: triangles push an ellipsoid at feet that may lie beside it.
+    /// Least and greatest coordinates of the region of contact, m. Triangles may push an ellipsoid at foot
+    /// points outside its own box.
     pub fn bounds(&self, meets_triangles: bool) -> (Vec3, Vec3) {
         let around = |center: &Vec3, half: Vec3| (center - half, center + half);
         match self {
             Self::Point(point) => (point.position, point.position),
             Self::Segment(LineSegment { ends: [a, b] }) => (a.inf(b), a.sup(b)),
             Self::Ray(ray) => {
-                // A ray also hits what lies up to its reach behind its origin; where the reach is left to the
-                // triangle, the triangle's box has room for it.
+                // A ray also hits surfaces up to its reach behind its origin. A reach left to the triangle is
+                // part of the triangle's box.
                 let start = ray.origin - ray.direction * ray.reach.unwrap_or(0.0);
                 (start.inf(&ray.tip()), start.sup(&ray.tip()))
             }
@@ -63,7 +64,7 @@ impl TransformedPrimitive {
     }
 }
 
-/// Least and greatest coordinates of a frustum, m. Apart from the cheap kinds, as an ellipsoid.
+/// Least and greatest coordinates of a frustum, m. Not inlined, as for the ellipsoid.
 #[inline(never)]
 fn box_of_frustum(frustum: &Frustum) -> (Vec3, Vec3) {
     let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
@@ -71,8 +72,8 @@ fn box_of_frustum(frustum: &Frustum) -> (Vec3, Vec3) {
     (along(-1.0), along(1.0))
 }
 
-/// Half of the box of an ellipsoid, m. Apart from the other kinds, which are cheap: in one function with it each of them
-/// would pay for its room.
+/// Half widths of the box of an ellipsoid, m. Not inlined, so that the cheaper kinds do not pay for its stack
+/// frame.
 #[inline(never)]
 fn half_sizes(ellipsoid: &Ellipsoid, meets_triangles: bool) -> Vec3 {
     let least = if meets_triangles { ellipsoid.reach_of_feet() } else { 0.0 };

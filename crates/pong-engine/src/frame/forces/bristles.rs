@@ -1,37 +1,38 @@
-//! The bristles of contacts that wait until there are eight of them, whichever pairs of movable groups they belong to.
+//! Batch of up to eight bristle contacts, from any pairs of movable groups; their friction is computed
+//! together.
 
 use super::contact::FrameContact;
 use crate::law::friction::{BristleForces, Bristles};
 use pong_geometry::Vec3;
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Numbers, Simd, Vectors};
 
-/// Vectors, coordinate by coordinate, one for each lane.
+/// Vectors, one per lane, stored by coordinate.
 type Lanes = [[f64; LANES]; 3];
 
-/// What the friction of one contact is worked out from. Vectors are in B's frame.
+/// Friction input of one contact. Vectors are in B's frame.
 pub(super) struct Bristle {
     /// Unit normal.
     pub normal_b: Vec3,
-    /// Deflection carried into the present contact plane, m.
+    /// Deflection p, rotated into the current contact plane, m.
     pub carried_b: Vec3,
-    /// u, m.
+    /// Slip u since the last commit, m.
     pub slip_b: Vec3,
-    /// v_t, m/s.
+    /// Slip velocity v_t, m/s.
     pub slip_velocity_b: Vec3,
-    /// K, N/m.
+    /// Tangential stiffness K, N/m.
     pub stiffness: f64,
-    /// c, N·s/m.
+    /// Tangential damping c, N·s/m.
     pub damping: f64,
     /// μ_k·F_n, N.
     pub kinetic_limit: f64,
     /// μ_s·F_n, N.
     pub static_limit: f64,
-    /// Whether it stuck at the last commit.
+    /// True if the bristle stuck at the last commit.
     pub stuck: bool,
 }
 
-/// Up to eight contacts whose friction is still to be worked out.
-// Eight numbers are one cache line: what spans two is loaded in two steps.
+/// Up to eight contacts whose friction is pending.
+// Eight f64 fill one cache line; an unaligned array would need two loads.
 #[derive(Debug)]
 #[repr(C, align(64))]
 pub(super) struct WaitingBristles {
@@ -44,7 +45,7 @@ pub(super) struct WaitingBristles {
     kinetic_limit: [f64; LANES],
     static_limit: [f64; LANES],
     count: usize,
-    /// Where in their buffer the contacts stand.
+    /// Indices of the contacts in their buffer.
     places: [u32; LANES],
     stuck: LaneBits,
 }
@@ -75,7 +76,7 @@ impl WaitingBristles {
         self.count == LANES
     }
 
-    /// One more; there must be room.
+    /// Adds a contact; the batch must not be full.
     #[inline(always)]
     pub fn add(&mut self, place: usize, one: &Bristle) {
         let lane = self.count;
@@ -92,7 +93,7 @@ impl WaitingBristles {
         self.stuck = self.stuck & !(1 << lane) | LaneBits::from(one.stuck) << lane;
     }
 
-    /// Works out all friction that waits. Its contacts are whole then; answers where they stand.
+    /// Computes all pending friction, which completes the contacts, and returns their indices.
     #[inline]
     pub fn settle(&mut self, contacts: &mut [FrameContact]) -> &[u32] {
         let count = std::mem::take(&mut self.count);
@@ -115,7 +116,7 @@ impl Kernel for Settle<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { bristles: waiting, count, contacts } = self;
-        // Lanes to spare hold what was worked out before, or nothing.
+        // Unused lanes hold earlier values or zeros.
         let forces = Bristles {
             stiffness: Numbers::load(simd, &waiting.stiffness),
             damping: Numbers::load(simd, &waiting.damping),

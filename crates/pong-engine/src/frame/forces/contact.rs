@@ -1,38 +1,38 @@
-//! A contact with its forces.
+//! Contacts with their forces.
 
 use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::state::ContactRecord;
 use pong_geometry::Vec3;
 
-/// A contact that counts, with its forces.
+/// A contact that was not culled, with its forces.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FrameContact {
     // testers, sharing
     pub found: ContactCandidate,
     // forces
-    /// Contact point c, m. This and the vectors below are in B's frame.
+    /// Contact point c, m. All vectors below are in B's frame.
     pub point_b: Vec3,
     /// Depth rate, m/s, positive while closing.
     pub rate: f64,
-    /// N; never negative.
+    /// Normal force, N; never negative.
     pub normal_force: f64,
-    /// On A, N.
+    /// Friction force on A, N.
     pub friction_force_b: Vec3,
-    /// Of A past B in the tangent plane, m/s.
+    /// Velocity of A relative to B in the tangent plane, m/s.
     pub slip_velocity_b: Vec3,
     /// Deflection p of the bristle, m.
     pub bristle_b: Vec3,
-    /// In the normal spring and the bristle, J.
+    /// Energy stored in the normal spring and the bristle, J.
     pub stored: f64,
     pub sticks: bool,
-    /// Work on the bodies since the last commit, J; 0 unless energy accounts are kept, as the next.
+    /// Work on the bodies since the last commit, J; 0 unless energy accounts are kept.
     pub work: f64,
-    /// Lost since the last commit, J.
+    /// Energy dissipated since the last commit, J; 0 unless energy accounts are kept.
     pub dissipated: f64,
 }
 
 impl FrameContact {
-    /// Something to fill memory with.
+    /// Placeholder to fill memory.
     pub fn blank() -> Self {
         Self {
             found: ContactCandidate::NOTHING,
@@ -55,18 +55,18 @@ impl FrameContact {
         self.found.normal_b * self.normal_force + self.friction_force_b
     }
 
-    /// What a commit remembers of the contact.
+    /// Contact record for the next commit.
     pub fn record(&self) -> ContactRecord {
         let mut record = ContactRecord::blank();
         self.write_record(&mut record);
         record
     }
 
-    /// Writes all of that.
+    /// Writes the contact record in place.
     #[inline(always)]
     pub fn write_record(&self, record: &mut ContactRecord) {
         let found = &self.found;
-        // Whoever gives a record one more field is told here.
+        // No `..`: a new field of the record must be handled here.
         let ContactRecord {
             key,
             feature,

@@ -1,4 +1,5 @@
-//! Contacts as they are found, in no order, with room for so many and the demand for more.
+//! Buffer of the contacts that one thread finds, unordered and of fixed capacity. It counts the demand beyond
+//! that.
 
 use super::bristles::WaitingBristles;
 use crate::frame::forces::contact::FrameContact;
@@ -13,56 +14,57 @@ use crate::state::{ContactRecord, ContactRole, Slot};
 use pong_arena::Table;
 use std::mem::swap;
 
-/// Contacts with their forces, and what was counted and timed while they were found.
+/// Contacts with their forces, and the counts and times of the search.
 #[derive(Debug)]
 pub(crate) struct ContactBuffer {
-    /// The lane that finds them: 0 is the caller.
+    /// Thread index; 0 is the caller.
     lane: usize,
-    /// The phase that the contents belong to, or [`Self::NO_PHASE`].
+    /// Phase of the contents, or [`Self::NO_PHASE`].
     pub phase: u64,
-    /// Contacts, in no order.
+    /// Contacts, unordered.
     pub contacts: Table<FrameContact>,
-    /// Where they stand, as many.
+    /// References to the contacts, one each.
     pub places: Table<Place>,
-    /// The same once more, written when a claim is done: what the caller asks of. In a worker's buffer alone.
+    /// Copy of `places` for the caller to read, written at the end of a claim. Workers' buffers only.
     told_places: Table<Place>,
-    /// What those that have a record add to the wrenches; none in the caller's buffer.
+    /// Wrench contributions of the contacts that have a record. Workers' buffers only.
     pub terms: Table<Term>,
-    /// What a commit is to remember of the first so many of them, each written as soon as its contact is whole: while others find
-    /// contacts for the same frame, as far as there is room.
+    /// Records for the next commit, for the first contacts of the buffer as far as there is room. Written as
+    /// soon as a contact is complete, in parallel with other threads.
     pub records: Table<ContactRecord>,
-    /// Those of them whose friction is still to be worked out.
+    /// Contacts whose friction is pending.
     pub(super) bristles: WaitingBristles,
-    /// Numbers of registered friction laws, as many for every contact.
+    /// State of registered friction laws, `law_state_len` numbers per contact.
     pub law_state: Table<f64>,
     pub law_state_len: usize,
-    /// Room for ranking the contacts; only the caller's has some.
+    /// Scratch for ranking the contacts by depth. Caller's buffer only.
     ranked: Table<u32>,
-    /// Whether others find contacts for the same frame just now. What finds no room then is lost, and all is done again.
+    /// True while other threads find contacts for the same frame. If the buffer overflows then, the round is
+    /// repeated by the caller.
     pub shares: bool,
     pub demand: CapacityDemand,
     pub counts: FrameCounts,
-    /// Where the time went; zero without a clock.
+    /// Time per kind of work; zero without a clock.
     pub times: WorkTimes,
 }
 
-/// What a frame would need room for, found or not.
+/// Capacity that a frame needs, whether available or not.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct CapacityDemand {
     /// Contacts that push.
     pub pushing: u64,
     /// Contacts that are only remembered.
     pub remembered: u64,
-    /// Interferences of one chunk of A, where they found no room: the most.
+    /// Largest candidate count of a chunk that overflowed.
     pub at_once: u64,
-    /// Whether anything found no room.
+    /// True if any buffer was too small.
     pub overflowed: bool,
-    /// Whether contacts of one ball with one surface were too many to be shared exactly.
+    /// True if one surface had too many contacts with one primitive of A for exact load sharing.
     pub unshared: bool,
 }
 
 impl CapacityDemand {
-    /// One contact more.
+    /// Counts one contact.
     #[inline]
     pub fn count(&mut self, role: ContactRole) {
         *(if role == ContactRole::Active { &mut self.pushing } else { &mut self.remembered }) += 1;
@@ -77,7 +79,7 @@ impl CapacityDemand {
     }
 }
 
-/// How far a buffer had got.
+/// State of a buffer that `restore` returns to.
 pub(crate) struct Checkpoint {
     contacts: usize,
     demand: CapacityDemand,
@@ -85,11 +87,11 @@ pub(crate) struct Checkpoint {
 }
 
 impl ContactBuffer {
-    /// Of a buffer that holds nothing yet.
+    /// Phase of an empty buffer.
     pub const NO_PHASE: u64 = 0;
 
-    /// Room for so many contacts and records that a lane finds, and, in the caller's, to rank the contacts if only the deepest
-    /// are to be kept.
+    /// Allocates room for this many contacts and records. The caller's buffer also gets room to rank contacts
+    /// by depth, to keep the deepest if there are too many.
     pub fn new(lane: usize, law_state_len: usize, contacts: usize, records: usize) -> Self {
         Self {
             lane,
@@ -110,12 +112,12 @@ impl ContactBuffer {
         }
     }
 
-    /// Whether anything of a phase may be here.
+    /// Returns true if the buffer may hold contacts of a phase.
     pub fn holds_a_phase(&self) -> bool {
         self.phase != Self::NO_PHASE
     }
 
-    /// Empties the buffer for a phase.
+    /// Empties the buffer for a new phase.
     pub fn begin(&mut self, phase: u64) {
         self.phase = phase;
         self.contacts.clear();
@@ -131,35 +133,35 @@ impl ContactBuffer {
         self.times = WorkTimes::default();
     }
 
-    /// The slot of what stands at an index here.
+    /// Slot of the contact at an index of this buffer.
     #[inline]
     pub fn slot_of(&self, index: usize) -> Slot {
         Slot::new(self.lane, index)
     }
 
-    /// Whether registered laws keep numbers of contacts.
+    /// Returns true if registered friction laws have state.
     #[inline]
     pub fn has_law_state(&self) -> bool {
         self.law_state_len > 0
     }
 
-    /// The numbers of a contact.
+    /// Friction-law state of a contact.
     pub fn law_state_of(&self, contact: usize) -> &[f64] {
         &self.law_state[contact * self.law_state_len..(contact + 1) * self.law_state_len]
     }
 
-    /// The same, to be written.
+    /// Friction-law state of a contact, mutable.
     pub fn law_state_mut(&mut self, contact: usize) -> &mut [f64] {
         &mut self.law_state[contact * self.law_state_len..(contact + 1) * self.law_state_len]
     }
 
-    /// How far the buffer has got. No friction waits for what comes after that.
+    /// Current state of the buffer. Pending friction is computed first.
     pub fn checkpoint(&mut self) -> Checkpoint {
         self.settle();
         Checkpoint { contacts: self.contacts.len(), demand: self.demand, counts: self.counts }
     }
 
-    /// Forgets all that came after a checkpoint.
+    /// Discards everything added since a checkpoint.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
         self.contacts.truncate(checkpoint.contacts);
         self.places.truncate(checkpoint.contacts);
@@ -172,7 +174,7 @@ impl ContactBuffer {
         self.counts = checkpoint.counts;
     }
 
-    /// Works out all friction that waits.
+    /// Computes all pending friction.
     pub fn settle(&mut self) {
         let settled = self.bristles.settle(&mut self.contacts);
         if !self.records.is_empty() {
@@ -182,7 +184,7 @@ impl ContactBuffer {
         }
     }
 
-    /// The same, if no more can wait.
+    /// Computes the pending friction if the batch is full.
     #[inline(always)]
     pub fn settle_if_full(&mut self) {
         if self.bristles.is_full() {
@@ -190,9 +192,9 @@ impl ContactBuffer {
         }
     }
 
-    /// Works out all friction that waits and writes where the new contacts stand and what they add to the wrenches, all at once: of
-    /// lines that another core has read, a core that writes to several in a row waits for many at a time, and for each if the
-    /// writes are far apart.
+    /// Computes all pending friction, then writes the references and wrench contributions of the new
+    /// contacts. They are written in one go: stores to consecutive cache lines last read by another core
+    /// overlap their misses, scattered stores do not.
     pub fn finish(&mut self) {
         self.settle();
         let told = self.told_places.len();
@@ -202,7 +204,7 @@ impl ContactBuffer {
         }
     }
 
-    /// Writes what is to be remembered of a contact that is whole.
+    /// Writes the record of a complete contact.
     #[inline(always)]
     pub fn remember(&mut self, place: usize) {
         if !self.records.is_empty() {
@@ -210,13 +212,13 @@ impl ContactBuffer {
         }
     }
 
-    /// Whether the buffer has a record for each of its contacts.
+    /// Returns true if every contact of the buffer has a record.
     pub fn remembers_all(&self) -> bool {
         self.records.len() == self.contacts.len()
     }
 
-    /// Takes over all that another [finished](Self::finish) buffer of the lane found, but for its counts, without copying a
-    /// contact, and gives its memory for it.
+    /// Moves everything except the counts out of another [finished](Self::finish) buffer of the same thread,
+    /// by swapping the tables.
     pub fn take_over(&mut self, other: &mut Self) {
         debug_assert!(self.lane == other.lane && self.law_state_len == 0);
         swap(&mut self.contacts, &mut other.contacts);
@@ -227,7 +229,8 @@ impl ContactBuffer {
         (self.phase, other.phase) = (other.phase, Self::NO_PHASE);
     }
 
-    /// Copies all that another [finished](Self::finish) buffer found; whether there was room.
+    /// Copies everything from another [finished](Self::finish) buffer; returns false if there is not enough
+    /// room.
     pub fn absorb(&mut self, other: &Self) -> bool {
         let first = self.contacts.len();
         let room = self.contacts.extend_from_slice(&other.contacts).is_ok()
@@ -242,8 +245,9 @@ impl ContactBuffer {
         room && !other.demand.overflowed
     }
 
-    /// A place for one more contact of this role; the caller writes it. Where there is no room the deepest so far stay, if this
-    /// buffer can rank them; else the contact is lost (`None`) and the whole phase must be done again by one that can.
+    /// Index for one more contact of this role; the caller writes it. If the buffer is full, the caller's
+    /// buffer keeps the deepest contacts; any other buffer drops the new one (`None`), and the caller has to
+    /// repeat the phase.
     #[inline]
     pub fn slot(&mut self, role: ContactRole, sealed: &Sealed) -> Option<usize> {
         self.demand.count(role);
@@ -265,7 +269,7 @@ impl ContactBuffer {
         Some(self.contacts.len() - 1)
     }
 
-    /// As long as every contact has had a record, the next one gets one too.
+    /// Adds a record for the new contact, if all contacts before it have one and there is room.
     #[inline(never)]
     fn make_room_for_record(&mut self) {
         if self.remembers_all() && self.records.len() < self.records.capacity() {
@@ -273,7 +277,7 @@ impl ContactBuffer {
         }
     }
 
-    /// Adds friction that waits for nobody to a contact that has none yet.
+    /// Computes the friction of a contact on its own, without a batch.
     #[inline(never)]
     pub fn add_friction_alone(&mut self, place: usize, law: &FrictionProps, input: &FrictionInput<'_>) {
         let FrictionOutput { force_b, bristle_b, sticks, stored } =
@@ -284,8 +288,8 @@ impl ContactBuffer {
         self.remember(place);
     }
 
-    /// Makes room: keeps the deepest `pushing` of the contacts that push and the deepest `others` of the rest, ties
-    /// by the order of sums.
+    /// Makes room: keeps the deepest `pushing` contacts that push and the deepest `others` of the rest; ties
+    /// by summation order.
     pub fn keep_deepest(&mut self, pushing: usize, others: usize) {
         self.settle();
         self.records.clear();
@@ -306,7 +310,7 @@ impl ContactBuffer {
         });
         let all_pushing = ranked.partition_point(|&i| contacts[i as usize].found.role == ContactRole::Active);
         let last = ranked.len().min(all_pushing + others);
-        // The places that stay, in ascending order, so that moving forward overwrites nothing that is needed.
+        // Sort the kept indices, so that moving contacts forward overwrites none that is still needed.
         let kept_pushing = all_pushing.min(pushing);
         ranked.as_mut_slice().copy_within(all_pushing..last, kept_pushing);
         ranked.truncate(kept_pushing + last - all_pushing);
@@ -324,7 +328,7 @@ impl ContactBuffer {
     }
 }
 
-/// Writes the record of a contact, if there is one.
+/// Writes the record of a contact, if it has one.
 #[inline(never)]
 fn remember(contacts: &[FrameContact], records: &mut [ContactRecord], place: usize) {
     if let Some(record) = records.get_mut(place) {

@@ -1,4 +1,4 @@
-//! What all lanes of a frame have found, wherever it stands.
+//! View of the contacts that all threads of a frame have found.
 
 use super::contact::FrameContact;
 use super::contact_buffer::ContactBuffer;
@@ -6,7 +6,7 @@ use super::place::Place;
 use super::term::Term;
 use std::ops::{Deref, DerefMut};
 
-/// What all lanes of a frame have found: the caller's buffer, and those of workers that were taken over as they are.
+/// Contacts of a frame: the caller's buffer and the workers' buffers that were swapped in.
 #[derive(Clone, Copy)]
 pub(crate) struct FoundContacts<'a> {
     pub caller: &'a ContactBuffer,
@@ -27,7 +27,7 @@ impl<'a> FoundContacts<'a> {
         &self.lane(place).contacts[place.slot.index()]
     }
 
-    /// What a contact adds to the wrenches.
+    /// Wrench contribution of a contact.
     #[inline]
     pub fn term(&self, place: &Place) -> Term {
         match place.slot.lane() {
@@ -36,14 +36,14 @@ impl<'a> FoundContacts<'a> {
         }
     }
 
-    /// All lanes, the caller's first.
+    /// Buffers of all threads, the caller's first.
     pub fn lanes(&self) -> impl Iterator<Item = &'a ContactBuffer> + Clone + use<'a> {
         std::iter::once(self.caller).chain(self.workers)
     }
 }
 
-/// Memory for what each worker finds. In a frame of the caller alone it stands empty and out of sight: to look at each buffer
-/// is to wait for a cache line.
+/// Buffers that are swapped with those of the workers. Frames that the caller runs alone see none of them,
+/// because even to check a buffer costs a cache miss.
 #[derive(Debug)]
 pub(crate) struct WorkerBuffers {
     all: Vec<ContactBuffer>,
@@ -51,18 +51,18 @@ pub(crate) struct WorkerBuffers {
 }
 
 impl WorkerBuffers {
-    /// Those of all workers, which are not in use.
+    /// Buffers of all workers, not in use.
     pub fn new(all: Vec<ContactBuffer>) -> Self {
         Self { all, in_use: false }
     }
 
-    /// All of them, for a round that the workers share.
+    /// Marks all buffers as in use, for a round on the workers, and returns them.
     pub fn put_to_use(&mut self) -> &mut [ContactBuffer] {
         self.in_use = true;
         &mut self.all
     }
 
-    /// Empties those that are in use; none is any more.
+    /// Empties the buffers that hold a phase, and marks all as not in use.
     #[inline]
     pub fn empty(&mut self) {
         self.iter_mut().filter(|buffer| buffer.holds_a_phase()).for_each(|buffer| {
@@ -72,7 +72,7 @@ impl WorkerBuffers {
     }
 }
 
-/// Those in use: all, or none.
+/// All buffers if they are in use, otherwise none.
 impl Deref for WorkerBuffers {
     type Target = [ContactBuffer];
 

@@ -1,4 +1,4 @@
-//! Normal and friction force of every contact.
+//! Normal and friction force of each contact.
 
 mod bristles;
 pub(crate) mod contact;
@@ -29,11 +29,11 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::LANES;
 use reference_point::reference_point;
 
-/// Contacts of one key share a bristle's stiffness where the cosine of their normals exceeds this (60°).
+/// Contacts of one key share the tangential stiffness if the cosine between their normals exceeds this (60°).
 const SHARED_BRISTLE_COSINE_MIN: f64 = 0.5;
 
-/// Computes the forces of what was found for a chunk of A, in the order of sums, and hands it to the buffer. Bristles wait
-/// there for others.
+/// Computes the forces of the candidates of a chunk of A, in summation order, and adds the contacts to the
+/// buffer. Friction of bristles stays pending there until a batch is full.
 #[inline(always)]
 pub(crate) fn compute_forces(
     context: &PairContext<'_>,
@@ -45,7 +45,7 @@ pub(crate) fn compute_forces(
         let counts = || group.iter().filter(|contact| contact.status != CandidateStatus::Culled);
         for one in counts() {
             if let Some(place) = out.slot(one.role, sealed) {
-                // Most are alone.
+                // Most groups have one contact.
                 let share = if group.len() > 1 { bristle_share(one, counts()) } else { one.half_or_whole() };
                 context.compute_force((elements_a, one), share, place, out);
             }
@@ -53,7 +53,7 @@ pub(crate) fn compute_forces(
     }
 }
 
-/// Computes forces again, after some of their keys were left out by a limit: what is left carries the bristle.
+/// Recomputes the forces after a limit has removed contacts: the remaining ones carry the whole bristle.
 pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationInput { sealed, memory, .. } = *given;
     let EvaluationBuffers { input, caller, order, near, poses, twists, .. } = frame;
@@ -80,7 +80,7 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
     out.settle();
 }
 
-/// h·w/Σw: the part of the pair's bristle that a contact carries.
+/// Share h·w/Σw of the pair's bristle that a contact carries.
 #[inline(always)]
 pub(crate) fn bristle_share<'f>(
     contact: &ContactCandidate,
@@ -93,22 +93,22 @@ pub(crate) fn bristle_share<'f>(
         })
         .map(|other| other.weight)
         .sum();
-    // A lone contact has the whole of its own weight, whatever rounding says of n·n.
+    // A single contact has exactly its own weight, even if n·n is not exactly 1.
     let half = contact.half_or_whole();
     if whole > contact.weight { half * contact.weight / whole } else { half }
 }
 
-/// The elements of A in hand.
+/// The elements of A of the current chunk.
 #[derive(Clone, Copy)]
 pub(crate) struct ElementsOfA<'c> {
     kind: PrimitiveKind,
-    /// Of a chunk of points or spheres, which was just worked on, the centres in A's frame and in B's: those in the model are
-    /// far away.
+    /// Points and spheres of the current chunk: their centres in A's frame and in B's frame. The chunk is in
+    /// the cache, the model is not.
     centers: Option<[&'c Lanes; 2]>,
 }
 
 impl<'c> ElementsOfA<'c> {
-    /// Those of a chunk.
+    /// Elements of a chunk.
     #[inline(always)]
     pub fn of(chunk: &Chunk<'c>) -> Self {
         let centers = match chunk.own_centers {
@@ -119,26 +119,26 @@ impl<'c> ElementsOfA<'c> {
     }
 }
 
-/// A contact whose friction is asked for.
+/// A contact whose friction is to be computed.
 struct Slipping<'f> {
     elements_a: ElementsOfA<'f>,
     found: &'f ContactCandidate,
-    /// c, m, in B's frame, as the next.
+    /// Contact point c in B's frame, m.
     point: Vec3,
-    /// Of A past B in the tangent plane, m/s.
+    /// Velocity of A relative to B in the tangent plane, in B's frame, m/s.
     slip_velocity: Vec3,
     /// Normal force, N.
     pressed: f64,
-    /// The committed record that it continues, and its index.
+    /// Committed record that the contact continues, with its index.
     continues: Option<(usize, &'f ContactRecord)>,
-    /// The part of the pair's bristle that it carries.
+    /// Share of the pair's bristle that the contact carries.
     share: f64,
-    /// Where it stands in the buffer.
+    /// Index in the buffer.
     place: usize,
 }
 
 impl PairContext<'_> {
-    /// The values of the two surfaces of a contact.
+    /// Combined properties of the two surfaces of a contact.
     #[inline]
     pub(crate) fn props(&self, found: &ContactCandidate) -> &PairProps {
         let surface_a = self.body_a.surfaces[found.key.primitive_a as usize];
@@ -146,9 +146,10 @@ impl PairContext<'_> {
         self.table.props(surface_a, surface_b)
     }
 
-    /// Fills in all of a contact, but leaves the friction of a bristle to the buffer. The numbers of its registered law are zero.
+    /// Computes a contact, except for bristle friction, which stays pending in the buffer. The state of its
+    /// registered law starts at zero.
     ///
-    /// Every number is written once, and what is needed again is not read back from there: the processor would wait for it.
+    /// Each field is written once and not read back: a load right after its store would wait for it.
     #[inline(always)]
     fn compute_force(
         &self,
@@ -175,7 +176,7 @@ impl PairContext<'_> {
         }
         let rubs = pressed > 0.0;
         let slot = out.slot_of(place);
-        // Whoever gives a contact one more field is told here.
+        // No `..`: a new field of the contact must be handled here.
         let FrameContact {
             found: as_found,
             point_b,
@@ -207,7 +208,7 @@ impl PairContext<'_> {
         }
     }
 
-    /// Adds friction to a contact that is pressed and written. That of a bristle waits for others.
+    /// Adds friction to a contact whose normal force is written. Bristle friction stays pending in the batch.
     #[inline(always)]
     fn add_friction(&self, contact: &Slipping<'_>, props: &PairProps, out: &mut ContactBuffer) {
         let record = contact.continues.map(|(_, record)| record);
@@ -236,7 +237,7 @@ impl PairContext<'_> {
                 },
             );
         }
-        // Coulomb's law asks for the velocity alone.
+        // Coulomb's law needs only the velocity.
         let asks_slip = !matches!(props.friction, FrictionProps::Coulomb { .. });
         let input = FrictionInput {
             normal_force: contact.pressed,
@@ -252,31 +253,32 @@ impl PairContext<'_> {
         out.add_friction_alone(contact.place, &props.friction, &input);
     }
 
-    /// φ, worked out once for all contacts of the pair.
+    /// Rotation vector φ, computed once per pair.
     fn rotation(&self, since: &SinceCommit) -> &Vec3 {
-        // Set in place: what a closure returns is copied right after it was written, and that is waited for.
+        // Set in place, because a copy of the closure's result would wait for its stores.
         if self.rotation_b.get().is_none() {
             _ = self.rotation_b.set(since.rotation());
         }
         self.rotation_b.get().expect("it was set")
     }
 
-    /// u, in the present contact plane: the displacement of A since the last commit where it touches,
+    /// Slip u of A in the current contact plane since the last commit:
     ///
     /// ```text
     /// Δo + φ × ½[(c₀ − o₀) + (c₁ − o₁)]
     /// ```
     ///
-    /// with the mean of the levers then and now: the lever of the start alone lets a ball that rolls and spins slip by the
-    /// spin times the way that its contact has moved. A contact that is born has only the present lever, and of its
-    /// displacement the part since the touch, as if the approach Δn had been even.
+    /// The lever is the mean of the earlier and the current one: with the earlier lever alone, a ball that
+    /// rolls and spins would slip by its spin times the distance that the contact has moved. A new contact
+    /// has only the current lever, and only the part of the displacement since first touch counts, for a
+    /// uniform approach Δn.
     #[inline(always)]
     fn slip(&self, contact: &Slipping<'_>, earlier: Option<&ContactRecord>) -> Vec3 {
         let Some(since) = &self.motion.since_commit else { return Vec3::zeros() };
         let found = contact.found;
         let (before, now) = match contact.elements_a.centers {
             Some([own, centers]) => {
-                // No bound to be checked: there are no more.
+                // The modulo removes a bounds check.
                 let lane = usize::from(found.lane) % LANES;
                 (since.x_ba.point(&own.get(lane)), centers.get(lane))
             }

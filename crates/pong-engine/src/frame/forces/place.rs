@@ -1,39 +1,40 @@
-//! Where a contact stands, and what is asked of all contacts before they are summed.
+//! References to contacts, with the data that sorting and commit need of every contact.
 
 use crate::sealed::Direction;
 use crate::state::{ContactKey, Slot};
 
-/// Where a contact stands, with the first of what decides the order of sums, which few have in common, and what else is asked of
-/// all contacts before they are summed: then the contacts themselves need not be read.
+/// Reference to a contact, with the high word of its sort key and the flags that are needed before summation.
+/// Most passes then need not read the contacts themselves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     pub head: u64,
-    /// In the buffer of which lane, and where there.
+    /// Thread's buffer and index in it.
     pub slot: Slot,
-    /// Whether it pushes, in the lowest bit; above, the committed record that it continues, or [`Self::BEGINS`].
+    /// Lowest bit: the contact pushes. Above: index of the committed record that it continues, or
+    /// [`Self::BEGINS`].
     state: u32,
 }
 
 impl Place {
     const BEGINS: u32 = u32::MAX >> 1;
 
-    /// The place of a contact that stands in a slot.
+    /// Reference to the contact in a slot.
     #[inline]
     pub fn new(head: u64, slot: Slot, pushes: bool, continues: Option<u32>) -> Self {
         let record = continues.unwrap_or(Self::BEGINS);
         Self { head, slot, state: record << 1 | u32::from(pushes) }
     }
 
-    /// No contact.
+    /// Reference to no contact.
     pub const NOWHERE: Self = Self { head: 0, slot: Slot::NOWHERE, state: Self::BEGINS << 1 };
 
-    /// The same contact in another slot.
+    /// Reference to the same contact in another slot.
     #[inline]
     pub fn at(self, slot: Slot) -> Self {
         Self { slot, ..self }
     }
 
-    /// Whose contact it is.
+    /// Pair direction of the contact.
     #[inline]
     pub fn direction(&self) -> Direction {
         ContactKey::direction_of(self.head)
@@ -44,7 +45,7 @@ impl Place {
         self.state & 1 == 1
     }
 
-    /// The committed record that the contact continues.
+    /// Index of the committed record that the contact continues.
     #[inline]
     pub fn continues(&self) -> Option<usize> {
         let record = self.state >> 1;

@@ -1,4 +1,4 @@
-//! Which point of A the motion of a contact is reckoned from.
+//! Reference point of A for the motion of a contact.
 
 use crate::state::ContactKey;
 use pong_geometry::Vec3;
@@ -6,9 +6,9 @@ use pong_geometry::primitive::{CustomPrimitive, PrimitiveKind};
 use pong_model::MovableGroup;
 use std::borrow::Cow;
 
-/// o: the point of A that carries the bristle's reference, in A's frame: the centre of a ball, the point itself,
-/// a segment's end, a ray's tip, the end of a round part's axis. Most stand in the model and are not copied: whoever reads a
-/// copy that was just written waits for it.
+/// Point o of A whose displacement deflects the bristle, in A's frame: centre of a sphere or ellipsoid, the
+/// point itself, end of a segment or of a round part's axis, tip of a ray. Borrowed from the model where
+/// possible.
 pub(crate) fn reference_point<'a>(
     (body_a, kind_a): (&'a MovableGroup, PrimitiveKind),
     key: &ContactKey,
@@ -32,7 +32,7 @@ pub(crate) fn reference_point<'a>(
     })
 }
 
-/// The end of an axis, or its middle for what touches between the ends.
+/// End of an axis, or its middle for a contact between the ends.
 fn on_axis([one, other]: &[Vec3; 2], end: u32) -> Cow<'_, Vec3> {
     match end {
         0 => Cow::Borrowed(one),
@@ -41,7 +41,7 @@ fn on_axis([one, other]: &[Vec3; 2], end: u32) -> Cow<'_, Vec3> {
     }
 }
 
-/// Centre of the box around a custom primitive; the frame's origin where the box is unbounded.
+/// Centre of a custom primitive's box; the frame's origin if the box is unbounded.
 fn middle(primitive: &dyn CustomPrimitive) -> Vec3 {
     let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
     let coordinates = axes.map(|axis| 0.5 * (primitive.support(&axis) - primitive.support(&-axis)));

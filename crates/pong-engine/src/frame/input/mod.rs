@@ -1,4 +1,4 @@
-//! What the stages that are spread over workers read, and nobody writes while they run.
+//! Input of the parallel stages; constant while they run.
 
 pub(crate) mod motion;
 pub(crate) mod relative;
@@ -15,7 +15,7 @@ use pong_model::MovableGroup;
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-/// What a frame is computed from.
+/// Input of a frame.
 pub(crate) struct EvaluationInput<'a> {
     pub scene: &'a Scene,
     pub sealed: &'a Sealed,
@@ -24,56 +24,57 @@ pub(crate) struct EvaluationInput<'a> {
     pub clock: Clock,
 }
 
-/// One frame's input, beside the contact state.
+/// Input of one phase for the workers, besides the contact state.
 #[derive(Clone)]
 pub(crate) struct WorkerInput {
-    /// Number of the phase: what a context holds of another one is stale.
+    /// Phase number; contents of a context with another number are stale.
     pub phase: u64,
-    /// Two directions of every pair of movable groups of this phase.
+    /// Motions of all pairs of movable groups of this phase, two directions each.
     pub motions: Vec<PairMotions>,
-    /// Values of all pairs of surfaces.
+    /// Combined properties of all pairs of surfaces.
     pub tables: Arc<Vec<SurfaceTable>>,
-    /// The work of this phase.
+    /// Blocks of this phase.
     pub blocks: Vec<Block>,
-    /// The host's, if it has lent one.
+    /// The host's clock, if any.
     pub clock: Clock,
 }
 
-/// A piece of work: some elements of one leaf as A, against everything of one movable group as B. All contacts of
-/// one key are found in one block.
+/// Work item: some elements of one leaf of A against all of one movable group B. All contacts of one key are
+/// found in one block.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
     pub direction: Direction,
-    /// Where the pair's motions are.
+    /// Index of the pair's motions.
     pub slot: u32,
     /// Leaf of A's tree.
     pub leaf: u32,
     /// Batch of that leaf (index into the tree's batches).
     pub batch: u32,
-    /// First element, a multiple of eight, and one past the last.
+    /// First element, a multiple of eight. `end` is one past the last.
     pub first: u32,
     pub end: u32,
-    /// Whether it is the first of its batch that was laid out: what is asked once per batch is counted there.
+    /// True for the first block of its batch; tests done once per batch are counted there.
     pub leads: bool,
-    /// Whether its element is the only one of its batch.
+    /// True if the batch has one element.
     pub is_lone: bool,
 }
 
 impl<'a> EvaluationInput<'a> {
-    /// The same, as the blocks of a round see it.
+    /// View of this input for the blocks of a round.
     pub fn round(&self, input: &'a WorkerInput) -> Round<'a> {
         Round { scene: self.scene, sealed: self.sealed, memory: self.memory, input }
     }
 }
 
 impl WorkerInput {
-    /// Takes over another frame's input without asking for memory.
+    /// Copies another input without allocating.
     pub fn copy_from(&mut self, other: &Self) {
         self.phase = other.phase;
         self.clock = other.clock;
         self.motions.clear();
         self.motions.extend_from_slice(&other.motions);
-        // To count who holds the tables is to write beside them, where other cores read.
+        // Cloning the `Arc` writes its reference count, on a cache line that other cores read; skip it if
+        // nothing changed.
         if !Arc::ptr_eq(&self.tables, &other.tables) {
             self.tables = Arc::clone(&other.tables);
         }
@@ -82,7 +83,7 @@ impl WorkerInput {
     }
 }
 
-/// What the blocks of a round are worked out from.
+/// Input of the blocks of a round.
 #[derive(Clone, Copy)]
 pub(crate) struct Round<'a> {
     pub scene: &'a Scene,
@@ -92,7 +93,7 @@ pub(crate) struct Round<'a> {
     pub input: &'a WorkerInput,
 }
 
-/// One direction of a pair of movable groups, as the testers see it.
+/// Context of the testers for one direction of a pair of movable groups.
 pub(crate) struct PairContext<'a> {
     pub scene: &'a Scene,
     pub group_pair: u32,
@@ -100,16 +101,16 @@ pub(crate) struct PairContext<'a> {
     pub flipped: u32,
     pub body_a: &'a MovableGroup,
     pub body_b: &'a MovableGroup,
-    /// Motion of A against B.
+    /// Motion of A relative to B.
     pub motion: &'a Motion,
     pub memory: &'a ContactMemory,
     pub table: &'a SurfaceTable,
     pub volume_tests: &'a VolumeTests,
-    /// Whether A's Object was named first: of two primitives of one kind A is its.
+    /// True if A's Object was named first; decides which of two primitives of one kind is A.
     pub in_order: bool,
-    /// Whether B's model remembers the side of entry.
+    /// True if B's model remembers the side of entry.
     pub remembers_entry: bool,
-    /// φ of the motion since the last commit, once a contact has asked for it, rad.
+    /// Rotation vector φ since the last commit, rad; computed on first use.
     pub rotation_b: OnceCell<Vec3>,
 }
 

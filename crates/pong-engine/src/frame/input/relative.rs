@@ -11,23 +11,24 @@ use crate::state::CommittedPoses;
 use pong_geometry::{Pose, Quat, Transform, Twist};
 use std::borrow::Cow;
 
-/// What the relative motion of any pair is computed from.
+/// Input of the relative motion of any pair.
 #[derive(Clone, Copy)]
 pub(crate) struct Motions<'a> {
     pub sealed: &'a Sealed,
     /// Poses and twists of all movable groups.
     pub poses: &'a [Pose],
     pub twists: &'a [Twist],
-    /// Their poses at the last commits.
+    /// Poses at the last commits.
     pub committed: &'a CommittedPoses,
 }
 
 impl Motions<'_> {
-    /// Fills in the motions of some pairs in the frame of this number, in the directions in which something can be found. What
-    /// stands there of the frame that was committed is where its pairs are committed: it need not be worked out again.
+    /// Computes the motions of some pairs for a frame, in the directions that have tests. If an entry already
+    /// holds the motion of the committed frame, its pose becomes the committed pose without a new
+    /// computation.
     pub fn relate(&self, pairs: &[u32], frame: u64, out: &mut Vec<PairMotions>) {
-        // What is of no use stays as it is: both directions may be written, and few are not. As a rule there are as many as in
-        // the frame before, and nothing is made only to be thrown away.
+        // Reuse the entries: most frames have as many pairs as the one before. Unused directions keep their
+        // old values.
         if out.len() < pairs.len() {
             out.resize(pairs.len(), PairMotions::nobodys());
         }
@@ -44,12 +45,13 @@ impl Motions<'_> {
         }
     }
 
-    /// The motion of A against B.
+    /// Motion of A relative to B.
     pub fn of(&self, direction: Direction) -> Motion {
         self.since(direction, self.earlier(direction))
     }
 
-    /// How A stood against B at the last commit: from A's group frame to B's, and the rotation of that.
+    /// Pose of A relative to B at the last commit: the transform from A's group frame to B's, and its
+    /// rotation.
     #[inline(always)]
     fn earlier(&self, direction: Direction) -> Option<(Transform, Quat)> {
         let (body_a, body_b) = self.sealed.bodies_of(direction);
@@ -57,7 +59,7 @@ impl Motions<'_> {
         self.committed.relative(pair, body_a, body_b).map(|pose| (pose.transform(), pose.orientation))
     }
 
-    /// The motion of A against B since it stood so. In place where it is asked for: it is large to hand around.
+    /// Motion of A relative to B since an earlier relative pose.
     #[inline(always)]
     fn since(&self, direction: Direction, earlier: Option<(Transform, Quat)>) -> Motion {
         let (body_a, body_b) = self.sealed.bodies_of(direction);
@@ -78,7 +80,7 @@ impl Motions<'_> {
         }
     }
 
-    /// The motion of a direction in which a contact was found: as the frame has it, or computed again.
+    /// Motion in a direction that has a contact: from the frame's input, or recomputed.
     pub fn known<'i>(
         &self,
         near: &NearPairs,

@@ -1,14 +1,14 @@
-//! States of movable groups, latched where a frame begins. They were checked when they were set.
+//! Latches the states of the movable groups at the start of a frame. They were validated when they were set.
 
 use crate::error::EngineError;
 use crate::frame::buffers::EvaluationBuffers;
 use crate::scene::{Scene, States};
 use crate::sealed::Sealed;
 
-/// Refuses a frame while a movable group of an enabled pair has no state.
+/// Refuses a frame if a movable group of an enabled pair has no state.
 #[inline]
 pub(crate) fn require_states(scene: &Scene, sealed: &Sealed, states: &States) -> Result<(), EngineError> {
-    // As a rule all have one, and there may be many more pairs than movable groups.
+    // Fast path: usually all have a state, and there may be many more pairs than groups.
     if sealed.paired_bodies.iter().all(|&body| states.bodies[body].is_some()) {
         return Ok(());
     }
@@ -22,13 +22,13 @@ pub(crate) fn require_states(scene: &Scene, sealed: &Sealed, states: &States) ->
     Ok(())
 }
 
-/// Takes the states over into the frame.
+/// Copies the states into the frame.
 #[inline]
 pub(crate) fn latch(sealed: &Sealed, states: &States, frame: &mut EvaluationBuffers) {
     for &body in &*sealed.paired_bodies {
         if let Some(state) = &states.bodies[body] {
             frame.poses[body] = states.poses[body];
-            // In place: a copy of what was just set would be waited for.
+            // Field-wise: a struct copy right after narrow stores would stall (store forwarding).
             let twist = &mut frame.twists[body];
             twist.linear.copy_from_slice(&state.linear_velocity);
             twist.angular.copy_from_slice(&state.angular_velocity);
