@@ -1,4 +1,4 @@
-//! Bodies: what moves, and what decides how.
+//! Bodies, and how their motion is determined.
 
 use crate::mass::MassProperties;
 use crate::path::Path;
@@ -10,20 +10,20 @@ use pong_geometry::{Pose, Twist};
 pub struct BodyId(pub(crate) usize);
 
 impl BodyId {
-    /// Position in the order in which the bodies were added.
+    /// Index in the order in which the bodies were added.
     pub fn index(self) -> usize {
         self.0
     }
 }
 
-/// What decides a body's motion.
+/// Law of a body's motion.
 #[derive(Clone, Debug)]
 pub enum Motion {
-    /// Newton and Euler.
+    /// Newton's and Euler's equations.
     Free(MassProperties),
-    /// It stays where it is.
+    /// No motion.
     Fixed,
-    /// It follows a path whatever pushes it.
+    /// Motion along a path, whatever the forces.
     Prescribed(Path),
 }
 
@@ -32,11 +32,11 @@ pub enum Motion {
 pub struct RigidBody {
     /// Name for messages and records.
     pub name: String,
-    /// What decides its motion.
+    /// Law of its motion.
     pub motion: Motion,
-    /// Where it starts: pose of the group frame in the common frame. A prescribed body starts where its path does.
+    /// Initial pose of the group frame in the common frame. A prescribed body starts where its path does.
     pub pose: Pose,
-    /// How it starts: velocity of the group's origin and angular velocity, along the common axes.
+    /// Initial velocity of the group's origin and angular velocity, along the common axes.
     pub twist: Twist,
     /// The Interface whose contact wrench acts on it; `None` for a body that touches nothing.
     pub interface: Option<InterfaceId>,
@@ -73,7 +73,7 @@ impl RigidBody {
         Self { twist, ..self }
     }
 
-    /// The same body, feeling the contacts of an Interface.
+    /// The same body with the contact wrench of an Interface.
     pub fn touching(self, interface: InterfaceId) -> Self {
         Self { interface: Some(interface), ..self }
     }

@@ -1,4 +1,4 @@
-//! Where the energy is, and where it went.
+//! Energy balance.
 //!
 //! ```text
 //! kinetic + potential + springs + contacts + dissipated − work_in = constant
@@ -6,16 +6,18 @@
 //!
 //! up to the order of the integrator. Contact terms are the engine's ledger: they are zero unless the world keeps it.
 //!
-//! The engine knows of states at commits alone, and takes the work in between by the trapezoid rule. Where contact is evaluated
-//! at stages, the executive knows better: momentum and angular momentum that the stages gave to each free body, times the mean
-//! of its velocity and spin before and after the step, is what they did to its kinetic energy,
+//! The engine knows the states at commits alone, and takes the work in between by the trapezoid rule. Where
+//! contact is evaluated at stages, the executive computes it more accurately: impulse and angular impulse of
+//! the stages on each free body, times the mean of its velocity and spin before and after the step, give the
+//! change of its kinetic energy,
 //!
 //! ```text
 //! W = Σ h·b_i·F_i·½(v + v') + Σ h·b_i·M_i·½(ω + ω')
 //! ```
 //!
-//! in translation to rounding, in rotation to third order of the step. Where contact begins or ends within a step, the place that the
-//! stages lead to is not that of the mean velocity; what gravity does over the difference is counted with the contact that made it.
+//! in translation to rounding, in rotation to third order of the step. Where contact begins or ends within a
+//! step, the final position of the stages is not that of the mean velocity; the work of gravity over the
+//! difference is counted with the contact that made it.
 
 use crate::body::Motion;
 use crate::integrate::Pushed;
@@ -34,10 +36,11 @@ pub struct Energy {
     pub springs: f64,
     /// Energy stored in contacts, J.
     pub contacts: f64,
-    /// Energy lost in contacts since the start, with what the integrator lost in them, J; negative if they gained energy.
+    /// Energy lost in contacts since the start, including the integrator's loss in them, J; negative if they
+    /// gained energy.
     pub contact_loss: f64,
-    /// Energy gained since the start by holding contact wrenches over steps, J: work that the forces would not have done
-    /// as they follow the motion. The balance drifts by it. Zero unless the world keeps energy accounts.
+    /// Energy gained since the start by holding contact wrenches over steps, J: their work less that of
+    /// forces that follow the motion. The balance drifts by it. Zero unless the world keeps energy accounts.
     pub contact_made: f64,
     /// Energy lost in dampers of springs since the start, J.
     pub spring_loss: f64,
@@ -51,20 +54,20 @@ impl Energy {
         self.kinetic + self.potential + self.springs + self.contacts
     }
 
-    /// What stays constant.
+    /// Energy balance; constant up to the order of the integrator.
     pub fn balance(&self) -> f64 {
         self.mechanical() + self.contact_loss + self.spring_loss - self.work_in
     }
 }
 
-/// Powers that cross the border of the system, W.
+/// Powers across the boundary of the system, W.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Powers {
     /// Turned into heat by springs; never negative.
     pub spring_heat: f64,
-    /// Of loads and of what is led, on the free bodies; positive into the system.
+    /// Power of loads and of prescribed bodies on the free bodies; positive into the system.
     pub work_in: f64,
-    /// Of contact on bodies that are led or fixed.
+    /// Power of contact on prescribed and fixed bodies.
     pub on_led: f64,
 }
 
@@ -104,7 +107,7 @@ impl System {
         led.map(|(_, (wrench, (_, twist)))| power(wrench, twist)).sum()
     }
 
-    /// Work of contact on the bodies over a step of a length (s), in which it pushed them so.
+    /// Work of contact on the bodies over a step of length `h` (s) with the impulses `pushed`.
     pub fn contact_work(&self, before: &[FreeState], after: &[FreeState], pushed: &Pushed, h: f64) -> f64 {
         let mut work = pushed.work_on_led;
         let states = before.iter().zip(after).zip(&self.free);
@@ -121,7 +124,7 @@ impl System {
         work
     }
 
-    /// Energies that the present instant has; losses and work are left at zero, those of contacts excepted.
+    /// Energies of the present instant; losses and work are left zero, except those of contacts.
     pub fn energy(&self, states: &[FreeState]) -> Energy {
         // Empty sums are −0; adding zero makes them 0.
         let ledger = self.world.ledger();

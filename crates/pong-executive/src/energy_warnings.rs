@@ -1,11 +1,12 @@
-//! Warnings about contacts that have returned more energy than they took.
+//! Warnings about contacts that returned more energy than they received.
 
 use crate::simulation::Simulation;
 use pong_engine::{PairEnergyAccount, Verdict, WrenchCoupling};
 
 impl Simulation {
-    /// Warnings about pairs of bodies whose contact has returned more energy than it took, each with the remedy. Empty if none
-    /// has, or if the world keeps no accounts ([`Integrator::wrench_coupling`](crate::Integrator::wrench_coupling)).
+    /// Warnings about pairs of bodies whose contact returned more energy than it received, each with the
+    /// remedy. Empty if there is none, or if the world keeps no accounts
+    /// ([`Integrator::wrench_coupling`](crate::Integrator::wrench_coupling)).
     pub fn energy_warnings(&self) -> Vec<String> {
         let pairs = self.world().pair_accounts().filter(PairEnergyAccount::gains_energy);
         pairs.map(|pair| self.energy_warning(&pair)).collect()

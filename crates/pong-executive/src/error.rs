@@ -1,4 +1,4 @@
-//! What can go wrong, told as thing, cause and cure.
+//! Errors, each with thing, cause and cure.
 
 use pong_engine::{EngineError, SealError};
 
@@ -8,17 +8,17 @@ pub enum ExecutiveError {
     /// The engine refused a call.
     #[error(transparent)]
     Engine(#[from] EngineError),
-    /// Something that was handed in cannot be used.
+    /// An argument cannot be used.
     #[error("{what}: {cause}; {cure}")]
     Invalid {
         /// The thing.
         what: String,
-        /// The fault of its state.
+        /// What is wrong with it.
         cause: String,
-        /// What to give instead.
+        /// The remedy.
         cure: String,
     },
-    /// A state left the range of numbers, or has energy from nowhere.
+    /// A state left the range of numbers, or gained energy from nowhere.
     #[error(
         "body `{body}`: {what} at t = {time} s; the step is too long for the stiffness and mass at hand: shorten it{}{cure}",
         if cure.is_empty() { "" } else { " " }
@@ -30,12 +30,12 @@ pub enum ExecutiveError {
         what: String,
         /// When it was noticed, s.
         time: f64,
-        /// How far the step must be shortened, where that is known.
+        /// Required shortening of the step, where it is known.
         cure: String,
     },
 }
 
-/// What the executive answers.
+/// Result of the executive.
 pub type Result<T, E = ExecutiveError> = std::result::Result<T, E>;
 
 impl ExecutiveError {

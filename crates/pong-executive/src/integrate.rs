@@ -13,12 +13,12 @@ pub(crate) use stages::{Pushed, Stages};
 use pong_engine::WrenchCoupling;
 use serde::Deserialize;
 
-/// How the motion of the free bodies is integrated.
+/// Integrator of the motion of the free bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, rename = "IntegratorEntry")]
 pub enum Integrator {
-    /// Velocities from the loads at the start of the step, then places from the new velocities. First order; one
-    /// contact evaluation a step.
+    /// Velocities from the loads at the start of the step, then positions from the new velocities. First
+    /// order; one contact evaluation a step.
     SemiImplicitEuler,
     /// The classic fourth-order method; contact is evaluated at every stage and committed at the end of the step.
     RungeKutta4,
@@ -29,7 +29,7 @@ pub enum Integrator {
         /// Runge-Kutta steps in a frame, at least 1. With no other loads than gravity one is exact in translation.
         #[serde(default = "one_substep")]
         substeps: u32,
-        /// How many whole frames the wrench comes late.
+        /// Delay of the wrench in whole frames.
         #[serde(default, alias = "delay")]
         delay_frames: u32,
     },
@@ -39,7 +39,7 @@ fn one_substep() -> u32 {
     1
 }
 
-/// As the scene format and logs spell it.
+/// Name as in the scene format and in logs.
 impl std::fmt::Display for Integrator {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
@@ -61,8 +61,8 @@ impl Integrator {
         }
     }
 
-    /// [`coupling`](Self::coupling), for a world that keeps accounts of their work
-    /// ([`Config::accounts`](pong_engine::Config)); `None` if they come later than accounts can be kept for.
+    /// [`coupling`](Self::coupling), for a world that keeps accounts of the wrenches' work
+    /// ([`Config::accounts`](pong_engine::Config)); `None` if their delay is longer than accounts allow.
     pub fn wrench_coupling(self) -> Option<WrenchCoupling> {
         let is_kept = |coupling: &WrenchCoupling| match *coupling {
             WrenchCoupling::ZeroOrderHold { delay_frames } => {

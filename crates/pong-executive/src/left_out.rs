@@ -1,27 +1,29 @@
-//! Contacts that a frame left out: why, and what would have kept them.
+//! Contacts left out of a frame: why, and the remedy.
 
 use pong_engine::{StatusBits, World};
 use std::fmt;
 
-/// A frame that left contacts out. One is greater than another if it advises a larger capacity. As text it is the cause, without
+/// A frame that left contacts out, ordered by the capacity that it advises. As text it is the cause, without
 /// the cure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct LeftOut {
     /// The contact capacity to ask for instead of the world's.
     pub advised: usize,
-    /// Whether contacts of one ball could not be shared exactly; else there were more contacts than the capacity.
+    /// True if contacts of one ball could not be shared exactly; false if there were more contacts than the
+    /// capacity.
     pub by_sharing: bool,
 }
 
 impl LeftOut {
-    /// The last frame of a world; `None` if it left nothing out.
+    /// Contacts left out of the last frame of a world; `None` if there are none.
     pub fn of(world: &World) -> Option<Self> {
         let report = world.report();
         let advised = report.advised_capacity(world.contact_capacity())?;
         Some(Self { advised, by_sharing: !report.status.contains(StatusBits::CONTACT_LIMIT) })
     }
 
-    /// What to add to the cure: how many places of a ball share is not known before they can be shared.
+    /// Addition to the cure: the number of contacts that a ball shares is known only when there is room for
+    /// them.
     pub fn again(&self) -> &'static str {
         if self.by_sharing { ", and twice that if this comes back" } else { "" }
     }

@@ -1,7 +1,7 @@
 //! A small rigid-body executive: bodies, loads, springs and integrators around a contact [`World`].
 //!
-//! Only as much dynamics as demonstrations and verification need; real multibody work belongs to the host.
-//! It has no physics of contact of its own: every contact wrench comes from the engine.
+//! Limited to the dynamics that demonstrations and verification need; real multibody work belongs to the
+//! host. It has no contact physics of its own: every contact wrench comes from the engine.
 //!
 //! ```
 //! use pong_executive::{Integrator, MassProperties, RigidBody, Simulation, Vec3};
@@ -23,8 +23,8 @@
 //! A body is a movable group. Its pose and twist are those of the group frame, relative to and expressed in the
 //! common frame; its wrenches are about the group's origin along the axes of the common frame.
 //!
-//! Outside [`Simulation::step`] the world has always been evaluated *and committed* at the present states, so that
-//! its contacts and wrenches belong to the time that [`Simulation::time`] tells.
+//! Outside [`Simulation::step`] the world has always been evaluated *and committed* at the present states, so
+//! that its contacts and wrenches belong to [`Simulation::time`].
 
 #![forbid(unsafe_code)]
 

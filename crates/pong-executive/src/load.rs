@@ -6,14 +6,14 @@ use pong_geometry::{Pose, Vec3, Wrench};
 use serde::Deserialize;
 use std::sync::Arc;
 
-/// Which axes a load is given along.
+/// Axes along which a load is given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename = "AxesEntry")]
 pub enum Axes {
-    /// Those of the common frame.
+    /// Axes of the common frame.
     #[default]
     Common,
-    /// Those of the body: the load turns with it.
+    /// Axes of the body: the load turns with it.
     Body,
 }
 
@@ -22,11 +22,11 @@ pub enum Axes {
 pub struct Load {
     /// The body.
     pub body: BodyId,
-    /// Where the force acts, in the group frame, m. The moment is about this point.
+    /// Point at which the force acts, in the group frame, m. The moment is about this point.
     pub point: Vec3,
     /// Axes of force and moment.
     pub axes: Axes,
-    /// Their values.
+    /// Force and moment over time.
     pub history: LoadHistory,
 }
 
@@ -42,9 +42,9 @@ pub struct LoadRow {
 /// A load over time.
 #[derive(Clone)]
 pub enum LoadHistory {
-    /// The same at all times.
+    /// Constant in time.
     Constant(Wrench),
-    /// Straight lines between rows of rising times; before the first and after the last row, that row's.
+    /// Linear interpolation between rows of rising times; constant before the first and after the last row.
     Table(Vec<LoadRow>),
     /// The caller's own function of time (s).
     Function(Arc<dyn Fn(f64) -> Wrench + Send + Sync>),
@@ -60,7 +60,7 @@ impl LoadHistory {
         }
     }
 
-    /// Cause and cure as one line, if the history cannot be used.
+    /// Cause and cure in one line, if the history cannot be used.
     pub fn fault(&self) -> Option<String> {
         let Self::Table(rows) = self else { return None };
         if rows.is_empty() {

@@ -1,9 +1,9 @@
-//! Mass, inertia and place of the mass centre.
+//! Mass, inertia and position of the mass centre.
 
 use crate::error::{ExecutiveError, Result};
 use pong_geometry::{Mat3, Vec3};
 
-/// Relative error of a moment of inertia that is forgiven when shapes are judged possible.
+/// Tolerated relative error of a moment of inertia in the check that a body with these moments can exist.
 const TOLERANCE: f64 = 1e-9;
 
 /// Mass properties of a rigid body.
@@ -35,12 +35,12 @@ impl MassProperties {
         Self::principal(mass, [y + z, z + x, x + y])
     }
 
-    /// The same body with its mass centre elsewhere in the group frame.
+    /// The same body with its mass centre at another point of the group frame.
     pub fn with_mass_center(self, mass_center: Vec3) -> Self {
         Self { mass_center, ..self }
     }
 
-    /// Every reason why no rigid body can have these values, as cause and cure.
+    /// Every reason, as cause and cure, why no rigid body can have these values.
     pub fn faults(&self) -> Vec<(String, String)> {
         let mut faults = Vec::new();
         let mut fault = |cause: String, cure: &str| faults.push((cause, cure.to_owned()));

@@ -1,14 +1,14 @@
-//! Rotations and sums that keep their precision.
+//! Rotations, and sums that keep their precision.
 
 use nalgebra::Quaternion;
 use pong_geometry::{Mat3, Quat, Vec3};
 
-/// Below this angle (rad) quotients that lose digits are replaced by their series.
+/// Below this angle (rad) series replace quotients that would lose digits.
 const SMALL_ANGLE: f64 = 0.05;
 
-/// A vector kept as a sum of two: what rounding takes from the large part stays in the small one.
+/// A vector kept as a sum of two: the small part holds the rounding error of the large part.
 ///
-/// Positions of 7e6 m otherwise lose 1e-9 m in every step.
+/// A single vector loses 1e-9 m in every step at positions of 7e6 m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Compensated {
     value: Vec3,
@@ -20,12 +20,12 @@ impl Compensated {
         Self { value, rest: Vec3::zeros() }
     }
 
-    /// Both parts, of which the sum can be made again exactly.
+    /// Both parts, for [`of_parts`](Self::of_parts).
     pub fn parts(&self) -> [Vec3; 2] {
         [self.value, self.rest]
     }
 
-    /// The sum of two [`parts`](Self::parts).
+    /// The sum of two [`parts`](Self::parts), exactly as it was.
     pub fn of_parts([value, rest]: [Vec3; 2]) -> Self {
         Self { value, rest }
     }
@@ -63,7 +63,7 @@ pub(crate) fn rotation(vector: &Vec3) -> Quat {
     Quat::new_normalize(Quaternion::from_parts(libm::cos(half), imaginary))
 }
 
-/// J with ω = J·θ̇, ω the angular velocity along the axes of the turning body, θ its rotation vector.
+/// J with ω = J·θ̇, ω the angular velocity along the axes of the rotating body, θ its rotation vector.
 pub(crate) fn body_rate_of_rotation_vector(theta: &Vec3) -> Mat3 {
     let angle = theta.norm();
     let (first, second) = if angle < SMALL_ANGLE {
@@ -81,8 +81,8 @@ pub(crate) fn body_rate_of_rotation_vector(theta: &Vec3) -> Mat3 {
     Mat3::identity() - cross * first + cross * cross * second
 }
 
-/// J⁻¹ of [`body_rate_of_rotation_vector`]; it is also the transpose of the inverse along the fixed axes, which
-/// turns the gradient of an energy of θ into a moment. Valid below a full turn.
+/// J⁻¹ of [`body_rate_of_rotation_vector`]. It is also the transpose of the inverse along the fixed axes,
+/// which turns the gradient of an energy of θ into a moment. Valid below a full turn.
 pub(crate) fn inverse_body_rate(theta: &Vec3) -> Mat3 {
     let angle = theta.norm();
     let square = angle * angle;

@@ -1,4 +1,4 @@
-//! Prescribed motion: a pose and the twist that belongs to it for every time.
+//! Prescribed motion: pose and twist for every time.
 
 use crate::math::{body_rate_of_rotation_vector, first_not_rising, inverse_body_rate, rotation};
 use pong_geometry::pose::rotation_vector;
@@ -8,31 +8,31 @@ use std::sync::Arc;
 /// Pose and twist as a function of time (s).
 pub type PathFunction = Arc<dyn Fn(f64) -> (Pose, Twist) + Send + Sync>;
 
-/// How a prescribed body moves.
+/// Path of a prescribed body.
 #[derive(Clone)]
 pub enum Path {
-    /// From a pose at t = 0 with constant velocities along the common axes.
+    /// Constant velocities along the common axes from a pose at t = 0.
     ConstantTwist {
         /// Pose at t = 0.
         pose: Pose,
-        /// The twist, for ever.
+        /// The constant twist.
         twist: Twist,
     },
-    /// From a pose at any time with constant velocities: as a host leads a body that it moves itself
+    /// Constant velocities from a pose at a given time: for a body that the host moves itself
     /// ([`Simulation::lead`](crate::Simulation::lead)).
     Led {
-        /// When, s.
+        /// The time of the pose, s.
         since: f64,
         /// Pose at that time.
         pose: Pose,
         /// The twist from then on.
         twist: Twist,
     },
-    /// Through given poses.
+    /// Interpolation of given poses.
     Table(PathTable),
-    /// To and fro.
+    /// Harmonic motion.
     Oscillation(Oscillation),
-    /// The caller's own; the twist must be the derivative of the pose.
+    /// The caller's own function; the twist must be the derivative of the pose.
     Function(PathFunction),
 }
 
@@ -41,7 +41,7 @@ pub enum Path {
 pub struct Oscillation {
     /// Pose at s = 0.
     pub pose: Pose,
-    /// Unit axis along the common axes; a rotation goes about it through the group's origin.
+    /// Unit axis, in the common frame; a rotation is about it, through the group's origin.
     pub axis: Vec3,
     /// Amplitude along the axis, m.
     pub travel: f64,
@@ -75,7 +75,7 @@ struct Knot {
     time: f64,
     pose: Pose,
     velocity: Vec3,
-    /// Along the axes of the body at this row.
+    /// Angular velocity along the axes of the body at this row.
     spin_b: Vec3,
 }
 
@@ -84,7 +84,7 @@ impl Path {
     pub fn at(&self, time: f64) -> (Pose, Twist) {
         match self {
             Self::ConstantTwist { pose, twist } => (along(pose, twist, time), *twist),
-            // At its own time the pose as it was given: a product with the identity could round.
+            // At its own time the pose exactly as given: a product with the identity could round.
             Self::Led { since, pose, twist } if *since == time => (*pose, *twist),
             Self::Led { since, pose, twist } => (along(pose, twist, time - since), *twist),
             Self::Table(table) => table.at(time),
@@ -94,7 +94,7 @@ impl Path {
     }
 }
 
-/// A pose, moved with constant velocities for a time.
+/// Returns a pose moved with constant velocities for a time.
 fn along(pose: &Pose, twist: &Twist, time: f64) -> Pose {
     let position = pose.position + twist.linear * time;
     let orientation = rotation(&(twist.angular * time)) * pose.orientation;
@@ -169,8 +169,8 @@ impl PathTable {
     }
 }
 
-/// Mean velocity over an interval. The angular one is a rotation vector per time: the same along the axes of the
-/// body at either end.
+/// Mean velocity over an interval. The angular velocity is a rotation vector per time, whose components are
+/// the same along the axes of the body at either end.
 #[derive(Clone, Copy)]
 struct Slope {
     duration: f64,
@@ -188,7 +188,7 @@ impl Slope {
         }
     }
 
-    /// Slope of the parabola through three rows; at an end, of the one interval there is.
+    /// Slope of the parabola through three rows; at an end, that of the only interval.
     fn at_row(before: Option<Self>, after: Option<Self>) -> Self {
         match (before, after) {
             (Some(a), Some(b)) => {
@@ -206,7 +206,7 @@ impl Slope {
     }
 }
 
-/// Rotation vector that takes one orientation into the other, along the axes of the body.
+/// Rotation vector from one orientation to another, along the axes of the body.
 fn turn_between(from: &Quat, to: &Quat) -> Vec3 {
     rotation_vector(&(from.inverse() * to))
 }
@@ -231,7 +231,7 @@ fn between(a: &Knot, b: &Knot, time: f64) -> (Pose, Twist) {
 
 /// Weights of a cubic that starts at zero.
 struct Hermite {
-    /// Of the end value, the first rate, the last rate.
+    /// Weights of the end value, the first rate and the last rate.
     values: [f64; 3],
     rates: [f64; 3],
 }

@@ -29,7 +29,7 @@ pub struct SpringEnd {
 /// N·m·s/rad, N·m), along the axes of the first end's attachment frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring {
-    /// The end whose axes the values are given along.
+    /// The end along whose axes the values are given.
     pub first: SpringEnd,
     /// The other end.
     pub second: SpringEnd,
@@ -37,22 +37,22 @@ pub struct Spring {
     pub stiffness: [f64; 6],
     /// Damping along and about the axes.
     pub damping: [f64; 6],
-    /// Force and moment on the second end that do not depend on travel.
+    /// Constant force and moment on the second end.
     pub preload: [f64; 6],
-    /// Pose of the second attachment frame in the first one where the spring is at rest.
+    /// Pose at rest of the second attachment frame in the first one.
     pub rest: Pose,
 }
 
-/// A spring's answer to the motions of its ends.
+/// Force, energy and heat of a spring.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SpringAction {
-    /// On the first body, about its group's origin, along the common axes.
+    /// Wrench on the first body, about its group's origin, along the common axes.
     pub on_first: Wrench,
-    /// On the second body, likewise.
+    /// Wrench on the second body, likewise.
     pub on_second: Wrench,
-    /// Stored, J.
+    /// Stored energy, J.
     pub energy: f64,
-    /// Turned into heat by the damper, W.
+    /// Heat of the damper, W.
     pub heat: f64,
 }
 
@@ -79,7 +79,7 @@ impl Spring {
         Self { damping, ..self }
     }
 
-    /// Cause and cure as one line, if the spring cannot be used.
+    /// Cause and cure in one line, if the spring cannot be used.
     pub fn fault(&self) -> Option<String> {
         let unusable = |values: &[f64; 6]| values.iter().any(|x| !(*x >= 0.0 && x.is_finite()));
         if unusable(&self.stiffness) {
@@ -99,7 +99,8 @@ impl Spring {
         None
     }
 
-    /// The answer to the motions (pose and twist of the group frame; the ground's are identity and zero).
+    /// Action of the spring at the motions of its ends (pose and twist of the group frame; the ground's are
+    /// identity and zero).
     pub(crate) fn act(&self, first: &(Pose, Twist), second: &(Pose, Twist)) -> SpringAction {
         let to_common = first.0.orientation * self.first.frame.orientation;
         let (deviation, speed) = self.travel(first, second);
@@ -132,7 +133,7 @@ impl Spring {
         let to_e = (first.0.orientation * self.first.frame.orientation).inverse();
         let arm_e = first.0.orientation * self.first.frame.position;
         let arm_f = second.0.orientation * self.second.frame.position;
-        // Origins first, arms then: a far common origin costs no digits.
+        // Subtract origins first, then add the arms: this keeps digits far from the common origin.
         let between = second.0.position - first.0.position;
         let from_first = between + arm_f;
         let turned = to_e * second.0.orientation * self.second.frame.orientation;

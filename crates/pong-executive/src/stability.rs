@@ -1,5 +1,4 @@
-//! The step adviser, asked for the bodies and the integrator at hand. The mathematics is that of
-//! [`pong_advise`].
+//! Step advice for the present bodies and integrator, computed by [`pong_advise`].
 
 use crate::body::{Motion, RigidBody};
 use crate::integrate::Integrator;
@@ -15,7 +14,7 @@ pub fn longest_stable_step(integrator: Integrator, k: f64, c: f64, m: f64) -> f6
     pong_advise::longest_stable_step(integrator.coupling(), k, c, m)
 }
 
-/// Mass properties of a body as the adviser takes them; springs are left out.
+/// Mass properties of a body in the adviser's form, without springs.
 pub fn group_mass(body: &RigidBody) -> GroupMass {
     match &body.motion {
         Motion::Free(mass) => of_free(mass),
@@ -33,11 +32,11 @@ fn of_free(mass: &MassProperties) -> GroupMass {
 }
 
 impl System {
-    /// Mass properties of every body for the adviser, with the springs as they are stretched now.
+    /// Mass properties of every body for the adviser, with the springs at their present stretch.
     pub(crate) fn masses_on_springs(&self, integrator: Integrator) -> Vec<GroupMass> {
         let mut masses: Vec<GroupMass> = self.bodies.iter().map(group_mass).collect();
         let springs: Vec<HostSpring> = self.springs.iter().map(|spring| self.host_spring(spring)).collect();
-        // In between held wrenches the springs are integrated with shorter steps.
+        // Between held wrenches the springs are integrated with shorter steps.
         let shorter = match integrator {
             Integrator::ZeroOrderHold { substeps, .. } => f64::from(substeps),
             _ => 1.0,
@@ -56,7 +55,7 @@ impl System {
         let (first, second) = (pose(&spring.first), pose(&spring.second));
         let place = second.position - first.position + second.orientation * spring.second.frame.position;
         let body = |end: &SpringEnd| end.body.map(|body| body.index());
-        // Turned by an angle, a rotational spring is stiffer across the axis: ‖J⁻¹‖ = (½θ)/sin ½θ.
+        // Rotated by an angle, a rotational spring is stiffer across the axis: ‖J⁻¹‖ = (½θ)/sin ½θ.
         let half = 0.5 * self.spring_angle(spring);
         let turned = if half > 0.0 { half / libm::sin(half) } else { 1.0 };
         let mut stiffness = spring.stiffness;

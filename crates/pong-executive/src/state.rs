@@ -1,27 +1,29 @@
-//! What is integrated: mass centre, its velocity, orientation, angular momentum.
+//! Integrated state: mass centre, its velocity, orientation, angular momentum.
 //!
 //! Angular momentum about the mass centre along the common axes, not angular velocity: without a moment it is
 //! constant, so no integrator can lose it.
 //!
-//! Within a step the orientation is counted as a rotation vector θ from the start of the step, θ̇ = J⁻¹(θ)·ω
-//! (H. Munthe-Kaas, "High order Runge-Kutta methods on manifolds", Appl. Numer. Math. 29 (1999)), so that every
-//! stage of a body in steady rotation stands where it belongs. A quaternion integrated by component is turned by
-//! 2·atan(ωh/4) instead of ωh/2 at half a step: a ball that rolls at 100 rad/s and 1 ms then seems to slip.
+//! Within a step the orientation is given by a rotation vector θ from the start of the step, θ̇ = J⁻¹(θ)·ω
+//! (H. Munthe-Kaas, "High order Runge-Kutta methods on manifolds", Appl. Numer. Math. 29 (1999)), so that
+//! every stage of a body in steady rotation has its exact orientation. A quaternion integrated by component
+//! is turned by 2·atan(ωh/4) instead of ωh/2 at half a step: a ball that rolls at 100 rad/s and 1 ms then
+//! seems to slip.
 
 use crate::mass::MassProperties;
 use crate::math::{Compensated, inverse_body_rate, rotation};
 use nalgebra::Quaternion;
 use pong_geometry::{Mat3, Pose, Quat, Twist, Vec3, Wrench};
 
-/// Numbers of a state for integrators outside: mass centre, its velocity, orientation, angular momentum.
+/// Number of values of a state for external integrators: mass centre, its velocity, orientation, angular
+/// momentum.
 pub(crate) const STATE_NUMBERS: usize = 13;
 
-/// Mass properties made ready for use in every stage.
+/// Mass properties, with the inverse inertia that every stage needs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Inertia {
-    /// kg.
+    /// Mass, kg.
     pub mass: f64,
-    /// About the mass centre, along the group's axes, kg·m².
+    /// Inertia about the mass centre, along the group's axes, kg·m².
     pub tensor: Mat3,
     /// Inverse of `tensor`, 1/(kg·m²).
     pub inverse: Mat3,
@@ -30,7 +32,7 @@ pub(crate) struct Inertia {
 }
 
 impl Inertia {
-    /// `None` if the tensor cannot be inverted.
+    /// Prepares mass properties; `None` if the tensor cannot be inverted.
     pub fn new(mass: &MassProperties) -> Option<Self> {
         let inverse = mass.inertia.try_inverse()?;
         Some(Self { mass: mass.mass, tensor: mass.inertia, inverse, mass_center: mass.mass_center })
@@ -40,11 +42,11 @@ impl Inertia {
 /// State of a free body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FreeState {
-    /// Of the mass centre in the common frame, m.
+    /// Position of the mass centre in the common frame, m.
     pub position: Compensated,
-    /// Of the mass centre along the common axes, m/s.
+    /// Velocity of the mass centre along the common axes, m/s.
     pub velocity: Compensated,
-    /// From the group's axes to the common axes, at the start of the step.
+    /// Rotation from the group's axes to the common axes, at the start of the step.
     pub orientation: Quat,
     /// θ: rotation vector since the start of the step, along the common axes, rad. Zero between steps.
     pub turn: Vec3,
@@ -55,9 +57,9 @@ pub(crate) struct FreeState {
 /// Time derivatives of a [`FreeState`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rates {
-    /// Of the mass centre, m/s.
+    /// Velocity of the mass centre, m/s.
     pub velocity: Vec3,
-    /// Of the mass centre, m/s².
+    /// Acceleration of the mass centre, m/s².
     pub acceleration: Vec3,
     /// θ̇, rad/s.
     pub turn: Vec3,
@@ -66,7 +68,7 @@ pub(crate) struct Rates {
 }
 
 impl FreeState {
-    /// From the motion of the group frame.
+    /// State with a given motion of the group frame.
     pub fn of_motion(inertia: &Inertia, pose: &Pose, twist: &Twist) -> Self {
         let arm = pose.orientation * inertia.mass_center;
         let spin_b = pose.orientation.inverse() * twist.angular;
@@ -100,13 +102,13 @@ impl FreeState {
         Rates {
             velocity: self.velocity.value(),
             acceleration: wrench.force / inertia.mass + gravity,
-            // Along fixed axes J is the transpose of that along the body's.
+            // Along fixed axes J is the transpose of J along the body's.
             turn: inverse_body_rate(&self.turn).transpose() * self.spin(inertia),
             moment: wrench.moment - arm.cross(&wrench.force),
         }
     }
 
-    /// From the start of a step, the state a time `h` along the rates.
+    /// The state a time `h` along the rates, from the start of a step.
     pub fn along(&self, rates: &Rates, h: f64) -> Self {
         let turn = rates.turn * h;
         Self {
@@ -118,14 +120,14 @@ impl FreeState {
         }
     }
 
-    /// For integrators outside.
+    /// Values of the state for external integrators.
     pub fn numbers(&self) -> [f64; STATE_NUMBERS] {
         let (p, v, q, l) = (self.position.value(), self.velocity.value(), &self.orientation, &self.momentum);
         [p.x, p.y, p.z, v.x, v.y, v.z, q.w, q.i, q.j, q.k, l.x, l.y, l.z]
     }
 
-    /// From [`numbers`](Self::numbers) that an integrator has changed: the quaternion is normalised. `None` if it has no
-    /// direction.
+    /// State of [`numbers`](Self::numbers) that an integrator has changed: the quaternion is normalised.
+    /// `None` if it is zero or not finite.
     pub fn of_numbers(numbers: &[f64; STATE_NUMBERS]) -> Option<Self> {
         let [px, py, pz, vx, vy, vz, qw, qx, qy, qz, lx, ly, lz] = *numbers;
         let quaternion = Quaternion::new(qw, qx, qy, qz);
@@ -139,20 +141,20 @@ impl FreeState {
         })
     }
 
-    /// The rates of [`numbers`](Self::numbers), which this state was made of: q' = ½·(0, ω)·q of the quaternion as it was
-    /// given, whose length this keeps.
+    /// Rates of the [`numbers`](Self::numbers) from which this state was made: q' = ½·(0, ω)·q with the
+    /// quaternion as given, whose length this keeps.
     pub fn rate_numbers(&self, numbers: &[f64; STATE_NUMBERS], rates: &Rates) -> [f64; STATE_NUMBERS] {
         let (v, a, l) = (&rates.velocity, &rates.acceleration, &rates.moment);
-        // Without a turn since the start of the step, its rate is the angular velocity.
+        // The rotation vector is zero here, so its rate is the angular velocity.
         let spin = Quaternion::from_parts(0.0, rates.turn);
         let q = (spin * Quaternion::new(numbers[6], numbers[7], numbers[8], numbers[9])) * 0.5;
         [v.x, v.y, v.z, a.x, a.y, a.z, q.w, q.i, q.j, q.k, l.x, l.y, l.z]
     }
 
-    /// How many [`exact_numbers`](Self::exact_numbers) there are.
+    /// Length of [`exact_numbers`](Self::exact_numbers).
     pub const EXACT_NUMBERS: usize = 22;
 
-    /// All that the state holds.
+    /// All numbers of the state.
     pub fn exact_numbers(&self) -> [f64; Self::EXACT_NUMBERS] {
         let mut numbers = [0.0; Self::EXACT_NUMBERS];
         let [p, p_rest] = self.position.parts();
@@ -165,7 +167,7 @@ impl FreeState {
         numbers
     }
 
-    /// The state of [`exact_numbers`](Self::exact_numbers): its quaternion is taken as it is.
+    /// The state of [`exact_numbers`](Self::exact_numbers); its quaternion is not normalised.
     pub fn of_exact_numbers(numbers: &[f64; Self::EXACT_NUMBERS]) -> Self {
         let vector = |place: usize| Vec3::from_column_slice(&numbers[3 * place..3 * place + 3]);
         let quaternion = Quaternion::new(numbers[18], numbers[19], numbers[20], numbers[21]);
@@ -183,7 +185,7 @@ impl FreeState {
         Self { orientation: unit(&self.orientation), turn: Vec3::zeros(), ..*self }
     }
 
-    /// One step of semi-implicit Euler: momenta first, then the place with the new momenta.
+    /// One step of semi-implicit Euler: momenta first, then the pose with the new momenta.
     pub fn semi_implicit(&self, inertia: &Inertia, rates: &Rates, h: f64) -> Self {
         let velocity = self.velocity.plus(&(rates.acceleration * h));
         let momentum = self.momentum + rates.moment * h;
@@ -198,13 +200,13 @@ impl FreeState {
     }
 }
 
-/// Rounding lets the length of a product of unit quaternions drift.
+/// Normalises an orientation, because rounding lets the length of a product of unit quaternions drift.
 fn unit(orientation: &Quat) -> Quat {
     Quat::new_normalize(orientation.into_inner())
 }
 
 impl Rates {
-    /// `a·1 + b·2 + c·2 + d·1` over 6: the mean of Runge and Kutta.
+    /// `(a + 2b + 2c + d)/6`: the mean of Runge and Kutta.
     pub fn runge_kutta_mean(stages: [&Self; 4]) -> Self {
         let [a, b, c, d] = stages;
         let mean = |f: fn(&Self) -> Vec3| (f(a) + (f(b) + f(c)) * 2.0 + f(d)) / 6.0;

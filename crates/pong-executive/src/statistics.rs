@@ -1,4 +1,4 @@
-//! What a run comes to, gathered instant by instant: peaks, impulses, energies, what frames left out.
+//! Statistics of a run: peaks, impulses, energies, contacts left out.
 
 use crate::energy::Energy;
 use crate::left_out::LeftOut;
@@ -7,7 +7,7 @@ use pong_engine::{Contact, InterfaceId, StatusBits};
 use pong_geometry::{Vec3, Wrench};
 use std::collections::BTreeMap;
 
-/// One body over the whole run.
+/// Statistics of one body over the whole run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyStatistics {
     /// Largest contact force, N.
@@ -23,7 +23,7 @@ pub struct BodyStatistics {
     last_force: Vec3,
 }
 
-/// All bodies and the run itself.
+/// Statistics of all bodies and of the run itself.
 #[derive(Clone, Debug, Default)]
 pub struct RunStatistics {
     /// The bodies in their order in the simulation.
@@ -35,18 +35,19 @@ pub struct RunStatistics {
     pub first_energy: Energy,
     /// Energies at the last instant, J.
     pub last_energy: Energy,
-    /// Largest distance of the balance of energies from its first value, J.
+    /// Largest deviation of the energy balance from its first value, J.
     pub worst_balance: f64,
-    /// Of the frames that left contacts out the one that advises the largest capacity.
+    /// The frame that left contacts out with the largest advised capacity.
     pub left_out: Option<LeftOut>,
-    /// Steps in which something went through something else.
+    /// Number of steps in which something tunnelled.
     pub tunnelled: u64,
-    /// The first of them in words; empty if there is none.
+    /// The first tunnelling in words; empty if there is none.
     pub first_tunnelled: String,
 }
 
 impl RunStatistics {
-    /// Of a simulation whose [initial states](Simulation::commit_initial_states) are committed: its first instant.
+    /// Statistics of the first instant of a simulation whose [initial
+    /// states](Simulation::commit_initial_states) are committed.
     pub fn new(simulation: &Simulation) -> Self {
         let bodies = simulation.bodies();
         let mut statistics = Self {
@@ -61,7 +62,7 @@ impl RunStatistics {
         statistics
     }
 
-    /// Takes in the instant after a step.
+    /// Adds the instant after a step.
     pub fn observe(&mut self, simulation: &Simulation) {
         for (id, _) in simulation.bodies() {
             self.bodies[id.index()].feel(&simulation.contact_wrench(id), simulation.step_length());
@@ -100,7 +101,7 @@ impl RunStatistics {
         self.most_contacts = self.most_contacts.max(contacts.len());
     }
 
-    /// What to do if something went through something else between two steps.
+    /// Advice if something tunnelled between two steps.
     pub fn tunnelling_advice(&self) -> Option<String> {
         (self.tunnelled > 0).then(|| {
             format!(
@@ -111,7 +112,7 @@ impl RunStatistics {
         })
     }
 
-    /// What to do if frames had to leave contacts out.
+    /// Advice if frames had to leave contacts out.
     pub fn incomplete_advice(&self) -> Option<String> {
         let left_out = self.left_out?;
         Some(format!(
@@ -122,7 +123,7 @@ impl RunStatistics {
     }
 }
 
-/// Which element went through which body, and when.
+/// The tunnelling in words: element, body and time.
 fn tunnelling_in_words(simulation: &Simulation) -> Option<String> {
     let world = simulation.world();
     let passage = world.tunnelling()?;

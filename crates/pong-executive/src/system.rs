@@ -24,9 +24,9 @@ pub(crate) struct System {
     pub motions: Vec<(Pose, Twist)>,
     /// Contact wrench on every body, about its group's origin along the common axes.
     pub contact: Vec<Wrench>,
-    /// What a host applies beside loads and springs, likewise.
+    /// Wrench of the host on every body, beside loads and springs, likewise.
     pub external: Vec<Wrench>,
-    /// All that acts beside contact, likewise.
+    /// Sum of loads, springs and the host's wrench on every body, likewise.
     applied: Vec<Wrench>,
     states_in: Vec<(InterfaceId, State)>,
 }
@@ -61,7 +61,7 @@ impl System {
         self.bodies.push(body);
     }
 
-    /// Puts every group frame where the states of the free bodies and the time say.
+    /// Sets every group frame from the states of the free bodies and the time.
     pub fn place(&mut self, time: f64, states: &[FreeState]) {
         for ((index, inertia), state) in self.free.iter().zip(states) {
             self.motions[*index] = state.motion(inertia);
@@ -73,35 +73,35 @@ impl System {
         }
     }
 
-    /// Hands the states to the world and takes the contact wrenches.
+    /// Sets the states of the world, evaluates it and reads the contact wrenches.
     pub fn touch(&mut self, time: f64) -> Result<()> {
         self.hand_in(time)?;
         self.world.evaluate()?;
         self.take_wrenches()
     }
 
-    /// As [`touch`](Self::touch), and the world accepts the states.
+    /// As [`touch`](Self::touch), and commits the states.
     pub fn touch_and_commit(&mut self, time: f64) -> Result<()> {
         self.hand_in(time)?;
         self.world.step()?;
         self.take_wrenches()
     }
 
-    /// As [`touch_and_commit`](Self::touch_and_commit), without a second evaluation of states that were just touched.
+    /// As [`touch_and_commit`](Self::touch_and_commit), without evaluating the states just touched again.
     pub fn commit(&mut self, time: f64) -> Result<()> {
         self.hand_in(time)?;
         self.world.commit()?;
         self.take_wrenches()
     }
 
-    /// The world accepts the states, with friction preloaded between two Objects; wrenches stay as they were.
+    /// Commits the states with friction preloaded between two Objects; wrenches stay as they were.
     pub fn preload_friction(&mut self, time: f64, pair: PairId, preload: &FrictionPreload) -> Result<usize> {
         self.hand_in(time)?;
         Ok(self.world.preload_friction(pair, preload)?)
     }
 
     /// # Errors
-    /// A motion that is no longer finite, or beyond what the engine accepts, within a step too.
+    /// A motion that is not finite, or beyond the engine's limits; also within a step.
     fn hand_in(&mut self, time: f64) -> Result<()> {
         self.states_in.clear();
         for (body, (pose, twist)) in self.bodies.iter().zip(&self.motions) {
@@ -153,7 +153,7 @@ impl System {
         force
     }
 
-    /// Sums loads, springs and what the host applies.
+    /// Sums loads, springs and the host's wrenches.
     fn apply(&mut self, time: f64) {
         self.applied.copy_from_slice(&self.external);
         for load in &self.loads {

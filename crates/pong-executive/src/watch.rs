@@ -1,15 +1,16 @@
-//! The step, held against contacts as they come.
+//! Check of the step against contacts as they occur.
 
 use crate::simulation::Simulation;
 use pong_engine::InterfaceId;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How much deeper, or harder pressed, the contacts of two bodies must be than those last judged to be judged again. A run
-/// asks the adviser some ten times for a growth of ten, whatever its steps.
+/// Factor in depth or normal force at which the contacts of two bodies are judged again. A run asks the
+/// adviser some ten times for a tenfold growth, whatever its steps.
 const GROWTH: f64 = 1.25;
 
-/// Warns once of every two bodies whose contact gains energy at the step, at the first instant at which it does. Before the
-/// run this can be said of laws alone that follow neither depth nor load, or for a closing speed that is known.
+/// Warns once of every two bodies whose contact gains energy at the step, at the first instant at which it
+/// does. Before the run this is known only of laws that follow neither depth nor load, or for a known closing
+/// speed.
 #[derive(Clone, Debug, Default)]
 pub struct StepWatch {
     /// Largest depth (m) and normal force (N) of two bodies that were judged.
@@ -18,12 +19,12 @@ pub struct StepWatch {
 }
 
 impl StepWatch {
-    /// A watch that keeps to itself what has been told already.
+    /// A watch that does not repeat warnings already given.
     pub fn after(told: &[String]) -> Self {
         Self { judged: BTreeMap::new(), told: told.iter().map(|warning| names(warning)).collect() }
     }
 
-    /// What is new to be warned of at the present instant.
+    /// New warnings of the present instant.
     pub fn observe(&mut self, simulation: &Simulation) -> Vec<String> {
         let mut grown = false;
         for contact in simulation.world().contacts() {
@@ -40,7 +41,7 @@ impl StepWatch {
     }
 }
 
-/// Whom a warning names: all before its first colon.
+/// Names in a warning: the text before its first colon.
 fn names(warning: &str) -> String {
     warning.split(": ").next().unwrap_or_default().to_owned()
 }

@@ -1,4 +1,4 @@
-//! Zero-order hold: one contact wrench a frame, held until the next, perhaps late.
+//! Zero-order hold: one contact wrench a frame, held until the next, with or without delay.
 
 use super::runge_kutta::{Contact, runge_kutta};
 use super::stages::Stages;
@@ -8,14 +8,14 @@ use crate::system::System;
 use pong_geometry::Wrench;
 use std::collections::VecDeque;
 
-/// Wrenches on their way from the contact engine to the bodies.
+/// Queue of delayed wrenches between the contact engine and the bodies.
 #[derive(Debug, Default)]
 pub(crate) struct Held {
     pub waiting: VecDeque<Vec<Wrench>>,
 }
 
 impl Held {
-    /// Takes in the wrenches of this frame and gives out those of `delay_frames` ago; none came before the first.
+    /// Queues the wrenches of this frame and returns those of `delay_frames` ago; zero before the first.
     fn exchange(&mut self, fresh: &[Wrench], delay_frames: u32) -> Vec<Wrench> {
         self.waiting.push_back(fresh.to_vec());
         if self.waiting.len() <= delay_frames as usize {

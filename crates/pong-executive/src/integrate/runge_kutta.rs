@@ -13,9 +13,9 @@ use crate::state::{FreeState, Rates};
 use crate::system::System;
 use pong_geometry::Wrench;
 
-/// Where a stage gets its contact wrench.
+/// Source of a stage's contact wrench.
 pub(crate) enum Contact<'a> {
-    /// From the world, at every stage. The system holds that of the first.
+    /// Evaluated by the world at every stage. The system holds the wrenches of the first.
     Fresh,
     /// Held over the step.
     Held(&'a [Wrench]),
@@ -31,7 +31,7 @@ impl Contact<'_> {
     }
 }
 
-/// Advances the states over a step. The system must be placed at the start.
+/// Advances the states over a step. The bodies of the system must be placed at its start.
 pub(crate) fn runge_kutta(
     system: &mut System,
     states: &mut [FreeState],
@@ -84,7 +84,7 @@ impl Pushed {
         self.work_on_led = 0.0;
     }
 
-    /// Takes in a stage of a weight (s). What is held is accounted by the engine.
+    /// Adds a stage with its weight (s). The engine itself accounts for held wrenches.
     fn add(&mut self, system: &System, states: &[FreeState], contact: &Contact<'_>, weight: f64) {
         let Contact::Fresh = contact else { return };
         for (((index, inertia), state), impulse) in system.free.iter().zip(states).zip(&mut self.impulses) {

@@ -1,16 +1,16 @@
-//! What the stages of a step leave behind.
+//! Derivatives and integrals of the stages of a step.
 
 use crate::state::Rates;
 use pong_geometry::Wrench;
 
-/// Room for derivatives, kept from step to step.
+/// Buffers of derivatives, kept from step to step.
 #[derive(Debug, Default)]
 pub(crate) struct Stages {
     pub rates: [Vec<Rates>; 4],
-    /// What contact did to the bodies in the last step, if it was evaluated at stages.
+    /// Impulses and work of contact in the last step, if it was evaluated at stages.
     pub pushed: Pushed,
-    /// ∫ contact wrench dt on every body over the last step, N·s and N·m·s about the origins of their groups, with the weights
-    /// of the integrator; `None` unless a host wants them.
+    /// ∫ contact wrench dt on every body over the last step, N·s and N·m·s about the origins of their groups,
+    /// with the weights of the integrator; `None` unless a host wants them.
     pub contact_impulses: Option<Vec<Wrench>>,
 }
 
@@ -23,7 +23,7 @@ impl Stages {
         }
     }
 
-    /// Takes in the wrenches of a stage of a weight (s).
+    /// Adds the wrenches of a stage with its weight (s).
     pub fn add_contact(&mut self, wrenches: &[Wrench], weight: f64) {
         let Some(impulses) = &mut self.contact_impulses else { return };
         for (impulse, wrench) in impulses.iter_mut().zip(wrenches) {
@@ -33,11 +33,11 @@ impl Stages {
     }
 }
 
-/// What contact did to the bodies over a step, with the weights of the stages.
+/// Impulses and work of contact on the bodies over a step, with the weights of the stages.
 #[derive(Debug, Default)]
 pub(crate) struct Pushed {
-    /// On every free body, of the force (N·s) and of its moment about the mass centre (N·m·s).
+    /// Impulse on every free body (N·s), and its moment about the mass centre (N·m·s).
     pub impulses: Vec<Wrench>,
-    /// Work on the bodies that are led or fixed, J.
+    /// Work on prescribed and fixed bodies, J.
     pub work_on_led: f64,
 }

@@ -10,7 +10,7 @@ use crate::path::{Oscillation, Path, PathRow, PathTable};
 use pong_engine::InterfaceId;
 use pong_geometry::{Mat3, Pose, Twist, Vec3};
 
-/// All bodies that could be made; faults are told.
+/// All bodies that could be made; the others are noted as faults.
 pub(crate) fn bodies(setting: &Setting<'_>, faults: &mut Faults<'_>) -> Vec<RigidBody> {
     let mut bodies: Vec<RigidBody> = Vec::new();
     for (index, entry) in setting.document.objects.iter().enumerate() {
@@ -41,7 +41,7 @@ fn tell_missing(
     bodies: &[RigidBody],
     faults: &mut Faults<'_>,
 ) {
-    // A body at fault is missing too, but told already.
+    // A body with a fault is missing too, but its fault is noted already.
     if bodies.len() < entry.bodies.len() {
         return;
     }
@@ -56,11 +56,11 @@ fn tell_missing(
     }
 }
 
-/// Where the root of an object starts: its other groups are placed from there unless they say otherwise.
+/// Initial pose of an object's root: the reference for its other groups, unless the scene gives their pose.
 fn root_pose(setting: &Setting<'_>, index: usize) -> Pose {
     let scene = setting.world.scene();
     let named = |group: &str| scene.interface(setting.objects[index]?, group).ok();
-    // By whichever of its names the scene calls it.
+    // Accepts each name that the scene format allows for the root.
     let is_root = |body: &&BodyEntry| {
         body.group.is_empty() || named(&body.group).is_some_and(|id| named("") == Some(id))
     };
@@ -84,7 +84,7 @@ impl ObjectBodies<'_> {
             group => format!("{}/{group}", self.object.name),
         };
         let interface = self.setting.interface(&name, at);
-        // One name for one body, however the scene writes its group.
+        // One name for a body, however the scene writes its group.
         let name = interface.and_then(|id| self.setting.world.scene().group_name(id).ok()).unwrap_or(name);
         let start = self.start(entry, interface, at);
         let twist = start_twist(entry, at);
@@ -92,7 +92,7 @@ impl ObjectBodies<'_> {
         Some(RigidBody { name, motion: motion?, pose: start, twist, interface: Some(interface?) })
     }
 
-    /// The pose given, or that which the model's author gave the group.
+    /// The pose given, or else the one of the model's author.
     fn start(&self, entry: &BodyEntry, interface: Option<InterfaceId>, at: &mut At<'_, '_>) -> Pose {
         let given = pose(&entry.position.unwrap_or_default(), &entry.orientation, at);
         let authored = interface.and_then(|id| self.setting.world.scene().authored_pose(id).ok());

@@ -1,4 +1,4 @@
-//! What a scene file says, field by field (docs/scene_format.md).
+//! The fields of a scene file (docs/scene_format.md).
 
 use crate::integrate::Integrator;
 use crate::load::Axes;
@@ -8,7 +8,7 @@ use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
 pub(crate) type Triple = [f64; 3];
 pub(crate) type Six = [f64; 6];
 
-/// (w, x, y, z).
+/// Order (w, x, y, z).
 pub(crate) type Quaternion = [f64; 4];
 
 #[derive(Clone, Debug, Deserialize)]
@@ -20,9 +20,9 @@ pub(crate) struct Document {
     #[serde(deserialize_with = "pairs_of_map")]
     pub models: Vec<(String, String)>,
     pub objects: Vec<ObjectEntry>,
-    /// Left out, and written empty, are not the same: see [`Self::pairs`].
+    /// `None` if left out, which differs from an empty list: see [`Self::pairs`].
     pairs: Option<Vec<(String, String)>>,
-    /// Entries of `pairs` in which nothing can touch, on purpose.
+    /// Entries of `pairs` that by intention have no contacts.
     #[serde(default)]
     pub passes_through: Vec<(String, String)>,
     /// Groups that never touch each other, `object/path`.
@@ -51,18 +51,18 @@ pub(crate) struct Document {
 }
 
 impl Document {
-    /// Objects that may touch; none if the scene leaves them out.
+    /// Objects that may touch; none if the scene leaves the field out.
     pub fn pairs(&self) -> &[(String, String)] {
         self.pairs.as_deref().unwrap_or_default()
     }
 
-    /// Whether several bodies are there and nothing is said of who may touch whom.
+    /// True if there are several bodies and the scene does not say which may touch.
     pub fn leaves_out_pairs(&self) -> bool {
         self.pairs.is_none() && self.objects.iter().map(|object| object.bodies.len()).sum::<usize>() > 1
     }
 }
 
-/// Friction between two objects at the start.
+/// Initial friction between two objects.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename = "preload")]
 pub(crate) struct PreloadEntry {
@@ -76,7 +76,7 @@ pub(crate) enum FrictionEntry {
     Holding(Triple),
 }
 
-/// Other files for some of the models.
+/// Replacement files for some of the models.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename = "alternative")]
 pub(crate) struct AlternativeEntry {
@@ -85,7 +85,8 @@ pub(crate) struct AlternativeEntry {
     pub models: Vec<(String, String)>,
 }
 
-/// Three numbers; one alone is refused in words, for many tools give gravity so.
+/// Reads three numbers; a single one is refused with an explanation, because many tools give gravity that
+/// way.
 fn gravity<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Triple, D::Error> {
     struct Three;
 
@@ -131,7 +132,7 @@ pub(crate) struct BodyEntry {
     #[serde(default)]
     pub group: String,
     pub motion: MotionEntry,
-    /// kg; free bodies need it.
+    /// Mass, kg; free bodies need it.
     pub mass: Option<f64>,
     pub inertia: Option<InertiaEntry>,
     #[serde(default)]
@@ -177,7 +178,7 @@ pub(crate) enum PathEntry {
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename = "path row")]
 pub(crate) struct PathRowEntry {
-    /// s.
+    /// Time, s.
     pub time: f64,
     pub position: Triple,
     pub orientation: Option<Quaternion>,
@@ -199,7 +200,7 @@ pub(crate) struct LoadEntry {
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename = "load row")]
 pub(crate) struct LoadRowEntry {
-    /// s.
+    /// Time, s.
     pub time: f64,
     #[serde(default)]
     pub force: Triple,
@@ -245,7 +246,7 @@ pub(crate) struct PoseEntry {
     pub orientation: Option<Quaternion>,
 }
 
-/// A map in the order of the file, with repeated keys: they are told later, by name.
+/// Reads a map in the order of the file with its repeated keys, so that a later check can name them.
 fn pairs_of_map<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<(String, String)>, D::Error> {
     struct InOrder;
     impl<'de> Visitor<'de> for InOrder {

@@ -19,7 +19,7 @@ fn body_named(
     at: &mut At<'_, '_>,
 ) -> Option<BodyId> {
     let interface = setting.interface(name, at)?;
-    // A body at fault is missing here, but told already.
+    // A body with a fault is missing here, but its fault is noted already.
     bodies.iter().position(|body| body.interface == Some(interface)).map(BodyId)
 }
 
@@ -98,7 +98,7 @@ fn spring(entry: &SpringEntry, first: SpringEnd, second: SpringEnd, at: &mut At<
     spring
 }
 
-/// Sets the friction that is there at the start, and tells what was set; warns of a pair in which there is none to be set.
+/// Sets the initial friction and returns what was set; warns of a pair without any.
 pub(super) fn preload(
     document: &Document,
     simulation: &mut Simulation,

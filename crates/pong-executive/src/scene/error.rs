@@ -1,4 +1,4 @@
-//! What is wrong with a scene file, where, and what to do about it.
+//! Faults of a scene file: place, cause and cure.
 
 use pong_model::{printable, printable_lines};
 
@@ -7,19 +7,20 @@ use pong_model::{printable, printable_lines};
 pub struct SceneError {
     /// The file as the caller named it.
     pub file: String,
-    /// Line and column, from 1, where the notation is at fault.
+    /// Line and column, from 1, for a fault of the notation.
     pub at: Option<(usize, usize)>,
     /// The thing, `objects/ball/bodies[0]`.
     pub thing: String,
-    /// What is wrong with it, or all that another reader said.
+    /// What is wrong with it; the full report of another reader where that found the fault.
     pub cause: String,
-    /// What would make it right.
+    /// The remedy.
     pub cure: String,
 }
 
 impl std::fmt::Display for SceneError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        // The cause may be all that the reader of a model said: a line for each fault, each printable already.
+        // The cause may be the whole report of the model's reader: a line for each fault, each printable
+        // already.
         write!(f, "{}", printable(&self.file))?;
         if let Some((line, column)) = self.at {
             write!(f, ":{line}:{column}")?;
@@ -52,21 +53,21 @@ impl<'a> Faults<'a> {
         self.list.push(SceneError { file, at: None, thing, cause, cure });
     }
 
-    /// From a line that holds cause and cure.
+    /// Notes a fault from a line with cause and cure.
     pub fn note_line(&mut self, thing: impl Into<String>, line: &str) {
         let (cause, cure) = line.split_once("; ").unwrap_or((line, ""));
         self.note(thing, cause, cure);
     }
 
-    /// Faults of one thing.
+    /// Collector for the faults of one thing.
     pub fn at(&mut self, thing: impl Into<String>) -> At<'_, 'a> {
         At { thing: thing.into(), faults: self }
     }
 
-    /// The value if nothing was at fault.
+    /// Returns the value if there are no faults.
     ///
     /// # Errors
-    /// Everything that was found wrong, if anything was.
+    /// All faults, if there are any.
     pub fn unless_any<T>(self, value: Option<T>) -> Result<T, SceneErrors> {
         match value {
             Some(value) if self.list.is_empty() => Ok(value),
@@ -86,7 +87,7 @@ impl At<'_, '_> {
         self.faults.note(&self.thing, cause, cure);
     }
 
-    /// From a line that holds cause and cure.
+    /// Notes a fault from a line with cause and cure.
     pub fn note_line(&mut self, line: &str) {
         self.faults.note_line(&self.thing, line);
     }

@@ -1,11 +1,12 @@
-//! Fixed bodies of several objects whose flat faces lie in one plane: whatever may touch two of them is pushed by both.
+//! Fixed bodies of several objects whose flat faces lie in one plane: a body that touches two of them is
+//! pushed by both.
 
 use super::setting::Setting;
 use crate::body::{Motion, RigidBody};
 use pong_model::flush::{PlacedGroup, flush_pairs};
 use std::collections::BTreeMap;
 
-/// A line for each two objects that a third may touch and that are flush somewhere.
+/// Warnings, one for each two flush objects that a third may touch.
 pub(super) fn warnings(setting: &Setting<'_>, bodies: &[RigidBody]) -> Vec<String> {
     let (mut placed, mut object_of) = (Vec::new(), Vec::new());
     for (index, (object, model)) in setting.objects.iter().zip(&setting.models).enumerate() {
@@ -22,7 +23,7 @@ pub(super) fn warnings(setting: &Setting<'_>, bodies: &[RigidBody]) -> Vec<Strin
     if placed.len() < 2 {
         return Vec::new();
     }
-    // One pair of primitives speaks for all of two objects, an overlap before a seam.
+    // One pair of primitives is enough for two objects, an overlap before a seam.
     let mut found = BTreeMap::new();
     for pair in flush_pairs(&placed) {
         let [one, other] = pair.primitives.map(|(group, _)| object_of[group]);
@@ -50,7 +51,7 @@ pub(super) fn warnings(setting: &Setting<'_>, bodies: &[RigidBody]) -> Vec<Strin
     found.into_iter().map(line).collect()
 }
 
-/// Whether some object is paired with both.
+/// True if some object is paired with both.
 fn have_a_common_partner(setting: &Setting<'_>, one: usize, other: usize) -> bool {
     let pairs = setting.document.pairs();
     let partners = |index: usize| {

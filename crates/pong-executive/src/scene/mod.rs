@@ -1,4 +1,4 @@
-//! Scene files: which models, where they start, what acts on them, how to integrate (docs/scene_format.md).
+//! Scene files: models, initial states, loads, integrator (docs/scene_format.md).
 
 mod bodies;
 mod document;
@@ -22,7 +22,7 @@ use pong_engine::{FrictionPreload, ObjectId, PairId, SealReport, World};
 use pong_geometry::extension::Extensions;
 use std::path::{Path, PathBuf};
 
-/// A scene file as read: its notation is right, the rest is found out by [`build`](Self::build).
+/// A scene file as read: its notation is valid; [`build`](Self::build) checks the rest.
 #[derive(Clone, Debug)]
 pub struct Scene {
     file: String,
@@ -39,21 +39,21 @@ pub struct BuiltScene {
     pub simulation: Simulation,
     /// The objects in the order of the file.
     pub objects: Vec<SceneObject>,
-    /// The file of each model of the world, in the order in which the world has them.
+    /// The file of each model of the world, in the world's order.
     pub model_files: Vec<PathBuf>,
-    /// What sealing the world told.
+    /// Report of sealing the world.
     pub seal: SealReport,
-    /// Objects of the pairs in which nothing can touch, but those that the scene names in `passes_through`.
+    /// Pairs of objects without any possible contact, except those named in `passes_through`.
     pub passing_through: Vec<[String; 2]>,
-    /// What the models' authors should know.
+    /// Warnings for the authors of the models.
     pub warnings: Vec<String>,
-    /// Steps that make up the duration.
+    /// Number of steps in the duration.
     pub steps: u64,
-    /// Every how many steps a record is wanted.
+    /// Steps from one record to the next.
     pub record_every: u64,
-    /// Whether energies are kept.
+    /// True if energies are kept.
     pub ledger: bool,
-    /// The friction that was set in the contacts of the start: set it again if the start becomes another.
+    /// Preloads set in the initial contacts; to be set again if the initial state is changed.
     pub preload: Vec<(PairId, FrictionPreload)>,
 }
 
@@ -86,7 +86,7 @@ impl Scene {
         }
     }
 
-    /// Reads a scene from text. `file` is what errors call it; models are looked for in `folder`.
+    /// Reads a scene from text. Errors call it `file`; models are looked for in `folder`.
     ///
     /// # Errors
     /// Every fault of the text, with line and column.
@@ -104,13 +104,13 @@ impl Scene {
         }
     }
 
-    /// The same scene with models that may use these kinds, and read files from the folders allowed there.
+    /// The same scene with models that may use these kinds, and read files from the folders that they allow.
     #[must_use]
     pub fn with_extensions(self, extensions: Extensions) -> Self {
         Self { extensions, ..self }
     }
 
-    /// What its models may use beside what is built in.
+    /// Kinds and folders that its models may use in addition.
     pub fn extensions(&self) -> &Extensions {
         &self.extensions
     }
@@ -140,27 +140,27 @@ impl Scene {
         self.document.alternatives.iter().map(|alternative| alternative.name.as_str())
     }
 
-    /// The models: the name of each, and its file as it stands in the scene; those of alternatives are not among them.
+    /// The models: name and file of each as written in the scene, without those of alternatives.
     pub fn models(&self) -> impl ExactSizeIterator<Item = (&str, &str)> {
         self.document.models.iter().map(|(name, file)| (name.as_str(), file.as_str()))
     }
 
-    /// Every model file that the scene names, those of its alternatives included, in the order of the file.
+    /// Every model file that the scene names, including those of its alternatives, in the order of the file.
     pub fn model_files(&self) -> Vec<PathBuf> {
         let alternatives = self.document.alternatives.iter().flat_map(|alternative| &alternative.models);
         let files = self.document.models.iter().chain(alternatives);
         files.map(|(_, file)| self.folder.join(file)).collect()
     }
 
-    /// Loads the models and sets everything up, or tells everything that is wrong.
+    /// Loads the models and sets everything up.
     ///
     /// # Errors
-    /// Models that cannot be loaded, names that lead nowhere, and values out of range: all of them at once.
+    /// Models that cannot be loaded, names that do not exist, and values out of range: all of them at once.
     pub fn build(&self) -> Result<BuiltScene, SceneErrors> {
         self.build_varied(&Variation::default())
     }
 
-    /// As [`build`](Self::build), with something else than the file says.
+    /// As [`build`](Self::build), with changes to the scene.
     ///
     /// # Errors
     /// As [`build`](Self::build); also a variation that names what the scene does not have.
@@ -258,7 +258,7 @@ fn scene_objects(
     .collect()
 }
 
-/// Years of computing: a slip of the pen.
+/// Upper limit of steps: beyond it a run takes years, so the value is a typing error.
 const STEPS_MAX: f64 = 1e12;
 
 fn check_head(document: &Document, faults: &mut Faults<'_>) {

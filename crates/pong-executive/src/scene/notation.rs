@@ -1,9 +1,9 @@
-//! Faults of notation: the field that a scene's text breaks off in, and how that field is written.
+//! Faults of notation: the field at which a scene's text breaks off, and its correct form.
 
 use super::error::SceneError;
 use serde::Deserialize;
 
-/// How the fields are written that are most often written otherwise.
+/// Correct forms of the fields that are most often written differently.
 const FIELDS: [(&str, &str); 17] = [
     ("models", r#"write models: { "ball": "ball.ron", … }"#),
     ("objects", r#"write objects: [(name: "ball", model: "ball", bodies: [(motion: Fixed)]), …]"#),
@@ -31,7 +31,7 @@ const FIELDS: [(&str, &str); 17] = [
     ("integrator", "write integrator: RungeKutta4, SemiImplicitEuler or ZeroOrderHold(substeps: 1)"),
 ];
 
-/// The fault of a text that is no scene; `error` is the reader's.
+/// The fault of a text that is not a scene, from the reader's error.
 pub(super) fn fault(text: &str, file: &str, error: &ron::error::SpannedError) -> SceneError {
     let (file, at) = (file.to_owned(), Some((error.span.start.line, error.span.start.col)));
     if format_of(text).as_deref() == Some("pong-model") {
@@ -41,7 +41,7 @@ pub(super) fn fault(text: &str, file: &str, error: &ron::error::SpannedError) ->
     }
     let start = offset(text, error.span.start.line, error.span.start.col);
     let cause = error.code.to_string();
-    // A field that the scene does not know is named by the cause.
+    // For an unknown field, the cause already has its name.
     let unknown = matches!(error.code, ron::Error::NoSuchStructField { .. });
     let field = field_before(&text[..start]).filter(|_| !unknown);
     let known = field.and_then(|field| FIELDS.iter().find(|(name, _)| *name == field));
@@ -50,7 +50,7 @@ pub(super) fn fault(text: &str, file: &str, error: &ron::error::SpannedError) ->
     SceneError { file, at, thing, cause, cure }
 }
 
-/// The `format` that a file gives itself, whatever else is in it.
+/// The `format` that a file declares, whatever the rest of it is.
 fn format_of(text: &str) -> Option<String> {
     #[derive(Deserialize)]
     struct Head {
@@ -60,7 +60,7 @@ fn format_of(text: &str) -> Option<String> {
     options.from_str::<Head>(text).ok().map(|head| head.format)
 }
 
-/// The byte at which a line and column, both from 1, begin.
+/// Byte offset of a line and column, both from 1.
 fn offset(text: &str, line: usize, column: usize) -> usize {
     let line_start: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
     let rest = &text[line_start.min(text.len())..];
@@ -68,7 +68,7 @@ fn offset(text: &str, line: usize, column: usize) -> usize {
     (line_start + within).min(text.len())
 }
 
-/// The last `name:` of a text, strings and comments aside.
+/// The last `name:` of a text, outside strings and comments.
 fn field_before(text: &str) -> Option<&str> {
     let bytes = text.as_bytes();
     let (mut index, mut word, mut field) = (0, 0..0, None);

@@ -4,12 +4,12 @@ use super::document::{Quaternion, Triple};
 use super::error::At;
 use pong_geometry::Pose;
 
-/// How far a quaternion's norm may be from 1.
+/// Largest deviation of a quaternion's norm from 1.
 const NORM_ERROR_MAX: f64 = 1e-3;
 
 const IDENTITY: Quaternion = [1.0, 0.0, 0.0, 0.0];
 
-/// A checked pose; the identity where something is at fault.
+/// A checked pose; the identity if it has a fault.
 pub(crate) fn pose(position: &Triple, orientation: &Option<Quaternion>, at: &mut At<'_, '_>) -> Pose {
     let orientation = orientation.unwrap_or(IDENTITY);
     let mut good = at.finite("position", position);

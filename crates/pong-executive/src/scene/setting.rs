@@ -12,7 +12,7 @@ use std::sync::Arc;
 pub(crate) struct Setting<'a> {
     pub document: &'a Document,
     pub world: WorldBuilder,
-    /// For each object of the file; `None` where it could not be made, which has been told.
+    /// One entry for each object of the file; `None` where it could not be made, with the fault noted.
     pub objects: Vec<Option<ObjectId>>,
     /// Model of each object that could be made.
     pub models: Vec<Option<Arc<Model>>>,
@@ -21,16 +21,16 @@ pub(crate) struct Setting<'a> {
     pub warnings: Vec<String>,
 }
 
-/// What a setting made beside the world.
+/// Results of a setting other than the world.
 pub(crate) struct Made {
-    /// For each object of the file; `None` where it could not be made.
+    /// One entry for each object of the file; `None` where it could not be made.
     pub objects: Vec<Option<ObjectId>>,
     /// The file of each model of the world, in the world's order.
     pub model_files: Vec<PathBuf>,
     pub warnings: Vec<String>,
 }
 
-/// A model under the name that the scene gives it; `None` if its file is at fault.
+/// A model under the name that the scene gives it; `None` if its file has a fault.
 type Named<'a> = (&'a str, Option<Arc<Model>>);
 
 impl<'a> Setting<'a> {
@@ -92,7 +92,7 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// The Interface that `object` or `object/path` names; a fault is told.
+    /// The Interface named by `object` or `object/path`; notes a fault if there is none.
     pub fn interface(&self, name: &str, at: &mut At<'_, '_>) -> Option<InterfaceId> {
         let (object, path) = name.split_once('/').unwrap_or((name, ""));
         let Some(index) = self.document.objects.iter().position(|entry| entry.name == object) else {
@@ -101,7 +101,7 @@ impl<'a> Setting<'a> {
             at.note(format!("there is no object `{object}`"), cure);
             return None;
         };
-        // An object that could not be made has been told.
+        // The fault of an object that could not be made is noted already.
         let id = self.objects[index]?;
         let found = self.world.scene().interface(id, path);
         found.map_err(|error| at.note_line(&error.to_string())).ok()
@@ -135,7 +135,7 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// Keeps the groups of `filters` apart.
+    /// Excludes contacts between the groups of `filters`.
     pub fn filter(&mut self, faults: &mut Faults<'_>) {
         for (a, b) in &self.document.filters {
             let thing = format!("filters/({a}, {b})");
@@ -148,7 +148,7 @@ impl<'a> Setting<'a> {
                     let cure = format!("write `object/path of the group`; known: {}", known.join(", "));
                     faults.note(&thing, format!("there is no object `{object}`"), cure);
                 }
-                // An object that could not be made has been told.
+                // The fault of an object that could not be made is noted already.
                 found.and_then(|index| self.objects[index]).map(|object| (object, path.to_owned()))
             };
             if let (Some((a, path_a)), Some((b, path_b))) = (side(a), side(b))
@@ -159,7 +159,7 @@ impl<'a> Setting<'a> {
         }
     }
 
-    /// The sealed world, and what is left of the setting.
+    /// Seals the world; returns it with the rest of the setting.
     pub fn seal(self, faults: &mut Faults<'_>) -> (Option<(World, SealReport)>, Made) {
         let Self { world, objects, model_files, warnings, .. } = self;
         let sealed = world.seal().map_err(EngineError::from).map_err(|error| match error {
@@ -172,7 +172,7 @@ impl<'a> Setting<'a> {
     }
 }
 
-/// Whether two entries name the same two objects, in whatever order.
+/// True if two entries name the same two objects, in either order.
 pub(super) fn is_same_pair(one: &(String, String), other: &(String, String)) -> bool {
     one == other || (&one.0, &one.1) == (&other.1, &other.0)
 }

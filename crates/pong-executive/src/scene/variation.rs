@@ -1,4 +1,4 @@
-//! A scene with something else than its file says: another step, another integrator, other models.
+//! Changes to a scene: another step, another integrator, other models.
 
 use super::document::Document;
 use super::error::Faults;
@@ -8,13 +8,13 @@ use pong_model::Model;
 use std::path::Path;
 use std::sync::Arc;
 
-/// What a rewritten model is made by; an error is a line of cause and cure.
+/// Rewrites a model; an error is a line of cause and cure.
 type Rewrite<'a> = &'a dyn Fn(Model) -> Result<Model, String>;
 
-/// A model that is at hand for a file.
+/// Returns a ready model for a file, if there is one.
 type Instead<'a> = &'a dyn Fn(&Path) -> Option<Arc<Model>>;
 
-/// What is to differ from a scene file; by default nothing is.
+/// Changes to a scene file; none by default.
 #[derive(Clone, Default)]
 pub struct Variation<'a> {
     /// Another integrator.
@@ -23,11 +23,11 @@ pub struct Variation<'a> {
     pub step: Option<f64>,
     /// Workers of the world; the results are the same bits.
     pub workers: Option<WorkerSettings>,
-    /// The models that this entry of the scene's `alternatives` names, in place of the others.
+    /// Entry of the scene's `alternatives` whose models replace the others.
     pub alternative: Option<&'a str>,
-    /// Every model, once loaded, is replaced by what this makes of it.
+    /// Function that rewrites every model once loaded.
     pub rewrite: Option<Rewrite<'a>>,
-    /// Where this has a model for the file of one, that is taken as it is, and the file is not read.
+    /// Source of ready models: where it has one for a file, the file is not read.
     pub instead: Option<Instead<'a>>,
 }
 
@@ -59,7 +59,8 @@ fn take_models(document: &mut Document, instead: &[(String, String)]) {
     }
 }
 
-/// Alternatives are told apart by name and replace models that are there. Their files are read when they are asked for.
+/// Checks that alternatives have distinct names and replace existing models. Their files are read only on
+/// use.
 pub(super) fn check_alternatives(document: &Document, faults: &mut Faults<'_>) {
     for (index, alternative) in document.alternatives.iter().enumerate() {
         let thing = format!("alternatives/{}", alternative.name);

@@ -1,4 +1,5 @@
-//! The present instant as bytes: what a simulation needs to go on with the same bits, in this process or another.
+//! The present instant as bytes: all that a simulation needs to go on with the same bits, in this process or
+//! another.
 //!
 //! ```text
 //! magic 8 | version 8 | bodies 8 | free bodies 8 | wrenches on their way 8
@@ -25,7 +26,7 @@ const VERSION: u64 = 1;
 const MOTION_NUMBERS: usize = 13;
 
 impl Simulation {
-    /// Writes the present instant, with the contact state of the world, behind what `out` holds already.
+    /// Appends the present instant, with the contact state of the world, to `out`.
     pub fn save(&self, out: &mut Vec<u8>) {
         let begin = out.len();
         out.extend_from_slice(MAGIC);
@@ -59,15 +60,16 @@ impl Simulation {
         word(out, checksum);
     }
 
-    /// Goes back to an instant that a simulation of the same set-up saved.
+    /// Goes back to an instant saved by a simulation with the same set-up.
     ///
     /// # Errors
-    /// Bytes that are damaged, or of a simulation that was set up otherwise. The present instant stays then.
+    /// Bytes that are damaged, or saved by a simulation with another set-up. The present instant is then
+    /// unchanged.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<()> {
         let instant = self
             .read(bytes)
             .map_err(|(cause, cure)| ExecutiveError::invalid("saved instant", cause, cure))?;
-        // The engine refuses as a whole, too; nothing after it can fail.
+        // The engine refuses as a whole, too; nothing after this line can fail.
         self.system.world.restore_state(instant.block)?;
         (self.step, self.epoch, self.steps, self.settled) =
             (instant.step, instant.epoch, instant.steps, instant.settled);
@@ -151,7 +153,7 @@ const DAMAGED: Refusal = ("the bytes are damaged (length or checksum)", "use ano
 const OTHER: Refusal =
     ("it was saved with other bodies", "restore it in a simulation that was set up in the same way");
 
-/// What was read, before anything is changed.
+/// Instant read from the bytes, before anything is changed.
 struct Instant<'b> {
     step: f64,
     epoch: f64,
@@ -223,7 +225,7 @@ impl Reader<'_> {
         Ok(Wrench { force: Vec3::new(a, b, c), moment: Vec3::new(d, e, f) })
     }
 
-    /// The quaternion is taken as it is: normalised once more it could be another one.
+    /// The quaternion is not normalised: that could change its bits.
     fn motion(&mut self) -> Result<(Pose, Twist), Refusal> {
         let [x, y, z, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz] = self.numbers::<MOTION_NUMBERS>()?;
         let orientation = Quat::new_unchecked(nalgebra::Quaternion::new(qw, qx, qy, qz));

@@ -1,20 +1,21 @@
-//! A motion that has energy from nowhere.
+//! Detection of motion with energy from nowhere.
 //!
-//! Contacts and springs are passive: what they give they took before. So without errors of the integrator
+//! Contacts and springs are passive: they return only energy that they received. So without errors of the
+//! integrator
 //!
 //! ```text
 //! made = Δ(kinetic + potential + springs) + heat of springs − work of loads and of prescribed bodies − stored in contacts ≤ 0
 //! ```
 //!
-//! where Δ and work count from a reference instant, at which the contacts stored their share. An integrator makes some energy,
-//! at a step that is too long without end. A run is stopped where both are true:
+//! where Δ and work count from a reference instant, at which the contacts stored their share. An integrator
+//! makes some energy, and without bound at a step that is too long. A run is stopped where both are true:
 //!
 //! * a body moves farther in one step than the whole scene is large, and
-//! * energy was made, a million times what was there, was put in or falls over the size of the scene: bodies are a thousand times as fast as any told force
-//!   can have made them.
+//! * energy was made, a million times the energy that was there, was put in or is released in a fall over the
+//!   size of the scene: bodies are a thousand times as fast as any known force can have made them.
 //!
-//! No step resolves such a motion, and no honest one can have the energy. Normal laws of the host may drive, so scenes with
-//! such contacts are left alone.
+//! No step resolves such a motion, and no true motion can have the energy. Normal laws of the host may be
+//! active, so scenes with such contacts are left alone.
 
 use super::Simulation;
 use super::reference::Reference;
@@ -24,11 +25,11 @@ use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Element, Item, MovableGroup};
 
-/// Energy made over energy that can be there.
+/// Ratio of the energy made to the energy available at which a run is stopped.
 const FACTOR: f64 = 1e6;
 
 impl Simulation {
-    /// States, set-up or surfaces were changed from outside.
+    /// Notes that states, set-up or surfaces were changed from outside.
     pub(super) fn disturbed(&mut self) {
         self.settled = false;
         self.reference = None;
@@ -79,7 +80,7 @@ impl Simulation {
         stored_energy(self.world()).is_ok_and(|pairs| pairs.iter().any(|pair| pair.not_known > 0))
     }
 
-    /// Diameter of the box around all bodies and what they are made of, m; planes have no size.
+    /// Diameter of the box around all bodies and their primitives, m; planes have no size.
     fn size(&self) -> f64 {
         let scene = self.world().inspect();
         let from = self.system.motions.first().map_or_else(Vec3::zeros, |(pose, _)| pose.position);
@@ -93,7 +94,8 @@ impl Simulation {
         (high - low).norm()
     }
 
-    /// The error of a body in a step from a time (s), with the contact or spring at its begin, which still pushed there.
+    /// The error of a body in a step that began at `from` (s), with the contact or spring that pushed it
+    /// then.
     pub(super) fn divergence(&mut self, index: usize, what: &str, from: f64) -> ExecutiveError {
         let body = self.system.bodies[index].name.clone();
         let (time, plan) = (self.time(), self.step_plan());
@@ -112,8 +114,8 @@ impl Simulation {
         ExecutiveError::Diverged { body, what: format!("{what}{maker}"), time, cure }
     }
 
-    /// The contact that pushed a body within a step from a time (s): at its begin, or on the way, as the stages of an integrator
-    /// find it.
+    /// The contact that pushed a body within a step that began at `from` (s): at its start, or later, with
+    /// the bodies moved on by their velocities.
     fn pusher_within(&mut self, index: usize, from: f64) -> Option<String> {
         [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().find_map(|part| {
             self.system.place(from, &self.earlier);
@@ -125,7 +127,7 @@ impl Simulation {
         })
     }
 
-    /// The pair of bodies with the largest contact force on a body, as the last frame has it.
+    /// The pair of bodies with the largest contact force on a body in the last frame.
     fn pusher(&self, index: usize) -> Option<String> {
         let own = self.system.bodies[index].interface?;
         let contacts = self.world().contacts().into_iter();
@@ -152,7 +154,7 @@ impl Simulation {
     }
 }
 
-/// Radius about the group's origin of all that has a size, m.
+/// Radius about the group's origin of all primitives of finite size, m.
 fn reach(body: &MovableGroup) -> f64 {
     let mut most = 0.0_f64;
     for (index, info) in

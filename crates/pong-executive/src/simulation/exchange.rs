@@ -1,7 +1,7 @@
-//! For integrators outside: the states of the free bodies as numbers, and their rates at any states that such an integrator
-//! tries. Only states that it accepts are committed.
+//! For external integrators: the states of the free bodies as numbers, and their rates at any states that
+//! such an integrator tries. Only states that it accepts are committed.
 //!
-//! While somebody else integrates, poses, twists and wrenches are those of the last states tried or accepted.
+//! Under an external integrator, poses, twists and wrenches are those of the last states tried or accepted.
 
 use super::Simulation;
 use crate::body::BodyId;
@@ -10,11 +10,12 @@ use crate::state::{FreeState, STATE_NUMBERS};
 use pong_geometry::Wrench;
 
 impl Simulation {
-    /// Numbers that the state of one free body has, in this order: place of the mass centre (3, m), its velocity (3, m/s),
-    /// orientation (4: w, x, y, z), angular momentum about the mass centre (3, kg·m²/s), all along the common axes.
+    /// Number of values in the state of one free body, in this order: position of the mass centre (3, m), its
+    /// velocity (3, m/s), orientation (4: w, x, y, z), angular momentum about the mass centre (3, kg·m²/s),
+    /// all along the common axes.
     pub const STATE_NUMBERS: usize = STATE_NUMBERS;
 
-    /// The free bodies, in the order in which their states follow each other.
+    /// The free bodies, in the order of their states.
     pub fn free_bodies(&self) -> impl ExactSizeIterator<Item = BodyId> + '_ {
         self.system.free.iter().map(|(index, _)| BodyId(*index))
     }
@@ -24,11 +25,13 @@ impl Simulation {
         self.states.iter().flat_map(FreeState::numbers).collect()
     }
 
-    /// Evaluates contact at states that an integrator tries at a time (s), and gives their rates. Nothing is remembered.
-    /// Quaternions are normalised on the way; their rates are those of the quaternions as they are given.
+    /// Evaluates contact at states that an integrator tries at a time (s), and returns their rates. Nothing
+    /// is remembered. Quaternions are normalised internally; their rates are those of the quaternions as
+    /// given.
     ///
     /// # Errors
-    /// Another count of numbers than the free bodies have; states that no engine accepts: shorten the step.
+    /// A number of values other than that of the free bodies; states that no engine accepts: shorten the
+    /// step.
     pub fn try_states(&mut self, time: f64, numbers: &[f64], rates: &mut [f64]) -> Result<()> {
         self.place_trial(time, numbers, rates.len())?;
         self.system.touch(time)?;
@@ -36,7 +39,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// As [`try_states`](Self::try_states), and the engine accepts the states: once for every step that the integrator
+    /// As [`try_states`](Self::try_states), and commits the states: once for every step that the integrator
     /// accepts. From here on they are the present instant.
     ///
     /// # Errors
@@ -65,11 +68,11 @@ impl Simulation {
         Ok(())
     }
 
-    /// Sets what a host applies to a body beside the loads of the scene, about its group's origin along the common axes. It
-    /// stays until it is set again.
+    /// Sets the external wrench of the host on a body, added to the loads of the scene, about its group's
+    /// origin along the common axes. It stays until it is set again.
     ///
     /// # Errors
-    /// A body that is not there; a value that is not finite.
+    /// A body that does not exist; a value that is not finite.
     pub fn set_external_wrench(&mut self, body: BodyId, wrench: Wrench) -> Result<()> {
         self.check_body("external wrench", body)?;
         if !wrench.force.iter().chain(&wrench.moment).all(|x| x.is_finite()) {
@@ -82,7 +85,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Moves the bodies to states that were given as numbers; these are the trial from here on.
+    /// Moves the bodies to states given as numbers; these are the trial from here on.
     fn place_trial(&mut self, time: f64, numbers: &[f64], rates: usize) -> Result<()> {
         let wanted = STATE_NUMBERS * self.states.len();
         if numbers.len() != wanted || rates != wanted {

@@ -18,7 +18,7 @@ use pong_engine::{FrictionPreload, PairId, World};
 use pong_geometry::Wrench;
 use reference::Reference;
 
-/// Something that looks at a running simulation.
+/// An observer of a running simulation.
 pub trait Observer {
     /// Called with states, wrenches and contacts that belong to one instant.
     ///
@@ -38,25 +38,25 @@ impl<F: FnMut(&Simulation)> Observer for F {
 pub struct Simulation {
     system: System,
     states: Vec<FreeState>,
-    /// Those that an integrator outside tries.
+    /// States that an external integrator tries.
     trial: Vec<FreeState>,
-    /// Those of the step before.
+    /// States of the step before.
     earlier: Vec<FreeState>,
     integrator: Integrator,
     step: f64,
-    /// Time is `epoch + steps·step`: no rounding piles up.
+    /// Time is `epoch + steps·step`, so that no rounding accumulates.
     epoch: f64,
     steps: u64,
-    /// Whether the world is evaluated and committed at the present states.
+    /// True if the world is evaluated and committed at the present states.
     settled: bool,
     stages: Stages,
     held: Held,
     powers: Powers,
     spring_loss: f64,
     work_in: f64,
-    /// Work of contact on the bodies, J, where it is evaluated at stages.
+    /// Work of contact on the bodies, J, if contact is evaluated at stages.
     contact_work: Option<f64>,
-    /// Reference of the energies of the motion; `None` until the next step if something was changed.
+    /// Reference energies of the motion; `None` until the next step after a change.
     reference: Option<Reference>,
 }
 
@@ -170,13 +170,14 @@ impl Simulation {
         Ok(())
     }
 
-    /// Has every step keep [`contact_impulse`](Self::contact_impulse) from now on.
+    /// Turns on [`contact_impulse`](Self::contact_impulse) for the following steps.
     pub fn keep_contact_impulses(&mut self) {
         self.stages.contact_impulses.get_or_insert_default();
     }
 
-    /// ∫ contact wrench dt on a body over the last step, as the integrator takes it: N·s, and N·m·s about the origin of its
-    /// group, along the common axes. `None` before the first step, or if [nobody keeps it](Self::keep_contact_impulses).
+    /// ∫ contact wrench dt on a body over the last step, with the integrator's weights: N·s, and N·m·s about
+    /// the origin of its group, along the common axes. `None` before the first step, or unless [turned
+    /// on](Self::keep_contact_impulses).
     pub fn contact_impulse(&self, body: BodyId) -> Option<Wrench> {
         self.stages.contact_impulses.as_ref()?.get(body.index()).copied()
     }
@@ -196,7 +197,7 @@ impl Simulation {
     /// Advances by a number of steps; the observer sees the first instant and every `every`-th after it.
     ///
     /// # Errors
-    /// As a step: see [`commit_initial_states`](Self::commit_initial_states); also what the observer refuses.
+    /// As a step: see [`commit_initial_states`](Self::commit_initial_states); also the observer's errors.
     pub fn observe(&mut self, steps: u64, every: u64, observer: &mut dyn Observer) -> Result<()> {
         self.commit_initial_states()?;
         observer.observe(self)?;

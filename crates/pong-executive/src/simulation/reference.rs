@@ -1,4 +1,4 @@
-//! Reference energies of a motion, to find energy from nowhere.
+//! Reference energies of a motion, to detect energy from nowhere.
 
 use crate::energy::Energy;
 
@@ -6,7 +6,7 @@ use crate::energy::Energy;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reference {
     pub energy: Energy,
-    /// In the contacts, J; infinite where it is not known.
+    /// Energy stored in the contacts, J; infinite where it is not known.
     pub stored: f64,
     /// Diameter of the box around all bodies, m.
     pub size: f64,

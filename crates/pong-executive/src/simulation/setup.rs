@@ -1,4 +1,4 @@
-//! Bodies, loads, springs: set up, and changed between steps.
+//! Set-up of bodies, loads and springs, and their changes between steps.
 
 use super::{Simulation, check_step};
 use crate::body::{BodyId, Motion, RigidBody};
@@ -11,7 +11,7 @@ use crate::state::{FreeState, Inertia};
 use pong_geometry::{Pose, Twist, Vec3};
 
 impl Simulation {
-    /// Adds a body. All bodies with an Interface must be there before the first step.
+    /// Adds a body. All bodies with an Interface must be added before the first step.
     ///
     /// # Errors
     /// An Interface of another world, or one that already has a body; mass properties that no body can have.
@@ -72,7 +72,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Removes all loads: a release.
+    /// Removes all loads, as for a release.
     pub fn clear_loads(&mut self) {
         self.system.loads.clear();
         self.powers = self.system.powers(self.time());
@@ -85,10 +85,11 @@ impl Simulation {
         self.powers = self.system.powers(self.time());
     }
 
-    /// Replaces a spring by its number, in the order in which springs were added: other values, or other ends.
+    /// Replaces a spring, given by its index in the order in which springs were added: other values, or other
+    /// ends.
     ///
     /// # Errors
-    /// A number that no spring has; as [`add_spring`](Self::add_spring). The spring is then as it was.
+    /// An index that no spring has; as [`add_spring`](Self::add_spring). The spring is then unchanged.
     pub fn set_spring(&mut self, number: usize, spring: Spring) -> Result<()> {
         let what = format!("spring {number}");
         let count = self.system.springs.len();
@@ -108,10 +109,12 @@ impl Simulation {
         Ok(())
     }
 
-    /// Gives a free body other mass properties. Its group frame keeps its pose and twist, so that momentum and energy change.
+    /// Gives a free body other mass properties. Its group frame keeps its pose and twist, so that momentum
+    /// and energy change.
     ///
     /// # Errors
-    /// A body that is not there or is not free; mass properties that no body can have. The body is then as it was.
+    /// A body that does not exist or is not free; mass properties that no body can have. The body is then
+    /// unchanged.
     pub fn set_mass(&mut self, body: BodyId, mass: MassProperties) -> Result<()> {
         self.check_body("set_mass", body)?;
         let index = body.index();
@@ -137,10 +140,11 @@ impl Simulation {
         self.reference = None;
     }
 
-    /// Puts a free or fixed body elsewhere. The contacts' past stays: call [`World::clear_contact_history`](pong_engine::World::clear_contact_history) if it should not.
+    /// Sets the pose and twist of a free or fixed body. The contact history stays; to drop it call
+    /// [`World::clear_contact_history`](pong_engine::World::clear_contact_history).
     ///
     /// # Errors
-    /// A body that is not there or is on a prescribed path; a pose or twist that is not finite.
+    /// A body that does not exist or is on a prescribed path; a pose or twist that is not finite.
     pub fn set_motion(&mut self, body: BodyId, pose: Pose, twist: Twist) -> Result<()> {
         self.check_body("set_motion", body)?;
         let index = body.index();
@@ -166,11 +170,11 @@ impl Simulation {
         Ok(())
     }
 
-    /// Leads a body from outside: it is in this pose at a time (s) and moves on with this twist, whatever pushes it, until it
-    /// is led elsewhere. A free body is free no longer.
+    /// Moves a body from outside: it has this pose at a time (s) and moves on with this twist, whatever the
+    /// forces, until the next call. A free body is no longer free.
     ///
     /// # Errors
-    /// A body that is not there; a time, pose or twist that is not finite.
+    /// A body that does not exist; a time, pose or twist that is not finite.
     pub fn lead(&mut self, body: BodyId, since: f64, pose: Pose, twist: Twist) -> Result<()> {
         self.check_body("lead", body)?;
         let index = body.index();
@@ -211,7 +215,7 @@ impl Simulation {
     }
 }
 
-/// An error from a line that holds cause and cure.
+/// An error from a line with cause and cure.
 fn fault(what: &str, line: &str) -> ExecutiveError {
     let (cause, cure) = line.split_once("; ").unwrap_or((line, "correct it"));
     ExecutiveError::invalid(what, cause, cure)

@@ -1,4 +1,4 @@
-//! Contacts that are deep when a run starts.
+//! Notes about deep contacts at the start of a run.
 
 use super::Simulation;
 use crate::stability::group_mass;
@@ -6,12 +6,13 @@ use pong_advise::{StoredEnergy, stored_energy};
 use pong_engine::InterfaceId;
 use pong_geometry::Vec3;
 
-/// How much of the contact forces on a body must be left when all forces on it are summed, for the body not to be held.
+/// Smallest ratio of the net force on a body to its contact forces at which the body counts as not held.
 const UNBALANCED: f64 = 0.5;
 
 impl Simulation {
-    /// Notes about bodies that start deep in each other: whose contacts hold more energy than there is motion between them, and
-    /// that nothing holds together. Looks at the present instant; empty before [`commit_initial_states`](Self::commit_initial_states).
+    /// Notes about bodies that start deep in each other: their contacts hold more energy than the motion
+    /// between them has, and no force holds them together. Uses the present instant; empty before
+    /// [`commit_initial_states`](Self::commit_initial_states).
     pub fn start_notes(&self) -> Vec<String> {
         let pairs = stored_energy(self.world()).unwrap_or_default();
         pairs.iter().filter_map(|pair| self.start_note(pair)).collect()
@@ -48,7 +49,7 @@ impl Simulation {
         })
     }
 
-    /// Whether contact pushes a free body with more than other forces hold.
+    /// True if contact pushes a free body with more force than other forces balance.
     fn is_pushed(&self, body: usize) -> bool {
         let Some(slot) = self.system.free.iter().position(|(index, _)| *index == body) else { return false };
         let push = self.system.contact[body].force;

@@ -1,4 +1,4 @@
-//! What a simulation shows.
+//! Read access to a simulation.
 
 use super::Simulation;
 use crate::body::{BodyId, RigidBody};
@@ -12,7 +12,7 @@ use pong_advise::{ActingReport, GroupMass, StepPlan, StepReport, StepWarning};
 use pong_engine::{InterfaceId, World};
 use pong_geometry::{Pose, Twist, Vec3, Wrench};
 
-/// Of bodies with an Interface and without.
+/// Masses of bodies with an Interface and of those without.
 type Masses = (Vec<(InterfaceId, GroupMass)>, Vec<(String, GroupMass)>);
 
 impl Simulation {
@@ -32,7 +32,8 @@ impl Simulation {
     }
 
     /// Warnings about contacts that gain energy at the step, each with the longest stable one
-    /// ([`pong_advise::step_report`]). What cannot be judged is left out: [`StepWatch`](crate::StepWatch) judges it when it touches.
+    /// ([`pong_advise::step_report`]). Contacts that cannot be judged are left out:
+    /// [`StepWatch`](crate::StepWatch) judges them when they touch.
     pub fn step_warnings(&self) -> Vec<String> {
         let report = self.stability_report().unwrap_or_default();
         let of_steps = report.warnings.iter();
@@ -40,40 +41,40 @@ impl Simulation {
         judged.map(ToString::to_string).collect()
     }
 
-    /// Warnings about contacts of the present instant that gain energy at the step, each as deep and as hard pressed as it is
-    /// ([`pong_advise::pressed_report`]).
+    /// Warnings about contacts of the present instant that gain energy at the step, each judged at its
+    /// present depth and normal force ([`pong_advise::pressed_report`]).
     pub fn pressed_warnings(&self) -> Vec<String> {
         let report = pong_advise::pressed_report(self.world(), &self.step_plan(), &self.group_masses());
         report.unwrap_or_default().warnings.iter().map(ToString::to_string).collect()
     }
 
-    /// Notes about contacts that may gain energy at the step if they act together, with the longest step that is surely
-    /// stable ([`pong_advise::step_report`]).
+    /// Notes about contacts that may gain energy at the step if they act together, with the longest step that
+    /// is surely stable ([`pong_advise::step_report`]).
     pub fn step_notes(&self) -> Vec<String> {
         let report = self.stability_report().unwrap_or_default();
         report.notes.iter().map(ToString::to_string).collect()
     }
 
-    /// The step held against instability alone.
+    /// Report of the step, judged by stability alone.
     fn stability_report(&self) -> Option<StepReport> {
         self.step_report(&StepPlan { accuracy: None, ..self.step_plan() }).ok()
     }
 
-    /// Step and integrator as the step adviser knows them, and the closing speed of the scene's start. Whoever holds the step
-    /// against a scene begins with this plan, so that all of them say the same.
+    /// Step and integrator as the step adviser takes them, and the initial closing speed of the scene. Every
+    /// check of the step begins with this plan, so that all of them agree.
     pub fn step_plan(&self) -> StepPlan {
         let plan = StepPlan::new(self.step, self.integrator.coupling());
         StepPlan { closing_speed: self.closing_speed(), ..plan }
     }
 
-    /// The largest speed between any two bodies at the start, m/s; `None` if nothing moves then.
+    /// The largest initial speed between any two bodies, m/s; `None` if nothing moves.
     pub fn closing_speed(&self) -> Option<f64> {
         let velocities: Vec<Vec3> = self.bodies().map(|(_, body)| body.twist.linear).collect();
         let apart = velocities.iter().flat_map(|a| velocities.iter().map(move |b| (a - b).norm()));
         apart.max_by(f64::total_cmp).filter(|speed| *speed > 0.0)
     }
 
-    /// What a step can hold with the bodies at hand.
+    /// Report of the step for the present bodies.
     ///
     /// # Errors
     /// A world that cannot be sealed; a plan out of range.
@@ -82,7 +83,7 @@ impl Simulation {
         Ok(pong_advise::step_report_with(self.world(), plan, &touching, &others)?)
     }
 
-    /// The step that the contacts of the present instant leave, with the springs of the scene
+    /// Report of the step for the contacts of the present instant, with the springs of the scene
     /// ([`pong_advise::acting_report`]).
     ///
     /// # Errors
@@ -91,7 +92,7 @@ impl Simulation {
         Ok(pong_advise::acting_report(self.world(), plan, &self.masses_on_springs().0)?)
     }
 
-    /// Bodies with an Interface, and those that springs alone act on.
+    /// Masses of bodies with an Interface, and of those that only springs act on.
     fn masses_on_springs(&self) -> Masses {
         let mut masses: Masses = (Vec::new(), Vec::new());
         for (body, mass) in self.system.bodies.iter().zip(self.system.masses_on_springs(self.integrator)) {
@@ -112,8 +113,8 @@ impl Simulation {
         &self.system.world
     }
 
-    /// The world, to forget, switch pairs or change surfaces between steps. The present states are evaluated and
-    /// committed again before the next step.
+    /// The world, to clear contact history, switch pairs or change surfaces between steps. The present states
+    /// are evaluated and committed again before the next step.
     pub fn world_mut(&mut self) -> &mut World {
         self.disturbed();
         &mut self.system.world
