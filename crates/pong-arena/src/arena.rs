@@ -1,4 +1,4 @@
-//! One block of bytes that is handed out piece by piece and taken back as a whole.
+//! Memory block handed out piece by piece and released as a whole.
 
 use crate::counts::Counts;
 use crate::demand::{GRAIN, rounded};
@@ -6,10 +6,10 @@ use crate::full::Full;
 use crate::list::List;
 use bumpalo::Bump;
 
-/// Memory of one frame: slices and lists that all end with the next [`reset`](Self::reset).
+/// Memory of one frame, handed out as slices and lists that all end with the next [`reset`](Self::reset).
 ///
-/// The block is taken when the arena is made, and each of its pages is written to, so that none has to be fetched
-/// later. It never grows.
+/// The block is allocated with the arena and each of its pages is written, so no page fault comes later. It
+/// never grows.
 #[derive(Debug)]
 pub struct Arena {
     bump: Bump,
@@ -18,32 +18,32 @@ pub struct Arena {
 }
 
 impl Arena {
-    /// An arena of `bytes`, rounded up to a multiple of 16.
+    /// Creates an arena of `bytes`, rounded up to a multiple of 16.
     ///
     /// # Panics
-    /// If the machine has not that much memory.
+    /// If the allocation fails.
     pub fn with_capacity(bytes: usize) -> Self {
         let capacity = bytes.checked_next_multiple_of(GRAIN).expect("a size that an address space can hold");
         let mut bump = Bump::with_capacity(capacity.max(GRAIN));
         std::hint::black_box(bump.alloc_slice_fill_copy(capacity, 0_u8));
         bump.reset();
-        // No second block, whatever happens.
+        // Forbids bumpalo to allocate a second block.
         bump.set_allocation_limit(Some(bump.allocated_bytes()));
         Self { bump, capacity, counts: Counts::default() }
     }
 
-    /// Ends everything that was handed out; the memory stays.
+    /// Releases everything that was handed out; the memory stays allocated.
     #[inline]
     pub fn reset(&mut self) {
         self.bump.reset();
         self.counts.reset();
     }
 
-    /// A slice of `len` elements, each a copy of `fill`.
+    /// Hands out a slice of `len` elements, each a copy of `fill`.
     ///
     /// # Errors
-    /// [`Full`] if the arena has not that much room left; nothing was taken then.
-    // `&mut` from `&self`: every call hands out memory that no other call has.
+    /// [`Full`] if it does not fit; nothing is taken then.
+    // `&mut` from `&self` is sound: no two calls hand out the same memory.
     #[allow(clippy::mut_from_ref)]
     #[inline]
     pub fn slice<T: Copy>(&self, len: usize, fill: T) -> Result<&mut [T], Full> {
@@ -51,14 +51,15 @@ impl Arena {
         self.bump.try_alloc_slice_fill_copy(len, fill).map_err(|_| self.full(len * size_of::<T>()))
     }
 
-    /// An empty list with room for `capacity` elements.
+    /// Hands out an empty list with room for `capacity` elements.
     ///
     /// # Errors
-    /// [`Full`] if the room is not there.
-    // Inlined: a list that comes back through memory in pieces and is moved as a whole is waited for.
+    /// [`Full`] if it does not fit.
+    // Inlined: a list returned through memory field by field and then moved as a whole stalls (store
+    // forwarding).
     #[inline(always)]
     pub fn list<T: Copy>(&self, capacity: usize) -> Result<List<'_, T>, Full> {
-        // What is booked is there: the block takes pieces of its grain one below the other.
+        // A booked request always fits: bumpalo packs pieces of this grain without gaps.
         self.claim::<T>(capacity)?;
         let items = bumpalo::collections::Vec::with_capacity_in(capacity, &self.bump);
         Ok(List::new(&self.counts, items, capacity))
@@ -69,18 +70,18 @@ impl Arena {
         self.counts.used()
     }
 
-    /// The most bytes that were asked for between two resets since the arena was made, what was refused included: the
-    /// capacity that would have been enough for all that was asked for.
+    /// Most bytes requested between two resets since the arena was made, refused requests included: the
+    /// capacity that would have been enough.
     pub fn peak(&self) -> usize {
         self.counts.peak()
     }
 
-    /// Bytes that can be handed out between two resets.
+    /// Size of the arena, bytes.
     pub fn capacity(&self) -> usize {
         self.capacity
     }
 
-    /// Books a request, if it fits.
+    /// Books a request if it fits.
     #[inline]
     fn claim<T>(&self, len: usize) -> Result<(), Full> {
         const { assert!(align_of::<T>() <= GRAIN, "the arena aligns to 16 bytes at most") };

@@ -1,18 +1,18 @@
-//! How much was asked of an arena: since its last reset, and at most.
+//! Bytes requested from an arena since its last reset, and the maximum between two resets.
 
 use std::cell::Cell;
 
-/// Bytes that were handed out and bytes that were refused.
+/// Bytes handed out and bytes refused.
 #[derive(Debug, Default)]
 pub(crate) struct Counts {
     used: Cell<usize>,
     refused: Cell<usize>,
-    /// Of the past: what there is now is looked at when the arena is reset, or when somebody asks.
+    /// Maximum up to the last reset; later requests are included by a reset or by `peak()`.
     peak: Cell<usize>,
 }
 
 impl Counts {
-    /// Forgets what was handed out and refused; the peak stays.
+    /// Clears the bytes handed out and refused; keeps the peak.
     #[inline]
     pub(crate) fn reset(&self) {
         self.peak.set(self.peak());
@@ -26,19 +26,19 @@ impl Counts {
         self.used.get()
     }
 
-    /// The most bytes that were handed out and refused between two resets.
+    /// Most bytes handed out and refused between two resets.
     #[inline]
     pub(crate) fn peak(&self) -> usize {
         self.peak.get().max(self.used.get().saturating_add(self.refused.get()))
     }
 
-    /// Books what was handed out.
+    /// Adds a granted request.
     #[inline]
     pub(crate) fn take(&self, bytes: usize) {
         self.used.set(self.used.get() + bytes);
     }
 
-    /// Remembers what did not fit, for the peak.
+    /// Adds a refused request, which counts for the peak only.
     pub(crate) fn refuse(&self, bytes: usize) {
         self.refused.set(self.refused.get().saturating_add(bytes));
     }

@@ -1,10 +1,10 @@
-//! How large an arena must be.
+//! Size that an arena must have.
 
-/// Every request is rounded up to a multiple of this many bytes, so that alignment never costs a byte that depends on
-/// an address. No element may ask for a larger alignment.
+/// Every request is rounded up to a multiple of this many bytes, so the padding for alignment does not depend
+/// on addresses. No element may need a larger alignment.
 pub(crate) const GRAIN: usize = 16;
 
-/// Adds up what requests take from an [`Arena`](crate::Arena), to give it the right size.
+/// Sum of the requests to an [`Arena`](crate::Arena), to give it the right size.
 ///
 /// ```
 /// use pong_arena::{Arena, Demand};
@@ -17,7 +17,7 @@ pub(crate) const GRAIN: usize = 16;
 pub struct Demand(usize);
 
 impl Demand {
-    /// A slice of `len` elements more, or a list with room for so many.
+    /// Adds a slice of `len` elements, or a list with room for so many.
     #[must_use]
     pub fn and<T>(self, len: usize) -> Self {
         Self(self.0.saturating_add(rounded::<T>(len)))
@@ -29,7 +29,7 @@ impl Demand {
     }
 }
 
-/// What `len` elements take, bytes.
+/// Size of a request for `len` elements, bytes.
 pub(crate) fn rounded<T>(len: usize) -> usize {
     let bytes = len.saturating_mul(size_of::<T>());
     bytes.checked_next_multiple_of(GRAIN).unwrap_or(usize::MAX)

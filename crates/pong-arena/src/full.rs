@@ -1,13 +1,13 @@
-//! What is answered when something does not fit.
+//! Error of a request that does not fit.
 
-/// A request did not fit and was refused; whatever was there before is untouched.
+/// Refusal of a request that does not fit; everything handed out before is untouched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("asked for {asked} bytes where {free} of {capacity} are left; give it more when setting up")]
 pub struct Full {
-    /// What was asked for, bytes.
+    /// Size of the request, bytes.
     pub asked: usize,
-    /// What was left, bytes.
+    /// Bytes left.
     pub free: usize,
-    /// What there is in all, bytes.
+    /// Capacity in all, bytes.
     pub capacity: usize,
 }

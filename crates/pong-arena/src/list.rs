@@ -1,10 +1,10 @@
-//! A list in an arena.
+//! List in an arena.
 
 use crate::counts::Counts;
 use crate::full::Full;
 use std::ops::{Deref, DerefMut};
 
-/// A list of a fixed capacity in an [`Arena`](crate::Arena), filled one by one. Used as a slice.
+/// List of fixed capacity in an [`Arena`](crate::Arena), filled by `push` and used as a slice.
 #[derive(Debug)]
 pub struct List<'a, T: Copy> {
     counts: &'a Counts,
@@ -20,7 +20,7 @@ impl<'a, T: Copy> List<'a, T> {
     /// Appends an element.
     ///
     /// # Errors
-    /// [`Full`] if the list has as many as its capacity; it then counts towards the arena's peak.
+    /// [`Full`] if the list is at its capacity; the refused element then counts towards the arena's peak.
     #[inline]
     pub fn push(&mut self, value: T) -> Result<(), Full> {
         if self.items.len() == self.capacity {
@@ -37,12 +37,12 @@ impl<'a, T: Copy> List<'a, T> {
         Full { asked: size, free: 0, capacity: self.capacity * size }
     }
 
-    /// How many elements fit.
+    /// Number of elements that fit.
     pub fn capacity(&self) -> usize {
         self.capacity
     }
 
-    /// Takes all elements out.
+    /// Removes all elements.
     pub fn clear(&mut self) {
         self.items.clear();
     }

@@ -1,24 +1,24 @@
-//! A table that outlives frames.
+//! Table that lives longer than a frame.
 
 use crate::full::Full;
 use std::ops::{Deref, DerefMut};
 
-/// A table with room for a fixed number of elements. Used as a slice.
+/// Table of fixed capacity, used as a slice.
 ///
-/// The memory is taken, and each of its pages written to, when the table is made; it never grows and never shrinks.
+/// The memory is allocated, and each of its pages written, when the table is made; it never grows or shrinks.
 #[derive(Debug)]
 pub struct Table<T: Copy> {
-    /// As many as fit; those beyond `len` are left over.
+    /// Storage of the full capacity; elements from `len` on are stale.
     items: Box<[T]>,
     /// At most the length of `items`.
     len: usize,
 }
 
 impl<T: Copy> Table<T> {
-    /// An empty table with room for `capacity` elements. `fill` is what its memory is touched with.
+    /// Creates an empty table with room for `capacity` elements. `fill` initialises the memory.
     ///
     /// # Panics
-    /// If the machine has not that much memory.
+    /// If the allocation fails.
     pub fn with_capacity(capacity: usize, fill: T) -> Self {
         let mut items = vec![fill; capacity].into_boxed_slice();
         std::hint::black_box(&mut items[..]);
@@ -28,18 +28,18 @@ impl<T: Copy> Table<T> {
     /// Appends an element.
     ///
     /// # Errors
-    /// [`Full`] if there is no room; the table stays as it is.
+    /// [`Full`] if there is no room; the table is unchanged.
     #[inline]
     pub fn push(&mut self, value: T) -> Result<(), Full> {
         *self.slot()? = value;
         Ok(())
     }
 
-    /// Appends an element that holds anything: what was left over from before. The caller is to write all of it, and where it
-    /// is large that is quicker in place than beside.
+    /// Appends a stale element and returns it. The caller must write all of it; for a large element that is
+    /// faster than a copy.
     ///
     /// # Errors
-    /// [`Full`] if there is no room; the table stays as it is.
+    /// [`Full`] if there is no room; the table is unchanged.
     #[inline]
     pub fn slot(&mut self) -> Result<&mut T, Full> {
         if self.len == self.items.len() {
@@ -53,7 +53,7 @@ impl<T: Copy> Table<T> {
     /// Appends all of `values`, or none.
     ///
     /// # Errors
-    /// [`Full`] if there is no room for all; the table stays as it is.
+    /// [`Full`] if there is no room for all; the table is unchanged.
     #[inline]
     pub fn extend_from_slice(&mut self, values: &[T]) -> Result<(), Full> {
         let Some(room) = self.items[self.len..].get_mut(..values.len()) else {
@@ -64,7 +64,7 @@ impl<T: Copy> Table<T> {
         Ok(())
     }
 
-    /// Takes all elements out.
+    /// Removes all elements.
     #[inline]
     pub fn clear(&mut self) {
         self.len = 0;
@@ -76,7 +76,7 @@ impl<T: Copy> Table<T> {
         self.len = self.len.min(len);
     }
 
-    /// Keeps the elements that `keep` names, in their order.
+    /// Keeps the elements for which `keep` returns true, in order.
     pub fn retain(&mut self, mut keep: impl FnMut(&T) -> bool) {
         let mut kept = 0;
         for index in 0..self.len {
@@ -89,17 +89,17 @@ impl<T: Copy> Table<T> {
     }
 
     /// The elements.
-    // Every access to a table comes through here or through the next: to ask each time whether `len` is within `items` was 2 to
-    // 3 % of a frame's instructions.
+    // Unchecked, because every access to a table comes through here: the check of `len` was 2 to 3 % of a
+    // frame's instructions.
     #[inline]
     #[allow(unsafe_code, reason = "len is private, and whatever sets it keeps it within items")]
     pub fn as_slice(&self) -> &[T] {
         debug_assert!(self.len <= self.items.len());
-        // SAFETY: `len` grows by what was just found to be within `items`, and otherwise shrinks.
+        // SAFETY: `len` grows only after a check against `items`, and otherwise shrinks.
         unsafe { self.items.get_unchecked(..self.len) }
     }
 
-    /// The elements, to be changed.
+    /// Mutable slice of the elements.
     #[inline]
     #[allow(unsafe_code, reason = "as for as_slice")]
     pub fn as_mut_slice(&mut self) -> &mut [T] {
@@ -108,7 +108,7 @@ impl<T: Copy> Table<T> {
         unsafe { self.items.get_unchecked_mut(..self.len) }
     }
 
-    /// How many elements fit.
+    /// Number of elements that fit.
     pub fn capacity(&self) -> usize {
         self.items.len()
     }
@@ -122,21 +122,21 @@ impl<T: Copy> Table<T> {
 }
 
 impl<T: Copy> Default for Table<T> {
-    /// No room at all.
+    /// Table of capacity zero.
     fn default() -> Self {
         Self { items: Box::default(), len: 0 }
     }
 }
 
 impl<T: Copy> Clone for Table<T> {
-    /// A table of the same capacity. This allocates: it is for setting up.
+    /// Table with the same elements and capacity. It allocates, so it is for set-up only.
     fn clone(&self) -> Self {
         Self { items: self.items.clone(), len: self.len }
     }
 }
 
 impl<T: Copy + PartialEq> PartialEq for Table<T> {
-    /// Whether the elements are equal; how many would fit does not matter.
+    /// Compares the elements; the capacities may differ.
     fn eq(&self, other: &Self) -> bool {
         self.as_slice() == other.as_slice()
     }
@@ -180,7 +180,7 @@ mod tests {
         assert!(table.slot().is_err());
         assert_eq!(*table, [1, 2]);
         table.clear();
-        // What was there is left over.
+        // The slot still holds the removed element.
         assert_eq!(*table.slot().unwrap(), 1);
         assert_eq!(table.len(), 1);
     }

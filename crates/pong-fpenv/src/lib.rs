@@ -1,30 +1,32 @@
-//! The floating-point environment: the host's outside, the engine's inside. For libraries that a host calls: libpong, FMUs.
+//! Floating-point environment of calls into a library (libpong, FMUs): the engine's inside, the host's
+//! outside.
 //!
-//! A host may have switched on traps (`feenableexcept`), another rounding mode, or flushing of tiny numbers to zero. Rust
-//! takes it for granted that nobody has, and the numbers of the engine are to be the same bits for every host. So
-//! every entry works in the environment that Rust assumes: rounding to nearest, no trap, no flushing. The host's comes
-//! back when the call returns, its exception flags as they were.
+//! A host may have enabled traps (`feenableexcept`), set another rounding mode, or have tiny numbers flushed
+//! to zero. Rust assumes the default environment, and every host has to get the same bits. So every entry
+//! point works in the default environment: rounding to nearest, no trap, no flushing. The host's environment,
+//! with its exception flags, is restored when the call returns.
 //!
-//! Threads have the environment of the thread that starts them, as POSIX says. The library starts threads inside its
-//! entries alone, so workers have the engine's environment too.
+//! A thread inherits the environment of the thread that starts it (POSIX). The library starts threads only
+//! inside its entry points, so workers have the engine's environment too.
 //!
-//! Laws of the host run in the engine's environment, on every thread alike: in the host's they would give other bits on
-//! the calling thread than on a worker.
+//! The host's contact laws run in the engine's environment on every thread. In the host's environment they
+//! would give other bits on the calling thread than on a worker.
 //!
-//! On x86-64 there are two units. The engine uses SSE alone; a law may use x87 (`long double`), which is cared for, too.
-//! Other architectures than x86-64 and AArch64 keep what the host has set.
+//! x86-64 has two units. The engine uses only SSE; a law of the host may use x87 (`long double`), so both are
+//! saved and restored. On architectures other than x86-64 and AArch64 the environment is left as it is.
 //!
-//! Which exceptions are faults of the engine, and which are not, is told in `crates/pong-engine/src/lib.rs`.
+//! The module documentation of `crates/pong-engine/src/lib.rs` says which exceptions are faults of the
+//! engine.
 //!
-//! Built with `--cfg pong_traps`, on x86-64, the engine's environment ends the program at an invalid operation or a division
-//! by zero: no code may rely on ∞ − ∞ or 0/0. With `--cfg pong_traps_overflow` an overflow ends it, too, which only input
-//! that the engine refuses may cause: a wrench beyond the range of numbers is found by its overflow. `ci/traps --long` runs
-//! C programs on a library with both, and a fuzzer's calls, which do hand in such input, on one with the first. Laws of the
-//! host are not judged.
+//! With `--cfg pong_traps`, on x86-64, an invalid operation or a division by zero in the engine ends the
+//! program: no code may rely on ∞ − ∞ or 0/0. With `--cfg pong_traps_overflow` an overflow ends it too.
+//! Overflow occurs only with input that the engine refuses: it detects a wrench out of range by its overflow.
+//! `ci/traps --long` runs C programs with both options, and a fuzzer's calls, which include such input, with
+//! the first. Laws of the host run untrapped.
 
 #![deny(unsafe_op_in_unsafe_fn)]
 
-/// Runs a call in the engine's environment and puts that of the host back. The call must not unwind.
+/// Runs a call in the engine's environment, then restores the host's. The call must not unwind.
 pub fn guarded<T>(call: impl FnOnce() -> T) -> T {
     let of_host = unit::read();
     unit::begin();
@@ -33,7 +35,7 @@ pub fn guarded<T>(call: impl FnOnce() -> T) -> T {
     result
 }
 
-/// Runs a function of the host's from inside a call. What it changes about the environment ends with it.
+/// Runs a function of the host inside a call. Its changes to the environment are undone afterwards.
 pub fn lent<T>(function: impl FnOnce() -> T) -> T {
     #[cfg(all(pong_traps, target_arch = "x86_64"))]
     unit::mask();
@@ -42,8 +44,8 @@ pub fn lent<T>(function: impl FnOnce() -> T) -> T {
     result
 }
 
-/// A function of its own, so that the compiler, which knows nothing of environments, moves no arithmetic of the call
-/// to before or after it.
+/// Runs the call as a function of its own: the compiler, which does not model the environment, cannot move
+/// arithmetic across it.
 #[inline(never)]
 fn fenced<T>(call: impl FnOnce() -> T) -> T {
     call()
@@ -53,7 +55,7 @@ fn fenced<T>(call: impl FnOnce() -> T) -> T {
 mod unit {
     use std::arch::asm;
 
-    /// Control and flags of both units.
+    /// Control words and exception flags of both units.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Environment {
         /// MXCSR.
@@ -74,9 +76,9 @@ mod unit {
     const SSE: u32 = MASKED & !(TRAPPED | OVERFLOW);
     #[cfg(not(pong_traps))]
     const SSE: u32 = MASKED;
-    /// All exceptions masked, rounding to nearest, numbers of 64 bits.
+    /// All exceptions masked, rounding to nearest, 64-bit significand.
     const X87_CONTROL: u16 = 0x037f;
-    /// Bits of the status word of x87 that are flags; the others tell of the stack and of comparisons.
+    /// Exception flags in the x87 status word; its other bits describe the stack and comparisons.
     const X87_FLAGS: u16 = 0x00ff;
 
     pub fn read() -> Environment {
@@ -86,7 +88,8 @@ mod unit {
         Environment { sse, x87_control: x87_control(), x87_flags: x87_status() & X87_FLAGS }
     }
 
-    /// What Rust assumes. The flags of x87 stay: with its exceptions masked they mean nothing.
+    /// Sets the environment that Rust assumes. The x87 flags stay: with masked exceptions they have no
+    /// effect.
     pub fn begin() {
         set_sse(SSE);
         if x87_control() != X87_CONTROL {
@@ -94,7 +97,7 @@ mod unit {
         }
     }
 
-    /// For laws of the host.
+    /// Masks the traps while a law of the host runs.
     #[cfg(pong_traps)]
     pub fn mask() {
         set_sse(MASKED);
@@ -102,7 +105,7 @@ mod unit {
 
     pub fn end(of_host: Environment) {
         if (x87_status() ^ of_host.x87_flags) & X87_FLAGS != 0 {
-            // A law has raised some. Rare, so it may be slow; and before traps are on again.
+            // A law has raised x87 flags. Restored before traps are enabled again; slow, but rare.
             set_x87_flags(of_host.x87_flags);
         }
         if x87_control() != of_host.x87_control {
@@ -112,8 +115,8 @@ mod unit {
     }
 
     fn set_sse(word: u32) {
-        // SAFETY: loads four bytes of the variable: the environment that Rust assumes when a call begins, and the word
-        // that the processor gave for the host's when nothing but the return to the host follows.
+        // SAFETY: loads four bytes of the variable: the environment that Rust assumes at the start of a call,
+        // and the host's own, as read from the processor, when only the return to the host follows.
         unsafe { asm!("ldmxcsr [{}]", in(reg) &word, options(nostack, readonly)) };
     }
 
@@ -125,7 +128,7 @@ mod unit {
     }
 
     fn set_x87_control(word: u16) {
-        // SAFETY: loads two bytes of the variable; no arithmetic of Rust's uses this unit.
+        // SAFETY: loads two bytes of the variable; Rust's arithmetic does not use this unit.
         unsafe { asm!("fldcw [{}]", in(reg) &word, options(nostack, readonly)) };
     }
 
@@ -137,9 +140,10 @@ mod unit {
     }
 
     fn set_x87_flags(flags: u16) {
-        // The status word is the second of seven; storing them masks all exceptions until they are loaded again.
+        // The status word is the second of seven. `fnstenv` masks all exceptions until the words are loaded
+        // again.
         let mut words = [0u32; 7];
-        // SAFETY: stores 28 bytes into the variable, and loads them again with other flags.
+        // SAFETY: stores 28 bytes into the variable and loads them again with other flags.
         unsafe {
             asm!("fnstenv [{}]", in(reg) &mut words, options(nostack, preserves_flags));
             words[1] = (words[1] & !u32::from(X87_FLAGS)) | u32::from(flags);
@@ -152,7 +156,7 @@ mod unit {
 mod unit {
     use std::arch::asm;
 
-    /// FPCR, the control, and FPSR, the flags.
+    /// FPCR (control) and FPSR (flags).
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct Environment(u64, u64);
 
@@ -165,14 +169,15 @@ mod unit {
         Environment(control, flags)
     }
 
-    /// What Rust assumes: no exception traps, rounding to nearest, denormal numbers as they are; no flag set.
+    /// Sets the environment that Rust assumes: no traps, rounding to nearest, denormal numbers kept, no flag
+    /// set.
     pub fn begin() {
         end(Environment(0, 0));
     }
 
     pub fn end(Environment(control, flags): Environment) {
-        // SAFETY: the environment that Rust assumes when a call begins, and what the processor gave for the host's when
-        // nothing but the return to the host follows.
+        // SAFETY: sets the environment that Rust assumes at the start of a call, and the host's own, as read
+        // from the processor, when only the return to the host follows.
         unsafe { asm!("msr fpcr, {}", "msr fpsr, {}", in(reg) control, in(reg) flags, options(nostack)) };
     }
 }

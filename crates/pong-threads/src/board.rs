@@ -1,13 +1,14 @@
-//! The words that the caller and its workers share, each on a line of its own.
+//! Atomic words shared by the caller and its workers, each on a cache line of its own.
+//!
 //!
 //! | word | written by | holds |
 //! |---|---|---|
-//! | `claim` | caller opens, all claim | epoch, workers that take part, blocks left, end |
-//! | `tally` of a lane | that worker alone | epoch, blocks done, panicked |
-//! | `asleep` | all | one bit per worker that is parked or about to be |
-//! | `alert` | caller | until when to stay awake |
+//! | `claim` | caller opens, all threads claim | epoch, workers that take part, blocks left, end flag |
+//! | `tally` of a worker | that worker only | epoch, blocks done, panic flag |
+//! | `asleep` | all threads | one bit per worker that is parked or about to park |
+//! | `alert` | caller | time until which workers stay awake |
 //!
-//! Why each order of memory accesses suffices is said where it is used; README.md tells the whole.
+//! Each memory ordering is justified where it is used. README.md explains the whole protocol.
 
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -18,17 +19,17 @@ use crossbeam_utils::CachePadded;
 use crate::sync::{AtomicU64, Thread, current, mutant};
 use crate::word::Word;
 
-/// What a worker writes when it has finished a block. It alone writes, so no read-modify-write is needed, and it
-/// writes under the epoch of the block, so that a block of an abandoned phase counts for no other.
+/// Progress of one worker, written after each claim. Only that worker writes it, so plain stores are enough.
+/// It carries the epoch of the blocks, so blocks of an abandoned phase count for no other phase.
 struct Tally {
     word: AtomicU64,
-    /// Blocks finished since the start, whatever their phase.
+    /// Blocks finished since the start, in all phases.
     finished: AtomicU64,
-    /// Time in the blocks of the epoch of `word`.
+    /// Time spent in the blocks of the epoch of `word`, ns.
     busy_ns: AtomicU64,
 }
 
-/// What one lane did in one phase.
+/// Work of one worker, or of the caller, in one phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Done {
     pub blocks: u32,
@@ -44,9 +45,9 @@ pub struct Board {
     threads: Box<[OnceLock<Thread>]>,
 }
 
-/// `alert`: park at once.
+/// Value of `alert`: park at once.
 pub const PARK: u64 = u64::MAX;
-/// `alert`: nothing special.
+/// Value of `alert`: no alert.
 pub const CALM: u64 = 0;
 
 impl Board {
@@ -69,24 +70,26 @@ impl Board {
         self.tallies.len()
     }
 
-    // ---- the claim word
+    // ---- claim word
 
-    /// Opens a phase to the first so many workers. No block of an earlier phase is left to claim, so no claim can come between: a store will do.
-    /// It publishes what the caller wrote before; each claim, as a read-modify-write, passes that on to the next.
+    /// Opens a phase to the first `workers` workers. A plain store is enough: the previous phase has no block
+    /// left, so no claim can succeed in between. The store publishes everything the caller wrote before; each
+    /// claim is a read-modify-write, so later claims acquire it too.
     pub fn open(&self, epoch: u64, workers: usize, blocks: u32) {
         debug_assert_eq!(Word(self.claim.load(Relaxed)).number(), 0);
         self.claim.store(Word::new(epoch, blocks, false).among(workers).0, Release);
     }
 
-    /// Takes the blocks that are left out of the phase. Answers how many they were.
+    /// Takes all unclaimed blocks out of the phase and returns their number.
     pub fn close(&self, epoch: u64) -> u32 {
         Word(self.claim.swap(Word::new(epoch, 0, false).0, AcqRel)).number()
     }
 
-    /// Claims blocks of the phase `epoch`, its last ones; `None` if it has none left or is over.
+    /// Claims some of the last blocks left in phase `epoch`; `None` if none is left or the phase is over.
     ///
-    /// Compare-and-swap looks and takes in one: whoever looked before the phase was over and takes after takes
-    /// nothing. (`fetch_add` takes first and looks then. It would take blocks of the next phase.)
+    /// Compare-and-swap checks the epoch and takes the blocks in one step, so a thread that read the word
+    /// before the phase ended takes nothing. (`fetch_add` takes before it checks, and would take blocks of
+    /// the next phase.)
     pub fn claim(&self, epoch: u64) -> Option<Range<u32>> {
         let mut seen = Word(self.claim.load(Acquire));
         while seen.epoch() == epoch && seen.number() > 0 {
@@ -98,12 +101,13 @@ impl Board {
         None
     }
 
-    /// How many of the blocks that are left a lane claims at once: its part of them, beside so many workers, and three quarters of
-    /// that once they are few. Early claims are large, so that a lane works on neighbours, and late ones small, so that all lanes
-    /// end together (guided self-scheduling: C. D. Polychronopoulos and D. J. Kuck, IEEE Trans. Comput. C-36 (1987) 1425; less
-    /// than a part each, as in factoring: S. F. Hummel, E. Schonberg, L. E. Flynn, Commun. ACM 35 (1992) 90).
+    /// Number of blocks that one claim takes, by guided self-scheduling (C. D. Polychronopoulos and D. J.
+    /// Kuck, IEEE Trans. Comput. C-36 (1987) 1425): an equal share of the blocks left, or three quarters of
+    /// it once few are left (smaller than a share, as in factoring: S. F. Hummel, E. Schonberg, L. E. Flynn,
+    /// Commun. ACM 35 (1992) 90). Early claims are large, so a thread runs neighbouring blocks; late ones are
+    /// small, so all threads finish together.
     pub fn share_of(left: u32, workers: usize) -> u32 {
-        /// So many blocks for each lane are few: one of them may take as long as several others.
+        /// Blocks per thread that count as few: one of them may take as long as several others.
         const FEW: u32 = 8;
         let lanes = workers as u32 + 1;
         if left <= FEW * lanes { (3 * left).div_ceil(4 * lanes) } else { left.div_ceil(lanes) }
@@ -119,33 +123,33 @@ impl Board {
         }
     }
 
-    /// The mistake that the models must find.
+    /// Seeded fault for the models: claims by `fetch_sub`, without checking the epoch.
     fn take_unseen(&self, blocks: u32) -> Result<Range<u32>, Word> {
         let taken = Word::new(0, blocks, false).0;
         let before = Word(self.claim.fetch_sub(taken, AcqRel));
         if before.number() >= blocks { Ok(before.number() - blocks..before.number()) } else { Err(before) }
     }
 
-    /// The claim word, if its epoch is not `seen` or it tells to end.
+    /// Claim word, if its epoch differs from `seen` or its end flag is set.
     pub fn news(&self, seen: u64) -> Option<Word> {
         let word = Word(self.claim.load(Acquire));
         (word.epoch() != seen || word.flag()).then_some(word)
     }
 
-    /// Tells the workers to end.
+    /// Sets the end flag: workers return when they see it.
     pub fn end(&self) {
         self.claim.fetch_or(Word::FLAG, AcqRel);
     }
 
-    /// The phase that is open, or was.
+    /// Claim word of the current or last phase.
     fn phase(&self) -> Word {
         Word(self.claim.load(Relaxed))
     }
 
-    // ---- the tallies
+    // ---- tallies
 
-    /// Worker `lane` has finished a block: so much has it now done in phase `epoch`, and so much since the start.
-    /// Each store publishes what the block wrote.
+    /// Stores the tally of worker `lane` after a claim: its work so far in phase `epoch`, and its blocks
+    /// since the start. The release stores publish what the blocks wrote.
     pub fn record(&self, lane: usize, epoch: u64, done: Done, finished: u64) {
         let tally = &self.tallies[lane - 1];
         tally.busy_ns.store(done.busy_ns, Relaxed);
@@ -153,7 +157,7 @@ impl Board {
         tally.word.store(Word::new(epoch, done.blocks, done.panicked).0, Release);
     }
 
-    /// What worker `lane` has done in phase `epoch`.
+    /// Work of worker `lane` in phase `epoch`.
     pub fn done(&self, lane: usize, epoch: u64) -> Done {
         let tally = &self.tallies[lane - 1];
         let word = Word(tally.word.load(Acquire));
@@ -163,7 +167,7 @@ impl Board {
         Done { blocks: word.number(), busy_ns: tally.busy_ns.load(Relaxed), panicked: word.flag() }
     }
 
-    /// Blocks that the first so many workers have done in phase `epoch`, and whether one panicked.
+    /// Blocks that the first `workers` workers have done in phase `epoch`, and whether any of them panicked.
     pub fn done_by(&self, workers: usize, epoch: u64) -> (u32, bool) {
         let mut sum = (0, false);
         for lane in 1..=workers {
@@ -173,27 +177,29 @@ impl Board {
         sum
     }
 
-    /// Blocks that all workers have finished since the start.
+    /// Blocks finished by all workers since the start.
     pub fn finished_by_all(&self) -> u64 {
         self.tallies.iter().map(|tally| tally.finished.load(Acquire)).sum()
     }
 
     // ---- sleep
 
-    /// Lets others wake the calling thread as worker `lane`. Call it before the first [`Board::lie_down`].
+    /// Registers the calling thread as worker `lane`, so that others can wake it. Must precede the first
+    /// [`Board::lie_down`].
     pub fn introduce(&self, lane: usize) {
         self.threads[lane - 1].set(current()).expect("one thread per lane");
     }
 
-    /// Worker `lane` is about to park. It must look for news once more before it does.
+    /// Marks worker `lane` as about to park. It must check for news once more before it parks.
     ///
-    /// This and [`Board::asleep`] are read-modify-writes of one word, so one comes first. If this does, the other
-    /// sees the bit and wakes the worker; if the other does, the worker's next look sees what was told before it.
+    /// This function and [`Board::asleep`] are read-modify-writes of the same word, so one of them comes
+    /// first. If this one does, the other thread sees the bit and wakes the worker; otherwise the worker's
+    /// last check sees what the other thread published.
     pub fn lie_down(&self, lane: usize) {
         self.asleep.fetch_or(1 << (lane - 1), AcqRel);
     }
 
-    /// Worker `lane` is up, whoever woke it.
+    /// Marks worker `lane` as awake, whoever woke it.
     pub fn get_up(&self, lane: usize) {
         let bit = 1 << (lane - 1);
         if self.asleep.load(Relaxed) & bit != 0 {
@@ -201,19 +207,20 @@ impl Board {
         }
     }
 
-    /// How many of the first so many workers are asleep, after something was told to them ([`Board::lie_down`] says why it
-    /// writes).
+    /// Number of sleeping workers among the first `workers`, read after something was published to them. It
+    /// writes the word for the reason given at [`Board::lie_down`].
     pub fn asleep(&self, workers: usize) -> u32 {
         (self.asleep.fetch_or(0, AcqRel) & first(workers)).count_ones()
     }
 
-    /// Whether a worker seemed awake a moment ago: a hint, on which nothing rests but time.
+    /// Reports whether some worker was awake a moment ago. A hint for speed only: correctness does not depend
+    /// on it.
     pub fn seems_awake(&self) -> bool {
         (self.asleep.load(Relaxed).count_ones() as usize) < self.workers()
     }
 
-    /// Wakes up to `at_most` sleeping ones of the first so many workers. Whoever clears a worker's bit wakes it, so nobody pays
-    /// twice.
+    /// Wakes up to `at_most` sleepers among the first `workers` workers. The thread that clears a worker's
+    /// bit wakes it, so no worker is woken twice.
     pub fn wake(&self, at_most: u32, workers: usize) {
         let mut left = at_most;
         let mut asleep = self.asleep.load(Relaxed) & first(workers);
@@ -234,7 +241,8 @@ impl Board {
         }
     }
 
-    /// A woken worker wakes two more while there is work or an alert, so that the caller pays for one.
+    /// Wakes two more workers while blocks are left or an alert holds. Called by each woken worker, so the
+    /// caller pays for one wake-up only.
     pub fn wake_others(&self, alerted: bool) {
         let phase = self.phase();
         let (wanted, workers) =
@@ -244,7 +252,7 @@ impl Board {
 
     // ---- alert
 
-    /// [`CALM`], [`PARK`], or the time in ns since the start until which to stay awake.
+    /// Sets the alert: [`CALM`], [`PARK`], or the time until which workers stay awake, ns since the start.
     pub fn set_alert(&self, alert: u64) {
         self.alert.store(alert, Release);
     }
@@ -254,7 +262,7 @@ impl Board {
     }
 }
 
-/// The bits of the first so many workers.
+/// Bit mask of the first `workers` workers.
 fn first(workers: usize) -> u64 {
     u64::MAX.checked_shr(u64::BITS - workers as u32).unwrap_or(0)
 }
@@ -282,7 +290,7 @@ mod tests {
             }
             assert_eq!(end, 0);
             assert!(sizes.is_sorted_by(|earlier, later| earlier >= later), "{sizes:?}");
-            // The first leaves their part to all others.
+            // The first claim leaves each other thread its share.
             assert_eq!(sizes[0] as usize, (blocks as usize).div_ceil(workers + 1), "{sizes:?}");
             assert_eq!(sizes.last(), Some(&1));
             assert_eq!(board.claim(1), None);

@@ -1,4 +1,5 @@
-//! The caller's side: opens a phase, works along, and waits only for blocks that others have claimed.
+//! Caller's side of the protocol: opens a phase, runs blocks too, and waits only for blocks that workers have
+//! claimed.
 
 use std::ops::Range;
 use std::panic::resume_unwind;
@@ -12,17 +13,17 @@ use crate::{LaneWork, MAX_BLOCKS, Outcome};
 
 pub struct Caller {
     shared: Arc<Shared>,
-    /// Of the last phase that was opened to workers.
+    /// Epoch of the last phase that was opened to workers.
     epoch: u64,
-    /// What the caller itself did in the last phase.
+    /// The caller's own work in the last phase.
     own: Done,
-    /// Workers that the last phase was opened to.
+    /// Number of workers that take part in the last phase.
     workers: usize,
     /// Blocks that workers have claimed since the start.
     handed_out: u64,
-    /// Whether an alert stands that the next phase ends.
+    /// An alert holds; the next phase ends it.
     alert_stands: bool,
-    /// When all workers were found asleep, ns since the start.
+    /// Time at which all workers were last found asleep, ns since the start.
     found_asleep_ns: Option<u64>,
 }
 
@@ -54,17 +55,17 @@ impl Caller {
         }
         let now_ns = self.shared.origin.elapsed_ns();
         let earlier_ns = self.found_asleep_ns.replace(now_ns);
-        // Had they been awake then, they would be now.
+        // Phases closer together than the spin time keep a woken worker awake.
         earlier_ns.is_some_and(|earlier_ns| now_ns - earlier_ns < self.shared.spin_ns)
     }
 
-    /// Runs the blocks of the job.
+    /// Runs all blocks of the job, with all workers.
     pub fn run(&mut self, blocks: u32) -> Outcome {
         let job = Arc::clone(&self.shared.job);
         self.run_beside(blocks, usize::MAX, &mut |blocks| job.run_neighbors(blocks, 0))
     }
 
-    /// The same, beside the first so many workers; the caller runs its own by `run`.
+    /// Runs all blocks with the first `workers` workers. The caller runs its own claims by `run`.
     pub fn run_beside(&mut self, blocks: u32, workers: usize, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
         assert!(blocks <= MAX_BLOCKS, "a phase of {blocks} blocks: at most {MAX_BLOCKS}");
         self.own = Done::default();
@@ -79,10 +80,12 @@ impl Caller {
         Outcome::Complete
     }
 
-    /// The caller's first blocks are taken before the phase opens, and cost no claim.
+    /// Runs a phase with workers. The caller's first claim is taken before the phase opens and needs no
+    /// atomic operation.
     fn run_shared(&mut self, blocks: u32, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
         self.epoch = Word::next_epoch(self.epoch);
-        // Before the phase opens: a worker may finish a block of it at once, which is not yet booked as handed out.
+        // Counted before the phase opens: afterwards a worker may finish a block that is not yet in
+        // `handed_out`.
         let stuck = self.stuck();
         let left = blocks - Board::share_of(blocks, self.workers);
         self.shared.board.open(self.epoch, self.workers, left);
@@ -99,8 +102,8 @@ impl Caller {
         outcome
     }
 
-    /// Tells the open phase to those of its workers who sleep, if those who are awake are too few. One is woken, who wakes
-    /// others.
+    /// Wakes one sleeping worker of the open phase if fewer are awake than the phase can use. That worker
+    /// wakes others.
     fn call_workers(&mut self, blocks: u32, stuck: u64) {
         self.end_alert();
         let asleep = u64::from(self.shared.board.asleep(self.workers));
@@ -113,7 +116,7 @@ impl Caller {
         }
     }
 
-    /// Runs `first` and then what it can claim.
+    /// Runs the blocks `first`, and then claims and runs blocks until none is left.
     fn drain(&mut self, first: Range<u32>, run: &mut dyn FnMut(Range<u32>)) -> Result<(), Payload> {
         let mut blocks = Some(first);
         while let Some(claimed) = blocks {
@@ -123,7 +126,8 @@ impl Caller {
         Ok(())
     }
 
-    /// Waits until workers have done `claimed` blocks, or the worker timeout ends. Tells also whether one of them panicked.
+    /// Waits until workers have done `claimed` blocks or the worker timeout passes. Also returns whether one
+    /// panicked.
     fn wait(&self, claimed: u32) -> (Outcome, bool) {
         let mut waited = None;
         loop {
@@ -146,12 +150,13 @@ impl Caller {
         }
     }
 
-    /// The panic of a worker in this phase. What is kept of a late panic of an earlier one stays where it is until then.
+    /// Payload of a worker's panic in this phase, if `panicked`. A payload left by an abandoned phase stays
+    /// in place until then.
     fn take_panic(&self, panicked: bool) -> Option<Payload> {
         if !panicked {
             return None;
         }
-        // Not waited for: a second worker that panicked, too, may hold it and not be run by the system.
+        // Does not block: another panicking worker may hold the lock and not be scheduled.
         match self.shared.panic.try_lock() {
             Ok(mut kept) => kept.take(),
             Err(TryLockError::Poisoned(kept)) => kept.into_inner().take(),
@@ -162,12 +167,13 @@ impl Caller {
         .map(|(_, payload)| payload)
     }
 
-    /// Blocks that workers have claimed and not finished. Between phases: workers inside abandoned blocks.
+    /// Blocks that workers have claimed and not finished; between phases, blocks of abandoned phases that
+    /// still run.
     pub fn stuck(&self) -> u64 {
         self.handed_out - self.shared.board.finished_by_all()
     }
 
-    /// Workers that are parked or about to be.
+    /// Number of workers that are parked or about to park.
     #[cfg(test)]
     pub fn asleep(&self) -> usize {
         self.shared.board.asleep(self.shared.board.workers()) as usize
@@ -197,7 +203,8 @@ impl Caller {
         self.alert_stands = true;
     }
 
-    /// Only once a phase is open: a worker that saw the alert end first would lie down just when it is needed.
+    /// Ends the alert. Called after a phase opens: before, a worker that sees the alert end would park just
+    /// when it is needed.
     fn end_alert(&mut self) {
         if self.alert_stands {
             self.shared.board.set_alert(CALM);
@@ -205,7 +212,8 @@ impl Caller {
         }
     }
 
-    /// Tells all workers to end. Those that lie down just now are counted neither way, so no count bounds the waking.
+    /// Tells all workers to end and wakes every sleeper. The count of sleepers is no limit for the waking: a
+    /// worker may be about to park while they are counted.
     pub fn end(&mut self) {
         self.shared.board.end();
         let workers = self.shared.board.workers();

@@ -1,8 +1,9 @@
-//! Critical threads: workers that share the blocks of one phase with the thread that calls.
+//! Worker threads that share the blocks of one phase with the calling thread.
 //!
-//! A [`Pool`] holds workers that wait by spinning, so that a phase of a few microseconds is worth sharing. The caller
-//! works too, claims blocks like any worker, and waits only for blocks that a worker has claimed, and for these a
-//! bounded time. A worker that sleeps, starves, hangs or no longer exists costs the caller time, never an answer.
+//! The workers of a [`Pool`] wait by spinning, so that it is worth sharing a phase of a few microseconds. The
+//! caller claims and runs blocks like a worker, and waits, for a bounded time, only for blocks that a worker
+//! has claimed. A worker that sleeps, starves, hangs or no longer exists costs the caller time, but never
+//! changes a result.
 //!
 //! ```
 //! use std::sync::{Arc, atomic::{AtomicU32, Ordering}};
@@ -23,7 +24,7 @@
 //! }
 //! ```
 //!
-//! `README.md` of this crate tells the protocol, what can go wrong, and why it does not.
+//! The crate's `README.md` describes the protocol, what can go wrong, and why it does no harm.
 
 #![cfg_attr(loom, allow(dead_code))]
 
@@ -55,46 +56,46 @@ pub use settings::Settings;
 #[cfg(not(loom))]
 pub use signals::without_signals;
 
-/// Most blocks of one phase.
+/// Maximum number of blocks in a phase.
 pub const MAX_BLOCKS: u32 = (1 << 16) - 1;
-/// Most workers of one pool.
+/// Maximum number of workers in a pool.
 pub const MAX_WORKERS: usize = 64;
 
-/// What is done in a phase, block by block.
+/// Work of a phase, split into blocks.
 ///
-/// A job belongs to its pool for the pool's life. What a phase reads is put, before [`Pool::run`], where the job finds
-/// it, and what it wrote is there after: everything that the caller wrote before is seen by each block, and everything
-/// that a block wrote is seen by the caller once the phase is [`Outcome::Complete`].
+/// A job belongs to its pool for the pool's life. The caller stores the input of a phase in the job before
+/// [`Pool::run`] and reads the output there afterwards. Each block sees everything the caller wrote before
+/// the phase; the caller sees everything the blocks wrote once the phase is [`Outcome::Complete`].
 pub trait Job: Send + Sync + 'static {
-    /// Runs one block. Lane 0 is the caller, 1… are the workers; no two blocks run on one lane at once, so a lane may
-    /// own scratch memory. After an abandoned phase that includes the block which is still running: its lane takes no
-    /// other before it has returned.
+    /// Runs one block on thread `lane`: 0 is the caller, 1… are the workers. A lane runs one block at a time,
+    /// so it may own scratch memory. This holds after an abandoned phase too: a lane whose block still runs
+    /// takes no other block.
     fn run(&self, block: u32, lane: usize);
 
-    /// Runs neighbouring blocks, which the lane has claimed together. A job to which neighbours cost less together than one by
-    /// one says how; as it stands here they run one by one, the last first.
+    /// Runs neighbouring blocks that the lane claimed together. By default one by one, the last first; a job
+    /// overrides this if neighbours are cheaper together.
     fn run_neighbors(&self, blocks: Range<u32>, lane: usize) {
         blocks.rev().for_each(|block| self.run(block, lane));
     }
 }
 
-/// How a phase ended.
+/// Result of a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[must_use]
 pub enum Outcome {
-    /// Each block has run, once.
+    /// Every block has run exactly once.
     Complete,
-    /// A worker kept a block for longer than [`Settings::worker_timeout`](Settings). Blocks may still be running
-    /// ([`Pool::is_quiet`] tells); what they write must not be used, and what they read must stay as it is or be
-    /// safe to read while it changes.
+    /// A worker took longer than [`Settings::worker_timeout`](Settings) for its blocks. They may still be
+    /// running until [`Pool::is_quiet`]: their output must not be used, and their input must not change or
+    /// must be safe to read while it changes.
     Abandoned,
 }
 
-/// What one lane did in one phase.
+/// Work of one lane in one phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LaneWork {
-    /// Blocks that it ran.
+    /// Number of blocks it ran.
     pub blocks: u32,
-    /// Time in them, by [`Settings::clock`](Settings), in ns; 0 without a clock.
+    /// Time spent in them, measured by [`Settings::clock`](Settings), in ns; 0 without a clock.
     pub busy_ns: u64,
 }

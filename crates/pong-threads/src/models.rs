@@ -1,10 +1,10 @@
-//! Models: the protocol's own code in every order in which its threads can meet, at small sizes.
+//! Models for loom: the protocol's own code under every interleaving of its threads, at small sizes.
 //!
 //!     RUSTFLAGS="--cfg loom" cargo test -p pong-threads --lib --release models
 //!
-//! Loom runs each model again and again, once per order of accesses and per value that a load may see, and fails on a
-//! data race, on a failed assertion, and when all threads wait. Blocks are cells that loom watches: two blocks on one
-//! cell, or a caller that reads a cell too early, are races.
+//! Loom runs each model once per order of accesses and per value that a load may return. It fails on a data
+//! race, a failed assertion, or a deadlock. Each block is a cell watched by loom: running a block twice at
+//! once, or a caller that reads a cell too early, is a race.
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex};
@@ -19,7 +19,7 @@ use crate::sync::Watch;
 use crate::worker::{Shared, Worker};
 use crate::{Job, Outcome};
 
-/// One cell per block, that each block adds 1 to.
+/// One cell per block; running a block adds 1 to its cell.
 struct Cells(Vec<UnsafeCell<u32>>);
 
 // SAFETY: loom watches the accesses to the cells and fails on a race.
@@ -40,7 +40,7 @@ impl Cells {
         self.0[block].with(|cell| unsafe { *cell })
     }
 
-    /// What the caller does after a complete phase: reads all and starts again.
+    /// Checks that the first `blocks` cells were incremented once and the others not, and resets all.
     fn expect_once_each(&self, blocks: usize) {
         for block in 0..self.0.len() {
             assert_eq!(self.get(block), u32::from(block < blocks), "block {block}");
@@ -56,7 +56,7 @@ impl Job for Cells {
     }
 }
 
-/// Loom's clock ticks once per look, so `PATIENT` callers look until the phase is complete.
+/// Worker timeout that never passes: loom's clock ticks once per read.
 const PATIENT: u64 = u64::MAX;
 
 struct Model {
@@ -82,7 +82,7 @@ impl Model {
         Model { threads: (1..=workers).map(serve).collect(), caller: Caller::new(shared.clone()) }
     }
 
-    /// Fails if a worker is never told: loom sees that all wait.
+    /// Ends the workers. If one of them misses this, all threads wait, and loom fails.
     fn end(mut self) {
         self.caller.end();
         self.threads.into_iter().for_each(|thread| thread.join().unwrap());
@@ -96,7 +96,7 @@ fn explore(preemptions: usize, model: impl Fn() + Sync + Send + 'static) {
     builder.check(model);
 }
 
-/// A worker that comes late to a phase finds the next one open, with other blocks.
+/// A worker that is late for a phase finds the next one open, with another number of blocks.
 #[test]
 fn a_late_worker_enters_no_closed_phase() {
     explore(3, || {
@@ -127,7 +127,8 @@ fn two_workers_and_the_caller_run_each_block_once() {
     explore(1, two_workers(&[3, 2]));
 }
 
-/// One phase for the first of two workers, and one for both: whoever is not asked takes nothing, and is found for the next.
+/// One phase for the first of two workers, then one for both. The worker that does not take part claims
+/// nothing and takes part in the next phase.
 #[test]
 fn a_phase_for_some_is_left_alone_by_the_others() {
     explore(1, || {
@@ -143,7 +144,7 @@ fn a_phase_for_some_is_left_alone_by_the_others() {
     });
 }
 
-/// A worker that parks just when the end is told, or a phase opens, is woken: nobody sleeps for ever.
+/// A worker that parks at the moment when the pool ends or a phase opens is still woken.
 #[test]
 fn no_wake_up_is_lost() {
     explore(3, || Model::start(Cells::new(0), 2, 0, PATIENT).end());
@@ -155,7 +156,7 @@ fn no_wake_up_is_lost() {
     });
 }
 
-/// The caller's block does not end before a worker has the other.
+/// Job whose block on the caller ends only after a worker has begun the other block.
 struct NeedsWorker {
     called: AtomicBool,
 }
@@ -171,8 +172,8 @@ impl Job for NeedsWorker {
     }
 }
 
-/// What the engine does: a phase that is abandoned is done again in memory of the caller's own, and cells that a
-/// worker may still be in are left alone until all is quiet.
+/// Follows the engine: it repeats an abandoned phase in memory of the caller's own, and does not touch cells
+/// that a worker may still use until the pool is quiet.
 #[test]
 fn an_abandoned_block_counts_for_no_later_phase() {
     explore(3, || {
@@ -195,7 +196,7 @@ fn an_abandoned_block_counts_for_no_later_phase() {
     });
 }
 
-/// Cells of its own for each of three phases, so that an abandoned block may write late.
+/// Separate cells for each of three phases, so that an abandoned block may write late.
 struct ByPhase {
     phase: loom::sync::atomic::AtomicUsize,
     phases: [Arc<Cells>; 3],

@@ -1,4 +1,4 @@
-//! Where a worker runs: its core and its priority. Each asks for itself, and a refusal is a report, no error.
+//! Core and priority of a worker. Each worker requests its own; a refusal is reported and is no error.
 
 use std::fmt;
 
@@ -6,30 +6,30 @@ use core_affinity::CoreId;
 
 use crate::{MAX_WORKERS, Settings};
 
-/// The answer of the system to something that the settings ask for.
+/// Response of the system to a request in the settings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Grant<T> {
-    /// The settings do not ask for it.
+    /// Not requested by the settings.
     NotAsked,
-    /// It is so.
+    /// Requested and in effect.
     Granted(T),
-    /// It is not so.
+    /// Requested, but not in effect.
     Refused {
-        /// What was asked for.
+        /// Requested value.
         asked: T,
-        /// Why not, in the system's words where it has any.
+        /// Reason, in the system's words where it gives any.
         why: String,
     },
 }
 
-/// How one worker started.
+/// Start report of one worker.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WorkerStart {
-    /// 1 for the first worker.
+    /// Index of the worker, from 1.
     pub lane: usize,
-    /// The core that it is bound to.
+    /// Core the worker is bound to.
     pub core: Grant<usize>,
-    /// Its SCHED_FIFO priority.
+    /// SCHED_FIFO priority of the worker.
     pub fifo_priority: Grant<u8>,
 }
 
@@ -50,13 +50,13 @@ impl fmt::Display for WorkerStart {
 }
 
 impl Settings {
-    /// How many workers a pool started with these settings from the calling thread will have.
+    /// Number of workers that a pool with these settings would have if started from the calling thread.
     pub fn workers_granted(&self) -> usize {
         cores_of_workers(self).len()
     }
 }
 
-/// Per worker that there will be, the core to bind it to, if any.
+/// One entry per worker to start: the core to bind it to, if any.
 pub fn cores_of_workers(settings: &Settings) -> Vec<Option<usize>> {
     let (cores, room) = room_for_workers(settings);
     let asked = settings.workers.min(MAX_WORKERS);
@@ -64,19 +64,19 @@ pub fn cores_of_workers(settings: &Settings) -> Vec<Option<usize>> {
     (0..workers).map(|worker| settings.pin.then(|| cores[worker % cores.len()])).collect()
 }
 
-/// The cores in the order of use, and how many of them have room for a worker beside the caller.
+/// Cores in order of use, and the number of workers that fit beside the caller.
 fn room_for_workers(settings: &Settings) -> (Vec<usize>, usize) {
     if settings.pin && !settings.cores.is_empty() {
         return (settings.cores.clone(), settings.cores.len());
     }
     let mut cores = cores_of_mask();
     let room = cores.len() - 1;
-    // The first is the caller's, so it comes last.
+    // The caller keeps the first core of the mask; workers use it last.
     cores.rotate_left(1);
     (cores, room)
 }
 
-/// At least one core, whatever the system tells.
+/// Cores of the affinity mask; at least one, even if the system reports none.
 fn cores_of_mask() -> Vec<usize> {
     let listed = core_affinity::get_core_ids().unwrap_or_default();
     if !listed.is_empty() {
@@ -85,7 +85,7 @@ fn cores_of_mask() -> Vec<usize> {
     (0..std::thread::available_parallelism().map_or(1, usize::from)).collect()
 }
 
-/// Binds the calling thread and sets its priority.
+/// Binds the calling thread to `core` and sets its priority, where requested.
 pub fn settle(lane: usize, core: Option<usize>, fifo_priority: Option<u8>) -> WorkerStart {
     WorkerStart {
         lane,

@@ -1,4 +1,4 @@
-//! The pool: starts the workers, holds the caller's side, ends them.
+//! Pool of workers: starts them, holds the caller's side of the protocol, ends them.
 
 use std::fmt;
 use std::ops::Range;
@@ -15,33 +15,35 @@ use crate::sync::Watch;
 use crate::worker::{Shared, Worker};
 use crate::{Job, LaneWork, Outcome, Settings, WorkerStart};
 
-/// Workers that share phases with the one thread that calls.
+/// Workers that share phases with one calling thread.
 ///
-/// Dropping it ends them, as [`end`](Self::end) does. They take no signals ([`without_signals`]).
+/// Dropping the pool ends the workers, as [`end`](Self::end) does. They take no signals
+/// ([`without_signals`]).
 pub struct Pool {
     caller: Caller,
     threads: Vec<JoinHandle<()>>,
     start_report: Vec<WorkerStart>,
-    /// Held to the end: the worker that let go of it last would free it, and in the first phases.
+    /// Kept until the pool ends: otherwise the last worker to release it would free it during the first
+    /// phases.
     muster: Arc<Muster>,
     worker_timeout: Duration,
-    /// Of the process that has the workers. A fork of it has none.
+    /// Id of the process that started the workers; threads do not survive a `fork`.
     process: u32,
 }
 
-/// How long a pool that starts waits for its workers to run. A thread that the system has made and does not run for so
-/// long is kept from its core by another.
+/// Time limit for the start of a pool. A new thread that has not run for so long is kept from its core by
+/// another thread.
 pub const LONGEST_START: Duration = Duration::from_secs(10);
 
-/// How long a pool that ends waits for a worker that is in no block and need only be run by the system to end.
+/// Time that the end of a pool waits for a worker that is in no block and only needs to be scheduled.
 pub const LONGEST_FAREWELL: Duration = Duration::from_secs(1);
 
-/// The system gave no thread, or does not run it.
+/// A thread could not be created, or the system did not run it.
 #[derive(Debug)]
 pub struct StartError {
-    /// The worker that was to run on it, 1 for the first.
+    /// Index of the worker it was meant for, from 1.
     pub lane: usize,
-    /// What the system says.
+    /// Error reported by the system.
     pub source: std::io::Error,
 }
 
@@ -67,12 +69,13 @@ impl std::error::Error for StartError {
 }
 
 impl Pool {
-    /// Starts the workers, and sleeps until each has taken its place, [`LONGEST_START`] at most. (It must not spin: a new
-    /// thread has the core and the priority of this one, and under SCHED_FIFO would never get to run.)
+    /// Starts the workers and sleeps until each is bound and has reported, for [`LONGEST_START`] at most. It
+    /// must not spin: a new thread has the core and the priority of this one, and under SCHED_FIFO would
+    /// never run.
     ///
     /// # Errors
-    /// [`StartError`] if the system starts no thread, or does not run one within [`LONGEST_START`]; the workers started so far
-    /// have ended then.
+    /// [`StartError`] if a thread cannot be created or does not run within [`LONGEST_START`]; the workers
+    /// started before it have been ended.
     pub fn start(job: Arc<dyn Job>, settings: &Settings) -> Result<Pool, StartError> {
         let cores = cores_of_workers(settings);
         let shared = Arc::new(Shared {
@@ -94,75 +97,75 @@ impl Pool {
         };
         for (worker, core) in cores.iter().enumerate() {
             let thread = start_worker(&shared, worker + 1, *core, settings.fifo_priority, &pool.muster);
-            // On an error the pool is dropped, which ends the workers that run already.
+            // On an error the pool is dropped, which ends the workers already running.
             pool.threads.push(thread.map_err(|source| StartError { lane: worker + 1, source })?);
         }
         pool.start_report = pool.muster.wait_for_all(LONGEST_START)?;
         Ok(pool)
     }
 
-    /// Workers beside the caller.
+    /// Number of workers, without the caller.
     pub fn workers(&self) -> usize {
         self.threads.len()
     }
 
-    /// Whether a short phase is worth sharing: a worker is awake, or, if all sleep, this was asked so short a time ago that a
-    /// worker that is woken now would stay awake between phases ([`Settings::spin`]). If not, waking one would cost every
-    /// phase more than a worker takes off it. Ask it before each phase that is short beside a wake-up, and do the work of
-    /// the phase alone where the answer is no.
+    /// Reports whether it is worth sharing a short phase: a worker is awake, or the previous call was so
+    /// recent (within [`Settings::spin`]) that a woken worker would stay awake between phases. Otherwise
+    /// waking a worker costs each phase more than it saves. Call it before each phase that is short compared
+    /// with a wake-up; if false, do the work on the calling thread.
     pub fn has_workers_at_hand(&mut self) -> bool {
         self.caller.has_workers_at_hand()
     }
 
-    /// Whether a worker seemed awake a moment ago: nothing rests on it but time.
+    /// Reports whether some worker was awake a moment ago. A hint for speed only.
     pub fn has_awake_workers(&self) -> bool {
         self.caller.has_awake_workers()
     }
 
-    /// Runs the blocks 0 to `blocks` − 1 of the job, the last first, on the caller and on the workers that are awake
-    /// in time. A panic of a block goes on here, after the blocks that others claimed have ended or the worker timeout has; those
-    /// that its lane had claimed with it are left out.
+    /// Runs blocks 0 to `blocks` − 1 of the job, the last first, on the caller and on the workers that are
+    /// awake in time. The panic of a block continues here once the claimed blocks of other threads have ended
+    /// or the worker timeout has passed; blocks claimed together with the panicking one are skipped.
     ///
     /// # Panics
     ///
-    /// With more than [`MAX_BLOCKS`](crate::MAX_BLOCKS) blocks, or if a block panics.
+    /// If `blocks` exceeds [`MAX_BLOCKS`](crate::MAX_BLOCKS), or if a block panics.
     pub fn run(&mut self, blocks: u32) -> Outcome {
         self.caller.run(blocks)
     }
 
-    /// As [`run`](Self::run), but beside the first so many workers only, for a phase that more would take longer for; and the
-    /// caller runs the blocks that it claims by `run` and not by the job: in memory of its own, which no worker needs to be kept
-    /// out of. It is called with neighbouring blocks, as [`Job::run_neighbors`].
+    /// Runs a phase like [`run`](Self::run), but with the first `workers` workers only: more would slow a
+    /// small phase down. The caller runs its claims by `run` instead of the job, so they can use memory that
+    /// no worker shares. `run` gets a range of neighbouring blocks, as in [`Job::run_neighbors`].
     ///
     /// # Panics
     ///
-    /// As there, or if `run` panics.
+    /// As [`run`](Self::run), or if the function `run` panics.
     pub fn run_beside(&mut self, blocks: u32, workers: usize, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
         self.caller.run_beside(blocks, workers, run)
     }
 
-    /// Whether no worker is inside a block of an abandoned phase. What such blocks wrote may be read once it is true.
+    /// Reports whether no block of an abandoned phase is still running. Then their output may be read.
     pub fn is_quiet(&self) -> bool {
         self.caller.stuck() == 0 || self.is_forked()
     }
 
-    /// Wakes the workers, who then look for a phase until there is one or `at_most` has passed. Call it some 100 µs
-    /// before a frame whose predecessor is further away than [`Settings::spin`].
+    /// Wakes the workers, which then look for a phase until one opens or `at_most` has passed. Call it about
+    /// 100 µs before a frame that follows the previous one by more than [`Settings::spin`].
     pub fn prewake(&mut self, at_most: Duration) {
         self.caller.prewake(in_ns(at_most));
     }
 
-    /// Lets the workers park at once, for instance when the simulation freezes. The next phase wakes them.
+    /// Lets the workers park at once, for instance when the simulation is paused. The next phase wakes them.
     pub fn quiesce(&mut self) {
         self.caller.quiesce();
     }
 
-    /// How each worker started: core and priority, or why not.
+    /// Start report of each worker: core and priority, or why they were refused.
     pub fn start_report(&self) -> &[WorkerStart] {
         &self.start_report
     }
 
-    /// What each lane did in the last phase, the caller first.
+    /// Work of each lane in the last phase, the caller first.
     pub fn work(&self) -> impl Iterator<Item = LaneWork> + '_ {
         self.caller.work()
     }
@@ -171,12 +174,12 @@ impl Pool {
         self.process != std::process::id()
     }
 
-    /// Ends the workers; how many had not ended when the time was up. A worker inside a block of an abandoned phase
-    /// is waited for as long as [`Settings::worker_timeout`], any other for [`LONGEST_FAREWELL`]. One that is left behind ends by
-    /// itself when the system runs it, and keeps the job alive until then.
+    /// Ends the workers and returns how many had not ended in time. The wait is [`Settings::worker_timeout`]
+    /// if a worker is inside a block of an abandoned phase, else [`LONGEST_FAREWELL`]. A worker left behind
+    /// ends when the system runs it, and keeps the job alive until then.
     pub fn end(&mut self) -> usize {
         if self.is_forked() {
-            // The threads are the parent's. To wait for them here would be to wait for ever.
+            // The threads belong to the parent process: waiting for them would never end.
             self.threads.drain(..).for_each(std::mem::forget);
             return 0;
         }
@@ -185,8 +188,8 @@ impl Pool {
         let mut left = 0;
         for thread in self.threads.drain(..) {
             if thread.is_finished() {
-                // All that is left of it is to return to the system. It catches the panics of its blocks, so there is
-                // none to hand on.
+                // A finished worker only returns to the system. It caught the panics of its blocks, so `join`
+                // has none to report.
                 let _ = thread.join();
             } else {
                 left += 1;
@@ -230,7 +233,8 @@ fn start_worker(
     without_signals(|| thread::Builder::new().name(format!("pong-worker-{lane}")).spawn(work))
 }
 
-/// Where the workers report, and the caller sleeps until all have, or time is up.
+/// Start barrier: the workers report to it, and the caller sleeps until all have reported or the time limit
+/// passes.
 struct Muster {
     reports: Box<[OnceLock<WorkerStart>]>,
     missing: AtomicUsize,
@@ -293,7 +297,7 @@ mod tests {
         Pool::start(Arc::new(Idle), &settings).unwrap()
     }
 
-    /// Waits as long as any machine may need, and far less than [`HOUR`].
+    /// Waits for a time that is enough on any machine and far below [`HOUR`].
     fn wait_until_asleep(pool: &Pool, workers: usize) {
         let started = Instant::now();
         while pool.caller.asleep() != workers {
@@ -321,7 +325,7 @@ mod tests {
         }
     }
 
-    /// The workers have no spin time of their own, so it is by the prewake alone that they are awake.
+    /// The spin time is zero, so only the prewake keeps the workers awake.
     #[test]
     fn prewoken_workers_stay_awake_until_the_next_phase_or_the_deadline() {
         let mut pool = pool(Duration::ZERO);
@@ -345,7 +349,8 @@ mod tests {
         assert!(awake.has_workers_at_hand());
         awake.quiesce();
         wait_until_asleep(&awake, 3);
-        // The first time nobody knows how soon the next phase comes; the second time it has come within an hour.
+        // The first call cannot know how soon the next phase comes; the second comes within the spin time of
+        // an hour.
         assert!(!awake.has_workers_at_hand());
         assert!(awake.has_workers_at_hand());
 

@@ -1,10 +1,12 @@
-//! Which signals the threads of a library take: none that could go to another thread.
+//! Threads of the library take none of the host's signals.
 
-/// Starts threads that leave the host's signals to the host: they are born with the mask that stands here, so there is no
-/// moment in which one could take a signal. The mask of the calling thread comes back.
+/// Runs `start` with signals blocked, so that threads it creates leave them to the host's threads. A thread
+/// inherits the mask, so there is no moment in which it could take a signal. The caller's mask is restored
+/// afterwards.
 ///
-/// A signal that tells a thread of its own fault (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS) could not go to
-/// another one; the host's handler still sees it, should a law of the host's crash on a worker.
+/// Signals for a thread's own fault (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS) stay unblocked: no
+/// other thread could take them, and the host's handler should see a crash of the host's contact law on a
+/// worker.
 pub fn without_signals<T>(start: impl FnOnce() -> T) -> T {
     let _blocked = Blocked::all();
     start()
@@ -21,8 +23,8 @@ impl Blocked {
         [libc::SIGSEGV, libc::SIGBUS, libc::SIGFPE, libc::SIGILL, libc::SIGTRAP, libc::SIGSYS];
 
     fn all() -> Blocked {
-        // SAFETY: an all-zero sigset_t is valid, and the calls read and write the two sets alone. They do not fail with
-        // these arguments.
+        // SAFETY: an all-zero sigset_t is valid, the calls access only the two sets, and they cannot fail
+        // with these arguments.
         unsafe {
             let (mut all, mut before): (libc::sigset_t, libc::sigset_t) = std::mem::zeroed();
             libc::sigfillset(&mut all);
@@ -38,7 +40,7 @@ impl Blocked {
 #[cfg(unix)]
 impl Drop for Blocked {
     fn drop(&mut self) {
-        // SAFETY: sets the mask that the calling thread had before.
+        // SAFETY: restores the mask that the calling thread had before.
         unsafe {
             libc::pthread_sigmask(libc::SIG_SETMASK, &self.before, std::ptr::null_mut());
         }

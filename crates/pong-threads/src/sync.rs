@@ -1,7 +1,7 @@
-//! What the protocol takes from the system: atomics, parking, time. In the models, loom's.
+//! Atomics, parking and time, from the system or, in the models, from loom.
 //!
-//! The models (`models.rs`) run the protocol's own code on loom's atomics, in every order in which threads can meet.
-//! Time does not pass there: a [`Watch`] counts how often it is looked at.
+//! The models (`models.rs`) run the protocol's own code on loom's atomics, under every interleaving of its
+//! threads. Time does not pass there: a [`Watch`] counts how often it is read.
 
 #[cfg(not(loom))]
 mod real {
@@ -9,15 +9,15 @@ mod real {
     pub use std::sync::atomic::AtomicU64;
     pub use std::thread::{Thread, current, park, yield_now};
 
-    /// Looks at a shared word between two looks at the clock. A look with its pause takes 20 to 60 ns.
+    /// Reads of a shared word between two reads of the clock. One read with its pause takes 20 to 60 ns.
     pub const LOOKS: u32 = 64;
 
-    /// Mistakes are made in models only.
+    /// Seeded faults exist in models only.
     pub const fn mutant(_name: &str) -> bool {
         false
     }
 
-    /// Time since it was started.
+    /// Time elapsed since the start of the watch.
     pub struct Watch(std::time::Instant);
 
     impl Watch {
@@ -36,21 +36,21 @@ mod real {
     pub use loom::sync::atomic::AtomicU64;
     pub use loom::thread::{Thread, current, park, yield_now};
 
-    /// Loom must be told that a thread which looks again waits for another.
+    /// Yields: loom has to know that a thread that spins waits for another.
     pub fn spin_loop() {
         yield_now();
     }
 
     pub const LOOKS: u32 = 1;
 
-    /// Whether to make the mistake `name`, to see the models find it: it is named in the environment.
+    /// Reports whether the environment selects the seeded fault `name`, which the models must find.
     pub fn mutant(name: &str) -> bool {
         static CHOSEN: std::sync::LazyLock<Option<String>> =
             std::sync::LazyLock::new(|| std::env::var("PONG_THREADS_MUTANT").ok());
         CHOSEN.as_deref() == Some(name)
     }
 
-    /// One nanosecond per look.
+    /// Watch that advances by one nanosecond per read.
     pub struct Watch(std::sync::atomic::AtomicU64);
 
     impl Watch {

@@ -1,4 +1,5 @@
-//! A number that belongs to a phase, in one atomic word: 40 bits epoch, 7 bits workers, 16 bits number, 1 bit flag.
+//! Number that belongs to a phase, packed in one atomic word: 40 bits epoch, 7 bits workers, 16 bits number,
+//! 1 bit flag.
 
 use crate::{MAX_BLOCKS, MAX_WORKERS};
 
@@ -8,11 +9,11 @@ const WORKERS_MASK: u64 = (1 << (EPOCH_SHIFT - WORKERS_SHIFT)) - 1;
 const EPOCH_SHIFT: u32 = 24;
 const EPOCH_MASK: u64 = (1 << 40) - 1;
 
-/// In the claim word the number is the blocks left, the workers are those that may claim them, and the flag tells the
-/// workers to end. In a tally the number is the blocks done, there are no workers, and the flag tells that one of the
-/// blocks panicked.
+/// Packed state of a phase. In the claim word the number is the blocks left, the workers are those that take
+/// part, and the flag tells them to end. In a tally the number is the blocks done, the workers are 0, and the
+/// flag says that a block panicked.
 ///
-/// The epoch starts again after 2⁴⁰ phases: 35 years of one phase per millisecond.
+/// The epoch wraps around after 2⁴⁰ phases: 35 years at one phase per millisecond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Word(pub u64);
 
@@ -22,7 +23,7 @@ impl Word {
         Word((epoch & EPOCH_MASK) << EPOCH_SHIFT | u64::from(number) << NUMBER_SHIFT | u64::from(flag))
     }
 
-    /// The same for so many workers.
+    /// Same word with the number of workers that take part.
     pub fn among(self, workers: usize) -> Word {
         debug_assert!(workers <= MAX_WORKERS && self.workers() == 0);
         Word(self.0 | (workers as u64) << WORKERS_SHIFT)
@@ -44,13 +45,13 @@ impl Word {
         self.0 & Self::FLAG != 0
     }
 
-    /// The number less `fewer`, which it is not below.
+    /// Same word with its number reduced by `fewer`, which must not exceed it.
     pub fn less(self, fewer: u32) -> Word {
         debug_assert!(fewer <= self.number());
         Word(self.0 - (u64::from(fewer) << NUMBER_SHIFT))
     }
 
-    /// The epoch that follows `epoch`.
+    /// Epoch after `epoch`, with wrap-around.
     pub fn next_epoch(epoch: u64) -> u64 {
         (epoch + 1) & EPOCH_MASK
     }

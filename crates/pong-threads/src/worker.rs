@@ -1,4 +1,4 @@
-//! A worker: waits for a phase, claims blocks until none is left, waits again.
+//! Worker: waits for a phase, claims blocks until none is left, waits again.
 
 use std::any::Any;
 use std::ops::Range;
@@ -10,10 +10,10 @@ use crate::board::{Board, CALM, Done, PARK};
 use crate::sync::{LOOKS, Watch, mutant, park, spin_loop, yield_now};
 use crate::word::Word;
 
-/// What a panic carried.
+/// Payload of a caught panic.
 pub type Payload = Box<dyn Any + Send>;
 
-/// All that the caller and its workers share.
+/// State shared by the caller and its workers.
 pub struct Shared {
     pub board: Board,
     pub job: Arc<dyn Job>,
@@ -21,16 +21,16 @@ pub struct Shared {
     pub worker_timeout_ns: u64,
     /// The host's clock for busy times, in ns.
     pub clock: Option<fn() -> u64>,
-    /// Times of alerts count from here.
+    /// Origin of the times of alerts.
     pub origin: Watch,
-    /// The first panic in the latest phase that had one, and its epoch, until the caller takes it. The caller looks only
-    /// when a tally of its phase tells of a panic, so one of an abandoned phase reaches nobody.
+    /// First panic of the latest phase that had one, with its epoch, until the caller takes it. The caller
+    /// looks only if a tally of its phase reports a panic, so a panic of an abandoned phase is not reported
+    /// to it.
     pub panic: Mutex<Option<(u64, Payload)>>,
 }
 
 impl Shared {
-    /// Runs blocks by `run` and adds them to what a lane has done. A panic is caught: of the blocks that it leaves out nobody
-    /// will ask.
+    /// Runs `blocks` by `run` and adds them to `done`. A panic is caught; the blocks it skips count as done.
     pub fn run_blocks(
         &self,
         blocks: Range<u32>,
@@ -54,20 +54,21 @@ impl Shared {
     }
 }
 
-/// A late panic must not hide that of a phase which the caller is still in.
+/// Keeps the first panic of the latest phase: a late panic of an earlier phase must not replace it.
 fn keep_latest(kept: &mut Option<(u64, Payload)>, epoch: u64, payload: Payload) {
     if kept.as_ref().is_none_or(|(kept_epoch, _)| *kept_epoch < epoch) {
         *kept = Some((epoch, payload));
     }
 }
 
-/// Whoever has waited so long, worker or caller, lets others run between looks: the one that it waits for, or a
-/// caller that has work, may be waiting for this very core. With cores to spare that costs a fraction of a microsecond.
+/// Waiting time after which a thread, worker or caller, yields between looks. The thread it waits for, or a
+/// caller that has work, may need this core. If there are free cores, yielding costs a fraction of a
+/// microsecond.
 pub const YIELD_AFTER_NS: u64 = 5_000;
 
 pub struct Worker {
     shared: Arc<Shared>,
-    /// 1 for the first.
+    /// Index of the worker, from 1.
     lane: usize,
     /// Blocks finished since the start.
     finished: u64,
@@ -79,7 +80,7 @@ impl Worker {
         Worker { shared, lane, finished: 0 }
     }
 
-    /// Works until it is told to end.
+    /// Runs phases until the end flag is set.
     pub fn serve(&mut self) {
         let mut seen = 0;
         loop {
@@ -94,7 +95,7 @@ impl Worker {
         }
     }
 
-    /// Claims and runs blocks of the phase `epoch` until none is left.
+    /// Claims and runs blocks of phase `epoch` until none is left.
     fn work(&mut self, epoch: u64) {
         let shared = &*self.shared;
         let mut done = Done::default();
@@ -108,7 +109,7 @@ impl Worker {
         }
     }
 
-    /// Waits for a phase other than `seen`, or the end.
+    /// Waits for a phase other than `seen`, or for the end flag.
     fn wait(&self, seen: u64) -> Word {
         loop {
             if let Some(word) = self.spin(seen) {
@@ -118,7 +119,8 @@ impl Worker {
         }
     }
 
-    /// Looks for news as long as it is to stay awake. The clock is asked only when the first looks found nothing.
+    /// Spins for news for as long as the worker stays awake. The clock is read only after the first looks
+    /// found none.
     fn spin(&self, seen: u64) -> Option<Word> {
         let mut idle = None;
         loop {
@@ -148,7 +150,7 @@ impl Worker {
         alert != CALM && alert != PARK && self.shared.origin.elapsed_ns() < alert
     }
 
-    /// Parks until it is woken, unless there is news already.
+    /// Parks until woken, unless there is news already.
     fn sleep(&self, seen: u64) {
         let board = &self.shared.board;
         board.lie_down(self.lane);
