@@ -13,18 +13,18 @@ use crate::solids::SolidMesh;
 use pong_import::mesh;
 use pong_import::{Finding, Findings};
 
-/// Weights of balance and symmetry that VHACD is run with. Its own, then those that cut rings and cups well.
+/// Weights of balance and symmetry for VHACD: its defaults, then two pairs that cut rings and cups well.
 const WEIGHTS: [(f64, f64); 3] = [(0.05, 0.05), (0.5, 0.05), (0.05, 0.5)];
 
-/// A way to cut, and what came of it.
+/// A set of cuts and its outcome.
 struct Attempt {
     pieces: Vec<Piece>,
     forced: usize,
     flat: usize,
 }
 
-/// The pieces of the attempt that exceeds the solid by the least volume; of nearly equal ones that of the fewest
-/// pieces. With them how many joints added volume.
+/// Pieces of the attempt that exceeds the solid by the least volume (nearly equal: of the fewest pieces), and
+/// its number of joints that added volume.
 pub(crate) fn pieces(
     solid: &SolidMesh,
     options: &DecomposeOptions,
@@ -89,7 +89,7 @@ pub(crate) fn pieces(
     Some((best.pieces, best.forced))
 }
 
-/// Cells along flat faces, those whose content is not convex cut further.
+/// Cells along flat faces; cells whose content is not convex are cut further.
 fn refined(by_flats: &[Judged], cutting: &Cutting<'_>, found: &[Cell]) -> Vec<Cell> {
     let parts = |judged: &Judged| match cutting.is_convex(judged) {
         true => vec![judged.cell],
@@ -98,7 +98,8 @@ fn refined(by_flats: &[Judged], cutting: &Cutting<'_>, found: &[Cell]) -> Vec<Ce
     by_flats.iter().flat_map(parts).collect()
 }
 
-/// Not too many pieces first, then the least excess in steps, then the fewest pieces, then the first.
+/// Best attempt: few enough pieces, then least excess in steps of `step_m3`, then fewest pieces, then the
+/// first.
 fn best(attempts: Vec<Attempt>, volume_m3: f64, step_m3: f64, pieces_max: usize) -> Option<Attempt> {
     let rank = |attempt: &Attempt| {
         let pieces_m3: f64 = attempt.pieces.iter().map(|piece| piece.volume_m3).sum();

@@ -1,8 +1,8 @@
 //! Where to cut: VHACD finds boxes of voxels whose contents are nearly convex; their walls become planes of cells,
 //! moved onto flat faces and vertices of the mesh within one voxel.
 //!
-//! The cells fill the whole bounding box and have no common parts. So the hulls of what is in them have none either,
-//! and leave nothing of the solid uncovered.
+//! The cells fill the bounding box without overlap. The hulls of their contents therefore do not overlap
+//! either and leave no part of the solid uncovered.
 
 use crate::content::Cell;
 use nalgebra::Vector3;
@@ -12,14 +12,14 @@ use parry3d_f64::transformation::voxelization::FillMode;
 use pong_import::mesh::{Mesh, area_vector, bounds};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// How finely to look.
+/// Resolution and limits of the search for cuts.
 pub(crate) struct Looking {
     /// Voxels along the longest side.
     pub(crate) resolution: u32,
     /// Share of the whole hull's volume that the hull of a piece may exceed its content by.
     pub(crate) concavity: f64,
     pub(crate) pieces_max: usize,
-    /// Whether the solid has cavities inside.
+    /// True if the solid has internal cavities.
     pub(crate) hollow: bool,
     /// How much VHACD favours parts of equal volume (its α).
     pub(crate) balance: f64,
@@ -27,13 +27,13 @@ pub(crate) struct Looking {
     pub(crate) symmetry: f64,
 }
 
-/// Voxels up to which VHACD tries every fourth plane, its default. Beyond, it tries as many planes as with so many: the time
-/// grows with the number of voxels instead of with its fourth part more.
+/// Largest resolution at which VHACD tries every fourth plane (its default). Above it the number of planes is
+/// kept, so that the time grows in proportion to the voxels.
 const FULLY_TRIED: u32 = 100;
 
 /// Cuts move onto flat faces of the mesh within this many voxels: VHACD weighs cuts near such a face nearly alike.
 const REACH: f64 = 2.0;
-/// Onto vertices they move within this many.
+/// Cuts move onto vertices within this many voxels.
 const REACH_OF_VERTICES: f64 = 0.5;
 
 /// Voxels from `low` to `high`, both counted in.
@@ -43,7 +43,7 @@ struct Voxels {
     high: [i64; 3],
 }
 
-/// Places of voxels.
+/// Positions of voxels.
 struct Lattice {
     origin: Vector3<f64>,
     voxel_m: f64,
@@ -73,7 +73,7 @@ fn voxel_boxes(mesh: &Mesh, looking: &Looking) -> (Lattice, Vec<Voxels>) {
     let parameters = VHACDParameters {
         resolution: looking.resolution,
         concavity: looking.concavity,
-        // Its hulls double with every level; what is too many is joined again later.
+        // VHACD doubles the number of hulls per level; surplus pieces are joined later.
         max_convex_hulls: looking.pieces_max.min(1 << 16) as u32,
         fill_mode: FillMode::FloodFill { detect_cavities: looking.hollow },
         plane_downsampling: 4 * looking.resolution.div_ceil(FULLY_TRIED),
@@ -115,7 +115,7 @@ fn split(boxes: Vec<Voxels>, cell: Cell, lattice: &Lattice, features: &Features,
     split(above, upper, lattice, features, cells);
 }
 
-/// The cut along the largest flat faces; without such, the one that parts the boxes most evenly.
+/// Cut along the largest flat faces; without flat faces, the cut that divides the boxes most evenly.
 fn best_cut(boxes: &[Voxels], cell: &Cell, lattice: &Lattice, features: &Features) -> Option<Cut> {
     let mut best: Option<(f64, usize, Cut)> = None;
     for axis in 0..3 {
@@ -139,7 +139,7 @@ fn best_cut(boxes: &[Voxels], cell: &Cell, lattice: &Lattice, features: &Feature
 }
 
 impl Lattice {
-    /// Where to cut between two layers of voxels, and the area of flat faces there.
+    /// Position of a cut between two layers of voxels, and the area of flat faces there.
     fn place(&self, axis: usize, below: i64, above: i64, cell: &Cell, features: &Features) -> (f64, f64) {
         let face = |voxel: i64, side: f64| self.origin[axis] + (voxel as f64 + side) * self.voxel_m;
         let (from, to) = (face(below, 0.5), face(above, -0.5));
@@ -159,7 +159,7 @@ impl Lattice {
             .iter()
             .take_while(|(at, _)| *at <= to + reach)
             .filter(|(at, flat_m2)| allowed(*at, *flat_m2));
-        // Flat faces first, then whatever is nearest to the middle.
+        // Flat faces first, then the coordinate nearest to the middle.
         let closer = |a: f64, b: f64| (a - middle).abs() < (b - middle).abs();
         let best = near.copied().reduce(|best, other| match other.1.total_cmp(&best.1) {
             std::cmp::Ordering::Greater => other,
@@ -172,7 +172,7 @@ impl Lattice {
 }
 
 impl Features {
-    /// The coordinate of the largest flat faces within a reach, else that of the nearest vertex, else the place itself.
+    /// Coordinate of the largest flat faces within reach, else of the nearest vertex, else `at` itself.
     pub(crate) fn near(&self, axis: usize, at: f64, reach_m: f64) -> f64 {
         let along = &self.0[axis];
         let first = along.partition_point(|(other, _)| *other < at - reach_m);

@@ -7,8 +7,8 @@ use std::fmt::Write as _;
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-/// Reads vertices and triangles from standard input, writes the vertices of each hull: one a line, an empty line
-/// between hulls. What the package prints itself goes to standard error.
+/// Reads vertices and triangles from standard input and writes the vertices of each hull, one per line, with
+/// an empty line between hulls. Output of the package itself goes to standard error.
 const PROGRAM: &str = r"
 import os, sys
 out = os.fdopen(os.dup(1), 'w')
@@ -32,7 +32,7 @@ for hull_vertices, _ in hulls:
 out.close()
 ";
 
-/// How CoACD is called.
+/// Arguments of a call of CoACD.
 pub(crate) struct Calling<'a> {
     /// The Python interpreter.
     pub(crate) python: &'a str,
@@ -41,7 +41,7 @@ pub(crate) struct Calling<'a> {
     pub(crate) resolution: u32,
 }
 
-/// The corners of the hulls CoACD finds; the fault says how to get it where it is not there.
+/// Corners of the hulls found by CoACD; the fault tells how to install it if it is missing.
 pub(crate) fn hulls(
     mesh: &Mesh,
     calling: &Calling<'_>,
@@ -116,7 +116,7 @@ fn run(mesh: &Mesh, calling: &Calling<'_>) -> std::io::Result<Done> {
     let mut input = child.stdin.take();
     let feed = std::thread::spawn(move || input.as_mut().map(|input| input.write_all(text.as_bytes())));
     let output = child.wait_with_output()?;
-    // A package that is missing closes the pipe early; the exit code tells.
+    // A missing package closes the pipe early; the exit code reports it.
     let _ = feed.join();
     let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
     Ok((output.status.code(), text(output.stdout), text(output.stderr)))

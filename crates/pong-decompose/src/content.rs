@@ -1,13 +1,13 @@
-//! What of a solid lies in a box: the points whose hull holds it, and its volume.
+//! Part of a solid in a box: its volume, and points whose hull contains it.
 
 use crate::inside::Solid;
 use crate::polygon::{Plane, Polygon, clip, is_wide};
 use nalgebra::Vector3;
 use pong_import::mesh::{Mesh, area_vector, bounds};
 
-/// What is narrower than this share of a cell's diagonal only touches the cell.
+/// Content narrower than this share of the cell's diagonal only touches the cell.
 const STRIP_SHARE: f64 = 1e-9;
-/// How far from a corner towards the middle of a cell is still the corner.
+/// Position of the probe for a corner, as a share of the way from the corner to the middle of the cell.
 const PROBE_SHARE: f64 = 1e-7;
 
 /// A box with axes along those of the model.
@@ -26,7 +26,7 @@ impl Cell {
         [lower, upper]
     }
 
-    /// What both have in common, if that has a volume.
+    /// Intersection of both boxes; `None` if it has no volume.
     pub(crate) fn common(&self, other: &Self) -> Option<Self> {
         let common = Self { low: self.low.sup(&other.low), high: self.high.inf(&other.high) };
         (0..3).all(|axis| common.low[axis] < common.high[axis]).then_some(common)
@@ -35,7 +35,7 @@ impl Cell {
 
 /// The part of a solid in a cell.
 pub(crate) struct Content {
-    /// Every corner of that part is among them.
+    /// Points that include every corner of that part.
     pub(crate) points: Vec<Vector3<f64>>,
     pub(crate) volume_m3: f64,
 }
@@ -61,14 +61,14 @@ pub(crate) fn content(mesh: &Mesh, solid: &Solid, cell: &Cell) -> Content {
     let corner = |k: u32| {
         Vector3::from_fn(|axis, _| if k >> axis & 1 == 0 { cell.low[axis] } else { cell.high[axis] })
     };
-    // A corner may lie on the surface: a place a little within the cell tells.
+    // A corner may lie on the surface, so a point slightly inside the cell decides.
     let middle = 0.5 * (cell.low + cell.high);
     let is_solid = |place: &Vector3<f64>| solid.holds(&(place + (middle - place) * PROBE_SHARE));
     content.points.extend((0..8).map(corner).filter(is_solid));
     content
 }
 
-/// Whether a polygon lies in a wall of the cell and looks inwards: what it bounds is outside.
+/// Tests whether a polygon lies in a wall of the cell and faces inwards: the solid it bounds is then outside.
 fn faces_a_wall(inside: &[Vector3<f64>], corners: &[Vector3<f64>; 3], cell: &Cell) -> bool {
     let normal = area_vector(corners);
     let all_at = |axis: usize, at: f64| inside.iter().all(|place| place[axis] == at);

@@ -1,7 +1,8 @@
-//! Cells cut where the hull of what they hold protrudes the most, until none protrudes by more than a given distance.
+//! Cells cut where the hull of their content protrudes most, until none protrudes by more than a given
+//! distance.
 //!
-//! No voxels are involved, so that small holes count in a large body. The time is bounded: every cut tries at most six
-//! planes, and there are as many cuts as pieces.
+//! No voxels are involved, so small holes in a large body are found. The time is bounded: each cut tries at
+//! most six planes, and there are as many cuts as pieces.
 
 use crate::cells::Features;
 use crate::content::{Cell, content};
@@ -17,24 +18,24 @@ use pong_import::mesh::{Mesh, bounds};
 use pong_import::{Finding, Findings};
 use std::collections::BinaryHeap;
 
-/// How close to the largest distance the one that is found comes.
+/// Relative accuracy of the largest distance found.
 const CLOSE: f64 = 0.02;
-/// Most places of a hull that are looked at; hulls of smaller cells are looked at more closely.
+/// Most points of a hull that are examined; hulls of smaller cells are examined more closely.
 const PLACES_MAX: usize = 100_000;
 /// Contents that lack no more than this share of their box or hull are convex.
 const EXACT_SHARE: f64 = 1e-9;
 /// Two planes that leave distances within this share of each other are equally good.
 const ALIKE: f64 = 0.01;
 
-/// What is asked for.
+/// Options of the fit.
 pub(crate) struct Fitting {
-    /// Distance by which pieces may protrude, m.
+    /// Largest accepted protrusion of a piece, m.
     pub(crate) fit_m: f64,
     pub(crate) pieces_max: usize,
     pub(crate) near_m: f64,
 }
 
-/// A cell, and the place at which the hull of what it holds is farthest from the solid.
+/// A cell, and the point of its content's hull that is farthest from the solid.
 struct Fitted {
     cell: Cell,
     protrusion_m: f64,
@@ -50,7 +51,7 @@ struct Cutting<'a> {
     fit_m: f64,
 }
 
-/// The pieces, and how many joints added volume.
+/// Pieces, and the number of joints that added volume.
 pub(crate) fn pieces(
     solid: &SolidMesh,
     fitting: &Fitting,
@@ -89,7 +90,7 @@ pub(crate) fn pieces(
 impl Cutting<'_> {
     fn cells(&self, pieces_max: usize, progress: &mut dyn FnMut(&str)) -> Vec<Fitted> {
         let (low, high) = bounds(&self.mesh.vertices);
-        // What is made of boxes and prisms falls apart exactly along its flat faces.
+        // A solid of boxes and prisms separates exactly along its flat faces.
         let along = flats::Cutting {
             mesh: self.mesh,
             solid: self.solid,
@@ -122,12 +123,12 @@ impl Cutting<'_> {
         open
     }
 
-    /// The halves of the plane that leaves the least distance; of nearly equal ones that of the first plane.
+    /// Halves from the plane that leaves the least distance; the first plane wins ties (within `ALIKE`).
     fn best_halves(&self, fitted: &Fitted) -> Option<[Fitted; 2]> {
         let mut best: Option<([f64; 2], [Fitted; 2])> = None;
         for (axis, at) in self.planes(fitted) {
             let halves = fitted.cell.cut(axis, at).map(|half| self.fitted(half));
-            // What only trims the cell leaves its hull as it is.
+            // A cut that only trims the cell leaves its hull unchanged.
             if halves.iter().any(|half| half.is_empty) {
                 continue;
             }
@@ -145,8 +146,8 @@ impl Cutting<'_> {
         best.map(|(_, halves)| halves)
     }
 
-    /// Planes through the farthest place, and through the place of the solid nearest to it, moved onto flat faces and
-    /// vertices close by.
+    /// Planes through the farthest point and through the solid's nearest point to it, moved onto nearby flat
+    /// faces and vertices.
     fn planes(&self, fitted: &Fitted) -> Vec<(usize, f64)> {
         let Cell { low, high } = fitted.cell;
         let mut planes: Vec<(usize, f64)> = Vec::new();
@@ -181,13 +182,13 @@ impl Cutting<'_> {
         fitted
     }
 
-    /// The largest distance from the solid over some triangles, as far as it is above `fit_m`, and where it is. Distances
-    /// change no faster than places do: the triangle that could reach farthest is cut next, until none could reach beyond
-    /// what was found.
+    /// Largest distance of these triangles from the solid above `fit_m`, and its point. Distances change no
+    /// faster than positions (Lipschitz constant 1): the triangle with the largest upper bound is split next,
+    /// until no bound exceeds the largest distance found.
     fn farthest(&self, hull: &Mesh) -> (f64, Vector3<f64>) {
         let mut best = (0.0, hull.vertices[0]);
         let mut triangles: Vec<[Vector3<f64>; 3]> = Vec::new();
-        // Bits of numbers that are not negative are ordered as the numbers are.
+        // Bit patterns of non-negative floats sort like the numbers.
         let mut open: BinaryHeap<(u64, usize)> = BinaryHeap::new();
         let look = |corners: [Vector3<f64>; 3], best: &mut (f64, Vector3<f64>)| {
             let middle = corners.iter().sum::<Vector3<f64>>() / 3.0;

@@ -1,7 +1,8 @@
-//! Cuts along flat faces of the mesh: what is built of boxes and prisms falls apart exactly there.
+//! Cuts along flat faces of the mesh: a solid of boxes and prisms separates exactly there.
 //!
-//! VHACD judges a cut by what it gains at once. Of a frame or a cup no single cut gains anything, so its first ones are
-//! arbitrary; a cut along a flat face that ends in the material is right even if the gain comes with the next one.
+//! VHACD judges a cut by its immediate gain. For a frame or a cup no single cut gains anything, so its first
+//! cuts are arbitrary; a cut along a flat face that ends in the material is right even if the gain comes with
+//! the next cut.
 
 use crate::cells::Features;
 use crate::content::{Cell, content};
@@ -14,7 +15,7 @@ const TRIED: usize = 12;
 /// Most cells.
 const CELLS_MAX: usize = 256;
 
-/// A cell, and the volume by which the hull of its content exceeds it.
+/// A cell, and the volume by which the hull of its content exceeds the content.
 #[derive(Clone, Copy)]
 pub(crate) struct Judged {
     pub(crate) cell: Cell,
@@ -26,12 +27,12 @@ pub(crate) struct Cutting<'a> {
     pub(crate) mesh: &'a Mesh,
     pub(crate) solid: &'a Solid,
     pub(crate) features: &'a Features,
-    /// An excess up to this is none, m³.
+    /// Largest excess that counts as none, m³.
     pub(crate) allowed_m3: f64,
 }
 
 impl Cutting<'_> {
-    /// Cells whose walls are planes of flat faces, until what they hold is convex or has no such plane left.
+    /// Cells bounded by planes of flat faces, cut until their content is convex or no such plane is left.
     pub(crate) fn cells(&self) -> Vec<Judged> {
         let (low, high) = bounds(&self.mesh.vertices);
         let mut open = vec![self.judged(Cell { low, high })];
@@ -46,7 +47,7 @@ impl Cutting<'_> {
         done
     }
 
-    /// Whether what it holds fills its hull.
+    /// True if the content fills its hull.
     pub(crate) fn is_convex(&self, cell: &Judged) -> bool {
         cell.excess_m3 <= self.allowed_m3
     }
@@ -57,7 +58,7 @@ impl Cutting<'_> {
         Judged { cell, excess_m3: hull_m3 - content.volume_m3 }
     }
 
-    /// The halves of least excess; ties go to the largest flat face.
+    /// Halves of least excess; ties go to the largest flat face.
     fn best_halves(&self, judged: &Judged) -> Option<[Judged; 2]> {
         if self.is_convex(judged) {
             return None;

@@ -1,4 +1,4 @@
-//! The hulls of what a decomposer found.
+//! Convex hulls of the point sets of a decomposer.
 
 use crate::piece::{NoHull, Piece, hull};
 use crate::seams::Pool;
@@ -6,7 +6,7 @@ use crate::solids;
 use nalgebra::Vector3;
 use pong_import::{Finding, Findings};
 
-/// The hulls of sets of points, and how many sets have no thickness.
+/// Hulls of point sets, and the number of sets without thickness.
 pub(crate) fn hulls_of(
     found: Vec<Vec<Vector3<f64>>>,
     pool: &mut Pool,

@@ -1,4 +1,4 @@
-//! A closed mesh as a solid: what is inside, and how far away its surface is.
+//! A closed mesh as a solid: inside test and distance to its surface.
 
 use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
@@ -6,7 +6,7 @@ use parry3d_f64::query::PointQuery;
 use parry3d_f64::shape::{TriMesh, TriMeshFlags};
 use pong_import::mesh::Mesh;
 
-/// A closed mesh under a tree of boxes, with normals that tell the inside.
+/// A closed mesh in a bounding volume tree, with pseudo-normals for the inside test.
 pub(crate) struct Solid(TriMesh);
 
 impl Solid {
@@ -33,7 +33,7 @@ impl Solid {
         (place - self.0.project_local_point(place, false).point).length()
     }
 
-    /// The nearest place of its surface.
+    /// Nearest point of its surface.
     pub(crate) fn nearest(&self, place: &Vector3<f64>) -> Vector3<f64> {
         let nearest = self.0.project_local_point(Vector::new(place.x, place.y, place.z), false).point;
         Vector3::new(nearest.x, nearest.y, nearest.z)

@@ -1,10 +1,11 @@
-//! Pieces joined again: those whose union is convex, and where there are too many those that add the least.
+//! Joining of pieces whose union is convex and, above the limit of pieces, of pairs that add the least
+//! volume.
 
 use crate::piece::{Piece, hull};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
-/// A union whose hull has at most this share more than the two together is convex.
+/// A union is convex if its hull exceeds the two volumes by at most this share.
 const CONVEX_SHARE: f64 = 1e-7;
 
 /// Joins pieces until no two have a convex union, and at most `pieces_max` are left if that is possible without
@@ -62,7 +63,7 @@ fn is_convex_union(union: &Piece, pool: &[Option<Piece>], a: usize, b: usize) ->
     added_m3(union, pool, a, b) <= CONVEX_SHARE * union.volume_m3
 }
 
-/// The pair that adds the least; ties go to the lowest.
+/// Pair that adds the least volume; ties go to the lowest indices.
 fn next_pair(
     pairs: &BTreeMap<(usize, usize), Piece>,
     pool: &[Option<Piece>],

@@ -1,9 +1,9 @@
-//! From a closed mesh to a group of convex polyhedra, with figures of what that costs.
+//! Decomposition of a closed mesh into a group of convex polyhedra, with figures of the deviation.
 //!
-//! `solids` (a file to closed meshes), `by_vhacd` (cuts by `flats` and `cells`, `content` between them), `fitted` (cuts where
-//! pieces protrude) or `coacd`,
-//! `piece` (hulls), `join`, `walls` with `regions` and `seams` (inner walls), `measure` (how far off it is). `mass`: volume,
-//! mass and inertia of closed meshes.
+//! `solids` (a file to closed meshes), `by_vhacd` (cuts by `flats` and `cells`, `content` between them),
+//! `fitted` (cuts where pieces protrude) or `coacd`, `piece` (hulls), `join`, `walls` with `regions` and
+//! `seams` (internal faces), `measure` (deviation from the source). `mass`: volume, mass and inertia of
+//! closed meshes.
 
 #![forbid(unsafe_code)]
 
@@ -45,9 +45,9 @@ use seams::Pool;
 use solids::SolidMesh;
 use std::path::{Path, PathBuf};
 
-/// Pieces this close to each other (in sizes of the whole) are neighbours; overlaps below it count as none.
+/// Pieces this close to each other (in sizes of the whole) are neighbours; smaller overlaps are ignored.
 const NEAR_SHARE: f64 = 1e-7;
-/// CoACD's vertices within this share of the size are one.
+/// CoACD's vertices within this share of the size are merged.
 const SETTLED_SHARE: f64 = 3e-4;
 
 /// The figures of a decomposition.
@@ -59,11 +59,11 @@ pub struct Report {
     pub triangles: usize,
     /// Convex pieces.
     pub pieces: usize,
-    /// Whether every connected part was convex and became one piece.
+    /// True if every connected part was convex and became one piece.
     pub exact: bool,
     /// Faces of all pieces.
     pub faces: usize,
-    /// Inner walls among them.
+    /// Internal faces among them.
     pub inactive_faces: usize,
     /// Sum of the pieces' volumes, m³.
     pub volume_m3: f64,
@@ -71,16 +71,16 @@ pub struct Report {
     pub source_volume_m3: f64,
     /// Length of the source's diagonal, m.
     pub size_m: f64,
-    /// How far pieces and source lie apart.
+    /// Deviation of the pieces from the source.
     pub deviation: Deviation,
 }
 
-/// What came of a decomposition.
+/// Outcome of a decomposition.
 #[derive(Clone, Debug)]
 pub struct Decomposed {
-    /// The figures, if it came as far as that.
+    /// Figures, if the decomposition got that far.
     pub report: Option<Report>,
-    /// The model file; nothing if there are faults.
+    /// The model file; empty if there are faults.
     pub files: Vec<PathBuf>,
     /// Faults and notes; the loader's warnings are among them.
     pub findings: Findings,
@@ -88,9 +88,9 @@ pub struct Decomposed {
 
 /// Decomposes a mesh file into convex pieces and writes them as a model to `output`.
 ///
-/// `progress` is called with what is being done. The model is read back by the engine's loader before it is put in
-/// its place; after a fault nothing is written. Bad input, a decomposer that gives up and a protrusion or deficit
-/// above `within_m` are faults.
+/// `progress` is called with the current activity. The engine's loader reads the model back before it is
+/// moved into place; after a fault nothing is written. Bad input, a decomposer that gives up and a protrusion
+/// or deficit above `within_m` are faults.
 pub fn decompose(
     input: &Path,
     output: &Path,
@@ -145,10 +145,10 @@ fn attempt(
     files::write_checked(output, write::text(&model), Vec::new(), findings)
 }
 
-/// Protrusions of more than this share of the size are told.
+/// Protrusions of more than this share of the size are reported.
 const TOLD_SHARE: f64 = 0.01;
 
-/// A body in front of the mesh would touch what protrudes before it touches the mesh.
+/// A body in front of the mesh would touch a protruding piece before the mesh itself.
 fn tell_protrusion(figures: &Report, options: &DecomposeOptions, file: &str, findings: &mut Findings) {
     let protrusion_m = figures.deviation.protrusion.max_m;
     let share = protrusion_m / figures.size_m;
@@ -177,7 +177,7 @@ fn whole(solids: &[SolidMesh]) -> Mesh {
     whole
 }
 
-/// The pieces of all solids with their inner walls, and whether all solids were convex.
+/// Pieces of all solids with their internal faces, and whether all solids were convex.
 fn pieces(
     solids: &[SolidMesh],
     options: &DecomposeOptions,
@@ -259,7 +259,8 @@ pub fn hull_of_mesh(mesh: &Mesh) -> Option<(mesh::Polyhedron, f64)> {
     Some((mesh::Polyhedron { vertices: piece.vertices, faces: piece.faces, look_of }, deepest_m))
 }
 
-/// CoACD moves vertices by about 1e-4 of the size: back to those of the mesh, and neighbours to common places.
+/// Moves CoACD's vertices (off by about 1e-4 of the size) back to those of the mesh, and near neighbours onto
+/// each other.
 fn settled(hulls: Vec<Vec<Vector3<f64>>>, mesh: &Mesh, size_m: f64) -> Vec<Vec<Vector3<f64>>> {
     let mut pool = Pool::within(SETTLED_SHARE * size_m);
     mesh.vertices.iter().for_each(|place| pool.add(*place));
@@ -293,7 +294,7 @@ fn tell_walls(walls: &walls::Walls, pieces: &[Piece], size_m: f64, file: &str, f
     }
 }
 
-/// Refuses what is farther off than allowed.
+/// Refuses a deviation above `within_m`.
 fn within(report: &Report, options: &DecomposeOptions, file: &str, findings: &mut Findings) -> Option<()> {
     let Some(limit_m) = options.within_m else { return Some(()) };
     let Deviation { protrusion, deficit, inner_deficit_m, .. } = &report.deviation;
@@ -357,7 +358,7 @@ fn primitive(name: String, piece: Piece) -> Primitive {
     Primitive { kind: "Polyhedron", name, surface: None, fields }
 }
 
-/// Whether the engine's loader takes a piece as it is.
+/// Tests whether the engine's loader accepts a piece unchanged.
 fn is_accepted(piece: &Piece) -> bool {
     let surface = DefaultSurface { name: "any".to_owned(), stiffness: 1.0, damping: 0.0, mu: 0.0 };
     let root = Group {

@@ -9,7 +9,7 @@ use std::path::Path;
 /// Mass of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mass {
-    /// kg/m³.
+    /// Density, kg/m³.
     Density(f64),
     /// Mass of all solids together, kg.
     Total(f64),
@@ -26,7 +26,7 @@ pub struct MassProperties {
     pub solids: usize,
     /// Volume of all solids, without cavities, m³.
     pub volume_m3: f64,
-    /// kg.
+    /// Mass, kg.
     pub mass_kg: f64,
     /// Centre of mass, m.
     pub center_m: [f64; 3],
@@ -66,7 +66,7 @@ fn attempt(input: &Path, options: &Options, mass: Mass, findings: &mut Findings)
     })
 }
 
-/// Volume, its centre, and ∫ x xᵀ dV about that.
+/// Volume, its centroid, and ∫ x xᵀ dV about the centroid.
 struct Moments {
     volume_m3: f64,
     center: Vector3<f64>,
@@ -74,7 +74,7 @@ struct Moments {
 }
 
 impl Moments {
-    /// Sums of tetrahedra between the triangles and a place amid them.
+    /// Sums over tetrahedra between the triangles and an inner point.
     fn of(mesh: &Mesh) -> Self {
         let (low, high) = bounds(&mesh.vertices);
         let origin = 0.5 * (low + high);

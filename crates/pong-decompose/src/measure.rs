@@ -1,7 +1,9 @@
-//! How far pieces and source lie apart, measured from the two surfaces alone: whatever made the pieces is not asked.
+//! Deviation between pieces and source, measured from the two surfaces alone, independently of the method
+//! that made the pieces.
 //!
-//! Distances from a solid change no faster than the place does. So a triangle is cut in halves until either it is
-//! small or it cannot hold a larger distance than one already found, and what is left over bounds the largest there is.
+//! Distances from a solid change no faster than the position (Lipschitz constant 1). A triangle is halved
+//! until it is small or cannot contain a larger distance than the largest found; the remaining bounds limit
+//! the true maximum.
 
 use crate::inside::Solid;
 use crate::piece::Piece;
@@ -15,7 +17,7 @@ use std::collections::BinaryHeap;
 
 /// Distances below this share of the size are rounding.
 const NOTHING: f64 = 1e-8;
-/// The largest distance is looked for until it is known to this share of the size.
+/// Relative accuracy of the largest distance.
 const SHARP: f64 = 1e-4;
 
 /// Distances of one solid's surface from another solid.
@@ -23,30 +25,30 @@ const SHARP: f64 = 1e-4;
 pub struct Distances {
     /// Largest distance found, m.
     pub max_m: f64,
-    /// No place of the surface is farther away than this, m.
+    /// Upper bound of the distance over the whole surface, m.
     pub bound_m: f64,
-    /// Where the largest was found, m.
+    /// Point of the largest distance found, m.
     pub at: [f64; 3],
     /// Mean over the surface's area, m.
     pub mean_m: f64,
-    /// Share of the area that is away at all.
+    /// Share of the area at a distance above zero.
     pub area_share: f64,
 }
 
-/// What a decomposition is worth.
+/// Quality of a decomposition.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Deviation {
-    /// Of the pieces' active faces outside the source.
+    /// Distances of the pieces' active faces outside the source.
     pub protrusion: Distances,
-    /// Of the source's surface outside the pieces.
+    /// Distances of the source's surface outside the pieces.
     pub deficit: Distances,
-    /// Largest distance from the pieces found in the inside of the source, m.
+    /// Largest distance from the pieces found inside the source, m.
     pub inner_deficit_m: f64,
-    /// Share of the source's volume that no piece has.
+    /// Share of the source's volume outside all pieces.
     pub deficit_share: f64,
     /// Volume of the pieces outside the source, as a share of the source's.
     pub protruding_share: f64,
-    /// Places inside the source at which volumes were counted.
+    /// Sample points inside the source for the volumes.
     pub places: usize,
 }
 
@@ -121,7 +123,7 @@ fn area_m2([a, b, c]: &[Vector3<f64>; 3]) -> f64 {
     0.5 * (b - a).cross(&(c - a)).norm()
 }
 
-/// A part of a triangle, and the farthest any place of it can be from the other solid.
+/// A part of a triangle, with an upper bound of its distance from the other solid.
 struct Patch {
     corners: [Vector3<f64>; 3],
     bound_m: f64,
@@ -141,7 +143,7 @@ impl PartialOrd for Patch {
     }
 }
 
-/// By bound; places break ties, so that the order is the same in every run.
+/// Ordered by bound, ties by position, so that every run has the same order.
 impl Ord for Patch {
     fn cmp(&self, other: &Self) -> Ordering {
         let places = || self.corners.iter().zip(&other.corners).map(|(a, b)| lexicographic(a, b));
@@ -151,7 +153,7 @@ impl Ord for Patch {
     }
 }
 
-/// Distances over triangles: evenly first, then where the largest may still hide.
+/// Distances over triangles: even sampling first, then refinement where the largest may still hide.
 fn over(
     triangles: &[[Vector3<f64>; 3]],
     samples: usize,
@@ -184,7 +186,7 @@ fn over(
         away_m2 += if away_m > 0.0 { area } else { 0.0 };
     }
     (found.mean_m, found.area_share) = (moment / total_m2, away_m2 / total_m2);
-    // The most promising first, and as much work again as was done already.
+    // Largest bound first, for as many steps as the even sampling took.
     let mut work = patches.len();
     let mut patches = BinaryHeap::from(patches);
     let mut settled_m = found.max_m;
@@ -226,13 +228,13 @@ fn halved(corners: &[Vector3<f64>; 3]) -> ([[Vector3<f64>; 3]; 2], f64) {
     ([[a, middle, c], [middle, b, c]], length(longest))
 }
 
-/// Volumes by counting places of an evenly spread sequence (Roberts' R3) in the common box.
+/// Volumes by counting points of a low-discrepancy sequence (Roberts' R3) in the common box.
 fn volumes(deviation: &mut Deviation, source: &Mesh, solid: &Solid, union: &Union<'_>, samples: usize) {
     let (mut low, mut high) = bounds(&source.vertices);
     for piece in union.pieces {
         (low, high) = (low.inf(&piece.low), high.sup(&piece.high));
     }
-    // The real root of x⁴ = x + 1 and its powers.
+    // Reciprocal powers of the real root of x⁴ = x + 1.
     const STEPS: [f64; 3] = [0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3];
     let (mut missing, mut protruding) = (0usize, 0usize);
     for number in 1..=samples {

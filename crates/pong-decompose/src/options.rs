@@ -1,8 +1,8 @@
-//! How a mesh is to be decomposed.
+//! Options of a decomposition.
 
 use pong_import::Findings;
 
-/// Which program finds the cuts.
+/// Program that finds the cuts.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Method {
     /// VHACD of the parry3d crate, built in.
@@ -11,26 +11,26 @@ pub enum Method {
     Coacd(String),
 }
 
-/// How a mesh is to be decomposed.
+/// Options of a decomposition.
 #[derive(Clone, Debug)]
 pub struct DecomposeOptions {
-    /// How the mesh is read and what model is made of it; what concerns parts, roots and mesh files is not looked at.
+    /// Options of reading the mesh and building the model; those of parts, roots and mesh files are ignored.
     pub import: pong_import::Options,
-    /// What finds the cuts.
+    /// Program that finds the cuts.
     pub method: Method,
-    /// VHACD: voxels along the longest side. CoACD: samples on the surface. `None` for 100 and 2000.
+    /// VHACD: voxels along the longest side. CoACD: samples on the surface. `None` means 100 and 2000.
     pub resolution: Option<u32>,
-    /// VHACD: share of the whole hull's volume by which a piece may exceed what it holds. CoACD: its threshold.
-    /// `None` for 0.005 and 0.05.
+    /// VHACD: share of the whole hull's volume by which a piece may exceed its content. CoACD: its threshold.
+    /// `None` means 0.005 and 0.05.
     pub concavity: Option<f64>,
-    /// Cuts are made where pieces protrude by more than this, m, as long as `pieces_max` allows it: holes wider than twice
-    /// this are kept. `None` leaves the cuts to the method.
+    /// Largest protrusion of a piece, m: pieces are cut until it holds or `pieces_max` is reached, so holes
+    /// wider than twice this stay open. `None` leaves the cuts to the method.
     pub fit_m: Option<f64>,
     /// Most pieces.
     pub pieces_max: usize,
-    /// Largest protrusion and deficit that are accepted, m.
+    /// Largest accepted protrusion and deficit, m.
     pub within_m: Option<f64>,
-    /// Places measured on each surface and in the volume.
+    /// Sample points on each surface and in the volume.
     pub samples: usize,
 }
 
@@ -50,7 +50,7 @@ impl Default for DecomposeOptions {
 }
 
 impl DecomposeOptions {
-    /// Tells of values that no decomposition can have.
+    /// Reports values outside their range.
     pub(crate) fn check(&self, file: &str, findings: &mut Findings) -> Option<()> {
         let mut refuse = |bad: bool, what: String, cure: &str| {
             if bad {

@@ -1,4 +1,4 @@
-//! One convex piece, and the hull of points as one.
+//! One convex piece, and the convex hull of points.
 
 use crate::polygon::{Plane, Polygon, clip, is_wide, plane_of};
 use nalgebra::{Matrix3, Vector3};
@@ -6,9 +6,10 @@ use pong_import::mesh::{self, Flaw, Mesh, Polyhedron, bounds, ring};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Points whose spread along one direction is below this share of that along another are stretched for the hull.
+/// Point sets flatter than this (spread along one direction over that along another) are stretched before the
+/// hull.
 const FLAT_SPREAD: f64 = 0.03;
-/// Spread below this share of the largest: no solid.
+/// Point sets flatter than this are no solid.
 const NO_SPREAD: f64 = 1e-7;
 
 /// A convex solid of polygons.
@@ -16,7 +17,7 @@ const NO_SPREAD: f64 = 1e-7;
 pub(crate) struct Piece {
     pub(crate) vertices: Vec<Vector3<f64>>,
     pub(crate) faces: Vec<Vec<u32>>,
-    /// For each face whether it is an inner wall.
+    /// True for each internal (inactive) face.
     pub(crate) inactive: Vec<bool>,
     pub(crate) planes: Vec<Plane>,
     pub(crate) low: Vector3<f64>,
@@ -24,12 +25,12 @@ pub(crate) struct Piece {
     pub(crate) volume_m3: f64,
 }
 
-/// Why points have no hull that is a solid.
+/// Reasons why points have no solid hull.
 #[derive(Debug)]
 pub(crate) enum NoHull {
-    /// They lie in a plane.
+    /// The points lie in a plane.
     Flat,
-    /// The hull came out damaged.
+    /// The hull is damaged.
     Failed,
 }
 
@@ -49,7 +50,7 @@ impl Piece {
         self.faces[face].iter().map(|&vertex| self.vertices[vertex as usize]).collect()
     }
 
-    /// Fans of triangles over all faces.
+    /// Triangle fans over all faces.
     pub(crate) fn triangles(&self) -> Mesh {
         let fan = |face: &Vec<u32>| {
             let face = face.clone();
@@ -59,19 +60,19 @@ impl Piece {
         Mesh { vertices: self.vertices.clone(), look_of: vec![0; triangles.len()], triangles }
     }
 
-    /// Whether their boxes come within a distance.
+    /// Tests whether the bounding boxes come within a distance.
     pub(crate) fn is_near(&self, other: &Self, margin_m: f64) -> bool {
         (0..3).all(|axis| {
             self.low[axis] <= other.high[axis] + margin_m && other.low[axis] <= self.high[axis] + margin_m
         })
     }
 
-    /// Whether a place is inside, or less than `margin_m` outside of every face's plane.
+    /// Tests whether a point is inside, or less than `margin_m` outside every face's plane.
     pub(crate) fn holds(&self, place: &Vector3<f64>, margin_m: f64) -> bool {
         self.planes.iter().all(|plane| plane.height(place) <= margin_m)
     }
 
-    /// Whether both have common parts deeper than `margin_m`.
+    /// Tests whether the pieces overlap by more than `margin_m`.
     pub(crate) fn overlaps(&self, other: &Self, margin_m: f64) -> bool {
         if !self.is_near(other, -margin_m) {
             return false;
@@ -89,7 +90,7 @@ impl Piece {
         reaches_into(self, other) || reaches_into(other, self) || within(self, other) || within(other, self)
     }
 
-    /// Both sides of a plane that passes through it.
+    /// Both sides of a plane that passes through the piece.
     pub(crate) fn cut(&self, plane: &Plane) -> Option<[Self; 2]> {
         let mut sides = [Vec::new(), Vec::new()];
         for face in 0..self.faces.len() {
@@ -112,7 +113,7 @@ impl Piece {
     }
 }
 
-/// The convex hull of points, its coplanar triangles merged; vertices are points, bit for bit.
+/// Convex hull of points with coplanar triangles merged; its vertices are input points, bit for bit.
 pub(crate) fn hull(points: &[Vector3<f64>]) -> Result<Piece, NoHull> {
     let mut points = points.to_vec();
     points.sort_by(crate::polygon::lexicographic);
@@ -127,7 +128,7 @@ pub(crate) fn hull(points: &[Vector3<f64>]) -> Result<Piece, NoHull> {
         return Err(NoHull::Flat);
     }
     let plain = points.iter().map(|place| (place - mean) / largest);
-    // An affine map keeps what a hull is made of; flat ones come out better when they are made round.
+    // Affine maps preserve hulls; flat sets are more robust when stretched to a round shape.
     let round = |place: &Vector3<f64>| {
         Vector3::from_fn(|axis, _| {
             let along = spread.column(axis);
@@ -142,7 +143,8 @@ pub(crate) fn hull(points: &[Vector3<f64>]) -> Result<Piece, NoHull> {
     let mirrored = spread.determinant() < 0.0;
     let round: Vec<Vector3<f64>> =
         points.iter().map(|place| if mirrored { -round(place) } else { round(place) }).collect();
-    // Many points in one plane can confuse the hull: then each is moved by far less than a plane's tolerance.
+    // Many coplanar points can make the hull fail: retries move each point by far less than a plane's
+    // tolerance.
     let attempts = [0.0, 1e-11, 1e-10, 1e-9].into_iter().map(|by| {
         mapped_hull(
             &points,
@@ -159,13 +161,13 @@ pub(crate) fn hull(points: &[Vector3<f64>]) -> Result<Piece, NoHull> {
     last
 }
 
-/// A place in the cube from −1 to 1, scattered evenly.
+/// Evenly scattered point in the cube from −1 to 1.
 fn joggle(number: usize) -> Vector3<f64> {
     let turn = |step: f64| 2.0 * (step * (number + 1) as f64).fract() - 1.0;
     Vector3::new(turn(0.754_877_666_246_692_8), turn(0.569_840_290_998_053_2), turn(0.618_033_988_749_894_9))
 }
 
-/// Mean, and the principal axes with the standard deviations along them as lengths.
+/// Mean, and the principal axes scaled by the standard deviations along them.
 fn principal_spread(points: &[Vector3<f64>]) -> (Vector3<f64>, Matrix3<f64>) {
     let first = points[0];
     let mean = first + points.iter().map(|place| place - first).sum::<Vector3<f64>>() / points.len() as f64;
@@ -173,7 +175,7 @@ fn principal_spread(points: &[Vector3<f64>]) -> (Vector3<f64>, Matrix3<f64>) {
         points.iter().map(|place| (place - mean) * (place - mean).transpose()).sum::<Matrix3<f64>>()
             / points.len() as f64;
     let eigen = covariance.symmetric_eigen();
-    // The deviation along an axis is taken from the points: the least eigenvalue is lost in the rounding of others.
+    // Deviations are computed from the points: the least eigenvalue would drown in rounding.
     let along = |axis: Vector3<f64>| {
         let sum: f64 = points.iter().map(|place| axis.dot(&(place - mean)).powi(2)).sum();
         axis * (sum / points.len() as f64).sqrt().max(f64::MIN_POSITIVE)
@@ -189,7 +191,7 @@ fn mapped_hull(points: &[Vector3<f64>], mapped: Vec<Vector3<f64>>) -> Result<Pie
     let number: BTreeMap<[u64; 3], u32> =
         mapped.iter().enumerate().map(|(index, p)| (key(p.x, p.y, p.z), index as u32)).collect();
     let places: Vec<_> = mapped.iter().map(|p| parry3d_f64::math::Vector::new(p.x, p.y, p.z)).collect();
-    // Degenerate points can trip assertions inside.
+    // Degenerate points can trip assertions inside parry.
     let found = catch_unwind(AssertUnwindSafe(|| parry3d_f64::transformation::try_convex_hull(&places)));
     let (corners, triangles) = found.ok().and_then(Result::ok).ok_or(NoHull::Failed)?;
     let original: Option<Vec<u32>> =

@@ -1,4 +1,4 @@
-//! Convex polygons in space: cutting, areas, what some leave of another.
+//! Convex polygons in space: clipping, areas, differences.
 
 use nalgebra::Vector3;
 use pong_import::mesh::ring;
@@ -10,7 +10,7 @@ pub(crate) struct Plane {
     pub(crate) offset: f64,
 }
 
-/// A convex outline, counter-clockwise seen from where its normal points.
+/// A convex outline, counter-clockwise seen from the side to which the normal points.
 pub(crate) type Polygon = Vec<Vector3<f64>>;
 
 impl Plane {
@@ -32,12 +32,13 @@ impl Plane {
         Self { offset: self.offset + by, ..*self }
     }
 
-    /// Where the line from `a` to `b` passes; the same bits whichever end comes first.
+    /// Crossing of the line from `a` to `b` with the plane; independent of the order of the ends, bit for
+    /// bit.
     pub(crate) fn crossing(&self, a: &Vector3<f64>, b: &Vector3<f64>) -> Vector3<f64> {
         let (a, b) = if lexicographic(a, b).is_le() { (a, b) } else { (b, a) };
         let (height_a, height_b) = (self.height(a), self.height(b));
         let mut place = a + (b - a) * (height_a / (height_a - height_b));
-        // On a plane across an axis that coordinate is known.
+        // On an axis-aligned plane that coordinate is exact.
         if let Some(axis) = (0..3).find(|&axis| self.normal[axis].abs() == 1.0) {
             place[axis] = self.offset * self.normal[axis];
         }
@@ -67,7 +68,7 @@ pub(crate) fn plane_of(polygon: &[Vector3<f64>]) -> Plane {
     Plane { normal, offset: normal.dot(&(first + mean)) }
 }
 
-/// Largest extent of the corners along any edge's direction across it: the least of these is the width.
+/// Width: the least, over all edges, of the extent across the edge.
 pub(crate) fn width(polygon: &[Vector3<f64>]) -> f64 {
     let across = |(a, b): (Vector3<f64>, Vector3<f64>)| {
         let along = (b - a).normalize();
@@ -91,13 +92,13 @@ pub(crate) fn clip(polygon: &[Vector3<f64>], plane: &Plane) -> Polygon {
     inside
 }
 
-/// The half spaces whose common part is the prism over a polygon; they look outwards.
+/// Half spaces whose intersection is the prism over a polygon; normals point outwards.
 pub(crate) fn sides(polygon: &[Vector3<f64>], normal: &Vector3<f64>) -> Vec<Plane> {
     ring(polygon)
         .filter(|(a, b)| a != b)
         .map(|(a, b)| {
             let mut outward = (b - a).cross(normal).normalize();
-            // Edges along an axis give planes across one; rounding must not tilt them.
+            // Edges along an axis give axis-aligned planes; rounding must not tilt them.
             if let Some(axis) = (0..3).find(|&axis| (outward[axis].abs() - 1.0).abs() < 1e-14) {
                 outward = Vector3::ith(axis, outward[axis].signum());
             }
@@ -106,12 +107,12 @@ pub(crate) fn sides(polygon: &[Vector3<f64>], normal: &Vector3<f64>) -> Vec<Plan
         .collect()
 }
 
-/// The common part of two polygons of one plane.
+/// Intersection of two coplanar polygons.
 pub(crate) fn common(one: &[Vector3<f64>], other: &[Vector3<f64>], normal: &Vector3<f64>) -> Polygon {
     sides(other, normal).iter().fold(one.to_vec(), |rest, side| clip(&rest, side))
 }
 
-/// What is left of convex polygons of one plane without another: convex polygons again, none narrower than `least_m`.
+/// Difference of coplanar convex polygons and another: convex polygons, none narrower than `least_m`.
 pub(crate) fn without(
     polygons: &[Polygon],
     taken: &[Vector3<f64>],
@@ -135,7 +136,7 @@ pub(crate) fn without(
         }
         match is_wide(&rest, least_m) {
             true => left.extend(outer),
-            // They hardly overlap: nothing is cut.
+            // The overlap is negligible: nothing is cut.
             false => left.push(polygon.clone()),
         }
     }

@@ -1,4 +1,4 @@
-//! Unions of convex polygons in one plane.
+//! Unions of coplanar convex polygons.
 
 use crate::polygon::{Polygon, area, lexicographic, sides};
 use crate::seams::{Pool, with_vertices};
@@ -6,13 +6,13 @@ use nalgebra::Vector3;
 use pong_import::mesh::ring;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The sum of areas.
+/// Sum of the areas.
 pub(crate) fn sum(polygons: &[Polygon]) -> f64 {
     polygons.iter().map(|polygon| area(polygon)).sum()
 }
 
-/// Polygons as the loader will see them: it makes one face of connected ones, which must then be convex, unless their
-/// outline is not one simple loop. `None` if it would refuse them.
+/// Polygons as the loader will see them: it merges connected ones to one face, which must be convex, unless
+/// their outline is not one simple loop. `None` if it would refuse them.
 pub(crate) fn faces_of(
     polygons: &[Polygon],
     normal: &Vector3<f64>,
@@ -36,7 +36,7 @@ pub(crate) fn faces_of(
     Some(faces)
 }
 
-/// Whether the rim of a union is one loop that passes every corner once.
+/// Tests whether the boundary of a union is one loop that passes every corner once.
 fn is_one_loop(members: &[Polygon], same_m: f64) -> bool {
     let mut pool = Pool::within(same_m);
     let members: Vec<Polygon> = members.iter().map(|polygon| pool.polygon(polygon.clone())).collect();
@@ -65,7 +65,7 @@ fn is_one_loop(members: &[Polygon], same_m: f64) -> bool {
     length == rim.len()
 }
 
-/// Which polygons have common stretches of rim, directly or through others.
+/// Groups of polygons that share stretches of boundary, directly or through others.
 fn connected(polygons: &[Polygon], normal: &Vector3<f64>, strip_m: f64) -> Vec<Vec<usize>> {
     let mut group: Vec<usize> = (0..polygons.len()).collect();
     for a in 0..polygons.len() {
@@ -80,7 +80,7 @@ fn connected(polygons: &[Polygon], normal: &Vector3<f64>, strip_m: f64) -> Vec<V
     (0..polygons.len()).filter(|&number| group[number] == number).map(members).collect()
 }
 
-/// Whether they touch along more than a point.
+/// Tests whether two polygons touch along more than a point.
 fn share_rim(one: &[Vector3<f64>], other: &[Vector3<f64>], normal: &Vector3<f64>, strip_m: f64) -> bool {
     let edges: Vec<_> = ring(other).filter(|(a, b)| a != b).collect();
     sides(one, normal).iter().zip(ring(one).filter(|(a, b)| a != b)).any(|(side, (start, end))| {
@@ -96,7 +96,7 @@ fn share_rim(one: &[Vector3<f64>], other: &[Vector3<f64>], normal: &Vector3<f64>
     })
 }
 
-/// The convex outline around polygons of one plane, without straight corners.
+/// Convex outline around coplanar polygons, without straight corners.
 fn hull(polygons: &[Polygon], normal: &Vector3<f64>) -> Polygon {
     let across = Vector3::ith(normal.iamin(), 1.0);
     let u = across.cross(normal).normalize();

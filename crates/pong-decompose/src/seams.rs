@@ -1,4 +1,4 @@
-//! Pieces that meet get bit-equal vertices: the loader knows common edges by that.
+//! Bit-equal vertices where pieces meet: the loader recognises common edges by them.
 
 use crate::piece::Piece;
 use crate::polygon::{Polygon, lexicographic, plane_of};
@@ -6,10 +6,10 @@ use nalgebra::Vector3;
 use pong_import::mesh::ring;
 use std::collections::BTreeMap;
 
-/// Places within this share of the whole's size are one.
+/// Points within this share of the whole's size are merged.
 const SAME_SHARE: f64 = 1e-9;
 
-/// Places seen so far, found again within a tolerance.
+/// Pool of points with look-up within a tolerance.
 pub(crate) struct Pool {
     same_m: f64,
     cells: BTreeMap<[i64; 3], Vec<Vector3<f64>>>,
@@ -33,7 +33,7 @@ impl Pool {
         pool
     }
 
-    /// The nearest place seen so far, or else this one from now on.
+    /// Nearest known point within the tolerance; otherwise adds `place` and returns it.
     pub(crate) fn place(&mut self, place: Vector3<f64>) -> Vector3<f64> {
         let home = self.home(&place);
         let near = (0..27).map(|k| [home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1, home[2] + k / 9 - 1]);
@@ -47,7 +47,7 @@ impl Pool {
         place
     }
 
-    /// A place of its own, however near to others.
+    /// Adds a new point, however near to others.
     pub(crate) fn add(&mut self, place: Vector3<f64>) {
         let home = self.home(&place);
         self.cells.entry(home).or_default().push(place);
@@ -72,8 +72,8 @@ impl Pool {
     }
 }
 
-/// Gives the pieces these faces (outline, inactive), with the vertices of their neighbours in their rims. Returns the
-/// pieces that keep their own faces, because these would not close or are not `accepted`.
+/// Gives the pieces these faces (outline, inactive) with their neighbours' vertices inserted in the edges.
+/// Returns the pieces that keep their old faces because the new ones would not close or are not `accepted`.
 pub(crate) fn stitch(
     pieces: &mut [Piece],
     faces: &[Vec<(Polygon, bool)>],
@@ -108,12 +108,12 @@ pub(crate) fn stitch(
     kept
 }
 
-/// An outline with the places that lie within its edges; they are sorted.
+/// An outline with the points that lie within its edges inserted, in order.
 pub(crate) fn with_vertices(polygon: &[Vector3<f64>], places: &[Vector3<f64>], same_m: f64) -> Polygon {
     let mut outline = Polygon::new();
     for (a, b) in ring(polygon) {
         outline.push(a);
-        // From the same end for both faces of an edge.
+        // Measured from the same end for both faces of an edge.
         let forward = lexicographic(&a, &b).is_le();
         let (start, end) = if forward { (a, b) } else { (b, a) };
         let length = (end - start).norm();

@@ -1,4 +1,4 @@
-//! A mesh file as closed solids, or what keeps it from being some.
+//! Closed solids of a mesh file, or the faults that prevent them.
 
 use nalgebra::Vector3;
 use parry3d_f64::bounding_volume::Aabb;
@@ -10,10 +10,10 @@ use pong_import::mesh::{self, Adjacency, Mesh, area_vector, bounds, ring};
 use pong_import::number::Grid;
 use pong_import::source::{Shape, Source};
 
-/// A solid thinner than this share of its size is none.
+/// A solid thinner than this share of its size is refused.
 const THIN: f64 = 2e-6;
 
-/// The closed surfaces of one solid: its outside, and around cavities.
+/// Closed surfaces of one solid: its outside and its cavities.
 pub(crate) struct SolidMesh {
     pub(crate) mesh: Mesh,
     pub(crate) hollow: bool,
@@ -50,7 +50,7 @@ pub(crate) fn flatten(source: Source, building: &Building<'_>, findings: &mut Fi
     whole
 }
 
-/// The solids of a shape, in the order of their first triangles.
+/// Solids of a shape, in the order of their first triangles.
 pub(crate) fn solids(
     mut shape: Shape,
     building: &Building<'_>,
@@ -82,7 +82,7 @@ pub(crate) fn solids(
     Some(solids)
 }
 
-/// Faults for whatever keeps a mesh from having an inside.
+/// Faults of a mesh that is not closed.
 fn closed(mesh: &Mesh, file: &str, findings: &mut Findings) -> Option<()> {
     let adjacency = Adjacency::new(&mesh.triangles);
     let start = |triangle: u32, corner: usize| named(&mesh.corners(triangle as usize)[corner]);
@@ -115,7 +115,7 @@ fn closed(mesh: &Mesh, file: &str, findings: &mut Findings) -> Option<()> {
     findings.faults.is_empty().then_some(())
 }
 
-/// Cavities go to the smallest solid around them.
+/// Assigns cavities to the smallest solid around them.
 fn sorted(parts: Vec<Mesh>, file: &str, findings: &mut Findings) -> Option<Vec<SolidMesh>> {
     let mut outsides: Vec<(f64, SolidMesh)> = Vec::new();
     let mut cavities = Vec::new();
@@ -160,7 +160,7 @@ fn sorted(parts: Vec<Mesh>, file: &str, findings: &mut Findings) -> Option<Vec<S
     findings.faults.is_empty().then(|| outsides.into_iter().map(|(_, solid)| solid).collect())
 }
 
-/// Tells of triangles that pass through each other.
+/// Reports triangles that pass through each other.
 fn crossings(mesh: &Mesh, file: &str, findings: &mut Findings) {
     let boxes: Vec<Aabb> = (0..mesh.triangles.len()).map(|triangle| aabb(&mesh.corners(triangle))).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
@@ -190,7 +190,7 @@ fn aabb(corners: &[Vector3<f64>; 3]) -> Aabb {
     Aabb::new(vector(low), vector(high))
 }
 
-/// Where an edge of one passes through the inside of the other.
+/// Point where an edge of one triangle passes through the inside of the other.
 fn crossing(mesh: &Mesh, one: usize, other: usize) -> Option<Vector3<f64>> {
     let (one, other) = (mesh.corners(one), mesh.corners(other));
     ring(&one)

@@ -1,8 +1,8 @@
-//! Pieces as the loader takes them.
+//! Pieces that the loader accepts.
 //!
-//! The loader makes one face of neighbours that lie in one plane within 1e-6 of the diameter. On a smooth shape such
-//! neighbours need not have a convex outline together; the face is refused then. Vertices that stand out from the
-//! rest by next to nothing are what makes such faces, so they are left out.
+//! The loader merges neighbouring faces that are coplanar within 1e-6 of the diameter, and refuses the result
+//! if its outline is not convex. On smooth shapes this is caused by vertices that stand out by almost
+//! nothing, so these are left out.
 
 use crate::piece::{Piece, hull};
 use crate::polygon::lexicographic;
@@ -12,18 +12,18 @@ use nalgebra::Vector3;
 /// Vertices that stand out by less than this share of a piece's box may be left out.
 const FLAT_SHARE: f64 = 1e-5;
 
-/// What was changed.
+/// Changes made to the pieces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Changes {
     /// Vertices left out.
     pub(crate) flat: usize,
-    /// Pieces whose vertices within `welded_m` became one, because nothing less helped.
+    /// Pieces in which vertices within `welded_m` were merged, because nothing less helped.
     pub(crate) welded: usize,
-    /// The largest such distance, m.
+    /// Largest distance of merged vertices, m.
     pub(crate) welded_m: f64,
 }
 
-/// Changes pieces as little as it takes to have them accepted.
+/// Makes the smallest changes with which all pieces are accepted.
 pub(crate) fn make(pieces: &mut [Piece], size_m: f64, accepted: &dyn Fn(&Piece) -> bool) -> Changes {
     let mut changes = Changes::default();
     let mut left_out: Vec<Vector3<f64>> = Vec::new();
@@ -43,7 +43,7 @@ pub(crate) fn make(pieces: &mut [Piece], size_m: f64, accepted: &dyn Fn(&Piece) 
     left_out.sort_by(lexicographic);
     left_out.dedup();
     changes.flat = left_out.len();
-    // Neighbours lose them too, so that walls stay alike.
+    // Neighbours lose them too, so that common faces stay alike.
     for piece in pieces {
         for place in &left_out {
             if let Some(simpler) = without(piece, place).filter(accepted) {
@@ -54,7 +54,7 @@ pub(crate) fn make(pieces: &mut [Piece], size_m: f64, accepted: &dyn Fn(&Piece) 
     changes
 }
 
-/// The piece without a vertex, if that stands out from the rest by next to nothing.
+/// The piece without a vertex, if the vertex stands out by almost nothing.
 fn without(piece: &Piece, place: &Vector3<f64>) -> Option<Piece> {
     standing_out(piece, place).filter(|(height_m, _)| *height_m <= limit_m(piece)).map(|(_, rest)| rest)
 }
@@ -63,7 +63,7 @@ fn limit_m(piece: &Piece) -> f64 {
     FLAT_SHARE * (piece.high - piece.low).norm()
 }
 
-/// How far a vertex stands out from the hull of the others, m, and that hull.
+/// Height of a vertex above the hull of the others, m, and that hull.
 fn standing_out(piece: &Piece, place: &Vector3<f64>) -> Option<(f64, Piece)> {
     let others: Vec<Vector3<f64>> = piece.vertices.iter().copied().filter(|vertex| vertex != place).collect();
     if others.len() == piece.vertices.len() {
@@ -95,7 +95,7 @@ fn without_flat_vertices(
     None
 }
 
-/// Makes one of vertices that are close together; the last resort.
+/// Merges vertices that are close together; the last resort.
 fn welded(piece: &Piece, size_m: f64, accepted: &dyn Fn(&Piece) -> bool) -> Option<(Piece, f64)> {
     [1e-6, 1e-5, 1e-4, 1e-3].into_iter().map(|share| share * size_m).find_map(|within_m| {
         let mut pool = Pool::within(within_m);

@@ -1,9 +1,9 @@
-//! Inner walls: faces that lie against or inside other pieces, so that nothing can touch them from outside.
+//! Internal faces: faces against or inside other pieces, unreachable from outside.
 //!
-//! A face is inactive if other pieces cover all of it. Where a neighbour covers a part, the face is cut into what is
-//! covered and what is not, if the loader keeps such faces apart: neighbours in one plane become one face there, and
-//! every face must be convex. Else the piece itself is cut in two along the rim of the covered part, while the number
-//! of pieces allows it. What is still covered in part then stays active as a whole.
+//! A face is inactive if other pieces cover all of it. A partly covered face is divided into its covered and
+//! open parts, unless the loader would merge them again (coplanar neighbours become one face, and every face
+//! must be convex). In that case the piece is cut in two along the boundary of the covered part while the
+//! number of pieces allows it. A face that is still partly covered stays active as a whole.
 
 use crate::piece::Piece;
 use crate::polygon::{Plane, Polygon, area, clip, common, is_wide, sides, without};
@@ -11,39 +11,41 @@ use crate::regions::{faces_of, sum};
 use crate::seams::{Pool, stitch};
 use nalgebra::Vector3;
 
-/// Opposite faces within this share of the larger piece's box are one plane; the loader allows four times as much.
+/// Opposite faces within this share of the larger piece's box are coplanar; the loader's tolerance is four
+/// times larger.
 const PLANE_SHARE: f64 = 0.25e-6;
-/// Narrower strips (in sizes of the whole) count as none.
+/// Narrower strips (in sizes of the whole) are ignored.
 const STRIP_SHARE: f64 = 1e-7;
-/// How far in front of a face other pieces are looked for, in sizes of the whole.
+/// Distance in front of a face within which covering pieces are searched, in sizes of the whole.
 const PROBE_SHARE: f64 = 1e-8;
 
-/// What was found and done.
+/// Counts of cuts and of partly covered faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Walls {
-    /// Pieces that were cut in two along the rims of walls.
+    /// Pieces cut in two along boundaries of internal faces.
     pub(crate) cuts: usize,
-    /// Faces of which a part is covered, and that stay active.
+    /// Partly covered faces that stay active.
     pub(crate) part_covered: usize,
 }
 
-/// Two opposite faces in one plane, and what they have in common, counter-clockwise seen along the first's normal.
+/// Two opposite coplanar faces and their intersection, counter-clockwise seen along the first's normal.
 struct Touch {
     faces: [(usize, usize); 2],
     polygon: Polygon,
 }
 
-/// How a face becomes several.
+/// Division of a partly covered face.
 enum Split {
-    /// Nothing to do.
+    /// No division.
     Whole,
     /// Covered and open parts.
     Parts { covered: Vec<Polygon>, open: Vec<Polygon> },
-    /// The loader would refuse the parts: cut the piece along this plane.
+    /// Cut of the piece along this plane, because the loader would refuse the parts.
     Cut(Plane),
 }
 
-/// Marks inner walls, cutting faces and pieces where that is needed; `accepted` tells whether the loader takes a piece.
+/// Marks internal faces, dividing faces and cutting pieces where needed; `accepted` tests whether the loader
+/// takes a piece.
 pub(crate) fn mark(
     pieces: &mut Vec<Piece>,
     pieces_max: usize,
@@ -94,12 +96,12 @@ pub(crate) fn mark(
         polygons.push(faces);
     }
     for index in stitch(pieces, &polygons, size_m, accepted) {
-        // What the split faces had covered is covered in part again.
+        // The parts covered by the divided faces are partly covered again.
         let split = polygons[index].iter().filter(|(_, inactive)| *inactive).count();
         walls.part_covered += split.saturating_sub(covered[index].iter().filter(|covered| **covered).count());
         pieces[index].inactive.clone_from(&covered[index]);
         if !accepted(&pieces[index]) {
-            // Without a wall between them, faces that are nearly flat become one.
+            // Without an internal face between them, nearly coplanar faces are merged.
             pieces[index].inactive.fill(false);
             walls.part_covered += covered[index].iter().filter(|covered| **covered).count();
         }
@@ -107,7 +109,7 @@ pub(crate) fn mark(
     walls
 }
 
-/// All pairs of opposite faces in one plane with something in common.
+/// All pairs of opposite coplanar faces that overlap.
 fn touching(pieces: &[Piece], strip_m: f64) -> Vec<Touch> {
     let mut touches = Vec::new();
     for (a, one) in pieces.iter().enumerate() {
@@ -143,7 +145,7 @@ fn touch(touches: &mut Vec<Touch>, (a, one): (usize, &Piece), (b, other): (usize
     }
 }
 
-/// What touches a face, counter-clockwise seen from outside of it.
+/// Polygons that cover parts of a face, counter-clockwise seen from outside of it.
 fn touches_of(touches: &[Touch], piece: usize, face: usize) -> Vec<Polygon> {
     let seen = touches.iter().filter_map(|touch| match touch.faces {
         [first, _] if first == (piece, face) => Some(touch.polygon.clone()),
@@ -153,7 +155,7 @@ fn touches_of(touches: &[Touch], piece: usize, face: usize) -> Vec<Polygon> {
     seen.collect()
 }
 
-/// For each face of each piece whether the others leave nothing of it open.
+/// True for each face of each piece that the other pieces cover completely.
 fn fully_covered(pieces: &[Piece], size_m: f64) -> Vec<Vec<bool>> {
     let strip_m = STRIP_SHARE * size_m;
     let covered = |index: usize, face: usize| {
@@ -178,7 +180,7 @@ fn fully_covered(pieces: &[Piece], size_m: f64) -> Vec<Vec<bool>> {
         .collect()
 }
 
-/// The next piece to cut: the one with the largest covered part that cannot be told apart otherwise.
+/// Next piece to cut: the one with the largest covered part that no division of faces separates.
 fn next_cut(pieces: &[Piece], touches: &[Touch], refused: &[usize], strip_m: f64) -> Option<(usize, Plane)> {
     let mut best: Option<(f64, usize, Plane)> = None;
     let mut seen: Vec<(usize, usize)> = touches.iter().flat_map(|touch| touch.faces).collect();
@@ -209,7 +211,7 @@ fn split(piece: &Piece, face: usize, touches: &[Polygon], strip_m: f64) -> Split
     }
     let slack_m2 = strip_m * outline.iter().map(|place| (place - outline[0]).norm()).sum::<f64>();
     let whole = area(&outline);
-    // Pieces that overlap cover places twice: then nothing is cut.
+    // Overlapping pieces cover points twice: then nothing is cut.
     if (sum(&open) + sum(touches) - whole).abs() > 4.0 * slack_m2 {
         return Split::Whole;
     }
@@ -224,7 +226,7 @@ fn split(piece: &Piece, face: usize, touches: &[Polygon], strip_m: f64) -> Split
     }
 }
 
-/// The line along a covered part's rim that runs farthest across the face.
+/// Line along the boundary of a covered part that runs farthest across the face.
 fn longest_line(
     outline: &[Vector3<f64>],
     touches: &[Polygon],

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
-/// Largest cosine between two axes of a frame that still counts as a right angle: matrices in files are of single
+/// Largest cosine between two axes of a frame that counts as a right angle: matrices in files have single
 /// precision.
 const RIGHT_ANGLE: f64 = 1e-6;
 /// Scales within this share of each other count as one.
@@ -15,20 +15,20 @@ pub struct Affine {
     pub translation: Vector3<f64>,
 }
 
-/// A linear map as a turn after a stretch along the axes: `turn · diag(scale)`.
+/// Factors of a linear map: `turn · diag(scale)`, a stretch along the axes followed by a rotation.
 pub struct Stretch {
     pub turn: UnitQuaternion<f64>,
-    /// All above zero unless `mirrored`; then the last one is negative.
+    /// Positive unless `mirrored`; then the last one is negative.
     pub scale: Vector3<f64>,
     pub mirrored: bool,
 }
 
-/// Why a linear map is not a turn after a stretch.
+/// Reasons why a linear map is not a stretch followed by a rotation.
 #[derive(Debug, PartialEq)]
 pub enum Skew {
-    /// It flattens everything.
+    /// The determinant is zero.
     Flat,
-    /// The largest cosine between two axes, which should be zero.
+    /// Largest cosine between two axes; zero without shear.
     Sheared(f64),
 }
 
@@ -37,7 +37,7 @@ impl Affine {
         Self { linear: Matrix3::identity(), translation: Vector3::zeros() }
     }
 
-    /// From translation, rotation (x, y, z, w) and scale; `None` if the quaternion has no direction.
+    /// Builds the map from translation, rotation (x, y, z, w) and scale; `None` for a zero quaternion.
     pub fn from_parts(translation: Vector3<f64>, rotation: [f64; 4], scale: Vector3<f64>) -> Option<Self> {
         let [x, y, z, w] = rotation;
         let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-6)?;
@@ -47,7 +47,7 @@ impl Affine {
         })
     }
 
-    /// First `inner`, then `self`.
+    /// Composition: first `inner`, then `self`.
     pub fn after(&self, inner: &Self) -> Self {
         Self { linear: self.linear * inner.linear, translation: self.point(&inner.translation) }
     }
@@ -60,7 +60,7 @@ impl Affine {
         *self == Self::identity()
     }
 
-    /// Whether it turns a surface inside out.
+    /// Tests whether the map turns a surface inside out.
     pub fn mirrors(&self) -> bool {
         self.linear.determinant() < 0.0
     }
@@ -86,26 +86,26 @@ impl Affine {
 }
 
 impl Stretch {
-    /// The one scale of all axes, if they agree.
+    /// Common scale of all axes; `None` if they differ.
     pub fn uniform(&self) -> Option<f64> {
         let scale = self.scale.abs();
         (scale.max() - scale.min() <= SAME_SCALE * scale.max()).then_some(scale.x)
     }
 }
 
-/// Which axis of a source points up; models have z up, y to the left of x.
+/// Upward axis of a source; models have z up, y to the left of x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Up {
     /// glTF's: x stays, −z becomes y, y becomes z.
     Y,
-    /// Nothing is turned.
+    /// No rotation.
     Z,
-    /// As Collada has it: −y becomes x, −z becomes y, x becomes z.
+    /// Collada's: −y becomes x, −z becomes y, x becomes z.
     X,
 }
 
 impl Up {
-    /// A place or direction of the source in the axes of the model; exact.
+    /// A position or direction of the source in the axes of the model; exact.
     pub fn turned(self, v: Vector3<f64>) -> Vector3<f64> {
         match self {
             Self::Y => Vector3::new(v.x, 0.0 - v.z, v.y),
@@ -114,7 +114,7 @@ impl Up {
         }
     }
 
-    /// A node's transform in the axes of the model: its local axes are turned with everything else.
+    /// A node's transform in the axes of the model; its local axes are turned as well.
     pub fn turned_transform(self, transform: &Affine) -> Affine {
         let turn = match self {
             Self::Z => return *transform,

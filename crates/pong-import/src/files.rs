@@ -1,4 +1,4 @@
-//! A model file and the mesh files beside it: written beside their places, read back, and moved there together.
+//! Writing of a model file and its mesh files: to temporary names, read back, then moved into place together.
 
 use crate::findings::Findings;
 use pong_geometry::extension::Extensions;
@@ -42,7 +42,7 @@ pub fn write_checked(
         }
     }
     let _ = std::fs::remove_dir_all(&staging);
-    // The model comes first in what is told.
+    // The model comes first in the report.
     written.reverse();
     findings.faults.is_empty().then_some(written)
 }
@@ -68,7 +68,7 @@ fn move_all(staging: &Path, folder: &Path, files: &[(String, Vec<u8>)]) -> std::
     Ok(written)
 }
 
-/// Reads the staged model as the engine will; messages name its final place.
+/// Reads the staged model with the engine's loader; messages give its final path.
 fn check(staged: &Path, output: &Path, findings: &mut Findings) {
     let (staged_name, name) = (staged.display().to_string(), output.display().to_string());
     match pong_model::load(staged, &Extensions::new()) {

@@ -1,4 +1,4 @@
-//! What is wrong with a file, and what its author should know.
+//! Faults of a file, and notes for its author.
 
 use pong_model::printable;
 use std::fmt;
@@ -10,9 +10,9 @@ pub struct Finding {
     pub path: String,
     /// Name of the rule, stable from version to version (docs/importing.md lists them).
     pub rule: &'static str,
-    /// What is wrong, or what was done.
+    /// The fault, or the change that was made.
     pub cause: String,
-    /// What would make it right; empty where nothing need be done.
+    /// The cure; empty if nothing need be done.
     pub cure: String,
 }
 
@@ -30,14 +30,14 @@ impl fmt::Display for Finding {
 /// All findings of one import, in the order they were made.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
-    /// What keeps the file from being imported.
+    /// Faults, which prevent the import.
     pub faults: Vec<Finding>,
-    /// What the author should know though all went well.
+    /// Notes for the author of an imported file.
     pub notes: Vec<Finding>,
 }
 
 impl Findings {
-    /// Adds what keeps the file from being imported.
+    /// Adds a fault, which prevents the import.
     pub fn fault(
         &mut self,
         path: &str,
@@ -48,7 +48,7 @@ impl Findings {
         self.faults.push(Finding { path: path.to_owned(), rule, cause: cause.into(), cure: cure.into() });
     }
 
-    /// Adds what keeps the file from being imported, where a value cannot be given for it.
+    /// Adds a fault and returns `None` in place of a value.
     pub fn refuse<T>(
         &mut self,
         path: &str,
@@ -60,7 +60,7 @@ impl Findings {
         None
     }
 
-    /// Adds what the author should know.
+    /// Adds a note for the author.
     pub fn note(
         &mut self,
         path: &str,
@@ -71,7 +71,7 @@ impl Findings {
         self.notes.push(Finding { path: path.to_owned(), rule, cause: cause.into(), cure: cure.into() });
     }
 
-    /// The value, or nothing after a fault was noted.
+    /// The value; `None` after its fault is noted.
     pub fn ok<T>(&mut self, result: Result<T, Finding>) -> Option<T> {
         result.map_err(|fault| self.faults.push(fault)).ok()
     }

@@ -1,4 +1,4 @@
-//! From a mesh file to a model file, all of it or nothing.
+//! Import of a mesh file as a model file, complete or not at all.
 
 use crate::affine::Up;
 use crate::build::{self, Building};
@@ -10,41 +10,41 @@ use crate::source::{self, Reading};
 use crate::write;
 use std::path::{Path, PathBuf};
 
-/// How a mesh file is to be imported.
+/// Options of an import.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Which axis points up; `None` for what the format is known for: y in glTF, z in OBJ and STL, in Collada what the
-    /// file says.
+    /// Upward axis; `None` for the convention of the format: y in glTF, z in OBJ and STL, the file's own in
+    /// Collada.
     pub up: Option<Up>,
     /// Metres in one unit of the file; a Collada file gives its unit, and this is a factor to it.
     pub unit_m: f64,
     /// glTF: name of the scene; `None` for the default one.
     pub scene: Option<String>,
-    /// Name of the node to take as root where several are marked as roots.
+    /// Name of the root node if several are marked as roots.
     pub root: Option<String>,
-    /// Name of the model; `None` for what the file says, else the file's own name.
+    /// Name of the model; `None` for the name in the file, else the file's name.
     pub name: Option<String>,
-    /// Surface of whatever names none; `None` puts a placeholder there.
+    /// Surface of primitives that name none; `None` adds a placeholder.
     pub surface: Option<DefaultSurface>,
-    /// Vertices within this distance of each other are one, m; `None` for bit-equal ones only.
+    /// Vertices within this distance of each other are merged, m; `None` merges bit-equal ones only.
     pub weld_m: Option<f64>,
-    /// Whether triangles that run against their neighbours are turned, and closed surfaces that face inwards.
+    /// True if the winding of triangles is made consistent and closed surfaces outward.
     pub outward: bool,
-    /// Whether holes of surfaces are filled.
+    /// True if holes of surfaces are filled.
     pub close: bool,
-    /// Convex solids of more faces become surfaces, unless they are marked as polyhedra.
+    /// Convex solids of more faces become surfaces unless they are marked as polyhedra.
     pub faces_max: usize,
-    /// Meshes of more triangles or faces go to files beside the model.
+    /// Meshes of more triangles or faces are written to files beside the model.
     pub inline_max: usize,
-    /// What finds the convex hulls that unmarked closed parts become if they are not convex (`pong_decompose::hull_of_mesh`);
+    /// Convex hull function for unmarked closed parts that are not convex (`pong_decompose::hull_of_mesh`);
     /// `None` leaves such parts as they are.
     pub hull: Option<HullFinder>,
-    /// Unmarked parts that are a capsule, a cylinder, a cone or a bore within this distance become that primitive, m; `None` leaves
+    /// Tolerance within which unmarked parts become capsules, cylinders, cones or bores, m; `None` leaves
     /// them polyhedra and surfaces.
     pub round_m: Option<f64>,
-    /// Triangles that a file may make by naming meshes several times.
+    /// Most triangles that a file may create by instancing its meshes.
     pub triangles_max: usize,
-    /// Folders beside the mesh file's own from which files that it names (buffers of glTF) may be read.
+    /// Folders, besides that of the mesh file, from which referenced files (glTF buffers) may be read.
     pub allowed: Vec<PathBuf>,
 }
 
@@ -71,14 +71,14 @@ impl Default for Options {
 }
 
 impl Options {
-    /// How the file is to be read.
+    /// Options of reading the file.
     #[doc(hidden)]
     pub fn reading(&self) -> Reading {
         let Self { up, unit_m, scene, triangles_max, allowed, .. } = self.clone();
         Reading { up, unit_m, scene, triangles_max, allowed }
     }
 
-    /// How a model is to be made of it.
+    /// Options of building a model of it.
     #[doc(hidden)]
     pub fn building<'a>(&self, input: &Path, progress: &'a mut dyn FnMut(&str)) -> Building<'a> {
         let options = self.clone();
@@ -101,28 +101,28 @@ impl Options {
     }
 }
 
-/// What was written.
+/// Outcome of an import.
 #[derive(Clone, Debug)]
 pub struct Imported {
     /// The model file and mesh files beside it.
     pub files: Vec<PathBuf>,
-    /// Distinct vertices and triangles read.
+    /// Distinct vertices read.
     pub vertices: usize,
     /// Triangles read.
     pub triangles: usize,
     /// Number of primitives in the model by kind, in the order of kinds in the format.
     pub primitives: Vec<(&'static str, usize)>,
-    /// What the author should know; the loader's warnings are among it.
+    /// Notes for the author, with the loader's warnings.
     pub findings: Findings,
 }
 
 /// Imports a mesh file and writes the model to `output`.
 ///
-/// `progress` is called with what is being done. The model is read back by the engine's loader before it is put in
-/// its place; after a fault nothing is written.
+/// `progress` is called with the current activity. The engine's loader reads the model back before it is
+/// moved into place; after a fault nothing is written.
 ///
 /// # Errors
-/// Every fault that was found, and the notes.
+/// All faults, and the notes.
 pub fn import(
     input: &Path,
     output: &Path,

@@ -6,7 +6,7 @@
 use crate::model::{Field, Record, field};
 use serde_json::{Map, Value};
 
-/// A surface for whatever names none.
+/// Surface of primitives that name none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DefaultSurface {
     /// Name in the model file.
@@ -20,7 +20,7 @@ pub struct DefaultSurface {
 }
 
 impl DefaultSurface {
-    /// What the model file says of it.
+    /// Fields of the surface in the model file.
     pub fn record(&self) -> Record {
         let mut record = vec![field("stiffness", Field::Number(self.stiffness))];
         let law = |name: &str, key: &str, value: f64| {
@@ -36,10 +36,10 @@ impl DefaultSurface {
     }
 }
 
-/// Order of the fields of surfaces and pairs; others follow in their own.
+/// Order of the fields of surfaces and pairs; other fields follow in their given order.
 const ORDER: [&str; 4] = ["surfaces", "stiffness", "normal", "friction"];
 
-/// The fields of a surface or pair; the error says what cannot be understood.
+/// Fields of a surface or pair; the error names the part that is not understood.
 pub fn record(value: &Value) -> Result<Record, String> {
     let map = value.as_object().ok_or_else(|| format!("{value} is no JSON object"))?;
     let mut keys: Vec<&String> =
@@ -50,7 +50,7 @@ pub fn record(value: &Value) -> Result<Record, String> {
     for key in keys {
         match key.as_str() {
             "normal" | "friction" => match law(&map[key])? {
-                // In a surface `None` is what stands when the field is left out.
+                // In a surface, `None` is the default of a missing field.
                 Field::Word(word) if word == "None" && !is_pair => {}
                 law => record.push(field(key, law)),
             },

@@ -1,11 +1,10 @@
 //! Mesh files (glTF, OBJ, STL) to model files.
 //!
-//! The way of a file: `source` (any format to a tree of nodes with geometry), `marks` (what `extras.pong` says),
-//! `mesh` (cleaning, parts, planar faces, convexity), `round` (parts that are capsules, cylinders, cones, bores), `build` (nodes to a model), `write` (a model to text),
-//! `files` (read back by the engine's loader, then put in place). `pong-decompose`, a crate beside this one,
-//! makes convex pieces of what is read; it is built on the
-//! modules that are public here though no stable interface: they follow the importer.
-//! The commands are described in `docs/importing.md`.
+//! Data flow: `source` (any format to a tree of nodes with geometry), `marks` (the content of `extras.pong`),
+//! `mesh` (cleaning, parts, planar faces, convexity), `round` (parts that are capsules, cylinders, cones,
+//! bores), `build` (nodes to a model), `write` (a model to text), `files` (read back by the engine's loader,
+//! then moved into place). The crate `pong-decompose` makes convex pieces; it uses the modules that are
+//! public here, which are no stable interface. The commands are described in `docs/importing.md`.
 
 #![forbid(unsafe_code)]
 

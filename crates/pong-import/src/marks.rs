@@ -1,9 +1,10 @@
-//! Marks: what `extras.pong` of a glTF node says of it, and of a scene. The names are those of the modelling toolkit.
+//! Marks: the content of `extras.pong` of glTF nodes and scenes. The names are those of the modelling
+//! toolkit.
 
 use crate::findings::Findings;
 use serde_json::{Map, Value};
 
-/// The newest version of marks that is understood.
+/// Newest supported version of marks.
 const VERSION: u64 = 1;
 
 const ROLES: [&str; 4] = ["none", "root", "group", "primitive"];
@@ -25,29 +26,29 @@ pub(crate) const KINDS: [&str; 14] = [
     "Custom",
 ];
 
-/// What one node is to the engine; lengths in units of the file.
+/// Mark of one node; lengths in units of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Mark {
     pub(crate) role: String,
-    /// Empty for the node's own name.
+    /// Empty for the node's name.
     pub(crate) name: String,
-    /// Empty for that of the group above.
+    /// Empty for the surface of the group above.
     pub(crate) surface: String,
-    /// Place among siblings, from 1; 0 for after those, in the order of names.
+    /// Position among siblings, from 1; 0 for last, sorted by name.
     pub(crate) order: u64,
     pub(crate) movable: bool,
-    /// As model files write it; empty for `Aabb`, the default.
+    /// Name as in model files; empty for `Aabb`, the default.
     pub(crate) bound: String,
     pub(crate) kind: String,
-    /// Before the node's scale, as semi-axes and length are.
+    /// Radius before the node's scale, as are semi-axes and length.
     pub(crate) radius: f64,
     pub(crate) semi_axes: [f64; 3],
     pub(crate) length: f64,
-    /// Of a cone or bore, at -z and at +z.
+    /// Radii of a cone or bore, at -z and at +z.
     pub(crate) radii: [f64; 2],
-    /// Of a bore, likewise: whether it ends there in an edge that pushes.
+    /// True for each end of a bore (-z, +z) with a convex edge that makes contact.
     pub(crate) mouths: [bool; 2],
-    /// Whatever the scale, as is the thickness.
+    /// Reach, independent of the scale, as is the thickness.
     pub(crate) reach: Option<f64>,
     pub(crate) response: String,
     pub(crate) thickness: Option<f64>,
@@ -59,11 +60,11 @@ pub(crate) struct Mark {
     pub(crate) parameters: Vec<f64>,
     /// Settings of the model that a root may carry.
     pub(crate) settings: Option<Value>,
-    /// Whether it speaks of faces, edges or vertices by number.
+    /// Name of a field that refers to faces, edges or vertices by number, if there is one.
     pub(crate) numbered: Option<&'static str>,
 }
 
-/// What belongs to a whole model.
+/// Settings of a whole model.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Settings {
     pub(crate) name: String,
@@ -72,12 +73,12 @@ pub(crate) struct Settings {
     pub(crate) pairs: Vec<Value>,
 }
 
-/// Reads fields of an object and notes those that are wrong or unknown.
+/// Reads fields of an object and reports those that are wrong or unknown.
 struct Fields<'a> {
     map: &'a Map<String, Value>,
     path: &'a str,
     findings: &'a mut Findings,
-    /// The fields asked for so far: those that are known.
+    /// Names of the fields read so far, which are the known ones.
     known: Vec<&'static str>,
 }
 
@@ -148,7 +149,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// Custom properties of some programs keep 0 and 1 for false and true.
+/// Boolean value; some programs store custom properties as 0 and 1.
 fn flag_of(value: &Value) -> Option<bool> {
     value.as_bool().or(value.as_u64().filter(|x| *x < 2).map(|x| x == 1))
 }
@@ -157,7 +158,7 @@ fn numbers_of(value: &Value) -> Option<Vec<f64>> {
     value.as_array()?.iter().map(Value::as_f64).collect()
 }
 
-/// The object of `extras.pong`; some programs keep it as text.
+/// The object of `extras.pong`; some programs store it as text.
 fn object<'a>(
     value: &'a Value,
     parsed: &'a mut Value,

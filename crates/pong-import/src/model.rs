@@ -1,4 +1,4 @@
-//! A model as a model file has it (docs/model_format.md), ready to be written.
+//! A model as in a model file (docs/model_format.md), ready to be written.
 
 use nalgebra::Vector3;
 
@@ -39,14 +39,14 @@ pub struct Primitive {
     pub fields: Record,
 }
 
-/// Fields in the order they are written.
+/// Fields in the order of writing.
 pub type Record = Vec<(String, Field)>;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Field {
     Number(f64),
     Text(String),
-    /// Written as it stands: `true`, `Axial`, `None`.
+    /// Text written unquoted: `true`, `Axial`, `None`.
     Word(String),
     /// `(1.0, 2.0)`.
     Tuple(Vec<f64>),
@@ -81,7 +81,7 @@ pub fn field(name: &str, value: Field) -> (String, Field) {
     (name.to_owned(), value)
 }
 
-/// Whether a field is there under this name.
+/// Value of a field; `None` if it is missing.
 pub fn value_of<'a>(record: &'a [(String, Field)], name: &str) -> Option<&'a Field> {
     record.iter().find(|(key, _)| key == name).map(|(_, value)| value)
 }

@@ -1,9 +1,10 @@
-//! Numbers between files: single precision to the decimal its author typed, and decimals as model files write them.
+//! Conversion of numbers: single precision to the decimal its author typed, and decimals as model files write
+//! them.
 
 use nalgebra::Vector3;
 
-/// The number of least digits that rounds to `value` in single precision: 0.1f32 becomes 0.1, not
-/// 0.10000000149011612. Equal numbers stay equal, different ones different, and their order stays.
+/// Shortest decimal that rounds to `value` in single precision: 0.1f32 becomes 0.1, not 0.10000000149011612.
+/// Strictly monotonic.
 pub fn widened(value: f32) -> f64 {
     if value == value.trunc() && value.abs() < 1e7 {
         return f64::from(value);
@@ -21,8 +22,8 @@ pub fn widened(value: f32) -> f64 {
 
 /// Rounds to a decimal grid a dozen digits below the size of a model.
 ///
-/// Products of transforms leave 0.30000000000000004 where 0.3 is meant; places that agree to the last digits but
-/// not to the last bit would not be one vertex.
+/// Products of transforms leave 0.30000000000000004 where 0.3 is meant; points that differ only in the last
+/// bit would otherwise be separate vertices.
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
     per_unit: f64,
@@ -35,13 +36,13 @@ impl Grid {
     /// The grid for coordinates of at most this size.
     pub fn of_size(size: f64) -> Self {
         let leading = if size > 0.0 && size.is_finite() { size.log10().floor() as i32 } else { 0 };
-        // Up to 1e22 powers of ten are exact; beyond, nothing need be rounded.
+        // Powers of ten are exact up to 1e22; larger models need no rounding.
         Self { per_unit: 10f64.powi((DIGITS - leading).clamp(0, 22)) }
     }
 
     pub fn round(self, value: f64) -> f64 {
         let scaled = value * self.per_unit;
-        // Beyond 2^53 every number is whole already.
+        // Above 2^53 every number is an integer.
         if scaled.abs() < 9e15 { scaled.round_ties_even() / self.per_unit + 0.0 } else { value }
     }
 
@@ -50,8 +51,8 @@ impl Grid {
     }
 }
 
-/// As model files write it: shortest digits that give the same bits, never an integer; scientific notation outside
-/// of 1e-4 to 1e16.
+/// Decimal text of model files: shortest digits that give the same bits, never an integer; scientific
+/// notation outside of 1e-4 to 1e16.
 pub fn decimal(value: f64) -> String {
     let value = value + 0.0;
     if value.is_infinite() {

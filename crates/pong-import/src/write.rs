@@ -1,4 +1,5 @@
-//! `Model` to the text of a model file, in the layout of the modelling toolkit: the same model gives the same bytes.
+//! Text of a model file from a `Model`, in the layout of the modelling toolkit: the same model gives the same
+//! bytes.
 
 mod layout;
 
@@ -29,7 +30,7 @@ pub fn text(model: &Model) -> String {
     items.push(("root: ".into(), group(&model.root)));
     let mut out: String = model.comment.iter().map(|line| format!("// {line}\n")).collect();
     lay_out("", &Shown::broken("(", items, ")"), 0, &mut out);
-    // The outermost bracket is followed by no comma.
+    // No comma follows the outermost bracket.
     out.truncate(out.len() - 2);
     out.push('\n');
     out

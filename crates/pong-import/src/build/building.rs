@@ -1,31 +1,31 @@
-//! How a model is to be built.
+//! Options of building a model.
 
 use crate::laws::DefaultSurface;
 use crate::mesh::HullFinder;
 
-/// How a model is to be built.
+/// Options of building a model.
 pub struct Building<'a> {
-    /// What messages call the file.
+    /// Name of the file in messages.
     pub file: String,
     /// Name of the model if the file gives none.
     pub name: String,
-    /// Name of the root to take, if there are several.
+    /// Name of the root to take, if several are marked.
     pub root: Option<String>,
-    /// Vertices nearer than this are one, m; `None` joins only equal ones.
+    /// Vertices nearer than this are merged, m; `None` merges only equal ones.
     pub weld_m: Option<f64>,
-    /// Whether triangles are made to run alike, and closed surfaces to face outwards.
+    /// True if the winding of triangles is made consistent and closed surfaces outward.
     pub outward: bool,
-    /// Whether holes are filled.
+    /// True if holes are filled.
     pub close: bool,
     /// Metres in one unit of the file, for lengths in marks.
     pub unit_m: f64,
     pub surface: Option<DefaultSurface>,
     pub faces_max: usize,
-    /// Meshes of more triangles go to files beside the model.
+    /// Meshes of more triangles are written to files beside the model.
     pub inline_max: usize,
-    /// What unmarked parts that are not convex become, if anything: their convex hulls.
+    /// Convex hull function for unmarked parts that are not convex; `None` leaves them as they are.
     pub hull: Option<HullFinder>,
-    /// Unmarked parts that are round within this distance become round primitives, m; `None` leaves them as they are.
+    /// Tolerance within which unmarked parts become round primitives, m; `None` leaves them as they are.
     pub round_m: Option<f64>,
     pub progress: &'a mut dyn FnMut(&str),
 }

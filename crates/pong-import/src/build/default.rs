@@ -50,7 +50,7 @@ pub(super) fn tree(
     Some(root)
 }
 
-/// Which nodes have a mesh, or one below them.
+/// Marks nodes with a mesh in their subtree.
 fn contributing(nodes: &[Node]) -> Vec<bool> {
     let mut wanted: Vec<bool> =
         nodes.iter().map(|node| node.mesh.as_ref().is_some_and(|shape| !shape.is_empty())).collect();
@@ -96,7 +96,7 @@ impl Build<'_, '_> {
         if groups.is_empty() || primitives.is_empty() {
             return Group { name, groups, primitives, ..Group::default() };
         }
-        // A group holds groups or primitives: the node's own get one of their own.
+        // A group holds either groups or primitives: the node's own primitives get a group of their own.
         let mut names = Names::default();
         groups.iter().for_each(|group| _ = names.take(&group.name, "", &mut Findings::default()));
         let own = names.take(&format!("{name}_own"), "", &mut Findings::default());
@@ -122,7 +122,7 @@ impl Build<'_, '_> {
         primitives
     }
 
-    /// Round parts become what they are if that is asked for, convex solids polyhedra, all else surfaces.
+    /// Round parts become round primitives if requested, convex solids polyhedra, and the rest surfaces.
     fn of_triangles(&mut self, naming: &Naming<'_>, shape: Shape) -> Vec<Primitive> {
         let looks = shape.looks.clone();
         let placed = meshes::triangles(shape, self.building, naming.path, self.findings);
@@ -142,7 +142,7 @@ impl Build<'_, '_> {
         primitives
     }
 
-    /// The convex solids among the parts, and all other triangles.
+    /// Convex solids among the parts, and all other triangles.
     fn sorted(&mut self, naming: &Naming<'_>, placed: &Placed, looks: &[Look]) -> (Vec<Polyhedron>, Mesh) {
         if placed.two_sided {
             return (Vec::new(), placed.mesh.clone());
@@ -203,16 +203,16 @@ impl Build<'_, '_> {
     }
 }
 
-/// Parts that became their convex hulls.
+/// Parts that were replaced by their convex hulls.
 #[derive(Default)]
 struct Hulled {
     parts: usize,
-    /// How far a vertex lies within its hull at most, m.
+    /// Largest depth of a vertex inside its hull, m.
     deepest_m: f64,
 }
 
 impl Hulled {
-    /// The hull of a part that bounds a volume but is not convex; of all else what was found.
+    /// Convex hull of a part that bounds a volume but is not convex; otherwise `found` unchanged.
     fn instead(
         &mut self,
         find: HullFinder,
@@ -241,13 +241,13 @@ impl Hulled {
     }
 }
 
-/// Whether a cavity lies within the part's box: then it is no solid.
+/// Tests whether a cavity lies within the part's box; the part is no solid then.
 fn is_hollow(part: &Mesh, cavities: &[(nalgebra::Vector3<f64>, nalgebra::Vector3<f64>)]) -> bool {
     let (low, high) = bounds(&part.vertices);
     cavities.iter().any(|(inner_low, inner_high)| low.inf(inner_low) == low && high.sup(inner_high) == high)
 }
 
-/// Points, lines and solids of one node may have the same name.
+/// Makes names unique: points, lines and solids of one node may share a name.
 fn unique(primitives: &mut [Primitive]) {
     let mut names = Names::default();
     for primitive in primitives {

@@ -1,4 +1,4 @@
-//! Where nodes lie in the frame of the rigid body they belong to.
+//! Frames of nodes relative to their rigid body.
 
 use crate::affine::{Affine, Skew};
 use crate::findings::Findings;
@@ -7,14 +7,14 @@ use nalgebra::Matrix3;
 
 /// The frame of a movable group.
 pub(super) struct BodyFrame {
-    /// Position in the frame of the movable group above, m, and orientation (w, x, y, z).
+    /// Position in the frame of the parent movable group, m, and orientation (w, x, y, z).
     pub(super) position: [f64; 3],
     pub(super) orientation: [f64; 4],
-    /// What the node's scale leaves to everything below, from the node to its rigid frame.
+    /// Remaining (non-rigid) transform for everything below, from the node to its rigid frame.
     pub(super) rest: Affine,
 }
 
-/// Takes the transform of a movable node to the body above apart; `None` after a fault.
+/// Splits the transform of a movable node to the body above; `None` after a fault.
 pub(super) fn body_frame(
     to_body: &Affine,
     grid: Grid,

@@ -11,11 +11,11 @@ use crate::number::Grid;
 use crate::source::{Look, Shape};
 use nalgebra::Vector3;
 
-/// Where primitives go and how they are called.
+/// Grid and names of the primitives of a node.
 pub(super) struct Naming<'a> {
     pub(super) name: &'a str,
     pub(super) surface: Option<String>,
-    /// For messages.
+    /// Path of the node in messages.
     pub(super) path: &'a str,
 }
 
@@ -55,7 +55,7 @@ pub(super) fn segments(naming: &Naming<'_>, ends: &[[Vector3<f64>; 2]]) -> Vec<P
     ends.iter().enumerate().map(segment).collect()
 }
 
-/// Rays from places along vectors as long as they are.
+/// Rays from points along vectors, with the vectors' lengths.
 pub(super) fn rays(
     naming: &Naming<'_>,
     mark: &Mark,
@@ -126,7 +126,7 @@ pub(super) fn straight(to_body: &Affine, path: &str, findings: &mut Findings) ->
     }
 }
 
-/// The solid behind a plane through a place.
+/// Half space behind a plane through a point.
 pub(super) fn plane(
     naming: &Naming<'_>,
     normal: &Vector3<f64>,
@@ -143,7 +143,7 @@ pub(super) fn plane(
     )
 }
 
-/// Normal and centre of the plane in which all triangles lie.
+/// Normal and centre of the plane that contains all triangles.
 pub(super) fn plane_of(mesh: &Mesh, path: &str, findings: &mut Findings) -> Option<[Vector3<f64>; 2]> {
     let area: Vector3<f64> = (0..mesh.triangles.len()).map(|t| area_vector(&mesh.corners(t))).sum();
     let centre = mesh.vertices.iter().sum::<Vector3<f64>>() / mesh.vertices.len().max(1) as f64;
@@ -165,7 +165,7 @@ pub(super) fn plane_of(mesh: &Mesh, path: &str, findings: &mut Findings) -> Opti
     }
 }
 
-/// A convex solid; its surface is that of its faces if they name one.
+/// A convex solid; it takes the surface of its faces if they name exactly one.
 pub(super) fn solid(
     naming: &Naming<'_>,
     index: usize,
@@ -187,13 +187,13 @@ pub(super) fn solid(
     primitive
 }
 
-/// Whether the triangles are of one surface.
+/// Tests whether all triangles have the same surface.
 pub(super) fn one_surface(mesh: &Mesh, looks: &[Look]) -> bool {
     let surface = |look: &u16| looks.get(*look as usize).and_then(|look| look.surface.as_ref());
     mesh.look_of.iter().all(|look| surface(look) == surface(&mesh.look_of[0]))
 }
 
-/// Surfaces of triangles, one for every surface that the faces name.
+/// Triangle surfaces, one for each surface that the faces name.
 pub(super) fn surfaces(
     naming: &Naming<'_>,
     placed: &Placed,
@@ -237,7 +237,7 @@ pub(super) fn surfaces(
     named.iter().enumerate().map(primitive).collect()
 }
 
-/// A primitive of a kind that hosts register; its parameters go as they stand.
+/// A primitive of a kind registered by the host; its parameters are copied unchanged.
 pub(super) fn custom(naming: &Naming<'_>, mark: &Mark) -> Primitive {
     let mut fields = vec![field("kind", Field::Text(mark.custom_kind.clone()))];
     if !mark.parameters.is_empty() {
@@ -246,7 +246,7 @@ pub(super) fn custom(naming: &Naming<'_>, mark: &Mark) -> Primitive {
     naming.primitive("Custom", 0, 1, fields)
 }
 
-/// Every triangle by itself.
+/// One primitive for each triangle.
 pub(super) fn triangles(naming: &Naming<'_>, mark: &Mark, placed: &Placed, looks: &[Look]) -> Vec<Primitive> {
     let mesh = &placed.mesh;
     let count = mesh.triangles.len();
@@ -265,7 +265,7 @@ pub(super) fn triangles(naming: &Naming<'_>, mark: &Mark, placed: &Placed, looks
     (0..count).map(triangle).collect()
 }
 
-/// Polyhedra that an author asked for: every connected part must be a convex solid.
+/// Polyhedra requested by an author: every connected part must be a convex solid.
 pub(super) fn solids(
     naming: &Naming<'_>,
     placed: &Placed,

@@ -1,4 +1,4 @@
-//! A model by its marks: root, groups and primitives as `extras.pong` says.
+//! A model from marks: root, groups and primitives as given by `extras.pong`.
 
 use super::building::Building;
 use super::frames::body_frame;
@@ -66,7 +66,7 @@ pub(super) fn tree(
     Some(group)
 }
 
-/// The node that is marked as the root; `Some(None)` if none is: then the scene is.
+/// The node marked as the root; `Some(None)` if none is, which makes the scene the root.
 fn root_of(
     nodes: &[Node],
     marks: &[Option<Mark>],
@@ -95,7 +95,7 @@ fn root_of(
 }
 
 impl Node {
-    /// The product of all transforms from this node to the scene.
+    /// Product of all transforms from this node to the scene.
     fn to_top(&self, nodes: &[Node]) -> Affine {
         let mut affine = self.local;
         let mut here = self.parent;
@@ -128,7 +128,7 @@ impl Build<'_, '_> {
         marked.unwrap_or(&self.nodes[node].name).to_owned()
     }
 
-    /// Fills a group with what its node's children and their unmarked descendants are.
+    /// Fills a group from the marks of the node's children and their unmarked descendants.
     fn fill(&mut self, group: &mut Group, children: &[usize], to_body: &Affine) {
         for (node, here) in self.marked_below(children, to_body) {
             let below = std::mem::take(&mut self.below[node]);
@@ -153,7 +153,7 @@ impl Build<'_, '_> {
         self.refuse_mixed(group);
     }
 
-    /// The marked nodes below a group down to the next groups, in the order they are written, and their transforms.
+    /// Marked nodes below a group down to the next groups, in the order of writing, with their transforms.
     fn marked_below(&mut self, children: &[usize], to_body: &Affine) -> Vec<(usize, Affine)> {
         let mut open: Vec<(usize, Affine)> = children.iter().rev().map(|&child| (child, *to_body)).collect();
         let mut found = Vec::new();
@@ -206,7 +206,7 @@ impl Build<'_, '_> {
         parent.groups.push(group);
     }
 
-    /// Names among siblings must differ, not be empty, and hold no `/`.
+    /// Checks names: unique among siblings, not empty, without `/`.
     fn check_names(&mut self, group: &Group) {
         let path = format!("{}: {}", self.building.file, group.name);
         for list in [
@@ -226,7 +226,7 @@ impl Build<'_, '_> {
         }
     }
 
-    /// A group holds groups or primitives.
+    /// Refuses a group that holds both groups and primitives.
     fn refuse_mixed(&mut self, group: &Group) {
         if let (Some(below), Some(primitive)) = (group.groups.first(), group.primitives.first()) {
             let cause = format!("it holds groups (`{}`) and primitives (`{}`)", below.name, primitive.name);
@@ -305,7 +305,7 @@ impl Build<'_, '_> {
         kinds::ball(naming, semi_axes, to_body, self.grid, self.findings)
     }
 
-    /// What a node without a mesh can be.
+    /// Primitives of a node without a mesh.
     fn of_empty(&mut self, naming: &Naming<'_>, mark: &Mark, to_body: &Affine) -> Vec<Primitive> {
         let origin = self.grid.round_place(&to_body.translation);
         match mark.kind.as_str() {

@@ -1,4 +1,4 @@
-//! Big meshes in files of their own beside the model file.
+//! Mesh files of large meshes beside the model file.
 
 use crate::findings::Findings;
 use crate::model::{Field, Model, Primitive, field, value_of};
@@ -7,7 +7,8 @@ use pong_model::mesh_formats;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// Moves meshes of more than `inline_max` triangles, and those that name a file, into files; returns these.
+/// Moves meshes of more than `inline_max` triangles, and those that name a file, into files and returns
+/// these.
 pub(super) fn split_off(
     model: &mut Model,
     inline_max: usize,
@@ -83,12 +84,12 @@ fn is_faces(value: &Field) -> bool {
     matches!(value, Field::Triangles(_) | Field::Faces(_))
 }
 
-/// Letters, digits, `-`, `_` and `.` of a name; others become `_`.
+/// The name with all but letters, digits, `-`, `_` and `.` replaced by `_`.
 fn file_name(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect()
 }
 
-/// All digits: reading gives the same bits.
+/// OBJ text with all digits, so that reading gives the same bits.
 fn obj(vertices: &[Vector3<f64>], faces: &[Vec<u32>]) -> Vec<u8> {
     let mut text = String::new();
     for place in vertices {
@@ -104,7 +105,7 @@ fn obj(vertices: &[Vector3<f64>], faces: &[Vec<u32>]) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Binary STL; single precision must hold every coordinate.
+/// Binary STL; every coordinate must be representable in single precision.
 fn stl(vertices: &[Vector3<f64>], faces: &[Vec<u32>]) -> Result<Vec<u8>, String> {
     let lost = vertices.iter().flat_map(|place| place.iter()).find(|x| f64::from(**x as f32) != **x);
     if let Some(x) = lost {

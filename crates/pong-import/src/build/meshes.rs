@@ -1,4 +1,4 @@
-//! Triangles of a node on their way into a primitive: placed, welded, cleaned, mended; what was done is told.
+//! Preparation of a node's triangles: placed, welded, cleaned, mended, with notes of every change.
 
 use super::building::Building;
 use crate::affine::Affine;
@@ -24,12 +24,12 @@ pub fn place(shape: &mut Shape, to_body: &Affine, grid: Grid) {
     }
 }
 
-/// The triangles of a placed shape, without what no model takes.
+/// Triangles of a placed shape, without those that model files refuse.
 pub fn triangles(shape: Shape, building: &Building<'_>, path: &str, findings: &mut Findings) -> Placed {
     let Shape { vertices, triangles, mut look_of, .. } = shape;
     look_of.resize(triangles.len(), 0);
     let mut mesh = Mesh { vertices, triangles, look_of };
-    // Places on the grid may be the same now though they were not before.
+    // Different points may coincide once rounded to the grid.
     mesh::weld_equal(&mut mesh);
     let tolerance = building.weld_m.unwrap_or(0.0);
     let moved = match tolerance > 0.0 {
@@ -70,7 +70,7 @@ pub fn triangles(shape: Shape, building: &Building<'_>, path: &str, findings: &m
     Placed { mesh: mesh.compact(), two_sided: cleaning.two_sided }
 }
 
-/// Turns triangles and fills holes, if that is asked for.
+/// Corrects winding and fills holes, as requested.
 fn mend(mesh: &mut Mesh, building: &Building<'_>, path: &str, findings: &mut Findings) {
     let mut turned = Turned::default();
     if building.outward {
@@ -110,7 +110,7 @@ fn mend(mesh: &mut Mesh, building: &Building<'_>, path: &str, findings: &mut Fin
     }
 }
 
-/// Tells of edges at which a surface of triangles does not run on.
+/// Notes edges at which a surface of triangles is interrupted.
 pub fn tell_oddities(mesh: &Mesh, path: &str, findings: &mut Findings) {
     let adjacency = Adjacency::new(&mesh.triangles);
     let at = |triangle: u32| {

@@ -1,4 +1,4 @@
-//! From a source to a model: by its marks, or without any by its geometry.
+//! Building of a model from a source: by its marks or, without any, by its geometry.
 
 mod building;
 mod default;
@@ -26,7 +26,7 @@ pub use surfaces::default_surface;
 pub struct Built {
     pub model: Model,
     pub mesh_files: Vec<(String, Vec<u8>)>,
-    /// Vertices and triangles that were read.
+    /// Number of vertices and triangles read.
     pub vertices: usize,
     pub triangles: usize,
 }
@@ -56,7 +56,7 @@ pub fn build(source: Source, building: &mut Building<'_>, findings: &mut Finding
     findings.faults.is_empty().then_some(Built { model, mesh_files, vertices, triangles })
 }
 
-/// The largest coordinate anywhere, m: what digits are counted from.
+/// Largest coordinate, m; it sets the number of digits.
 fn size_m(source: &Source) -> f64 {
     let largest = |shape: &Shape| shape.vertices.iter().map(|place| place.amax()).fold(0.0, f64::max);
     let own = |node: &crate::source::Node| {

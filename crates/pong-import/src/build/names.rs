@@ -1,18 +1,18 @@
-//! Names that model files take: not empty, no `/`, unique among siblings.
+//! Names valid in model files: not empty, no `/`, unique among siblings.
 
 use crate::findings::Findings;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Hands out names of the children of one group.
+/// Names taken by the children of one group.
 #[derive(Default)]
 pub(super) struct Names {
     taken: BTreeSet<String>,
-    /// For each name the number to try next: names that are all the same must not be tried from the start each time.
+    /// Next number to try for each name, so that many equal names do not take quadratic time.
     next: BTreeMap<String, u64>,
 }
 
 impl Names {
-    /// The name itself, or with a number behind if it is taken already.
+    /// Returns the name itself, or with a number appended if it is taken.
     pub(super) fn take(&mut self, wanted: &str, path: &str, findings: &mut Findings) -> String {
         let clean = match wanted.trim() {
             "" => "unnamed".to_owned(),
@@ -34,12 +34,12 @@ impl Names {
     }
 }
 
-/// `bolt` for one of one, else `bolt_0`, `bolt_1`, …, as the toolkit numbers them.
+/// `bolt` for a single one, else `bolt_0`, `bolt_1`, …, as the toolkit numbers them.
 pub(super) fn numbered(name: &str, index: usize, count: usize) -> String {
     if count == 1 { name.to_owned() } else { format!("{name}_{index}") }
 }
 
-/// Sorts foot_2 before foot_10, letter case aside; names that differ at all have different keys.
+/// Sort key: foot_2 before foot_10, ignoring letter case; different names have different keys.
 pub(super) fn natural(name: &str) -> (Vec<(bool, u64, String)>, String) {
     let mut parts = vec![(true, 0, String::new())];
     for c in name.to_lowercase().chars() {

@@ -1,4 +1,4 @@
-//! Round primitives: of nodes that are marked as such, and of parts of meshes that are recognised.
+//! Round primitives of marked nodes and of recognised parts of meshes.
 
 use super::building::Building;
 use super::kinds::{self, Naming};
@@ -13,10 +13,10 @@ use crate::round::{Kind, Recognised, Round, recognise};
 use crate::source::Look;
 use nalgebra::Vector3;
 
-/// Scales that differ by less than this share are the same.
+/// Scales that differ by less than this share are equal.
 const SAME_SCALE: f64 = 1e-6;
 
-/// Along the z axis of a node, with the middle at its origin.
+/// Round primitive along the z axis of a node, centred at its origin.
 pub(super) fn marked(
     naming: &Naming<'_>,
     mark: &Mark,
@@ -70,7 +70,7 @@ fn of(naming: &Naming<'_>, (index, count): (usize, usize), round: &Round, grid: 
     naming.primitive(round.kind.name(), index, count, vec![field("ends", Field::Tuples(ends.to_vec())), size])
 }
 
-/// The parts that are round within the tolerance that is asked for, as primitives, and the rest of the mesh.
+/// Parts that are round within the requested tolerance, as primitives, and the rest of the mesh.
 pub(super) fn taken_out(
     naming: &Naming<'_>,
     placed: Placed,

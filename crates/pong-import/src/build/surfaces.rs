@@ -1,4 +1,4 @@
-//! The surface of whatever has none, and names that no surface has.
+//! Default surfaces, and names of unknown surfaces.
 
 use super::building::Building;
 use crate::findings::Findings;
@@ -6,7 +6,7 @@ use crate::laws::DefaultSurface;
 use crate::model::{Group, Model};
 use std::collections::BTreeSet;
 
-/// Name of the surface that stands in when none is given.
+/// Name of the placeholder when no surface is given.
 const PLACEHOLDER: &str = "placeholder";
 
 /// Gives the root a surface if something below has none.
@@ -44,14 +44,14 @@ pub fn default_surface(model: &mut Model, building: &Building<'_>, findings: &mu
     model.root.surface = Some(surface.name);
 }
 
-/// Whether a primitive has no surface, neither its own nor that of a group above.
+/// Tests whether a primitive has no surface, neither its own nor from a group above.
 fn lacks_surface(group: &Group) -> bool {
     group.surface.is_none()
         && (group.primitives.iter().any(|primitive| primitive.surface.is_none())
             || group.groups.iter().any(lacks_surface))
 }
 
-/// Tells of every name of a surface that is not in the model.
+/// Reports every surface name that the model does not define.
 pub(super) fn unknown_surfaces(model: &Model, building: &Building<'_>, findings: &mut Findings) {
     let mut named: BTreeSet<(String, String)> = BTreeSet::new();
     let mut open = vec![(model.root.name.clone(), &model.root)];

@@ -1,18 +1,18 @@
-//! Which triangles share edges.
+//! Adjacency of triangles across edges.
 
 use super::measures::ring;
 
-/// No triangle.
+/// Index of no triangle.
 pub const NONE: u32 = u32::MAX;
 
 /// For each triangle its neighbours across the edges from corner 0, 1 and 2.
 pub struct Adjacency {
     pub across: Vec<[u32; 3]>,
-    /// Edges of one triangle alone: (triangle, corner where it starts).
+    /// Boundary edges: (triangle, corner where the edge starts).
     pub free: Vec<(u32, u8)>,
-    /// Triangles at edges that more than two share, one per edge.
+    /// Triangles at non-manifold edges (of more than two triangles), one per edge.
     pub crowded: Vec<u32>,
-    /// Triangles at edges along which both neighbours run the same way, one per edge.
+    /// Triangles at edges that both neighbours traverse in the same direction, one per edge.
     pub wound_against: Vec<u32>,
 }
 
@@ -48,7 +48,7 @@ impl Adjacency {
         found
     }
 
-    /// Whether every edge joins two triangles that run along it in opposite directions.
+    /// Tests whether every edge joins two triangles that traverse it in opposite directions.
     pub fn is_closed(&self) -> bool {
         self.free.is_empty() && self.crowded.is_empty() && self.wound_against.is_empty()
     }

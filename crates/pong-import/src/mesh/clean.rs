@@ -1,4 +1,4 @@
-//! Triangles without area, and triangles that are there twice.
+//! Removal of triangles without area and of duplicates.
 
 use super::triangle_mesh::Mesh;
 use nalgebra::Vector3;
@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 /// A triangle whose smallest height is below this share of its longest edge is a sliver; model files refuse it.
 const SLIVER: f64 = 1e-9;
 
-/// What cleaning took away, and what it saw.
+/// Counts of removed triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Cleaning {
     /// Triangles without area.
@@ -15,11 +15,11 @@ pub(crate) struct Cleaning {
     pub(crate) duplicates: usize,
     /// Triangles that lie back to back with another.
     pub(crate) back_to_back: usize,
-    /// Every triangle had its mirror image, which was taken away: the mesh has two sides.
+    /// True if every triangle had a mirror image, which was removed: the mesh has two sides.
     pub(crate) two_sided: bool,
 }
 
-/// Takes slivers and duplicates away; vertices stay.
+/// Removes slivers and duplicates; vertices stay.
 pub(crate) fn clean(mesh: &mut Mesh) -> Cleaning {
     let mut cleaning = Cleaning::default();
     let before = mesh.triangles.len();
@@ -54,12 +54,13 @@ fn is_sliver(mesh: &Mesh, triangle: usize) -> bool {
     let corners = mesh.corners(triangle);
     let edges = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
     let longest = edges.iter().map(Vector3::norm).fold(0.0, f64::max);
-    // Twice the loader's bound: both round.
+    // Twice the loader's bound, because both round.
     let share = (edges[0] / longest).cross(&(edges[1] / longest)).norm();
     a == b || b == c || c == a || longest == 0.0 || share.is_nan() || share <= 2.0 * SLIVER
 }
 
-/// Which triangles repeat an earlier one, which have a mirror image, and which are the later of such two.
+/// Flags of triangles that repeat an earlier one, that have a mirror image, and that are the later of such a
+/// pair.
 fn twins(triangles: &[[u32; 3]]) -> (Vec<bool>, Vec<bool>, Vec<bool>) {
     let count = triangles.len();
     let (mut repeated, mut mirrored, mut second) =
@@ -86,7 +87,7 @@ fn twins(triangles: &[[u32; 3]]) -> (Vec<bool>, Vec<bool>, Vec<bool>) {
     (repeated, mirrored, second)
 }
 
-/// Whether a triangle runs through its corners in rising order, turned or not.
+/// Tests whether a triangle visits its corners in rising order, up to rotation.
 fn is_even(triangle: &[u32; 3], sorted: &[u32; 3]) -> bool {
     let start = triangle.iter().position(|vertex| *vertex == sorted[0]).unwrap_or(0);
     triangle[(start + 1) % 3] == sorted[1]

@@ -1,4 +1,4 @@
-//! Holes of a surface: outlines of free edges, filled with triangles between their vertices.
+//! Hole filling: boundary loops, filled with triangles between their vertices.
 
 use super::adjacency::Adjacency;
 use super::measures::{area_vector, bounds};
@@ -6,11 +6,11 @@ use super::triangle_mesh::Mesh;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
-/// Holes of more than this share of the surface are no holes but missing sides.
+/// Holes of more than this share of the surface count as missing sides and stay open.
 const LARGEST_SHARE: f64 = 0.25;
-/// Outlines of more vertices are refused: filling one takes up to the square of their number.
+/// Outlines of more vertices are refused: filling takes up to quadratic time.
 const MOST_CORNERS: usize = 10_000;
-/// Heights above a plane that count as none, in sizes of an outline.
+/// Heights above a plane that count as zero, in sizes of an outline.
 const FLAT: f64 = 1e-6;
 
 /// Figures of the filled holes.
@@ -22,11 +22,11 @@ pub(crate) struct Closed {
     pub(crate) largest_m2: f64,
     /// A corner of the largest hole.
     pub(crate) at: Vector3<f64>,
-    /// How far the vertices of a hole lie off its plane at most, m.
+    /// Largest distance of a hole's vertices from its plane, m.
     pub(crate) bent_m: f64,
 }
 
-/// An outline of free edges, counter-clockwise seen from the front of its filling.
+/// A loop of boundary edges, counter-clockwise seen from the front of its filling.
 struct Outline {
     corners: Vec<u32>,
     normal: Vector3<f64>,
@@ -35,7 +35,7 @@ struct Outline {
     bent_m: f64,
 }
 
-/// Fills every hole, or tells why not; `None` if there are none.
+/// Fills every hole, or returns why it cannot; `None` if there are no holes.
 pub(crate) fn close(mesh: &mut Mesh) -> Result<Option<Closed>, String> {
     let adjacency = Adjacency::new(&mesh.triangles);
     let at = |triangle: u32| named(&mesh.corners(triangle as usize)[0]);
@@ -83,7 +83,7 @@ pub(crate) fn close(mesh: &mut Mesh) -> Result<Option<Closed>, String> {
     let before = mesh.triangles.len();
     mesh.look_of.resize(before + filled.len(), mesh.look_of.first().copied().unwrap_or(0));
     mesh.triangles.extend(filled);
-    // The cut leaves out corners on straight lines; they lie within edges of the filling then.
+    // The triangulation omits collinear corners; these then lie within edges of the filling.
     super::mend(mesh);
     closed.triangles = mesh.triangles.len() - before;
     match Adjacency::new(&mesh.triangles).is_closed() {
@@ -100,7 +100,7 @@ fn named(place: &Vector3<f64>) -> String {
     format!("({}, {}, {})", place.x, place.y, place.z)
 }
 
-/// Free edges, one behind the other, against the way of their triangles.
+/// Loops of boundary edges, against the direction of their triangles.
 fn outlines(mesh: &Mesh, adjacency: &Adjacency) -> Result<Vec<Outline>, String> {
     let mut next: BTreeMap<u32, u32> = BTreeMap::new();
     for &(triangle, corner) in &adjacency.free {
@@ -143,7 +143,7 @@ impl Outline {
         Self { corners, normal, middle, size_m: (high - low).norm(), bent_m: 0.5 * (most - least) }
     }
 
-    /// Coordinates in the plane, counter-clockwise for its own corners.
+    /// Coordinates in the plane, in which the loop is counter-clockwise.
     fn flat(&self, place: &Vector3<f64>) -> [f64; 2] {
         let across = Vector3::ith(self.normal.iamin(), 1.0);
         let u = across.cross(&self.normal).normalize();
@@ -156,8 +156,8 @@ impl Outline {
     }
 }
 
-/// For each outline the outlines of islands in the same hole: the end of a tube is a ring, whose inner edge runs the other
-/// way in the same plane.
+/// Inner loops of each outline in the same hole: the end of a tube is a ring, whose inner loop is coplanar
+/// and runs in the opposite direction.
 fn holes_within(mesh: &Mesh, outlines: &[Outline]) -> Vec<Vec<usize>> {
     let is_within = |inner: &Outline, outer: &Outline| {
         let near = FLAT * outer.size_m;
@@ -177,7 +177,7 @@ fn holes_within(mesh: &Mesh, outlines: &[Outline]) -> Vec<Vec<usize>> {
     outlines.iter().map(islands).collect()
 }
 
-/// Whether a place in the plane of an outline lies within it: by the crossings of a ray.
+/// Tests whether a coplanar point lies within an outline, by the crossings of a ray.
 fn surrounds(mesh: &Mesh, outline: &Outline, place: &Vector3<f64>) -> bool {
     let [x, y] = outline.flat(place);
     let flat: Vec<[f64; 2]> =
@@ -187,7 +187,7 @@ fn surrounds(mesh: &Mesh, outline: &Outline, place: &Vector3<f64>) -> bool {
     crossings.count() % 2 == 1
 }
 
-/// Triangles between the vertices of an outline and of the islands in it.
+/// Triangles between the vertices of an outline and of its inner loops.
 fn fill(mesh: &Mesh, outline: &Outline, islands: &[&Outline]) -> Result<Vec<[u32; 3]>, String> {
     let corners: Vec<u32> =
         outline.corners.iter().chain(islands.iter().flat_map(|island| &island.corners)).copied().collect();
@@ -216,7 +216,7 @@ fn fill(mesh: &Mesh, outline: &Outline, islands: &[&Outline]) -> Result<Vec<[u32
             corners.len()
         ));
     }
-    // The cut may give triangles of either way.
+    // The triangulation may return either winding.
     let outward = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|k| corners[k as usize]);
         if twice(t.map(|k| flat[k as usize])) < 0.0 { [a, c, b] } else { [a, b, c] }

@@ -1,7 +1,7 @@
-//! Planar faces: coplanar neighbouring triangles become one polygon.
+//! Planar faces: coplanar neighbouring triangles merged to polygons.
 //!
-//! Regions grow from the largest triangles, whose normals are the surest. Their plane is fitted anew whenever the
-//! region has doubled, so that the noise of a small seed does not decide about a large face.
+//! Regions grow from the largest triangles, whose normals are the most accurate. The plane is fitted again
+//! whenever the region has doubled, so that the noise of a small seed does not decide about a large face.
 
 use super::adjacency::{Adjacency, NONE};
 use super::measures::{area_vector, ring};
@@ -9,16 +9,16 @@ use super::triangle_mesh::Mesh;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, VecDeque};
 
-/// Heights above a face's plane that count as none, in sizes of the mesh; half of what model files allow.
+/// Heights above a face's plane that count as zero, in sizes of the mesh; half the tolerance of model files.
 const PLANE_SHARE: f64 = 0.5e-6;
-/// Below this width (in sizes of the mesh) a triangle's normal is noise and says nothing about its side.
+/// Below this width (in sizes of the mesh) a triangle's normal is noise.
 const SURE_WIDTH: f64 = 4e-6;
 
 /// The polygons of a mesh.
 pub(crate) struct Facets {
     /// Outlines, counter-clockwise seen from the front, and the look of each.
     pub(crate) faces: Vec<(Vec<u32>, u16)>,
-    /// Whether every region of coplanar triangles has one simple outline.
+    /// True if every region of coplanar triangles has one simple outline.
     pub(crate) simple: bool,
 }
 
@@ -143,7 +143,7 @@ impl<'a> Growing<'a> {
     }
 }
 
-/// The outline of a region, if it is one loop that passes every vertex once.
+/// Outline of a region, if it is one loop that passes every vertex once.
 fn outline(mesh: &Mesh, adjacency: &Adjacency, region: &[u32], region_of: &[u32]) -> Option<Vec<u32>> {
     let own = region_of[region[0] as usize];
     if let [triangle] = region {
@@ -168,7 +168,7 @@ fn outline(mesh: &Mesh, adjacency: &Adjacency, region: &[u32], region_of: &[u32]
     (outline.len() == next.len()).then_some(outline)
 }
 
-/// Drops corners where only two faces meet: there the edge between them runs straight on.
+/// Drops corners where only two faces meet: the edge is straight there.
 fn drop_straight_corners(faces: &mut [(Vec<u32>, u16)], vertices: usize) {
     let mut users = vec![0u32; vertices];
     faces.iter().flat_map(|(outline, _)| outline).for_each(|&vertex| users[vertex as usize] += 1);

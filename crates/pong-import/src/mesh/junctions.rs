@@ -1,4 +1,5 @@
-//! T-junctions: vertices within a free edge of another triangle. The triangle is split there, which closes the crack.
+//! T-junctions: vertices within a boundary edge of another triangle. Splitting the triangle there closes the
+//! crack.
 
 use super::adjacency::Adjacency;
 use super::measures::ring;
@@ -6,10 +7,10 @@ use super::triangle_mesh::Mesh;
 use pong_model::t_junctions::{self, ON_EDGE};
 use std::collections::BTreeMap;
 
-/// Every round splits one edge of a triangle; three edges may need it, and the pieces again.
+/// Each round splits one edge of a triangle; all three edges and the parts may need it.
 const ROUNDS: usize = 8;
 
-/// Splits triangles at the vertices that lie within their free edges; tells how many splits.
+/// Splits triangles at the vertices within their boundary edges and returns the number of splits.
 pub(crate) fn mend(mesh: &mut Mesh) -> usize {
     let mut splits = 0;
     for _ in 0..ROUNDS {
@@ -29,7 +30,7 @@ pub(crate) fn mend(mesh: &mut Mesh) -> usize {
 
 type Junctions = BTreeMap<u32, (u8, Vec<u32>)>;
 
-/// For each triangle at most one free edge and the vertices within it, in order.
+/// At most one boundary edge of each triangle, with the vertices within it, in order.
 fn find(mesh: &Mesh) -> Junctions {
     let free = Adjacency::new(&mesh.triangles).free;
     let edges: Vec<[u32; 2]> = free
@@ -53,7 +54,7 @@ fn find(mesh: &Mesh) -> Junctions {
     found
 }
 
-/// Those of the vertices on an edge that are not at its ends, from its start on.
+/// Vertices strictly between the ends of an edge, sorted from its start.
 fn in_order(mesh: &Mesh, edge: &[u32; 2], vertices: impl Iterator<Item = u32>) -> Vec<u32> {
     let [a, b] = edge.map(|vertex| mesh.vertices[vertex as usize]);
     let share = |vertex: &u32| (mesh.vertices[*vertex as usize] - a).dot(&(b - a)) / (b - a).norm_squared();
@@ -64,7 +65,7 @@ fn in_order(mesh: &Mesh, edge: &[u32; 2], vertices: impl Iterator<Item = u32>) -
     within.into_iter().map(|(_, vertex)| vertex).collect()
 }
 
-/// A fan from the opposite corner over the edge's new parts; the winding stays.
+/// Triangle fan from the opposite corner over the edge's parts; the winding stays.
 fn split(mesh: &mut Mesh, triangle: usize, corner: usize, within: &[u32]) {
     let [a, b, tip] = [0, 1, 2].map(|k| mesh.triangles[triangle][(corner + k) % 3]);
     let mut chain = vec![a];

@@ -1,8 +1,8 @@
-//! Boxes, areas and outlines of plain places.
+//! Boxes, areas and outlines of points.
 
 use nalgebra::Vector3;
 
-/// Lowest and highest coordinates; zeros for no places.
+/// Lowest and highest coordinates; zeros for no points.
 pub fn bounds(places: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
     let first = places.first().copied().unwrap_or_default();
     places.iter().fold((first, first), |(low, high), place| (low.inf(place), high.sup(place)))

@@ -1,4 +1,4 @@
-//! Triangle meshes: cleaning, connected parts, planar faces, and whether a part is a convex solid.
+//! Triangle meshes: cleaning, connected parts, planar faces, and recognition of convex solids.
 
 mod adjacency;
 mod clean;

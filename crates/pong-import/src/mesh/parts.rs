@@ -1,9 +1,9 @@
-//! Connected parts of a mesh: triangles joined by edges that two of them share.
+//! Connected parts of a mesh: triangles joined by edges of exactly two triangles.
 
 use super::adjacency::{Adjacency, NONE};
 use super::triangle_mesh::Mesh;
 
-/// The parts, each a mesh of its own, in the order of their first triangles.
+/// Parts as separate meshes, in the order of their first triangles.
 pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
     let adjacency = Adjacency::new(&mesh.triangles);
     let mut part_of = vec![NONE; mesh.triangles.len()];

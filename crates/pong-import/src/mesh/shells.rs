@@ -1,4 +1,4 @@
-//! Shells: triangles that share edges, whichever way they run. Which of them are closed, and which face which way.
+//! Shells: triangles connected by edges, whatever their winding; closedness and orientation of each.
 
 use super::adjacency::NONE;
 use super::measures::{bounds, ring};
@@ -6,29 +6,29 @@ use super::solid::volume_of;
 use super::triangle_mesh::Mesh;
 use nalgebra::Vector3;
 
-/// Triangles joined by edges that two of them share.
+/// Triangles joined by edges of exactly two triangles.
 pub struct Shell {
     pub triangles: Vec<u32>,
-    /// Whether every edge joins two triangles.
+    /// True if every edge joins two triangles.
     pub closed: bool,
-    /// The triangles that run against the rest; those of the lesser area. Empty for a surface with one side alone, as a
-    /// Möbius strip has it.
+    /// Triangles wound against the rest (the set of smaller area). Empty for a one-sided surface such as a
+    /// Möbius strip.
     pub against: Vec<u32>,
 }
 
 /// Outcome of `turn_outward`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Turned {
-    /// Triangles that ran against their neighbours.
+    /// Triangles that were wound against their neighbours.
     pub(crate) triangles: usize,
     /// Closed shells that faced inwards.
     pub(crate) shells: usize,
 }
 
-/// The shells of a mesh, in the order of their first triangles.
+/// Shells of a mesh, in the order of their first triangles.
 pub fn shells(mesh: &Mesh) -> Vec<Shell> {
     let Neighbors { across, open } = Neighbors::of(&mesh.triangles);
-    // For each triangle whether it runs against the first one of its shell.
+    // Winding of each triangle relative to the first one of its shell; true if opposite.
     let mut against: Vec<Option<bool>> = vec![None; mesh.triangles.len()];
     let mut shells = Vec::new();
     for first in 0..mesh.triangles.len() {
@@ -59,7 +59,7 @@ pub fn shells(mesh: &Mesh) -> Vec<Shell> {
     shells
 }
 
-/// Of triangles that run either way those of less area.
+/// The set of smaller area among the two windings.
 fn lesser(mesh: &Mesh, triangles: &[u32], against: &[Option<bool>]) -> Vec<u32> {
     let area = |triangle: &u32| super::measures::area_vector(&mesh.corners(*triangle as usize)).norm();
     let (turned, rest): (Vec<u32>, Vec<u32>) =
@@ -69,7 +69,8 @@ fn lesser(mesh: &Mesh, triangles: &[u32], against: &[Option<bool>]) -> Vec<u32> 
 }
 
 struct Neighbors {
-    /// For each triangle its neighbours across edges of two triangles, and whether both run the same way along it.
+    /// Neighbours of each triangle across edges of two triangles, and whether both have the same winding
+    /// there.
     across: Vec<[(u32, bool); 3]>,
     /// Triangles with an edge that does not join two.
     open: Vec<bool>,
@@ -104,15 +105,15 @@ impl Neighbors {
     }
 }
 
-/// Makes the triangles of each shell run alike.
+/// Makes the winding of each shell consistent.
 pub(crate) fn make_alike(mesh: &mut Mesh) -> usize {
     let against: Vec<u32> = shells(mesh).into_iter().flat_map(|shell| shell.against).collect();
     turn(mesh, &against);
     against.len()
 }
 
-/// Makes the triangles of each shell run alike, and closed shells face outwards; a closed shell within the box of another
-/// is a cavity and faces inwards.
+/// Makes the winding of each shell consistent, and closed shells outward; a closed shell within the box of
+/// another is a cavity and faces inwards.
 pub(crate) fn turn_outward(mesh: &mut Mesh) -> Turned {
     let mut turned = Turned { triangles: make_alike(mesh), shells: 0 };
     let inward = facing_inwards(mesh);
@@ -121,7 +122,7 @@ pub(crate) fn turn_outward(mesh: &mut Mesh) -> Turned {
     turned
 }
 
-/// Closed shells of triangles that run alike, that face inwards and are no cavity; with their volumes, m³.
+/// Closed shells of consistent winding that face inwards and are no cavity, with their volumes, m³.
 pub(crate) fn facing_inwards(mesh: &Mesh) -> Vec<(Vec<u32>, f64)> {
     let closed = shells(mesh).into_iter().filter(|shell| shell.closed && shell.against.is_empty());
     let measured: Vec<(Vec<u32>, f64, [Vector3<f64>; 2])> = closed

@@ -1,4 +1,4 @@
-//! Whether a part is a convex solid, and its polygons if it is.
+//! Recognition of convex solids, and their polygons.
 
 use super::adjacency::{Adjacency, NONE};
 use super::facets::{Facets, facets};
@@ -6,10 +6,10 @@ use super::measures::{area_vector, bounds, ring};
 use super::triangle_mesh::Mesh;
 use nalgebra::Vector3;
 
-/// Heights above a face that count as none, in sizes of the mesh: what model files allow is judged by the diameter,
+/// Heights above a face that count as zero, in sizes of the mesh. Model files compare with the diameter,
 /// which is at least 0.57 of the diagonal of the box.
 const CONVEX_SHARE: f64 = 0.5e-6;
-/// Thinner than this share of its size is no solid.
+/// Parts thinner than this share of their size are no solids.
 const THIN: f64 = 2e-6;
 
 /// A convex solid with planar faces.
@@ -24,7 +24,7 @@ pub struct Polyhedron {
 /// Finds the convex hull of a mesh and how far its deepest vertex lies within it, m; `None` if it has no thickness.
 pub type HullFinder = fn(&Mesh) -> Option<(Polyhedron, f64)>;
 
-/// Why a part is no convex solid.
+/// Reasons why a part is no convex solid.
 #[derive(Debug, PartialEq)]
 pub enum Flaw {
     /// Edges that do not join two triangles, and one of their ends.
@@ -34,24 +34,24 @@ pub enum Flaw {
     },
     InsideOut,
     Thin,
-    /// A vertex in front of a face, and how far, m.
+    /// A vertex in front of a face, and its height, m.
     Dented {
         at: Vector3<f64>,
         height_m: f64,
     },
-    /// A closed surface with a hole through it, or that runs through itself.
+    /// A closed surface with a hole through it, or with self-intersections.
     Tangled,
     /// More faces than allowed.
     TooManyFaces(usize),
 }
 
-/// Signed volume, m³: above zero if the triangles face outwards.
+/// Signed volume, m³: positive if the triangles face outwards.
 pub fn volume_m3(mesh: &Mesh) -> f64 {
     let (low, high) = bounds(&mesh.vertices);
     volume_of(mesh, 0..mesh.triangles.len(), &(0.5 * (low + high)))
 }
 
-/// Signed volume between a place and some triangles, m³.
+/// Signed volume between a point and some triangles, m³.
 pub(super) fn volume_of(mesh: &Mesh, triangles: impl Iterator<Item = usize>, place: &Vector3<f64>) -> f64 {
     let six = |triangle: usize| {
         let [a, b, c] = mesh.corners(triangle).map(|corner| corner - place);
@@ -60,7 +60,7 @@ pub(super) fn volume_of(mesh: &Mesh, triangles: impl Iterator<Item = usize>, pla
     triangles.map(six).sum::<f64>() / 6.0
 }
 
-/// The part as a convex polyhedron of at most `faces_max` faces, or what keeps it from being one.
+/// The part as a convex polyhedron of at most `faces_max` faces, or the reason why it is none.
 pub fn polyhedron(mesh: &Mesh, faces_max: usize) -> Result<Polyhedron, Flaw> {
     let adjacency = Adjacency::new(&mesh.triangles);
     closed(mesh, &adjacency)?;
@@ -107,7 +107,7 @@ fn thick(mesh: &Mesh, size_m: f64) -> Result<(), Flaw> {
     }
 }
 
-/// Every neighbour bends away from the triangle, the larger of the two.
+/// Checks that every neighbour of each triangle (of the larger of two) bends away from it.
 fn convex_at_edges(mesh: &Mesh, adjacency: &Adjacency, tolerance_m: f64) -> Result<(), Flaw> {
     for (index, across) in adjacency.across.iter().enumerate() {
         let corners = mesh.corners(index);

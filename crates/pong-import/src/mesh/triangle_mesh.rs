@@ -1,4 +1,4 @@
-//! A triangle mesh: vertices, triangles and what each triangle looks like.
+//! A triangle mesh: vertices, triangles and the look of each triangle.
 
 use super::measures::bounds;
 use nalgebra::Vector3;
@@ -9,7 +9,7 @@ use std::collections::HashMap;
 pub struct Mesh {
     pub vertices: Vec<Vector3<f64>>,
     pub triangles: Vec<[u32; 3]>,
-    /// What distinguishes triangles (an index into the looks of the source); as many as triangles.
+    /// Look of each triangle (an index into the looks of the source).
     pub look_of: Vec<u16>,
 }
 
@@ -32,7 +32,7 @@ impl Mesh {
         (high - low).norm()
     }
 
-    /// The same without vertices that no triangle uses, in the order of first use.
+    /// The mesh without unused vertices, in the order of first use.
     pub fn compact(mut self) -> Self {
         let mut number = vec![u32::MAX; self.vertices.len()];
         let mut vertices = Vec::new();
@@ -48,7 +48,7 @@ impl Mesh {
         self
     }
 
-    /// The triangles of these numbers, with the vertices they use.
+    /// The triangles of these indices, with the vertices they use.
     pub fn part(&self, triangles: &[u32]) -> Self {
         let mut number: HashMap<u32, u32> = HashMap::new();
         let mut part = Self::default();

@@ -1,10 +1,10 @@
-//! Vertices in the same place, or closer than a tolerance, become one.
+//! Merging of vertices that coincide or lie within a tolerance.
 
 use super::triangle_mesh::Mesh;
 use nalgebra::Vector3;
 use pong_model::weld::{PositionKey, WordMap, position_key};
 
-/// Moves every vertex within `tolerance_m` of an earlier one onto it; tells how many.
+/// Moves every vertex within `tolerance_m` of an earlier one onto it and returns how many moved.
 pub(crate) fn weld(mesh: &mut Mesh, tolerance_m: f64) -> usize {
     let cell = |place: &Vector3<f64>| place.map(|x| (x / tolerance_m).floor() as i64);
     let mut cells: WordMap<[i64; 3], Vec<u32>> = WordMap::default();
@@ -30,7 +30,7 @@ pub(crate) fn weld(mesh: &mut Mesh, tolerance_m: f64) -> usize {
     moved
 }
 
-/// Bit-equal places become one vertex.
+/// Merges bit-equal vertices.
 pub(crate) fn weld_equal(mesh: &mut Mesh) {
     let mut numbers: WordMap<PositionKey, u32> = WordMap::default();
     let first =

@@ -1,11 +1,11 @@
-//! Axes that a round part may have.
+//! Candidate axes of a round part.
 
 use super::frame::Frame;
 use crate::mesh::{Mesh, area_vector};
 use nalgebra::{Matrix3, Vector3};
 
-/// Six frames: the axes about which its areas lie, and those about which they face. What is round has its axis among both, but
-/// where three axes are alike any three may be found.
+/// Six frames: principal axes of the areas and of the normals. A round part's axis is among both, unless
+/// three axes are alike, when any three may be found.
 pub(super) fn candidates(part: &Mesh) -> Vec<Frame> {
     let triangles: Vec<_> = (0..part.triangles.len()).map(|index| part.corners(index)).collect();
     let total: f64 = triangles.iter().map(|corners| area_vector(corners).norm()).sum();
@@ -19,7 +19,8 @@ pub(super) fn candidates(part: &Mesh) -> Vec<Frame> {
     for corners in &triangles {
         let arms = corners.map(|corner| corner - center);
         let middle = middle(corners) - center;
-        // The second moment of a triangle is that of its corners and three times its middle, over twelve.
+        // The second moment of a triangle is the sum over its corners and three times its centroid, over
+        // twelve.
         let square =
             arms.iter().fold(9.0 * middle * middle.transpose(), |sum, arm| sum + arm * arm.transpose());
         places += square * (share(corners) / 12.0);

@@ -1,4 +1,4 @@
-//! The primitive of a kind that is nearest to a mesh, from an axis near its own: least squares, by Gauss and Newton.
+//! Least-squares fit of a round primitive to a mesh, from a nearby axis, by Gauss-Newton.
 
 use super::frame::Frame;
 use super::shape::{Kind, Round};
@@ -6,11 +6,11 @@ use crate::mesh::{Adjacency, Mesh};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 const ROUNDS: usize = 20;
-/// Steps below this share of the size change nothing any more.
+/// Steps below this share of the size have converged.
 const SETTLED: f64 = 1e-14;
-/// A place nearer to the axis than this share of the size has no direction away from it.
+/// A point nearer to the axis than this share of the size has no radial direction.
 const ON_AXIS: f64 = 1e-6;
-/// A place of a wall nearer to the axis than this share of the widest is the tip of a cone.
+/// A wall point nearer to the axis than this share of the largest radius is the tip of a cone.
 const TIP: f64 = 0.02;
 
 /// A primitive with the frame of its axis.
@@ -19,7 +19,7 @@ pub(super) struct Fit {
     pub(super) frame: Frame,
 }
 
-/// The wall of a frustum: radius at the origin of the frame, and how much it grows along z.
+/// The wall of a frustum: radius at the origin of the frame, and its slope along z.
 #[derive(Clone, Copy)]
 struct Wall {
     radius: f64,
@@ -38,7 +38,7 @@ pub(super) fn fitted(
     }
     let mut frame = *start;
     let mut wall = Wall { radius: 0.0, slope: 0.0 };
-    // Which triangles are flat ends depends on the axis, which depends on them.
+    // The set of flat end triangles depends on the axis and vice versa.
     for _ in 0..2 {
         let places = places_of_wall(part, &frame, kind, tolerance_m);
         (frame, wall) = fit_wall(&places, &frame, kind != Kind::Cylinder, part.size_m())?;
@@ -57,7 +57,7 @@ fn extent(part: &Mesh, frame: &Frame) -> [f64; 2] {
     heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(z), high.max(z)])
 }
 
-/// The end in which a triangle lies flat, if it does.
+/// The end (0 or 1) in which a triangle lies flat, if it does.
 fn flat_end(
     part: &Mesh,
     frame: &Frame,
@@ -69,7 +69,7 @@ fn flat_end(
     (0..2).find(|&end| heights.iter().all(|z| (z - extent[end]).abs() <= 2.0 * tolerance_m))
 }
 
-/// The vertices of triangles that are no flat ends.
+/// Vertices of all triangles except flat ends.
 fn places_of_wall(part: &Mesh, frame: &Frame, kind: Kind, tolerance_m: f64) -> Vec<Vector3<f64>> {
     let extent = extent(part, frame);
     let mut is_wall = vec![kind == Kind::Bore; part.vertices.len()];
@@ -81,8 +81,8 @@ fn places_of_wall(part: &Mesh, frame: &Frame, kind: Kind, tolerance_m: f64) -> V
     part.vertices.iter().zip(is_wall).filter(|(_, wall)| *wall).map(|(place, _)| *place).collect()
 }
 
-/// Where the part ends along its axis: the mean over the vertices of flat triangles there, or over the rim of a bore; at a tip
-/// the last vertex.
+/// Heights of both ends along the axis: the mean over the vertices of flat triangles there, or over the edge
+/// of a bore; at a tip the last vertex.
 fn heights(part: &Mesh, edges: &Adjacency, frame: &Frame, kind: Kind, tolerance_m: f64) -> [f64; 2] {
     let extent = extent(part, frame);
     let middle = 0.5 * (extent[0] + extent[1]);
@@ -105,7 +105,7 @@ fn heights(part: &Mesh, edges: &Adjacency, frame: &Frame, kind: Kind, tolerance_
     })
 }
 
-/// The frustum's wall nearest to places. A step moves the axis, leans it, and changes radius and slope.
+/// Frustum wall nearest to the points. A step shifts and tilts the axis, and changes radius and slope.
 fn fit_wall(places: &[Vector3<f64>], start: &Frame, tapers: bool, size_m: f64) -> Option<(Frame, Wall)> {
     let unknowns = if tapers { 6 } else { 5 };
     let mut frame = *start;
@@ -126,8 +126,8 @@ fn fit_wall(places: &[Vector3<f64>], start: &Frame, tapers: bool, size_m: f64) -
     Some((frame, wall))
 }
 
-/// How far a place is off the wall along the radius, and by how much each unknown changes that. A tip has no direction away from
-/// the axis: it is to be on the axis, and the radius there zero.
+/// Radial residual of a point from the wall, and its derivatives by the unknowns. A tip has no radial
+/// direction: it should lie on the axis, with radius zero there.
 fn rows_of_wall(local: &Vector3<f64>, wall: Wall, tip: f64) -> Vec<(f64, Vec<f64>)> {
     let (away, z, b) = (local.xy().norm(), local.z, wall.slope);
     if away <= tip {
@@ -142,7 +142,7 @@ fn rows_of_wall(local: &Vector3<f64>, wall: Wall, tip: f64) -> Vec<(f64, Vec<f64
     vec![(away - wall.radius - b * z, vec![-ux, -uy, lean[0], lean[1], -1.0, -z])]
 }
 
-/// The capsule nearest to all vertices. A step also moves both ends along the axis.
+/// Capsule nearest to all vertices. A step also moves both ends along the axis.
 fn capsule(part: &Mesh, start: &Frame, tolerance_m: f64) -> Option<Fit> {
     let size_m = part.size_m();
     let mut frame = *start;
@@ -172,13 +172,13 @@ fn capsule(part: &Mesh, start: &Frame, tolerance_m: f64) -> Option<Fit> {
             break;
         }
     }
-    // What is hardly longer than a ball is one.
+    // A capsule hardly longer than a sphere is refused.
     let sound = radius > 0.0 && ends[1] - ends[0] > tolerance_m;
     let round = Round { kind: Kind::Capsule, ends: ends.map(|z| frame.on_axis(z)), radii: [radius; 2] };
     sound.then_some(Fit { round, frame })
 }
 
-/// The change of the unknowns that takes the residuals nearest to zero; of those that nothing depends on, none.
+/// Gauss-Newton step of the unknowns; zero for unknowns on which no residual depends.
 fn step(rows: impl Iterator<Item = (f64, Vec<f64>)>, unknowns: usize) -> Option<DVector<f64>> {
     let mut normal = DMatrix::zeros(unknowns, unknowns);
     let mut gradient = DVector::zeros(unknowns);
@@ -189,7 +189,7 @@ fn step(rows: impl Iterator<Item = (f64, Vec<f64>)>, unknowns: usize) -> Option<
             (0..unknowns).for_each(|j| normal[(i, j)] += row[i] * row[j]);
         }
     }
-    // Lengths and leans are of different sizes: each unknown is measured by its own curvature.
+    // Lengths and slopes differ in size: each unknown is scaled by its own curvature.
     for i in 0..unknowns {
         let curvature: f64 = normal[(i, i)];
         scale[i] = if curvature > 0.0 { curvature.sqrt().recip() } else { 0.0 };

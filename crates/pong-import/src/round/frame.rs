@@ -12,7 +12,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// About an axis, which need not be of unit length.
+    /// Builds a frame about an axis, which need not be of unit length.
     pub(super) fn about(origin: Vector3<f64>, axis: &Vector3<f64>) -> Self {
         let z = axis.normalize();
         let least = [Vector3::x(), Vector3::y(), Vector3::z()]
@@ -23,18 +23,18 @@ impl Frame {
         Self { origin, x, y: z.cross(&x), z }
     }
 
-    /// Coordinates of a place.
+    /// Coordinates of a point.
     pub(super) fn local(&self, place: &Vector3<f64>) -> Vector3<f64> {
         let arm = place - self.origin;
         Vector3::new(self.x.dot(&arm), self.y.dot(&arm), self.z.dot(&arm))
     }
 
-    /// The place on the axis at a height.
+    /// Point of the axis at a height.
     pub(super) fn on_axis(&self, z: f64) -> Vector3<f64> {
         self.origin + self.z * z
     }
 
-    /// Moved across its axis, and leant over: by so much of x and of y for each unit of z.
+    /// The frame shifted across its axis and tilted by these slopes of x and y over z.
     pub(super) fn changed(&self, across: [f64; 2], leant: [f64; 2]) -> Self {
         let origin = self.origin + self.x * across[0] + self.y * across[1];
         Self::about(origin, &(self.z + self.x * leant[0] + self.y * leant[1]))

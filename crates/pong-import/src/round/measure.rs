@@ -1,4 +1,4 @@
-//! How far a mesh is from a round primitive, and whether it is all of it.
+//! Distance of a mesh from a round primitive, and completeness of the mesh.
 
 use super::frame::Frame;
 use super::shape::{Kind, Round};
@@ -6,7 +6,7 @@ use crate::mesh::{Adjacency, Mesh, area_vector, volume_m3};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::{PI, TAU};
 
-/// A triangle is measured at its corners and at the corners of its parts, so many to an edge.
+/// Each edge of a triangle is divided into this many parts for measuring.
 const PARTS: usize = 8;
 
 impl Round {
@@ -14,7 +14,7 @@ impl Round {
         self.ends[1] - self.ends[0]
     }
 
-    /// A place in the half plane through the axis: height over end 0 and distance from the axis.
+    /// A point in the half plane through the axis: height over end 0 and distance from the axis.
     fn flattened(&self, place: &Vector3<f64>) -> Vector2<f64> {
         let (arm, along) = (place - self.ends[0], self.along());
         let length = along.norm();
@@ -22,7 +22,7 @@ impl Round {
         Vector2::new(height, (arm - along * (height / length)).norm())
     }
 
-    /// Distance of a place from the surface, m.
+    /// Distance of a point from the surface, m.
     fn distance_m(&self, place: &Vector3<f64>) -> f64 {
         let (place, length) = (self.flattened(place), self.along().norm());
         let corner = |z: f64, r: f64| Vector2::new(z, r);
@@ -53,7 +53,7 @@ fn from_segment(place: &Vector2<f64>, start: Vector2<f64>, end: Vector2<f64>) ->
     (place - start - along * share).norm()
 }
 
-/// The largest distance of the mesh from the primitive: at its vertices, and at 45 places of each triangle, m.
+/// Largest distance of the mesh from the primitive: at its vertices and at 45 points of each triangle, m.
 pub(super) fn farthest_m(part: &Mesh, round: &Round) -> f64 {
     let at_vertices = part.vertices.iter().map(|place| round.distance_m(place));
     let in_triangles = (0..part.triangles.len()).flat_map(|index| {
@@ -65,7 +65,7 @@ pub(super) fn farthest_m(part: &Mesh, round: &Round) -> f64 {
     at_vertices.chain(in_triangles).fold(0.0, |most, x| if x <= most { most } else { x })
 }
 
-/// Whether there are vertices all around the axis, so many at least.
+/// Tests whether vertices surround the axis, at least `sides` of them.
 pub(super) fn goes_around(part: &Mesh, frame: &Frame, sides: usize) -> bool {
     let size_m = part.size_m();
     let locals = part.vertices.iter().map(|place| frame.local(place).xy());
@@ -79,14 +79,14 @@ pub(super) fn goes_around(part: &Mesh, frame: &Frame, sides: usize) -> bool {
     widest <= TAU / (sides as f64 - 0.5)
 }
 
-/// Whether a closed mesh near the primitive encloses it: then it is all of it, and does not run to and fro.
+/// Tests by its volume whether a closed mesh near the primitive encloses all of it, without folds.
 pub(super) fn has_volume(part: &Mesh, round: &Round, tolerance_m: f64) -> bool {
     let area: f64 =
         0.5 * (0..part.triangles.len()).map(|t| area_vector(&part.corners(t)).norm()).sum::<f64>();
     (volume_m3(part) - round.volume_m3()).abs() <= 1.5 * tolerance_m * area
 }
 
-/// Whether an open mesh near the wall faces the axis and ends in two rims, one around each end.
+/// Tests whether an open mesh near the wall faces the axis and ends in two loops, one around each end.
 pub(super) fn is_wall_of_hole(
     part: &Mesh,
     edges: &Adjacency,

@@ -1,8 +1,8 @@
-//! Parts of a mesh that are round: a capsule, a cylinder, a cone, or the wall of a bore, within a tolerance.
+//! Recognition of round parts of a mesh: capsule, cylinder, cone, or the wall of a bore, within a tolerance.
 //!
-//! A candidate for the axis comes from the areas and normals of the part (`axes`). The wall is fitted to the vertices by least
-//! squares (`fit`), and the ends to the flat triangles there. What counts in the end is only how far the mesh is from the
-//! primitive (`measure`): a bad candidate is refused by that, never taken.
+//! A candidate for the axis comes from the areas and normals of the part (`axes`). The wall is fitted to the
+//! vertices by least squares (`fit`), and the ends to the flat triangles there. The distance of the mesh from
+//! the primitive (`measure`) alone decides: a bad candidate is refused.
 
 mod axes;
 mod fit;
@@ -15,11 +15,11 @@ use fit::Fit;
 
 pub use shape::{Kind, Recognised, Round};
 
-/// Fewer places around the axis are a prism that is meant as one: a box, a hexagon.
+/// A part with fewer points around the axis is meant as a prism: a box, a hexagon.
 const SIDES_MIN: usize = 8;
 
-/// The round primitive that a connected part is within a tolerance, if it is one: a solid if it is closed and faces outwards, a
-/// bore if it is open at two ends and faces its axis.
+/// The round primitive that a connected part matches within a tolerance, if any: a solid if the part is
+/// closed and faces outwards, a bore if it is open at two ends and faces its axis.
 pub fn recognise(part: &Mesh, tolerance_m: f64) -> Option<Recognised> {
     let edges = Adjacency::new(&part.triangles);
     if !edges.crowded.is_empty() || !edges.wound_against.is_empty() {
@@ -36,20 +36,20 @@ pub fn recognise(part: &Mesh, tolerance_m: f64) -> Option<Recognised> {
         let judged = fits.filter_map(|fit| judged(part, &edges, fit, tolerance_m));
         judged.min_by(|a, b| a.farthest_m.total_cmp(&b.farthest_m))
     };
-    // A cone of equal radii is a cylinder, and fits noise a little better.
+    // A cone of equal radii is a cylinder, but fits noise slightly better.
     let (plain, last) = kinds.split_at(kinds.len() - 1);
     let plain = plain.iter().filter_map(|&kind| best(kind));
     plain.min_by(|a, b| a.farthest_m.total_cmp(&b.farthest_m)).or_else(|| best(last[0]))
 }
 
-/// Whether the mesh is that primitive: near it everywhere, all around it, and all of it.
+/// Accepts a fit if the mesh is near the primitive everywhere, surrounds its axis and covers all of it.
 fn judged(part: &Mesh, edges: &Adjacency, fit: Fit, tolerance_m: f64) -> Option<Recognised> {
     let Fit { round, frame } = fit;
     if !measure::goes_around(part, &frame, SIDES_MIN) {
         return None;
     }
     let farthest_m = measure::farthest_m(part, &round);
-    // Not a number is not within the tolerance.
+    // NaN is not within the tolerance.
     let near = farthest_m <= tolerance_m;
     let whole = match round.kind {
         Kind::Bore => measure::is_wall_of_hole(part, edges, &round, &frame, tolerance_m),

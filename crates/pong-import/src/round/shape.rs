@@ -1,8 +1,8 @@
-//! What is recognised.
+//! Recognised round primitives.
 
 use nalgebra::Vector3;
 
-/// What a part is.
+/// Kind of a round part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     Capsule,
@@ -19,7 +19,7 @@ pub struct Round {
     pub radii: [f64; 2],
 }
 
-/// A primitive and how far the mesh is from it at most, m.
+/// A primitive and the largest distance of the mesh from it, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recognised {
     pub round: Round,

@@ -1,8 +1,9 @@
-//! Limits on what a file makes: a short file can name one mesh many times.
+//! Limits on the size of an import: a short file can instance one mesh many times.
 
 use crate::findings::Findings;
 
-/// Bytes of the paths of all nodes, unless the file is as long: each path repeats the names of the nodes above.
+/// Bytes of the paths of all nodes, unless the file is longer: each path repeats the names of the nodes
+/// above.
 const PATH_BYTES: usize = 64 << 20;
 
 /// Remaining budget of a file.
@@ -13,14 +14,15 @@ pub(super) struct Budget {
 }
 
 impl Budget {
-    /// For a file of this length with its buffers. Every corner of a mesh takes a byte at least, so that a file that names
-    /// each mesh once stays within its length.
+    /// Budget of a file of this length, with its buffers. Every corner of a mesh takes at least a byte, so a
+    /// file that uses each mesh once stays within its length.
     pub(super) fn new(triangles_max: usize, length: usize) -> Self {
         let corners = triangles_max.saturating_mul(3).max(length);
         Self { corners, path_bytes: PATH_BYTES.max(length), triangles_max }
     }
 
-    /// Whether there is room for a mesh of so many corners or vertices; else a fault is noted.
+    /// Reserves room for a mesh of so many corners or vertices; notes a fault and returns false if there is
+    /// none.
     pub(super) fn take(&mut self, corners: usize, path: &str, findings: &mut Findings) -> bool {
         match self.corners.checked_sub(corners) {
             Some(left) => self.corners = left,
@@ -41,9 +43,9 @@ impl Budget {
         true
     }
 
-    /// Whether there is room for a node of this path; else a fault is noted.
+    /// Reserves room for a node of this path; notes a fault and returns false if there is none.
     pub(super) fn take_path(&mut self, path: &str, file: &str, findings: &mut Findings) -> bool {
-        // A node takes room even if it has no mesh.
+        // A node takes room even without a mesh.
         if !self.take(1, file, findings) {
             return false;
         }
@@ -63,7 +65,7 @@ impl Budget {
         true
     }
 
-    /// Tells the first time that there is no room; nothing has room afterwards.
+    /// Reports the first time that there is no room; all later requests fail.
     fn refuse(&mut self, path: &str, cause: String, cure: &str, findings: &mut Findings) {
         if findings.faults.iter().all(|fault| fault.rule != "too-many-copies") {
             findings.fault(path, "too-many-copies", cause, cure);

@@ -1,6 +1,6 @@
 //! Collada 1.4 and 1.5: the node tree of the visual scene, triangles, polygons, lines.
 //!
-//! Unit and upward axis are those of the file. Materials, lights, cameras and physics are left aside.
+//! Unit and upward axis are those of the file. Materials, lights, cameras and physics are ignored.
 
 mod geometry;
 mod reader;
@@ -17,14 +17,14 @@ use roxmltree::{Document, Node as Element};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// Nodes nest no deeper.
+/// Deepest nesting of nodes.
 const DEEPEST: usize = 200;
 
-/// A tree in the making.
+/// A tree under construction.
 struct Making {
     source: Source,
     budget: Budget,
-    /// Geometries that were read, by id.
+    /// Geometries read so far, by id.
     shapes: HashMap<String, Option<Shape>>,
 }
 
@@ -96,7 +96,7 @@ impl<'a> Reader<'a> {
         Some(())
     }
 
-    /// The visual scene of that name, or the one that the file shows; `Some(None)` for a file without scenes.
+    /// The visual scene of that name, or the file's default; `Some(None)` for a file without scenes.
     fn scene(
         &self,
         root: Element<'a, 'a>,
@@ -126,7 +126,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A file without a scene: every geometry stands where it was modelled.
+    /// File without a scene: every geometry is placed at its own coordinates.
     fn add_all_geometries(&self, path: &Path, making: &mut Making, findings: &mut Findings) {
         let cause = "it has no visual scene: all its geometries were read, each as it is";
         findings.note(&self.file, "no-scene", cause, "");
@@ -199,7 +199,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The mesh of a node; a second one becomes a node below.
+    /// Mesh of a node; a second one becomes a child node.
     fn add_geometry(
         &self,
         instance: Element<'a, 'a>,
@@ -242,7 +242,7 @@ fn path_below(above: Option<&str>, name: &str) -> String {
     above.map_or_else(|| name.to_owned(), |above| format!("{above}/{name}"))
 }
 
-/// Whether a node or one below has a mesh.
+/// Tests whether a node or a descendant has a mesh.
 fn shows_geometry(node: Element<'_, '_>) -> bool {
     let shows = ["instance_geometry", "instance_controller", "instance_node"];
     node.descendants().any(|element| shows.contains(&element.tag_name().name()))

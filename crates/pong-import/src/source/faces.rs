@@ -1,11 +1,11 @@
-//! Faces of any number of corners: cut into triangles, and told where they are bent.
+//! Triangulation of faces with any number of corners; non-planar faces are noted.
 
 use super::tree::Shape;
 use crate::findings::Findings;
 use nalgebra::Vector3;
 use pong_model::weld::Welder;
 
-/// Faces of more corners are refused: cutting one takes up to the square of their number.
+/// Faces of more corners are refused: triangulation takes up to quadratic time.
 const MOST_CORNERS: usize = 10_000;
 
 pub(super) fn add_face(
@@ -28,16 +28,16 @@ pub(super) fn add_face(
     }
 }
 
-/// Faces whose corners lie in no plane: cut into triangles they have a fold that the file does not tell.
+/// Non-planar faces: their triangulation has a fold that is not in the file.
 #[derive(Default)]
 pub(super) struct Bent {
     faces: usize,
-    /// How far, m, and which.
+    /// Largest distance from the plane, m, and its face.
     worst: f64,
     path: String,
 }
 
-/// Corners off their plane by less than this share of the face's size are rounding.
+/// Corners off their plane by less than this share of the face's size count as rounding.
 const FLAT: f64 = 1e-6;
 
 impl Bent {
@@ -77,7 +77,7 @@ impl Bent {
     }
 }
 
-/// Cuts a face into triangles; `false` if its outline allows none.
+/// Triangulates a face; `false` if its outline cannot be triangulated.
 fn cut(shape: &mut Shape, face: &[u32]) -> bool {
     if let [a, b, c] = *face {
         shape.triangles.push([a, b, c]);
@@ -90,7 +90,7 @@ fn cut(shape: &mut Shape, face: &[u32]) -> bool {
         return false;
     }
     earcut::Earcut::new().earcut(flat.iter().copied(), &[], &mut order);
-    // Corners on a straight line are no triangle's tip and lie on the edge of one: the cut must keep them.
+    // Collinear corners are no triangle's tip but lie on an edge: the triangulation must keep them.
     let whole = order.len() == 3 * (face.len() - 2);
     if !whole {
         order = (1..face.len() as u32 - 1).flat_map(|k| [0, k, k + 1]).collect();
@@ -99,7 +99,7 @@ fn cut(shape: &mut Shape, face: &[u32]) -> bool {
     true
 }
 
-/// Bit-equal places become one vertex.
+/// Merges bit-equal vertices.
 pub(super) fn weld(shape: &mut Shape) {
     let mut welder = Welder::default();
     let mut vertices = Vec::new();

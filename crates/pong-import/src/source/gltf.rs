@@ -1,6 +1,6 @@
 //! glTF 2.0, `.gltf` and `.glb`: node tree, triangles, lines, points, `extras.pong`.
 //!
-//! Nodes are read from the JSON itself, whose numbers are of double precision; accessors by the crate.
+//! Nodes are read from the JSON itself, with numbers in double precision; accessors by the `gltf` crate.
 
 mod accessors;
 mod buffers;
@@ -17,7 +17,7 @@ use json::Json;
 use serde_json::Value;
 use std::path::Path;
 
-/// What a reader of glTF has at hand.
+/// State of a glTF reader.
 struct Reader<'a> {
     json: &'a Value,
     document: ::gltf::Document,
@@ -131,7 +131,7 @@ impl Reader<'_> {
         name.filter(|name| !name.is_empty()).map_or(format!("mesh_{mesh}"), str::to_owned)
     }
 
-    /// Skins and morph targets move vertices in ways that no model can.
+    /// Refuses skins and morph targets: no model can represent them.
     fn refuse_deformation(&self, node: &Value, mesh: Option<usize>, path: &str, findings: &mut Findings) {
         if node.get("skin").is_some() {
             let cure = "apply the armature before the export, or take the skin away";
@@ -192,7 +192,7 @@ impl Reader<'_> {
         all_in_range(&shape, path, findings).then_some(shape)
     }
 
-    /// What the `extras.pong` of a material says.
+    /// Look of a material, from its `extras.pong`.
     fn look(&self, material: Option<usize>) -> Look {
         let material = material.and_then(|index| self.json.list("materials").get(index));
         let pong = material.and_then(|material| material.get("extras")).and_then(|extras| extras.get("pong"));

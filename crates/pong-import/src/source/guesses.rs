@@ -1,16 +1,16 @@
-//! OBJ and STL files say neither their unit nor which axis points up. What was taken for granted is told where it looks wrong.
+//! Notes on doubtful assumptions: OBJ and STL files give neither unit nor upward axis.
 
 use super::reading::Reading;
 use super::tree::{Shape, Source};
 use crate::findings::Findings;
 use nalgebra::Vector3;
 
-/// Longer things are rarely meant, and shorter ones than this are rarely modelled in millimetres, m.
+/// Models longer than this, read in metres, are probably in millimetres, m.
 const LONG_M: f64 = 10.0;
-/// Corners this near the lowest place, in lengths of the whole, lie on the ground.
+/// Corners this near the lowest point, in lengths of the whole, lie on the ground.
 const GROUND_SHARE: f64 = 1e-3;
-/// An area on the ground of this share of the square of the length is something to stand on, and one of a tenth of another is
-/// none beside it.
+/// Least area on the ground that a model stands on, as a share of its squared length. An area below a tenth of
+/// that on another axis does not count.
 const FOOT_SHARE: f64 = 1e-2;
 
 /// Notes for a file of a format without a unit and an upward axis.
@@ -27,7 +27,7 @@ pub(super) fn tell(source: &Source, reading: &Reading, file: &str, findings: &mu
         let cure = format!("if it is in millimetres, {:.4} m, say --unit 1mm", 1e-3 * length);
         findings.note(file, "unit-assumed", cause, cure);
     }
-    // With an axis of the caller's nothing was assumed.
+    // With an axis given by the caller nothing was assumed.
     if reading.up.is_some() || length.is_nan() || length <= 0.0 {
         return;
     }

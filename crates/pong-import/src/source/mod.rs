@@ -1,4 +1,4 @@
-//! Mesh files, glTF, Collada, OBJ and STL, each read by its own reader to the same tree of nodes with geometry.
+//! Readers of mesh files (glTF, Collada, OBJ, STL), all with the same result: a tree of nodes with geometry.
 
 mod budget;
 mod collada;
@@ -18,7 +18,7 @@ use std::path::Path;
 pub use reading::Reading;
 pub use tree::{Look, Node, Shape, Source};
 
-/// Reads a file by the ending of its name.
+/// Reads a file by the extension of its name.
 pub fn read(path: &Path, reading: &Reading, findings: &mut Findings) -> Option<Source> {
     let file = path.display().to_string();
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();

@@ -1,4 +1,5 @@
-//! OBJ: objects, faces of any number of corners, lines and points; materials and texture coordinates are left aside.
+//! OBJ: objects, faces of any number of corners, lines and points; materials and texture coordinates are
+//! ignored.
 
 use super::faces::{Bent, add_face, weld};
 use super::format_fault::finding;
@@ -24,7 +25,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, reading: &Reading, findings: &mut 
     let mut used = Used(vec![(u32::MAX, 0); found.places.len()]);
     let mut bent = Bent::default();
     for object in &found.objects {
-        // One object may come in several parts of one name.
+        // One object may come in several parts of the same name.
         let node = node_called(&mut source, &mut numbers, &object.name, path);
         let shape = source.nodes[node].mesh.get_or_insert_with(Shape::default);
         let corners = object.corners.iter();
@@ -63,7 +64,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, reading: &Reading, findings: &mut 
     findings.faults.is_empty().then_some(source)
 }
 
-/// For each vertex of the file the last node that used it, and its number there.
+/// For each vertex of the file, the last node that used it and its index there.
 struct Used(Vec<(u32, u32)>);
 
 impl Used {
@@ -83,7 +84,7 @@ impl Used {
     }
 }
 
-/// The node of that name, new if there is none; what belongs to no object is called like the file.
+/// The node of that name, added if missing; elements without an object take the file's name.
 fn node_called(source: &mut Source, numbers: &mut HashMap<String, usize>, name: &str, path: &Path) -> usize {
     let name = match name.trim() {
         "" => stem(path),

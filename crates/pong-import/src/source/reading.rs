@@ -1,24 +1,24 @@
-//! How a mesh file is to be read, and what its content is called if it gives no name.
+//! Options of reading a mesh file, and default names of its content.
 
 use crate::affine::Up;
 use std::path::{Path, PathBuf};
 
-/// How a file is to be read.
+/// Options of reading a file.
 pub struct Reading {
-    /// `None` for what the format is known for: y in glTF, z in OBJ and STL, in Collada
-    /// what the file says.
+    /// Upward axis; `None` for the convention of the format: y in glTF, z in OBJ and STL, the file's own in
+    /// Collada.
     pub up: Option<Up>,
     /// Metres in one unit of the file; a Collada file gives its unit, and this is a factor to it.
     pub unit_m: f64,
     /// Name of the scene to read; glTF only.
     pub scene: Option<String>,
-    /// Triangles that a file may make by naming meshes several times.
+    /// Most triangles that a file may create by instancing its meshes.
     pub triangles_max: usize,
-    /// Folders beside the file's own that files which it names may lie in.
+    /// Folders, besides the file's own, from which referenced files may be read.
     pub allowed: Vec<PathBuf>,
 }
 
-/// The file's name without folder and ending: what a model without a name is called.
+/// File name without folder and extension: name of a model that has none.
 pub(super) fn stem(path: &Path) -> String {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }

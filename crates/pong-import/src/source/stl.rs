@@ -51,8 +51,8 @@ pub(super) fn read(bytes: &[u8], path: &Path, reading: &Reading, findings: &mut 
     Some(Source { nodes, settings: None })
 }
 
-/// A shape for each solid if every one is closed. Some programs write one body as several solids, one for each of its
-/// faces: those become one shape.
+/// One shape for each solid if every one is closed. Some programs write one body as several solids, one for
+/// each face: those become one shape.
 fn shapes(named: Vec<(String, Solid)>, path: &Path, findings: &mut Findings) -> Vec<(String, Shape)> {
     let count = named.len();
     let apart = count > 1 && named.iter().all(|(_, solid)| Adjacency::new(&solid.triangles).is_closed());

@@ -1,4 +1,4 @@
-//! What every reader makes of its file: a tree of nodes with geometry.
+//! Common result of all readers: a tree of nodes with geometry.
 
 use crate::affine::Affine;
 use crate::findings::Findings;
@@ -8,7 +8,7 @@ use serde_json::Value;
 /// A file as a tree of nodes; lengths in metres, axes those of models.
 #[derive(Default)]
 pub struct Source {
-    /// Parents before their children.
+    /// Nodes, parents before their children.
     pub nodes: Vec<Node>,
     /// `extras.pong` of the scene.
     pub settings: Option<Value>,
@@ -17,19 +17,19 @@ pub struct Source {
 pub struct Node {
     pub name: String,
     pub parent: Option<usize>,
-    /// Names from the top, with `/` between; for messages.
+    /// Names from the root, separated by `/`; for messages.
     pub path: String,
-    /// To the parent.
+    /// Transform to the parent.
     pub local: Affine,
     /// `extras.pong`.
     pub mark: Option<Value>,
     pub mesh: Option<Shape>,
 }
 
-/// Vertices in the node's frame and what they span.
+/// Vertices in the node's frame, and the elements between them.
 #[derive(Clone, Default)]
 pub struct Shape {
-    /// Distinct places.
+    /// Distinct positions.
     pub vertices: Vec<Vector3<f64>>,
     /// Triangles, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
@@ -46,14 +46,14 @@ impl Shape {
     }
 }
 
-/// What a material says of its faces.
+/// Properties that a material gives its faces.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Look {
     pub surface: Option<String>,
     pub inactive: bool,
 }
 
-/// Whether all coordinates are numbers that a model may hold; else a fault is noted.
+/// Checks that all coordinates are within the range of models; notes a fault and returns false otherwise.
 pub(super) fn all_in_range(shape: &Shape, path: &str, findings: &mut Findings) -> bool {
     let in_range = |x: &f64| x.abs() <= pong_model::LARGEST;
     let Some(index) = shape.vertices.iter().position(|place| !place.iter().all(in_range)) else {

@@ -1,11 +1,12 @@
-//! Places that are bit-equal in the file become one vertex: glTF and STL write a vertex once per normal or triangle.
+//! Merging of positions that are bit-equal in the file: glTF and STL repeat a vertex for each normal or
+//! triangle.
 
 use crate::number::widened;
 use nalgebra::Vector3;
 use pong_model::weld::WordMap;
 
-/// Gives distinct places of single precision numbers in the order of first use. It compares them before they are widened,
-/// which costs more than the look-up: most places come several times.
+/// Distinct single-precision positions in the order of first use. They are compared before they are widened:
+/// widening costs more than the look-up, and most positions are repeated.
 #[derive(Default)]
 pub(crate) struct Welder {
     numbers: WordMap<[u32; 3], u32>,
@@ -14,7 +15,7 @@ pub(crate) struct Welder {
 }
 
 impl Welder {
-    /// The number of a place; −0 and 0 are the same.
+    /// Index of a position; −0 and 0 are the same.
     pub(crate) fn weld(&mut self, place: [f32; 3]) -> u32 {
         let key = place.map(|x| (x + 0.0).to_bits());
         let vertices = &mut self.vertices;
@@ -24,7 +25,7 @@ impl Welder {
         })
     }
 
-    /// The number of a place of double precision.
+    /// Index of a position of double precision.
     pub(crate) fn weld_wide(&mut self, place: Vector3<f64>) -> u32 {
         self.wide.weld(place, &mut self.vertices)
     }

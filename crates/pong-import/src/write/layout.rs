@@ -1,4 +1,4 @@
-//! Values as lines of RON: on one line if they fit into it, else one field a line and long lists filled.
+//! Layout of RON values: on one line if they fit, otherwise one field per line, with long lists filled.
 
 use std::borrow::Cow;
 
@@ -9,17 +9,17 @@ const INDENT: usize = 4;
 /// A label and its value.
 pub(super) type Item = (Cow<'static, str>, Shown);
 
-/// A value on its way to lines.
+/// A value ready for layout.
 pub(super) enum Shown {
     Flat(String),
-    /// Something in brackets; always one item a line if `broken`.
+    /// A bracketed list; always one item per line if `broken`.
     Block {
         opening: String,
         items: Vec<Item>,
         closing: &'static str,
         broken: bool,
     },
-    /// A long list of short tokens, as many on a line as fit.
+    /// A long list of short tokens, as many per line as fit.
     Filled(Vec<String>),
 }
 
@@ -74,7 +74,7 @@ pub(super) fn lay_out(label: &str, value: &Shown, indent: usize, out: &mut Strin
     }
 }
 
-/// The value on one line, or `None` if it is longer than the room.
+/// The value on one line; `None` if it is longer than the room.
 fn flat(value: &Shown, room: usize) -> Option<String> {
     let line = match value {
         Shown::Flat(line) => line.clone(),
@@ -94,7 +94,7 @@ fn fill(tokens: &[String], indent: usize, out: &mut String) {
     let margin = " ".repeat(indent);
     let mut used = 0;
     for token in tokens {
-        // Token and comma, and a space if another stands before it on the line.
+        // Token and comma, plus a space unless it is the first on the line.
         let width = token.len() + 1;
         if used > 0 && used + 1 + width <= WIDTH - indent {
             out.push(' ');

@@ -1,4 +1,4 @@
-//! Meshes of Collada: positions and what they span.
+//! Meshes of Collada: positions and elements.
 
 use super::super::faces::{Bent, add_face, weld};
 use super::super::tree::Shape;
@@ -7,15 +7,15 @@ use crate::findings::{Finding, Findings};
 use nalgebra::Vector3;
 use roxmltree::Node as Element;
 
-/// Inputs of a list of elements: where positions are, and how the list is laid out.
+/// Layout of a list of elements: source of positions, and offsets.
 struct Layout {
     places: Vec<Vector3<f64>>,
-    /// Place of the position among the numbers of a corner, and how many these are.
+    /// Offset of the position among the numbers of a corner, and their count.
     offset: usize,
     stride: usize,
 }
 
-/// A geometry in the axes and units of the model; what is wrong with it is noted.
+/// A geometry in the axes and units of the model; faults are noted.
 pub(super) fn shape<'a>(
     reader: &Reader<'a>,
     geometry: Element<'a, 'a>,

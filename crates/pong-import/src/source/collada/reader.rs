@@ -1,11 +1,11 @@
-//! Elements of a Collada document: found by id, and named by line in faults.
+//! Elements of a Collada document: look-up by id, and line numbers for faults.
 
 use crate::affine::Up;
 use crate::findings::{Finding, Findings};
 use roxmltree::{Document, Node as Element};
 use std::collections::HashMap;
 
-/// Parts of a document at hand.
+/// A document with its unit and axis.
 pub(super) struct Reader<'a> {
     pub(super) document: &'a Document<'a>,
     pub(super) by_id: HashMap<&'a str, Element<'a, 'a>>,
@@ -16,7 +16,7 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// The element that the `url` or `source` of another names.
+    /// The element named by the `url` or `source` of another.
     pub(super) fn target(
         &self,
         from: Element<'a, 'a>,

@@ -6,7 +6,7 @@ use crate::findings::Finding;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use roxmltree::Node as Element;
 
-/// From a node to its parent, in the axes and units of the file.
+/// Transform from a node to its parent, in the axes and units of the file.
 pub(super) fn of<'a>(reader: &Reader<'a>, node: Element<'a, 'a>) -> Result<Affine, Finding> {
     let mut whole = Affine::identity();
     for element in node.children().filter(Element::is_element) {

@@ -14,8 +14,8 @@ fn bytes_of<'b>(buffers: &'b [Vec<u8>]) -> impl Clone + Fn(::gltf::Buffer<'_>) -
     |buffer: ::gltf::Buffer<'_>| buffers.get(buffer.index()).map(Vec::as_slice)
 }
 
-/// Whether what an accessor promises could be in the buffers: without a view all its elements are zero but for the sparse
-/// ones, and a short file could ask for any amount of memory.
+/// Checks that the buffers can hold an accessor's count. Without a view all elements are zero except sparse
+/// ones, so a short file could demand any amount of memory.
 fn check_count(
     accessor: &::gltf::Accessor<'_>,
     buffers: &[Vec<u8>],
@@ -33,7 +33,7 @@ fn check_count(
 /// Positions of a primitive, in the precision of the file.
 pub(super) enum Positions {
     Single(Vec<[f32; 3]>),
-    /// Fractions of the largest integer.
+    /// Normalized integers.
     Double(Vec<Vector3<f64>>),
 }
 
@@ -46,7 +46,7 @@ impl Positions {
     }
 }
 
-/// The larger of the numbers of positions and of indices, as the file promises them.
+/// The larger of the declared numbers of positions and of indices.
 pub(super) fn length(primitive: &Primitive<'_>, buffers: &[Vec<u8>], path: &str) -> Result<usize, Finding> {
     let mut length = 0;
     let positions = primitive.get(&::gltf::Semantic::Positions).map(|accessor| (accessor, "positions"));
@@ -99,7 +99,8 @@ where
     Iter::<[T; 3]>::new(accessor.clone(), bytes_of(buffers)).map(Iterator::collect)
 }
 
-/// Integers as they are, or as fractions of the largest one; the least one of signed integers is −1 as its neighbour is.
+/// Integers as they are, or normalized by the largest; the least signed integer becomes −1, as its neighbour
+/// does.
 fn integers<T: Copy + Into<f64> + Into<f32>>(
     accessor: &::gltf::Accessor<'_>,
     buffers: &[Vec<u8>],
@@ -118,7 +119,7 @@ where
     })
 }
 
-/// The corners in order; every position once if there are no indices. Their number was checked by [`length`].
+/// Corners in order; every position once if there are no indices. Their number was checked by [`length`].
 pub(super) fn indices(
     primitive: &Primitive<'_>,
     buffers: &[Vec<u8>],

@@ -1,4 +1,4 @@
-//! The bytes that accessors look into: in the file, in the text, or in files beside it.
+//! Bytes of the buffers: in the file, in the text, or in files beside it.
 
 use crate::findings::Finding;
 use base64::Engine;

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde_json::Value;
 use std::collections::HashSet;
 
-/// Beginnings of required extensions that change nothing about geometry, or that are read.
+/// Prefixes of required extensions that do not change the geometry or are supported.
 const HARMLESS: [&str; 7] = [
     "KHR_materials_",
     "KHR_texture_",
@@ -15,11 +15,11 @@ const HARMLESS: [&str; 7] = [
     "EXT_texture_",
     "MSFT_texture_",
     "KHR_node_visibility",
-    // Positions of integers are read by their types.
+    // Integer positions are read by their types.
     "KHR_mesh_quantization",
 ];
 
-/// Look-ups that do not mind what is missing.
+/// Look-ups that tolerate missing entries.
 pub(super) trait Json {
     fn list(&self, key: &str) -> &[Value];
     fn text(&self, key: &str) -> Option<&str>;
@@ -48,7 +48,7 @@ fn damaged(file: &str, cause: String) -> Finding {
 fn unpack<'a>(bytes: &'a [u8], file: &str) -> Result<::gltf::Glb<'a>, Finding> {
     /// Magic number, version and length of the file, four bytes each.
     const HEADER: u32 = 12;
-    // The crate takes the header from the length without a look.
+    // The crate reads the header from the length without a check.
     if let Some(&length) = bytes.get(8..).and_then(<[u8]>::first_chunk)
         && u32::from_le_bytes(length) < HEADER
     {
@@ -58,7 +58,7 @@ fn unpack<'a>(bytes: &'a [u8], file: &str) -> Result<::gltf::Glb<'a>, Finding> {
     ::gltf::Glb::from_slice(bytes).map_err(|reason| damaged(file, reason.to_string()))
 }
 
-/// The JSON and the bytes that come with it in a `.glb` file.
+/// The JSON, and the binary chunk of a `.glb` file.
 pub(super) fn parse(bytes: &[u8], file: &str) -> Result<(Value, Option<Vec<u8>>), Finding> {
     let glb = if bytes.starts_with(b"glTF") { Some(unpack(bytes, file)?) } else { None };
     let text: &[u8] = glb.as_ref().map_or(bytes, |glb| &glb.json);
@@ -71,7 +71,7 @@ pub(super) fn parse(bytes: &[u8], file: &str) -> Result<(Value, Option<Vec<u8>>)
     Ok((value, glb.and_then(|glb| glb.bin.map(|bin| bin.into_owned()))))
 }
 
-/// Required extensions that change the geometry in ways unknown here.
+/// Refuses required extensions that change the geometry in unsupported ways.
 pub(super) fn refuse_extensions(value: &Value, file: &str, findings: &mut Findings) {
     for name in value.list("extensionsRequired").iter().filter_map(Value::as_str) {
         if HARMLESS.iter().any(|start| name.starts_with(start)) {
@@ -87,7 +87,7 @@ pub(super) fn refuse_extensions(value: &Value, file: &str, findings: &mut Findin
     }
 }
 
-/// Whether positions are in accessors that are there: the crate's own check looks them up before it has seen to that.
+/// Checks that positions refer to existing accessors; the crate's own check indexes them unchecked.
 fn check_positions(value: &Value, file: &str) -> Result<(), Finding> {
     let accessors = value.list("accessors").len();
     let primitives = value.list("meshes").iter().flat_map(|mesh| mesh.list("primitives"));
@@ -98,7 +98,7 @@ fn check_positions(value: &Value, file: &str) -> Result<(), Finding> {
     }
 }
 
-/// Whether the nodes are trees, with the roots of scenes at their tops: by other ways a node could be reached without end.
+/// Checks that the nodes are trees whose roots are the scenes' roots; cycles would never end.
 fn check_nodes(value: &Value, file: &str) -> Result<(), Finding> {
     let mut below = HashSet::new();
     let children = value.list("nodes").iter().flat_map(|node| node.list("children"));
@@ -139,13 +139,13 @@ pub(super) fn document(value: &Value, file: &str) -> Result<::gltf::Document, Fi
     })
 }
 
-/// What was a number of single precision becomes the decimal it was typed as; others stay.
+/// Widens a number of single precision to the decimal that was typed; others stay.
 fn number(value: f64) -> f64 {
     let single = value as f32;
     if f64::from(single) == value { widened(single) } else { value }
 }
 
-/// `N` numbers; `None` if the field is missing.
+/// Array of `N` numbers; `None` if the field is missing.
 fn numbers<const N: usize>(node: &Value, key: &str, path: &str) -> Result<Option<[f64; N]>, Finding> {
     let Some(value) = node.get(key) else { return Ok(None) };
     let all: Option<Vec<f64>> =
