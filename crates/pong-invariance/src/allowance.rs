@@ -1,4 +1,4 @@
-//! How far two answers to the same question may be apart.
+//! Allowed difference between two answers to the same scene.
 
 use crate::base::Base;
 use crate::make::path;
@@ -6,14 +6,14 @@ use crate::scene::{Scene, Shape};
 use crate::twin::Twin;
 use pong_geometry::{Vec3, Wrench};
 
-/// What holds where bits are not named: this of the largest term.
+/// Tolerance where bits are not required, relative to the largest term.
 pub const TOLERANCE: f64 = 1e-9;
 
-/// Roundings that a position goes through on its way to a depth: each costs at most one unit in its last place. Scenes
-/// without any defect stay below 20.
+/// Roundings of a position on its way to a depth, each of at most one unit in the last place. Scenes without
+/// a defect stay below 20.
 const ROUNDINGS: f64 = 64.0;
 
-/// What may come of rounding in a scene, beside [`TOLERANCE`].
+/// Rounding allowance of a scene, in addition to [`TOLERANCE`].
 pub struct Allowance {
     /// Force, N.
     pub force: f64,
@@ -22,7 +22,7 @@ pub struct Allowance {
 }
 
 impl Allowance {
-    /// For a difference in a frame whose largest term is `largest`.
+    /// Allowance for a difference in a frame whose largest term is `largest`.
     pub fn of(base: &Base, twin: &Twin, largest: f64) -> Self {
         let scene = &base.scene;
         let far = scene
@@ -34,30 +34,30 @@ impl Allowance {
         let position = twin.rounding + f64::EPSILON * (scene.size + far) + bent(scene) / ROUNDINGS;
         let velocity = twin.rounding_of_velocity + f64::EPSILON * 10.0 * (scene.size + far);
         let rounding = ROUNDINGS * (scene.stiffness() * position + scene.damping() * velocity);
-        // The plane of a thin triangle is known as well as its height.
+        // Rounding tilts the plane of a triangle by ε over its relative height.
         let thin = 64.0 * f64::EPSILON * (1.0 / thinnest(scene)).max(1.0 / thinnest(&twin.scene));
         let origins = twin.back.origins.iter().flatten().map(Vec3::norm).fold(0.0, f64::max);
         let lever = 4.0 * (scene.size + origins);
-        // A position that is known to so much of a size leaves a direction as uncertain.
+        // A rounded position makes a direction uncertain by the rounding over the size.
         let turned = ROUNDINGS * twin.rounding / narrowest(scene);
         Self { force: (TOLERANCE + thin + turned) * largest + rounding, lever }
     }
 
-    /// How far two wrenches are apart, in parts of what is allowed.
+    /// Difference of two wrenches as a multiple of the allowance.
     pub fn exceeded(&self, a: &[Wrench; 2], b: &[Wrench; 2]) -> f64 {
         distance(a, b, self.lever) / self.force
     }
 }
 
-/// Largest difference of forces, and of moments over a lever.
+/// Largest difference of forces, and of moments divided by the lever.
 pub fn distance(a: &[Wrench; 2], b: &[Wrench; 2], lever: f64) -> f64 {
     let of = |a: &Wrench, b: &Wrench| (a.force - b.force).norm().max((a.moment - b.moment).norm() / lever);
     let worst = of(&a[0], &b[0]).max(of(&a[1], &b[1]));
     if worst.is_nan() { f64::INFINITY } else { worst }
 }
 
-/// How far corners of the faces of solids lie out of their planes, m: in single precision a face of four corners is no plane,
-/// and which plane it is taken for may depend on their order.
+/// Largest distance of a solid's corners from the planes of their faces, m: in single precision a face of
+/// four corners is not planar, and its plane may depend on their order.
 fn bent(scene: &Scene) -> f64 {
     let mut most = 0.0_f64;
     for shape in scene.bodies.iter().flat_map(|body| &body.shapes) {
@@ -69,12 +69,14 @@ fn bent(scene: &Scene) -> f64 {
             most = off.fold(most, f64::max);
         }
     }
-    // A plane through three of them is off by a few times that at the others, and edges of pieces move with it.
+    // A plane through three corners is off by a few times that at the others, and edges of pieces move with
+    // it.
     let slack = 1e3 * f64::EPSILON * scene.size;
     if most > slack { 30.0 * most } else { 0.0 }
 }
 
-/// The smallest radius of a round part, or the size, m: the way from an axis is as uncertain as that is small.
+/// Smallest radius of a round part, or the size, m: the direction from an axis is uncertain in proportion to
+/// its inverse.
 fn narrowest(scene: &Scene) -> f64 {
     let radii = scene.bodies.iter().flat_map(|body| &body.shapes).filter_map(|shape| match shape {
         Shape::Round(part) => Some(part.radii),
@@ -83,7 +85,7 @@ fn narrowest(scene: &Scene) -> f64 {
     radii.flatten().filter(|radius| *radius > 0.0).fold(scene.size, f64::min)
 }
 
-/// Height of the thinnest triangle over the scene's size.
+/// Height of the thinnest triangle, relative to the scene's size.
 pub fn thinnest(scene: &Scene) -> f64 {
     let mut least = 1.0_f64;
     for shape in scene.bodies.iter().flat_map(|body| &body.shapes) {

@@ -1,13 +1,13 @@
-//! A scene with its world and its answers, which all twins are held against.
+//! A scene with its world and its answers, the reference for all twins.
 
 use crate::play::{Answer, Refusal, Stage};
 use crate::scene::Scene;
 
-/// A scene that was played.
+/// A scene after its run.
 pub struct Base {
     /// The scene.
     pub scene: Scene,
-    /// Its world, free to play other states.
+    /// Its world, which can play other states.
     pub stage: Stage,
     /// The answers, frame by frame.
     pub answers: Vec<Answer>,

@@ -5,16 +5,16 @@ use crate::scene::{Mesh, Solid};
 use pong_geometry::Vec3;
 use std::collections::BTreeMap;
 
-/// Pieces thinner than this against the whole are not made, nor corners closer together: what rounding does to a sliver's
-/// plane would hide what is looked for.
+/// Least thickness of a piece and least distance of corners, relative to the whole: rounding of a sliver's
+/// plane would mask real defects.
 const LEAST_PART: f64 = 0.02;
 
-/// Cuts a solid by the plane n·x = d in a piece behind it and one before it; the cut is an inner wall of both. `None` where
-/// the plane misses the solid or passes close by a corner.
+/// Cuts a solid by the plane n·x = d into a piece behind it and one in front; the cut is an internal face of
+/// both. `None` if the plane misses the solid or passes close to a corner.
 pub fn cut_solid(solid: &Solid, n: &Vec3, d: f64) -> Option<[Solid; 2]> {
     let least = LEAST_PART * extent(&solid.vertices);
     let heights: Vec<f64> = solid.vertices.iter().map(|v| n.dot(v) - d).collect();
-    // A corner in the plane is a corner of the cut; one close by would make a sliver.
+    // A corner in the plane becomes a corner of the cut; one close to it would make a sliver.
     let tiny = 1e-12 * extent(&solid.vertices);
     if heights.iter().any(|height| (tiny..least).contains(&height.abs())) {
         return None;
@@ -23,7 +23,7 @@ pub fn cut_solid(solid: &Solid, n: &Vec3, d: f64) -> Option<[Solid; 2]> {
     let is_cut = [-1.0, 1.0].map(|sign| (0..heights.len()).any(|index| side(index) == sign));
     (is_cut == [true, true]).then_some(())?;
     let crossing = |i: usize, j: usize| {
-        // Both neighbours of an edge, and all pieces that share it, must compute the same bits.
+        // Both faces at an edge, and all pieces that share it, must compute the same bits.
         let mut ends = [i, j];
         ends.sort_by(|a, b| order(&solid.vertices[*a], &solid.vertices[*b]));
         let [from, to] = ends;
@@ -73,7 +73,7 @@ impl Pieces {
         })
     }
 
-    /// Puts the wall in, seen from outside: against `inward`.
+    /// Adds the internal face, seen from outside: against `inward`.
     fn close(mut self, inward: &Vec3) -> Option<Solid> {
         let mut wall: Vec<usize> =
             (0..self.is_on_wall.len()).filter(|index| self.is_on_wall[*index]).collect();
@@ -105,7 +105,7 @@ fn extent(vertices: &[Vec3]) -> f64 {
     vertices.iter().map(|v| (v - vertices[0]).norm()).fold(0.0, f64::max)
 }
 
-/// Cuts every piece by the same plane, those that it misses stay whole. `None` where one cannot be cut well.
+/// Cuts every piece by the same plane; missed pieces stay whole. `None` if a piece cannot be cut well.
 pub fn cut_all(pieces: &[Solid], n: &Vec3, d: f64) -> Option<Vec<Solid>> {
     let mut parts = Vec::new();
     for piece in pieces {
@@ -120,7 +120,7 @@ pub fn cut_all(pieces: &[Solid], n: &Vec3, d: f64) -> Option<Vec<Solid>> {
     Some(parts)
 }
 
-/// Cuts a mesh: each step puts a vertex into an edge, for both its triangles, or into a triangle.
+/// Cuts a mesh: each step inserts a vertex in an edge (splitting both triangles) or in a triangle.
 pub fn cut_mesh(mesh: &Mesh, random: &mut Random, steps: usize) -> Mesh {
     let mut mesh = mesh.clone();
     for _ in 0..steps {
@@ -140,7 +140,7 @@ pub fn cut_mesh(mesh: &Mesh, random: &mut Random, steps: usize) -> Mesh {
 }
 
 fn split_edge(mesh: &mut Mesh, [i, j]: [usize; 2], t: f64) {
-    // The same edge may be met by other corners in the same places.
+    // The same edge may join other corners at the same positions.
     let ends = [mesh.vertices[i], mesh.vertices[j]];
     let new = mesh.vertices.len();
     mesh.vertices.push(ends[0] + (ends[1] - ends[0]) * t);
@@ -173,7 +173,7 @@ fn split_triangle(mesh: &mut Mesh, triangle: usize, random: &mut Random) {
     mesh.triangles.extend([[q, r, new], [r, p, new]]);
 }
 
-/// Cuts every triangle in four.
+/// Cuts every triangle into four.
 pub fn cut_in_four(mesh: &Mesh) -> Mesh {
     let mut fine = Mesh { triangles: Vec::new(), ..mesh.clone() };
     let mut middles = BTreeMap::new();
@@ -191,7 +191,7 @@ pub fn cut_in_four(mesh: &Mesh) -> Mesh {
     fine
 }
 
-/// Puts a vertex under a place, into the triangle nearest to it or into the edge of that triangle nearest to it.
+/// Inserts a vertex under a point, in the nearest triangle or in that triangle's nearest edge.
 pub fn cut_at(mesh: &mut Mesh, place: &Vec3, into_edge: bool) {
     let barycentric = |triangle: &[usize; 3]| {
         let [p, q, r] = triangle.map(|index| mesh.vertices[index]);
@@ -209,7 +209,7 @@ pub fn cut_at(mesh: &mut Mesh, place: &Vec3, into_edge: bool) {
     let Some((index, parts, _)) = nearest else { return };
     let [p, q, r] = mesh.triangles[index];
     if into_edge {
-        // The edge across the corner that counts least.
+        // The edge opposite the corner of least weight.
         let at = (0..3).min_by(|a, b| parts[*a].total_cmp(&parts[*b])).unwrap_or(0);
         let [from, to] = [(at + 1) % 3, (at + 2) % 3];
         let t = parts[to] / (parts[from] + parts[to]);

@@ -1,4 +1,4 @@
-//! The list of all invariances: what is claimed, and the check of it.
+//! The list of all invariances, each a claim with its check.
 
 use crate::base::Base;
 use crate::judge::{Verdict, compare};
@@ -11,36 +11,36 @@ use crate::twin::{Twin, manner, place, shape};
 /// One claim about any scene.
 #[derive(Clone, Copy)]
 pub struct Invariance {
-    /// Short, for `--only`.
+    /// Short name, for `--only`.
     pub name: &'static str,
     /// The claim in words.
     pub says: &'static str,
-    /// Tried on one scene of so many.
+    /// One scene in this many is checked.
     pub every: u64,
-    /// Makes scenes of its own; the scenes of every tester if none.
+    /// Generator of scenes for this invariance; `None` for the scenes of all testers.
     pub make: Option<fn(&mut Random) -> Scene>,
-    /// Whether only bits will do.
+    /// True if the answers must agree bit for bit.
     pub is_bits: bool,
-    /// Whether the claim holds for any scene, so that a smaller one that breaks it is as good. Where it holds for the scene
-    /// that was made for it, as for a ball led without slip, that scene is shown as it is.
+    /// True if the claim holds for any scene, so that a failing scene may be reduced. Claims about special
+    /// scenes (a ball led without slip) are reported with the scene as generated.
     pub is_general: bool,
-    /// The check.
+    /// The check itself.
     pub check: Check,
 }
 
-/// How a claim is checked.
+/// Method of a check.
 #[derive(Clone, Copy)]
 pub enum Check {
-    /// By a twin.
+    /// Comparison with a twin.
     Twin(fn(&Scene, &mut Random) -> Option<Twin>),
-    /// By a twin that depends on what was touched.
+    /// Comparison with a twin that depends on the contacts of the base scene.
     AimedTwin(fn(&Base, &mut Random) -> Option<Twin>),
-    /// In its own way.
+    /// A property of one scene.
     Property(fn(&mut Base, &mut Random) -> Verdict),
 }
 
 impl Invariance {
-    /// Tries it on a scene.
+    /// Checks the claim on a scene.
     pub fn judge(&self, base: &mut Base, random: &mut Random) -> Verdict {
         let twin = match self.check {
             Check::Twin(make) => make(&base.scene, random),
@@ -54,7 +54,7 @@ impl Invariance {
     }
 }
 
-/// One that is tried on every scene, to tolerance.
+/// A claim that is checked on every scene, to tolerance.
 const fn claim(name: &'static str, says: &'static str, check: Check) -> Invariance {
     Invariance { name, says, every: 1, make: None, is_bits: false, is_general: true, check }
 }
@@ -86,7 +86,7 @@ const fn property(
     Invariance { every, make, ..claim(name, says, Check::Property(check)) }
 }
 
-/// All of them.
+/// All invariances.
 pub const INVARIANCES: &[Invariance] = &[
     twin("turned", "the whole scene turned", place::turned),
     twin("moved", "the whole scene moved by a few sizes, drifting", place::moved),
@@ -148,13 +148,13 @@ pub const INVARIANCES: &[Invariance] = &[
     ),
 ];
 
-/// The invariance of a name.
+/// The invariance of this name.
 pub fn find(name: &str) -> Option<&'static Invariance> {
     INVARIANCES.iter().find(|invariance| invariance.name == name)
 }
 
-/// The scene of an index: the same for all invariances without scenes of their own. Of one family of scenes, if it is
-/// named.
+/// The scene of an index, of one family if named. It is the same for all invariances without a generator of
+/// their own.
 pub fn scene(invariance: &Invariance, family: Option<&str>, seed: u64, index: u64) -> Scene {
     let mut shared = Random::new(seed, 0, index);
     match (invariance.make, family) {
@@ -166,12 +166,12 @@ pub fn scene(invariance: &Invariance, family: Option<&str>, seed: u64, index: u6
     }
 }
 
-/// The numbers with which a scene's twin is made.
+/// Random numbers for the twin of a scene.
 pub fn numbers(invariance: &Invariance, seed: u64, index: u64) -> Random {
     Random::new(seed, 1000 + stream(invariance), index)
 }
 
-/// Of its name, so that it stays when the list grows.
+/// Random stream derived from the name, so that it stays when the list grows.
 fn stream(invariance: &Invariance) -> u64 {
     invariance.name.bytes().fold(7_u64, |sum, byte| sum.wrapping_mul(131).wrapping_add(u64::from(byte))) >> 8
         | 1

@@ -1,4 +1,4 @@
-//! Whether two answers are the same.
+//! Comparison of two answers.
 
 use crate::allowance::{Allowance, distance, thinnest};
 use crate::base::Base;
@@ -9,14 +9,15 @@ use crate::scene::{Friction, Scene};
 use crate::twin::Twin;
 use pong_geometry::Vec3;
 
-/// What came of one comparison.
+/// Result of one comparison.
 #[derive(Clone, Debug)]
 pub enum Verdict {
-    /// The same.
+    /// The answers agree.
     Agrees,
-    /// There is no such twin of this scene, or the check says nothing of it.
+    /// The scene has no such twin, or the check does not cover it.
     DoesNotApply,
-    /// The answers differ, and so do those of the first scene itself on both sides of a place within rounding.
+    /// The answers differ, and those of the first scene itself differ on both sides of a point within
+    /// rounding.
     AtAJump(Finding),
     /// The answers differ.
     Differs(Finding),
@@ -25,27 +26,27 @@ pub enum Verdict {
 /// A disagreement.
 #[derive(Clone, Debug)]
 pub struct Finding {
-    /// In which frame first.
+    /// First frame that differs.
     pub frame: usize,
-    /// Ratio of the difference to the largest term.
+    /// Difference relative to the largest term.
     pub relative: f64,
-    /// What differs.
+    /// Description of the difference.
     pub says: String,
-    /// Whether the twin was refused by the loader or the engine.
+    /// True if the loader or the engine refused the twin.
     pub is_refusal: bool,
-    /// The twin's scene, if it has models and states of its own.
+    /// The twin's scene, if its models or states differ.
     pub twin: Option<Scene>,
 }
 
 impl Verdict {
-    /// A disagreement of a scene with itself.
+    /// A violated property of one scene.
     pub fn differs(frame: usize, relative: f64, says: String) -> Self {
         Self::Differs(Finding { frame, relative, says, is_refusal: false, twin: None })
     }
 }
 
-/// What folds leave uncertain of a force. Normal force and friction turn with the normal, and damping sees another part of
-/// the velocity. A bristle remembers the contact plane in which it was stretched.
+/// Force uncertainty caused by folds. Normal force and friction turn with the normal, and damping acts on
+/// another component of the velocity. A bristle remembers the contact plane in which it was stretched.
 fn of_folds(base: &Base, twin: &Twin, answers: &[Answer], largest: f64) -> f64 {
     let frame = answers.len() - 1;
     let remembers =
@@ -60,11 +61,12 @@ fn of_folds(base: &Base, twin: &Twin, answers: &[Answer], largest: f64) -> f64 {
     force * turned.fold(0.0, f64::max)
 }
 
-/// How uncertain the direction of a shared push is. Two faces folded by a small angle θ divide a push by the difference of
-/// their depths; rounding moves each by ε of a size, and the place where they balance by ε/θ of it. The direction turns by that
-/// over the depth, and by no more than θ. The planes of thin triangles are known as well as their heights.
+/// Uncertainty of the direction of a shared force, rad. Two faces folded by a small angle θ share a force by
+/// the difference of their depths; rounding moves each by ε of a size, and the point of balance by ε/θ of it.
+/// The direction turns by that over the depth, by at most θ. Planes of thin triangles are as uncertain as
+/// their heights.
 fn turned_by_a_fold(base: &Base, twin: &Twin, frame: usize, answer: &Answer) -> f64 {
-    /// Steeper folds are known well enough.
+    /// Steeper folds are sufficiently certain.
     const STEEP: f64 = 1e-3;
     let back = twin.back.turn.inverse();
     let far = base.scene.frames[frame]
@@ -88,7 +90,7 @@ fn turned_by_a_fold(base: &Base, twin: &Twin, frame: usize, answer: &Answer) -> 
     most
 }
 
-/// Plays a twin and holds it against the scene, bit by bit or within the tolerance.
+/// Plays a twin and compares it with the scene, bit by bit or within the tolerance.
 pub fn compare(base: &mut Base, twin: &Twin, is_bits: bool, random: &mut Random) -> Verdict {
     let answers = match twin.play(&base.scene, &mut base.stage) {
         Ok(answers) => answers,
@@ -123,8 +125,8 @@ pub fn compare(base: &mut Base, twin: &Twin, is_bits: bool, random: &mut Random)
     Verdict::Agrees
 }
 
-/// The least depth of a contact up to a frame, of the twin's answer in it as well, m. What is deeper than a thousandth of the
-/// scene's size is deep enough.
+/// Least depth of a contact up to a frame, including the twin's answer, m; at most a thousandth of the
+/// scene's size.
 fn least_depth(base: &Base, twin: &Twin, frame: usize, answer: &Answer) -> f64 {
     let size = base.scene.size;
     let scale = size / twin.scene.size;
@@ -138,7 +140,7 @@ fn finding(base: &Base, twin: &Twin, frame: usize, relative: f64, answer: &Answe
     Finding { frame, relative, says, is_refusal: false, twin: Some(twin.scene.clone()) }
 }
 
-/// A frame's answer to read.
+/// Text of a frame's answer.
 pub fn told(answer: &Answer) -> String {
     let mut text = format!(
         " force on a {:?} moment {:?}",

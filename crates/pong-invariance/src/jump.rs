@@ -1,15 +1,15 @@
-//! Where physics itself jumps: the first hit of a plunger changes its surface, two faces are equally deep, a bristle breaks
-//! away. There two tellings of one scene may differ, and only there.
+//! Recognition of true discontinuities: the first hit of a plunger changes its surface, two faces are equally
+//! deep, a bristle breaks away. Only there may two descriptions of one scene differ.
 //!
-//! A jump shows by itself, without the twin: a small step away, on either side, the first scene gives answers that rounding
-//! does not change, but different ones on the two sides, as different as what was found, and both answers found are among
-//! them. An answer that only rounding decides is none of that: a step away it is the same all around (a seam), or does
-//! not settle anywhere (a branch taken on noise).
+//! A discontinuity shows without the twin: a small step away, on either side, the first scene gives answers
+//! that are stable under rounding but differ between the sides by as much as the answers in question, and
+//! both of these are among them. An answer decided by rounding alone fails this: a step away it is the same
+//! all around (a seam), or never stable (a branch taken on noise).
 //!
-//! Where two jumps coincide (a centre in the planes of two rims at once) rounding decides each of them by itself. It may
-//! combine their sides in a way that no step of a whole body can: two planes that are one leave nothing between them. Then
-//! the numbers of the shapes are displaced as well, each by itself, so that the two jumps come apart. Corners that are equal
-//! to the bit stay so, and with them what hangs together.
+//! Where two discontinuities coincide (a centre in the planes of two edge loops at once), rounding decides
+//! each separately. It may combine their sides in a way that no step of a whole body can: two coincident
+//! planes leave nothing between them. The numbers of the shapes are then displaced as well, independently, so
+//! that the two separate. Bit-equal corners are displaced alike, which keeps connected shapes connected.
 
 mod displaced;
 
@@ -22,17 +22,17 @@ use displaced::{beside, reshaped};
 use pong_engine::State;
 use pong_geometry::{Vec3, Wrench};
 
-/// How many places around are tried at a time, and how often more of them: where three surfaces meet, or a direction turns
-/// through a wide angle, few places say little.
+/// Points tried per round, and rounds at most: where three surfaces meet, or a direction turns through a wide
+/// angle, few points are not conclusive.
 const PLACES: usize = 40;
 const ROUNDS: usize = 6;
-/// The longest step away, in sizes of the scene. What changes over more than this is no jump.
+/// Longest step, in sizes of the scene; slower changes are no discontinuity.
 const LONGEST_STEP: f64 = 1e-6;
-/// The shortest, where rounding still is far below.
+/// Shortest step, still far above rounding, in sizes of the scene.
 const SHORTEST_STEP: f64 = 1e-12;
 
-/// Whether the difference of a twin's frame is that of a jump of the first scene. `depth` is the least of a contact in either
-/// answer, m.
+/// Tests whether the difference of a twin's frame is a discontinuity of the first scene. `depth` is the least
+/// depth of a contact in either answer, m.
 pub fn is_there(
     base: &mut Base,
     twin: &Twin,
@@ -44,7 +44,7 @@ pub fn is_there(
     let first = base.answers[frame].wrenches;
     let difference = distance(&first, read, allowance.lever);
     let size = base.scene.size;
-    // So far that what changes smoothly stays well below the difference: depths change by the step.
+    // Step length for which smooth changes stay well below the difference: depths change by the step.
     let smooth = 0.02 * difference / base.largest(frame).max(difference) * depth / size;
     let step = smooth.clamp(SHORTEST_STEP, LONGEST_STEP).max(100.0 * twin.rounding / size);
     let mut around = Around { answers: [first, *read], difference, allowance, settled: Vec::new() };
@@ -72,29 +72,30 @@ pub fn is_there(
     decided.unwrap_or(false)
 }
 
-/// Answers beside a place that rounding does not change.
+/// Stable answers near a point.
 struct Around<'a> {
-    /// The two that were found.
+    /// The two answers in question.
     answers: [[Wrench; 2]; 2],
-    /// How far these are apart, N.
+    /// Distance between these, N.
     difference: f64,
     allowance: &'a Allowance,
     settled: Vec<[Wrench; 2]>,
 }
 
-/// What is seen among the answers around.
+/// Evidence among the stable answers.
 enum Seen {
-    /// Too few of them settle.
+    /// Too few answers are stable.
     Nothing,
-    /// Not both answers, or no jump between them.
+    /// One answer is missing, or there is no discontinuity between them.
     Some,
-    /// A jump, and both answers beside it.
+    /// A discontinuity with both answers beside it.
     Both,
 }
 
 impl Around<'_> {
-    /// Looks around, round after round, until that decides whether a jump is there; `None` if it never does. `look` answers
-    /// `None` for what cannot be played, `gives_up` whether further rounds are of no use.
+    /// Samples round after round until a discontinuity is confirmed or excluded; `None` if neither happens.
+    /// `look` returns `None` for states that cannot be played; `gives_up` is true if further rounds are
+    /// useless.
     fn decide(
         &mut self,
         gives_up: impl Fn(&Self) -> bool,
@@ -117,7 +118,8 @@ impl Around<'_> {
         None
     }
 
-    /// The last answer of a history, kept if two further roundings of its states do not change it. `None` if it cannot be played.
+    /// Last answer of a history, kept if two further roundings of its states do not change it. `None` if it
+    /// cannot be played.
     fn look(
         &mut self,
         stage: &mut Stage,
@@ -140,7 +142,7 @@ impl Around<'_> {
         Some(())
     }
 
-    /// How far the settled answers are apart, N.
+    /// Largest distance between stable answers, N.
     fn spread(&self) -> f64 {
         let lever = self.allowance.lever;
         self.settled.iter().map(|there| distance(there, &self.settled[0], lever)).fold(0.0, f64::max)
@@ -164,14 +166,14 @@ impl Around<'_> {
             });
             pairs.any(|there| distance(&there, answer, lever) < near)
         };
-        // What is exactly at the jump may have an answer between those on its sides.
+        // A state exactly at the discontinuity may have an answer between those of its sides.
         let is_seen = self.answers.iter().any(is_beside)
             && self.answers.iter().all(|answer| is_beside(answer) || is_between(answer));
         if self.is_jump() && is_seen { Seen::Both } else { Seen::Some }
     }
 }
 
-/// Of all wrenches between two the one that is nearest to an answer.
+/// Wrench nearest to an answer on the straight line between two others.
 fn between(one: &[Wrench; 2], other: &[Wrench; 2], answer: &[Wrench; 2], lever: f64) -> [Wrench; 2] {
     let arrow = |from: &Wrench, to: &Wrench| (to.force - from.force, (to.moment - from.moment) / lever);
     let dot = |x: (Vec3, Vec3), y: (Vec3, Vec3)| x.0.dot(&y.0) + x.1.dot(&y.1);
@@ -185,7 +187,7 @@ fn between(one: &[Wrench; 2], other: &[Wrench; 2], answer: &[Wrench; 2], lever: 
     })
 }
 
-/// The wrenches of the last frame of a history.
+/// Wrenches of the last frame of a history.
 fn last(stage: &mut Stage, frames: &[[State; 2]]) -> Option<[Wrench; 2]> {
     stage.play(frames).ok()?.pop().map(|answer| answer.wrenches)
 }

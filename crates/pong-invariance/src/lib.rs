@@ -1,10 +1,10 @@
-//! Invariances: random contact scenes against twins that must give the same answers.
+//! Invariances: random contact scenes compared with twins that must give the same answers.
 //!
-//! A [`scene::Scene`] is plain data (primitives, surfaces, states of a history), made at random for every tester by
-//! [`make`]. A [`twin::Twin`] is the same scene told in another way: turned, moved, cut, scaled, reordered, played otherwise.
-//! [`judge`] holds the two against each other frame by frame, [`jump`] recognises where physics itself jumps, [`properties`]
-//! are checks of one scene by itself, [`reduce`] makes what disagrees small, and [`survey`] does so for many. What is
-//! claimed stands in [`invariances`]; see `docs/invariances.md`.
+//! A [`scene::Scene`] is plain data (primitives, surfaces, states of a history), generated at random for
+//! every tester by [`make`]. A [`twin::Twin`] is an equivalent scene: turned, moved, cut, scaled, reordered,
+//! or played differently. [`judge`] compares the two frame by frame, [`jump`] recognises true
+//! discontinuities, [`properties`] checks single scenes, [`reduce`] minimises failing scenes, and [`survey`]
+//! does so for many. The claims are listed in [`invariances`]; see `docs/invariances.md`.
 
 #![forbid(unsafe_code)]
 

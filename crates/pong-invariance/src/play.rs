@@ -1,4 +1,4 @@
-//! A scene in the engine: its models loaded, its frames evaluated and committed, the answers kept.
+//! A scene in the engine: models loaded, frames evaluated and committed, answers kept.
 
 use crate::scene::{Scene, Shape};
 use crate::text;
@@ -8,20 +8,20 @@ use pong_geometry::{Vec3, Wrench};
 use pong_model::Fnv;
 use std::sync::Arc;
 
-/// What one frame told.
+/// Answer of one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// Wrenches on both groups about their origins, along the axes of the common frame.
     pub wrenches: [Wrench; 2],
     /// Largest force of a contact, N.
     pub largest: f64,
-    /// Contacts, deepest first: depth, weight and which feature pushes. For reading, not for comparing.
+    /// Contacts, deepest first; for messages, not for comparison.
     pub contacts: Vec<Touch>,
-    /// A hash of every number of the frame, bit by bit.
+    /// Hash of every number of the frame, bit by bit.
     pub bits: u64,
 }
 
-/// A contact in short.
+/// Summary of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
     /// Depth, m.
@@ -32,17 +32,17 @@ pub struct Touch {
     pub normal_force: f64,
     /// Friction force on A, N, in the common frame.
     pub friction: Vec3,
-    /// From B to A, in the common frame; a unit vector.
+    /// Unit normal from B to A, in the common frame.
     pub normal: Vec3,
-    /// Where the force acts, m, in the common frame.
+    /// Point of action, m, in the common frame.
     pub point: Vec3,
-    /// Primitives of A and B, and the element of B.
+    /// Indices of the primitives of A and B, and of the element of B.
     pub of: [u32; 3],
-    /// Number of the feature of B.
+    /// Feature number of B.
     pub feature: u32,
     /// End of a segment.
     pub end: u32,
-    /// Whether friction sticks.
+    /// True if friction sticks.
     pub sticks: bool,
 }
 
@@ -54,7 +54,7 @@ pub struct Stage {
     groups: [InterfaceId; 2],
 }
 
-/// Why a scene cannot be played, in the engine's words.
+/// Reason why a scene cannot be played, in the engine's words.
 pub type Refusal = String;
 
 impl Stage {
@@ -106,7 +106,7 @@ impl Stage {
     ///
     /// # Errors
     ///
-    /// As [`evaluate`](Self::evaluate) and [`commit`](Self::commit).
+    /// Errors of [`evaluate`](Self::evaluate) and [`commit`](Self::commit).
     pub fn step(&mut self, states: &[State; 2]) -> Result<Answer, Refusal> {
         let answer = self.evaluate(states)?;
         self.commit()?;
@@ -122,17 +122,17 @@ impl Stage {
         self.world.commit().map_err(|error| error.to_string())
     }
 
-    /// Plays a history from the beginning: nothing is remembered of an earlier one.
+    /// Plays a history from the beginning, without memory of an earlier one.
     ///
     /// # Errors
     ///
-    /// As [`step`](Self::step), for the first frame that is refused.
+    /// The error of [`step`](Self::step) for the first refused frame.
     pub fn play(&mut self, frames: &[[State; 2]]) -> Result<Vec<Answer>, Refusal> {
         self.forget()?;
         frames.iter().map(|states| self.step(states)).collect()
     }
 
-    /// Drops all contact state.
+    /// Clears all contact state.
     ///
     /// # Errors
     ///
@@ -176,11 +176,11 @@ impl Stage {
     }
 }
 
-/// Room for all contacts that a small scene can have: less to set up. The worst case of the engine else.
+/// Contact capacity of a small scene, which is faster to set up; `None` for the engine's own estimate.
 fn capacity(scene: &Scene) -> Option<usize> {
     let elements = |shape: &Shape| match shape {
         Shape::Mesh(mesh) => mesh.triangles.len() * (1 + usize::from(mesh.two_sided)),
-        // A capsule's two balls and the edges, on each triangle; four places of a cylinder's rims.
+        // Two spheres of a capsule and its edges on each triangle; four points of a cylinder's end circles.
         Shape::Round(_) => 16,
         _ => 2,
     };

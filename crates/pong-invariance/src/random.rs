@@ -1,3 +1,3 @@
-//! The source of random numbers, which the cases with known answers and the tests of the engine have too.
+//! Random numbers, shared with the cases with known answers and the engine's tests.
 
 pub use pong_testkit::random::{Random, rotation_about, rotation_between};

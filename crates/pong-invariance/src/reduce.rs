@@ -1,10 +1,10 @@
-//! Makes a scene smaller as long as it still disagrees.
+//! Reduction of a scene while it still disagrees.
 
 use crate::scene::{Body, Friction, Normal, Scene, Shape};
 use pong_engine::State;
 use pong_geometry::{Pose, Vec3};
 
-/// Most trials for one scene.
+/// Most trials per scene.
 const TRIALS: usize = 1500;
 
 /// The smallest scene found that still `differs`.
@@ -35,7 +35,7 @@ pub fn reduce(scene: &Scene, mut differs: impl FnMut(&Scene) -> bool) -> Scene {
     }
 }
 
-/// A way to make a scene smaller: its `at`-th trial, or `None` when there are no more.
+/// One way to make a scene smaller: returns its `at`-th trial, or `None` when there are no more.
 type Step = fn(&Scene, usize) -> Option<Scene>;
 
 const STEPS: &[Step] = &[
@@ -84,7 +84,7 @@ fn without_triangles(scene: &Scene, range: impl Fn(usize) -> Option<(usize, usiz
     let Some(Shape::Mesh(mesh)) = smaller.bodies[1].shapes.first_mut() else { return None };
     let (from, to) = range(mesh.triangles.len())?;
     mesh.triangles.drain(from..to);
-    // Corners that nothing uses any more.
+    // Drops unused corners.
     let mut new = vec![usize::MAX; mesh.vertices.len()];
     let mut vertices = Vec::new();
     for corner in mesh.triangles.iter_mut().flatten() {
@@ -134,7 +134,7 @@ fn at_rest(scene: &Scene, at: usize) -> Option<Scene> {
     Some(smaller)
 }
 
-/// B at the origin, its group's frame that of the common one.
+/// B at the origin, with its group's frame equal to the common one.
 fn plainer_frame(scene: &Scene, at: usize) -> Option<Scene> {
     let mut smaller = scene.clone();
     match at {
@@ -166,7 +166,7 @@ fn plainer_shape(scene: &Scene, at: usize) -> Option<Scene> {
         }
         (0 | 1, _) => {}
         (2, _) => {
-            // Its middle in its group's origin.
+            // Moves its middle to the group's origin.
             let shift = match &smaller.bodies[0].shapes[0] {
                 Shape::Point { position: p }
                 | Shape::Sphere { center: p, .. }

@@ -2,22 +2,22 @@
 
 use pong_geometry::{Pose, Quat, Vec3};
 
-/// A round part, in the words of a model file. Lengths in m.
+/// A round part, with the fields of a model file. Lengths in m.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoundPart {
-    /// Which of the four.
+    /// Kind of the part.
     pub kind: RoundKind,
-    /// The two ends of its axis.
+    /// Ends of its axis.
     pub ends: [Vec3; 2],
     /// Radius at each end; equal for a capsule and a cylinder.
     pub radii: [f64; 2],
-    /// How far behind its wall a bore pushes; by default its smaller radius.
+    /// Depth behind its wall to which a bore pushes; by default its smaller radius.
     pub thickness: Option<f64>,
-    /// Which ends of a bore are convex edges.
+    /// True for each end of a bore that is a convex edge.
     pub mouths: [bool; 2],
 }
 
-/// Which round part.
+/// Kind of a round part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum RoundKind {
@@ -28,12 +28,12 @@ pub enum RoundKind {
 }
 
 impl RoundPart {
-    /// A part with a radius at each end, its mouths convex.
+    /// A part with a radius at each end and convex openings.
     pub fn new(kind: RoundKind, ends: [Vec3; 2], radii: [f64; 2]) -> Self {
         Self { kind, ends, radii, thickness: None, mouths: [true; 2] }
     }
 
-    /// Its kind, as in a model file.
+    /// Name of its kind in a model file.
     pub fn kind_name(&self) -> &'static str {
         match self.kind {
             RoundKind::Capsule => "Capsule",
@@ -53,12 +53,12 @@ impl RoundPart {
         self.radii[0].max(self.radii[1])
     }
 
-    /// The same part carried by a pose.
+    /// The part transformed by a pose.
     pub fn carried(&self, pose: &Pose) -> Self {
         Self { ends: self.ends.map(|end| pose.orientation * end + pose.position), ..self.clone() }
     }
 
-    /// The same part in another unit of length.
+    /// The part in another unit of length.
     pub fn scaled(&self, s: f64) -> Self {
         Self {
             ends: self.ends.map(|end| end * s),
@@ -68,19 +68,19 @@ impl RoundPart {
         }
     }
 
-    /// The same part with its ends told the other way round.
+    /// The part with its ends in reverse order.
     pub fn reversed(&self) -> Self {
         let Self { ends: [p, q], radii: [r, s], mouths: [m, n], .. } = *self;
         Self { ends: [q, p], radii: [s, r], mouths: [n, m], ..self.clone() }
     }
 
-    /// The same part with its numbers in single precision.
+    /// The part with its numbers rounded to single precision.
     pub fn in_single_precision(&self) -> Self {
         let single = |x: f64| f64::from(x as f32);
         Self { ends: self.ends.map(|end| end.map(single)), radii: self.radii.map(single), ..self.clone() }
     }
 
-    /// A hole as two that meet in its middle, or wherever `t` of its length is.
+    /// Divides a hole into two that meet at the fraction `t` of its length.
     pub fn cut(&self, t: f64) -> [Self; 2] {
         let Self { ends: [p, q], radii: [r, s], .. } = *self;
         let (seam, radius) = (p + (q - p) * t, r + (s - r) * t);
@@ -103,14 +103,14 @@ impl RoundPart {
         ]
     }
 
-    /// The turn about its own axis by an angle, as a pose of its group.
+    /// Rotation about its own axis by an angle, as a pose of its group.
     pub fn own_turn(&self, angle: f64) -> Pose {
         let orientation: Quat = crate::random::rotation_about(&self.axis(), angle);
         let middle = (self.ends[0] + self.ends[1]) * 0.5;
         Pose { position: middle - orientation * middle, orientation }
     }
 
-    /// The farthest place of a solid part along a unit direction, of an end if one is asked for (2: of its middle).
+    /// Support point of a solid part along a unit direction, at end 0 or 1, or at its middle (2).
     pub fn lowest(&self, down: &Vec3, end: usize) -> Vec3 {
         let axis = self.axis();
         let (place, radius) = match end {

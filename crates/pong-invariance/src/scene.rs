@@ -4,18 +4,18 @@ use crate::round_part::RoundPart;
 use pong_engine::State;
 use pong_geometry::{Pose, Quat, Vec3};
 
-/// What the two bodies are made of and what happens to them.
+/// Two bodies and their motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// Which maker it comes from.
+    /// Name of the family that generated it.
     pub family: &'static str,
-    /// The first is named first in the pair, unless `swapped`.
+    /// The bodies; the first is named first in the pair, unless `swapped`.
     pub bodies: [Body; 2],
-    /// Whether the second body is named first in the pair.
+    /// True if the second body is named first in the pair.
     pub swapped: bool,
-    /// States of both movable groups, one frame after the other. Each is evaluated and committed.
+    /// States of both movable groups, frame by frame; each frame is evaluated and committed.
     pub frames: Vec<[State; 2]>,
-    /// About as large as the bodies, m.
+    /// Approximate size of the bodies, m.
     pub size: f64,
 }
 
@@ -26,31 +26,31 @@ pub struct Body {
     pub shapes: Vec<Shape>,
     /// Number in the name of each primitive.
     pub names: Vec<usize>,
-    /// What all of them are made of.
+    /// Common surface of all primitives.
     pub surface: Surface,
-    /// How the primitives hang in groups.
+    /// Grouping of the primitives.
     pub grouping: Grouping,
     /// Pose of the group that holds the primitives, in the movable group.
     pub place: Pose,
 }
 
-/// How primitives are gathered in groups below the movable one.
+/// Grouping of primitives below the movable group.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grouping {
-    /// How many consecutive primitives each leaf holds; one leaf with all if empty.
+    /// Number of consecutive primitives in each leaf; one leaf with all if empty.
     pub leaves: Vec<usize>,
     /// Bounding volume of each group, in turn; the default if empty.
     pub bounds: Vec<&'static str>,
     /// Most elements of a leaf, if limited.
     pub leaf_size: Option<usize>,
-    /// Leaves hang below so many groups more.
+    /// Number of additional nested groups above the leaves.
     pub depth: usize,
 }
 
 /// Stiffness and laws of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
-    /// N/m, or N/m^1.5; infinite for a rigid surface.
+    /// Stiffness, N/m or N/m^1.5; infinite for a rigid surface.
     pub stiffness: f64,
     /// Law of the normal force.
     pub normal: Normal,
@@ -63,25 +63,25 @@ pub struct Surface {
 pub enum Normal {
     /// Spring and damper.
     Linear {
-        /// N·s/m.
+        /// Damping coefficient, N·s/m.
         damping: f64,
         /// Depth over which the damping sets in, m.
         ramp: f64,
     },
     /// Damping that grows with depth.
     HuntCrossley {
-        /// s/m.
+        /// Dissipation coefficient, s/m.
         dissipation: f64,
-        /// 1 or 1.5.
+        /// Exponent of the depth, 1 or 1.5.
         exponent: f64,
     },
     /// Spring and damper, each by a power of the depth.
     PowerLaw {
-        /// N·s/m^(1 + damping_exponent).
+        /// Damping coefficient, N·s/m^(1 + damping_exponent).
         damping: f64,
-        /// 1 or 1.5.
+        /// Exponent of the depth, 1 or 1.5.
         exponent: f64,
-        /// 0 to `exponent`.
+        /// Exponent of the depth in the damping, 0 to `exponent`.
         damping_exponent: f64,
     },
 }
@@ -93,25 +93,25 @@ pub enum Friction {
     Smooth,
     /// A bristle that sticks and slips.
     Bristle {
-        /// Coefficient of slip.
+        /// Kinetic coefficient of friction.
         mu: f64,
-        /// By how much more it holds at break-away.
+        /// Static excess μ_s/μ_k − 1.
         excess: f64,
-        /// N/m.
+        /// Bristle stiffness, N/m.
         stiffness: f64,
-        /// N·s/m.
+        /// Bristle damping, N·s/m.
         damping: f64,
     },
     /// Regularised Coulomb friction.
     Coulomb {
-        /// Coefficient.
+        /// Coefficient of friction.
         mu: f64,
         /// Speed at which the full force is reached, m/s.
         slip_speed: f64,
     },
 }
 
-/// A primitive, in the words of a model file. Lengths in m.
+/// A primitive, with the fields of a model file. Lengths in m.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum Shape {
@@ -133,7 +133,7 @@ pub struct Solid {
     pub vertices: Vec<Vec3>,
     /// Corners of each face.
     pub faces: Vec<Vec<usize>>,
-    /// Faces that are inner walls.
+    /// Internal faces.
     pub inactive: Vec<usize>,
 }
 
@@ -144,14 +144,15 @@ pub struct Mesh {
     pub vertices: Vec<Vec3>,
     /// Corners of each triangle.
     pub triangles: Vec<[usize; 3]>,
-    /// Whether the back pushes too.
+    /// True if the back makes contact too.
     pub two_sided: bool,
-    /// How far behind the front a centre is still pushed, m; by default the smallest semi-axis of what touches.
+    /// Depth behind the front to which a centre is pushed, m; by default the smallest semi-axis of the
+    /// touching primitive.
     pub thickness: Option<f64>,
 }
 
 impl Shape {
-    /// Its kind, as in a model file.
+    /// Name of its kind in a model file.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Point { .. } => "Point",
@@ -166,7 +167,7 @@ impl Shape {
         }
     }
 
-    /// The same primitive carried by a pose.
+    /// The primitive transformed by a pose.
     pub fn carried(&self, pose: &Pose) -> Self {
         let point = |p: &Vec3| pose.orientation * p + pose.position;
         let turned = |v: &Vec3| pose.orientation * v;
@@ -200,7 +201,7 @@ impl Shape {
         }
     }
 
-    /// The same primitive in another unit of length.
+    /// The primitive in another unit of length.
     pub fn scaled(&self, s: f64) -> Self {
         match self {
             Self::Point { position } => Self::Point { position: position * s },
@@ -219,7 +220,8 @@ impl Shape {
             }),
             Self::Mesh(mesh) => Self::Mesh(Mesh {
                 vertices: mesh.vertices.iter().map(|v| v * s).collect(),
-                // The compiler may multiply before it asks whether there is a thickness: then by zero (ci/traps).
+                // `black_box`: the compiler may multiply before it tests for a thickness, on undefined bits
+                // (ci/traps).
                 thickness: mesh.thickness.and(Some(std::hint::black_box(mesh.thickness.unwrap_or(0.0)) * s)),
                 ..mesh.clone()
             }),
@@ -245,7 +247,7 @@ impl Body {
         Self { shapes, names, surface, grouping: Grouping::default(), place: Pose::identity() }
     }
 
-    /// The same body of other primitives.
+    /// The body with other primitives.
     pub fn with_shapes(&self, shapes: Vec<Shape>) -> Self {
         let names = (0..shapes.len()).collect();
         Self { shapes, names, grouping: Grouping::default(), ..self.clone() }
@@ -253,7 +255,7 @@ impl Body {
 }
 
 impl Scene {
-    /// Spring of the pair at depths like the scene's size, N/m, for judging what rounding may do.
+    /// Spring of the pair at depths like the scene's size, N/m, for rounding allowances.
     pub fn stiffness(&self) -> f64 {
         let [a, b] = [0, 1].map(|body| {
             let surface = &self.bodies[body].surface;

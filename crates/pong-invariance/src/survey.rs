@@ -1,4 +1,4 @@
-//! Many scenes on all cores, what came of them, and each kind of disagreement made small.
+//! Surveys of many scenes on all cores, with each kind of disagreement reduced.
 
 use crate::base::Base;
 use crate::invariances::{INVARIANCES, Invariance, numbers, scene};
@@ -12,27 +12,27 @@ use std::fmt::Write as _;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What is asked for.
+/// Options of a survey.
 #[derive(Clone, Debug)]
 pub struct Order {
-    /// Of all scenes.
+    /// Seed of all scenes.
     pub seed: u64,
     /// Index of the first scene.
     pub first: u64,
-    /// How many.
+    /// Number of scenes.
     pub scenes: u64,
-    /// Only these invariances; all if empty.
+    /// Names of the invariances to check; all if empty.
     pub only: Vec<String>,
-    /// Only scenes of this family, where an invariance does not make its own.
+    /// Family of the scenes, where an invariance does not generate its own; all if `None`.
     pub family: Option<String>,
-    /// Threads.
+    /// Number of threads.
     pub threads: usize,
-    /// How many disagreements of each invariance and family are made small and kept.
+    /// Number of disagreements per invariance and family that are reduced and kept.
     pub kept: usize,
 }
 
 impl Order {
-    /// Options of the command that shows the scene of an index again.
+    /// Options of the command that reproduces the scene of an index.
     fn again(&self, name: &str, family: Option<&str>, index: u64) -> String {
         let family = family.map_or(String::new(), |family| format!(" --family {family}"));
         format!("--only {name}{family} --seed {} --first {index} --scenes 1", self.seed)
@@ -44,80 +44,80 @@ impl Order {
 pub struct Tally {
     /// Scenes compared.
     pub compared: u64,
-    /// Of these, answers that differ where physics itself jumps.
+    /// Answers that differ at a true discontinuity.
     pub at_a_jump: u64,
     /// Answers that differ.
     pub differ: u64,
-    /// The largest such difference, as a ratio to the largest term.
+    /// Largest difference, relative to the largest term.
     pub worst: f64,
-    /// Of what differs, how many by family of scene.
+    /// Differences by family of scene.
     pub families: BTreeMap<&'static str, u64>,
-    /// Of what stands at jumps, how many by family of scene.
+    /// Discontinuities by family of scene.
     pub jumps: BTreeMap<&'static str, u64>,
 }
 
-/// One scene that disagrees, in short.
+/// Summary of a scene that disagrees.
 #[derive(Clone, Debug, PartialEq, PartialOrd)]
 pub struct Listed {
     /// Index of the scene.
     pub index: u64,
-    /// Which invariance.
+    /// Name of the invariance.
     pub name: &'static str,
     /// Family of the scene.
     pub family: &'static str,
-    /// In which frame first.
+    /// First frame that differs.
     pub frame: usize,
-    /// Ratio of the difference to the largest term.
+    /// Difference relative to the largest term.
     pub relative: f64,
-    /// Options of the command that shows it again.
+    /// Options of the command that reproduces it.
     pub again: String,
 }
 
-/// A disagreement made small.
+/// A reduced disagreement.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// Which invariance.
+    /// Name of the invariance.
     pub name: &'static str,
-    /// Options of the command that shows it again.
+    /// Options of the command that reproduces it.
     pub again: String,
-    /// The scene as it was made.
+    /// The scene as generated.
     pub whole: Scene,
-    /// The smallest that still disagrees.
+    /// The smallest scene that still disagrees.
     pub scene: Scene,
-    /// How it disagrees.
+    /// The disagreement of the reduced scene.
     pub finding: Finding,
 }
 
-/// What came of all scenes.
+/// Results of a survey.
 #[derive(Debug, Default)]
 pub struct Survey {
     /// Scenes made.
     pub scenes: u64,
-    /// Scenes that the loader or the engine refused, and why, some of them.
+    /// Number of scenes that the loader or the engine refused.
     pub refused: u64,
     /// Examples of refusals.
     pub refusals: Vec<String>,
-    /// By invariance.
+    /// Counts by invariance.
     pub tallies: BTreeMap<&'static str, Tally>,
-    /// Some disagreements made small.
+    /// Some disagreements, reduced.
     pub found: Vec<Found>,
     /// All disagreements, in the order of the scenes.
     pub listed: Vec<Listed>,
 }
 
-/// Of an order for all families, a scene of round parts stands beside every scene of so many: those of the others keep their
-/// numbers.
+/// In a survey of all families, a scene of round parts accompanies one in this many scenes; the other scenes
+/// keep their numbers.
 const ROUND_EVERY: u64 = 2;
 
 /// Scenes that a thread takes at a time.
 const PORTION: u64 = 64;
 
-/// Comparisons in which the scene stands within rounding of a jump of the physics itself, at most: feet are put on edges,
-/// corners and ties on purpose. More would mean that jumps are where none belong.
+/// Largest accepted share of comparisons within rounding of a true discontinuity: contact points are placed
+/// on edges, corners and ties on purpose. A larger share would indicate false discontinuities.
 pub const JUMPS_MOST: f64 = 2e-2;
 
 impl Survey {
-    /// Runs an order.
+    /// Runs a survey.
     pub fn run(order: &Order, progress: &(impl Fn(u64) + Sync)) -> Self {
         let asked = |invariance: &&Invariance| {
             order.only.is_empty() || order.only.iter().any(|name| name == invariance.name)
@@ -150,7 +150,7 @@ impl Survey {
         total
     }
 
-    /// One index: a scene of the family asked for, or one without and one with round parts.
+    /// One index: a scene of the requested family, or one without and one with round parts.
     fn one(&mut self, order: &Order, asked: &[&'static Invariance], index: u64) {
         match order.family.as_deref() {
             Some(make::round::ALL) => {
@@ -167,7 +167,7 @@ impl Survey {
         }
     }
 
-    /// Its scene against all twins, and the scenes that invariances make for themselves.
+    /// The scene of a family against all twins, and the scenes that invariances generate themselves.
     fn one_of(&mut self, order: &Order, asked: &[&'static Invariance], family: Option<&'_ str>, index: u64) {
         let mut shared = None;
         for invariance in asked.iter().filter(|invariance| index.is_multiple_of(invariance.every)) {
@@ -181,7 +181,7 @@ impl Survey {
                     if shared.is_none() {
                         self.base(invariance, order.seed, (family, index), &mut shared);
                         if shared.is_none() {
-                            // Refused once, it is refused by all.
+                            // A scene refused once is refused by every invariance.
                             return;
                         }
                     }
@@ -279,7 +279,7 @@ impl Survey {
         }
     }
 
-    /// Whether nothing disagrees, and jumps are as rare as they must be.
+    /// True if nothing disagrees, and discontinuities are as rare as required.
     pub fn holds(&self) -> bool {
         self.differ() == 0
             && self.refused == 0
@@ -301,7 +301,7 @@ impl Survey {
         self.tallies.values().map(|tally| tally.at_a_jump).sum()
     }
 
-    /// One line for each disagreement: where it is, how large, and the command that shows it again.
+    /// One line for each disagreement: where it is, how large, and the command that reproduces it.
     pub fn list(&self) -> String {
         let mut text = String::new();
         for Listed { name, family, frame, relative, again, .. } in &self.listed {
@@ -313,7 +313,7 @@ impl Survey {
         text
     }
 
-    /// A table to read.
+    /// Table of the results.
     pub fn text(&self) -> String {
         let mut text = format!(
             "{:<16} {:>10} {:>8} {:>8} {:>8}  claim\n",
@@ -351,7 +351,7 @@ impl Survey {
     }
 }
 
-/// Those without scenes of their own: what round parts are held against.
+/// Invariances without a scene generator, which round parts are checked against.
 fn of_shared_scenes(asked: &[&'static Invariance]) -> Vec<&'static Invariance> {
     asked.iter().filter(|invariance| invariance.make.is_none()).copied().collect()
 }
@@ -371,7 +371,7 @@ fn smallest(
             _ => None,
         }
     };
-    // A twin that the loader refuses is another matter than one that answers otherwise.
+    // A refusal by the loader is a different failure than a different answer.
     let differs = |scene: &Scene| verdict(scene).is_some_and(|found| found.is_refusal == finding.is_refusal);
     let scene = if invariance.is_general { reduce::reduce(whole, differs) } else { whole.clone() };
     let name = invariance.name;
@@ -381,7 +381,7 @@ fn smallest(
 }
 
 impl Found {
-    /// The small scene, its twin and how they differ.
+    /// Text with the reduced scene, its twin and their difference.
     pub fn text(&self) -> String {
         let Self { name, again, whole, scene, finding } = self;
         let mut text = format!(

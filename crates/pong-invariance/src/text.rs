@@ -1,4 +1,4 @@
-//! A body as the text of a model file, and a scene as something to read.
+//! Text of a body as a model file, and of a scene for messages.
 
 use crate::round_part::{RoundKind, RoundPart};
 use crate::scene::{Body, Friction, Mesh, Normal, Scene, Shape, Solid, Surface};
@@ -51,7 +51,7 @@ fn bound(body: &Body, group: usize) -> String {
     text
 }
 
-/// What stands in the root behind its name: primitives at once, or groups with poses and leaves.
+/// Content of the root after its name: primitives directly, or groups with poses and leaves.
 fn groups(text: &mut String, body: &Body) {
     let is_placed = body.place != pong_geometry::Pose::identity();
     if body.grouping.leaves.is_empty() && !is_placed {
@@ -168,7 +168,7 @@ fn list(vertices: &[Vec3]) -> String {
     text
 }
 
-/// A scene in full: both model files and every state.
+/// Full text of a scene: both model files and every state.
 pub fn scene(scene: &Scene) -> String {
     let mut text = String::new();
     for (body, name) in [(0, "a"), (1, "b")] {

@@ -1,36 +1,36 @@
-//! A case with a known answer, and what became of it.
+//! A case with a known answer, and its verdict.
 
 use crate::row::Row;
 
-/// Why a case could not be run to its end.
+/// Reason why a case could not be completed.
 pub type Failure = Box<dyn std::error::Error>;
 
-/// What a case returns.
+/// Result of a case.
 pub type Outcome = Result<Vec<Row>, Failure>;
 
 /// A case with a known answer.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// Name, unique; `V…` are the numbers of the validation plan, `W…` further cases in the same spirit.
+    /// Unique name; `V…` are the numbers of the validation plan, `W…` further cases of the same kind.
     pub id: &'static str,
-    /// What it is about.
+    /// Subject of the case.
     pub title: &'static str,
     /// The set-up in a sentence or two.
     pub set_up: &'static str,
-    /// Where the expected values come from.
+    /// Source of the expected values.
     pub source: &'static str,
     /// Computes the rows.
     pub rows: fn() -> Outcome,
 }
 
-/// What became of a case.
+/// Verdict on a case.
 #[derive(Clone, Debug)]
 pub struct Verdict {
     /// The case.
     pub case: Case,
     /// Its rows; empty if it could not be run.
     pub rows: Vec<Row>,
-    /// Why it could not be run.
+    /// Reason why it could not be run.
     pub failure: Option<String>,
 }
 
@@ -45,7 +45,7 @@ impl Case {
 }
 
 impl Verdict {
-    /// Whether it ran, and every row is within its tolerance.
+    /// True if it ran and every row is within its tolerance.
     pub fn passes(&self) -> bool {
         self.failure.is_none() && !self.rows.is_empty() && self.rows.iter().all(Row::passes)
     }

@@ -1,4 +1,4 @@
-//! Cases with known answers, run along the whole path: model file → engine → wrench → integrator.
+//! Cases with known answers, run through the whole chain: model file → engine → wrench → integrator.
 //!
 //! Every expected value follows from a closed form that the case itself computes; nothing is taken from the
 //! engine. Sines, logarithms and powers come from a pure-Rust libm, so that the report is the same on every
@@ -12,14 +12,14 @@
 //!
 //! | file | holds |
 //! |---|---|
-//! | `case.rs` | a case with a known answer, and what became of it |
-//! | `row.rs` | a quantity, its expected value and what came out |
+//! | `case.rs` | a case with a known answer, and its verdict |
+//! | `row.rs` | a quantity, its expected and its measured value |
 //! | `scene.rs` | model files → sealed world → simulation |
 //! | `measure.rs` | periods, roots, observed orders, rotations |
 //! | `cases/` | the cases, one file each or a few that belong together |
 //! | `orders/` | orders of contact motions in the step, and their picture |
 //! | `report.rs` | the table as text and as Markdown |
-//! | `extremes/` | the extremes that must hold, with their margins |
+//! | `extremes/` | extreme conditions, with their margins |
 
 #![forbid(unsafe_code)]
 

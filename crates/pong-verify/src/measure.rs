@@ -2,7 +2,7 @@
 
 use pong_executive::{Quat, Vec3};
 
-/// Times at which a signal comes up through zero, from samples of value and rate.
+/// Upward zero crossings of a signal, from samples of value and rate.
 #[derive(Debug, Default)]
 pub struct Crossings {
     pub times: Vec<f64>,
@@ -10,14 +10,14 @@ pub struct Crossings {
 }
 
 impl Crossings {
-    /// Takes a sample.
+    /// Adds a sample.
     pub fn push(&mut self, time: f64, value: f64, rate: f64) {
         if let Some((t0, x0, v0)) = self.last
             && x0 < 0.0
             && value >= 0.0
         {
             let h = time - t0;
-            // The cubic through both samples and their rates.
+            // Hermite cubic through both samples and their rates.
             let cubic = |u: f64| {
                 let w = 1.0 - u;
                 w * w * ((1.0 + 2.0 * u) * x0 + u * h * v0) + u * u * ((3.0 - 2.0 * u) * value - w * h * rate)
@@ -39,7 +39,7 @@ impl Crossings {
     }
 }
 
-/// The place between `low` and `high` up to which `below` holds.
+/// Upper end of the interval from `low` in which `below` holds, found by bisection.
 pub fn bisect(mut low: f64, mut high: f64, mut below: impl FnMut(f64) -> bool) -> f64 {
     for _ in 0..200 {
         let middle = 0.5 * (low + high);

@@ -1,6 +1,6 @@
-//! The table of results: as text for a terminal, as Markdown for the documentation.
+//! Table of results, as text for a terminal and as Markdown for the documentation.
 //!
-//! The report holds no date, no duration and nothing about a machine: the same engine gives the same file.
+//! The report contains no date, duration or machine: the same engine gives the same file.
 
 use crate::case::Verdict;
 use crate::row::Row;
@@ -44,7 +44,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// The report of `docs/verification.md`.
+/// Text of `docs/verification.md`.
 pub fn markdown(verdicts: &[Verdict]) -> String {
     let mut out = String::from(HEADER);
     let passed = verdicts.iter().filter(|verdict| verdict.passes()).count();

@@ -1,37 +1,37 @@
-//! A quantity, the value that theory expects and the one that came out.
+//! A quantity with its expected and its measured value.
 
-/// How far the value may be off.
+/// Tolerance of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
     /// |got − expected| ≤ bound·|expected|.
     Relative(f64),
     /// |got − expected| ≤ bound, in the unit of the quantity.
     Absolute(f64),
-    /// |got| ≤ bound: the quantity should vanish.
+    /// |got| ≤ bound: the expected value is zero.
     Below(f64),
-    /// got ≥ expected − bound: more is welcome.
+    /// got ≥ expected − bound: larger is better.
     AtLeast(f64),
 }
 
 /// One line of the report.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// What is compared.
+    /// Name of the quantity.
     pub quantity: String,
-    /// Value by the closed form, in `unit`.
+    /// Closed-form value, in `unit`.
     pub expected: f64,
-    /// Value measured, in `unit`.
+    /// Measured value, in `unit`.
     pub got: f64,
-    /// How far they may differ.
+    /// Tolerance.
     pub bound: Bound,
-    /// Unit of both.
+    /// Unit of both values.
     pub unit: &'static str,
     /// Order in the step, observed by halving it; no unit.
     pub order: Option<f64>,
 }
 
 impl Row {
-    /// A value known to a relative tolerance.
+    /// A value with a relative tolerance.
     pub fn relative(
         quantity: impl Into<String>,
         unit: &'static str,
@@ -42,7 +42,7 @@ impl Row {
         Self::new(quantity.into(), unit, expected, got, Bound::Relative(tolerance))
     }
 
-    /// A value known to an absolute tolerance.
+    /// A value with an absolute tolerance.
     pub fn absolute(
         quantity: impl Into<String>,
         unit: &'static str,
@@ -53,12 +53,12 @@ impl Row {
         Self::new(quantity.into(), unit, expected, got, Bound::Absolute(tolerance))
     }
 
-    /// A value that should vanish.
+    /// A value that should be zero.
     pub fn below(quantity: impl Into<String>, unit: &'static str, got: f64, bound: f64) -> Self {
         Self::new(quantity.into(), unit, 0.0, got, Bound::Below(bound))
     }
 
-    /// A value that must be reached, but for a tolerance, and may be passed.
+    /// A lower limit with a tolerance.
     pub fn at_least(
         quantity: impl Into<String>,
         unit: &'static str,
@@ -69,7 +69,7 @@ impl Row {
         Self::new(quantity.into(), unit, expected, got, Bound::AtLeast(tolerance))
     }
 
-    /// A whole number that must be met exactly.
+    /// An integer that must match exactly.
     pub fn count(quantity: impl Into<String>, expected: usize, got: usize) -> Self {
         Self::new(quantity.into(), "", expected as f64, got as f64, Bound::Absolute(0.0))
     }
@@ -78,15 +78,15 @@ impl Row {
         Self { quantity, expected, got, bound, unit, order: None }
     }
 
-    /// The same row with the order observed.
+    /// Adds the observed order.
     pub fn with_order(self, order: f64) -> Self {
         Self { order: Some(order), ..self }
     }
 
-    /// |got − expected|; of what must be reached, what is missing.
+    /// |got − expected|; for a lower limit, the shortfall.
     pub fn error(&self) -> f64 {
         match self.bound {
-            // Not `max`, which takes NaN for nothing missing.
+            // `max` would turn NaN into a shortfall of zero.
             Bound::AtLeast(_) if self.got > self.expected => 0.0,
             _ => (self.got - self.expected).abs(),
         }
@@ -100,7 +100,7 @@ impl Row {
         }
     }
 
-    /// Whether the error is allowed; never for NaN.
+    /// True if the error is within the tolerance; false for NaN.
     pub fn passes(&self) -> bool {
         self.error() <= self.allowed()
     }
@@ -149,20 +149,20 @@ impl Row {
         self.order.map_or(String::new(), |order| format!("{order:.1}"))
     }
 
-    /// As many digits as the tolerance can tell apart, and one more.
+    /// Text with the digits that the tolerance resolves, and one more.
     fn value_text(&self, value: f64) -> String {
         let allowed = self.allowed();
         let scale = if self.expected == 0.0 { value.abs() } else { self.expected.abs() };
         if allowed == 0.0 || scale == 0.0 || !value.is_finite() {
             return format!("{}", value + 0.0);
         }
-        // A hair less, lest rounding of a power of ten adds a digit.
+        // Slightly less, so that rounding of a power of ten adds no digit.
         let digits = (libm::ceil(libm::log10(scale / allowed) - 1e-6) as i64 + 1).clamp(4, 15) as usize;
         significant(value, digits, self.expected)
     }
 }
 
-/// A value with as many decimals as make so many significant digits of a like one.
+/// A value with the decimals that give `digits` significant digits to `like`.
 fn significant(value: f64, digits: usize, like: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -176,8 +176,8 @@ fn significant(value: f64, digits: usize, like: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-/// An error beside its tolerance. What is far below it is rounding noise, of which no digit is worth a change of
-/// the report.
+/// Text of an error beside its tolerance. Far below the tolerance it is rounding noise, whose digits are not
+/// reported.
 fn small(value: f64, tolerance: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();

@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// Standard gravity of all cases, m/s².
 pub const G: f64 = 9.81;
 
-/// The model files, as they stand in `models/verification`.
+/// Model files of `models/verification`.
 macro_rules! files {
     ($($name:literal),* $(,)?) => {
         const FILES: &[(&str, &str)] = &[$((
@@ -61,7 +61,7 @@ files![
     "trough_90",
 ];
 
-/// A world being set up from files.
+/// A world under construction from files.
 pub struct Scene {
     pub world: WorldBuilder,
     models: Vec<(String, ModelId)>,
@@ -72,7 +72,7 @@ impl Scene {
         Self { world: WorldBuilder::new(Config { ledger, ..Config::default() }), models: Vec::new() }
     }
 
-    /// An Object from a model file; a file used twice is loaded once.
+    /// Creates an Object from a model file; a file used twice is loaded once.
     pub fn add(&mut self, file: &str, name: &str) -> Result<ObjectId, Failure> {
         let model = match self.models.iter().find(|(known, _)| known == file) {
             Some((_, model)) => *model,
@@ -81,7 +81,7 @@ impl Scene {
         Ok(self.world.create_object(model, name)?)
     }
 
-    /// Loads a file with another surface, whose laws may be others, too.
+    /// Loads a file with a changed surface, possibly with other laws.
     fn load(&mut self, file: &str, change: impl FnOnce(&mut Surface)) -> Result<ModelId, Failure> {
         let found = FILES.iter().find(|(name, _)| *name == file);
         let (_, text) = found.ok_or_else(|| format!("there is no model file `{file}`"))?;
@@ -102,7 +102,7 @@ impl Scene {
         Ok(self.world.set_surface(*model, &surface)?)
     }
 
-    /// Pairs two Objects.
+    /// Adds a pair of Objects.
     pub fn pair(&mut self, a: ObjectId, b: ObjectId) -> Result<(), Failure> {
         self.world.pair(a, b)?;
         Ok(())
@@ -120,13 +120,13 @@ impl Scene {
     }
 }
 
-/// A mass that will not turn: contact acts a little off its centre, where the surfaces have yielded, and would
-/// otherwise spin it up.
+/// A mass with a huge inertia: contact acts slightly off its centre, where the surfaces have yielded, and
+/// would otherwise spin it up.
 pub fn point_mass(mass: f64) -> RigidBody {
     RigidBody::free("mass", MassProperties::principal(mass, [1e9; 3]))
 }
 
-/// Two Objects, one of which usually stands still.
+/// Two Objects, one of which is usually at rest.
 pub struct Duo {
     pub scene: Scene,
     files: [String; 2],
@@ -139,7 +139,7 @@ impl Duo {
         Self::with_ledger(mover, ground, false)
     }
 
-    /// As [`new`](Self::new), the world keeping energies if asked.
+    /// As [`new`](Self::new), with the energy ledger if requested.
     pub fn with_ledger(mover: &str, ground: &str, ledger: bool) -> Result<Self, Failure> {
         let mut scene = Scene::new(ledger);
         let objects = [scene.add(mover, "mover")?, scene.add(ground, "ground")?];
@@ -147,7 +147,7 @@ impl Duo {
         Ok(Self { scene, files: [mover, ground].map(str::to_owned), objects })
     }
 
-    /// A mover whose surface has other laws than its file says, and a ground.
+    /// A mover whose surface has other laws than its file, and a ground.
     pub fn with_laws(mover: &str, ground: &str, change: impl FnOnce(&mut Surface)) -> Result<Self, Failure> {
         let mut scene = Scene::new(false);
         scene.load(mover, change)?;
@@ -174,12 +174,12 @@ impl Duo {
         Ok((self.scene.seal()?, interfaces))
     }
 
-    /// A simulation of a mover above ground that stands still.
+    /// A simulation of a mover above ground at rest.
     pub fn on_ground(self, method: (Integrator, f64), mover: RigidBody) -> Result<Run, Failure> {
         self.simulate(method, mover, RigidBody::fixed("ground"))
     }
 
-    /// A simulation of both bodies, which need not know their Interfaces.
+    /// A simulation of both bodies, whose Interfaces are filled in.
     pub fn simulate(
         self,
         (integrator, step): (Integrator, f64),
@@ -194,12 +194,12 @@ impl Duo {
     }
 }
 
-/// There, along the common axes.
+/// Pose at a position, along the common axes.
 pub fn at(position: Vec3) -> Pose {
     Pose { position, ..Pose::identity() }
 }
 
-/// Without a turn.
+/// Twist without rotation.
 pub fn moving(linear: Vec3) -> Twist {
     Twist { linear, angular: Vec3::zeros() }
 }
@@ -234,7 +234,7 @@ impl Run {
         self.sim.world().contacts()
     }
 
-    /// The only contact.
+    /// The single contact; an error if there are more or none.
     pub fn contact(&self) -> Result<Contact, Failure> {
         match self.contacts().as_slice() {
             [one] => Ok(*one),
@@ -272,16 +272,16 @@ pub fn set_dissipation(surface: &mut Surface, value: f64) {
     }
 }
 
-/// Values of a bristle.
+/// Parameters of a bristle.
 #[derive(Clone, Copy, Debug)]
 pub struct Bristle {
     /// Coefficient of kinetic friction μ_k.
     pub mu: f64,
     /// Static excess: the ratio μ_s/μ_k − 1.
     pub excess: f64,
-    /// k_t, N/m.
+    /// Tangential stiffness k_t, N/m.
     pub stiffness: f64,
-    /// c_t, N·s/m.
+    /// Tangential damping c_t, N·s/m.
     pub damping: f64,
 }
 
@@ -295,7 +295,7 @@ pub fn set_bristle(surface: &mut Surface, bristle: &Bristle) {
     };
 }
 
-/// Sets the friction of both surfaces of a pair, so that the pair has these values: the ground's bristle is rigid.
+/// Gives the pair these friction values: the ground's bristle is rigid.
 pub fn with_friction(duo: Duo, bristle: &Bristle) -> Result<Duo, Failure> {
     let (mu, excess) = (bristle.mu, bristle.excess);
     let ground = FrictionLaw::Bristle { mu, static_excess: excess, stiffness: None, damping: Some(0.0) };

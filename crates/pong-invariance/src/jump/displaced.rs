@@ -1,4 +1,4 @@
-//! A scene a small step away: its states, and the numbers of its shapes.
+//! Small displacements of a scene: of its states and of the numbers of its shapes.
 
 use crate::random::Random;
 use crate::scene::{Scene, Shape};
@@ -6,8 +6,8 @@ use pong_engine::State;
 use pong_geometry::{Pose, Quat, Vec3};
 use std::collections::BTreeMap;
 
-/// The history with A beside its place by `step` sizes of the scene and turned as little: the same in all frames, or another
-/// in each.
+/// The history with A displaced by `step` sizes of the scene and rotated by `step` rad, the same in all
+/// frames or different in each.
 pub fn beside(
     frames: &[[State; 2]],
     step: f64,
@@ -26,10 +26,10 @@ pub fn beside(
     frames.iter().map(|[a, b]| [shifted(a, if is_same { same } else { any() }), *b]).collect()
 }
 
-/// The scene with every length of its shapes displaced by up to `longest` sizes of it, and every direction turned as little;
-/// solids stay as they are. Corners that are equal to the bit are displaced alike, as they hold together what shares them.
-/// Some are displaced by much less than others, down to `shortest`: of two surfaces that share a place, one then moves by
-/// itself.
+/// The scene with every length of its shapes displaced by up to `longest` sizes, and every direction rotated
+/// by as much; solids stay as they are. Bit-equal corners are displaced alike, which keeps adjacent shapes
+/// connected. Some are displaced by much less than others, down to `shortest`: of two coincident surfaces,
+/// one then moves alone.
 pub fn reshaped(scene: &Scene, (shortest, longest): (f64, f64), random: &mut Random) -> Scene {
     let mut reshaped = scene.clone();
     let step = |random: &mut Random| random.log_between(shortest, longest);
@@ -50,7 +50,7 @@ pub fn reshaped(scene: &Scene, (shortest, longest): (f64, f64), random: &mut Ran
         let length = length(random);
         *x += random.between(-length, length);
     };
-    // Of a cylinder both are one, and holes that meet have one in common.
+    // A cylinder's two radii are equal, and holes that meet share one.
     let mut widened: BTreeMap<u64, f64> = BTreeMap::new();
     let mut wider = |radius: &mut f64, random: &mut Random| {
         let told = *radius;
@@ -86,8 +86,7 @@ pub fn reshaped(scene: &Scene, (shortest, longest): (f64, f64), random: &mut Ran
                 *normal = turn(random) * *normal;
                 longer(offset, random);
             }
-            // Its faces would be planes no more, nor its inner walls those of its neighbours: the cracks between pieces, which
-            // rounding must not open, would be part of the shape.
+            // Displaced corners would leave faces non-planar and open cracks between pieces.
             Shape::Polyhedron(_) => {}
             Shape::Mesh(_) | Shape::Round(_) => {
                 if let Shape::Round(part) = shape {

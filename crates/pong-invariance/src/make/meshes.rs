@@ -1,10 +1,10 @@
-//! Triangle meshes: plates, valleys, ridges, bowls, sheets, skins of solids, slivers.
+//! Triangle meshes: plates, valleys, ridges, bowls, sheets, surfaces of solids, slivers.
 
 use crate::random::Random;
 use crate::scene::{Mesh, Solid};
 use pong_geometry::Vec3;
 
-/// A rectangle in so many cells, each cut in two, its heights from a function of x and y.
+/// A rectangular grid of cells, each cut in two, with heights from a function of x and y.
 pub fn grid(random: &mut Random, xs: &[f64], ys: &[f64], height: impl Fn(f64, f64) -> f64) -> Mesh {
     let mut mesh = Mesh::default();
     for y in ys {
@@ -24,7 +24,7 @@ pub fn grid(random: &mut Random, xs: &[f64], ys: &[f64], height: impl Fn(f64, f6
     mesh
 }
 
-/// Rising places from −1 to 1, evenly or not.
+/// Rising coordinates from −1 to 1, evenly spaced or not.
 pub fn places(random: &mut Random, cells: usize, is_round: bool) -> Vec<f64> {
     let jitter = if is_round { 0.0 } else { 0.35 };
     let place = |i: usize, off: f64| -1.0 + 2.0 * (i as f64 + off) / cells as f64;
@@ -48,7 +48,7 @@ pub fn fold(random: &mut Random, slope: f64, is_round: bool) -> Mesh {
     grid(random, &xs, &ys, |x, _| slope * x.abs())
 }
 
-/// Triangles round one vertex, its rim higher or lower by a slope.
+/// Triangles around one vertex, with the boundary higher or lower by a slope.
 pub fn fan(random: &mut Random, slope: f64, is_round: bool) -> Mesh {
     let sides = 3 + random.below(6);
     let uneven = if is_round { 0.0 } else { 0.3 };
@@ -81,7 +81,7 @@ pub fn slivers(random: &mut Random) -> Mesh {
     grid(random, &xs, &ys, |_, _| 0.0)
 }
 
-/// The skin of a solid.
+/// The surface mesh of a solid.
 pub fn skin(solid: &Solid) -> Mesh {
     let fan =
         |face: &Vec<usize>| -> Vec<_> { (2..face.len()).map(|i| [face[0], face[i - 1], face[i]]).collect() };

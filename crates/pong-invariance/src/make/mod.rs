@@ -1,5 +1,5 @@
-//! Random scenes of every tester: what is touched, what touches it, and a history whose feet stand on faces, seams, walls,
-//! edges, corners and where pieces meet, as well as anywhere.
+//! Random scenes of every tester: the touched body, the touching body, and a history with contact points on
+//! faces, seams, internal faces, edges, corners and junctions of pieces, as well as anywhere.
 
 pub mod meshes;
 pub mod path;
@@ -19,7 +19,7 @@ pub fn scene(random: &mut Random) -> Scene {
     family(random, name, make, None)
 }
 
-/// A scene of one family, by its name.
+/// A scene of the family of this name.
 pub fn scene_of(random: &mut Random, name: &str) -> Option<Scene> {
     if let Some((name, make, kinds)) = round::FAMILIES.iter().find(|(known, ..)| *known == name) {
         return Some(family(random, name, *make, Some(kinds)));
@@ -34,14 +34,14 @@ pub fn families() -> impl Iterator<Item = &'static str> {
     touched::FAMILIES.iter().map(|(name, _)| *name).chain(of_round_parts)
 }
 
-/// A family, and which kinds touch it if not all that can.
+/// The makers of a family, and the kinds that touch it if not all can.
 fn family(
     random: &mut Random,
     name: &'static str,
     make: touched::Make,
     kinds: Option<&[&'static str]>,
 ) -> Scene {
-    // A third of the scenes has round numbers: exact seams, right angles and ties are met by those alone.
+    // About a third of the scenes has round numbers: only these meet exact seams, right angles and ties.
     let is_round = random.chance(0.35);
     let mut touched = make(random, is_round);
     touched::tilt(random, &mut touched, is_round);
@@ -73,7 +73,7 @@ fn touching(random: &mut Random, kinds: &[&str], is_round: bool) -> Vec<Shape> {
     touching
 }
 
-/// The kinds that have a tester against one.
+/// Kinds that have a tester against this one.
 fn kinds_that_touch(shape: &Shape) -> &'static [&'static str] {
     match shape {
         Shape::Plane { .. } | Shape::Polyhedron(_) => &["Point", "LineSegment", "Ray", "Sphere", "Ellipsoid"],
@@ -83,10 +83,10 @@ fn kinds_that_touch(shape: &Shape) -> &'static [&'static str] {
     }
 }
 
-/// Two surfaces that may meet: one law each of force and friction, other values. Damping is such that its forces are of
+/// Two surfaces that may meet: the same laws of force and friction, different values. Damping forces are of
 /// the order of the spring's.
 fn surfaces(random: &mut Random, size: f64) -> [Surface; 2] {
-    // Half of the last two laws are power laws of one damping exponent each.
+    // Half of the last two laws are power laws with one damping exponent each.
     let draw = random.below(48);
     let (law, damping_exponent) = (draw % 6, [0.0, 0.25, 0.6, 1.0].get(draw / 6).copied());
     let friction = random.below(4);
@@ -128,8 +128,8 @@ fn surfaces(random: &mut Random, size: f64) -> [Surface; 2] {
     [one(0), one(1)]
 }
 
-/// The same scene in another unit of length. Stiffness and friction as they are: forces scale with lengths where the law
-/// is linear in them, see [`crate::twin`].
+/// The scene in another unit of length. Stiffness and friction are kept: forces scale with lengths where the
+/// law is linear in them, see [`crate::twin`].
 pub fn rescaled(scene: &Scene, s: f64) -> Scene {
     let mut scaled = scene.clone();
     scaled.size *= s;

@@ -1,4 +1,4 @@
-//! A history: where A stands on B in each frame, and how deep.
+//! Histories: contact point of A on B in each frame, and depth.
 
 pub use super::round_path::Foot;
 use super::round_path::{first_orientation_of_round, foot_on_round};
@@ -7,7 +7,8 @@ use crate::scene::{Scene, Shape};
 use pong_engine::State;
 use pong_geometry::{Pose, Quat, Twist, Vec3};
 
-/// A place on a primitive: in a face, on an edge (a seam, a wall's end), on a corner (a junction).
+/// A point of a primitive: in a face, on an edge (a seam, the end of an internal face), on a corner (a
+/// junction).
 pub fn foot(random: &mut Random, shapes: &[Shape], is_round: bool) -> Foot {
     let shape = &shapes[random.below(shapes.len())];
     match shape {
@@ -66,7 +67,7 @@ fn on_face(random: &mut Random, shapes: &[Shape], corners: &[Vec3], is_round: bo
         2 | 3 => from + (to - from) * t,
         _ => from,
     };
-    // On a rim the way out may lie between the normals of the faces there.
+    // On a boundary edge the contact normal may lie between the normals of the adjacent faces.
     if random.chance(0.3) {
         let others = faces_at(shapes, &from);
         let mix: Vec3 = others.iter().map(|n| n * random.unit()).sum::<Vec3>() + normal * 0.1;
@@ -77,7 +78,7 @@ fn on_face(random: &mut Random, shapes: &[Shape], corners: &[Vec3], is_round: bo
     Foot { place, normal }
 }
 
-/// Normals of all active faces that have a corner there.
+/// Normals of all active faces that share a corner.
 fn faces_at(shapes: &[Shape], corner: &Vec3) -> Vec<Vec3> {
     let mut normals = Vec::new();
     for shape in shapes {
@@ -90,7 +91,7 @@ fn faces_at(shapes: &[Shape], corner: &Vec3) -> Vec<Vec3> {
                     }
                 }
             }
-            // Large meshes are left out: the search would take longer than the scene.
+            // Large meshes are skipped: the search would take longer than the scene.
             Shape::Mesh(mesh) if mesh.triangles.len() < 1000 => {
                 let all = mesh.triangles.iter().map(|triangle| self::corners(&mesh.vertices, triangle));
                 normals.extend(all.filter(|corners| corners.contains(corner)).map(|c| normal_of(&c)));
@@ -101,13 +102,13 @@ fn faces_at(shapes: &[Shape], corner: &Vec3) -> Vec<Vec3> {
     normals
 }
 
-/// The place of an ellipsoid at its centre that is furthest along a direction, all in its axes.
+/// Support point of an origin-centred ellipsoid along a direction, in its own axes.
 pub fn support(semi_axes: &Vec3, n: &Vec3) -> Vec3 {
     let scaled = semi_axes.component_mul(n);
     semi_axes.component_mul(&scaled) / scaled.norm()
 }
 
-/// Sizes of A: how deep it may reasonably go, m.
+/// Largest reasonable depth of A, m.
 fn depth_size(shape: &Shape) -> f64 {
     match shape {
         Shape::Sphere { radius, .. } => *radius,
@@ -118,7 +119,7 @@ fn depth_size(shape: &Shape) -> f64 {
     }
 }
 
-/// Where A's group is, seen from B's, so that its first primitive stands on a foot.
+/// Pose of A's group relative to B's for which its first primitive touches a contact point at a depth.
 pub fn stand(shape: &Shape, orientation: &Quat, foot: &Foot, depth: f64, end: usize) -> Pose {
     let down = orientation.inverse() * -foot.normal;
     let lowest = match shape {
@@ -139,7 +140,7 @@ pub fn stand(shape: &Shape, orientation: &Quat, foot: &Foot, depth: f64, end: us
     Pose { position, orientation: *orientation }
 }
 
-/// How A is turned when it first comes: a plunger against the face, a bar often along it.
+/// First orientation of A: a plunger against the face, a bar often along it.
 fn first_orientation(random: &mut Random, shape: &Shape, foot: &Foot, is_round: bool) -> Quat {
     match shape {
         Shape::Ray { direction, .. } => {

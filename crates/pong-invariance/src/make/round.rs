@@ -1,4 +1,5 @@
-//! Scenes with round parts: rods, shafts, cones and holes that are touched, and capsules, cylinders and cones that touch.
+//! Scenes with round parts: touched rods, shafts, cones and holes, and touching capsules, cylinders and
+//! cones.
 
 use super::solids;
 use super::touched::{self, Make};
@@ -8,12 +9,12 @@ use crate::round_part::{RoundKind, RoundPart};
 use crate::scene::Shape;
 use pong_geometry::Vec3;
 
-/// The name under which all families of round parts are asked for together.
+/// Common name of all families of round parts.
 pub const ALL: &str = "round";
 
 const ALL_ROUND: &[&str] = &["Point", "LineSegment", "Ray", "Sphere", "Capsule", "Capsule"];
 
-/// What is touched, and what touches it: every pair with a round part that the engine has a test for.
+/// Families by name, maker and touching kinds: every pair with a round part that has a tester.
 pub const FAMILIES: &[(&str, Make, &[&str])] = &[
     ("rod", rods, ALL_ROUND),
     ("shaft", shaft, ALL_ROUND),
@@ -24,12 +25,12 @@ pub const FAMILIES: &[(&str, Make, &[&str])] = &[
     ("rod_on_mesh", mesh, &["Capsule"]),
 ];
 
-/// The families in turn.
+/// Families in turn.
 pub fn family(index: u64) -> &'static str {
     FAMILIES[(index % FAMILIES.len() as u64) as usize].0
 }
 
-/// A radius over a length: thin as a wire, or a disc.
+/// Ratio of radius to length, from a thin wire to a disc.
 fn slenderness(random: &mut Random, is_round: bool) -> f64 {
     match is_round {
         true => random.pick(&[0.125, 0.25, 0.5, 1.0]),
@@ -37,13 +38,13 @@ fn slenderness(random: &mut Random, is_round: bool) -> f64 {
     }
 }
 
-/// Two ends of an axis, about its middle.
+/// Two ends of an axis about its middle.
 fn ends(random: &mut Random, middle: &Vec3, half: f64, is_round: bool) -> [Vec3; 2] {
     let axis = if is_round { random.pick(&[Vec3::x(), Vec3::z(), -Vec3::z()]) } else { random.direction() };
     [middle - axis * half, middle + axis * half]
 }
 
-/// About as large as 1.
+/// A round part of size about 1.
 fn part(random: &mut Random, kind: RoundKind, is_round: bool) -> RoundPart {
     let half = if is_round { random.pick(&[0.25, 0.5, 1.0]) } else { random.between(0.2, 1.0) };
     let radius = half * slenderness(random, is_round);
@@ -51,7 +52,7 @@ fn part(random: &mut Random, kind: RoundKind, is_round: bool) -> RoundPart {
     RoundPart::new(kind, ends, radii(random, kind, radius, is_round))
 }
 
-/// Of a cone and a hole the two differ: sharp, blunt, nearly straight.
+/// Radii at both ends; those of a cone or hole differ: sharp, blunt, nearly straight.
 fn radii(random: &mut Random, kind: RoundKind, radius: f64, is_round: bool) -> [f64; 2] {
     if let RoundKind::Capsule | RoundKind::Cylinder = kind {
         return [radius; 2];
@@ -66,7 +67,7 @@ fn radii(random: &mut Random, kind: RoundKind, radius: f64, is_round: bool) -> [
     if random.chance(0.5) { [radius, radius * ratio] } else { [radius * ratio, radius] }
 }
 
-/// One rod, or a chain of two to four.
+/// A single rod, or a chain of two to four.
 fn rods(random: &mut Random, is_round: bool) -> Vec<Shape> {
     let mut rods = vec![part(random, RoundKind::Capsule, is_round)];
     while rods.len() < 4 && random.chance(0.25) {
@@ -85,7 +86,7 @@ fn cone(random: &mut Random, is_round: bool) -> Vec<Shape> {
     vec![Shape::Round(part(random, RoundKind::Cone, is_round))]
 }
 
-/// A hole, or a socket below a funnel.
+/// A hole, possibly a socket below a funnel.
 fn hole(random: &mut Random, is_round: bool) -> Vec<Shape> {
     let mut hole = part(random, RoundKind::Bore, is_round);
     hole.thickness = random.chance(0.5).then(|| hole.widest() * random.log_between(0.05, 2.0));
@@ -127,7 +128,7 @@ fn mesh(random: &mut Random, is_round: bool) -> Vec<Shape> {
     touched::mesh(random, make, is_round)
 }
 
-/// What touches: of a hole about as wide as this, else as large as 1; some of it in single precision.
+/// Touching primitives: about as wide as a touched hole, otherwise of size about 1; some in single precision.
 pub fn touching(random: &mut Random, kinds: &[&str], touched: &Shape, is_round: bool) -> Vec<Shape> {
     let mut touching = Vec::new();
     while touching.is_empty() || (touching.len() < 3 && random.chance(0.2)) {
@@ -154,10 +155,10 @@ pub fn touching(random: &mut Random, kinds: &[&str], touched: &Shape, is_round: 
     touching
 }
 
-/// A ball or pin of about the width of the hole that it is for: loose, snug, or too large.
+/// A sphere or pin of about the width of its hole: loose, snug, or too large.
 ///
-/// By itself: where it stands in a loop a compiler works out the width of every shape ahead of that, and what it reads where the
-/// shape has none may be a number that traps.
+/// Kept as a separate function: in a loop the compiler may evaluate the width before the match, and undefined
+/// fields of other variants could trap.
 #[inline(never)]
 fn fitted(random: &mut Random, shape: Shape, touched: &Shape, is_round: bool) -> Shape {
     let Shape::Round(hole) = touched else { return shape };

@@ -1,20 +1,20 @@
-//! Where round parts are touched, and how they come.
+//! Contact points on round parts, and orientations of what touches them.
 
 use crate::random::{Random, rotation_about, rotation_between};
 use crate::round_part::{RoundKind, RoundPart};
 use crate::scene::Shape;
 use pong_geometry::{Quat, Vec3};
 
-/// A place on the surface of B and the way out of it.
+/// A contact point on the surface of B, with the outward normal.
 #[derive(Clone, Copy, Debug)]
 pub struct Foot {
-    /// In B's group, m.
+    /// Position in B's group, m.
     pub place: Vec3,
-    /// Out of the surface, in B's group; a unit vector.
+    /// Outward unit normal, in B's group.
     pub normal: Vec3,
 }
 
-/// A place on a round part: on its wall, on its ends, on a rim or a mouth.
+/// A point of a round part: on its wall, its ends, an edge circle or a bore's opening.
 pub fn foot_on_round(random: &mut Random, part: &RoundPart, is_round: bool) -> Foot {
     let axis = part.axis();
     let [p, q] = part.ends;
@@ -49,7 +49,8 @@ pub fn foot_on_round(random: &mut Random, part: &RoundPart, is_round: bool) -> F
     }
 }
 
-/// How a long body is turned when it comes to a round part, or a round part to anything: along it, across it, upright, slanted.
+/// First orientation of a long body at a round part, or of a round part at anything: along, across, upright
+/// or slanted.
 pub fn first_orientation_of_round(
     random: &mut Random,
     [shape, touched]: [&Shape; 2],

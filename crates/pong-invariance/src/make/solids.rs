@@ -12,7 +12,7 @@ pub fn cuboid(low: &Vec3, high: &Vec3) -> Solid {
     Solid { vertices: (0..8).map(corner).collect(), faces: faces.to_vec(), inactive: Vec::new() }
 }
 
-/// A prism (or frustum, where `taper` is not 1) of so many sides about z, its base `low` and its top `high`.
+/// A prism (or frustum, where `taper` is not 1) about z with one side per angle, from `low` to `high`.
 pub fn prism(angles: &[f64], radius: f64, [low, high]: [f64; 2], taper: f64) -> Solid {
     let n = angles.len();
     let ring = |z: f64, r: f64| {
@@ -24,7 +24,7 @@ pub fn prism(angles: &[f64], radius: f64, [low, high]: [f64; 2], taper: f64) -> 
     Solid { vertices, faces, inactive: Vec::new() }
 }
 
-/// The hull of some points, its faces triangles. `None` where the points lie in a plane, or too nearly so.
+/// Convex hull of points, with triangular faces. `None` if the points are coplanar or nearly so.
 pub fn hull(points: &[Vec3]) -> Option<Solid> {
     let size = points.iter().map(|p| p.norm()).fold(0.0, f64::max);
     let mut faces = Vec::new();
@@ -38,8 +38,8 @@ pub fn hull(points: &[Vec3]) -> Option<Solid> {
                 let height = |p: &Vec3| normal.dot(&(p - points[i])) / normal.norm();
                 let others = (0..points.len()).filter(|l| ![i, j, k].contains(l));
                 let highest = others.map(|l| height(&points[l])).fold(f64::NEG_INFINITY, f64::max);
-                // A point nearly in the plane of a face would make two faces of one: such hulls are left to the
-                // makers that mean it.
+                // A point nearly in the plane of a face would merge two faces: such hulls are left to makers
+                // that intend them.
                 if highest.abs() < 1e-3 * size || normal.norm() < 1e-3 * size * size {
                     return None;
                 }
@@ -58,14 +58,14 @@ pub fn hull(points: &[Vec3]) -> Option<Solid> {
     Some(Solid { vertices: used.iter().map(|index| points[*index]).collect(), faces, inactive: Vec::new() })
 }
 
-/// Angles of a polygon's corners, in order, no two far apart or close together.
+/// Sorted angles of a polygon's corners, no two far apart or close together.
 pub fn angles(random: &mut Random, sides: usize, is_round: bool) -> Vec<f64> {
     let step = std::f64::consts::TAU / sides as f64;
     let jitter = if is_round { 0.0 } else { 0.25 };
     (0..sides).map(|i| step * (i as f64 + random.between(-jitter, jitter))).collect()
 }
 
-/// Any convex solid about as large as 1.
+/// Any convex solid of size about 1.
 pub fn any(random: &mut Random, is_round: bool) -> Solid {
     match random.below(5) {
         0 | 1 => {
@@ -92,7 +92,7 @@ pub fn extents(random: &mut Random, is_round: bool) -> Vec3 {
     )
 }
 
-/// The hull of 4 to 12 points.
+/// Convex hull of 4 to 12 random points.
 pub fn random_hull(random: &mut Random) -> Solid {
     loop {
         let count = 4 + random.below(9);

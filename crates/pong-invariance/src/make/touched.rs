@@ -1,4 +1,4 @@
-//! What is touched: every kind of B and the ways in which its faces can meet.
+//! Touched bodies: every kind of B, and the ways in which its faces can meet.
 
 use super::{meshes, solids};
 use crate::cutting;
@@ -6,7 +6,7 @@ use crate::random::Random;
 use crate::scene::{Mesh, Shape, Solid};
 use pong_geometry::{Pose, Vec3};
 
-/// Makes the primitives of B, about 1 m large.
+/// Generator of the primitives of B, about 1 m large.
 pub type Make = fn(&mut Random, bool) -> Vec<Shape>;
 
 /// Every family of scenes.
@@ -73,19 +73,20 @@ pub(super) fn pieces(random: &mut Random, is_round: bool) -> Vec<Shape> {
     }
 }
 
-/// Two to eight wedges round one line.
+/// Two to eight wedges around a common line.
 pub(super) fn junction(random: &mut Random, is_round: bool) -> Vec<Shape> {
     let count = 2 + random.below(7);
     let half = if is_round { 0.5 } else { random.between(0.2, 1.0) };
     wedges(random, count, half, is_round).into_iter().map(Shape::Polyhedron).collect()
 }
 
-/// A prism about z as so many wedges that meet in its axis: each of one side, or of two where there are two or three.
+/// A prism about z divided into wedges that meet in its axis: each has one side, or two if there are two or
+/// three.
 pub fn wedges(random: &mut Random, count: usize, half: f64, is_round: bool) -> Vec<Solid> {
-    // With two or three pieces a wedge of one side would not be convex, or have no axis in it.
+    // With two or three pieces, a wedge of one side would not be convex, or not contain the axis.
     let sides_each = if count < 4 { 2 } else { 1 };
     let sides = count * sides_each;
-    // Two wedges meet in a plane through the axis, or one of them would be hollow.
+    // Two wedges meet in a plane through the axis; otherwise one of them would not be convex.
     let angles = solids::angles(random, sides, is_round || count == 2);
     let rim = |index: usize, z: f64| {
         let angle = angles[index % sides];
@@ -119,7 +120,7 @@ pub(super) fn mesh(random: &mut Random, make: fn(&mut Random, bool) -> Mesh, is_
     vec![Shape::Mesh(mesh)]
 }
 
-/// Slopes from those that rounding makes to steep ones.
+/// Slopes from rounding-sized to steep.
 fn slope(random: &mut Random, is_round: bool) -> f64 {
     match random.below(4) {
         0 => random.log_between(1e-10, 1e-3),
@@ -150,12 +151,13 @@ pub(super) fn skin(random: &mut Random, is_round: bool) -> Mesh {
 }
 
 pub(super) fn sheet(random: &mut Random, _: bool) -> Mesh {
-    // Two to a few hundred triangles, now and then 20,000.
+    // Two to a few hundred triangles, occasionally 20,000.
     let cells = if random.chance(2e-3) { 100 } else { random.log_between(1.0, 12.0) as usize };
     meshes::sheet(random, cells)
 }
 
-/// Turns and moves the primitives in their group, and gives their corners in single precision, in some of the scenes.
+/// In some scenes, turns and moves the primitives in their group, and rounds their corners to single
+/// precision.
 pub fn tilt(random: &mut Random, shapes: &mut Vec<Shape>, is_round: bool) {
     if !is_round && random.chance(0.6) {
         let shift = if random.chance(0.5) { Vec3::zeros() } else { random.vector(1.0) };

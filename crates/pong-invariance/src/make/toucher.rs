@@ -1,10 +1,10 @@
-//! One primitive that touches: a point, a segment, a ray, a ball, an ellipsoid.
+//! Touching primitives: point, segment, ray, sphere, ellipsoid.
 
 use crate::random::Random;
 use crate::scene::Shape;
 use pong_geometry::{Quat, Vec3};
 
-/// Of one of these kinds, about as large as 1.
+/// A primitive of one of these kinds, of size about 1.
 pub fn toucher(random: &mut Random, kinds: &[&str], is_round: bool) -> Shape {
     let place = if is_round || random.chance(0.5) { Vec3::zeros() } else { random.vector(0.5) };
     let size = if is_round { random.pick(&[0.25, 0.5, 1.0]) } else { random.log_between(0.05, 1.0) };

@@ -1,4 +1,4 @@
-//! Friction as a function of poses: continuous, the same after a commit, none where something rolls.
+//! Properties of friction as a function of poses: continuous, unchanged by a commit, zero in rolling.
 
 use super::differs;
 use crate::allowance::distance;
@@ -10,7 +10,7 @@ use crate::scene::{Body, Friction, Normal, Scene, Shape, Surface};
 use pong_engine::State;
 use pong_geometry::{Pose, Twist, Vec3};
 
-/// The states of a commit, evaluated again after it, give the same wrench.
+/// Checks that the states of a commit, evaluated again after it, give the same wrench.
 pub fn committed_again(base: &mut Base, _: &mut Random) -> Verdict {
     let frames = base.scene.frames.clone();
     if base.stage.forget().is_err() {
@@ -29,7 +29,7 @@ pub fn committed_again(base: &mut Base, _: &mut Random) -> Verdict {
     Verdict::Agrees
 }
 
-/// Something smooth that slides on something smooth, and turns, with a damped bristle.
+/// A smooth body that slides and turns on a smooth one, with a damped bristle.
 pub fn sliding(random: &mut Random) -> Scene {
     let name = if random.chance(0.7) { "plane" } else { "ball" };
     let mut scene = loop {
@@ -53,7 +53,7 @@ pub fn sliding(random: &mut Random) -> Scene {
         };
     }
     let Some(states) = scene.frames.last().copied() else { return scene };
-    // From the last of its frames on along an arc, in the plane that touches.
+    // The history continues from the last frame along an arc in the contact plane.
     let size = scene.size;
     let turn = random.between(-1.0, 1.0);
     let axis = random.direction();
@@ -72,7 +72,7 @@ pub fn sliding(random: &mut Random) -> Scene {
     scene
 }
 
-/// States a tiny step away give a wrench that is as near.
+/// Checks that states a tiny step away give an equally near wrench.
 pub fn beside(base: &mut Base, random: &mut Random) -> Verdict {
     let scene = base.scene.clone();
     let step = 1e-12 * scene.size;
@@ -86,8 +86,8 @@ pub fn beside(base: &mut Base, random: &mut Random) -> Verdict {
         let Ok(again) = base.stage.evaluate(&other) else { return Verdict::DoesNotApply };
         let apart = distance(&first.wrenches, &again.wrenches, scene.size);
         let largest = base.largest(frame);
-        // Springs of both directions over the step; what turns, turns by the step over the size, and the line of two centres by
-        // the step over their distance.
+        // Springs of both directions over the step; rotations change by the step over the size, and the line
+        // of two centres by the step over their distance.
         let arm = distance_of_centers(&scene, states).min(scene.size);
         let steep = 16.0 * (scene.stiffness() + largest / arm);
         let rounding = 64.0 * f64::EPSILON * scene.size * scene.stiffness();
@@ -99,7 +99,7 @@ pub fn beside(base: &mut Base, random: &mut Random) -> Verdict {
     Verdict::Agrees
 }
 
-/// The least distance of a point or the centre of a ball of A from the centre of a ball of B, m; infinite if there is none.
+/// Least distance between a point or sphere centre of A and a sphere centre of B, m; infinite without any.
 fn distance_of_centers(scene: &Scene, states: &[State; 2]) -> f64 {
     let centers = |body: usize, with_points: bool| {
         let pose = states[body].pose();
@@ -126,7 +126,7 @@ pub fn rolling(random: &mut Random) -> Scene {
         friction: Friction::Bristle { mu: 1e6, excess: 0.0, stiffness: bristle, damping: 0.0 },
     };
     let start = random.orientation();
-    // 0.1 s of it.
+    // 0.1 s of rolling.
     let count = 64;
     let frames = (0..=count)
         .map(|index| {
@@ -159,13 +159,14 @@ pub fn rolling(random: &mut Random) -> Scene {
     }
 }
 
-/// Along a great circle: an even turning of the frame about y, and in that frame an even turning of the ball.
+/// Motion along a great circle: a constant rotation of the frame about y, and in that frame a constant
+/// rotation of the ball.
 fn on_a_ball(hill: f64, radius: f64, depth: f64, rate: f64, spin: f64, t: f64) -> (Pose, Twist) {
     let angle = rate * t;
     let out = Vec3::new(libm::sin(angle), 0.0, libm::cos(angle));
     let along = Vec3::new(libm::cos(angle), 0.0, -libm::sin(angle));
     let apart = hill + radius - depth;
-    // The place of contact lies in the ball (it is rigid) at its own radius, less the depth.
+    // The ball is rigid, so the contact point lies on it at its radius, less the depth.
     let roll = apart * rate / radius;
     let own = Vec3::new(0.0, roll - rate, spin);
     let turned = rotation_about(&Vec3::y(), angle) * rotation_about(&own.normalize(), own.norm() * t);
@@ -181,7 +182,8 @@ fn on_a_plane(radius: f64, depth: f64, rate: f64, spin: f64, t: f64) -> (Pose, T
     (Pose { position, orientation: turned }, Twist { linear: Vec3::x() * speed, angular })
 }
 
-/// Played with every fourth, every second and every frame, the friction that is asked for falls as the square of the step.
+/// Checks that friction, with every fourth, every second and every frame played, falls as the square of the
+/// step.
 pub fn refined(base: &mut Base, _: &mut Random) -> Verdict {
     let frames = base.scene.frames.clone();
     let mut friction = [0.0; 3];
@@ -193,8 +195,8 @@ pub fn refined(base: &mut Base, _: &mut Random) -> Verdict {
         };
         *out = touch.friction.norm();
     }
-    // Of second order each is a quarter of the one before; of first order a half. What is below a millionth of the size is
-    // of no order at all.
+    // Second order: each is a quarter of the one before; first order: a half. Values below a millionth of the
+    // size have no order.
     let small = 1e-10 * base.scene.stiffness() * base.scene.size;
     let [coarse, middle, fine] = friction;
     if fine > 0.4 * middle + small || middle > 0.4 * coarse + small {

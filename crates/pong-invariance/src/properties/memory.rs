@@ -1,4 +1,4 @@
-//! The side of entry: pushed back to where it came in, and never suddenly deeper.
+//! Memory of the side of entry: a body is pushed back to where it entered, and its depth never jumps up.
 
 use crate::base::Base;
 use crate::judge::Verdict;
@@ -8,7 +8,7 @@ use crate::scene::{Body, Friction, Normal, Scene, Shape, Surface};
 use pong_engine::State;
 use pong_geometry::{Pose, Twist, Vec3};
 
-/// A point on a winding way in and through a hull, in small steps.
+/// A point on a winding path into and through a hull, in small steps.
 pub fn path_in_a_hull(random: &mut Random) -> Scene {
     let surface = Surface {
         stiffness: 1e5,
@@ -40,7 +40,8 @@ pub fn path_in_a_hull(random: &mut Random) -> Scene {
     }
 }
 
-/// Each face's depth changes by no more than the point moves; a memory that changes faces may only choose a lesser depth.
+/// Checks that each face's depth changes by no more than the point moves; a memory that changes faces may
+/// only choose a lesser depth.
 pub fn depth_steps(base: &mut Base, _: &mut Random) -> Verdict {
     let place = |frame: usize| {
         let [a, b] = [0, 1].map(|body| base.scene.frames[frame][body].pose());

@@ -1,4 +1,4 @@
-//! A body that already touches when nothing is remembered yet is pushed as if it had come from where it is.
+//! A body that touches in the first frame is pushed as if it had approached from its present side.
 
 use super::differs;
 use crate::base::Base;
@@ -10,7 +10,8 @@ use crate::scene::{Body, Friction, Mesh, Normal, Scene, Shape, Surface};
 use pong_engine::State;
 use pong_geometry::{Pose, Twist, Vec3};
 
-/// A ball or an ellipsoid with its centre outside a closed, two-sided or bent surface that bulges towards it.
+/// A sphere or an ellipsoid with its centre outside a closed, two-sided or bent surface that bulges towards
+/// it.
 pub fn set_down_scene(random: &mut Random) -> Scene {
     let is_round = random.chance(0.3);
     let mut mesh = match random.below(4) {
@@ -55,7 +56,8 @@ fn still(position: &Vec3) -> State {
     State::from_motion(&Pose { position: *position, ..Pose::identity() }, &rest)
 }
 
-/// The first frame is that of the same body come from outside along the way to the nearest place of the surface.
+/// Checks that the first frame equals that of the same body moved in from outside, through the nearest point
+/// of the surface.
 pub fn set_down(base: &mut Base, _: &mut Random) -> Verdict {
     let scene = &base.scene;
     let [Shape::Mesh(mesh)] = scene.bodies[1].shapes.as_slice() else { return Verdict::DoesNotApply };
@@ -67,7 +69,7 @@ pub fn set_down(base: &mut Base, _: &mut Random) -> Verdict {
     let center = x_ba.orientation * center + x_ba.position;
     let Some((nearest, front)) = nearest(mesh, &center) else { return Verdict::DoesNotApply };
     let out = center - nearest;
-    // Too close to the surface to say on which side, or behind it.
+    // Too close to the surface to decide the side, or behind it.
     if out.norm() < 1e-6 * scene.size || !(mesh.two_sided || out.dot(&front) > 1e-6 * scene.size) {
         return Verdict::DoesNotApply;
     }
@@ -78,7 +80,7 @@ pub fn set_down(base: &mut Base, _: &mut Random) -> Verdict {
         _ => return Verdict::DoesNotApply,
     };
     let away = states[1].pose().orientation * out.normalize() * (4.0 * (reach + scene.size));
-    // On the way in the centre must not pass through anything.
+    // The centre must not cross any triangle on the way in.
     let from = center + out.normalize() * (4.0 * (reach + scene.size));
     if mesh
         .triangles
@@ -103,7 +105,7 @@ fn still_at(pose: &Pose) -> State {
     State::from_motion(pose, &Twist { linear: Vec3::zeros(), angular: Vec3::zeros() })
 }
 
-/// Whether a straight line crosses a triangle, or its rim by rounding.
+/// Tests whether a line segment crosses a triangle, or its boundary within rounding.
 fn is_crossed([p, q, r]: &[Vec3; 3], from: &Vec3, to: &Vec3) -> bool {
     let normal = (q - p).cross(&(r - p));
     let (start, end) = (normal.dot(&(from - p)), normal.dot(&(to - p)));
@@ -115,8 +117,8 @@ fn is_crossed([p, q, r]: &[Vec3; 3], from: &Vec3, to: &Vec3) -> bool {
     (nearest_of_triangle(&[*p, *q, *r], &place) - place).norm() < 1e-9 * size
 }
 
-/// The nearest place of a mesh and the front of a triangle there. `None` where the fronts there disagree on the side, as
-/// at a sharp rim.
+/// Nearest point of a mesh and the front normal of a triangle there. `None` if the fronts there disagree on
+/// the side, as at a sharp boundary.
 fn nearest(mesh: &Mesh, x: &Vec3) -> Option<(Vec3, Vec3)> {
     let mut found: Vec<(f64, Vec3, Vec3)> = Vec::new();
     for triangle in &mesh.triangles {

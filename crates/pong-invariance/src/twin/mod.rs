@@ -1,4 +1,4 @@
-//! Twins: the same scene told in another way, and how its wrenches are read in the words of the first.
+//! Twins: equivalent descriptions of a scene, and the transform of their wrenches back to the first scene.
 
 pub mod manner;
 pub mod place;
@@ -16,42 +16,42 @@ use pong_geometry::{Pose, Quat, Vec3, Wrench};
 pub struct Twin {
     /// The scene.
     pub scene: Scene,
-    /// How its wrenches are read.
+    /// Transform of its wrenches back.
     pub back: Back,
-    /// How it is played.
+    /// Way of playing.
     pub manner: Manner,
-    /// By how much telling it in another way moved something, m.
+    /// Largest position error by rounding in the transform, m.
     pub rounding: f64,
-    /// By how much that changed a velocity, m/s.
+    /// Largest velocity error by rounding in the transform, m/s.
     pub rounding_of_velocity: f64,
 }
 
-/// From the wrenches of a twin to those of the first scene.
+/// Transform from the wrenches of a twin to those of the first scene.
 #[derive(Clone, Debug)]
 pub struct Back {
-    /// By which the whole scene was turned.
+    /// Rotation of the whole scene.
     pub turn: Quat,
     /// Ratio of the forces of the twin to those of the first.
     pub force: f64,
     /// Ratio of the moments of the twin to those of the first.
     pub moment: f64,
-    /// Origins of the twin's groups in the groups of the first, m, frame by frame; all zero if there are none.
+    /// Origins of the twin's groups in those of the first scene, m, frame by frame; empty if all are zero.
     pub origins: Vec<[Vec3; 2]>,
 }
 
 impl Twin {
-    /// The same scene, to be changed.
+    /// An unchanged copy of the scene, to be modified.
     pub fn of(scene: &Scene) -> Self {
         let back = Back { turn: Quat::identity(), force: 1.0, moment: 1.0, origins: Vec::new() };
         Self { scene: scene.clone(), back, manner: Manner::Plain, rounding: 0.0, rounding_of_velocity: 0.0 }
     }
 
-    /// The same scene played in another way.
+    /// The scene, played differently.
     pub fn played(scene: &Scene, manner: Manner) -> Self {
         Self { manner, ..Self::of(scene) }
     }
 
-    /// Plays it; where only states differ, in the world of the first scene.
+    /// Plays the twin; if only states differ, in the world of the first scene.
     ///
     /// # Errors
     ///
@@ -66,7 +66,7 @@ impl Twin {
         playing::play(&self.scene, self.manner)
     }
 
-    /// A frame's wrenches as the first scene would tell them.
+    /// Wrenches of a frame, transformed to the first scene.
     pub fn read(&self, answer: &Answer, first: &Scene, frame: usize) -> [Wrench; 2] {
         let Back { turn, force, moment, ref origins } = self.back;
         let origins = origins.get(frame).copied().unwrap_or_default();

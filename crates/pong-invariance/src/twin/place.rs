@@ -1,4 +1,4 @@
-//! Twins that stand elsewhere: turned, moved, far away, in other axes of their groups, in another unit of length.
+//! Twins at other poses: turned, moved, far away, with other group axes, in another unit of length.
 
 use super::Twin;
 use crate::make::rescaled;
@@ -8,8 +8,8 @@ use crate::scene::{Body, Friction, Normal, Scene, Shape};
 use pong_engine::State;
 use pong_geometry::{Pose, Quat, Twist, Vec3};
 
-/// Every state seen from a frame that stands at `pose` in the common one and drifts; `turn` takes the old common
-/// components into the new ones.
+/// Transforms every state to a frame that stands at `pose` in the common one and drifts; `turn` maps the old
+/// common components to the new ones.
 fn seen(scene: &mut Scene, turn: &Quat, shift: &Vec3, drift: &Vec3) {
     for state in scene.frames.iter_mut().flatten() {
         let (pose, twist) = (state.pose(), state.twist());
@@ -43,7 +43,7 @@ pub fn moved(scene: &Scene, random: &mut Random) -> Option<Twin> {
     Some(twin)
 }
 
-/// The whole scene turned and moved to a low orbit, or further, drifting at kilometres per second.
+/// The whole scene turned and moved to a low orbit or further, drifting at kilometres per second.
 pub fn far(scene: &Scene, random: &mut Random) -> Option<Twin> {
     let mut twin = Twin::of(scene);
     let turn = random.orientation();
@@ -56,7 +56,8 @@ pub fn far(scene: &Scene, random: &mut Random) -> Option<Twin> {
     Some(twin)
 }
 
-/// The axes of one or both groups turned and moved; half of the time by a pose of the group that holds the primitives.
+/// The axes of one or both groups turned and moved; half of the time through the pose of the group that holds
+/// the primitives.
 pub fn group_frame(scene: &Scene, random: &mut Random) -> Option<Twin> {
     let mut twin = Twin::of(scene);
     for body in 0..2 {
@@ -80,7 +81,7 @@ pub fn group_frame(scene: &Scene, random: &mut Random) -> Option<Twin> {
     Some(twin)
 }
 
-/// Tells the state of a body in a frame by other axes of its group, which stand at `frame` in it.
+/// Gives the state of a body in a frame by other axes of its group, which stand at `frame` in it.
 fn other_axes(twin: &mut Twin, (at, body): (usize, usize), frame: &Pose) {
     let state = &mut twin.scene.frames[at][body];
     let (pose, twist) = (state.pose(), state.twist());
@@ -91,8 +92,8 @@ fn other_axes(twin: &mut Twin, (at, body): (usize, usize), frame: &Pose) {
     twin.back.origins[at][body] = frame.position;
 }
 
-/// Bodies of one round part turned about its own axis: in every frame by an angle of its own, or by the same angle where
-/// bristles remember how the body lay, or a hole from where something came: straight from its last place.
+/// Bodies of one round part turned about its own axis: by a different angle in every frame, or by the same
+/// angle if bristles or a hole's memory depend on the previous pose.
 pub fn own_axis(scene: &Scene, random: &mut Random) -> Option<Twin> {
     let mut twin = Twin::of(scene);
     let remembers = scene.bodies.iter().any(|body| matches!(body.surface.friction, Friction::Bristle { .. }));
@@ -113,7 +114,7 @@ pub fn own_axis(scene: &Scene, random: &mut Random) -> Option<Twin> {
     is_turned.then_some(twin)
 }
 
-/// Another unit of length: forces scale with it where stiffness in N/m stays.
+/// Another unit of length: forces scale with it while stiffness in N/m stays.
 pub fn scaled(scene: &Scene, random: &mut Random) -> Option<Twin> {
     let s = match random.chance(0.3) {
         true => libm::exp2(random.between(-20.0, 20.0).round()),

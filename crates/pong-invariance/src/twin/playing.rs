@@ -1,4 +1,4 @@
-//! The ways in which a scene is played.
+//! Ways of playing a scene.
 
 use crate::play::{Answer, Refusal, Stage};
 use crate::random::Random;
@@ -6,23 +6,23 @@ use crate::scene::Scene;
 use pong_engine::State;
 use pong_geometry::{Pose, Vec3};
 
-/// How a scene is played.
+/// Way of playing a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Manner {
     /// Every frame evaluated and committed.
     #[default]
     Plain,
-    /// Other states are evaluated between, and thrown away.
+    /// Other states are evaluated between the frames and discarded.
     ThrownAway(u64),
     /// The contact state is saved after half of the frames and restored into a new world.
     Restored,
-    /// In a world that has played other frames before and was made to forget them.
+    /// The world has played other frames before, and its contact state was cleared.
     Forgotten,
-    /// With so many workers.
+    /// The world has this many workers.
     Workers(usize),
 }
 
-/// Plays a scene in a world of its own.
+/// Plays a scene in a new world.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! Twins of the same shape, described in another way: cut, reordered, regrouped, bounded otherwise, paired otherwise.
+//! Twins of the same shape with another description: cut, reordered, regrouped, with other bounds or pairs.
 
 use super::Twin;
 use crate::base::Base;
@@ -9,7 +9,7 @@ use crate::round_part::RoundKind;
 use crate::scene::{Grouping, Mesh, Scene, Shape, Solid};
 use pong_geometry::Vec3;
 
-/// The Objects named in the other order, where no kind is on both sides.
+/// The Objects named in the other order, if no kind is on both sides.
 pub fn swapped(scene: &Scene, _: &mut Random) -> Option<Twin> {
     let kinds = |body: usize| scene.bodies[body].shapes.iter().map(Shape::kind);
     (!kinds(0).any(|kind| kinds(1).any(|other| other == kind))).then_some(())?;
@@ -29,7 +29,7 @@ pub fn bounded(scene: &Scene, random: &mut Random) -> Option<Twin> {
     Some(twin)
 }
 
-/// The same primitives in the same order, hung into groups of groups.
+/// The primitives in the same order, in nested groups.
 pub fn regrouped(scene: &Scene, random: &mut Random) -> Option<Twin> {
     let mut twin = Twin::of(scene);
     for body in &mut twin.scene.bodies {
@@ -45,12 +45,12 @@ pub fn regrouped(scene: &Scene, random: &mut Random) -> Option<Twin> {
     Some(twin)
 }
 
-/// Primitives, triangles, corners and faces in another order, under other names.
+/// Primitives, triangles, corners and faces in another order, with other names.
 pub fn reordered(scene: &Scene, random: &mut Random) -> Option<Twin> {
     let mut twin = Twin::of(scene);
     for body in &mut twin.scene.bodies {
         let order = random.order(body.shapes.len());
-        // Holes that meet must run the same way.
+        // Adjoining holes must run in the same direction.
         let reverses = body.shapes.iter().any(|shape| matches!(shape, Shape::Round(_))) && random.chance(0.5);
         body.shapes =
             order.iter().map(|index| reordered_shape(&body.shapes[*index], reverses, random)).collect();
@@ -89,7 +89,7 @@ fn reordered_shape(shape: &Shape, reverses: bool, random: &mut Random) -> Shape 
     }
 }
 
-/// Corners in another order, and the new number of each.
+/// Corners in another order, and the new index of each.
 fn renumbered(vertices: &[Vec3], random: &mut Random) -> (Vec<Vec3>, Vec<usize>) {
     let order = random.order(vertices.len());
     let mut new = vec![0; order.len()];
@@ -97,7 +97,7 @@ fn renumbered(vertices: &[Vec3], random: &mut Random) -> (Vec<Vec3>, Vec<usize>)
     (order.iter().map(|old| vertices[*old]).collect(), new)
 }
 
-/// Faces cut into more triangles, solids into pieces: anywhere, and through the very place where A pushes.
+/// Faces cut into more triangles, solids into pieces: anywhere, and through the point where A pushes.
 pub fn cut(base: &Base, random: &mut Random) -> Option<Twin> {
     let scene = &base.scene;
     let mut twin = Twin::of(scene);
@@ -111,7 +111,7 @@ pub fn cut(base: &Base, random: &mut Random) -> Option<Twin> {
             pieces.into_iter().map(Shape::Polyhedron).collect()
         }
         [Shape::Round(hole)] if hole.kind == RoundKind::Bore => {
-            // A rod leans on the mouths of a hole as a whole, and what was behind one piece was not behind the other.
+            // A rod leans on both edges of a hole as a whole; behind one piece is not behind the other.
             let is_rod = |shape: &Shape| matches!(shape, Shape::Round(_) | Shape::Segment { .. });
             (scene.frames.len() == 1 && !scene.bodies[0].shapes.iter().any(is_rod)).then_some(())?;
             hole.cut(random.between(0.2, 0.8)).map(Shape::Round).to_vec()
@@ -123,7 +123,7 @@ pub fn cut(base: &Base, random: &mut Random) -> Option<Twin> {
     Some(twin)
 }
 
-/// A place where A pushes in some frame, and the way out there, in B's group.
+/// A point where A pushes in some frame, and the outward normal there, in B's group.
 fn aim(base: &Base, random: &mut Random) -> Option<(Vec3, Vec3)> {
     let frame = random.below(base.answers.len());
     let contacts = &base.answers[frame].contacts;
@@ -166,8 +166,9 @@ fn cut_solid(shapes: &[Shape], aim: Option<(Vec3, Vec3)>, random: &mut Random) -
     (pieces.len() > 1).then_some(pieces)
 }
 
-/// A plate of triangles instead of a half space, so large that nothing reaches its rim and so thick that nothing gets
-/// through. For balls, capsules and ellipsoids alone: a plunger sees a triangle's thickness.
+/// A plate of triangles in place of a half space, so large that nothing reaches its boundary and so thick
+/// that nothing passes through. For spheres, capsules and ellipsoids only: a plunger depends on a triangle's
+/// thickness.
 fn plate(base: &Base, normal: &Vec3, offset: f64, random: &mut Random) -> Option<Mesh> {
     let is_round_shape = |shape: &Shape| match shape {
         Shape::Sphere { .. } | Shape::Ellipsoid { .. } => true,
@@ -181,7 +182,7 @@ fn plate(base: &Base, normal: &Vec3, offset: f64, random: &mut Random) -> Option
     let middle = middle - normal * (normal.dot(&middle) - offset);
     let turn = rotation_between(&Vec3::z(), &normal);
     let mut plate = meshes::plate(random, false);
-    // Corner or seam under the foot, or neither.
+    // Corner or seam under the contact point, or neither.
     let under = match random.below(3) {
         0 => random.pick(&plate.vertices),
         1 => {
@@ -191,7 +192,7 @@ fn plate(base: &Base, normal: &Vec3, offset: f64, random: &mut Random) -> Option
         }
         _ => random.vector(0.3),
     };
-    // At the plate's rim there would be an end to it.
+    // Near the plate's boundary its end would be in reach.
     let under = if under.x.abs().max(under.y.abs()) > 0.6 { Vec3::zeros() } else { under };
     for vertex in &mut plate.vertices {
         let flat = Vec3::new(vertex.x - under.x, vertex.y - under.y, 0.0);
@@ -201,10 +202,10 @@ fn plate(base: &Base, normal: &Vec3, offset: f64, random: &mut Random) -> Option
     Some(plate)
 }
 
-/// Whether pieces can give the answer of the whole. They do where a push leaves by the piece in which it begins, and where
-/// the way in leads into that piece at once. A piece knows its own faces alone: a point deep in one piece and nearest to a
-/// face of another, a step through one piece into the next, an ellipsoid so deep that several of its overlaps with pieces
-/// count, have an answer of their own (docs/invariances.md).
+/// Tests whether pieces can give the answer of the whole: the push must leave by the piece in which it
+/// begins, and the path of entry must lead into that piece directly. A piece only knows its own faces: a
+/// point deep in one piece and nearest to a face of another, a step through one piece into the next, or an
+/// ellipsoid that overlaps several pieces has a different answer (docs/invariances.md).
 fn is_fair(base: &Base, pieces: &[Solid]) -> bool {
     let [Shape::Polyhedron(whole)] = base.scene.bodies[1].shapes.as_slice() else { return false };
     let cut = Cut { base, whole, pieces, slack: 1e-9 * base.scene.size };
@@ -214,7 +215,7 @@ fn is_fair(base: &Base, pieces: &[Solid]) -> bool {
     })
 }
 
-/// A solid that was cut.
+/// A solid and its pieces.
 struct Cut<'b> {
     base: &'b Base,
     whole: &'b Solid,
@@ -223,7 +224,7 @@ struct Cut<'b> {
 }
 
 impl Cut<'_> {
-    /// For one primitive of A in one frame.
+    /// Tests one primitive of A in one frame.
     fn is_fair_for(&self, frame: usize, index: usize, shape: &Shape) -> bool {
         let back = self.base.scene.frames[frame][1].pose().orientation.inverse();
         let mut touches =
@@ -261,7 +262,7 @@ impl Cut<'_> {
         }
     }
 
-    /// A place of A's group in a frame, in B's group.
+    /// A point of A's group in a frame, in B's group.
     fn seen(&self, frame: usize, place: &Vec3) -> Vec3 {
         let states = &self.base.scene.frames[frame];
         let x_ba = pong_geometry::Pose::relative(&states[0].pose(), &states[1].pose())
@@ -273,13 +274,13 @@ impl Cut<'_> {
         self.pieces.iter().filter(move |piece| is_inside(piece, x, self.slack))
     }
 
-    /// Whether some piece holds a place, and the foot from which it is pushed.
+    /// Tests whether one piece contains both a point and the surface point towards which it is pushed.
     fn leaves(&self, from: &Vec3, out: &Vec3, depth: f64) -> bool {
         let foot = from + out * depth;
         self.holds(from).any(|piece| is_inside(piece, &foot, self.slack))
     }
 
-    /// Whether no face of the whole is nearer to a place inside than so much.
+    /// Tests whether no face of the whole is nearer to an inner point than `depth`.
     fn is_least(&self, place: &Vec3, depth: f64) -> bool {
         self.whole.faces.iter().all(|face| {
             let (normal, p) = plane_of(self.whole, face);
@@ -287,8 +288,8 @@ impl Cut<'_> {
         })
     }
 
-    /// Whether what is inside is pushed by the face by which it came in, or by the one that pushed it in the frame before.
-    /// From there memory walks over the edges of the faces, and a piece has not all of them.
+    /// Tests whether an inner point is pushed by the face of entry, or by the same face as in the frame
+    /// before. From that face, memory moves across the edges of faces, and a piece does not have all of them.
     fn keeps_its_face(&self, frame: usize, index: usize, place: &Vec3) -> bool {
         let normal_in = |frame: usize| {
             let back = self.base.scene.frames[frame][1].pose().orientation.inverse();
@@ -304,7 +305,7 @@ impl Cut<'_> {
         from.is_some_and(|from| (from - now).norm() < 1e-9)
     }
 
-    /// Whether the straight way since the frame before leads from outside or from the same piece.
+    /// Tests whether the straight path since the frame before enters from outside, or from the same piece.
     fn comes_in(&self, frame: usize, place: &Vec3) -> bool {
         let now = self.seen(frame, place);
         if frame == 0 || is_outside(self.whole, &now, self.slack) {
@@ -316,18 +317,18 @@ impl Cut<'_> {
     }
 }
 
-/// Where the straight way from one place to another comes into a solid; where it begins, if it begins inside.
+/// Entry point of a straight path into a solid; its start if it begins inside.
 fn entry(solid: &Solid, from: &Vec3, to: &Vec3) -> Vec3 {
     let t = last_entry(solid, from, to).map_or(0.0, |(t, _)| t);
     from + (to - from) * t.min(1.0)
 }
 
-/// The normal of the face by which the straight way from one place to another comes into a solid.
+/// Normal of the face by which a straight path enters a solid.
 fn entered_by(solid: &Solid, from: &Vec3, to: &Vec3) -> Option<Vec3> {
     last_entry(solid, from, to).map(|(_, normal)| normal)
 }
 
-/// The last of the planes that a straight way comes below: how far along it, and the normal.
+/// Last plane that a straight path crosses inwards: fraction of the path, and normal.
 fn last_entry(solid: &Solid, from: &Vec3, to: &Vec3) -> Option<(f64, Vec3)> {
     let mut last: Option<(f64, Vec3)> = None;
     for face in &solid.faces {
@@ -346,7 +347,7 @@ fn plane_of(solid: &Solid, face: &[usize]) -> (Vec3, Vec3) {
     ((q - p).cross(&(r - p)).normalize(), p)
 }
 
-/// Depth below the faces that look that way.
+/// Depth below the faces with this normal.
 fn depth_along(solid: &Solid, x: &Vec3, out: &Vec3) -> f64 {
     let highest = solid.vertices.iter().map(|v| out.dot(v)).fold(f64::NEG_INFINITY, f64::max);
     highest - out.dot(x)
@@ -359,7 +360,7 @@ fn is_inside(solid: &Solid, x: &Vec3, slack: f64) -> bool {
     })
 }
 
-/// Whether a straight way stays outside.
+/// Tests whether a straight path stays outside.
 fn is_passed_by(solid: &Solid, [from, to]: &[Vec3; 2], slack: f64) -> bool {
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
     for face in &solid.faces {
@@ -377,7 +378,7 @@ fn is_passed_by(solid: &Solid, [from, to]: &[Vec3; 2], slack: f64) -> bool {
     enters > leaves
 }
 
-/// Outside for sure: a centre in the surface itself counts as inside.
+/// Tests whether a point is certainly outside: on the surface counts as inside.
 fn is_outside(solid: &Solid, x: &Vec3, slack: f64) -> bool {
     !is_inside(solid, x, slack)
 }

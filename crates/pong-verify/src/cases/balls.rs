@@ -1,4 +1,4 @@
-//! V6: elastic balls keep their energy.
+//! V6: elastic balls conserve energy.
 
 use crate::case::{Case, Outcome};
 use crate::row::Row;
@@ -20,11 +20,11 @@ pub const V6: Case = Case {
 const MASS: f64 = 10.0;
 const RADIUS: f64 = 0.1;
 const STIFFNESS: f64 = 1e5;
-/// ω·dt.
+/// Phase of one step, ω·dt, rad.
 const TURN: f64 = 0.02;
 const DURATION: f64 = 20.0;
 
-/// A ball's bounces so far.
+/// Bounces of a ball so far.
 #[derive(Default)]
 struct Watch {
     /// Energy in the flight before the present contact, J.

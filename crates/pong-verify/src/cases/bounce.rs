@@ -43,7 +43,7 @@ const MASS: f64 = 1.0;
 const SPEED: f64 = 1.0;
 const STIFFNESS: f64 = 1e5;
 
-/// Rebound speed over impact speed for every phase of touch.
+/// Ratio of rebound to impact speed for every phase of touch.
 fn restitutions(
     duo: impl Fn() -> Result<Duo, Failure>,
     method: (Integrator, f64),
@@ -52,7 +52,7 @@ fn restitutions(
     restitutions_of(duo, (MASS, SPEED), method, phases)
 }
 
-/// Bounce of a point of so much mass (kg) at a speed (m/s).
+/// Bounces of a point of this mass (kg) and speed (m/s).
 pub(super) fn restitutions_of(
     duo: impl Fn() -> Result<Duo, Failure>,
     (mass, speed): (f64, f64),

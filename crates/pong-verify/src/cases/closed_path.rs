@@ -1,4 +1,4 @@
-//! W10: without friction and damping a closed path gains nothing.
+//! W10: without friction and damping the net work over a closed path is zero.
 
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::{order, rotation};
@@ -17,7 +17,7 @@ pub const W10: Case = Case {
     rows,
 };
 
-/// Pose by an angle, a whole turn of which closes the path.
+/// Pose by an angle; a whole turn closes the path.
 type PathOfPose = fn(f64) -> Pose;
 
 /// Net work over one turn of the path, over the largest energy stored.
@@ -72,7 +72,7 @@ fn rows() -> Outcome {
         let got = net(mover, ground, path, 4000)?;
         let (coarse, fine) = (coarse?, fine?);
         let row = Row::below(format!("{name}: net work"), "", got.abs(), 1e-6);
-        // Where rounding is all that is left there is no order.
+        // Errors of rounding alone have no order.
         rows.push(if fine.abs() > 1e-12 { row.with_order(order(coarse, fine)) } else { row });
     }
     Ok(rows)

@@ -1,4 +1,4 @@
-//! W15: what came in by one face is pushed back out by it, however deep.
+//! W15: a body is pushed out by the face through which it entered, at any depth.
 
 use crate::case::{Case, Failure, Outcome};
 use crate::row::Row;
@@ -30,7 +30,7 @@ fn rows() -> Outcome {
     Ok(rows)
 }
 
-/// Force along z on a mover whose centre has gone 0.4 m below the face that looks to the `side`.
+/// Force along z on a mover whose centre is 0.4 m below the face on the `side` (±1).
 fn force_beyond(file: &str, side: f64) -> Result<f64, Failure> {
     let duo = Duo::new(file, "tiles_rough")?.mover(|s| s.stiffness = f64::INFINITY)?;
     let (mut world, [mover, block]) = duo.ground(|s| s.stiffness = STIFFNESS)?.world()?;

@@ -35,14 +35,14 @@ const MU: f64 = 0.5;
 /// Half of a facet's angle.
 const HALF_ANGLE: f64 = 4.0 * core::f64::consts::PI / 180.0;
 
-/// Centre of a ball 1 mm deep, and its heading, by the way since the middle of the ridge: straight over facets,
-/// on an arc over edges.
+/// Centre of a ball 1 mm deep, and its heading, by the path length from the middle of the ridge: straight
+/// over facets, on an arc over edges.
 fn along_ridge(way: f64) -> (Vec3, Vec3) {
     let gap = RADIUS - DEPTH;
     let (flat, arc) = (2.0 * libm::sin(HALF_ANGLE), 2.0 * HALF_ANGLE * gap);
     let facet = libm::round(way / (flat + arc));
     let rest = way - facet * (flat + arc);
-    // Over the facet of this number, tilted by its angle, or over the edge after it.
+    // Over the facet of this index, tilted by its angle, or over the edge after it.
     let over_flat = rest.clamp(-0.5 * flat, 0.5 * flat);
     let tilt = facet * 2.0 * HALF_ANGLE + (rest - over_flat) / gap;
     let (sine, cosine) = libm::sincos(facet * 2.0 * HALF_ANGLE);

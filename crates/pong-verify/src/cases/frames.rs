@@ -27,7 +27,7 @@ pub const V26: Case = Case {
     rows: balance,
 };
 
-/// Pair stiffness is half of the surfaces' 2e5 N/m; a segment's end and the like weigh less.
+/// Pair stiffness is half of the surfaces' 2e5 N/m; a segment's end and similar features weigh less.
 const STIFFNESS: f64 = 1e5;
 /// Pair damping along and across the normal, N·s/m.
 const DAMPING: f64 = 150.0 + 20.0;
@@ -51,7 +51,7 @@ impl Docking {
         Ok(())
     }
 
-    /// Along the common axes.
+    /// Wrench along the common axes.
     fn wrench(&self, side: usize) -> Result<Wrench, Failure> {
         Ok(self.world.wrench_common(self.sides[side])?)
     }
@@ -67,7 +67,7 @@ fn some_motion(random: &mut Random) -> [(Pose, Twist); 2] {
     [body(0.01, 0.05), body(0.003, 0.02)]
 }
 
-/// A frame seen from which everything lies at a pose and drifts.
+/// A drifting frame in which everything stands at a pose.
 struct Seen {
     pose: Pose,
     drift: Vec3,
@@ -101,11 +101,11 @@ fn far_frames() -> Outcome {
         .collect()
 }
 
-/// Where neither places nor velocities are rounded, the wrench is the same bit for bit.
+/// Without rounding of positions and velocities the wrench is the same bit for bit.
 fn without_rounding() -> Result<Row, Failure> {
     let mut random = Random(25);
     let (mut near, mut far) = (Docking::new()?, Docking::new()?);
-    // Of 53 bits 24 are left for the fraction.
+    // Of 53 bits, 24 are left for the fraction.
     let coarse = |v: Vec3| v.map(|x| libm::round(x * 16_777_216.0) / 16_777_216.0);
     let (origin, drift) = (Vec3::new(5.1e6, -2.0e6, 4.0e6), Vec3::new(7000.0, -3000.0, 1000.0));
     let mut different = 0;
@@ -137,12 +137,12 @@ fn far_bounce() -> Result<Row, Failure> {
     let mut run = duo.simulate((Integrator::RungeKutta4, 1e-5), mass, ground)?;
     run.sim.run_for(0.02)?;
     let speed = run.velocity() - orbit.linear;
-    // A place off by ε·|x| at touch and at release changes the speed by ω·ε·|x| each.
+    // A position error of ε·|x| at touch and at release changes the speed by ω·ε·|x| each.
     let allowed = 2.0 * 1e5_f64.sqrt() * f64::EPSILON * 6.8e6;
     Ok(Row::absolute("bounce at 6.8e6 m and 7.7 km/s: speed of rebound", "m/s", 1.0, speed.z, allowed))
 }
 
-/// Largest difference of wrenches in units of what is allowed.
+/// Largest difference of wrenches, as a multiple of the allowance.
 fn difference(seen: &Seen) -> Result<f64, Failure> {
     let mut random = Random(11);
     let (mut near, mut far) = (Docking::new()?, Docking::new()?);
@@ -157,7 +157,8 @@ fn difference(seen: &Seen) -> Result<f64, Failure> {
         if contacts.len() < 8 || far.world.contact_count() != contacts.len() {
             return Err(format!("{} contacts near, {} far", contacts.len(), far.world.contact_count()).into());
         }
-        // Each coordinate is rounded twice, near geometry of 1 m with it; the bristle pulls with ⅔ of the spring.
+        // Each coordinate is rounded twice, with geometry near 1 m; the bristle has ⅔ of the spring's
+        // stiffness.
         let place = f64::EPSILON * ((seen.pose.position + seen.drift * time).norm() + 1.0);
         let speed = f64::EPSILON * (seen.drift.norm() + 1.0);
         let allowed = contacts.len() as f64 * 2.0 * (5.0 / 3.0 * STIFFNESS * place + DAMPING * speed);
@@ -187,7 +188,7 @@ fn balance() -> Outcome {
         moment = moment.max(about_origin.norm() / largest);
         let mut sum = Wrench::zero();
         for c in &contacts {
-            // Named first, the probe is A in every pair here.
+            // The probe is named first, so it is A in every pair.
             sum += Wrench::of_force_at(c.force, &c.a.arm);
         }
         let off = (sum.force - a.force).norm().max((sum.moment - a.moment).norm());

@@ -1,4 +1,4 @@
-//! V18: friction knows no axes.
+//! V18: friction is isotropic.
 
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::{bisect, radians};
@@ -33,7 +33,7 @@ fn duo(damping: f64) -> Result<Duo, Failure> {
     )
 }
 
-/// A point drawn over the ground by hand.
+/// A point led over the ground.
 struct Drawn {
     world: World,
     point: InterfaceId,
@@ -79,7 +79,7 @@ fn rows() -> Outcome {
         if let Some(error) = error {
             return Err(error);
         }
-        // A hair before it lets go.
+        // Just before break-away.
         let force = drawn.place(along * (reach * (1.0 - 1e-14)), along * 1e-3)?.friction_force;
         (least, most) = (least.min(force.norm()), most.max(force.norm()));
         off = off.max((force.normalize() + along).norm());

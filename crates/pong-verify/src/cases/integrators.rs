@@ -19,9 +19,9 @@ const MASS: f64 = 1.0;
 const STIFFNESS: f64 = 1e5;
 const DEPTH: f64 = MASS * G / STIFFNESS;
 
-/// Error of the place, over the amplitude.
+/// Position error, relative to the amplitude.
 fn error(integrator: Integrator, steps: u32) -> Result<f64, Failure> {
-    // Five periods and a quarter: there an error of phase shows in full.
+    // After five and a quarter periods a phase error shows in full.
     let omega = (STIFFNESS / MASS).sqrt();
     let duration = 10.5 * core::f64::consts::PI / omega;
     let body = point_mass(MASS).at(at(Vec3::z() * (-0.5 * DEPTH)));

@@ -1,4 +1,4 @@
-//! W11: the books close: kinetic + potential + stored + dissipated stays.
+//! W11: energy balance: kinetic + potential + stored + dissipated is constant.
 
 use super::bounce::clamped_restitution;
 use crate::case::{Case, Failure, Outcome};
@@ -19,7 +19,7 @@ pub const W11: Case = Case {
 
 const MASS: f64 = 1.0;
 
-/// Largest error of the balance by the engine's ledger and by the run's own account, and the heat at the end, J.
+/// Largest error of the balance by the engine's ledger and by the run's own sum, and the heat at the end, J.
 fn balance(step: f64) -> Result<[f64; 3], Failure> {
     let bristle = Bristle { mu: 0.3, excess: 0.0, stiffness: 6e4, damping: 120.0 };
     let duo = Duo::with_ledger("block_rough", "ground_rough", true)?.mover(|s| set_damping(s, 40.0))?;
@@ -48,7 +48,7 @@ fn balance(step: f64) -> Result<[f64; 3], Failure> {
 fn rows() -> Outcome {
     let ([coarse, ..], [fine, ..]) = (balance(1e-4)?, balance(5e-5)?);
     let [error, of_run, heat] = balance(1e-5)?;
-    // Friction takes μ·m·g over the way 1·t − ½·μ·g·t², less what the bristle takes to break away.
+    // Friction takes μ·m·g over the path 1·t − ½·μ·g·t², less the energy for the bristle's break-away.
     let way = 0.2 - 0.5 * 0.3 * G * 0.04;
     let friction = 0.3 * MASS * G * way;
     Ok(vec![
@@ -61,7 +61,7 @@ fn rows() -> Outcome {
     ])
 }
 
-/// Energy of normal spring and bristle under a pull that friction holds.
+/// Energy of normal spring and bristle under a pull within the friction limit.
 fn held() -> Result<Row, Failure> {
     let (stiffness, pull) = (1e5, 3.0);
     let bristle = Bristle { mu: 0.5, excess: 0.0, stiffness: 6e4, damping: 400.0 };
@@ -69,7 +69,7 @@ fn held() -> Result<Row, Failure> {
     let mut run = with_friction(duo, &bristle)?
         .on_ground((Integrator::RungeKutta4, 1e-3), point_mass(MASS))?
         .with_gravity();
-    // The pull comes when the mass has settled.
+    // The pull begins once the mass is at rest.
     run.sim.add_load(Load::force_over_time(run.body, move |time| {
         Vec3::x() * (pull * (time - 0.2).clamp(0.0, 1.0))
     }))?;
@@ -85,7 +85,7 @@ fn held() -> Result<Row, Failure> {
     ))
 }
 
-/// What a damped bounce takes.
+/// Energy dissipated by a damped bounce.
 fn bounced() -> Result<Row, Failure> {
     let (stiffness, zeta) = (1e5_f64, 0.2);
     let omega = (stiffness / MASS).sqrt();

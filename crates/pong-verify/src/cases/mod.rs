@@ -77,7 +77,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// The case of an id, in upper or lower case.
+/// The case of an id, ignoring letter case.
 pub fn find(id: &str) -> Option<Case> {
     cases().into_iter().find(|case| case.id.eq_ignore_ascii_case(id))
 }

@@ -1,9 +1,9 @@
-//! V20: a peg wedges in a hole only where its insertion is shorter than μ·D.
+//! V20: a peg jams in a hole only if its insertion is shorter than μ·D.
 //!
-//! The peg leans in the slot and presses with a corner of its tip on one wall and with its shaft on the opposite rim,
-//! each δ₀ deep: a couple N·L that would turn it free. Friction at the two places, D apart, can hold it by a couple
-//! T·D with T ≤ μ·N, hence L < μ·D. Where it holds, the turn θ that stretches the bristles (k_t·θ·D/2 = T) relieves
-//! the springs (N = k·(δ₀ − θ·L/2)), so that N = k·δ₀·k_t·D²/(k·L² + k_t·D²).
+//! The peg leans in the slot; a corner of its tip presses on one wall and its shaft on the opposite edge,
+//! each δ₀ deep: a couple N·L that would turn it free. Friction at the two points, D apart, opposes it by a
+//! couple T·D with T ≤ μ·N, hence L < μ·D. When jammed, the rotation θ that stretches the bristles (k_t·θ·D/2
+//! = T) relieves the springs (N = k·(δ₀ − θ·L/2)), so that N = k·δ₀·k_t·D²/(k·L² + k_t·D²).
 
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::{bisect, rotation};
@@ -24,7 +24,7 @@ const WIDTH: f64 = 0.02;
 const CLEARANCE: f64 = 20e-6;
 const MU: f64 = 0.5;
 const BITE: f64 = 1e-6;
-/// Of the pair: two surfaces of 1e6 N/m in series.
+/// Stiffness of the pair, N/m: two surfaces of 1e6 N/m in series.
 const STIFFNESS: f64 = 5e5;
 const TANGENTIAL: f64 = 5e5;
 
@@ -46,17 +46,17 @@ fn rows() -> Outcome {
     Ok(rows)
 }
 
-/// Largest normal force and speed of the peg 0.1 s after it was let go.
+/// Largest normal force and speed of the peg 0.1 s after its release.
 fn let_go(insertion: f64) -> Result<(f64, f64), Failure> {
     let bristle = Bristle { mu: MU, excess: 0.0, stiffness: 2.0 * TANGENTIAL, damping: 1500.0 };
     let duo = Duo::new("peg", "hole")?.mover(|s| set_bristle(s, &bristle))?;
-    // The corner of the tip is BITE deep in the left wall at the depth of insertion, for any lean.
+    // The tip's corner is BITE deep in the left wall at the insertion depth, for any lean.
     let tip = |lean: f64| {
         let (sine, cosine) = libm::sincos(lean);
         let left = 0.5 * (WIDTH + CLEARANCE) + BITE;
         Vec3::new(0.5 * WIDTH * cosine - left, 0.0, -insertion - 0.5 * WIDTH * sine)
     };
-    // The right rim is BITE deep in the shaft for one lean.
+    // Lean for which the right edge is BITE deep in the shaft.
     let rim_depth = |lean: f64| {
         let (sine, cosine) = libm::sincos(lean);
         let rim = Vec3::x() * (0.5 * (WIDTH + CLEARANCE)) - tip(lean);

@@ -19,7 +19,7 @@ pub const W18: Case = Case {
     rows,
 };
 
-/// Mass, kg, and speed, m/s, that a restitution is asked for.
+/// Mass, kg, and speed, m/s, for which a restitution is specified.
 const NOMINAL: (f64, f64) = (0.04, 2.0);
 
 fn stiffness(exponent: Exponent) -> f64 {
@@ -29,7 +29,7 @@ fn stiffness(exponent: Exponent) -> f64 {
     }
 }
 
-/// The law of exponents p and q that gives a restitution at the nominal mass and speed.
+/// Sets the law of exponents p and q with a given restitution at the nominal mass and speed.
 fn set_law(surface: &mut Surface, (exponent, damping_exponent): (Exponent, f64), e: f64) {
     let (mass, speed) = NOMINAL;
     surface.stiffness = stiffness(exponent);
@@ -49,8 +49,8 @@ fn bounced(
     Ok(mean(&restitutions_of(duo, (mass, speed), method, 8)?))
 }
 
-/// The mean slope of a function of e in the logarithm of speed and of mass, between `1/factor` and `factor` times the
-/// nominal ones.
+/// Mean slope of a function of e over the logarithms of speed and of mass, between `1/factor` and `factor`
+/// times the nominal values.
 fn slopes(law: (Exponent, f64), e: f64, factor: f64, of: impl Fn(f64) -> f64) -> Result<(f64, f64), Failure> {
     let duo = || Duo::with_laws("point_power_law", "ground_rigid", |s| set_law(s, law, e));
     let at = |by_mass: f64, by_speed: f64| {

@@ -21,23 +21,23 @@ pub const V29: Case = Case {
 const ORIGIN: [f64; 3] = [0.1, -0.2, 0.3];
 const DIRECTION: [f64; 3] = [0.3, -0.2, -1.0];
 const LENGTH: f64 = 0.7;
-/// How near to an edge or an end a sample may be: closer, rounding decides about hit or miss.
+/// Least distance of a sample from an edge or end: closer, rounding decides between hit and miss.
 const MARGIN: f64 = 1e-6;
 
-/// A ray in the frame of what it may hit.
+/// A ray in the frame of its target.
 struct Local {
     origin: Vec3,
     direction: Vec3,
 }
 
-/// Hit or miss, as theory has it.
+/// Hit or miss by theory.
 enum Truth {
     Hit {
         distance: f64,
         normal: Vec3,
     },
     Miss,
-    /// Too near to an edge to be told, or too flat to be compared.
+    /// Too near to an edge to decide, or too flat to compare.
     Unclear,
 }
 
@@ -102,7 +102,7 @@ fn compare(
         let short = LENGTH - distance;
         let (depth, normal) =
             if axial { (short, -direction) } else { (short * -direction.dot(&normal), normal) };
-        // The target is rigid: the ray yields, so the force acts at its tip moved out by the depth.
+        // The target is rigid: the ray yields, so the force acts at its tip moved outwards by the depth.
         let place = origin + direction * LENGTH + normal * depth;
         let largest = [origin, place, x_t.position, x_r.position].iter().map(Vec3::amax).fold(1.0, f64::max);
         depth_off = depth_off.max((contact.depth - depth).abs() / largest);
@@ -117,7 +117,7 @@ fn compare(
     ])
 }
 
-/// A hit on a face if it is from the front, steep enough and within the ray.
+/// A hit on a face, if it is from the front, steep enough and within the ray's length.
 fn front_hit(ray: &Local, normal: Vec3, offset: f64, reach: f64) -> Truth {
     let climb = normal.dot(&ray.direction);
     if climb >= 0.0 {
@@ -135,7 +135,7 @@ fn plane(ray: &Local) -> Truth {
     front_hit(ray, Vec3::z(), 0.0, 0.0)
 }
 
-/// By the signed areas that the point of the plane makes with the edges.
+/// Hit on a triangle, from signed areas of the plane's point with the edges.
 fn triangle(ray: &Local) -> Truth {
     let corners = [Vec3::new(-1.0, -0.8, -0.1), Vec3::new(1.2, -0.9, 0.1), Vec3::new(0.1, 1.1, 0.05)];
     let across = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
@@ -155,8 +155,8 @@ fn triangle(ray: &Local) -> Truth {
     }
 }
 
-/// The octahedron |x|/0.8 + |y|/0.7 + |z|/0.5 = 1: of the points where the ray meets the planes of its faces, the one
-/// on the surface with its front to the ray.
+/// Hit on the octahedron |x|/0.8 + |y|/0.7 + |z|/0.5 = 1: of the ray's crossings with the planes of the
+/// faces, the one on the surface that faces the ray.
 fn polyhedron(ray: &Local) -> Truth {
     const AXES: [f64; 3] = [0.8, 0.7, 0.5];
     let gauge = |p: &Vec3| (0..3).map(|i| p[i].abs() / AXES[i]).sum::<f64>();

@@ -1,8 +1,8 @@
 //! W9: an ellipsoid rocks on its flat side.
 //!
-//! Semi-axes a along, c across the plane: the mass centre stands h(θ) = √(c²cos²θ + a²sin²θ) high, the lowest point
-//! (a² − c²)/c·θ aside. Without friction the mass centre stays above its place and the body turns about it; rolling, it
-//! turns about the lowest point, where the radius of curvature is a²/c.
+//! Semi-axes a along, c across the plane: the mass centre is h(θ) = √(c²cos²θ + a²sin²θ) high, and the lowest
+//! point is displaced by (a² − c²)/c·θ. Without friction the mass centre moves vertically and the body turns
+//! about it; rolling, it turns about the lowest point, where the radius of curvature is a²/c.
 
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::{Crossings, rotation};

@@ -1,4 +1,4 @@
-//! V10, V11: a rigid ball on ground that yields, slipping and rolling.
+//! V10, V11: a rigid ball on compliant ground, slipping and rolling.
 
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::{radians, rotation};
@@ -26,10 +26,10 @@ pub const V11: Case = Case {
 
 pub const MASS: f64 = 1.0;
 pub const RADIUS: f64 = 0.1;
-/// Mass that the bristle feels at the rim of a free ball: 1/m + R²/I = 7/(2m).
+/// Effective mass of a free ball at its contact point: 1/m + R²/I = 7/(2m).
 const RIM_MASS: f64 = 2.0 / 7.0 * MASS;
 
-/// A rigid ball resting on a file's ground of a stiffness, tilted by a slope about y, at a place along x.
+/// A rigid ball at rest at `x` on the ground of a file, with a stiffness and a slope about y.
 pub fn ball_on(
     ground: &str,
     (stiffness, mu): (f64, f64),
@@ -93,7 +93,7 @@ fn down_slopes() -> Outcome {
     Ok(rows)
 }
 
-/// Rolls from rest to a spin (rad/s): acceleration over the whole way, friction at its slow and at its fast end.
+/// Rolls from rest to a spin (rad/s): acceleration over the whole path, friction at low and at high speed.
 pub fn down_slope(ground: &str, degrees: f64, fastest: f64, x: f64) -> Result<Vec<Row>, Failure> {
     let slope = radians(degrees);
     let mut run = ball_on(ground, (1e5, 0.3), slope, (x, 0.0), (Integrator::RungeKutta4, 1e-3))?;

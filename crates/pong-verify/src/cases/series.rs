@@ -20,7 +20,7 @@ const RATE: f64 = 0.1;
 const ASIDE: f64 = 1e-6;
 const DRAG: f64 = 1e-3;
 
-/// The contact of a point held at the depth, closing and drawn aside since the commit before.
+/// The contact of a point held at the depth, closing, and displaced tangentially since the last commit.
 fn held(duo: Duo, rate: f64) -> Result<Contact, Failure> {
     let (mut world, [point, ground]) = duo.world()?;
     let mut state = State { position: [0.0, 0.0, -DEPTH], ..State::identity() };
@@ -61,10 +61,10 @@ fn rows() -> Outcome {
         let damping = 900.0 * share * share + 100.0 * (1.0 - share) * (1.0 - share);
         let force = stiffness * DEPTH + damping * RATE;
         rows.push(Row::relative(format!("{name}: force"), "N", force, contact.normal_force, 1e-12));
-        // The tip is the depth below the plane; A's part of the yield brings the place back up.
+        // The tip is the depth below the plane; A's share of the deflection moves the point up again.
         let height = -DEPTH * (1.0 - share);
         rows.push(Row::absolute(format!("{name}: height of the place"), "m", height, contact.point.z, 1e-15));
-        // The softer bristle, A's, takes 0.6 of the way.
+        // The softer bristle, A's, takes 0.6 of the displacement.
         let pull = 2e4 * 3e4 / (2e4 + 3e4) * ASIDE + (90.0 * 0.36 + 40.0 * 0.16) * DRAG;
         rows.push(Row::relative(
             format!("{name}: bristle's force"),

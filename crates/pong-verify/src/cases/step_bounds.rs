@@ -1,4 +1,4 @@
-//! W13: how long a step may be.
+//! W13: largest stable step.
 
 use crate::case::{Case, Failure, Outcome};
 use crate::row::Row;
@@ -18,7 +18,7 @@ pub const W13: Case = Case {
 const MASS: f64 = 1.0;
 const STEP: f64 = 1e-3;
 
-/// Whether a small disturbance grows.
+/// Tests whether a small disturbance grows.
 fn grows(integrator: Integrator, kappa: f64, gamma: f64) -> Result<bool, Failure> {
     let stiffness = kappa * MASS / (STEP * STEP);
     let depth = MASS * G / stiffness;
@@ -37,7 +37,7 @@ fn grows(integrator: Integrator, kappa: f64, gamma: f64) -> Result<bool, Failure
             largest = largest.max(off);
         }
     }
-    // A bounded oscillation may exceed its start; growth over 4,000 steps goes far beyond.
+    // A bounded oscillation may exceed its start; instability over 4,000 steps grows far beyond.
     Ok(largest > 1e2 * start)
 }
 
@@ -46,7 +46,7 @@ fn rows() -> Outcome {
     let kutta = Integrator::RungeKutta4;
     let hold = Integrator::ZeroOrderHold { substeps: 1, delay_frames: 0 };
     let square = |x: f64| x * x;
-    // Name, integrator, and (κ, γ) inside and outside of the bound.
+    // Name, integrator, and (κ, γ) inside and outside of the stability bound.
     let cases = [
         ("semi-implicit Euler, κ alone", euler, (3.9, 0.0), (4.1, 0.0)),
         ("semi-implicit Euler, κ and γ", euler, (1.0, 1.4625), (1.0, 1.5375)),

@@ -61,7 +61,7 @@ fn belt() -> Outcome {
     let drop = f_s - f_k;
     let period = 2.0 * drop / (stiffness * speed)
         + (core::f64::consts::PI + 2.0 * libm::atan(speed * stiffness / (omega * drop))) / omega;
-    // In slip the mass swings about F_k/k, from F_s/k with the speed of the belt.
+    // In slip the mass oscillates about F_k/k, starting from F_s/k with the speed of the belt.
     let swing = libm::hypot(drop / stiffness, speed / omega);
     Ok(vec![
         Row::relative("first break", "s", f_s / (stiffness * speed), *first, 2e-3),

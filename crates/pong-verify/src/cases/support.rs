@@ -51,7 +51,7 @@ fn rows() -> Outcome {
             continue;
         };
         let deepest = Vec3::from(AXES).component_mul(&scaled) / -scaled.norm();
-        // The ground is rigid: the force acts at the deepest point moved out by the depth.
+        // The ground is rigid: the force acts at the deepest point, moved outwards by the depth.
         let place = x_e.position + x_e.orientation * deepest + normal * depth;
         let largest = place.amax().max(x_e.position.amax()).max(x_g.position.amax()).max(1.0);
         depth_off = depth_off.max((contact.depth - depth).abs() / largest);

@@ -1,7 +1,7 @@
 //! V2: three feet on a plane.
 //!
-//! Feet at r_i on a circle of radius R, Σ r_i·r_iᵀ = ½·3R², so that a moment M about the middle gives the loads
-//! N_i = N/3 + k·(r_i·θ) with the tilt θ from 1.5·k·R²·θ = M, M counted at the tilted place.
+//! Feet at r_i on a circle of radius R, Σ r_i·r_iᵀ = ½·3R², so that a moment M about the middle gives the
+//! loads N_i = N/3 + k·(r_i·θ) with the tilt θ from 1.5·k·R²·θ = M, with M taken at the tilted position.
 
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::{Crossings, radians, rotation};
@@ -59,13 +59,13 @@ fn load_rows(what: &str, run: &Run, expected: [f64; 3]) -> Vec<Row> {
         .collect()
 }
 
-/// `offset` lies in the plane, seen from the middle of the feet.
+/// Rest on a level plane; `offset` of the mass centre lies in the plane, from the middle of the feet.
 fn level(offset: Vec3, what: &str) -> Result<Vec<Row>, Failure> {
     let duo = Duo::new("tripod", "ground")?.mover(|s| set_damping(s, 2000.0))?;
     let start = body(offset).at(at(Vec3::z() * (HEIGHT - REST_DEPTH)));
     let mut run = duo.on_ground((Integrator::RungeKutta4, 2e-4), start)?.with_gravity();
     run.sim.run_for(0.3)?;
-    // The tilt carries the mass centre, h above the feet, further out.
+    // The tilt moves the mass centre, h above the feet, further out.
     let tilt = offset * (MASS * G / (TURNING - MASS * G * HEIGHT));
     Ok(load_rows(what, &run, feet().map(|foot| MASS * G / 3.0 + STIFFNESS * foot.dot(&tilt))))
 }
@@ -78,7 +78,7 @@ fn tilted(degrees: f64) -> Result<Vec<Row>, Failure> {
         Duo::new("tripod_rough", "ground_rough")?.mover(|s| set_damping(s, 2000.0))?,
         &bristle,
     )?;
-    // About y: the plane falls towards +x.
+    // About y: the plane slopes down towards +x.
     let turn = rotation(Vec3::y() * slope);
     let ground = RigidBody::fixed("ground").at(Pose { position: Vec3::zeros(), orientation: turn });
     let start = body(Vec3::zeros())
@@ -86,7 +86,7 @@ fn tilted(degrees: f64) -> Result<Vec<Row>, Failure> {
     let mut run = duo.simulate((Integrator::RungeKutta4, 2e-4), start, ground)?.with_gravity();
     run.sim.run_for(0.3)?;
     let (down, along) = (MASS * G * cosine, MASS * G * sine);
-    // Friction acts in the plane, the depth above the tips.
+    // Friction acts in the plane, which is the depth above the tips.
     let arm = HEIGHT - down / (3.0 * STIFFNESS);
     let tilt = along * arm / (TURNING - down * arm);
     let expected = feet().map(|foot| down / 3.0 + STIFFNESS * foot.x * tilt);

@@ -1,4 +1,4 @@
-//! V24: a body tumbles in free flight. Checks the integrator that all other cases rest on.
+//! V24: torque-free tumbling of a body. Checks the integrator, on which all other cases depend.
 
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::order;
@@ -23,7 +23,7 @@ fn body(spin: Vec3, step: f64) -> Result<(Simulation, BodyId), Failure> {
     Ok((sim, body))
 }
 
-/// Along the axes of the body.
+/// Angular velocity along the axes of the body.
 fn spin(sim: &Simulation, body: BodyId) -> Vec3 {
     sim.pose(body).orientation.inverse() * sim.twist(body).angular
 }

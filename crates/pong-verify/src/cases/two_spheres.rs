@@ -41,7 +41,7 @@ fn pair(file: &str, step: f64, aside: f64, spins: [Vec3; 2]) -> Result<Pair, Fai
     let objects = [scene.add(file, "first")?, scene.add(file, "second")?];
     scene.pair(objects[0], objects[1])?;
     scene.tune(file, |s| {
-        // Two equal springs in series halve the stiffness and carry half of the rate each.
+        // Two equal springs in series halve the stiffness, and each has half of the closing speed.
         s.stiffness = 2.0 * STIFFNESS;
         set_damping(s, 2.0 * DAMPING);
         if file == "ball_large_rough" {
@@ -61,7 +61,7 @@ fn pair(file: &str, step: f64, aside: f64, spins: [Vec3; 2]) -> Result<Pair, Fai
     Ok(Pair { sim, balls })
 }
 
-/// Rising, then falling depth of the only contact: largest depth through the last points, time of touch.
+/// Head-on collision: largest depth by a fit through the last points, and contact duration.
 fn head_on() -> Outcome {
     let Pair { mut sim, balls } = pair("ball", 1e-4, 0.0, [Vec3::zeros(); 2])?;
     let (mut touch, mut deepest) = (f64::NAN, 0.0_f64);
@@ -111,7 +111,7 @@ fn oblique() -> Outcome {
         Ok::<_, Failure>(((after.0 - before.0).norm(), (after.1 - before.1).norm(), moved.norm()))
     };
     let (coarse, fine) = (run(2e-3)?, run(1e-3)?);
-    // The method keeps the angular momentum of position × velocity only to its order.
+    // The method conserves the angular momentum of position × velocity only to its order.
     Ok(vec![
         Row::below("change of the sum of momenta", "kg·m/s", fine.0, 1e-12 * MASS),
         Row::below("change of the sum of angular momenta", "kg·m²/s", fine.1, 1e-9 * MASS)

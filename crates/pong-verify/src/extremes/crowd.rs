@@ -61,7 +61,7 @@ fn rows(_: Length) -> Outcome {
     tight.step(place, tilt, Vec3::zeros())?;
     let limited = tight.world.report();
     let shallowest = tight.contacts().iter().map(|contact| contact.depth).fold(f64::INFINITY, f64::min);
-    // The balls lie in columns of one depth: the 4,000 deepest are the 40 lowest columns.
+    // The balls lie in columns of equal depth: the 4,000 deepest are the 40 lowest columns.
     let fortieth = DEPTH + (0.5 * (SIDE - 1) as f64 - 39.0) * SPACING * libm::sin(TILT);
     Ok(vec![
         Row::count("contacts", count, found.contacts as usize),

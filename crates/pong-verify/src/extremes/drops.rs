@@ -1,4 +1,4 @@
-//! Drops at all steps, and steps that are too long.
+//! Drops at many steps, including steps that are too long.
 
 use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, model};
@@ -56,10 +56,10 @@ struct Drop {
     mass: f64,
     stiffness: f64,
     damping: f64,
-    /// Of the Hunt-Crossley law, which takes the place of the linear one if it is not zero, s/m.
+    /// Dissipation of the Hunt-Crossley law, s/m; 0 for the linear law.
     dissipation: f64,
     step: f64,
-    /// Steps of free fall, not whole: any phase of touch.
+    /// Duration of the free fall in steps, not whole: any phase of touch.
     fall: f64,
 }
 
@@ -107,11 +107,11 @@ impl Drop {
         Ok((sim, body))
     }
 
-    /// Falls, bounces, and comes up to its highest place.
+    /// Simulates fall, bounce and rise to the highest point.
     fn run(&self, integrator: Integrator) -> Result<Fallen, Failure> {
         let (mut sim, body) = self.simulate(integrator)?;
         let (height, start) = (self.height(), sim.energy().balance());
-        // Of the impact: what it falls, and what the weight does at rest in the spring.
+        // Energy of the impact: the fall, and the weight's work at rest in the spring.
         let energy = self.mass * GRAVITY * (height + self.mass * GRAVITY / self.stiffness);
         let mut fallen = Fallen { warned: !sim.step_warnings().is_empty(), ..Fallen::default() };
         let half_wave = std::f64::consts::PI / self.wave();
@@ -126,7 +126,7 @@ impl Drop {
             let energies = sim.energy();
             fallen.worst_balance = fallen.worst_balance.max((energies.balance() - start).abs() / energy);
             if touched {
-                // As high as its energy carries it.
+                // Height that its energy reaches.
                 let up = sim.twist(body).linear.z;
                 let top = sim.pose(body).position.z + if up > 0.0 { 0.5 * up * up / GRAVITY } else { 0.0 };
                 let above = if sim.world().contact_count() == 0 {
@@ -144,19 +144,19 @@ impl Drop {
     }
 }
 
-/// What became of a drop.
+/// Result of a drop.
 #[derive(Default)]
 struct Fallen {
     /// Least normal force, N; 0 if none was negative.
     least_force: f64,
-    /// Worst error of the energy balance, over the energy of the impact.
+    /// Largest error of the energy balance, relative to the energy of the impact.
     worst_balance: f64,
-    /// How far it came above the drop height, over the height of the impact's energy.
+    /// Rise above the drop height, relative to the height of the impact's energy.
     above: f64,
     warned: bool,
 }
 
-/// What rounding may do to the sum of the energies of a drop, over the energy of its impact: thousands of steps of 1e-16
+/// Rounding of a drop's energy balance, relative to the energy of its impact: thousands of steps of 1e-16
 /// each, of energies up to a thousand times as large.
 const ROUNDED: f64 = 1e-9;
 
@@ -203,7 +203,7 @@ fn drops(length: Length) -> Outcome {
     Ok(rows)
 }
 
-/// Order of the ledger's error, from the root mean squares over phases of touch at a step and at half of it.
+/// Order of the ledger's error, from root mean squares over phases of touch at a step and at half of it.
 fn observed_order(name: &str, integrator: Integrator, power: i32) -> Result<Row, Failure> {
     let error = |step: f64| -> Result<f64, Failure> {
         let mut sum = 0.0;
@@ -230,12 +230,12 @@ fn held(_: Length) -> Outcome {
         let fallen = drop.run(hold)?;
         let above = fallen.above > 1e-3;
         higher += usize::from(above);
-        // The executive leaves shorter steps to the user: a bounce gains exp(π·ω·dt/2) of its energy there, 17 % at
-        // most, in the mean over the phases of touch.
+        // The executive does not warn about shorter steps: a bounce gains exp(π·ω·dt/2) of its energy there,
+        // at most 17 % in the mean over the phases of touch.
         unwarned += usize::from(above && !fallen.warned && drop.wave() >= 0.1);
         greatest_gain = greatest_gain.max(if fallen.warned { 0.0 } else { fallen.above });
         pulled += usize::from(fallen.least_force < 0.0);
-        // Twice what keeps it stable.
+        // Twice the stable damping.
         drop.damping = drop.stiffness * drop.step;
         let fallen = drop.run(hold)?;
         damped_higher += usize::from(fallen.above > drop.wave());

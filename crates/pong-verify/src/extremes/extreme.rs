@@ -1,29 +1,29 @@
-//! An extreme that must hold, and what became of it.
+//! An extreme condition, and its result.
 
 use crate::case::{Failure, Outcome};
 use crate::cases::find;
 use crate::row::Row;
 
-/// What the engine does at an extreme.
+/// Behaviour of the engine at an extreme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// Computes as anywhere else.
+    /// Normal result.
     Safe,
-    /// Refuses it, with thing, cause and cure.
+    /// Refusal with thing, cause and cure.
     Refused,
-    /// Computes what it can, and tells that it is not the whole.
+    /// Partial result with a warning that it is incomplete.
     Told,
 }
 
-/// How long a run may take.
+/// Duration of a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Length {
-    /// Soaks of minutes.
+    /// True for soaks of minutes.
     pub long: bool,
 }
 
 impl Length {
-    /// One of two sizes.
+    /// Selects one of two sizes.
     pub(super) fn of(self, short: usize, long: usize) -> usize {
         if self.long { long } else { short }
     }
@@ -32,27 +32,27 @@ impl Length {
 /// A row of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct Extreme {
-    /// `E1` …
+    /// Name: `E1` …
     pub id: &'static str,
-    /// The extreme, and what is asked.
+    /// The extreme, and the requirement.
     pub asked: &'static str,
-    /// What is run.
+    /// Description of the set-up.
     pub set_up: &'static str,
-    /// What the engine does.
+    /// Behaviour of the engine.
     pub answer: Answer,
-    /// Where the limit lies.
+    /// Limit of the range.
     pub limit: &'static str,
-    /// Tests that look at the same from other sides.
+    /// Tests that cover other aspects.
     pub also: &'static str,
     pub(super) rows: fn(Length) -> Outcome,
 }
 
-/// What became of one.
+/// Result of an extreme.
 #[derive(Clone, Debug)]
 pub struct Finding {
     /// The extreme.
     pub extreme: Extreme,
-    /// Quantities, or why there are none.
+    /// Rows, or the reason why there are none.
     pub rows: Result<Vec<Row>, String>,
 }
 
@@ -65,7 +65,7 @@ impl Extreme {
 }
 
 impl Finding {
-    /// Whether all is within what is allowed.
+    /// True if every row is within its tolerance.
     pub fn passes(&self) -> bool {
         self.rows.as_ref().is_ok_and(|rows| !rows.is_empty() && rows.iter().all(Row::passes))
     }

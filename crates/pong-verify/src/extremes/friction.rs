@@ -1,4 +1,4 @@
-//! Friction over facets, under cyclic load, with a load that drops.
+//! Friction over facets, under cyclic load, and with a load that drops.
 
 use super::extreme::{Answer, Extreme, Length, rows_of};
 use super::rig::{Rig, model};

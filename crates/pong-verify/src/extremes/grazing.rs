@@ -30,7 +30,7 @@ pub const COINCIDENT: Extreme = Extreme {
 
 const STIFFNESS: f64 = 1e5;
 
-/// Kinds of A whose lowest place is their origin.
+/// Kinds of A with the lowest point at the origin.
 const MOVERS: [(&str, &str); 5] = [
     ("point", "Point(name: \"x\", position: (0,0,0))"),
     ("segment", "LineSegment(name: \"x\", ends: ((-0.2,0,0),(0.2,0,0)))"),
@@ -39,7 +39,7 @@ const MOVERS: [(&str, &str); 5] = [
     ("ray", "Ray(name: \"x\", origin: (0,0,1), direction: (0,0,-1), length: 1.0)"),
 ];
 
-/// Kinds of B whose highest place is their origin.
+/// Kinds of B with the highest point at the origin.
 fn grounds() -> Vec<(&'static str, String)> {
     let half = Vec3::new(0.5, 0.5, 0.25);
     vec![
@@ -55,7 +55,7 @@ fn is_finite(wrench: &Wrench) -> bool {
     wrench.force.iter().chain(wrench.moment.iter()).all(|x| x.is_finite())
 }
 
-/// Heights from 1e-3 m to −1e-3 m, close together about 0.
+/// Heights from 1e-3 m to −1e-3 m, dense near 0.
 fn heights() -> Vec<f64> {
     let mut sizes = vec![0.0, f64::EPSILON];
     while sizes.last().is_some_and(|last| *last < 1e-3) {
@@ -80,7 +80,7 @@ fn touch(_: Length) -> Outcome {
                 unlike += usize::from(other.step(place, Quat::identity(), Vec3::zeros())? != wrench);
                 bad += usize::from(!is_finite(&wrench));
                 if let Some((before, force)) = last {
-                    // Places are sums of numbers up to 1 m.
+                    // Positions are sums of numbers up to 1 m.
                     let rounding = 8.0 * f64::EPSILON;
                     let allowed = STIFFNESS * ((before - height).abs() + rounding);
                     steepest = steepest.max((wrench.force - force).norm() / allowed);
@@ -92,7 +92,8 @@ fn touch(_: Length) -> Outcome {
         }
     }
     Ok(vec![
-        // Point: all but the sheet. Segment: plane, polyhedron. Ball: all but the ellipsoid. Ellipsoid: three. Ray: all.
+        // Point: all except the sheet. Segment: plane, polyhedron. Sphere: all except the ellipsoid.
+        // Ellipsoid: three. Ray: all.
         Row::count("pairs of kinds with contact", 4 + 2 + 4 + 3 + 5, sweeps),
         Row::count("wrenches that are not finite", 0, bad),
         Row::count("wrenches that differ in a second world", 0, unlike),
@@ -100,7 +101,7 @@ fn touch(_: Length) -> Outcome {
     ])
 }
 
-/// A, B, and where the origin of A is put in B.
+/// A, B, and the position of A's origin in B.
 fn coincidences() -> Vec<(&'static str, String, String, Vec3)> {
     let half = Vec3::repeat(0.5);
     let cube = || block("y", Vec3::zeros(), half, |p| p);
@@ -140,7 +141,7 @@ fn coincidences() -> Vec<(&'static str, String, String, Vec3)> {
     ]
 }
 
-/// The 24 turns of a cube, without rounding but for √½.
+/// The 24 rotations of a cube, exact except for √½.
 fn quarter_turns() -> Vec<Quat> {
     let quarter = std::f64::consts::FRAC_PI_2;
     let up = [Vec3::zeros(), Vec3::x(), -Vec3::x(), Vec3::y(), -Vec3::y(), 2.0 * Vec3::x()];

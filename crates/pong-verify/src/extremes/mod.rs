@@ -1,7 +1,7 @@
-//! The extremes that must hold (docs/extremes.md), row by row, each with its margin: how many times what was
-//! measured fits into what is allowed.
+//! Extreme conditions (docs/extremes.md), row by row, each with its margin: the allowance divided by the
+//! measured error.
 //!
-//! Some rows are cases of the verification report, run again. `long` asks for the soaks; the code is the same.
+//! Some rows are cases of the verification report, run again. `long` selects the soaks; the code is the same.
 
 mod crowd;
 mod drops;

@@ -24,7 +24,7 @@ pub const DEEP: Extreme = Extreme {
 const STIFFNESS: f64 = 1e5;
 const RADIUS: f64 = 0.1;
 
-/// Grounds that are highest at the origin; how deep the ball may be.
+/// Grounds with the highest point at the origin, and the largest depth of the ball.
 fn grounds() -> Vec<(&'static str, String, f64)> {
     let half = Vec3::new(0.5, 0.5, 0.25);
     vec![
@@ -35,7 +35,7 @@ fn grounds() -> Vec<(&'static str, String, f64)> {
     ]
 }
 
-/// Speed with which the ball leaves, over √(k/m)·δ, and how far it leaves from the vertical, over the height.
+/// Separation speed of the ball over √(k/m)·δ, and its distance from the vertical over the height.
 fn let_go(ground: &str, depth: f64) -> Result<(f64, f64), Failure> {
     let ball =
         model(&spring(STIFFNESS), &format!("Sphere(name: \"x\", center: (0,0,0), radius: {RADIUS:?})"));
@@ -48,7 +48,7 @@ fn let_go(ground: &str, depth: f64) -> Result<(f64, f64), Failure> {
     let body = sim.add_body(RigidBody::free("ball", mass).at(start).touching(rig.sides[0]))?;
     sim.add_body(RigidBody::fixed("ground").touching(rig.sides[1]))?;
     sim.commit_initial_states()?;
-    // Off the middle of a ball it is less deep than it is low.
+    // Away from the middle, the depth in a ball is less than the height below its top.
     let depth = sim.world().contacts_iter().map(|contact| contact.depth).fold(depth.min(0.0), f64::max);
     sim.run_for(4.0 / omega)?;
     let velocity = sim.twist(body).linear;

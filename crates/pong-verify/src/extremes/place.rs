@@ -1,4 +1,4 @@
-//! Far and fast common frames.
+//! Common frames that are far away or fast.
 
 use super::extreme::{Answer, Extreme, Length, rows_of};
 use crate::case::Outcome;

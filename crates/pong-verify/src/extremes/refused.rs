@@ -1,4 +1,4 @@
-//! Shapes and states that are refused, and shapes that must not be.
+//! Refused shapes and states, and shapes that must be accepted.
 
 use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, block, model, spring};
@@ -45,7 +45,7 @@ pub const RUN_TIME: Extreme = Extreme {
     rows: run_time,
 };
 
-/// Name of the fault, the rule that tells it, and the primitive.
+/// Name of the fault, its rule, and the primitive.
 fn faults() -> Vec<(&'static str, &'static str, String)> {
     let triangle = |a: &str, b: &str, c: &str| format!("Triangle(name: \"x\", vertices: ({a},{b},{c}))");
     let hull = |vertices: &str, faces: &str| {
@@ -139,7 +139,7 @@ fn rounded(_: Length) -> Outcome {
     Ok(vec![Row::count("boxes accepted of 200", count, accepted)])
 }
 
-/// States that no frame can be computed from.
+/// States from which no frame can be computed.
 fn bad_states() -> Vec<State> {
     let mut all = Vec::new();
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e200] {

@@ -1,4 +1,5 @@
-//! The table of extremes: as text, and as Markdown for `docs/extremes.md`. No date, no duration, no machine.
+//! Table of extremes, as text and as Markdown for `docs/extremes.md`. No date, duration or machine is
+//! recorded.
 
 use super::extreme::{Answer, Finding};
 use crate::row::{Bound, Row};
@@ -15,9 +16,9 @@ impl Answer {
     }
 }
 
-/// How many times the error fits into what is allowed.
+/// Ratio of the allowance to the error.
 fn margin(row: &Row) -> String {
-    /// Beyond this the error is rounding, of which no digit is worth a change of the report.
+    /// Above this ratio the error is rounding noise and its digits are not reported.
     const ENOUGH: f64 = 1000.0;
     let times = || row.allowed() / row.error();
     match row.bound {
@@ -55,7 +56,7 @@ pub fn text(findings: &[Finding]) -> String {
     out
 }
 
-/// `docs/extremes.md`.
+/// Text of `docs/extremes.md`.
 pub fn markdown(findings: &[Finding]) -> String {
     let mut out = String::from(HEADER);
     let of = |Finding { extreme, rows }: &Finding| {
@@ -99,7 +100,7 @@ fn section(out: &mut String, Finding { extreme, rows }: &Finding) {
     }
 }
 
-/// The words of a text in lines of the page's width.
+/// Words of a text in lines of the page's width.
 fn wrapped(text: &str) -> String {
     const WIDTH: usize = 118;
     let (mut out, mut width) = (String::new(), 0);

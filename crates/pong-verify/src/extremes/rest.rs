@@ -1,4 +1,4 @@
-//! Rest for a long time.
+//! Long periods of rest.
 
 use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, model};

@@ -1,4 +1,4 @@
-//! Small scenes of two Objects, written as an author would write them.
+//! Small scenes of two Objects, from model text.
 
 use crate::case::Failure;
 use crate::scene::moving;
@@ -34,7 +34,7 @@ impl Rig {
         Ok(Self { world, sides })
     }
 
-    /// Sets the state of A; B stays where it is, at first at rest at the origin.
+    /// Sets the state of A; B is at rest, initially at the origin.
     pub fn put(&mut self, position: Vec3, turn: Quat, velocity: Vec3) -> Result<(), Failure> {
         let pose = Pose { position, orientation: turn };
         let twist = moving(velocity);
@@ -48,7 +48,7 @@ impl Rig {
         self.wrench()
     }
 
-    /// On A, along the common axes.
+    /// Wrench on A, along the common axes.
     pub fn wrench(&self) -> Result<Wrench, Failure> {
         Ok(self.world.wrench_common(self.sides[0])?)
     }
@@ -73,7 +73,8 @@ pub fn block(name: &str, center: Vec3, half: Vec3, carry: impl Fn(Vec3) -> Vec3)
     ron::carried_box(name, [center, half], "", carry)
 }
 
-/// A square sheet of cells of two triangles, `n` by `n` and 1 m wide, its front to where `x × y` of `place` points.
+/// A square sheet of `n` by `n` cells of two triangles, 1 m wide, with its front on the side of `x × y` of
+/// `place`.
 pub fn sheet(name: &str, rest: &str, n: usize, place: impl Fn(f64, f64) -> Vec3) -> String {
     let coordinate = |i: usize| i as f64 / n as f64 - 0.5;
     let row = |j: usize| (0..=n).map(move |i| (coordinate(i), coordinate(j)));

@@ -130,7 +130,7 @@ fn masses(_: Length) -> Outcome {
     Ok(rows)
 }
 
-/// Two balls of radius 1 m, about to touch: the light one, which moves, and the heavy one.
+/// Two balls of radius 1 m just before contact: the light one, which moves, and the heavy one.
 fn collision(light: f64, heavy: f64) -> Result<Run, Failure> {
     let step = 0.01 * (light / 3502.5f64).sqrt();
     let ball = |name: &str, mass: f64, x: f64, speed: f64| {

@@ -39,7 +39,7 @@ const FRAME: f64 = 0.01;
 const HALF_WALL: f64 = 5e-4;
 const STIFFNESS: f64 = 1e6;
 
-/// What is shot, and how far it reaches from its origin.
+/// Projectiles: name, primitive, and extent from the origin, m.
 const BULLETS: [(&str, &str, f64); 4] = [
     ("point", "Point(name: \"x\", position: (0,0,0))", 0.0),
     ("sphere of 5 mm", "Sphere(name: \"x\", center: (0,0,0), radius: 0.005)", 0.005),
@@ -59,7 +59,7 @@ enum Wall {
 }
 
 impl Wall {
-    /// Across x, about the origin, 1 m wide.
+    /// Model text of a wall across x, about the origin, 1 m wide.
     fn text(self) -> String {
         let front = |x: f64, y: f64| Vec3::new(0.0, x, y);
         let shape = match self {
@@ -78,14 +78,14 @@ struct Shot {
     turn: Quat,
 }
 
-/// How a shot ended.
+/// Outcome of a shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum End {
     Stopped,
     Told,
-    /// On the other side, and nobody said so.
+    /// On the other side, without a tunnelling report.
     Through,
-    /// Back where it came from, though a passage was told.
+    /// Back on its side, with a false tunnelling report.
     FalseAlarm,
 }
 
@@ -98,7 +98,7 @@ fn speed(random: &mut Random) -> f64 {
     libm::pow(10.0, random.between(-1.0, 3.0))
 }
 
-/// From the side `from` (±1) through a place of the wall.
+/// A shot from the side `from` (±1) through a point of the wall.
 fn aim(random: &mut Random, from: f64) -> Shot {
     let speed = speed(random);
     let tilt = random.between(0.0, 1.2);
@@ -109,12 +109,13 @@ fn aim(random: &mut Random, from: f64) -> Shot {
         libm::sin(tilt) * libm::sin(round),
     );
     let target = Vec3::new(0.0, random.between(-0.4, 0.4), random.between(-0.4, 0.4));
-    // Three to four frames before it would be there, and clear of the wall in any case.
+    // Starts three to four frames before contact, and clear of the wall in any case.
     let way = speed * FRAME * random.between(3.0, 4.0) + 0.05 / libm::cos(tilt);
     Shot { place: target - along * way, velocity: along * speed, turn: rotation(random.vector(3.0)) }
 }
 
-/// Flies until it is clear of the wall again, or `frames` are over; whether a passage was told, and where it is.
+/// Flies until clear of the wall again, or for `frames`; returns whether tunnelling was reported, and the
+/// position.
 fn fly(rig: &mut Rig, shot: &Shot, clear: f64) -> Result<(bool, Vec3), Failure> {
     let (mut place, mut velocity, mut told) = (shot.place, shot.velocity, false);
     for interface in rig.sides {
@@ -179,7 +180,7 @@ fn shots(_: Length) -> Outcome {
     Ok(rows)
 }
 
-/// Past the edge, along the face, or turning back before it.
+/// A shot past the edge, along the face, or turning back before it.
 fn near_miss(random: &mut Random, reach: f64) -> Shot {
     let gap = reach + libm::pow(10.0, random.between(-9.0, -1.0));
     let from = if random.unit() < 0.5 { -1.0 } else { 1.0 };
@@ -238,13 +239,14 @@ fn misses(_: Length) -> Outcome {
     Ok(rows)
 }
 
-/// Straight on for as many frames as it takes to be beyond the wall: whether a passage was told, and a contact found.
+/// Flies straight until beyond the wall; returns whether tunnelling was reported, and whether there was a
+/// contact.
 fn pass_by(rig: &mut Rig, shot: &Shot) -> Result<(bool, bool), Failure> {
     for name in ["a", "b"] {
         rig.world.clear_contact_history(rig.world.scene().object(name)?)?;
     }
     let (mut told, mut touched) = (false, false);
-    // The way to the wall and as far again, a few hundred frames at most: slow ones begin close by.
+    // The distance to the wall and as far again, at most a few hundred frames: slow shots begin close to it.
     let whole = (2.5 / (shot.velocity.norm() * FRAME)).min(300.0) as usize + 8;
     for frame in 0..whole {
         let place = shot.place + shot.velocity * (FRAME * frame as f64);

@@ -1,8 +1,8 @@
-//! Orders of contact motions in the step: which a host gets, motion by motion and integrator by integrator.
+//! Convergence orders of contact motions in the step, for each motion and integrator.
 //!
-//! Each motion is run from several phases of a step where contact begins in it, at a step, half of it and a quarter of it; its
-//! error is the worst over the phases against Runge-Kutta at a step far below. The expectations are what the theory manual
-//! (section 4) promises, and nothing else.
+//! Each motion is run from several phases of a step if contact begins in it, at a step, half of it and a
+//! quarter of it; its error is the largest over the phases against Runge-Kutta with a far smaller step. The
+//! expected orders are those of the theory manual (section 4).
 
 mod motions;
 mod plot;
@@ -16,44 +16,44 @@ use std::sync::OnceLock;
 
 pub use plot::svg;
 
-/// An integrator as the table calls it, and its longest step, s.
+/// Integrators: name in the table, method, and longest step, s.
 const METHODS: [(&str, Integrator, f64); 3] = [
     ("Runge-Kutta 4", Integrator::RungeKutta4, 1e-3),
     ("semi-implicit Euler", Integrator::SemiImplicitEuler, 2e-4),
     ("held wrench", Integrator::ZeroOrderHold { substeps: 1, delay_frames: 0 }, 2e-4),
 ];
 
-/// Steps of a curve: the longest, half and a quarter of it.
+/// Steps per curve: the longest, half and a quarter of it.
 const HALVINGS: usize = 3;
 
-/// How far an observed order may stay behind the promised one: the steps are short, not infinitely so.
+/// Largest accepted shortfall of an observed order: the steps are short, but finite.
 const ORDER_TOLERANCE: f64 = 0.2;
 
-/// Worst errors of a motion under an integrator.
+/// Largest errors of a motion under an integrator.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// What moves.
+    /// Name of the motion.
     pub motion: &'static str,
-    /// The integrator's place in the table.
+    /// Index of the integrator in the table.
     pub method: usize,
-    /// The order that the theory manual promises, without unit.
+    /// Order promised by the theory manual, without unit.
     pub promised: f64,
     /// Steps, s, and errors, m/s.
     pub points: [(f64, f64); HALVINGS],
 }
 
 impl Curve {
-    /// The mean order between the longest and the shortest step.
+    /// Mean order between the longest and the shortest step.
     pub fn order(&self) -> f64 {
         let [(longest, coarse), .., (shortest, fine)] = self.points;
         libm::log2(coarse / fine) / libm::log2(longest / shortest)
     }
 }
 
-/// All curves, run once.
+/// All curves, computed once.
 ///
 /// # Errors
-/// Why a motion could not be run.
+/// A motion that could not be run.
 pub fn curves() -> Result<&'static [Curve], Failure> {
     static CURVES: OnceLock<Result<Vec<Curve>, String>> = OnceLock::new();
     let made = CURVES.get_or_init(|| {
@@ -76,7 +76,7 @@ pub fn rows() -> Result<Vec<Row>, Failure> {
     Ok(curves()?.iter().map(row).collect())
 }
 
-/// Place, velocity and spin at the end.
+/// Position, velocity and spin at the end.
 struct End {
     place: Vec3,
     velocity: Vec3,
@@ -90,7 +90,7 @@ impl End {
         Ok(Self { place: run.position(), velocity: run.velocity(), spin: run.spin() })
     }
 
-    /// As a speed, m/s: the place counts over the duration, spin at the lever of the motion.
+    /// Distance as a speed, m/s: positions divided by the duration, spins times the lever of the motion.
     fn from(&self, other: &Self, motion: &Motion) -> f64 {
         let place = (self.place - other.place).norm() / motion.duration;
         place + (self.velocity - other.velocity).norm() + motion.lever * (self.spin - other.spin).norm()

@@ -1,4 +1,4 @@
-//! The motions whose order is observed.
+//! Motions for the observation of orders.
 
 use crate::case::Failure;
 use crate::measure::{radians, rotation};
@@ -11,21 +11,21 @@ type Method = (Integrator, f64);
 /// A motion in contact.
 pub(super) struct Motion {
     pub name: &'static str,
-    /// The order that the theory manual promises under Runge-Kutta 4, without unit.
+    /// Order promised by the theory manual under Runge-Kutta 4, without unit.
     pub promised: f64,
-    /// s.
+    /// Duration, s.
     pub duration: f64,
-    /// Phases of the step in which it is begun.
+    /// Number of start phases within a step.
     pub phases: u32,
-    /// A step far below those observed, s.
+    /// Reference step, far below those observed, s.
     pub reference_step: f64,
-    /// Lever at which the spin counts, m.
+    /// Lever that converts spins to speeds, m.
     pub lever: f64,
-    /// Sets it up at a phase, 0…1.
+    /// Sets up the motion at a phase, 0…1.
     pub start: fn(f64, Method) -> Result<Run, Failure>,
 }
 
-/// Where nothing begins in the motion, one phase is all.
+/// Motions without an onset of contact need one phase only.
 const SMOOTH: Motion = Motion {
     name: "",
     promised: 2.0,
@@ -100,11 +100,11 @@ pub(super) const MOTIONS: [Motion; 13] = [
 
 const MASS: f64 = 1.0;
 const RADIUS: f64 = 0.1;
-/// Of the pair, N/m: ω is 100 rad/s, so that 1 ms resolves it.
+/// Stiffness of the pair, N/m: ω is 100 rad/s, so that 1 ms resolves it.
 const STIFFNESS: f64 = 1e4;
 const DEPTH: f64 = MASS * G / STIFFNESS;
 
-/// Soft against a rigid partner, of some normal damping.
+/// A soft body against a rigid one, with some normal damping.
 fn duo(soft: &str, rigid: &str, damping: f64, bristle: &Bristle) -> Result<Duo, Failure> {
     let duo = Duo::new(soft, rigid)?.mover(|s| set_spring(s, STIFFNESS, damping))?;
     with_friction(duo, bristle)
@@ -114,15 +114,15 @@ fn bristle(mu: f64, stiffness: f64) -> Bristle {
     Bristle { mu, excess: 0.0, stiffness, damping: 0.0 }
 }
 
-/// A mass that falls on ground and is watched until it turns, so that one touch alone is in it; its phase is a part of the way
-/// of the longest step.
+/// A mass that falls on ground, observed until it turns back, so that it includes one onset of contact; the
+/// phase is a fraction of the longest step's distance.
 fn drop(damping: f64, phase: f64, method: Method) -> Result<Run, Failure> {
     let duo = Duo::new("point", "ground")?.mover(|s| set_spring(s, STIFFNESS, damping))?;
     let body = point_mass(MASS).at(at(Vec3::z() * (0.01 - 6e-4 * phase))).moving(moving(Vec3::z() * -0.3));
     Ok(duo.on_ground(method, body)?.with_gravity())
 }
 
-/// A mass at rest on a bristle, which a load pulls to and fro within its limit.
+/// A mass at rest on a bristle, pulled to and fro by a load within its limit.
 fn sticks(_: f64, method: Method) -> Result<Run, Failure> {
     let duo = duo("point_rough", "ground_rough", 20.0, &bristle(0.5, STIFFNESS))?;
     let body = point_mass(MASS).at(at(Vec3::z() * -DEPTH));
@@ -132,7 +132,7 @@ fn sticks(_: f64, method: Method) -> Result<Run, Failure> {
     Ok(run)
 }
 
-/// A mass in slip, whose bristle has been drawn onto its circle along the velocity by two commits of the host.
+/// A mass in slip, whose bristle two commits of the host have stretched to its limit along the velocity.
 fn drawn(duo: Duo, body: RigidBody, method: Method) -> Result<Run, Failure> {
     let (mut world, [mover, ground]) = duo.world()?;
     let way = body.twist.linear.normalize() * 0.05;
@@ -167,7 +167,7 @@ fn turns(_: f64, method: Method) -> Result<Run, Failure> {
     Ok(run)
 }
 
-/// A rigid ball or ellipsoid on something that yields, which stands still.
+/// A rigid ball or ellipsoid on a compliant body at rest.
 fn rolling(
     files: [&str; 2],
     body: RigidBody,
@@ -194,7 +194,7 @@ fn rolls(_: f64, method: Method) -> Result<Run, Failure> {
     rolling(["ground_rough", "ball_rough"], ball, ground, &bristle(0.5, STIFFNESS), method)
 }
 
-/// Spins about the normal while a load turns its way; rolling without slip at the start.
+/// Spins about the normal while a load changes direction; rolls without slip at the start.
 fn rolls_on_plane(_: f64, method: Method) -> Result<Run, Failure> {
     let ball = ball(Vec3::z() * (RADIUS - DEPTH), Vec3::x() * 0.5, Vec3::new(0.0, 5.0, 20.0));
     let ground = Pose::identity();
@@ -205,7 +205,7 @@ fn rolls_on_plane(_: f64, method: Method) -> Result<Run, Failure> {
     Ok(run)
 }
 
-/// Off the top of a ball of 1 m, with spin about the normal.
+/// Rolls off the top of a ball of 1 m, with spin about the normal.
 fn rolls_on_ball(_: f64, method: Method) -> Result<Run, Failure> {
     let ball = ball(Vec3::z() * (1.0 + RADIUS - DEPTH), Vec3::x() * 0.5, Vec3::new(0.0, 5.0, 20.0));
     let files = ["ball_large_rough", "ball_rough"];
@@ -219,7 +219,7 @@ fn egg_rolls(_: f64, method: Method) -> Result<Run, Failure> {
     rolling(["ground_rough", "ellipsoid_rough"], egg, Pose::identity(), &bristle(2.0, STIFFNESS), method)
 }
 
-/// A ball that lands, moving across and spinning, and sticks from the touch on.
+/// A ball that lands with tangential velocity and spin, and sticks from the first contact.
 fn touches_down(phase: f64, method: Method) -> Result<Run, Failure> {
     let place = Vec3::z() * (RADIUS + 0.01 - 6e-4 * phase);
     let ball = ball(place, Vec3::new(0.2, 0.1, -0.3), Vec3::z() * 3.0);
@@ -229,8 +229,8 @@ fn touches_down(phase: f64, method: Method) -> Result<Run, Failure> {
     Ok(Run { body: run.ground, ground: run.body, sim: run.sim }.with_gravity())
 }
 
-/// A load swells over the limit and fades, once: the mass sticks, slips and sticks. Its phase moves break-away and stop within
-/// the step, and one against the other.
+/// A load exceeds the limit and fades once: the mass sticks, slips and sticks. Its phase moves break-away and
+/// stop within the step, and against each other.
 fn stick_slip(excess: f64, phase: f64, method: Method) -> Result<Run, Failure> {
     let bristle = Bristle { mu: 0.2, excess, stiffness: STIFFNESS, damping: 20.0 };
     let duo = duo("point_rough", "ground_rough", 20.0, &bristle)?;

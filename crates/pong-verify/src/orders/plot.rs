@@ -1,16 +1,16 @@
-//! The curves as a picture: worst error against the step, both logarithmic, a field for each integrator.
+//! Plot of the curves: largest error against the step, log-log, one panel per integrator.
 
 use super::{Curve, METHODS};
 use pong_report::svg::{COLOURS, LogAxis, Picture};
 
 const FIELD_WIDTH: f64 = 220.0;
 const FIELD_HEIGHT: f64 = 300.0;
-/// Between two fields, with room for half a label of each axis.
+/// Distance between two panels, with room for half a label of each axis.
 const GAP: f64 = 48.0;
 const LEFT: f64 = 70.0;
 const TOP: f64 = 40.0;
 const LEGEND: f64 = 20.0;
-/// The second round of colours is dashed, the third dotted.
+/// The second cycle of colours is dashed, the third dotted.
 const DASHES: [&str; 3] = ["", " stroke-dasharray=\"7 4\"", " stroke-dasharray=\"2 4\""];
 
 /// An SVG picture of all curves.
