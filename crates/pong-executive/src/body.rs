@@ -63,17 +63,17 @@ impl RigidBody {
         Self { name: name.to_owned(), motion, pose, twist, interface: None }
     }
 
-    /// The same body starting at a pose.
+    /// Returns this body with an initial pose.
     pub fn at(self, pose: Pose) -> Self {
         Self { pose, ..self }
     }
 
-    /// The same body starting with a twist.
+    /// Returns this body with an initial twist.
     pub fn moving(self, twist: Twist) -> Self {
         Self { twist, ..self }
     }
 
-    /// The same body with the contact wrench of an Interface.
+    /// Returns this body with the contact wrench of an Interface.
     pub fn touching(self, interface: InterfaceId) -> Self {
         Self { interface: Some(interface), ..self }
     }

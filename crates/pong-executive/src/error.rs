@@ -13,7 +13,7 @@ pub enum ExecutiveError {
     Invalid {
         /// The thing.
         what: String,
-        /// What is wrong with it.
+        /// The fault.
         cause: String,
         /// The remedy.
         cure: String,
@@ -26,7 +26,7 @@ pub enum ExecutiveError {
     Diverged {
         /// The body.
         body: String,
-        /// What is wrong with it.
+        /// The fault.
         what: String,
         /// When it was noticed, s.
         time: f64,

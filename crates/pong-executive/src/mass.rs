@@ -35,7 +35,7 @@ impl MassProperties {
         Self::principal(mass, [y + z, z + x, x + y])
     }
 
-    /// The same body with its mass centre at another point of the group frame.
+    /// Returns these mass properties with the mass centre at another point of the group frame.
     pub fn with_mass_center(self, mass_center: Vec3) -> Self {
         Self { mass_center, ..self }
     }

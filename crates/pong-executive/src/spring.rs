@@ -74,7 +74,7 @@ impl Spring {
         Self { first, second, stiffness, damping: [0.0; 6], preload: [0.0; 6], rest: Pose::identity() }
     }
 
-    /// The same spring with damping.
+    /// Returns this spring with damping.
     pub fn damped(self, damping: [f64; 6]) -> Self {
         Self { damping, ..self }
     }

@@ -180,7 +180,7 @@ impl FreeState {
         }
     }
 
-    /// The same state as the start of the next step.
+    /// This state as the start of the next step.
     pub fn normalized(&self) -> Self {
         Self { orientation: unit(&self.orientation), turn: Vec3::zeros(), ..*self }
     }

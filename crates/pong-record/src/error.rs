@@ -1,35 +1,35 @@
-//! What can be wrong with a log.
+//! Errors of writing and reading logs.
 
 use crate::format::VERSION;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why a log cannot be written or read. The text names the file, the cause and the cure.
+/// Cause why a log cannot be written or read. The text names the file, the cause and the cure.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LogError {
     /// A file or folder cannot be read.
     #[error("{path}: cannot be read: {reason}; name the folder of a response log")]
     Unreadable {
-        /// Which.
+        /// Its path.
         path: PathBuf,
-        /// The system's words.
+        /// The system's message.
         reason: String,
     },
     /// A file or folder cannot be written.
     #[error("{path}: cannot be written: {reason}; name a folder with room")]
     Unwritable {
-        /// Which.
+        /// Its path.
         path: PathBuf,
-        /// The system's words.
+        /// The system's message.
         reason: String,
     },
-    /// A file does not hold what it must.
+    /// The contents of a file are not valid.
     #[error("{path}: is damaged: {cause}; use another copy of the log")]
     Damaged {
-        /// Which.
+        /// Its path.
         path: PathBuf,
-        /// What is wrong.
+        /// The fault.
         cause: String,
     },
     /// The folder holds another log.
@@ -37,7 +37,7 @@ pub enum LogError {
     Occupied {
         /// The folder.
         path: PathBuf,
-        /// What was found in it.
+        /// The kind of log found in it.
         found: String,
     },
     /// The log is of a version of the format that this program does not read.
@@ -56,23 +56,23 @@ pub enum LogError {
     Model {
         /// Its name.
         name: String,
-        /// Why.
+        /// The cause.
         cause: String,
-        /// What to do.
+        /// The remedy.
         cure: String,
     },
     /// The files could not be written to the end.
     #[error("{text}")]
     Ended {
-        /// Why, and how far the log goes.
+        /// Cause, and the end of the log.
         text: String,
     },
-    /// A call at the wrong time, or with a value that cannot be.
+    /// A call at the wrong time, or with an invalid value.
     #[error("log: {cause}; {cure}")]
     Refused {
-        /// What and why.
+        /// The call and the cause.
         cause: String,
-        /// What to do.
+        /// The remedy.
         cure: String,
     },
     /// The engine refused something.
@@ -85,7 +85,7 @@ impl LogError {
         Self::Unreadable { path: path.to_owned(), reason: reason.to_string() }
     }
 
-    /// That a file cannot be written, in the system's words.
+    /// Error of a file that cannot be written, with the system's message.
     pub fn unwritable(path: &Path, reason: &io::Error) -> Self {
         Self::Unwritable { path: path.to_owned(), reason: reason.to_string() }
     }

@@ -1,4 +1,4 @@
-//! events.jsonl: what the host changed between frames.
+//! events.jsonl: the host's changes between frames.
 
 use crate::error::LogError;
 use pong_model::{Exponent, FrictionLaw, NormalLaw, Surface};
@@ -11,14 +11,14 @@ pub(crate) const FILE: &str = "events.jsonl";
 /// An event and the frame that it belongs to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoggedEvent {
-    /// The frame before whose evaluation it came.
+    /// The first frame evaluated after the event.
     pub frame: u64,
-    /// What happened.
+    /// The event.
     #[serde(flatten)]
     pub event: Event,
 }
 
-/// What a host may do between frames.
+/// An event between frames.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "event", rename_all = "snake_case")]
 pub enum Event {
@@ -26,7 +26,7 @@ pub enum Event {
     Pair {
         /// Index of the pair.
         pair: u32,
-        /// Whether it is tested from now on.
+        /// True if it is tested from now on.
         enabled: bool,
     },
     /// The contact history of an Object was cleared (`forget` in version 1).
@@ -57,7 +57,7 @@ pub enum Event {
     },
     /// Events that were lost because they came faster than they could be written.
     Lost {
-        /// How many.
+        /// Their number.
         count: u64,
     },
     /// An event that this program does not know.
@@ -68,7 +68,7 @@ pub enum Event {
 /// The values of a surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SurfaceValues {
-    /// N/m, or N/m^1.5; may be infinite.
+    /// Stiffness, N/m, or N/m^1.5; may be infinite.
     #[serde(with = "number")]
     stiffness: f64,
     #[serde(with = "Normal")]
@@ -77,7 +77,7 @@ pub struct SurfaceValues {
     friction: FrictionLaw,
 }
 
-/// A normal law as logs write it.
+/// A normal law in the notation of logs.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "NormalLaw", tag = "law")]
 enum Normal {
@@ -103,7 +103,7 @@ enum Normal {
     Inherited,
 }
 
-/// A friction law as logs write it.
+/// A friction law in the notation of logs.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "FrictionLaw", tag = "law")]
 enum Friction {
@@ -129,7 +129,7 @@ impl SurfaceValues {
     }
 }
 
-/// Whether the exponent is that of Hertz.
+/// Serialises the exponent as a flag: true for Hertz.
 mod hertz {
     use pong_model::Exponent;
     use serde::{Deserialize, Deserializer, Serializer};
@@ -143,7 +143,7 @@ mod hertz {
     }
 }
 
-/// Numbers that may be infinite, which JSON cannot write.
+/// Serialises numbers that may be infinite, which JSON cannot represent.
 mod number {
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
@@ -167,7 +167,7 @@ mod number {
     }
 }
 
-/// Reads the events of a log; a last line that was cut off is passed over.
+/// Reads the events of a log; an incomplete last line is skipped.
 pub(crate) fn load(folder: &Path) -> Result<Vec<LoggedEvent>, LogError> {
     let path = folder.join(FILE);
     let text = match pong_model::files::read_text(&path) {

@@ -1,6 +1,6 @@
 //! Name and version of the format.
 
-/// The version of the format that is written. Version 1, which is read too, has other names for some fields.
+/// The version of the format that is written. Version 1, which is also read, has other names for some fields.
 pub const VERSION: u64 = 2;
 
 /// Name of the format.

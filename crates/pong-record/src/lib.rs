@@ -1,4 +1,5 @@
-//! Response logs: what happened in a run, frame by frame, with all that is needed to look at it again.
+//! Response logs: the states, wrenches and contacts of a run, frame by frame, with all data needed to replay
+//! it.
 //!
 //! The format is described in `docs/response_logs.md`.
 //!
@@ -9,7 +10,7 @@
 //! | `write/` | [`Recorder`] on the frame's path, and the thread that writes the files |
 //! | `read/` | [`Log`]: whole frames by number |
 //! | `csv/` | the same rows as text; energy accounts |
-//! | `replay/` | a log goes through the engine again |
+//! | `replay/` | replay of a log in the engine |
 
 #![forbid(unsafe_code)]
 

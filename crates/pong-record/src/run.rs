@@ -1,4 +1,4 @@
-//! run.json: what the numbers in the tables of a log mean.
+//! run.json: description of the tables of a log.
 
 use crate::error::LogError;
 use crate::format::{FORMAT, VERSION};
@@ -29,7 +29,8 @@ pub struct Run {
     /// Step of the integrator, s; `None` if the writer did not know.
     #[serde(default)]
     pub step: Option<f64>,
-    /// Commits from one frame of the log to the next; `None` if the writer did not know: then each frame tells.
+    /// Commits from one frame of the log to the next; `None` if the writer did not know: see `commits_missed`
+    /// of each frame.
     #[serde(default)]
     pub commits_per_frame: Option<u64>,
     /// The integrator; `None` if the writer did not know.
@@ -38,10 +39,10 @@ pub struct Run {
     /// Contact capacity of the world.
     #[serde(default)]
     pub contact_capacity: Option<u64>,
-    /// Whether the world kept energies.
+    /// True if the world kept energies.
     #[serde(default)]
     pub ledger: bool,
-    /// What the host did with wrenches, if the world kept accounts of them.
+    /// The host's use of wrenches, if the world kept accounts of them.
     #[serde(default, alias = "accounts", skip_serializing_if = "Option::is_none")]
     pub energy_accounts: Option<RunAccounts>,
     /// Names of the force laws that the host registered.
@@ -55,14 +56,14 @@ pub struct Run {
     pub bodies: Vec<RunBody>,
     /// The pairs of Objects.
     pub pairs: Vec<[usize; 2]>,
-    /// Groups that never touch each other, those of models aside.
+    /// Groups that never touch each other, except those given by models.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub filters: Vec<RunFilter>,
     /// The primitives of all bodies.
     pub primitives: Vec<RunPrimitive>,
     /// The tables by name.
     pub tables: BTreeMap<String, RunTable>,
-    /// Whether the log was closed.
+    /// True if the log was closed.
     pub finished: bool,
     /// Frames in the log, once it is closed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -72,11 +73,11 @@ pub struct Run {
     pub lost: u64,
 }
 
-/// What a host does with wrenches.
+/// The host's use of wrenches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RunAccounts(#[serde(with = "Coupling")] pub WrenchCoupling);
 
-/// As a log writes it.
+/// Coupling in the notation of logs.
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "WrenchCoupling", rename_all = "snake_case")]
 enum Coupling {
@@ -121,7 +122,7 @@ pub struct RunBody {
     pub object: usize,
     /// Path in its model.
     pub path: String,
-    /// Index of the movable group above.
+    /// Index of the parent group.
     pub parent: Option<usize>,
 }
 
@@ -161,7 +162,7 @@ impl Run {
     /// Reads and checks run.json in a folder.
     ///
     /// # Errors
-    /// A file that cannot be read, is of another version, or names what is not there.
+    /// A file that cannot be read, is of another version, or refers to something that does not exist.
     pub fn load(folder: &Path) -> Result<Self, LogError> {
         let path = folder.join(FILE);
         let text =
@@ -191,7 +192,7 @@ impl Run {
         self.pairs.get(pair).map(|pair| pair.map(|object| self.objects[object].name.as_str()))
     }
 
-    /// Whether every index and every file name leads somewhere inside the log.
+    /// Checks that every index and every file name refers to something inside the log.
     fn check(&self) -> Result<(), String> {
         let refers = |from: &str, index: usize, to: &str, count: usize| {
             let cause = || format!("{from} refers to number {index} of the {to}, of which there are {count}");
@@ -223,13 +224,13 @@ impl Run {
     }
 }
 
-/// Whether a path stays in the folder that it starts from.
+/// True if a path stays below the folder that it starts from.
 pub(crate) fn is_inside(file: &str) -> bool {
     let mut parts = Path::new(file).components().peekable();
     parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))
 }
 
-/// What is read first: the rest may be of another version.
+/// Format and version, which are read first: the rest may be of another version.
 #[derive(Deserialize)]
 struct Head {
     #[serde(default)]
@@ -238,7 +239,7 @@ struct Head {
     version: u64,
 }
 
-/// Hashes as text: JSON has no integers of 64 bits.
+/// Serialises hashes as text: JSON has no integers of 64 bits.
 mod hex {
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
 

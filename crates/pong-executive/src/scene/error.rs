@@ -11,7 +11,7 @@ pub struct SceneError {
     pub at: Option<(usize, usize)>,
     /// The thing, `objects/ball/bodies[0]`.
     pub thing: String,
-    /// What is wrong with it; the full report of another reader where that found the fault.
+    /// The fault; the full report of another reader if that found it.
     pub cause: String,
     /// The remedy.
     pub cure: String,

@@ -104,7 +104,8 @@ impl Scene {
         }
     }
 
-    /// The same scene with models that may use these kinds, and read files from the folders that they allow.
+    /// Returns this scene with models that may use these kinds, and read files from the folders that they
+    /// allow.
     #[must_use]
     pub fn with_extensions(self, extensions: Extensions) -> Self {
         Self { extensions, ..self }

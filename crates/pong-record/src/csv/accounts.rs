@@ -9,8 +9,8 @@ use std::path::Path;
 const ACCOUNTS: &str = "time_s,a,b,work_in_j,work_out_j,inserted_j,hold_error_j,stored_j,damping_loss_j,friction_loss_j,\
                         resolution_j,in_contact,episodes,episodes_gained,episodes_unresolved,excess_j";
 
-/// `accounts.csv`: what the contacts of each pair of movable groups took, returned, hold and lost since the world began, of
-/// every pair that has touched.
+/// `accounts.csv`: energies that the contacts of each pair of movable groups received, returned, hold and
+/// lost since the world began, for every pair that has touched.
 #[derive(Debug)]
 pub struct AccountsTable {
     table: Table,
@@ -18,7 +18,7 @@ pub struct AccountsTable {
 }
 
 impl AccountsTable {
-    /// Begins the file in a folder, which is made if it is not there.
+    /// Begins the file in a folder, which is created if it does not exist.
     ///
     /// # Errors
     /// A folder that cannot be written.
@@ -30,7 +30,8 @@ impl AccountsTable {
         })
     }
 
-    /// A line for each pair that has touched, at the last commit of the world. None if it keeps no accounts.
+    /// Writes a line for each pair that has touched, at the last commit of the world. Writes none if it keeps
+    /// no accounts.
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -60,7 +61,7 @@ impl AccountsTable {
         Ok(())
     }
 
-    /// Writes out what is still in memory.
+    /// Writes the buffered rest.
     ///
     /// # Errors
     /// A file that cannot be written.

@@ -1,4 +1,5 @@
-//! The rows of a log, and accounts, as CSV. Every number is written so that it reads back to the same bits.
+//! The rows of a log, and accounts, as CSV. Every number is written with enough digits to read back to the
+//! same bits.
 
 mod accounts;
 mod table;
@@ -24,7 +25,7 @@ const CONTACTS: &str = "time_s,a,a_element,b,b_element,feature,end,x_m,y_m,z_m,n
 const ENERGIES: &str =
     "time_s,kinetic_j,potential_j,springs_j,contacts_j,contact_loss_j,spring_loss_j,work_in_j,balance_j";
 
-/// A sealed world seen as the rows of a log, without a log.
+/// A view of a sealed world as the rows of a log, without a log.
 #[derive(Debug)]
 pub struct Look {
     run: Run,
@@ -32,21 +33,22 @@ pub struct Look {
 }
 
 impl Look {
-    /// Gathers what the rows refer to.
+    /// Collects the bodies, pairs and primitives that the rows refer to.
     ///
     /// # Errors
-    /// Whatever the engine refuses.
+    /// Errors of the engine.
     pub fn new(world: &World) -> Result<Self, LogError> {
         let run = describe(world, Vec::new(), &RecordOptions::default())?;
         Ok(Self { run, capture: Capture::new(world, false)? })
     }
 
-    /// What the rows refer to.
+    /// Bodies, pairs and primitives that the rows refer to.
     pub fn run(&self) -> &Run {
         &self.run
     }
 
-    /// The frame last computed, of this time (s). The memory of `frame` is used again, its energies are left alone.
+    /// Writes the frame last computed, with this time (s), into `frame`, whose memory is reused; its energies
+    /// are not changed.
     ///
     /// # Errors
     /// A world without a frame.
@@ -62,13 +64,13 @@ pub struct CsvTables {
     wrenches: Table,
     contacts: Table,
     energies: Option<Table>,
-    /// Names as CSV writes them.
+    /// Names in CSV form.
     bodies: Vec<String>,
     primitives: Vec<String>,
 }
 
 impl CsvTables {
-    /// Begins the files in a folder, which is made if it is not there.
+    /// Begins the files in a folder, which is created if it does not exist.
     ///
     /// # Errors
     /// A folder that cannot be written.
@@ -87,7 +89,7 @@ impl CsvTables {
         })
     }
 
-    /// A line for each body and each contact of a frame.
+    /// Writes a line for each body and each contact of a frame.
     ///
     /// # Errors
     /// Files that cannot be written.
@@ -140,7 +142,7 @@ impl CsvTables {
         table.end()
     }
 
-    /// Writes out what is still in memory. Files that were there are replaced once all of the new ones are written.
+    /// Writes the buffered rest. Existing files are replaced once all of the new ones are written.
     ///
     /// # Errors
     /// Files that cannot be written.

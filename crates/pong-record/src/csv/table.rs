@@ -30,7 +30,7 @@ impl Table {
         let _ = write!(self.line, "{time:?}");
     }
 
-    /// A cell as it stands: a whole number, or a name by [`csv_name`].
+    /// Writes a cell without escaping: a whole number, or a name by [`csv_name`].
     pub fn cell(&mut self, text: impl std::fmt::Display) {
         let _ = write!(self.line, ",{text}");
     }
@@ -46,12 +46,12 @@ impl Table {
         self.out.write_all(self.line.as_bytes()).map_err(|reason| LogError::unwritable(&self.path, &reason))
     }
 
-    /// Writes out what is still in memory.
+    /// Writes the buffered rest.
     pub fn flush(&mut self) -> Result<(), LogError> {
         self.out.flush().map_err(|reason| LogError::unwritable(&self.path, &reason))
     }
 
-    /// Puts the file into its place.
+    /// Moves the finished file to its final name.
     pub fn finish(self) -> Result<(), LogError> {
         let Self { path, out, .. } = self;
         let whole = out.into_inner().map_err(std::io::IntoInnerError::into_error).and_then(NewFile::finish);
@@ -59,9 +59,9 @@ impl Table {
     }
 }
 
-/// A name as CSV writes it.
+/// A name in CSV form.
 ///
-/// Characters that steer a display are escapes. Spreadsheets take a cell that begins with `=`, `+`, `-` or `@` for a
+/// Control characters are escaped. Spreadsheets take a cell that begins with `=`, `+`, `-` or `@` for a
 /// formula and compute it: an apostrophe before it makes it text.
 pub fn csv_name(name: &str) -> String {
     let shown = printable(name);

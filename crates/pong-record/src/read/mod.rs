@@ -1,4 +1,4 @@
-//! A log as it is read: whole frames by number.
+//! Reading a log: whole frames by number.
 
 use crate::error::LogError;
 use crate::event::{self, LoggedEvent};
@@ -6,9 +6,10 @@ use crate::run::Run;
 use crate::table::{ContactRow, EnergyRow, FrameRow, Row, StateRow, TableFile, WrenchRow};
 use std::path::{Path, PathBuf};
 
-/// A log that was opened for reading.
+/// A log opened for reading.
 ///
-/// A log that was cut off is read as far as every table of it goes: [`frame_count`](Self::frame_count) frames.
+/// A log that was cut off is read up to the last frame that is complete in every table:
+/// [`frame_count`](Self::frame_count) frames.
 #[derive(Debug)]
 pub struct Log {
     folder: PathBuf,
@@ -41,7 +42,7 @@ impl Log {
     /// Opens a log by its folder.
     ///
     /// # Errors
-    /// What cannot be read, is of another version, or does not fit together.
+    /// Files that cannot be read, are of another version, or do not fit together.
     pub fn open(folder: &Path) -> Result<Self, LogError> {
         let run = Run::load(folder)?;
         let mut log = Self {
@@ -67,12 +68,12 @@ impl Log {
         &self.folder
     }
 
-    /// What the tables mean.
+    /// Description of the tables: run.json.
     pub fn run(&self) -> &Run {
         &self.run
     }
 
-    /// What the host changed between frames, in order.
+    /// The host's changes between frames, in order.
     pub fn events(&self) -> &[LoggedEvent] {
         &self.events
     }
@@ -82,17 +83,17 @@ impl Log {
         self.run.models.get(model).map(|model| self.folder.join(&model.file))
     }
 
-    /// How many whole frames there are.
+    /// Number of whole frames.
     pub fn frame_count(&self) -> u64 {
         self.count
     }
 
-    /// Whether the log was closed and every frame of it is there.
+    /// True if the log was closed and all its frames are there.
     pub fn is_whole(&self) -> bool {
         self.run.finished && self.run.frames == Some(self.count)
     }
 
-    /// Numbers, times and limits of some frames, counted from the log's first; not more than there are.
+    /// Rows of the table of frames from index `first` on, at most `count`; fewer at the end of the log.
     ///
     /// # Errors
     /// A file that cannot be read.
@@ -103,10 +104,10 @@ impl Log {
         Ok(rows)
     }
 
-    /// One frame, counted from the log's first. The memory of `frame` is used again.
+    /// Reads one frame, by its index in the log, into `frame`, whose memory is reused.
     ///
     /// # Errors
-    /// A frame that is not there, or a file that cannot be read or does not fit the others.
+    /// A frame that does not exist, or a file that cannot be read or does not fit the others.
     pub fn read(&mut self, index: u64, frame: &mut Frame) -> Result<(), LogError> {
         frame.row = self.row(index)?;
         frame.states.clear();
@@ -124,7 +125,7 @@ impl Log {
         Ok(())
     }
 
-    /// As [`read`](Self::read), into memory of its own.
+    /// As [`read`](Self::read), into a new frame.
     ///
     /// # Errors
     /// As [`read`](Self::read).
@@ -144,7 +145,7 @@ impl Log {
         Ok(rows[0])
     }
 
-    /// Rows of `frames` that every other table has too.
+    /// Number of rows of `frames` that are complete in every other table.
     fn whole_frames(&mut self) -> Result<u64, LogError> {
         let energies = self.energies.as_ref().map_or(u64::MAX, TableFile::rows);
         let others = [self.states.rows(), self.wrenches.rows(), energies];

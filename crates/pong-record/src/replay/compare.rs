@@ -1,4 +1,4 @@
-//! One frame of the engine against one frame of the log.
+//! Comparison of one frame of the engine with one frame of the log.
 
 use crate::error::LogError;
 use crate::read::Frame;
@@ -7,16 +7,16 @@ use crate::table::Row;
 use crate::write::{Capture, wrench_row};
 use pong_engine::{InterfaceId, World};
 
-/// Two values that should be the same.
+/// Two values that should be equal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
     /// Number of the frame.
     pub frame: u64,
     /// Its time, s.
     pub time: f64,
-    /// What it is a quantity of: a body, a contact, the frame.
+    /// The item that has the quantity: a body, a contact, the frame.
     pub of: String,
-    /// The quantity, as the tables call it.
+    /// Name of the quantity in the tables.
     pub quantity: &'static str,
     /// The value in the log.
     pub logged: String,
@@ -34,7 +34,7 @@ impl std::fmt::Display for Difference {
 /// A quantity, its value in the log and its value now.
 type Values = (&'static str, String, String);
 
-/// How frames are compared.
+/// Settings of the comparison of frames.
 pub(super) struct Comparison {
     capture: Capture,
     bodies: Vec<InterfaceId>,
@@ -46,7 +46,7 @@ impl Comparison {
         Self { capture, bodies, tolerance }
     }
 
-    /// The first difference of wrenches and the first of contacts.
+    /// Returns the first difference in wrenches and the first in contacts.
     ///
     /// # Errors
     /// A frame that the world does not have.

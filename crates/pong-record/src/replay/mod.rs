@@ -1,4 +1,4 @@
-//! A log goes through the engine again, and what comes out is compared with what was recorded.
+//! Replay of a log in the engine, with comparison of the results.
 
 mod compare;
 mod options;
@@ -17,11 +17,12 @@ use crate::read::{Frame, Log};
 use replayed_world::Replay;
 use std::ops::ControlFlow;
 
-/// Replays a log, and stops at the first frame that differs. `progress` is called with the number of frames done, and may
-/// tell it to end there.
+/// Replays a log, and stops at the first frame that differs. `progress` is called with the number of frames
+/// done, and may end the replay.
 ///
 /// # Errors
-/// A log that cannot be read, or whose world cannot be built again: a model that was changed, a law of the host's.
+/// A log that cannot be read, or whose world cannot be rebuilt: a model that was changed, a law of the
+/// host's.
 pub fn replay(
     log: &mut Log,
     options: &ReplayOptions<'_>,

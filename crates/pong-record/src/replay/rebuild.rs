@@ -1,4 +1,4 @@
-//! The world of a log, built again.
+//! Rebuilding the world of a log.
 
 use super::options::ReplayOptions;
 use crate::error::LogError;

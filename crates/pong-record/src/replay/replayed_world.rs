@@ -1,4 +1,4 @@
-//! A world in the midst of a replay.
+//! A world during a replay.
 
 use super::compare::Comparison;
 use super::options::ReplayOptions;
@@ -13,7 +13,7 @@ use crate::write::Capture;
 use pong_engine::{InterfaceId, ModelId, ObjectId, PairId, State, World};
 use pong_model::FrictionLaw;
 
-/// A world in the midst of a replay.
+/// A world during a replay.
 pub(super) struct Replay {
     pub(super) world: World,
     models: Vec<ModelId>,
@@ -24,7 +24,7 @@ pub(super) struct Replay {
     next_event: usize,
     next_frame: u64,
     states: Vec<(InterfaceId, State)>,
-    /// The pairs of a frame that was committed for some.
+    /// The pairs of a frame of which only some were committed.
     accepted: Vec<PairId>,
     pub(super) comparison: Comparison,
 }
@@ -38,7 +38,7 @@ impl Replay {
             bodies.extend(world.scene().interfaces(*object)?);
         }
         let mut events = log.events().to_vec();
-        // Word of events that were lost comes later than they would have.
+        // The note of lost events is written later than the events would have been.
         events.sort_by_key(|event| event.frame);
         Ok(Self {
             comparison: Comparison::new(Capture::new(&world, false)?, bodies.clone(), options.tolerance),
@@ -55,7 +55,7 @@ impl Replay {
         })
     }
 
-    /// What keeps this frame, and all after it, from being replayed exactly.
+    /// Obstacle to the exact replay of this frame and all after it.
     pub(super) fn obstacle(&mut self, row: &FrameRow) -> Option<Obstacle> {
         let (frame, expected) = (row.frame, self.next_frame);
         self.next_frame = frame + 1;
@@ -70,7 +70,7 @@ impl Replay {
         }
     }
 
-    /// Everything up to the frame's evaluation.
+    /// Applies everything up to the frame's evaluation.
     pub(super) fn run(&mut self, log: &Log, frame: &Frame) -> Result<(), LogError> {
         self.accepted.clear();
         while let Some(event) =

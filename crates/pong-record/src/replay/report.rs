@@ -1,49 +1,49 @@
-//! What a replay found.
+//! Result of a replay.
 
 use super::compare::Difference;
 
-/// What a replay found.
+/// Result of a replay.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReplayReport {
     /// Frames of the log.
     pub frames: u64,
-    /// Frames that were replayed and compared, the one that differs included.
+    /// Frames that were replayed and compared, including the one that differs.
     pub compared: u64,
-    /// Contacts of these frames.
+    /// Contacts of the compared frames.
     pub contacts: u64,
-    /// What differs in the first frame that does: of wrenches and of contacts, the first each.
+    /// Differences in the first frame that differs: the first of wrenches and the first of contacts.
     pub differences: Vec<Difference>,
-    /// Why the log cannot be replayed exactly from some frame on, if so.
+    /// Reason why the log cannot be replayed exactly from some frame on, if there is one.
     pub obstacle: Option<Obstacle>,
 }
 
 impl ReplayReport {
-    /// Whether every frame of the log was compared and none differs.
+    /// True if every frame of the log was compared and none differs.
     pub fn agrees(&self) -> bool {
         self.differences.is_empty() && self.compared == self.frames
     }
 }
 
-/// Why a log cannot be replayed exactly from a frame on.
+/// Reason why a log cannot be replayed exactly from a frame on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Obstacle {
     /// Frames were lost.
     FramesLost {
         /// The first frame after them.
         frame: u64,
-        /// How many.
+        /// Their number.
         count: u64,
     },
-    /// Commits belong to no frame of the log.
+    /// Commits belong to frames that are not in the log.
     CommitsMissed {
         /// The frame before which they were made.
         frame: u64,
-        /// How many.
+        /// Their number.
         count: u32,
     },
     /// Events were lost, or are of a kind that this program does not know.
     EventUnknown {
-        /// The frame before which they came.
+        /// The frame before which they happened.
         frame: u64,
     },
 }

@@ -1,4 +1,4 @@
-//! The recorded motions go through an engine that is not quite the log's: other models, other laws, fewer frames.
+//! Rerun of the recorded motions in a changed engine: other models, other laws, fewer frames.
 
 use super::options::ReplayOptions;
 use super::rebuild;
@@ -9,19 +9,19 @@ use pong_engine::{InterfaceId, World};
 
 /// A frame of a rerun.
 pub struct RerunFrame<'a> {
-    /// Number among the log's frames, from 0.
+    /// Index in the log, from 0.
     pub index: u64,
-    /// What the log has of it.
+    /// The frame as recorded.
     pub logged: &'a Frame,
-    /// The world: wrenches are those of this frame, or of the last one that was handed to the engine.
+    /// The world: its wrenches are those of this frame, or of the last frame that the engine evaluated.
     pub world: &'a World,
     /// The movable groups, in the order of the log's columns.
     pub bodies: &'a [InterfaceId],
-    /// Time from handing in the states to the end of the commit, ns; 0 for frames that were passed over.
+    /// Time from setting the states to the end of the commit, ns; 0 for frames that were skipped.
     pub took_ns: u64,
 }
 
-/// The world of a log, built again with something else than the log says: sealed, and nothing is set or remembered yet.
+/// Rebuilds the world of a log with the changes of `options`: sealed, without states or contact history.
 ///
 /// # Errors
 /// A world that cannot be built: a model that was changed, a law of the host's.
@@ -29,15 +29,15 @@ pub fn world_of_log(log: &Log, options: ReplayOptions<'_>) -> Result<World, LogE
     Ok(rebuild::world(log, &of_any_hash(options))?.0)
 }
 
-/// Runs a log through the engine with something else than it says, open loop: the motions stay those of the log. Calls
-/// back with every frame, of which there are at most so many. Only each `every`-th, beginning with the first, is handed to
-/// the engine; 0 counts as 1.
+/// Runs the recorded motions of a log, open loop, through an engine with the changes of `options`. Calls back
+/// with every frame, of at most the given number. The engine evaluates only each `every`-th, beginning with
+/// the first; 0 counts as 1.
 ///
-/// An event that gives a surface friction is obeyed without it where the model has none now.
+/// A surface event with friction is applied without the friction where the model has none now.
 ///
 /// # Errors
-/// A log that cannot be read, or whose world cannot be built; a contact state that was restored in the log and does not fit
-/// what differs; what the callback returns.
+/// A log that cannot be read, or whose world cannot be built; a contact state that was restored in the log
+/// and does not fit the changes; errors of the callback.
 pub fn rerun<E: From<LogError>>(
     log: &mut Log,
     options: ReplayOptions<'_>,
@@ -61,7 +61,7 @@ pub fn rerun<E: From<LogError>>(
     Ok(())
 }
 
-/// With a tolerance the hash of the world need not be that of the log.
+/// With a tolerance the hash of the world may differ from that of the log.
 fn of_any_hash(options: ReplayOptions<'_>) -> ReplayOptions<'_> {
     ReplayOptions { tolerance: Some(0.0), ..options }
 }

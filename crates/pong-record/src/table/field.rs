@@ -5,10 +5,10 @@
 pub struct Field {
     /// Its name.
     pub name: &'static str,
-    /// NumPy's name of one number of it.
+    /// NumPy's name of its number type.
     pub kind: &'static str,
-    /// How many numbers it is; 0 for one that is no array.
+    /// Length of its array; 0 for a single number.
     pub count: usize,
-    /// Bytes.
+    /// Size, bytes.
     pub size: usize,
 }

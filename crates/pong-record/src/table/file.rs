@@ -1,4 +1,4 @@
-//! A table that is read: rows by number, through a window that moves over the file.
+//! Reading a table: rows by number, through a window that moves over the file.
 
 use super::field::Field;
 use super::rows::Row;
@@ -9,15 +9,15 @@ use std::io::{Read, Seek, SeekFrom};
 use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 
-/// Bytes that are read at once where rows are read one after the other.
+/// Bytes read at once in sequential reading.
 const WINDOW: usize = 1 << 18;
 
-/// A table of a log, open for reading. A row is what belongs to one place on the first axis.
+/// A table of a log, open for reading. A row is one entry of the first axis.
 #[derive(Debug)]
 pub struct TableFile<R> {
     path: PathBuf,
     file: File,
-    /// Where the rows begin, bytes.
+    /// Offset of the first row, bytes.
     start: u64,
     rows: u64,
     columns: usize,
@@ -29,7 +29,7 @@ pub struct TableFile<R> {
 }
 
 impl<R: Row> TableFile<R> {
-    /// Opens a table that must have this second axis, if any.
+    /// Opens a table, whose second axis must have length `columns`, if given.
     ///
     /// # Errors
     /// A file that cannot be read, is no NumPy file, or lacks a field.
@@ -53,7 +53,7 @@ impl<R: Row> TableFile<R> {
         };
         let row = (wide * item) as u64;
         let length = file.metadata().map_err(|reason| LogError::unreadable(path, &reason))?.len();
-        // A file that was cut off, as a copy may be, has fewer rows than its header tells.
+        // A truncated file, such as a partial copy, has fewer rows than its header says.
         let there = length.saturating_sub(start).checked_div(row).unwrap_or(told);
         Ok(Self {
             path: path.to_owned(),
@@ -69,15 +69,15 @@ impl<R: Row> TableFile<R> {
         })
     }
 
-    /// Rows that are there.
+    /// Number of rows in the file.
     pub fn rows(&self) -> u64 {
         self.rows
     }
 
-    /// Appends what belongs to `count` places of the first axis from `first` on.
+    /// Appends `count` rows, from `first` on, to `out`.
     ///
     /// # Errors
-    /// Rows that are not there, or a file that cannot be read.
+    /// Rows that do not exist, or a file that cannot be read.
     pub fn read(&mut self, first: u64, count: u64, out: &mut Vec<R>) -> Result<(), LogError> {
         let end = first.checked_add(count).filter(|end| *end <= self.rows);
         if end.is_none() {
@@ -101,7 +101,7 @@ impl<R: Row> TableFile<R> {
         Ok(())
     }
 
-    /// Has these bytes behind the header in the window; answers where.
+    /// Loads these bytes, counted from the end of the header, into the window; returns their range there.
     fn bytes(&mut self, at: u64, count: usize) -> Result<std::ops::Range<usize>, LogError> {
         let inside = |at: u64, window_at: u64, len: usize| {
             at >= window_at && at + count as u64 <= window_at + len as u64
@@ -125,10 +125,10 @@ impl<R: Row> TableFile<R> {
     }
 }
 
-/// Fields that had another name in version 1 of the format, with that name.
+/// Fields with another name in version 1 of the format, and that name.
 const FORMER_NAMES: [(&str, &str); 1] = [("depth_rate", "rate")];
 
-/// Where each field begins in an item, and the item's size. Fields that this reader does not know are passed over.
+/// Offsets of the wanted fields in an item, and the item's size. Other fields are skipped.
 fn offsets(dtype: &DType, wanted: &[Field]) -> Result<(Vec<usize>, usize), String> {
     let DType::Record(fields) = dtype else { return Err("its type is not structured".to_owned()) };
     let mut places = Vec::new();

@@ -3,21 +3,22 @@
 use super::field::Field;
 use std::io::Write as _;
 
-/// Room for the count: as many digits as a number of 64 bits has.
+/// Width of the row count: the digits of a number of 64 bits.
 const DIGITS: usize = 20;
 /// Bytes before the text: magic, version and the length of the text.
 const HEAD: usize = 10;
-/// NumPy aligns the data to this.
+/// NumPy's alignment of the data.
 const GRAIN: usize = 64;
 
-/// The header of a table with so many rows. Its length does not depend on the number. `columns` is the second axis.
+/// The header of a table with `rows` rows. Its length does not depend on that number. `columns` is the second
+/// axis.
 pub fn header(fields: &[Field], rows: u64, columns: Option<usize>) -> Vec<u8> {
     let mut out = Vec::new();
     write_header(fields, rows, columns, &mut out);
     out
 }
 
-/// As [`header`], into memory that is used again. Writing to memory cannot fail.
+/// As [`header`], into memory that is reused. Writing to memory cannot fail.
 pub(crate) fn write_header(fields: &[Field], rows: u64, columns: Option<usize>, out: &mut Vec<u8>) {
     out.clear();
     out.extend_from_slice(b"\x93NUMPY\x01\x00\x00\x00");

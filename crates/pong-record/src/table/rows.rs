@@ -12,9 +12,9 @@ pub trait Row: Copy {
     /// Bytes of a row as it is written.
     const SIZE: usize;
 
-    /// Appends the bytes of the row.
+    /// Appends the bytes of the row to `out`.
     fn put(&self, out: &mut Vec<u8>);
-    /// Reads a row whose fields begin at these offsets.
+    /// Reads a row with its fields at these offsets.
     fn get(bytes: &[u8], offsets: &[usize]) -> Self;
     /// The first field, from `first` on, in which two rows differ, with both values in words.
     fn difference(
@@ -81,24 +81,24 @@ macro_rules! row {
 }
 
 row! {
-    /// A frame: its number, its time, where its contacts are.
+    /// A frame: its number, its time and the range of its contacts.
     FrameRow in "frames" {
-        /// Number of the frame, from 0; a gap is frames that were lost.
+        /// Number of the frame, from 0; lost frames leave a gap.
         frame: u64,
         /// Time, s.
         time: f64,
         /// Its first row in the table of contacts.
         first_contact: u64,
-        /// How many rows there.
+        /// Number of its contacts.
         contacts: u32,
-        /// What the frame left out, as in [`pong_engine::StatusBits`].
+        /// Limits that the frame hit, as in [`pong_engine::StatusBits`].
         flags: u32,
         /// Duration of the evaluation, ns; 0 without a clock.
         evaluate_ns: u64,
-        /// What became of the frame: one of [`FrameRow::EVALUATED`], [`FrameRow::COMMITTED`],
+        /// Kind of commit: one of [`FrameRow::EVALUATED`], [`FrameRow::COMMITTED`],
         /// [`FrameRow::COMMITTED_SOME`].
         committed: u32,
-        /// Commits since the frame before that belong to no frame of the log.
+        /// Commits since the previous frame whose frames are not in the log.
         commits_missed: u32,
     }
 }
@@ -108,20 +108,20 @@ impl FrameRow {
     pub const EVALUATED: u32 = 0;
     /// The frame was committed.
     pub const COMMITTED: u32 = 1;
-    /// Some pairs of it were committed: an event tells which.
+    /// Some of its pairs were committed: an event has the list.
     pub const COMMITTED_SOME: u32 = 2;
 }
 
 row! {
-    /// The state of a body as the host set it; NaN if it never did.
+    /// The state of a body as the host set it; NaN if it was never set.
     StateRow in "states" {
-        /// Of the group's origin, m.
+        /// Position of the group's origin, m.
         position: [f64; 3],
         /// Quaternion (w, x, y, z).
         orientation: [f64; 4],
-        /// Of the group's origin, m/s.
+        /// Velocity of the group's origin, m/s.
         linear_velocity: [f64; 3],
-        /// rad/s.
+        /// Angular velocity, rad/s.
         angular_velocity: [f64; 3],
     }
 }
@@ -129,9 +129,9 @@ row! {
 row! {
     /// The wrench of all contacts on a body, along the common axes.
     WrenchRow in "wrenches" {
-        /// N.
+        /// Force, N.
         force: [f64; 3],
-        /// About the group's origin, N·m.
+        /// Moment about the group's origin, N·m.
         moment: [f64; 3],
     }
 }
@@ -151,31 +151,31 @@ row! {
         element_a: u32,
         /// Triangle of a mesh, from 0; 0 otherwise.
         element_b: u32,
-        /// What of B pushes: 0 face, 1 edge, 2 vertex.
+        /// Feature of B that pushes: 0 face, 1 edge, 2 vertex.
         feature_kind: u32,
-        /// Which face, edge or vertex.
+        /// Index of that face, edge or vertex.
         feature_index: u32,
-        /// Of a body with two ends: 0 and 1 at its ends, 2 and above between them.
+        /// End of an elongated body: 0 and 1 at its ends, 2 and above between them.
         end: u32,
         /// 1 if friction sticks.
         sticks: u32,
-        /// Where the force acts, m.
+        /// Point at which the force acts, m.
         point: [f64; 3],
         /// Unit normal from B to A.
         normal: [f64; 3],
-        /// m.
+        /// Depth, m.
         depth: f64,
-        /// m/s, positive while closing.
+        /// Rate of the depth, m/s, positive while closing.
         depth_rate: f64,
         /// Share of the pair's spring, 0 to 1.
         weight: f64,
-        /// N.
+        /// Normal force, N.
         normal_force: f64,
-        /// On A, N.
+        /// Friction force on A, N.
         friction_force: [f64; 3],
-        /// Of A against B, m/s.
+        /// Tangential velocity of A against B, m/s.
         slip_velocity: [f64; 3],
-        /// J.
+        /// Stored energy, J.
         stored: f64,
     }
 }
@@ -183,21 +183,21 @@ row! {
 row! {
     /// Energies of a frame, J.
     EnergyRow in "energies" {
-        /// Of motion.
+        /// Kinetic energy.
         kinetic: f64,
-        /// In gravity.
+        /// Potential energy in gravity.
         potential: f64,
-        /// In springs.
+        /// Energy in springs.
         springs: f64,
-        /// Stored in contacts.
+        /// Energy stored in contacts.
         contacts: f64,
-        /// Lost in contacts.
+        /// Energy lost in contacts.
         contact_loss: f64,
-        /// Lost in springs.
+        /// Energy lost in springs.
         spring_loss: f64,
         /// Work of loads and prescribed bodies.
         work_in: f64,
-        /// All terms: what a good run keeps.
+        /// Balance of all terms, constant in a good run.
         balance: f64,
     }
 }

@@ -1,23 +1,23 @@
-//! Values of a table's fields: how NumPy calls them and what their bytes are.
+//! Values of a table's fields: their NumPy types and bytes.
 
-/// What a field of a table may hold. Little endian.
+/// Type of a field of a table. Little endian.
 pub trait Value: Copy {
-    /// NumPy's name of one number.
+    /// NumPy's name of its number type.
     const KIND: &'static str;
-    /// How many numbers a value is; 0 for one that is no array.
+    /// Length of its array; 0 for a single number.
     const COUNT: usize;
     /// Bytes of a value.
     const SIZE: usize;
 
-    /// Appends the bytes.
+    /// Appends the bytes to `out`.
     fn put(self, out: &mut Vec<u8>);
     /// Reads the value from the first bytes.
     fn get(bytes: &[u8]) -> Self;
-    /// Whether two values agree; numbers with a fraction are judged by `same`.
+    /// True if two values agree; floating-point numbers are compared by `same`.
     fn agrees(&self, other: &Self, same: &dyn Fn(f64, f64) -> bool) -> bool;
-    /// The value in words, so that no two different values are told alike.
+    /// The value in words; different values give different words.
     fn words(&self) -> String;
-    /// The largest magnitude in it, 0 for counts and indices.
+    /// The largest magnitude in it; 0 for counts and indices.
     fn magnitude(&self) -> f64;
 }
 

@@ -4,17 +4,17 @@ use crate::read::Frame;
 use crate::table::{ContactRow, EnergyRow, FrameRow, Row, StateRow, WrenchRow};
 use pong_engine::{Contact, ContactSide, EngineError, InterfaceId, State, World};
 
-/// What is written of a world, and room for one frame of it.
+/// Buffer for the bytes of one frame, with the list of bodies to write.
 #[derive(Debug)]
 pub(crate) struct Capture {
     bodies: Vec<InterfaceId>,
-    /// Where the primitives of each body begin in the list of all.
+    /// Index of the first primitive of each body in the list of all.
     first_primitive: Vec<u32>,
     energies: bool,
     bytes: Vec<u8>,
 }
 
-/// Bits of a contact's feature below its kind.
+/// Number of bits of a feature's index, below those of its kind.
 const FEATURE_INDEX_BITS: u32 = 30;
 
 impl Capture {
@@ -32,7 +32,8 @@ impl Capture {
         Ok(Self { bodies, first_primitive, energies, bytes: Vec::new() })
     }
 
-    /// Takes the memory of a frame of so many bytes, so that no page of it is new to the first large one.
+    /// Reserves and touches memory for a frame of `largest` bytes, to avoid page faults in the first large
+    /// frame.
     pub fn take_room(&mut self, largest: usize) {
         self.bytes.resize(largest, 1);
         self.bytes.clear();
@@ -43,7 +44,7 @@ impl Capture {
         &self.bodies
     }
 
-    /// Bytes of a frame with so many contacts.
+    /// Bytes of a frame with this number of contacts.
     pub fn size(&self, contacts: usize) -> usize {
         let energies = if self.energies { EnergyRow::SIZE } else { 0 };
         FrameRow::SIZE
@@ -52,7 +53,8 @@ impl Capture {
             + contacts * ContactRow::SIZE
     }
 
-    /// The last frame of the world. Takes no memory if there is room for the most contacts that a frame can have.
+    /// Bytes of the last frame of the world. Allocates nothing if there is room for the largest number of
+    /// contacts.
     pub fn frame(
         &mut self,
         world: &World,
@@ -76,7 +78,7 @@ impl Capture {
         Ok(&self.bytes)
     }
 
-    /// As [`frame`](Self::frame), as rows, whose memory is used again.
+    /// As [`frame`](Self::frame), but as rows, into memory that is reused.
     pub fn rows(&self, world: &World, time: f64, out: &mut Frame) -> Result<(), EngineError> {
         let report = world.report();
         out.row = FrameRow { time, contacts: report.contacts, flags: report.status.bits(), ..out.row };
@@ -117,7 +119,7 @@ impl Capture {
     }
 }
 
-/// What stands for energies that were not handed in.
+/// Placeholder for energies that were not given.
 const NO_ENERGIES: EnergyRow = EnergyRow {
     kinetic: f64::NAN,
     potential: f64::NAN,

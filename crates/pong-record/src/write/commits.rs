@@ -1,14 +1,14 @@
-//! Which commits belong to which frame of the log.
+//! Assignment of commits to the frames of the log.
 
 use crate::table::FrameRow;
 use pong_engine::PairId;
 
-/// What became of the evaluation last made, and of those before it since the last frame of the log.
+/// Commit of the last evaluation, and the count of earlier ones since the last frame of the log.
 #[derive(Debug)]
 pub(super) struct Commits {
     committed: u32,
     missed: u32,
-    /// The pairs of a commit of some, in order. Its memory stays.
+    /// The pairs of a partial commit, sorted. Its memory is reused.
     pairs: Vec<u32>,
 }
 
@@ -17,7 +17,7 @@ impl Commits {
         Self { committed: FrameRow::EVALUATED, missed: 0, pairs: Vec::with_capacity(pairs) }
     }
 
-    /// Another evaluation: a commit of the one before belongs to no frame any more.
+    /// Notes an evaluation: a commit of the one before can no longer get a frame.
     pub fn evaluated(&mut self) {
         self.missed = self.missed.saturating_add(u32::from(self.committed != FrameRow::EVALUATED));
         self.committed = FrameRow::EVALUATED;
@@ -31,7 +31,7 @@ impl Commits {
         self.committed = FrameRow::COMMITTED_SOME;
         self.pairs.clear();
         for pair in pairs.iter().map(|pair| pair.index() as u32) {
-            // There is room for each pair once: full without a pair named twice, it has them all.
+            // The capacity holds each pair once: if it is full after removing duplicates, it has all pairs.
             if self.pairs.len() == self.pairs.capacity() {
                 self.order();
                 if self.pairs.len() == self.pairs.capacity() {
@@ -43,25 +43,25 @@ impl Commits {
         self.order();
     }
 
-    /// In order, and each once.
+    /// Sorts the pairs and removes duplicates.
     fn order(&mut self) {
         self.pairs.sort_unstable();
         self.pairs.dedup();
     }
 
-    /// Fills in what a frame tells, and begins the next.
+    /// Writes the commit fields of a frame, and begins the next.
     pub fn tell(&mut self, row: &mut FrameRow) {
         (row.committed, row.commits_missed) = (self.committed, self.missed);
         (self.committed, self.missed) = (FrameRow::EVALUATED, 0);
     }
 
-    /// A frame that was told is not in the log after all.
+    /// Takes back a frame that could not be logged.
     pub fn lost(&mut self, row: &FrameRow) {
         let own = u32::from(row.committed != FrameRow::EVALUATED);
         self.missed = self.missed.saturating_add(row.commits_missed).saturating_add(own);
     }
 
-    /// The pairs of the commit of some that was told last.
+    /// The pairs of the last partial commit.
     pub fn pairs(&self) -> &[u32] {
         &self.pairs
     }
@@ -111,7 +111,7 @@ mod tests {
         assert_eq!(told(&mut commits), (1, 0));
         (0..10).for_each(|_| step(&mut commits));
         assert_eq!(told(&mut commits), (1, 9));
-        // Stages of an integrator are no commits.
+        // Stages of an integrator make no commits.
         (0..3).for_each(|_| commits.evaluated());
         step(&mut commits);
         assert_eq!(told(&mut commits), (1, 0));
@@ -121,7 +121,7 @@ mod tests {
         commits.committed();
         commits.evaluated();
         assert_eq!(told(&mut commits), (0, 1));
-        // A frame that was lost leaves its commits to the next.
+        // Commits of a lost frame are counted with the next.
         step(&mut commits);
         let mut row = crate::Frame::default().row;
         commits.tell(&mut row);

@@ -6,7 +6,8 @@ use crate::run::{Run, RunAccounts, RunBody, RunFilter, RunModel, RunObject, RunP
 use crate::table::{ContactRow, EnergyRow, FrameRow, Row, StateRow, WrenchRow};
 use pong_engine::{EngineError, ObjectId, World};
 
-/// What run.json says as a log begins. `models` are the files of the models in the folder of the log.
+/// The contents of run.json at the start of a log. `models` are the files of the models in the folder of the
+/// log.
 pub(crate) fn describe(
     world: &World,
     models: Vec<RunModel>,

@@ -1,4 +1,4 @@
-//! The folder of a log before anything is in it.
+//! Preparation of the folder of a log.
 
 use super::describe::file;
 use super::models;
@@ -8,10 +8,10 @@ use crate::table::{ContactRow, EnergyRow, FrameRow, Row, StateRow, WrenchRow};
 use crate::{event, run};
 use std::path::Path;
 
-/// What the files of contact states begin with.
+/// Prefix of the files of contact states.
 pub(super) const CONTACT_STATE: &str = "contact_state_";
 
-/// Makes the folder, or empties it of another log if that is wanted.
+/// Creates the folder, or removes another log from it if allowed.
 pub(super) fn prepare(folder: &Path, overwrite: bool) -> Result<(), LogError> {
     if folder == Path::new("") {
         return Err(LogError::refused(
@@ -42,7 +42,7 @@ fn belongs_to_a_log(name: &str) -> bool {
 }
 
 fn remove(folder: &Path, found: &[String]) -> Result<(), LogError> {
-    // The models only if the log says that there are some: another folder of that name is not ours.
+    // Removes models only if run.json lists them: another folder of that name may be the user's.
     if found.iter().any(|name| name == run::FILE) && Run::load(folder).is_ok_and(|run| !run.models.is_empty())
     {
         let models = folder.join(models::FOLDER);

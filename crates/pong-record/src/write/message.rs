@@ -1,27 +1,28 @@
-//! What the recorder hands to the thread: messages of bytes in a ring.
+//! Messages from the recorder to the writing thread: bytes in a ring buffer.
 
 use rtrb::{Consumer, Producer};
 
-/// What a message holds.
+/// Kind of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// A row of `frames`, then the rows of the other tables, contacts last.
     Frame,
     /// A line of events.jsonl.
     Event,
-    /// A contact state: number of the file, its length and its last bytes, then what it begins with; zeros between.
+    /// A contact state: number of the file, its length and its last bytes, then its first bytes; zeros
+    /// between.
     Block,
 }
 
-/// Length of the rest and kind.
+/// Size of a message's header: length of the rest, and kind.
 const HEAD: usize = 8;
 
-/// Room that messages of these lengths take in the ring.
+/// Bytes that messages of these lengths take in the ring.
 pub(super) fn room(lengths: &[usize]) -> usize {
     lengths.iter().map(|length| HEAD + length).sum()
 }
 
-/// Writes a message of several parts if there is room for it. Never waits.
+/// Writes a message of several parts if there is room for it. Never blocks.
 pub(super) fn push(producer: &mut Producer<u8>, kind: Kind, parts: &[&[u8]]) -> bool {
     let length: usize = parts.iter().map(|part| part.len()).sum();
     let Ok(mut chunk) = producer.write_chunk(HEAD + length) else { return false };
@@ -34,7 +35,7 @@ pub(super) fn push(producer: &mut Producer<u8>, kind: Kind, parts: &[&[u8]]) -> 
     true
 }
 
-/// Two halves of the ring, written one after the other.
+/// The two contiguous parts of a region of the ring.
 struct Wrapped<'a> {
     first: &'a mut [u8],
     second: &'a mut [u8],
@@ -54,7 +55,7 @@ impl Wrapped<'_> {
     }
 }
 
-/// Takes the next message into `out`, if there is one.
+/// Reads the next message into `out`, if there is one.
 pub(super) fn pop(consumer: &mut Consumer<u8>, out: &mut Vec<u8>) -> Option<Kind> {
     take(consumer, HEAD, out)?;
     let word = |at: usize| u32::from_le_bytes([out[at], out[at + 1], out[at + 2], out[at + 3]]);

@@ -1,4 +1,4 @@
-//! Logs as they are written: a recorder on the frame's path, a thread of its own for the files.
+//! Writing logs: a recorder in the frame, and a thread of its own for the files.
 
 mod capture;
 mod commits;

@@ -8,7 +8,7 @@ use pong_model::Model;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Where a model came from.
+/// Source of a model.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ModelSource {
     /// A file; meshes lie beside it.
@@ -17,7 +17,7 @@ pub enum ModelSource {
     Text {
         /// The text.
         text: String,
-        /// Where its meshes lie.
+        /// Folder of its meshes.
         mesh_dir: Option<PathBuf>,
     },
 }
@@ -25,7 +25,7 @@ pub enum ModelSource {
 /// Folder of the models in a log.
 pub(super) const FOLDER: &str = "models";
 
-/// Copies the models of a world into the folder of a log, and makes sure that the copies are what the world has.
+/// Copies the models of a world into the folder of a log, and checks that the copies give the world's models.
 pub(super) fn keep(world: &World, sources: &[ModelSource], folder: &Path) -> Result<Vec<RunModel>, LogError> {
     if sources.len() != world.scene().models().len() {
         let cause =
@@ -87,13 +87,14 @@ fn keep_one(
     }
 }
 
-/// Copies what the text of a model may name as meshes: whatever it quotes that is a file of such a kind beside it.
+/// Copies the mesh files that the text of a model may name: every quoted name of an existing file of such a
+/// type.
 fn copy_meshes(text: &str, base: &Path, home: &Path) -> Result<(), LogError> {
     let is_mesh = |quoted: &&str| {
         let lower = quoted.to_lowercase();
         (lower.ends_with(".obj") || lower.ends_with(".stl")) && is_inside(quoted)
     };
-    // Both between quotes and outside of them: a quote in a comment must not turn the two around.
+    // Tries the text inside and outside of quotes, because a quote in a comment may swap the two.
     for mesh in text.split('"').filter(is_mesh) {
         let (from, to) = (base.join(mesh), home.join(mesh));
         if from.is_file() {
@@ -106,7 +107,7 @@ fn copy_meshes(text: &str, base: &Path, home: &Path) -> Result<(), LogError> {
     Ok(())
 }
 
-/// A name that any file system takes.
+/// A file name that any file system accepts.
 fn plain(name: &str) -> String {
     let kept = |c: char| if c.is_ascii_alphanumeric() || "_-".contains(c) { c } else { '_' };
     let plain: String = name.chars().take(80).map(kept).collect();

@@ -1,22 +1,22 @@
-//! How a run is recorded.
+//! Options of recording.
 
 use std::time::Duration;
 
-/// What the frame does when the files are slower than the run.
+/// Behaviour when the files are slower than the run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum WhenFull {
-    /// Waits: for runs that nobody watches.
+    /// Waits: for unattended runs.
     #[default]
     Wait,
     /// Leaves whole frames out of the log, counted and marked: for runs in real time.
     Lose,
 }
 
-/// How long anyone waits for files that take nothing, unless the host says otherwise: longer than a disk that spins up or
-/// a server that restarts takes, shorter than anybody waits for a program to end.
+/// Default limit of waiting for files that accept nothing: longer than a disk takes to spin up or a server to
+/// restart, but short enough for a program that ends.
 pub const LONGEST_WAIT: Duration = Duration::from_secs(30);
 
-/// How a run is recorded.
+/// Options of recording.
 #[derive(Clone, Debug)]
 pub struct RecordOptions {
     /// Name of the run.
@@ -29,21 +29,21 @@ pub struct RecordOptions {
     pub commits_per_frame: Option<u64>,
     /// The integrator, if known.
     pub integrator: Option<String>,
-    /// Whether energies are handed in with every frame.
+    /// True if energies are given with every frame.
     pub energies: bool,
-    /// Whether a log that lies in the folder may be replaced.
+    /// True if an existing log in the folder may be replaced.
     pub overwrite: bool,
-    /// What happens when the files are too slow.
+    /// Behaviour when the files are too slow.
     pub when_full: WhenFull,
-    /// Bytes that may wait for the files; raised to what the largest frame takes. `None` for 16 MiB.
+    /// Most bytes that may wait for the files; raised to the size of the largest frame. `None` for 16 MiB.
     pub buffer_bytes: Option<usize>,
-    /// How often what was written is flushed, by default 1 s. A run that is cut off keeps what was flushed.
+    /// Time between flushes, by default 1 s. A run that is cut off keeps what was flushed.
     pub flush_every: Duration,
-    /// How long anyone waits for files that take nothing at all: a frame that waits for room is then lost, and so are all
-    /// that follow; a log that is closed then ends where it was flushed. 30 s unless the host says otherwise.
+    /// Limit of waiting for files that accept nothing at all: beyond it a frame that waits for room is lost,
+    /// with all that follow, and a log that is closed ends where it was last flushed. 30 s by default.
     pub longest_wait: Duration,
-    /// Called in the thread that writes the files as it begins: a host whose threads have a real-time priority lowers
-    /// that of this one here.
+    /// Called at the start of the thread that writes the files, where a host with real-time threads lowers
+    /// its priority.
     pub on_thread_start: Option<fn()>,
 }
 

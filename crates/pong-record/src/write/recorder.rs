@@ -1,4 +1,4 @@
-//! What stands on the frame's path: no memory is taken, no file touched, nothing waited for (unless that is wanted).
+//! The recorder's part in the frame: allocates nothing, touches no file, and waits only on request.
 
 use super::capture::Capture;
 use super::commits::Commits;
@@ -24,8 +24,8 @@ use std::time::{Duration, Instant};
 
 /// Records a sealed world.
 ///
-/// The recorder is told of every evaluation, every commit and every change; [`record`](Self::record) writes the frame
-/// last computed. Dropping it closes the log; [`finish`](Self::finish) does so too and tells whether all went well.
+/// The host reports every evaluation, commit and change to the recorder; [`record`](Self::record) writes the
+/// frame last computed. Dropping it closes the log; [`finish`](Self::finish) does so too and returns errors.
 #[derive(Debug)]
 pub struct Recorder {
     /// `None` once the log is closed.
@@ -38,60 +38,60 @@ pub struct Recorder {
     /// Number of the next frame.
     next: u64,
     lost: u64,
-    /// Those that nobody was told of yet: the frame that the first belongs to, and how many.
+    /// Lost events that are not noted in the log yet: the frame of the first, and their number.
     events_lost: Option<(u64, u64)>,
     events_lost_ever: u64,
     blocks: u64,
-    /// For lines of events. Its memory stays.
+    /// Buffer for lines of events. Its memory is reused.
     line: Vec<u8>,
     peak: usize,
     size: usize,
     longest_wait: Duration,
-    /// Whether the files took nothing for so long that the thread is not waited for any more.
+    /// True if the files accepted nothing for so long that the thread is no longer waited for.
     gave_up: bool,
-    /// The process whose log this is. A fork of it has no thread that writes.
+    /// PID of the process that writes the log. The thread does not survive a fork.
     process: u32,
 }
 
-/// How a log stands.
+/// Progress of a log.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RecordStatus {
-    /// Frames that were recorded, lost ones too.
+    /// Frames recorded, including lost ones.
     pub frames: u64,
-    /// Frames in the files that count: a run that is cut off now keeps them.
+    /// Frames flushed to the files: a run that is cut off now keeps them.
     pub flushed: u64,
     /// Frames that are not and will not be in the log.
     pub lost: u64,
     /// Events likewise.
     pub events_lost: u64,
-    /// Bytes of the rows that count.
+    /// Bytes of the rows flushed.
     pub bytes: u64,
-    /// Most bytes that waited for the files, of [`buffer_size`](Self::buffer_size).
+    /// Largest number of bytes that waited for the files, at most [`buffer_size`](Self::buffer_size).
     pub buffer_peak: usize,
     /// Bytes that may wait for the files.
     pub buffer_size: usize,
-    /// Why nothing is written any more, if so.
+    /// Reason why writing has stopped, if it has.
     pub error: Option<String>,
 }
 
-/// Bytes that may wait for the files unless the host says otherwise.
+/// Default number of bytes that may wait for the files.
 const BUFFER: usize = 16 << 20;
 /// Bytes that frames leave free for events.
 const ROOM_FOR_EVENTS: usize = 1 << 16;
-/// Longest line of an event that is written in a frame: the numbers of all pairs in one, at most.
+/// Longest line of an event that is written in a frame, bytes.
 const LINE: usize = 256;
 const DIGITS_OF_A_PAIR: usize = 11;
-/// What the thread and its files take at most beside that, bytes: a stack, and what tables gather.
+/// Upper bound of the other memory of the thread and its files, bytes: a stack and the buffers of tables.
 const FILES: usize = 4 << 20;
-/// Time between two looks of one who waits for the files.
+/// Polling interval of a thread that waits for the files.
 const LOOK: Duration = Duration::from_micros(200);
-/// What a fork of the process is told of the log.
+/// Error of a log used in a fork of its process.
 const OF_THE_PARENT: &str = "log: it belongs to the process that began it, not to this fork of it; stop it here and begin one in another folder";
 
 impl Recorder {
-    /// Begins a log of a sealed world in a folder. `models` tells where each model came from, in the order in which
-    /// they were added. What the world remembers, switched pairs and changed surfaces go into the log, so that it
-    /// may begin at any time.
+    /// Begins a log of a sealed world in a folder. `models` are the sources of the models, in the order in
+    /// which they were added. The contact state, switched pairs and changed surfaces go into the log, so that
+    /// it may begin at any time.
     ///
     /// # Errors
     /// A folder that cannot be written or holds a log, a model whose files have changed.
@@ -109,7 +109,7 @@ impl Recorder {
         let least = (2 * message::room(&[line, frame])).max(message::room(&[BLOCK_HEAD + state_size]));
         let wanted = options.buffer_bytes.unwrap_or(BUFFER).max(least) + ROOM_FOR_EVENTS;
         let longest = frame.max(BLOCK_HEAD + state_size).max(line);
-        // The ring, what the thread and the frame's path keep, and what a contact state takes once.
+        // The ring, the buffers of the thread and of the frame, and one copy of the contact state.
         let kept = 2 * frame + line + state_size + FILES;
         require(wanted.saturating_add(longest).saturating_add(kept))?;
         folder::prepare(folder, options.overwrite)?;
@@ -119,7 +119,7 @@ impl Recorder {
         let (producer, consumer) = ring(wanted);
         let writer = Writer::create(folder, run, options)?;
         let shared = Arc::new(Shared::default());
-        // Before the thread: the allocator reserves address space for it.
+        // Before the thread starts, because the allocator reserves address space for it.
         let (line, message) = (Vec::with_capacity(line), Vec::with_capacity(longest));
         let block = if world.has_contact_state() { vec![0; state_size] } else { Vec::new() };
         leave_room_for_small_things();
@@ -159,27 +159,27 @@ impl Recorder {
         Ok(recorder)
     }
 
-    /// The world was evaluated.
+    /// Notes that the world was evaluated.
     pub fn evaluated(&mut self) {
         self.commits.evaluated();
     }
 
-    /// The evaluation was committed.
+    /// Notes that the evaluation was committed.
     pub fn committed(&mut self) {
         self.commits.committed();
     }
 
-    /// The evaluation was committed for these pairs.
+    /// Notes that the evaluation was committed for these pairs.
     pub fn committed_some(&mut self, pairs: &[PairId]) {
         self.commits.committed_some(pairs);
     }
 
-    /// Records the frame last computed, of this time (s). `evaluate_ns` is 0 where nobody measured. A frame for which
-    /// there is no room is lost, or waits, as the options say; that is no error.
+    /// Records the frame last computed, with this time (s). `evaluate_ns` is 0 if it was not measured. A
+    /// frame for which there is no room is lost, or waits, by the options; that is no error.
     ///
     /// # Errors
-    /// A world without a frame, or whose states, pairs or surfaces are no longer those of its frame; a time that is
-    /// not finite.
+    /// A world without a frame, or whose states, pairs or surfaces are no longer those of its frame; a time
+    /// that is not finite.
     pub fn record(
         &mut self,
         world: &World,
@@ -199,7 +199,7 @@ impl Recorder {
         let mut row = FrameRow {
             frame: self.next,
             time,
-            // The thread knows how many are in the table.
+            // The thread fills this in: it knows the number of rows in the table.
             first_contact: 0,
             contacts: report.contacts,
             flags: report.status.bits(),
@@ -217,23 +217,23 @@ impl Recorder {
         Ok(())
     }
 
-    /// A pair was switched on or off.
+    /// Logs that a pair was switched on or off.
     pub fn pair_switched(&mut self, pair: PairId, enabled: bool) {
         self.tell(Event::Pair { pair: pair.index() as u32, enabled });
     }
 
-    /// The contact state of an Object was dropped.
+    /// Logs that the contact history of an Object was cleared.
     pub fn forgot(&mut self, object: ObjectId) {
         self.tell(Event::ClearContactHistory { object: object.index() as u32 });
     }
 
-    /// The values of a surface were replaced. Takes memory.
+    /// Logs the new values of a surface. Allocates.
     pub fn surface_set(&mut self, model: ModelId, surface: &Surface) {
         let (model, name) = (model.index() as u32, surface.name.clone());
         self.tell(Event::Surface { model, name, values: surface.into() });
     }
 
-    /// A contact state was restored: its block, with nothing behind it.
+    /// Logs a restored contact state; `block` is trimmed to the used length.
     pub fn restored(&mut self, block: &[u8]) {
         if !self.push(Kind::Block, &[&self.blocks.to_le_bytes(), block]) {
             self.event_was_lost();
@@ -241,7 +241,7 @@ impl Recorder {
         }
         self.line.clear();
         let (frame, file) = (self.next, self.blocks);
-        // As `block_file`, which takes memory.
+        // As `block_file`, which allocates.
         let _ = write!(
             self.line,
             "{{\"frame\":{frame},\"event\":\"restore\",\"file\":\"contact_state_{file}.bin\"}}"
@@ -251,11 +251,12 @@ impl Recorder {
         self.event();
     }
 
-    /// How the log stands. Takes memory only where something has failed.
+    /// Progress of the log. Allocates only after a failure.
     pub fn status(&self) -> RecordStatus {
         let shared = &self.shared;
         let error = if self.is_forked() {
-            // Another thread may have held the lock of the text when the process was forked.
+            // Not read from the shared text: another thread may have held its lock when the process was
+            // forked.
             Some(OF_THE_PARENT.to_owned())
         } else if shared.failed.load(Ordering::Acquire) {
             shared.error.lock().unwrap_or_else(std::sync::PoisonError::into_inner).clone()
@@ -274,10 +275,10 @@ impl Recorder {
         }
     }
 
-    /// Writes what is left and closes the log.
+    /// Writes the rest and closes the log.
     ///
     /// # Errors
-    /// What kept the files from being written, now or earlier; the log ends where it says.
+    /// The cause why files could not be written, now or earlier, and where the log ends.
     pub fn finish(mut self) -> Result<RecordStatus, LogError> {
         self.close();
         let status = self.status();
@@ -287,11 +288,11 @@ impl Recorder {
         }
     }
 
-    /// Writes what is left and closes the log; [`status`](Self::status) tells how it went. Nothing is recorded any more.
-    /// Files that take nothing for [`longest_wait`](RecordOptions::longest_wait) are given up.
+    /// Writes the rest and closes the log; [`status`](Self::status) has the outcome. Nothing is recorded
+    /// after that. Files that accept nothing for [`longest_wait`](RecordOptions::longest_wait) are given up.
     pub fn close(&mut self) {
         if self.is_forked() {
-            // The thread is the parent's, and so is what it has in hand.
+            // The thread and its data belong to the parent process.
             std::mem::forget(self.thread.take());
             self.producer = None;
             return;
@@ -315,7 +316,7 @@ impl Recorder {
         }
     }
 
-    /// The files take nothing: whatever the thread still has in hand is lost.
+    /// Gives up files that accept nothing: the thread's remaining data are lost.
     fn give_up(&mut self) {
         self.gave_up = true;
         let frames = self.shared.frames.load(Ordering::Relaxed);
@@ -328,7 +329,7 @@ impl Recorder {
         self.shared.failed.store(true, Ordering::Release);
     }
 
-    /// Whether this is a copy of the recorder in a fork of its process.
+    /// True if this is a copy of the recorder in a fork of its process.
     fn is_forked(&self) -> bool {
         self.process != std::process::id()
     }
@@ -352,7 +353,7 @@ impl Recorder {
         Ok(())
     }
 
-    /// Whether the frame could be handed to the thread.
+    /// Hands a frame to the thread; false if there was no room.
     fn hand_over(
         &mut self,
         world: &World,
@@ -389,8 +390,7 @@ impl Recorder {
         Ok(pushed)
     }
 
-    /// Hands the line of an event to the thread, after word of those that were lost before it.
-    /// Hands over what came before the next frame.
+    /// Hands the line of an event to the thread, after the note of events lost before it.
     fn tell(&mut self, event: Event) {
         self.line.clear();
         let event = LoggedEvent { frame: self.next, event };
@@ -406,7 +406,7 @@ impl Recorder {
         self.line = line;
     }
 
-    /// Hands over word of events that were lost, if there were any and there is room now.
+    /// Hands the note of lost events to the thread, if there is one; false if there is no room.
     fn tell_lost(&mut self) -> bool {
         let Some((frame, count)) = self.events_lost else { return true };
         let mut note = [0; 96];
@@ -434,8 +434,8 @@ impl Recorder {
         self.producer.as_mut().is_some_and(|producer| message::push(producer, kind, parts))
     }
 
-    /// Whether there is so much room in the ring, now or, if the host wants to wait, soon. In a fork there is none: nobody
-    /// would ever write it.
+    /// True if the ring has this much room, now or, with waiting allowed, soon. False in a fork, because no
+    /// thread empties the ring.
     fn wait_for(&mut self, room: usize) -> bool {
         let forked = self.is_forked();
         let Some(producer) = self.producer.as_ref().filter(|_| !forked) else { return false };
@@ -461,7 +461,7 @@ impl Recorder {
     }
 }
 
-/// Ends when the files have taken nothing for too long.
+/// Time limit for files that accept nothing.
 struct WaitLimit {
     alive: u64,
     since: Instant,
@@ -488,7 +488,7 @@ impl Drop for Recorder {
     }
 }
 
-/// A ring of so many bytes, all of them touched, so that no page of it is new in a frame.
+/// A ring of this size, with all pages touched to avoid page faults in a frame.
 fn ring(bytes: usize) -> (Producer<u8>, rtrb::Consumer<u8>) {
     let (mut producer, mut consumer) = RingBuffer::new(bytes);
     if let Ok(chunk) = producer.write_chunk_uninit(bytes) {
@@ -500,7 +500,7 @@ fn ring(bytes: usize) -> (Producer<u8>, rtrb::Consumer<u8>) {
     (producer, consumer)
 }
 
-/// Whether there is so much memory, before any of it is taken.
+/// Checks that this much memory is available before any of it is allocated.
 fn require(bytes: usize) -> Result<(), EngineError> {
     const WHAT: &str = "response log: what may wait for the disk, and the largest frame";
     const CURE: &str = "ask for fewer `buffer_bytes`, or for a smaller `contact_capacity` of the world";
@@ -510,8 +510,8 @@ fn require(bytes: usize) -> Result<(), EngineError> {
     require_memory(WHAT, bytes, CURE)
 }
 
-/// What the system can give without taking it from others, bytes, where it tells: it promises more than that, and ends
-/// the process that touches it.
+/// Memory that the system can give without taking it from other processes, bytes, where it is known. Linux
+/// overcommits, and kills the process that touches more.
 fn memory_available() -> Option<u64> {
     let told = std::fs::read_to_string("/proc/meminfo").ok()?;
     let line = told.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;

@@ -1,4 +1,4 @@
-//! The tables of a log as they grow.
+//! The growing tables of a log.
 
 use super::describe::file;
 use crate::error::LogError;
@@ -7,10 +7,10 @@ use std::fs::File;
 use std::io::{BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// Bytes that a table gathers before it writes them.
+/// Size of a table's write buffer, bytes.
 const GATHERED: usize = 1 << 17;
 
-/// Where `first_contact` lies in a row of `frames`.
+/// Offset of `first_contact` in a row of `frames`.
 const FIRST_CONTACT: usize = 16;
 
 /// One table.
@@ -20,9 +20,9 @@ struct Table {
     out: BufWriter<File>,
     fields: &'static [Field],
     columns: Option<usize>,
-    /// The header as it was written last. Its memory stays.
+    /// The header last written. Its memory is reused.
     header: Vec<u8>,
-    /// Bytes of what belongs to one place of the first axis.
+    /// Bytes of a row (an entry of the first axis).
     row: usize,
     rows: u64,
     flushed: u64,
@@ -53,7 +53,7 @@ impl Table {
         Ok(())
     }
 
-    /// The rows first, then the number of them.
+    /// Writes the rows first, then their number.
     fn flush(&mut self) -> Result<(), LogError> {
         if self.rows == self.flushed {
             return Ok(());
@@ -74,7 +74,7 @@ impl Table {
 
 /// All tables of a log.
 pub(super) struct Tables {
-    /// In the order in which they are flushed: every row of the last is complete in the others.
+    /// Tables in flush order: every row of the last is complete in the others.
     tables: Vec<Table>,
 }
 
@@ -92,7 +92,7 @@ impl Tables {
         Ok(Self { tables })
     }
 
-    /// Writes a frame as [`Capture`](super::capture::Capture) has put it together.
+    /// Writes a frame in the form of [`Capture`](super::capture::Capture).
     pub fn write(&mut self, frame: &[u8]) -> Result<(), LogError> {
         let mut row = [0; FrameRow::SIZE];
         row.copy_from_slice(&frame[..FrameRow::SIZE]);
@@ -121,17 +121,17 @@ impl Tables {
         self.tables.iter_mut().try_for_each(Table::flush)
     }
 
-    /// Frames that count.
+    /// Number of frames flushed.
     pub fn frames_flushed(&self) -> u64 {
         self.tables.last().map_or(0, |table| table.flushed)
     }
 
-    /// Bytes of all rows that count.
+    /// Bytes of all rows flushed.
     pub fn bytes_flushed(&self) -> u64 {
         self.tables.iter().map(|table| table.flushed * table.row as u64).sum()
     }
 
-    /// Name and rows of each table.
+    /// Name and row count of each table.
     pub fn rows(&self) -> impl Iterator<Item = (&'static str, u64)> + '_ {
         self.tables.iter().map(|table| (table.name, table.rows))
     }

@@ -15,10 +15,10 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-/// How long the thread sleeps when there is nothing to write. The ring must hold what comes meanwhile.
+/// Sleep of the thread when there is nothing to write. The ring must hold the data of that time.
 const NAP: Duration = Duration::from_millis(5);
 
-/// What the recorder and the thread tell each other.
+/// State shared by the recorder and the thread.
 #[derive(Debug, Default)]
 pub(super) struct Shared {
     pub failed: AtomicBool,
@@ -27,10 +27,10 @@ pub(super) struct Shared {
     pub bytes: AtomicU64,
     /// Frames that were handed over and could not be written.
     pub dropped: AtomicU64,
-    /// Rises with everything that the files took, and whenever there was nothing to take: who waits for the files sees
-    /// whether they go on.
+    /// Progress counter: rises with every write, and whenever there was nothing to write. Waiting threads use
+    /// it to see whether the files still accept data.
     pub alive: AtomicU64,
-    /// Frames that were never handed over.
+    /// Frames lost before they were handed over.
     pub lost: AtomicU64,
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Writer {
 }
 
 impl Writer {
-    /// Begins the files in a folder that was prepared.
+    /// Creates the files in a prepared folder.
     pub fn create(folder: &Path, run: Run, options: &RecordOptions) -> Result<Self, LogError> {
         let tables = Tables::create(folder, run.bodies.len(), options.energies)?;
         let path = folder.join(event::FILE);
@@ -54,12 +54,12 @@ impl Writer {
         Ok(Self { folder: folder.to_owned(), run, tables, events, flush_every: options.flush_every })
     }
 
-    /// Writes what comes until the recorder is gone, then closes the log. Takes no memory for frames and events:
-    /// `message` has room for the longest.
+    /// Writes all messages until the recorder is gone, then closes the log. Allocates nothing for frames and
+    /// events: `message` has room for the longest.
     pub fn work(mut self, mut consumer: Consumer<u8>, mut message: Vec<u8>, shared: &Shared) {
         let mut flushed = Instant::now();
         loop {
-            // Asked before the ring is: what was handed over before the recorder went is still written.
+            // Read before the ring, so that messages handed over before the recorder went are still written.
             let last_round = consumer.is_abandoned();
             while let Some(kind) = message::pop(&mut consumer, &mut message) {
                 self.take(kind, &message, shared);
@@ -94,7 +94,7 @@ impl Writer {
         }
     }
 
-    /// Does something unless something before it has failed, and keeps why it failed.
+    /// Does some work unless earlier work has failed, and stores the error if it fails.
     fn try_to(&mut self, shared: &Shared, work: impl FnOnce(&mut Self) -> Result<(), LogError>) -> bool {
         if shared.failed.load(Ordering::Relaxed) {
             return false;
@@ -115,7 +115,7 @@ impl Writer {
         written.map_err(|reason| LogError::unwritable(&self.folder.join(event::FILE), &reason))
     }
 
-    /// Events first: those of a frame that counts are there.
+    /// Flushes events before tables, so that the events of a flushed frame are there.
     fn flush(&mut self) -> Result<(), LogError> {
         let flushed = self.events.flush();
         flushed.map_err(|reason| LogError::unwritable(&self.folder.join(event::FILE), &reason))?;
@@ -135,7 +135,7 @@ impl Writer {
     }
 }
 
-/// Writes run.json beside itself and puts it in place: it is whole at any time.
+/// Writes run.json to a temporary file and renames it: it is complete at any time.
 fn write_run(folder: &Path, run: &Run) -> Result<(), LogError> {
     let path = folder.join(run::FILE);
     let text =
@@ -149,7 +149,7 @@ pub(super) fn block_file(number: u64) -> String {
     format!("{CONTACT_STATE}{number}.bin")
 }
 
-/// Length of what a message says of a contact state before its bytes: its number.
+/// Length of the head of a contact state message: its file number.
 pub(super) const BLOCK_HEAD: usize = 8;
 
 fn write_block(folder: &Path, message: &[u8]) -> Result<(), LogError> {
