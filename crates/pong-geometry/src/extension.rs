@@ -1,4 +1,4 @@
-//! What a Rust user can add: kinds of primitives, kinds of bounding volumes, and the tests of their pairs.
+//! Extensions by a Rust user: kinds of primitives, kinds of bounding volumes, and the tests of their pairs.
 
 use crate::Transform;
 use crate::bounding::{Bounded, CustomVolume, Volume};
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// A primitive as a registered tester sees it, in the frame of its own movable group.
+/// Primitive as passed to a registered tester, in the frame of its own movable group.
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)]
 pub enum PrimitiveRef<'a> {
@@ -30,30 +30,32 @@ pub enum PrimitiveRef<'a> {
     Bore(&'a Bore),
 }
 
-/// Makes a custom primitive from the parameters in the model file, or says what is wrong with them.
+/// Creates a custom primitive from the parameters in the model file, or returns the reason why they are
+/// invalid.
 pub type PrimitiveFactory = Arc<dyn Fn(&[f64]) -> Result<Arc<dyn CustomPrimitive>, String> + Send + Sync>;
-/// Fits a custom bounding volume around things.
+/// Fits a custom bounding volume around a list of shapes.
 pub type VolumeFitter = Arc<dyn Fn(&[&dyn Bounded]) -> Arc<dyn CustomVolume> + Send + Sync>;
-/// Tests two volumes, each in its own frame, with the transform from the first to the second: `false` only if
-/// they are certainly apart.
+/// Test of two volumes, each in its own frame, with the transform from the first to the second. Returns
+/// `false` only if they are certainly disjoint.
 pub type VolumeTest = Arc<dyn Fn(&Volume, &Volume, &Transform) -> bool + Send + Sync>;
-/// Tests A (first kind) against B (second kind), each in its own frame, with the transform from A's to B's frame; the result is in B's frame.
+/// Test of A (first kind) against B (second kind), each in its own frame, with the transform from A's to B's
+/// frame. The result is in B's frame.
 pub type ContactTest =
     Arc<dyn Fn(PrimitiveRef<'_>, PrimitiveRef<'_>, &Transform) -> Option<Interference> + Send + Sync>;
 
-/// The kinds and tests a user has registered, and the folders that models may read from. Built-in kinds need no entry.
+/// Kinds and tests registered by a user, and the folders that models may read. Built-in kinds need no entry.
 #[derive(Clone, Default)]
 pub struct Extensions {
     primitives: BTreeMap<String, PrimitiveFactory>,
     volumes: BTreeMap<String, VolumeFitter>,
     volume_tests: BTreeMap<(String, String), VolumeTest>,
-    /// By the kind of A, then of B: frames look them up by borrowed names.
+    /// Keyed by the kind of A, then of B, so that a frame can look up by borrowed names.
     contact_tests: BTreeMap<String, BTreeMap<String, ContactTest>>,
-    /// Where files that a model names may lie beside the model's own folder.
+    /// Folders outside a model's own in which files named by the model may lie.
     folders: Vec<PathBuf>,
 }
 
-/// Names alone: a function has nothing to show.
+/// Shows the names only: functions have no printable form.
 impl std::fmt::Debug for Extensions {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Extensions")
@@ -82,7 +84,8 @@ impl Extensions {
         self.volumes.insert(kind.to_owned(), fitter);
     }
 
-    /// Adds the test of two kinds of volumes (built-in names: `Aabb`, `Sphere`, `Obb`). One order is enough.
+    /// Adds the test of two kinds of volumes (built-in names: `Aabb`, `Sphere`, `Obb`). It serves both
+    /// orders.
     pub fn add_volume_test(&mut self, kind_a: &str, kind_b: &str, test: VolumeTest) {
         self.volume_tests.insert((kind_a.to_owned(), kind_b.to_owned()), test);
     }
@@ -93,23 +96,23 @@ impl Extensions {
         self.contact_tests.entry(kind_a.to_owned()).or_default().insert(kind_b.to_owned(), test);
     }
 
-    /// Lets models read the meshes that they name from this folder and those below it too. Without it, what lies outside
-    /// the model's own folder, through a link, is refused.
+    /// Allows models to read the mesh files they name from this folder and its subfolders too. Otherwise a
+    /// file outside the model's own folder, even through a link, is refused.
     pub fn allow_files_below(&mut self, folder: impl Into<PathBuf>) {
         self.folders.push(folder.into());
     }
 
-    /// The folders that are allowed beside a model's own.
+    /// Folders allowed in addition to a model's own.
     pub fn folders_allowed(&self) -> impl Iterator<Item = &Path> {
         self.folders.iter().map(PathBuf::as_path)
     }
 
-    /// The factory of a kind of primitive.
+    /// Factory of a kind of primitive, if registered.
     pub fn primitive(&self, kind: &str) -> Option<&PrimitiveFactory> {
         self.primitives.get(kind)
     }
 
-    /// The fitter of a kind of volume.
+    /// Fitter of a kind of volume, if registered.
     pub fn volume(&self, kind: &str) -> Option<&VolumeFitter> {
         self.volumes.get(kind)
     }
@@ -119,14 +122,14 @@ impl Extensions {
         self.volume_tests.iter().map(|((kind_a, kind_b), test)| (kind_a.as_str(), kind_b.as_str(), test))
     }
 
-    /// The contact test of an ordered pair of primitive kinds.
+    /// Contact test of an ordered pair of primitive kinds, if registered.
     pub fn contact_test(&self, kind_a: &str, kind_b: &str) -> Option<&ContactTest> {
         self.contact_tests.get(kind_a)?.get(kind_b)
     }
 }
 
 impl PrimitiveRef<'_> {
-    /// The kind.
+    /// Kind of the primitive.
     pub fn kind(&self) -> PrimitiveKind {
         match self {
             Self::Point(_) => PrimitiveKind::Point,
@@ -145,7 +148,7 @@ impl PrimitiveRef<'_> {
         }
     }
 
-    /// The name of the kind, a custom kind's own name included.
+    /// Name of the kind; for a custom kind, its own name.
     pub fn kind_name(&self) -> &str {
         match self {
             Self::Custom(custom) => custom.kind_name(),

@@ -4,7 +4,7 @@ use crate::primitive::{Polyhedron, PolyhedronFace};
 use crate::simd::{self, Kernel, LANES, LaneBits, Simd};
 use crate::{Transform, Vec3};
 
-/// Eight points, coordinate by coordinate, m. Fewer points leave lanes whose answers are not asked for.
+/// Eight points as coordinate arrays, m. With fewer points the results of the unused lanes are ignored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Lanes {
@@ -32,7 +32,7 @@ impl Lanes {
         (self.x[lane], self.y[lane], self.z[lane]) = (p.x, p.y, p.z);
     }
 
-    /// The points in another frame, in the bits of [`Transform::point`].
+    /// Points transformed to another frame, bit-identical to [`Transform::point`].
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         simd::run(Carry { points: self, x })
@@ -46,7 +46,7 @@ impl Lanes {
         out
     }
 
-    /// The same, written in place.
+    /// [`carried_in`](Self::carried_in) with the result written to `out`.
     #[inline(always)]
     pub fn carry_in<S: Simd>(&self, simd: S, x: &Transform, out: &mut Self) {
         let points = Loaded::new(simd, self);
@@ -71,10 +71,10 @@ impl Kernel for Carry<'_> {
 }
 
 impl Polyhedron {
-    /// Which of eight points lie `reach` (m, one for each) or more above some face: bit `i` is set exactly if
-    /// `face.height(&points[i]) >= reach[i]` for a face.
+    /// Returns the lanes whose point lies at least `reach` (m, one per lane) above some face: bit `i` is set
+    /// exactly if `face.height(&points[i]) >= reach[i]` for a face.
     ///
-    /// A sphere of that radius about the point then has no contact.
+    /// A sphere of radius `reach[i]` about such a point has no contact.
     #[inline]
     pub fn lanes_outside(&self, points: &Lanes, reach: &[f64; LANES]) -> LaneBits {
         simd::run(Outside { polyhedron: self, points, reach })
@@ -95,12 +95,12 @@ impl Polyhedron {
         outside
     }
 
-    /// Which of eight line segments, told by their first and their second ends, one of the widest faces keeps out: bit `i` is set
-    /// exactly if both ends lie in or above the plane of one of the 32 widest faces, an inner wall standing out by the slack of
-    /// walls.
+    /// Returns the lanes whose line segment (given by its two ends) is excluded by one of the 32 widest
+    /// faces: bit `i` is set exactly if both ends lie in or above the plane of such a face. An internal face
+    /// is raised by the wall tolerance.
     ///
-    /// Such a segment has no contact with this piece; another may have none either. Of many faces the rest would take longer
-    /// for all eight than each segment that misses takes by itself.
+    /// An excluded segment has no contact with this piece; the others may have none either. Testing more
+    /// faces for all eight would cost more than testing the remaining segments one by one.
     #[inline]
     pub fn lanes_kept_out(&self, ends: &[Lanes; 2]) -> LaneBits {
         simd::run(KeptOut { polyhedron: self, ends })
@@ -111,7 +111,8 @@ impl Polyhedron {
     pub fn lanes_kept_out_in<S: Simd>(&self, simd: S, ends: &[Lanes; 2]) -> LaneBits {
         const WIDEST: usize = 32;
         let ends = [Loaded::new(simd, &ends[0]), Loaded::new(simd, &ends[1])];
-        // A segment in the plane of a closed face may belong to this piece, even where there is no slack.
+        // Positive even without a tolerance: a segment in the plane of a closed face may belong to this
+        // piece.
         let slack = self.planes().wall_slack.max(f64::MIN_POSITIVE);
         let mut kept_out = 0;
         for face in self.planes().widest_first.iter().take(WIDEST) {
@@ -126,8 +127,8 @@ impl Polyhedron {
         kept_out
     }
 
-    /// Which of eight points lie inside this piece: bit `i` is set exactly if
-    /// [`contains`](Polyhedron::contains) says so.
+    /// Returns the lanes whose point lies inside this piece, as decided by
+    /// [`contains`](Polyhedron::contains).
     #[inline]
     pub fn lanes_contain(&self, points: &Lanes) -> LaneBits {
         simd::run(Contain { polyhedron: self, points })
@@ -153,7 +154,7 @@ impl Polyhedron {
         inside
     }
 
-    /// Which of eight points are not [outside](crate::primitive::Containment::Outside) of this piece.
+    /// Returns the lanes whose point is not [outside](crate::primitive::Containment::Outside) this piece.
     #[inline(always)]
     pub fn lanes_inside_or_at_wall_in<S: Simd>(&self, simd: S, points: &Lanes) -> LaneBits {
         let (zero, slack) = (simd.splat(0.0), simd.splat(self.planes().wall_slack));
@@ -185,7 +186,7 @@ impl<S: Simd> Loaded<S> {
         Self { simd, x: simd.load(&points.x), y: simd.load(&points.y), z: simd.load(&points.z) }
     }
 
-    /// One coordinate of the carried points.
+    /// Computes one coordinate of the transformed points.
     #[inline(always)]
     fn coordinate(&self, x: &Transform, row: usize) -> [f64; LANES] {
         let simd = self.simd;
@@ -195,7 +196,7 @@ impl<S: Simd> Loaded<S> {
         simd.store(simd.add(turned, simd.splat(x.translation[row])))
     }
 
-    /// The heights above a face's plane, in the bits of [`PolyhedronFace::height`].
+    /// Heights above a face's plane, bit-identical to [`PolyhedronFace::height`].
     #[inline(always)]
     fn heights_above(&self, face: &PolyhedronFace) -> S::Eight {
         let (simd, normal) = (self.simd, &face.normal);

@@ -26,23 +26,24 @@ pub mod simd;
 pub use lanes::Lanes;
 pub use pose::{Pose, Transform, Twist, Wrench};
 
-/// A vector of three components; which frame it is expressed in is told by its name.
+/// Vector of three components. The name of a variable says in which frame it is expressed.
 pub type Vec3 = nalgebra::Vector3<f64>;
-/// A 3 × 3 matrix.
+/// 3 × 3 matrix.
 pub type Mat3 = nalgebra::Matrix3<f64>;
-/// A unit quaternion (w, x, y, z), Hamilton product.
+/// Unit quaternion (w, x, y, z), Hamilton product.
 pub type Quat = nalgebra::UnitQuaternion<f64>;
 
-/// A difference to divide by where it is not zero: another number where it is. A compiler may divide before the branch that
-/// keeps zeros out, and a quotient by zero is a floating-point exception though nobody looks at it.
+/// Returns the difference, or another number if it is zero, so that it can be a divisor in a branch that
+/// excludes zero. A compiler may divide before that branch, and 0/0 or x/0 raises a floating-point exception
+/// even if unused.
 ///
-/// For what is known to be positive there, `x.max(f64::MIN_POSITIVE)` is shorter.
+/// For a difference known to be non-negative, `x.max(f64::MIN_POSITIVE)` is shorter.
 #[inline(always)]
 pub fn divisor(difference: f64) -> f64 {
     if difference == 0.0 { 2.0 } else { difference }
 }
 
-/// Some unit vector across a unit vector, the same for the same vector.
+/// Returns a unit vector perpendicular to a unit vector; the same input gives the same result.
 pub(crate) fn any_perpendicular(axis: &Vec3) -> Vec3 {
     let least = axis.iamin();
     axis.cross(&Vec3::ith(least, 1.0)).normalize()

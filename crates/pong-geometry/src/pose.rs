@@ -3,7 +3,7 @@
 use crate::{Mat3, Quat, Vec3};
 use nalgebra::Quaternion;
 
-/// Position and orientation of a frame *g* seen from a frame *w*: the state half that a host hands in.
+/// Position and orientation of a frame *g* seen from a frame *w*: half of the state that a host sets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// Origin of *g* in *w*, metres.
@@ -19,10 +19,11 @@ impl Pose {
         Self { position: Vec3::zeros(), orientation: Quat::identity() }
     }
 
-    /// Pose from a position (m) and a quaternion (w, x, y, z) that is normalised here.
+    /// Pose from a position (m) and a quaternion (w, x, y, z), which is normalised here.
     ///
-    /// The quaternion must not be zero. It and its negative are one orientation and give the same bits: the first component
-    /// that is not zero is made positive, and no zero keeps a sign, which products would carry on into the answers.
+    /// The quaternion must not be zero. A quaternion and its negative are the same orientation and give the
+    /// same bits: the first non-zero component is made positive, and zeros lose their sign, which products
+    /// would carry into results.
     #[inline]
     pub fn new(position: Vec3, wxyz: [f64; 4]) -> Self {
         let first = wxyz.into_iter().find(|part| *part != 0.0).unwrap_or(1.0);
@@ -59,14 +60,14 @@ impl Pose {
         Pose { position: b_from_w * r_ba_w, orientation: b_from_w * x_wa.orientation }
     }
 
-    /// The same pose with its rotation as a matrix, for carrying many points.
+    /// Pose with its rotation as a matrix, for transforming many points.
     #[inline]
     pub fn transform(&self) -> Transform {
         Transform { translation: self.position, rotation: self.orientation.to_rotation_matrix().into_inner() }
     }
 }
 
-/// A rigid transform with the rotation as a matrix: a [`Pose`] made ready for many points.
+/// Rigid transform with the rotation as a matrix: a [`Pose`] prepared for many points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
     /// Origin of the source frame in the target frame, metres.
@@ -76,19 +77,19 @@ pub struct Transform {
 }
 
 impl Transform {
-    /// The transform that changes nothing.
+    /// Identity transform.
     #[inline]
     pub fn identity() -> Self {
         Self { translation: Vec3::zeros(), rotation: Mat3::identity() }
     }
 
-    /// Carries a point.
+    /// Transforms a point.
     #[inline]
     pub fn point(&self, p: &Vec3) -> Vec3 {
         self.rotation * p + self.translation
     }
 
-    /// Carries a free vector or direction.
+    /// Rotates a free vector or direction.
     #[inline]
     pub fn vector(&self, v: &Vec3) -> Vec3 {
         self.rotation * v
@@ -100,7 +101,7 @@ impl Transform {
         Transform { translation: self.point(&other.translation), rotation: self.rotation * other.rotation }
     }
 
-    /// The transform the other way.
+    /// Inverse transform.
     #[inline]
     pub fn inverse(&self) -> Transform {
         let rotation = self.rotation.transpose();
@@ -118,7 +119,7 @@ pub struct Twist {
 }
 
 impl Twist {
-    /// A frame at rest.
+    /// Twist of a frame at rest.
     #[inline]
     pub fn zero() -> Self {
         Self { linear: Vec3::zeros(), angular: Vec3::zeros() }
@@ -141,13 +142,13 @@ pub struct Wrench {
 }
 
 impl Wrench {
-    /// No load.
+    /// Zero wrench.
     #[inline]
     pub fn zero() -> Self {
         Self { force: Vec3::zeros(), moment: Vec3::zeros() }
     }
 
-    /// The wrench about the origin of a force that acts at `arm`.
+    /// Wrench, about the origin, of a force that acts at `arm`.
     #[inline]
     pub fn of_force_at(force: Vec3, arm: &Vec3) -> Self {
         Self { force, moment: arm.cross(&force) }
@@ -164,16 +165,18 @@ impl std::ops::AddAssign for Wrench {
 
 /// Rotation vector (axis times angle in rad, angle in 0…π) of a rotation.
 ///
-/// Uses +, −, ×, ÷ and √ alone, so that every machine gives the same bits: the half angle is halved by the half-angle
-/// identity until its tangent is so small, as that of a frame's rotation is from the start, that the arctangent's series
-/// converges to rounding in thirteen terms, in eight for small turns. At most three halvings do.
+/// Uses only +, −, ×, ÷ and √, so every machine gives the same bits. The half angle is halved (at most three
+/// times) by the half-angle identity until its tangent is small enough that the series of the arctangent
+/// converges to rounding in thirteen terms, or in eight for small rotations. The rotation within one frame
+/// usually needs no halving.
 #[inline]
 pub fn rotation_vector(q: &Quat) -> Vec3 {
     /// Square of tan(π/16).
     const SQUARE_MAX: f64 = 0.039_566_129_896_580_15;
     const TERMS: usize = 13;
-    /// Of turns up to 0.14 rad, as most are from frame to frame. Each term waits for the one before; what comes after eight is
-    /// less than 5e-3⁸/17 = 3e-20 of the whole, far below rounding.
+    /// Limit for eight terms: rotations up to 0.14 rad, as is usual between two frames. The truncation error
+    /// is below 5e-3⁸/17 = 3e-20 of the result, far below rounding. (Fewer terms are faster: each depends on
+    /// the previous one.)
     const SMALL_SQUARE: f64 = 5e-3;
     const SMALL_TERMS: usize = 8;
     let mut factor = 2.0;
@@ -198,11 +201,11 @@ pub fn rotation_vector(q: &Quat) -> Vec3 {
     } else {
         arctangent_ratio::<TERMS>(square)
     };
-    // The quaternion's angle is half the rotation's.
+    // The angle of the quaternion is half that of the rotation.
     tangent * (ratio * factor)
 }
 
-/// arctan(t)/t of a small t by its square: the first terms of the series.
+/// Series of arctan(t)/t for small t, as a function of t².
 #[inline(always)]
 fn arctangent_ratio<const TERMS: usize>(square: f64) -> f64 {
     let mut ratio = 0.0;
@@ -212,9 +215,10 @@ fn arctangent_ratio<const TERMS: usize>(square: f64) -> f64 {
     ratio
 }
 
-/// Carries `p`, a vector across the unit normal `from`, by the smallest rotation that takes `from` into `to`.
+/// Rotates `p`, a vector perpendicular to the unit normal `from`, by the smallest rotation that takes `from`
+/// to `to`.
 ///
-/// Opposite normals have no smallest rotation: the result is then zero.
+/// For opposite normals that rotation is not unique: the result is then zero.
 #[inline]
 pub fn carry_by_smallest_rotation(p: &Vec3, from: &Vec3, to: &Vec3) -> Vec3 {
     let cosine = from.dot(to);
@@ -233,12 +237,12 @@ mod tests {
     #[test]
     fn rotation_vector_inverts_the_exponential() {
         let axis = nalgebra::Unit::new_normalize(Vec3::new(0.3, -0.8, 0.5));
-        // 0.1412 is where the series becomes longer.
+        // The series changes from eight to thirteen terms at 0.1412.
         for angle in [0.0, 1e-9, 1e-3, 0.141, 0.1414, 0.4, 1.5, 2.9, std::f64::consts::PI - 1e-9] {
             let turn = Quat::from_axis_angle(&axis, angle);
             let vector = rotation_vector(&turn);
             assert!((vector - axis.into_inner() * angle).norm() <= 4e-15 * (1.0 + angle), "angle {angle}");
-            // The product of two quaternions may come out as either of the two that are this rotation.
+            // A product of quaternions may give either of the two that represent this rotation.
             assert_eq!(rotation_vector(&Quat::new_unchecked(-turn.into_inner())), vector, "angle {angle}");
         }
     }

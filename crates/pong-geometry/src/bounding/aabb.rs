@@ -1,9 +1,9 @@
-//! Fitting a box along the frame's axes: exact, from the least and greatest coordinates.
+//! Axis-aligned box in the group frame: exact, from the minimum and maximum coordinates.
 
 use super::volume::Volume;
 use crate::Vec3;
 
-/// The box around points, margin included; `None` if there are none.
+/// Box around points, with margin; `None` without points.
 pub fn aabb_of_points(points: impl IntoIterator<Item = Vec3>) -> Option<Volume> {
     points
         .into_iter()
@@ -12,7 +12,7 @@ pub fn aabb_of_points(points: impl IntoIterator<Item = Vec3>) -> Option<Volume> 
         .map(|(min, max)| fit_aabb_bounds(min, max))
 }
 
-/// The box between the least and greatest coordinates (m), grown by [`super::RELATIVE_MARGIN`].
+/// Box between minimum and maximum coordinates (m), grown by [`super::RELATIVE_MARGIN`].
 pub fn fit_aabb_bounds(min: Vec3, max: Vec3) -> Volume {
     Volume::Aabb { center: (min + max) * 0.5, half: (max - min) * 0.5 }.inflated()
 }

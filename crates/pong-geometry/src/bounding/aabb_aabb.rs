@@ -1,4 +1,5 @@
-//! Two boxes, each along the axes of its own frame: the frames may be turned, so this is box against box.
+//! Two boxes, each axis-aligned in its own frame. The frames may be rotated, so this is the general box-box
+//! test.
 
 use super::box_box::boxes_overlap;
 use crate::{Mat3, Vec3};

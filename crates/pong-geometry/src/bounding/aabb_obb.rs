@@ -1,5 +1,5 @@
-//! A box along its frame's axes against one along its own, in either order. Centres in B's frame; `r_ba` turns A's frame
-//! into B's.
+//! Axis-aligned box against oriented box, in either order. Centres in B's frame; `r_ba` rotates from A's
+//! frame to B's.
 
 use super::box_box::boxes_overlap;
 use crate::{Mat3, Vec3};

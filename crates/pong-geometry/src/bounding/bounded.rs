@@ -1,4 +1,4 @@
-//! What a bounding volume needs to know of the things in it: primitives, point clouds and other volumes.
+//! Shape queries for fitting bounding volumes: primitives, point clouds and other volumes.
 
 use super::volume::{Bounded, Volume};
 use crate::Vec3;
@@ -6,23 +6,23 @@ use crate::primitive::{
     Bore, Capsule, CustomPrimitive, Ellipsoid, Frustum, LineSegment, Plane, Point, Polyhedron, Ray, Sphere,
 };
 
-/// The convex hull of points, for whatever is one: a triangle, a mesh, the vertices of a solid.
+/// Convex hull of points: a triangle, a mesh, or the vertices of a solid.
 #[derive(Clone, Copy, Debug)]
 pub struct PointCloud<'a>(pub &'a [Vec3]);
 
-/// A thing grown by a ball: everything within `reach` metres of it.
+/// Shape dilated by a ball: all points within `reach` metres of it.
 ///
-/// A triangle that still pushes what is `thickness` behind it is bounded as dilated by that thickness. Its prism
-/// alone would not do: the origin of a grazing ray that still hits may lie beside the prism.
+/// A triangle that pushes whatever is up to `thickness` behind it is bounded as dilated by that thickness.
+/// Its prism alone is too small: the origin of a grazing ray that still hits may lie beside the prism.
 #[derive(Clone, Copy)]
 pub struct Dilated<'a> {
-    /// What is grown.
+    /// Shape that is dilated.
     pub thing: &'a dyn Bounded,
-    /// By how much, m, not negative.
+    /// Radius of the ball, m, not negative.
     pub reach: f64,
 }
 
-/// A user's primitive, bounded through its support function alone.
+/// User-defined primitive, bounded by its support function alone.
 #[derive(Clone, Copy, Debug)]
 pub struct CustomBounds<'a>(pub &'a dyn CustomPrimitive);
 
@@ -54,7 +54,7 @@ impl Bounded for Polyhedron {
     }
 }
 
-/// Things that are the hull of a fixed number of points.
+/// Implements `Bounded` for shapes that are the convex hull of a fixed number of points.
 macro_rules! bounded_by_points {
     ($($thing:ty: $points:expr;)*) => {$(
         impl Bounded for $thing {
@@ -76,8 +76,8 @@ macro_rules! bounded_by_points {
 bounded_by_points! {
     Point: |point: &Point| [point.position];
     LineSegment: |segment: &LineSegment| segment.ends;
-    // A ray also hits what lies up to `reach` behind its origin. Where that is left to the triangle, the triangle
-    // is dilated by it instead.
+    // A ray also hits surfaces up to `reach` behind its origin. If the triangle defines that distance, the
+    // triangle is dilated by it instead.
     Ray: |ray: &Ray| [ray.origin - ray.direction * ray.reach.unwrap_or(0.0), ray.tip()];
 }
 
@@ -100,9 +100,9 @@ impl Bounded for Ellipsoid {
         direction.dot(&self.center) + self.half_width(direction)
     }
 
-    /// The farthest point y of `Σ(yᵢ/aᵢ)² ≤ 1` from q, both in the principal frame, by duality: for every
-    /// λ ≥ max aᵢ², `|y − q|² ≤ λ + Σ qᵢ²·λ/(λ − aᵢ²)`, with equality at the least such bound. So the bound holds
-    /// wherever the search for that λ stops.
+    /// Upper bound of the distance from q to the farthest point y of `Σ(yᵢ/aᵢ)² ≤ 1`, both in the principal
+    /// frame, by duality: for every λ ≥ max aᵢ², `|y − q|² ≤ λ + Σ qᵢ²·λ/(λ − aᵢ²)`, with equality at the
+    /// minimum. So the bound is valid at whichever λ the search stops.
     fn farthest(&self, from: &Vec3) -> f64 {
         const BISECTIONS: usize = 40;
         let q = self.axes.tr_mul(&(from - self.center));
@@ -111,7 +111,7 @@ impl Bounded for Ellipsoid {
             return largest;
         }
         let squares = self.semi_axes.component_mul(&self.semi_axes);
-        // λ = largest² + excess; the differences λ − aᵢ² without cancellation.
+        // λ = largest² + excess: this gives λ − aᵢ² without cancellation.
         let below = self.semi_axes.map(|a| (largest - a) * (largest + a));
         let sum = |term: &dyn Fn(usize) -> f64| -> f64 { (0..3).filter(|&i| q[i] != 0.0).map(term).sum() };
         let (mut low, mut high) = (0.0, largest * q.norm());
@@ -151,7 +151,8 @@ impl Bounded for Frustum {
         Frustum::support(self, direction)
     }
 
-    /// The farthest point lies on one of the circles, opposite to where `from` lies beside the axis.
+    /// The farthest point lies on one of the end circles, diametrically opposite to `from` seen from the
+    /// axis.
     fn farthest(&self, from: &Vec3) -> f64 {
         let of_circle = |end: usize| {
             let arm = from - self.ends[end];
@@ -172,8 +173,9 @@ impl Bounded for Frustum {
 }
 
 impl Bore {
-    /// What a bore may push: all that is in the hole or less than the thickness away from it. Its wall moved back would not do:
-    /// the origin of a grazing ray that still hits may lie beside it, and so may what goes through the wall around a mouth.
+    /// Region in which a bore may push: the hole dilated by the thickness. The offset wall alone is too
+    /// small: the origin of a grazing ray that still hits may lie beside it, as may a shape that passes
+    /// through the wall near a mouth.
     fn pushed(&self) -> Dilated<'_> {
         Dilated { thing: &self.hole, reach: self.thickness }
     }
@@ -269,7 +271,7 @@ impl Bounded for Volume {
     }
 }
 
-/// The corners of a box of half extents 1.
+/// Corners of a box of half extents 1.
 const SIGNS: [Vec3; 8] = [
     Vec3::new(-1.0, -1.0, -1.0),
     Vec3::new(1.0, -1.0, -1.0),
@@ -281,7 +283,7 @@ const SIGNS: [Vec3; 8] = [
     Vec3::new(1.0, 1.0, 1.0),
 ];
 
-/// The largest of numbers; not a number as soon as one of them is not, so that a bad shape is not overlooked.
+/// Maximum of numbers; NaN if one of them is NaN, so that an invalid shape is noticed.
 pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(f64::NEG_INFINITY, |most, value| if value <= most || most.is_nan() { most } else { value })
 }
@@ -300,19 +302,19 @@ fn ball_representatives(center: &Vec3, radius: f64, out: &mut Vec<Vec3>) {
     }
 }
 
-/// The frame's axes with the support along each and against each.
+/// Supports along the positive and along the negative axes of the frame.
 fn supports_along_axes(support: impl Fn(&Vec3) -> f64) -> (Vec3, Vec3) {
     let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
     (Vec3::from(axes.map(|e| support(&e))), Vec3::from(axes.map(|e| support(&-e))))
 }
 
-/// Distance to the farthest corner of the box that the support function gives.
+/// Distance to the farthest corner of the box given by the support function.
 fn farthest_by_support(support: impl Fn(&Vec3) -> f64, from: &Vec3) -> f64 {
     let (along, against) = supports_along_axes(support);
     (along - from).sup(&(against + from)).norm()
 }
 
-/// The corners of that box.
+/// Corners of the box given by the support function.
 fn corners_by_support(support: impl Fn(&Vec3) -> f64, out: &mut Vec<Vec3>) {
     let (along, against) = supports_along_axes(support);
     let corners =
@@ -320,12 +322,12 @@ fn corners_by_support(support: impl Fn(&Vec3) -> f64, out: &mut Vec<Vec3>) {
     out.extend(corners);
 }
 
-/// Support of all things together.
+/// Support of the union of all shapes.
 pub(super) fn support(things: &[&dyn Bounded], direction: &Vec3) -> f64 {
     largest(things.iter().map(|thing| thing.support(direction)))
 }
 
-/// The points that represent all things together.
+/// Representative points of all shapes.
 pub(super) fn representatives(things: &[&dyn Bounded]) -> Vec<Vec3> {
     let mut points = Vec::new();
     for thing in things {

@@ -1,5 +1,6 @@
-//! Box against box by separating axes: two boxes are apart if and only if their projections are apart along one of
-//! 15 directions L: the face normals `b_i` and `a_j`, and the products of edges `b_i × a_j`,
+//! Box-box test by separating axes: two boxes are disjoint if and only if their projections are disjoint
+//! along one of 15 directions L: the face normals `b_i` and `a_j`, and the cross products of edges `b_i ×
+//! a_j`,
 //!
 //! ```text
 //!     |L·t| > Σ hb_k |L·b_k| + Σ ha_k |L·a_k|
@@ -9,21 +10,21 @@
 
 use crate::{Mat3, Vec3};
 
-/// Share of the sizes by which projections must be apart.
+/// Gap between projections that counts as separation, as a fraction of the sizes.
 ///
-/// For boxes that touch, every product that is summed here is at most the sum of the sizes, and no more than ten
-/// are summed, so each side is right within some ten units of 1.1e-16 of that sum. The margin of the volumes
-/// themselves does not cover this: for edges that are nearly parallel `b_i × a_j` is short, and they shrink with
-/// it, while the rounding of `m` does not.
+/// For boxes in contact, each product in the sums is at most the sum of the sizes, and no more than ten are
+/// added, so each side is accurate to about ten units of 1.1e-16 of that sum. The margin of the volumes does
+/// not cover this error: for nearly parallel edges `b_i × a_j` is short, which scales the margin down but not
+/// the rounding of `m`.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// Whether two boxes overlap: half extents of both, A's axes as columns in B's axes (`m`), and A's centre from
-/// B's, in B's axes (`t`).
+/// Returns `true` if two boxes may overlap. `half_a`, `half_b`: half extents; `m`: A's axes as columns in B's
+/// axes; `t`: A's centre from B's, in B's axes.
 #[inline]
 pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
     let abs = m.abs();
     let margin = ROUNDING * (half_a.sum() + half_b.sum());
-    // No branch within a group of three; NaN compares as not apart.
+    // Branch-free within a group of three; NaN counts as overlap.
     let apart = |x: f64, y: f64, z: f64| (x > margin) | (y > margin) | (z > margin);
     let gaps_b = t.abs() - half_b - abs * half_a;
     if apart(gaps_b.x, gaps_b.y, gaps_b.z) {
@@ -43,8 +44,8 @@ pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) ->
     !(edges(0) | edges(1) | edges(2))
 }
 
-/// Whether the place of B nearest to A's centre is in A: most boxes that overlap need no look at A's faces and at edges. What
-/// rounds to be in A is less far from it than the margin of the projections.
+/// Returns `true` if the point of B nearest to A's centre lies in A: a quick proof that most overlapping
+/// boxes overlap. A point that lies in A only by rounding is nearer than the margin of the projections.
 #[inline(always)]
 fn share_a_place(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
     let nearest = t.zip_map(half_b, |t, half| {
@@ -57,11 +58,11 @@ fn share_a_place(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
         }
     });
     let place_a = m.tr_mul(&(nearest - t)).abs();
-    // NaN compares as not in A.
+    // NaN counts as outside.
     (place_a.x <= half_a.x) & (place_a.y <= half_a.y) & (place_a.z <= half_a.z)
 }
 
-/// Gap between the projections along `b_i × a_j`, which is not of unit length.
+/// Gap between the projections along `b_i × a_j` (not a unit vector).
 ///
 /// In B's axes that vector has the components −m(i+2, j) at i+1 and m(i+1, j) at i+2; along `a_(j+1)` it is
 /// `b_i·(a_j × a_(j+1)) = m(i, j+2)`.

@@ -1,4 +1,4 @@
-//! Fitting a volume of a given kind around things.
+//! Fitting of a volume of a given kind around shapes.
 
 use super::bounded::support;
 use super::volume::{BoundKind, Bounded, Volume};
@@ -6,15 +6,15 @@ use super::{aabb, obb, sphere};
 use crate::Vec3;
 use crate::extension::Extensions;
 
-/// Fits a volume of the given kind around things, all in the frame of one movable group, margin included
+/// Fits a volume of the given kind around shapes in the frame of one movable group, with margin
 /// ([`RELATIVE_MARGIN`](super::RELATIVE_MARGIN)).
 ///
-/// Anything of infinite extent among them makes the volume [`Volume::Unbounded`], whatever the kind. Refused are
-/// an empty list, things whose extent is not a number, and custom kinds that are not registered or whose fitter
-/// returns a volume of another name.
+/// If any shape is infinite, the result is [`Volume::Unbounded`], whatever the kind. Refused are an empty
+/// list, shapes whose extent is NaN, and custom kinds that are not registered or whose fitter returns a
+/// volume of another kind.
 ///
 /// # Errors
-/// The reason in words: what is refused above, or a volume that would not be finite.
+/// The reason as text, for the cases above or if the volume would not be finite.
 pub fn fit(kind: &BoundKind, things: &[&dyn Bounded], ext: &Extensions) -> Result<Volume, String> {
     let Some((min, max)) = bounds(things)? else { return Ok(Volume::Unbounded) };
     let volume = match kind {
@@ -39,10 +39,10 @@ fn fit_custom(name: &str, things: &[&dyn Bounded], ext: &Extensions) -> Result<V
     Ok(Volume::Custom(volume))
 }
 
-/// The least and greatest coordinates over things; `None` if any of them is infinite.
+/// Minimum and maximum coordinates of all shapes; `None` if one is infinite.
 ///
-/// A convex set without bounds goes to infinity along some direction, and so along an axis that is not across it:
-/// the six supports find every unbounded thing.
+/// An unbounded convex set extends to infinity in some direction, and therefore along an axis not
+/// perpendicular to it: the six supports find every unbounded shape.
 fn bounds(things: &[&dyn Bounded]) -> Result<Option<(Vec3, Vec3)>, String> {
     if things.is_empty() {
         return Err("there is nothing to bound".to_owned());
@@ -56,7 +56,7 @@ fn bounds(things: &[&dyn Bounded]) -> Result<Option<(Vec3, Vec3)>, String> {
     if max.max() == f64::INFINITY || min.min() == f64::NEG_INFINITY {
         return Ok(None);
     }
-    // No points at all: a support of minus infinity.
+    // A support of −∞ means that there are no points.
     if (max - min).min() < 0.0 {
         return Err("there is nothing to bound".to_owned());
     }

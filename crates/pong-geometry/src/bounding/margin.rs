@@ -1,21 +1,21 @@
-//! The margin that every fitted volume carries.
+//! Margin of every fitted volume.
 
 use super::volume::Volume;
 use crate::Vec3;
 
-/// Every fitted volume is grown by this share of (its extent + the distance of its centre from the frame's
+/// Every fitted volume is grown by this fraction of (its extent + the distance of its centre from the frame's
 /// origin).
 ///
-/// Why this is enough for the pair tests to need no margin of their own for where things are: let the volumes have
-/// centres `c` and extents `e`, and let the frames be `r` apart. Carrying a centre into the other frame, or the
-/// contact test carrying the thing itself, rounds by a few units of 1.1e-16 of `r + |c_A| + |c_B|`, and fitting by
-/// as much of `|c| + e`. If the two touch, `r ≤ |c_A| + e_A + |c_B| + e_B`. So all rounding is below some ten
-/// units of 1.1e-16 of that sum, and the two volumes are grown by 1e-12 of it: a thousand times more.
+/// This is why the pair tests need no margin of their own for position errors. Let the volumes have centres
+/// `c` and extents `e`, and let the frames be `r` apart. Transforming a centre, or in the contact test the
+/// shape itself, rounds by a few units of 1.1e-16 of `r + |c_A| + |c_B|`, and fitting by a few of `|c| + e`.
+/// If the two touch, `r ≤ |c_A| + e_A + |c_B| + e_B`. So the total rounding is below about ten units of
+/// 1.1e-16 of that sum, while the two volumes are grown by 1e-12 of it: a thousand times more.
 pub const RELATIVE_MARGIN: f64 = 1e-12;
 
 impl Volume {
-    /// The volume grown by [`RELATIVE_MARGIN`]. Fitted volumes already are; one that is written down by hand should
-    /// be, before it is tested against others. A custom volume carries a margin of its own.
+    /// Volume grown by [`RELATIVE_MARGIN`]. Fitted volumes already are; a volume written by hand should be
+    /// grown before it is tested. A custom volume has a margin of its own.
     pub fn inflated(self) -> Self {
         let margin = |extent: f64, center: &Vec3| RELATIVE_MARGIN * (extent + center.norm());
         match self {

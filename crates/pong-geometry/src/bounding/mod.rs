@@ -1,11 +1,11 @@
-//! Bounding volumes, how they are fitted, and the test of every pair of them.
+//! Bounding volumes: fitting, and the overlap test of every pair.
 //!
-//! A test answers `true` unless the two volumes are certainly apart: it may err on the side of `true` by
-//! rounding, never on the other.
+//! A test returns `true` unless the two volumes are certainly disjoint. Rounding may cause a false overlap,
+//! never a missed one.
 //!
-//! One file fits each kind of volume (`aabb`, `sphere`, `obb`), one tests each pair of kinds (`sphere_sphere`,
-//! `sphere_aabb` …), and [`VolumeTests`] picks the test. What makes the answers safe is said once, at
-//! [`RELATIVE_MARGIN`].
+//! One file fits each kind of volume (`aabb`, `sphere`, `obb`), one file tests each pair of kinds
+//! (`sphere_sphere`, `sphere_aabb` …), and [`VolumeTests`] selects the test.
+//! [`RELATIVE_MARGIN`] explains why rounding cannot hide an overlap.
 
 mod aabb;
 mod aabb_aabb;

@@ -1,12 +1,12 @@
-//! Fitting a box along its own axes: for given axes it is exact, by the supports along them; the axes are the best
-//! of the frame's, the principal ones, and what turning the best of these still gains.
+//! Oriented box. For given axes it is exact, from the supports along them. The axes are the better of the
+//! frame's and the principal ones, refined by small rotations.
 
 use super::bounded::{representatives, support};
 use super::principal_axes::{orthonormal, plane_rotation, principal_axes};
 use super::volume::{Bounded, Volume};
 use crate::{Mat3, Vec3};
 
-/// The smallest box found around things, without margin.
+/// Smallest box found around the shapes, without margin.
 pub(super) fn fit_obb(things: &[&dyn Bounded]) -> Volume {
     let mut best = Candidate::along(Mat3::identity(), things);
     let points = representatives(things);
@@ -21,7 +21,7 @@ pub(super) fn fit_obb(things: &[&dyn Bounded]) -> Volume {
 
 struct Candidate {
     axes: Mat3,
-    /// Centre in the box's own axes, m.
+    /// Centre in the axes of the box, m.
     mid: Vec3,
     half: Vec3,
     score: f64,
@@ -45,14 +45,14 @@ impl Candidate {
         smaller
     }
 
-    /// The axes turned about one of themselves, by twice the angle whose tangent is given.
+    /// Box axes rotated about one of them; the argument is the tangent of half the angle.
     fn turned(&self, axis: usize, half_angle_tangent: f64) -> Mat3 {
         let square = half_angle_tangent * half_angle_tangent;
         let (cosine, sine) = ((1.0 - square) / (1.0 + square), 2.0 * half_angle_tangent / (1.0 + square));
         orthonormal(&(self.axes * plane_rotation((axis + 1) % 3, (axis + 2) % 3, cosine, sine)))
     }
 
-    /// A cube or a cylinder has no preferred principal axes: look around in large steps first.
+    /// Tries large rotations first: a cube or a cylinder has no preferred principal axes.
     fn turn_by_coarse_steps(&mut self, things: &[&dyn Bounded]) {
         // Tangents of half of 22.5° and 45°.
         const HALF_ANGLE_TANGENTS: [f64; 4] = [0.199, -0.199, 0.414, -0.414];
@@ -63,7 +63,7 @@ impl Candidate {
         }
     }
 
-    /// Turns about the box's axes, by ever smaller angles, as long as the box gets smaller.
+    /// Rotates about the axes of the box by ever smaller angles while the box shrinks.
     fn refine(&mut self, things: &[&dyn Bounded]) {
         const HALVINGS: usize = 20;
         const ROUNDS: usize = 4;
@@ -85,8 +85,8 @@ impl Candidate {
     }
 }
 
-/// Volume of the box thickened by a thousandth of its size, so that flat and thin things, whose boxes have no
-/// volume, still prefer the box with the least face or length.
+/// Volume of the box thickened by a thousandth of its size, so that for flat and thin shapes, whose boxes
+/// have zero volume, the box of least area or length wins.
 fn score(half: &Vec3) -> f64 {
     let thickening = 1e-3 * half.norm();
     half.add_scalar(thickening).product()

@@ -1,5 +1,5 @@
-//! Two boxes (centre, axes, half extents), each along its own axes. Centres in B's frame, axes each in their own;
-//! `r_ba` turns A's frame into B's.
+//! Two oriented boxes (centre, axes, half extents). Centres in B's frame, axes in each box's own frame;
+//! `r_ba` rotates from A's frame to B's.
 
 use super::box_box::boxes_overlap;
 use crate::{Mat3, Vec3};

@@ -1,8 +1,9 @@
-//! Principal axes of points, by Jacobi rotations: +, −, ×, ÷ and √ alone, so every machine finds the same bits.
+//! Principal axes of points by Jacobi rotations, with only +, −, ×, ÷ and √, so every machine finds the same
+//! bits.
 
 use crate::{Mat3, Vec3};
 
-/// The axes along which the points vary most and least, as orthonormal right-handed columns.
+/// Axes of largest and least variance of the points, as orthonormal right-handed columns.
 pub(super) fn principal_axes(points: &[Vec3]) -> Mat3 {
     let count = points.len() as f64;
     let mean = points.iter().sum::<Vec3>() / count;
@@ -10,23 +11,24 @@ pub(super) fn principal_axes(points: &[Vec3]) -> Mat3 {
     orthonormal(&diagonalising_rotation(spread))
 }
 
-/// The rotation V with VᵀSV diagonal, for symmetric S.
+/// Rotation V with VᵀSV diagonal, for symmetric S.
 ///
-/// Each sweep turns in the three coordinate planes by the angle that zeroes the entry off the diagonal there. It
-/// converges quadratically: a 3 × 3 matrix needs four or five sweeps, the rest find nothing left to turn.
+/// Each sweep rotates in the three coordinate planes by the angle that zeroes the off-diagonal entry.
+/// Convergence is quadratic: a 3 × 3 matrix needs four or five sweeps; further ones change nothing.
 fn diagonalising_rotation(mut s: Mat3) -> Mat3 {
     const SWEEPS: usize = 8;
-    /// 2⁻⁵¹¹: the square of the cotangent beyond is no number any more, and the tangent itself changes none.
+    /// 2⁻⁵¹¹: below it the square of the cotangent overflows, and a rotation by so small an angle changes no
+    /// number.
     const SMALLEST_TANGENT: f64 = f64::from_bits((1023 - 511) << 52);
     let mut rotation = Mat3::identity();
     for _ in 0..SWEEPS {
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
             let (apart, twice) = (s[(q, q)] - s[(p, p)], 2.0 * s[(p, q)]);
-            // An entry of zero, or one whose angle is zero in numbers: the square of the cotangent would overflow.
+            // The entry is zero, or so small that the square of the cotangent would overflow.
             if twice.abs() <= apart.abs() * SMALLEST_TANGENT || twice == 0.0 {
                 continue;
             }
-            // The smaller root t = tan(angle) of t² + 2·t·cot(2·angle) − 1 = 0.
+            // Smaller root t = tan(angle) of t² + 2·t·cot(2·angle) − 1 = 0.
             let cot = apart / twice;
             let tangent = cot.signum() / (cot.abs() + (cot * cot + 1.0).sqrt());
             let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
@@ -48,7 +50,8 @@ pub(super) fn plane_rotation(p: usize, q: usize, cosine: f64, sine: f64) -> Mat3
     turn
 }
 
-/// The right-handed orthonormal frame of a frame that rounding has bent: its first axis and plane are kept.
+/// Orthonormal right-handed axes from axes distorted by rounding; keeps the first axis and the plane of the
+/// first two.
 pub(super) fn orthonormal(axes: &Mat3) -> Mat3 {
     let x = axes.column(0).normalize();
     let y = axes.column(1) - x * x.dot(&axes.column(1));

@@ -1,11 +1,11 @@
-//! Fitting a ball: its radius is exact for its centre, `max over things of farthest(centre)`; the centre is near
-//! that of the smallest ball.
+//! Bounding sphere: its radius is exact for its centre, `max over shapes of farthest(centre)`; the centre is
+//! close to that of the minimum sphere.
 
 use super::bounded::{largest, representatives};
 use super::volume::{Bounded, Volume};
 use crate::Vec3;
 
-/// The smallest ball found around things, without margin; `box_center` is the centre of the box around them.
+/// Smallest sphere found around the shapes, without margin; `box_center` is the centre of their box.
 pub(super) fn fit_sphere(things: &[&dyn Bounded], box_center: &Vec3) -> Volume {
     let points = representatives(things);
     let radius_about = |center: &Vec3| largest(things.iter().map(|thing| thing.farthest(center)));
@@ -30,8 +30,8 @@ impl Ball {
         smaller
     }
 
-    /// Moves the centre along the axes, by ever smaller steps, as long as the radius falls. The points that
-    /// represent curved things are not all of their surface, so the last word is with the things themselves.
+    /// Moves the centre along the axes by ever smaller steps while the radius shrinks. This evaluates the
+    /// shapes themselves: their representative points do not cover curved surfaces.
     fn refine(&mut self, radius_about: &impl Fn(&Vec3) -> f64) {
         const HALVINGS: usize = 12;
         let mut step = 0.125 * self.radius;
@@ -51,8 +51,8 @@ fn farthest_point<'a>(points: &'a [Vec3], from: &Vec3) -> Option<&'a Vec3> {
     points.iter().reduce(|far, p| if distance(p) > distance(far) { p } else { far })
 }
 
-/// Centre of the smallest ball around points, by steps of 1/(k+1) towards the farthest of them (Bădoiu and
-/// Clarkson 2003); the first steps are left out because the start is near already.
+/// Approximate centre of the minimum sphere around points, by steps of 1/(k+1) towards the farthest point
+/// (Bădoiu and Clarkson 2003). The first steps are skipped because the start is close already.
 fn drawn_to_farthest(points: &[Vec3], start: Vec3) -> Vec3 {
     (10..150).fold(start, |center, k| match farthest_point(points, &center) {
         Some(far) => center + (far - center) / f64::from(k + 1),

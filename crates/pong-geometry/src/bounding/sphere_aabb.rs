@@ -1,5 +1,5 @@
-//! Ball against a box along its frame's axes: apart if the box's point nearest to the ball's centre is farther from
-//! it than the radius.
+//! Sphere against axis-aligned box: disjoint if the box point nearest to the sphere's centre is farther away
+//! than the radius.
 
 use super::volume::FromAToB;
 use crate::Vec3;
@@ -10,13 +10,13 @@ pub(super) fn sphere_aabb(a: (&Vec3, f64), b: (&Vec3, &Vec3)) -> bool {
     ball_reaches_box(&(a.0 - b.0), a.1, b.1)
 }
 
-/// Box in A's frame, ball in B's.
+/// Box in A's frame, sphere in B's.
 #[inline]
 pub(super) fn aabb_sphere(a: (&Vec3, &Vec3), b: (&Vec3, f64), x_ba: &FromAToB) -> bool {
     ball_reaches_box(&(into_a(b.0, x_ba) - a.0), b.1, a.1)
 }
 
-/// Whether a ball at `center` reaches a box of half extents `half` around the origin.
+/// Returns `true` if a sphere at `center` reaches a box of half extents `half` around the origin.
 #[inline]
 pub(super) fn ball_reaches_box(center: &Vec3, radius: f64, half: &Vec3) -> bool {
     let outside = (center.abs() - half).map(|x| x.max(0.0));
@@ -24,7 +24,7 @@ pub(super) fn ball_reaches_box(center: &Vec3, radius: f64, half: &Vec3) -> bool 
     !apart
 }
 
-/// A point of B's frame in A's frame.
+/// Transforms a point of B's frame to A's frame.
 #[inline]
 pub(super) fn into_a(point: &Vec3, x_ba: &FromAToB) -> Vec3 {
     x_ba.rotation.tr_mul(&(point - x_ba.translation))

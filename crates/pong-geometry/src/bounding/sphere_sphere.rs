@@ -1,4 +1,4 @@
-//! Ball against ball: apart if `|c_A − c_B| > r_A + r_B`.
+//! Sphere against sphere: disjoint if `|c_A − c_B| > r_A + r_B`.
 
 use crate::Vec3;
 

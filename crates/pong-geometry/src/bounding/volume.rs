@@ -1,24 +1,24 @@
-//! What bounds, and what can be bounded.
+//! Bounding volumes, and the interface of shapes that can be bounded.
 
 use crate::{Mat3, Transform, Vec3};
 use std::sync::Arc;
 
-/// The kind of a bounding volume as the model file names it.
+/// Kind of a bounding volume, as named in the model file.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum BoundKind {
-    /// Box along the axes of the movable group's frame.
+    /// Box along the axes of the group frame.
     Aabb,
-    /// Ball.
+    /// Sphere.
     Sphere,
-    /// Box along its own axes.
+    /// Oriented box.
     Obb,
     /// A kind registered in [`crate::extension::Extensions`], by name.
     Custom(String),
 }
 
 impl BoundKind {
-    /// The name, a custom kind's own name included: what [`Volume::kind_name`] gives for a bounded volume of
-    /// this kind.
+    /// Name of the kind (a custom kind's own name), as [`Volume::kind_name`] returns it for a bounded volume
+    /// of this kind.
     pub fn name(&self) -> &str {
         match self {
             Self::Aabb => "Aabb",
@@ -29,10 +29,10 @@ impl BoundKind {
     }
 }
 
-/// A bounding volume in the frame of its movable group.
+/// Bounding volume in the frame of its movable group.
 #[derive(Clone, Debug)]
 pub enum Volume {
-    /// Bounds nothing: a leaf that holds a plane.
+    /// No bound, for example for a leaf with a plane.
     Unbounded,
     /// Box along the frame's axes.
     Aabb {
@@ -41,14 +41,14 @@ pub enum Volume {
         /// Half extents, m.
         half: Vec3,
     },
-    /// Ball.
+    /// Sphere.
     Sphere {
         /// Centre, m.
         center: Vec3,
         /// Radius, m.
         radius: f64,
     },
-    /// Box along its own axes.
+    /// Oriented box.
     Obb {
         /// Centre, m.
         center: Vec3,
@@ -57,12 +57,12 @@ pub enum Volume {
         /// Half extents along them, m.
         half: Vec3,
     },
-    /// A volume of a registered kind.
+    /// Volume of a registered kind.
     Custom(Arc<dyn CustomVolume>),
 }
 
 impl Volume {
-    /// The name of the kind, a custom kind's own name included.
+    /// Name of the kind; for a custom kind, its own name.
     pub fn kind_name(&self) -> &str {
         match self {
             Self::Unbounded => "Unbounded",
@@ -74,26 +74,27 @@ impl Volume {
     }
 }
 
-/// A bounding volume added by a Rust user.
+/// Bounding volume defined by a Rust user.
 pub trait CustomVolume: std::fmt::Debug + Send + Sync + std::any::Any {
     /// The kind's name, as in the model file and in the registration of its pair tests.
     fn kind_name(&self) -> &str;
     /// The volume as `Any`, so that a pair test can get its own type back.
     fn as_any(&self) -> &dyn std::any::Any;
-    /// Support function, as [`Bounded::support`]: a parent volume is fitted around this one with it. Without one
-    /// every parent is unbounded, which is correct and slow.
+    /// Support function, as [`Bounded::support`], used to fit a parent volume around this one. Without it
+    /// every parent is unbounded, which is correct but slow.
     fn support(&self, _direction: &Vec3) -> f64 {
         f64::INFINITY
     }
 }
 
-/// Something a bounding volume can be fitted around.
+/// Shape around which a bounding volume can be fitted.
 pub trait Bounded {
-    /// Support function: the largest `direction · x` over the thing for a unit direction, m; infinite if unbounded.
+    /// Support function: maximum of `direction · x` over the shape for a unit direction, m; infinite if
+    /// unbounded.
     fn support(&self, direction: &Vec3) -> f64;
-    /// An upper bound of the distance from `from` to the farthest point of the thing, m.
+    /// Upper bound of the distance from `from` to the farthest point of the shape, m.
     fn farthest(&self, from: &Vec3) -> f64;
-    /// Points that represent the thing when axes and centres are chosen (they need not bound it).
+    /// Appends representative points, used to choose axes and centres (they need not bound the shape).
     fn representatives(&self, out: &mut Vec<Vec3>);
 }
 

@@ -1,4 +1,4 @@
-//! The table of pair tests: which test answers for which pair of volumes.
+//! Table of the pair tests of bounding volumes.
 
 use super::aabb_aabb::aabb_aabb;
 use super::aabb_obb::{aabb_obb, obb_aabb};
@@ -10,17 +10,17 @@ use super::volume::{FromAToB, Volume};
 use crate::Vec3;
 use crate::extension::{Extensions, VolumeTest};
 
-/// A volume of A and where it is in B's frame, for tests against several volumes of B: its centre is carried once.
+/// Volume of A with its centre in B's frame, transformed once for tests against several volumes of B.
 #[derive(Clone, Copy)]
 pub struct CarriedVolume<'a> {
     volume: &'a Volume,
-    /// Its centre in B's frame, m; the origin if it has none.
+    /// Centre in B's frame, m; the origin for a volume without a centre.
     center_b: Vec3,
     x_ba: &'a FromAToB,
 }
 
 impl<'a> CarriedVolume<'a> {
-    /// A volume in A's frame, which `x_ba` carries into B's.
+    /// Prepares a volume in A's frame; `x_ba` transforms from A's frame to B's.
     #[inline]
     pub fn new(volume: &'a Volume, x_ba: &'a FromAToB) -> Self {
         let center_b = match volume {
@@ -33,7 +33,7 @@ impl<'a> CarriedVolume<'a> {
     }
 }
 
-/// The built-in pair tests together with those a user has registered.
+/// Built-in pair tests and those registered by a user.
 #[derive(Clone, Default)]
 pub struct VolumeTests {
     custom: Vec<CustomTest>,
@@ -47,7 +47,7 @@ struct CustomTest {
 }
 
 impl VolumeTests {
-    /// The built-in tests and those registered in `ext`. A registration for two built-in kinds is never asked.
+    /// Built-in tests and those registered in `ext`. A test registered for two built-in kinds is never used.
     pub fn new(ext: &Extensions) -> Self {
         let custom = ext.volume_tests().map(|(kind_a, kind_b, test)| CustomTest {
             kind_a: kind_a.to_owned(),
@@ -57,15 +57,15 @@ impl VolumeTests {
         Self { custom: custom.collect() }
     }
 
-    /// Whether two volumes, each in its own frame, may overlap; `x_ba` carries A's frame into B's. `false` only if
-    /// they are certainly apart, so a pair without a test overlaps ([`Self::supports`] finds such pairs). Takes
-    /// nothing from the heap.
+    /// Returns `true` if two volumes, each in its own frame, may overlap; `x_ba` transforms from A's frame to
+    /// B's. `false` means certainly disjoint. A pair without a test counts as overlapping ([`Self::supports`]
+    /// finds such pairs). Does not allocate.
     #[inline]
     pub fn overlap(&self, a: &Volume, b: &Volume, x_ba: &FromAToB) -> bool {
         self.overlap_carried(&CarriedVolume::new(a, x_ba), b)
     }
 
-    /// [`overlap`](Self::overlap) of a volume that is tested against several of B's.
+    /// [`overlap`](Self::overlap) for a volume that is tested against several volumes of B.
     #[inline]
     pub fn overlap_carried(&self, a: &CarriedVolume<'_>, b: &Volume) -> bool {
         use Volume::{Aabb, Obb, Sphere, Unbounded};
@@ -101,7 +101,7 @@ impl VolumeTests {
         }
     }
 
-    /// Whether there is a test for two kinds, given by name, in either order.
+    /// Returns `true` if there is a test for two kinds, given by name, in either order.
     pub fn supports(&self, kind_a: &str, kind_b: &str) -> bool {
         let built_in = |kind: &str| matches!(kind, "Aabb" | "Sphere" | "Obb");
         let unbounded = kind_a == "Unbounded" || kind_b == "Unbounded";

@@ -2,7 +2,7 @@
 
 use crate::{Mat3, Transform, Vec3};
 
-/// A ball.
+/// Sphere (solid).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
     /// Centre, m.
@@ -11,7 +11,7 @@ pub struct Sphere {
     pub radius: f64,
 }
 
-/// An ellipsoid.
+/// Ellipsoid (solid).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipsoid {
     /// Centre, m.
@@ -23,7 +23,7 @@ pub struct Ellipsoid {
 }
 
 impl Sphere {
-    /// The same sphere in another frame.
+    /// Sphere transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { center: x.point(&self.center), radius: self.radius }
@@ -31,7 +31,7 @@ impl Sphere {
 }
 
 impl Ellipsoid {
-    /// The same ellipsoid in another frame.
+    /// Ellipsoid transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { center: x.point(&self.center), axes: x.rotation * self.axes, semi_axes: self.semi_axes }
@@ -43,7 +43,7 @@ impl Ellipsoid {
         self.axes.tr_mul(direction).component_mul(&self.semi_axes).norm()
     }
 
-    /// The surface point farthest along a unit direction, m.
+    /// Surface point farthest along a unit direction, m.
     #[inline]
     pub fn support(&self, direction: &Vec3) -> Vec3 {
         let scaled = self.axes.tr_mul(direction).component_mul(&self.semi_axes);
@@ -51,19 +51,20 @@ impl Ellipsoid {
         self.center + self.axes * scaled.component_mul(&self.semi_axes) / half_width
     }
 
-    /// How far from its centre a triangle may lie that pushes it, beside those that it overlaps, m.
+    /// Distance from the centre within which a triangle may push the ellipsoid without overlapping it, m.
     ///
-    /// A face pushes where it holds the foot of the deepest point: the point straight above, in the plane of the face. Of a
-    /// slender ellipsoid that lies askew, most of the way up is outside of it. With the centre in the plane the foot is as far
-    /// from the centre as the deepest point is aside, at most the difference of the largest and the smallest semi-axis. With
-    /// the centre behind, it is farther up by no more than the thickness; the default one is the smallest semi-axis, and for
-    /// any other the volume of the triangle has room.
+    /// A face pushes if it contains the foot point: the projection of the deepest point onto its plane. For a
+    /// slender, oblique ellipsoid most of that projection line is outside the ellipsoid. With the centre in
+    /// the plane, the foot point is as far from the centre as the deepest point is lateral, at most the
+    /// difference of the largest and smallest semi-axes. With the centre behind the plane, the thickness adds
+    /// to it. The default thickness is the smallest semi-axis; a larger one is covered by the volume of the
+    /// triangle.
     pub fn reach_of_feet(&self) -> f64 {
         let (smallest, largest) = (self.semi_axes.min(), self.semi_axes.max());
         ((largest - smallest) * (largest - smallest) + smallest * smallest).sqrt()
     }
 
-    /// The smallest semi-axis, m.
+    /// Smallest semi-axis, m.
     pub fn smallest_semi_axis(&self) -> f64 {
         self.semi_axes.min()
     }

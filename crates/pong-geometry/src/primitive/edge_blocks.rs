@@ -1,21 +1,22 @@
-//! The edges and vertices of a polyhedron that may push, eight at a time.
+//! Edges and vertices of a polyhedron that may push, in blocks of eight.
 
 use super::polyhedron_parts::{EdgePush, PolyhedronParts, PolyhedronVertex};
 use crate::Vec3;
 use crate::simd::{LANES, LaneBits, Simd, Splat};
 
-/// Vectors, coordinate by coordinate.
+/// Eight vectors as coordinate arrays.
 type EightVectors = [[f64; LANES]; 3];
 
-/// Boxes around edges are wider than these by such a share of the largest coordinate: far beyond rounding.
+/// Relative enlargement of the boxes around edges, as a fraction of the largest coordinate: far above
+/// rounding.
 const BOX_SLACK: f64 = 1e-9;
 
-/// The edges that may push. Those in one block lie near each other; the order is not theirs.
+/// Edges that may push, in spatially compact blocks of eight; not in edge-index order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EdgeBlocks {
-    /// The blocks; lanes beyond the last edge repeat it.
+    /// Blocks; unused lanes of the last block repeat the last edge.
     pub blocks: Vec<EdgeBlock>,
-    /// Boxes around the blocks; those beyond the last repeat it.
+    /// Boxes around the blocks, eight per entry; unused lanes of the last entry repeat the last box.
     pub boxes: Vec<EightBoxes>,
 }
 
@@ -23,42 +24,43 @@ pub struct EdgeBlocks {
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct EdgeBlock {
-    /// Their first ends, m.
+    /// First ends, m.
     pub first: EightVectors,
-    /// Their second ends, m.
+    /// Second ends, m.
     pub second: EightVectors,
-    /// From the first to the second, m.
+    /// Vectors from the first to the second ends, m.
     pub along: EightVectors,
-    /// Of each of the two faces the unit vector in its plane, across the edge, out of the face.
+    /// For each of the two adjacent faces, the unit vector in the face's plane, perpendicular to the edge,
+    /// pointing out of the face.
     pub outwards: [EightVectors; 2],
-    /// Their places in [`PolyhedronParts::edges`].
+    /// Indices into [`PolyhedronParts::edges`].
     pub index: [u32; LANES],
-    /// Which lanes are no repetition.
+    /// Lanes in use; the others are repetitions.
     pub own: LaneBits,
 }
 
-/// Boxes along the frame's axes around eight blocks.
+/// Axis-aligned boxes around eight blocks.
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct EightBoxes {
-    /// Least coordinates, m.
+    /// Minimum coordinates, m.
     pub low: EightVectors,
-    /// Greatest coordinates, m.
+    /// Maximum coordinates, m.
     pub high: EightVectors,
 }
 
-/// The vertices in their order, eight at a time.
+/// Eight vertices, in vertex-index order.
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct VertexBlock {
-    /// Places, m.
+    /// Positions, m.
     pub position: EightVectors,
-    /// Which lanes hold a vertex that may push.
+    /// Lanes whose vertex may push.
     pub pushes: LaneBits,
 }
 
 impl EdgeBlocks {
-    /// The edges that may push.
+    /// Collects the edges that may push.
     pub fn new(parts: &PolyhedronParts) -> Self {
         let mut edges: Vec<Edge> =
             (0..parts.edges.len()).filter_map(|index| Edge::of(parts, index)).collect();
@@ -90,7 +92,8 @@ impl Edge {
     }
 }
 
-/// Orders edges so that those of one block lie near each other: halves, across the longest extent, of whole blocks.
+/// Sorts edges so that the edges of a block are close together: splits recursively across the longest extent,
+/// into whole blocks.
 fn bring_together(edges: &mut [Edge]) {
     if edges.len() <= LANES {
         return;
@@ -109,7 +112,7 @@ fn bounds(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
     points.fold(none, |(low, high), p| (low.inf(&p), high.sup(&p)))
 }
 
-/// Vectors of eight lanes; those beyond the last repeat it.
+/// Eight vectors; unused lanes repeat the last one.
 fn eight<T>(things: &[T], vector: impl Fn(&T) -> Vec3) -> EightVectors {
     std::array::from_fn(|axis| std::array::from_fn(|lane| vector(&things[lane.min(things.len() - 1)])[axis]))
 }
@@ -126,7 +129,8 @@ impl EdgeBlock {
         }
     }
 
-    /// The edges between whose two faces and whose two ends a point lies.
+    /// Returns the edges for which a point lies between the two ends and between the outward planes of the
+    /// two faces.
     #[inline(always)]
     pub fn between<S: Simd>(&self, simd: S, p: &Splat<S>) -> LaneBits {
         let zero = simd.splat(0.0);
@@ -148,7 +152,7 @@ impl EightBoxes {
         Self { low: eight(&boxes, |b| b.0), high: eight(&boxes, |b| b.1) }
     }
 
-    /// Which boxes meet another one, from its least to its greatest coordinates.
+    /// Returns the boxes that overlap the box from `low` to `high`.
     #[inline(always)]
     pub fn meet<S: Simd>(&self, simd: S, [low, high]: &[Vec3; 2]) -> LaneBits {
         let mut met = LaneBits::MAX;
@@ -160,7 +164,7 @@ impl EightBoxes {
         met
     }
 
-    /// Which boxes may hold a point that is nearer to `p` than `reach` (m).
+    /// Returns the boxes that may hold a point nearer to `p` than `reach` (m).
     #[inline(always)]
     pub fn near<S: Simd>(&self, simd: S, p: &Splat<S>, reach: f64) -> LaneBits {
         let square = simd.splat(reach * reach);
@@ -175,7 +179,7 @@ fn box_around(edges: &[Edge]) -> (Vec3, Vec3) {
 }
 
 impl VertexBlock {
-    /// All vertices, in blocks.
+    /// Blocks of all vertices.
     pub fn all(parts: &PolyhedronParts) -> Vec<Self> {
         let block = |vertices: &[PolyhedronVertex]| Self {
             position: eight(vertices, |vertex| vertex.position),
@@ -187,7 +191,7 @@ impl VertexBlock {
         parts.vertices.chunks(LANES).map(block).collect()
     }
 
-    /// The vertices that may push and are not as far as `reach` (m) from a point.
+    /// Returns the vertices that may push and lie within `reach` (m) of a point.
     #[inline(always)]
     pub fn within<S: Simd>(&self, simd: S, p: &Splat<S>, reach: f64) -> LaneBits {
         let square = p.less(&self.position).norm_squared();

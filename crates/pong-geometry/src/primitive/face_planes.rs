@@ -1,54 +1,55 @@
-//! The planes of a polyhedron's faces, coordinate by coordinate.
+//! Planes of a polyhedron's faces as coordinate arrays.
 
 use super::polyhedron_parts::{PolyhedronFace, PolyhedronParts};
 use crate::Vec3;
 use crate::simd::{LANES, LaneBits, MODERATE, Simd, Splat, is_moderate};
 
-/// Faces in blocks of eight, in their order.
+/// Face planes in blocks of eight, in face-index order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FacePlanes {
-    /// The blocks; the last one may have empty lanes.
+    /// Blocks; the last one may have unused lanes.
     pub blocks: Vec<PlaneBlock>,
-    /// The faces from the widest to the narrowest, of equal ones the first first: what is near a solid but outside is mostly
-    /// above a wide face, so who asks one plane after another ends sooner.
+    /// Faces by decreasing area (ties: lower index first). A point near a solid but outside is mostly above a
+    /// large face, so a test of one plane after another ends sooner in this order.
     pub widest_first: Vec<PolyhedronFace>,
-    /// Whether all numbers are moderate ([`is_moderate`]), so that the height of such a point is finite.
+    /// True if all numbers are moderate ([`is_moderate`]); heights of moderate points are then finite.
     pub moderate: bool,
-    /// Whether all faces are active.
+    /// True if all faces are active.
     pub all_active: bool,
-    /// Whether also none is closed.
+    /// True if, in addition, no face is closed.
     pub simple: bool,
-    /// How near a point must be to an inner wall to be at it, m.
+    /// Distance within which a point counts as on an internal face, m.
     pub wall_slack: f64,
 }
 
-/// Eight planes. Lanes beyond the last face repeat it: what holds for all faces, or for any, is then the same, and of
-/// equals the lower place wins.
+/// Eight planes. Unused lanes repeat the last face: then results over all or any faces are unchanged, and
+/// among equals the lower lane wins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct PlaneBlock {
-    /// Components of the unit outward normals.
+    /// Components of the outward unit normals.
     pub normal: [[f64; LANES]; 3],
     /// Distances from the frame's origin along the normals, m.
     pub offset: [f64; LANES],
-    /// Which lanes are no repetition.
+    /// Lanes in use; the others are repetitions.
     pub own: LaneBits,
-    /// Which lanes hold an active face.
+    /// Lanes whose face is active.
     pub active: LaneBits,
-    /// Which lanes hold a closed face.
+    /// Lanes whose face is closed.
     pub closed: LaneBits,
-    /// For each face, the active ones in this block that have an edge in common with it.
+    /// For each face, the active faces of this block that share an edge with it.
     pub beside: [LaneBits; LANES],
 }
 
 impl PlaneBlock {
-    /// Heights of a point above the planes, in the bits of [`PolyhedronFace::height`].
+    /// Heights of a point above the planes, bit-identical to [`PolyhedronFace::height`].
     #[inline(always)]
     pub fn heights<S: Simd>(&self, simd: S, p: &Splat<S>) -> S::Eight {
         simd.sub(p.dot(&self.normal), simd.load(&self.offset))
     }
 
-    /// For which planes a point at these heights is on the solid's side: below, or on one that is closed.
+    /// Returns the planes for which a point at these heights is on the solid's side: below the plane, or on
+    /// the plane of a closed face.
     #[inline(always)]
     pub fn held<S: Simd>(&self, simd: S, heights: S::Eight) -> LaneBits {
         let zero = simd.splat(0.0);
@@ -61,14 +62,16 @@ impl PlaneBlock {
 }
 
 impl PlaneBlock {
-    /// For which planes a point at these heights is below, or at an inner wall.
+    /// Returns the planes for which a point at these heights is below, or on an internal face within
+    /// `wall_slack`.
     #[inline(always)]
     pub fn held_or_at_wall<S: Simd>(&self, simd: S, heights: S::Eight, wall_slack: f64) -> LaneBits {
         let below = simd.bits(simd.below(heights, simd.splat(0.0)));
         below | simd.bits(simd.below(heights, simd.splat(wall_slack))) & !self.active
     }
 
-    /// At which planes of inner walls a point at these heights is, or beyond.
+    /// Returns the internal faces (inactive) whose plane a point at these heights is on or beyond, within
+    /// `wall_slack`.
     #[inline(always)]
     pub fn walls_reached<S: Simd>(&self, simd: S, heights: S::Eight, wall_slack: f64) -> LaneBits {
         simd.bits(simd.below(simd.splat(-wall_slack), heights)) & !self.active
@@ -76,36 +79,38 @@ impl PlaneBlock {
 }
 
 impl FacePlanes {
-    /// Relative to a piece's diameter: two opposite inner walls within this count as one plane, and a point within this
-    /// of a wall is at it. Where several walls meet, rounding leaves a point in none of the pieces, or in several.
+    /// Tolerance of internal faces, relative to a piece's diameter: two opposite internal faces within it
+    /// count as one plane, and a point within it counts as on the face. Where several internal faces meet,
+    /// rounding leaves a point in no piece or in several.
     pub const WALL_TOLERANCE: f64 = 1e-6;
 
-    /// Most blocks that kernels keep in registers.
+    /// Maximum number of blocks that kernels keep in registers.
     pub const IN_REGISTERS: usize = 4;
 
-    /// How many blocks a kernel for `N` blocks looks at: always `N` if it keeps them in registers, else all.
+    /// Number of blocks that a kernel for `N` blocks processes: always `N` if it keeps them in registers,
+    /// else all.
     #[inline(always)]
     pub(crate) fn count<const N: usize>(&self) -> usize {
         if N <= Self::IN_REGISTERS { N } else { self.blocks.len() }
     }
 
-    /// A block; beyond the last the last once more.
+    /// Returns a block; an index past the last returns the last one.
     ///
     /// # Panics
-    /// If there are no faces.
+    /// If the polyhedron has no faces.
     #[inline(always)]
     pub(crate) fn block(&self, index: usize) -> &PlaneBlock {
         &self.blocks[index.min(self.blocks.len() - 1)]
     }
 
-    /// The only block: most pieces have at most eight faces.
+    /// The only block, if there is one: most pieces have at most eight faces.
     #[inline]
     pub(crate) fn only_block(&self) -> Option<&PlaneBlock> {
         let [only] = &self.blocks[..] else { return None };
         Some(only)
     }
 
-    /// The planes of the faces of a piece.
+    /// Builds the planes of a piece's faces.
     pub fn new(parts: &PolyhedronParts) -> Self {
         let faces = &parts.faces[..];
         let moderate = faces.iter().all(|face| is_moderate(&face.normal) && face.offset.abs() < MODERATE);
@@ -123,7 +128,8 @@ fn widest_first(parts: &PolyhedronParts) -> Vec<PolyhedronFace> {
     faces.into_iter().map(|(_, face)| face).collect()
 }
 
-/// Of a face, from the triangles between the first corner of its outline and the edges that do not meet there, m².
+/// Twice the area of a face, m², from the triangles between the first corner of its outline and the edges not
+/// adjacent to that corner.
 fn twice_the_area(parts: &PolyhedronParts, face: &PolyhedronFace) -> f64 {
     let mut from_first = parts.rims_of(face).iter().map(|rim| parts.vertices[rim.start as usize].position);
     let Some(first) = from_first.next() else { return 0.0 };
@@ -131,7 +137,7 @@ fn twice_the_area(parts: &PolyhedronParts, face: &PolyhedronFace) -> f64 {
     corners.windows(2).map(|pair| pair[0].cross(&pair[1])).sum::<Vec3>().norm()
 }
 
-/// The block of the faces from `first` on.
+/// Builds the block of the faces from `first` on.
 fn block(parts: &PolyhedronParts, first: usize) -> PlaneBlock {
     let faces = &parts.faces[first..parts.faces.len().min(first + LANES)];
     let beside = |face: &PolyhedronFace| {

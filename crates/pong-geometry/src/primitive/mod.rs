@@ -1,4 +1,4 @@
-//! The primitives a model is built of, and how they sit in flat arrays.
+//! Primitives of a model, and their storage in flat arrays.
 //!
 //! All geometry of one movable group is expressed in the frame of that group.
 
@@ -24,36 +24,36 @@ pub use triangles::{Lean, MayPush, NO_NEIGHBOR, TriangleRecord, TriangleSet};
 
 use crate::Vec3;
 
-/// The kind of a primitive. Its number is part of the hash of models and never changes; what is A of a pair of kinds stands in
-/// the table of pairs.
+/// Kind of a primitive. Its number enters the hash of models and never changes. The table of pairs says which
+/// kind of a pair is A.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum PrimitiveKind {
-    /// A vertex without extent.
+    /// Vertex without extent.
     Point = 0,
-    /// A straight piece of a line with two ends.
+    /// Line segment with two ends.
     LineSegment = 1,
-    /// A plunger: origin, direction, length.
+    /// Plunger: origin, direction, length.
     Ray = 2,
-    /// A ball.
+    /// Ball.
     Sphere = 3,
-    /// A ball stretched along three axes.
+    /// Ball scaled along three axes.
     Ellipsoid = 4,
-    /// A one-sided or two-sided facet.
+    /// One-sided or two-sided facet.
     Triangle = 5,
-    /// A convex solid bounded by planar faces.
+    /// Convex solid bounded by planar faces.
     Polyhedron = 6,
-    /// A half space.
+    /// Half space.
     Plane = 7,
-    /// A kind added by the user (see [`CustomPrimitive`]).
+    /// Kind defined by the user (see [`CustomPrimitive`]).
     Custom = 8,
-    /// Everything within a radius of a segment.
+    /// All points within a radius of a segment.
     Capsule = 9,
-    /// A straight round solid with flat ends.
+    /// Straight round solid with flat ends.
     Cylinder = 10,
-    /// A frustum of a cone.
+    /// Frustum of a cone.
     Cone = 11,
-    /// The inner wall of a round hole.
+    /// Inner wall of a round hole.
     Bore = 12,
 }
 
@@ -75,7 +75,7 @@ impl PrimitiveKind {
         Self::Bore,
     ];
 
-    /// The name as the model file spells it.
+    /// Name of the kind in model files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Point => "Point",
@@ -95,7 +95,7 @@ impl PrimitiveKind {
     }
 }
 
-/// A primitive added by a Rust user. Its testers are registered with the engine by kind name.
+/// Primitive defined by a Rust user. Its testers are registered with the engine by kind name.
 pub trait CustomPrimitive: std::fmt::Debug + Send + Sync + std::any::Any {
     /// The kind's name, as in the model file and in the registration of its testers.
     fn kind_name(&self) -> &str;

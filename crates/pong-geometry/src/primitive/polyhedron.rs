@@ -1,8 +1,8 @@
 //! Convex planar polyhedra with their surface topology.
 //!
-//! A polyhedron is one convex piece of a body. Pieces that touch along *inactive* faces (inner walls) form one
-//! surface (docs/theory.md, 2.2); what an edge or a vertex may push is therefore a property of the
-//! whole surface and is worked out when the model is loaded.
+//! A polyhedron is one convex piece of a body. Pieces that touch along *inactive* faces (internal faces,
+//! "inner walls" in the documentation) form one surface (docs/theory.md, 2.2). Which edges and vertices may
+//! push is therefore a property of the whole surface, computed when the model is loaded.
 
 use super::edge_blocks::{EdgeBlocks, VertexBlock};
 use super::face_planes::FacePlanes;
@@ -10,10 +10,10 @@ use super::polyhedron_parts::{PolyhedronFace, PolyhedronParts};
 use crate::Vec3;
 use crate::simd::{LaneBits, Simd, Splat, run_at_level};
 
-/// A convex solid: the intersection of the half spaces of its faces.
+/// Convex solid: intersection of the half spaces of its faces.
 ///
-/// Made by [`new`](Self::new) from its [`PolyhedronParts`], whose fields it shows; [`change`](Self::change) alters
-/// them.
+/// Created by [`new`](Self::new) from [`PolyhedronParts`], to which it dereferences; [`change`](Self::change)
+/// modifies them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyhedron {
     parts: PolyhedronParts,
@@ -22,21 +22,21 @@ pub struct Polyhedron {
     vertex_blocks: Vec<VertexBlock>,
 }
 
-/// Whether a point is in one piece of a body.
+/// Position of a point relative to one piece of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Containment {
-    /// Inside, away from every inner wall.
+    /// Inside, not on an internal face.
     Inside,
-    /// Inside (the tie rule of inner walls included), at an inner wall.
+    /// Inside (by the tie rule of internal faces), and on an internal face.
     AtWall,
-    /// Outside, but only because it is at an inner wall and beyond.
+    /// On or beyond an internal face within tolerance, and outside for no other reason.
     BeyondWall,
     /// Outside.
     Outside,
 }
 
 impl Polyhedron {
-    /// The finished polyhedron: planes, edges and vertices are set out for the tests.
+    /// Builds the polyhedron and its data for the tests: planes, edges and vertices.
     pub fn new(parts: PolyhedronParts) -> Self {
         Self {
             planes: FacePlanes::new(&parts),
@@ -46,42 +46,42 @@ impl Polyhedron {
         }
     }
 
-    /// Changes the parts and sets everything out anew.
+    /// Modifies the parts and rebuilds all derived data.
     pub fn change(&mut self, change: impl FnOnce(&mut PolyhedronParts)) {
         let mut parts = self.parts.clone();
         change(&mut parts);
         *self = Self::new(parts);
     }
 
-    /// The parts.
+    /// Returns the parts.
     pub fn into_parts(self) -> PolyhedronParts {
         self.parts
     }
 
-    /// The planes of the faces, eight at a time.
+    /// Planes of the faces, in blocks of eight.
     #[inline]
     pub fn planes(&self) -> &FacePlanes {
         &self.planes
     }
 
-    /// The edges that may push, eight at a time.
+    /// Edges that may push, in blocks of eight.
     #[inline]
     pub fn edge_blocks(&self) -> &EdgeBlocks {
         &self.edge_blocks
     }
 
-    /// The vertices, eight at a time.
+    /// Vertices, in blocks of eight.
     #[inline]
     pub fn vertex_blocks(&self) -> &[VertexBlock] {
         &self.vertex_blocks
     }
 
-    /// How high a point must be above the plane of a face, at least, to be over the face's outline: the face then holds
-    /// the point of the solid that is nearest, and no plane is farther below the point than that. `top` is its greatest
-    /// height above a plane, m.
+    /// Least height above a face's plane at which the point may lie over the face's outline, m. That face
+    /// then holds the point of the solid nearest to `p`, and no plane is farther below `p`. `top` is the
+    /// greatest height of `p` above a plane, m.
     ///
-    /// The slack is far beyond what a loaded polyhedron may lack in convexity, and what rounding makes of the outline of
-    /// the narrowest face.
+    /// The slack is far above the convexity error of a loaded polyhedron and above the rounding of the
+    /// narrowest outline.
     #[inline]
     pub(crate) fn least_height_over_face(&self, p: &Vec3, top: f64) -> f64 {
         const SLACK: f64 = 1e-4;
@@ -89,21 +89,22 @@ impl Polyhedron {
         top - SLACK * (self.parts.diameter + p.amax() + place)
     }
 
-    /// Whether a point lies inside this piece (the tie rule of inner walls included).
+    /// Returns `true` if a point lies inside this piece (by the tie rule of internal faces).
     #[inline]
     pub fn contains(&self, p: &Vec3) -> bool {
         let planes = self.planes();
         run_at_level!(planes_hold(p: Vec3, planes: FacePlanes) -> bool)
     }
 
-    /// Where a point is. Beside the piece's inner walls that is not this piece's business alone: see [`Containment`].
+    /// Position of a point relative to this piece. Near internal faces the neighbouring pieces decide too:
+    /// see [`Containment`].
     #[inline]
     pub fn containment(&self, p: &Vec3) -> Containment {
         let planes = self.planes();
         run_at_level!(containment_in(p: Vec3, planes: FacePlanes) -> Containment)
     }
 
-    /// The planes of the inner walls at which a point is, or beyond.
+    /// Internal faces whose plane the point is on, within tolerance, or beyond.
     pub fn walls_at<'a>(&'a self, p: &'a Vec3) -> impl Iterator<Item = &'a PolyhedronFace> {
         let slack = self.planes.wall_slack;
         self.faces.iter().filter(move |face| !face.active && face.height(p) > -slack)

@@ -2,45 +2,46 @@
 
 use crate::{Transform, Vec3};
 
-/// Everything within a radius of a straight segment: a cylinder with half a ball at each end.
+/// All points within a radius of a straight segment: a cylinder with a hemisphere at each end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capsule {
-    /// Centres of the two balls, m; distinct. End 0 and end 1 are the state keys of their contacts.
+    /// Centres of the two hemispheres, m; distinct. End 0 and end 1 are the state keys of their contacts.
     pub ends: [Vec3; 2],
     /// Radius, m, positive.
     pub radius: f64,
 }
 
-/// A straight frustum of a cone: the solid of a cylinder (equal radii) and of a cone, and the hole of a bore.
+/// Straight frustum of a cone: the solid of a cylinder (equal radii) or of a cone, or the hole of a bore.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frustum {
-    /// Centres of the two circles in which it ends, m.
+    /// Centres of the two end circles, m.
     pub ends: [Vec3; 2],
     /// Radius at each end, m; not negative, and not both zero.
     pub radii: [f64; 2],
     /// Unit vector from end 0 to end 1.
     pub axis: Vec3,
-    /// Distance of the ends, m. Zero for a disc.
+    /// Distance between the ends, m. Zero for a disc.
     pub length: f64,
-    /// Unit outward normal of the wall, in a plane through the axis: its part along the axis, and its part away from it (positive).
+    /// Outward unit normal of the lateral surface in a plane through the axis: axial component, then radial
+    /// component (positive).
     pub wall: [f64; 2],
 }
 
-/// The inner wall of a round or tapered hole, open at both ends. It pushes towards its axis.
+/// Inner wall of a round or tapered hole, open at both ends. It pushes towards its axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bore {
     /// The hole.
     pub hole: Frustum,
-    /// How far behind the wall something is still pushed back into the hole, m.
+    /// Distance behind the wall within which a shape is still pushed back into the hole, m.
     pub thickness: f64,
-    /// Of each end, whether the hole ends there in a convex edge that pushes what leans on it. Where the hole goes on as another
-    /// bore it does not.
+    /// For each end, true if the hole ends there in a convex edge (mouth) that pushes shapes leaning on it;
+    /// false if the hole continues as another bore.
     pub mouths: [bool; 2],
 }
 
 impl Bore {
-    /// Whether what is so far inside of one end is past it, in any unit. Where two bores meet that run the same way, what is in
-    /// the seam belongs to the second alone.
+    /// Returns `true` if a signed distance `inside` of one end (any unit) is past that end. At the seam of
+    /// two bores in line, a point exactly on the seam belongs to the second bore only.
     #[inline]
     pub(crate) fn is_past(&self, end: usize, inside: f64) -> bool {
         inside < 0.0 || (inside == 0.0 && end == 1 && !self.mouths[end])
@@ -48,7 +49,7 @@ impl Bore {
 }
 
 impl Capsule {
-    /// The same capsule in another frame.
+    /// Capsule transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { ends: self.ends.map(|end| x.point(&end)), radius: self.radius }
@@ -56,7 +57,7 @@ impl Capsule {
 }
 
 impl Frustum {
-    /// Between two distinct places, m, with a radius at each, m, not negative and not both zero.
+    /// Frustum between two distinct points, m, with a radius at each, m, not negative and not both zero.
     pub fn new(ends: [Vec3; 2], radii: [f64; 2]) -> Self {
         let between = ends[1] - ends[0];
         let length = between.norm();
@@ -66,7 +67,7 @@ impl Frustum {
         Self { ends, radii, axis: between / length, length, wall }
     }
 
-    /// One of the two circles in which it ends, as a solid without thickness.
+    /// One of the two end circles as a solid disc without thickness.
     pub fn disc(&self, end: usize) -> Self {
         Self {
             ends: [self.ends[end]; 2],
@@ -77,13 +78,13 @@ impl Frustum {
         }
     }
 
-    /// The same frustum in another frame.
+    /// Frustum transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { ends: self.ends.map(|end| x.point(&end)), axis: x.vector(&self.axis), ..*self }
     }
 
-    /// Largest `direction · x` over the solid, m, of a unit direction.
+    /// Maximum of `direction · x` over the solid, m, for a unit direction.
     #[inline]
     pub fn support(&self, direction: &Vec3) -> f64 {
         let aside = direction.cross(&self.axis).norm();

@@ -2,14 +2,14 @@
 
 use crate::{Transform, Vec3};
 
-/// A point: a vertex without extent.
+/// Point: a vertex without extent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// Place in the movable group's frame, m.
+    /// Position in the group frame, m.
     pub position: Vec3,
 }
 
-/// A half space: the solid is `normal · x ≤ offset`.
+/// Half space: the solid is `normal · x ≤ offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
     /// Unit outward normal.
@@ -18,40 +18,40 @@ pub struct Plane {
     pub offset: f64,
 }
 
-/// A straight segment between two distinct points.
+/// Straight segment between two distinct points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineSegment {
     /// The ends, m. End 0 and end 1 are the state keys of its contacts.
     pub ends: [Vec3; 2],
 }
 
-/// How a ray answers to what it hits (docs/theory.md, 2.5).
+/// Response of a ray to the surface it hits (docs/theory.md, 2.5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RayResponse {
-    /// Depth is measured along the surface's normal and the force acts along it.
+    /// Depth is measured along the surface normal, and the force acts along the normal.
     Normal,
-    /// Depth is the shortening of the plunger and the force acts along the ray.
+    /// Depth is the shortening of the plunger, and the force acts along the ray.
     Axial,
 }
 
-/// A plunger of stated length.
+/// Plunger of given length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where the plunger is held, m.
+    /// Point where the plunger is held, m.
     pub origin: Vec3,
     /// Unit direction from the origin to the tip.
     pub direction: Vec3,
     /// Free length, m.
     pub length: f64,
-    /// How far behind the origin a surface may lie and still be hit, m; `None` takes the default of what is hit
+    /// Distance behind the origin at which a surface is still hit, m; `None` takes the default of the surface
     /// (0, or the thickness of a triangle or a bore).
     pub reach: Option<f64>,
-    /// Which way the force acts.
+    /// Direction of the force: along the surface normal or along the ray.
     pub response: RayResponse,
 }
 
 impl Point {
-    /// The same point in another frame.
+    /// Point transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { position: x.point(&self.position) }
@@ -59,7 +59,7 @@ impl Point {
 }
 
 impl LineSegment {
-    /// The same segment in another frame.
+    /// Segment transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { ends: [x.point(&self.ends[0]), x.point(&self.ends[1])] }
@@ -67,10 +67,10 @@ impl LineSegment {
 }
 
 impl Ray {
-    /// From one place to another; `None` if they are one, or farther apart than numbers reach.
+    /// Ray from one point to another; `None` if they coincide or their distance is not finite.
     ///
-    /// The length is cut to what can be divided by, though no more and no less comes here: a compiler may divide before the
-    /// branch, and before a loop around it.
+    /// The clamp of the length has no effect on the result: a compiler may move the division before the
+    /// branch, where the length may be zero.
     #[inline]
     pub fn between(from: &Vec3, to: &Vec3) -> Option<Self> {
         let path = to - from;
@@ -82,13 +82,13 @@ impl Ray {
         Some(Self { origin: *from, direction, length, reach: None, response: RayResponse::Normal })
     }
 
-    /// The free tip, m.
+    /// Free tip, m.
     #[inline]
     pub fn tip(&self) -> Vec3 {
         self.origin + self.direction * self.length
     }
 
-    /// The same ray in another frame.
+    /// Ray transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { origin: x.point(&self.origin), direction: x.vector(&self.direction), ..*self }

@@ -1,90 +1,90 @@
-//! All triangles of one movable group, sharing vertices, with their neighbours.
+//! All triangles of one movable group, with shared vertices and neighbours.
 //!
-//! Forty-four bytes per triangle: normals and edge planes are computed when they are needed; which edges and vertices
-//! may push at all is known, and how far aside. Edge `k` of a triangle runs from its vertex `k` to its vertex `k + 1` (mod 3).
+//! A triangle takes 44 bytes. Normals and edge planes are computed when needed; stored are which edges and
+//! vertices may push, and how far their pushing normals deviate from the face normal. Edge `k` runs from
+//! vertex `k` to vertex `k + 1` (mod 3).
 
 use crate::Vec3;
 
-/// In [`TriangleRecord::neighbors`]: the edge is free (or shared by three or more triangles, which counts as
-/// free).
+/// Value in [`TriangleRecord::neighbors`] for a boundary edge, or an edge shared by three or more triangles,
+/// which counts as boundary.
 pub const NO_NEIGHBOR: u32 = u32::MAX;
 
-/// The triangles of one movable group.
+/// Triangles of one movable group.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriangleSet {
-    /// Vertices in the movable group's frame, m; bit-equal positions are one vertex.
+    /// Vertices in the group frame, m; bit-equal positions are one vertex.
     pub vertices: Vec<Vec3>,
-    /// Triangles in the order of the file. A two-sided one is followed, at the end of its primitive, by its
-    /// mirror image.
+    /// Triangles in file order. A two-sided primitive is followed by the mirror images of its triangles.
     pub triangles: Vec<TriangleRecord>,
 }
 
-/// One facet; its front is where its vertices run counter-clockwise.
+/// Facet; its front is the side from which its vertices run counter-clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TriangleRecord {
     /// Indices into [`TriangleSet::vertices`].
     pub vertices: [u32; 3],
-    /// The triangle across each edge (index into [`TriangleSet::triangles`]) or [`NO_NEIGHBOR`].
+    /// Triangle across each edge (index into [`TriangleSet::triangles`]), or [`NO_NEIGHBOR`].
     pub neighbors: [u32; 3],
-    /// The connected surface this triangle belongs to (index among the movable group's shells).
+    /// Connected surface of the triangle (index among the movable group's shells).
     pub shell: u32,
-    /// Which of its edges and vertices may push.
+    /// Edges and vertices that may push.
     pub may_push: MayPush,
-    /// How far aside its edges may push.
+    /// Largest deviation of an edge's pushing normals from the face normal.
     pub edge_lean: Lean,
-    /// How far aside its vertices may push.
+    /// Largest deviation of a vertex's pushing normals from the face normal.
     pub vertex_lean: Lean,
 }
 
-/// Which edges and vertices of a triangle may push, as
-/// [`mark_pushing`](crate::interference::pushing_features::mark_pushing) tells. It decides no answer: where nothing is
-/// known every feature is tested.
+/// Edges and vertices of a triangle that may push, set by
+/// [`mark_pushing`](crate::interference::pushing_features::mark_pushing). It only saves tests and changes no
+/// result: without this information every feature is tested.
 ///
-/// Bit `k` is edge `k`, bit `3 + k` vertex `k`.
+/// Bit `k` is edge `k`, bit `3 + k` is vertex `k`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MayPush(pub u8);
 
 impl MayPush {
-    /// Every feature: nothing is known yet.
+    /// All features, when nothing is known.
     pub const ALL: Self = Self(0b11_1111);
 
-    /// Edge `k`.
+    /// Bit of edge `k`.
     #[inline]
     pub fn edge(self, k: usize) -> bool {
         self.0 >> k & 1 == 1
     }
 
-    /// Vertex `k`.
+    /// Bit of vertex `k`.
     #[inline]
     pub fn vertex(self, k: usize) -> bool {
         self.0 >> (3 + k) & 1 == 1
     }
 }
 
-/// The greatest tangent of the angle between the normal of a triangle and a normal along which one of its features may push,
-/// rounded up, as [`mark_pushing`](crate::interference::pushing_features::mark_pushing) tells. It decides no answer: where
-/// nothing is known it may push any way.
+/// Upper bound of the tangent of the angle between the face normal and any normal along which a feature may
+/// push, set by [`mark_pushing`](crate::interference::pushing_features::mark_pushing). It only saves tests
+/// and changes no result: without this information the bound is [`Lean::ANY`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Lean(u8);
 
 impl Lean {
-    /// Nothing pushes.
+    /// No pushing normal.
     pub const NONE: Self = Self(0);
-    /// Any way.
+    /// Any normal.
     pub const ANY: Self = Self(u8::MAX);
 
-    /// Steps of one.
+    /// Quantisation steps per unit of the tangent.
     const STEPS: f64 = 64.0;
 
-    /// Of a tangent of at least zero; a number that is none tells nothing.
+    /// Rounds up a non-negative tangent; NaN gives [`Lean::ANY`].
     pub fn of_tangent(tangent: f64) -> Self {
-        /// Far beyond rounding of two normals and of a height that is certainly not nothing, in steps.
+        /// Margin in steps, far above the rounding of two normals and of a height.
         const ROOM: f64 = 0.01;
         let steps = (tangent * Self::STEPS * (1.0 + ROOM) + ROOM).ceil();
         if steps < f64::from(u8::MAX) { Self(steps as u8) } else { Self::ANY }
     }
 
-    /// The tangent.
+    /// Tangent of the bound.
     #[inline]
     pub fn tangent(self) -> f64 {
         f64::from(self.0) / Self::STEPS
@@ -92,7 +92,7 @@ impl Lean {
 }
 
 impl TriangleSet {
-    /// The corners of a triangle, m.
+    /// Corners of a triangle, m.
     #[inline]
     pub fn corners(&self, triangle: u32) -> [Vec3; 3] {
         self.triangles[triangle as usize].vertices.map(|v| self.vertices[v as usize])
@@ -100,8 +100,8 @@ impl TriangleSet {
 
     /// Unit normal towards the front.
     ///
-    /// The two edges that meet at the largest angle are not singled out: triangles flatter than the loader's
-    /// limit never get here.
+    /// It does not select the two edges at the largest angle: the loader refuses triangles so flat that this
+    /// would matter.
     #[inline]
     pub fn normal(&self, triangle: u32) -> Vec3 {
         let [a, b, c] = self.corners(triangle);

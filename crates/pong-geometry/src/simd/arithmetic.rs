@@ -1,16 +1,16 @@
-//! What every level can do, and what is done at any of them.
+//! SIMD operations that every instruction-set level provides, and kernels that run at any level.
 
 use super::boxes::BoxSimd;
 use super::lanes::{LANES, LaneBits};
 
 /// Arithmetic on eight numbers.
 ///
-/// Comparisons with a NaN are false, as they are for `f64`.
+/// Comparisons with NaN are false, as for `f64`.
 #[allow(missing_docs)]
 pub trait Simd: BoxSimd {
     /// Eight numbers.
     type Eight: Copy;
-    /// Eight truths.
+    /// Eight booleans.
     type Mask: Copy;
 
     fn splat(self, value: f64) -> Self::Eight;
@@ -20,17 +20,18 @@ pub trait Simd: BoxSimd {
     fn sub(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn mul(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn div(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
-    /// `a / b`, and a number of no meaning where `b` is zero: a quotient that nobody looks at must not raise a floating-point
+    /// `a / b`, and an arbitrary number where `b` is zero: an unused quotient must not raise a floating-point
     /// exception.
     ///
-    /// By two, as by one a quotient is its numerator: for AVX-512 a compiler then divides by `b` in every lane, and chooses
-    /// afterwards.
+    /// The substitute divisor is 2, not 1: since a/1 = a, a compiler for AVX-512 would divide by `b` in every
+    /// lane and select afterwards.
     #[inline(always)]
     fn ratio(self, a: Self::Eight, b: Self::Eight) -> Self::Eight {
         self.div(a, self.select(self.equal(b, self.splat(0.0)), self.splat(2.0), b))
     }
     fn sqrt(self, values: Self::Eight) -> Self::Eight;
-    /// `values · 2ⁿ`, exactly, with `n` in the lowest twelve bits of the other number. The products must be normal numbers.
+    /// `values · 2ⁿ`, exactly, where `n` is in the lowest twelve bits of `power`. The products must be normal
+    /// numbers.
     fn scaled(self, values: Self::Eight, power: Self::Eight) -> Self::Eight;
     /// `a < b`.
     fn below(self, a: Self::Eight, b: Self::Eight) -> Self::Mask;
@@ -42,24 +43,24 @@ pub trait Simd: BoxSimd {
     fn larger(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     /// The smaller: `if a < b { a } else { b }`.
     fn smaller(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
-    /// Without their signs; that of a NaN has no meaning.
+    /// Absolute values; that of a NaN has no meaning.
     fn abs(self, values: Self::Eight) -> Self::Eight;
-    /// The largest of the eight, where none is a NaN; of two zeros either.
+    /// Largest of the eight numbers, none of which may be NaN; the sign of a zero is arbitrary.
     fn largest(self, values: Self::Eight) -> f64;
     fn bits(self, mask: Self::Mask) -> LaneBits;
     fn mask(self, bits: LaneBits) -> Self::Mask;
     fn and(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
-    /// `a` where the mask holds, else `b`.
+    /// `a` where the mask is set, else `b`.
     fn select(self, mask: Self::Mask, a: Self::Eight, b: Self::Eight) -> Self::Eight;
 }
 
-/// Work that can be done at any level. Mark `run` and all that it calls with a [`Simd`] `#[inline(always)]`:
-/// instructions of a level are used only in what is inlined. That goes for closures too, those handed to `map` among
-/// them: loops and `match` do better.
+/// Function that can run at any level. Mark `run` and everything it calls with a [`Simd`]
+/// `#[inline(always)]`: only inlined code uses the instructions of the level. This applies to closures too,
+/// for example in `map`; prefer loops and `match`.
 pub trait Kernel {
-    /// What it hands back.
+    /// Result type.
     type Output;
-    /// Does the work.
+    /// Runs the function.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
@@ -68,7 +69,7 @@ mod tests {
     use super::super::{Level, run, set_level};
     use super::*;
 
-    /// All that two numbers give, eight times.
+    /// Applies every operation to two numbers, in eight lanes.
     struct All<'a>([&'a [f64; LANES]; 2]);
 
     impl Kernel for All<'_> {
@@ -116,7 +117,7 @@ mod tests {
         [a + b, a - b, a * b, larger, smaller, a.abs(), smaller, a / b]
     }
 
-    /// Equal bits; any NaN equals any other.
+    /// Compares bits; all NaNs count as equal.
     fn same(found: f64, expected: f64) -> bool {
         found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan()
     }

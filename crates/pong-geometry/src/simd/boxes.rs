@@ -1,21 +1,21 @@
-//! Eight boxes in single precision against a box or a ball, and what is in those that it meets.
+//! Eight boxes in single precision against a box or a sphere, and the selection of their contents.
 
 use super::lanes::{LANES, LaneBits};
 
-/// Eight boxes, coordinate by coordinate: the least by axis, then the greatest.
+/// Eight boxes as coordinate arrays: minima by axis, then maxima.
 pub type EightBoxes = [[[f32; LANES]; 3]; 2];
 
-/// Which of eight boxes share a place with another box, and what they hold.
+/// Overlap tests of eight boxes, and selection of their contents.
 pub trait BoxSimd: Copy {
-    /// Bit `i` is set unless box `i` lies apart from the box between `low` and `high` along an axis. Comparisons with
-    /// a NaN find nothing apart.
+    /// Bit `i` is set unless box `i` is separated from the box between `low` and `high` along an axis.
+    /// Comparisons with NaN never separate.
     fn boxes_met(self, boxes: &EightBoxes, low: &[f32; 3], high: &[f32; 3]) -> LaneBits;
 
-    /// Bit `i` is set unless the square of the distance from a place to box `i` exceeds `square`. A NaN is no distance.
+    /// Bit `i` is set unless the squared distance from a point to box `i` exceeds `square`; also set if it is
+    /// NaN.
     fn boxes_near(self, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits;
 
-    /// Those of eight numbers whose bits are set, in their order, from the first place on. What follows them has no
-    /// meaning.
+    /// Moves the numbers whose bits are set to the front, in order. The remaining lanes have no meaning.
     fn packed(self, values: &[u32; LANES], bits: LaneBits) -> [u32; LANES];
 }
 
@@ -72,7 +72,7 @@ mod tests {
         set_level(Level::best());
     }
 
-    /// Every level says what the plain comparisons say, bounds that are equal, infinite or no number included.
+    /// Every level agrees with scalar comparisons, including equal, infinite and NaN bounds.
     #[test]
     fn levels_agree_on_every_pair_of_bounds() {
         let values = [f32::NEG_INFINITY, -f32::MAX, -1.0, -0.0, 0.0, 1.0, 2.0, f32::INFINITY];

@@ -1,48 +1,49 @@
-//! The largest of many numbers, and where it stands first.
+//! First position of the maximum of many numbers.
 
 use super::arithmetic::Simd;
 use super::lanes::LANES;
 
-/// Takes numbers, eight at a time in blocks that are counted from 0, and finds the largest; of equal ones the first.
+/// Maximum search over numbers offered in blocks of eight, counted from 0; among equal numbers the first
+/// wins.
 pub trait Finder<S: Simd>: Copy {
-    /// Nothing yet: only numbers above `floor` count.
+    /// Starts a search for numbers above `floor`.
     fn above(simd: S, floor: f64) -> Self;
-    /// Eight more, in rising order of blocks.
+    /// Offers a block of eight numbers; blocks must come in increasing order.
     fn offer(&mut self, block: usize, values: S::Eight);
-    /// The largest number; `None` if nothing counted.
+    /// Maximum found; `None` if no number was above the floor.
     fn found(self) -> Option<Found>;
 }
 
-/// The largest number.
+/// Maximum and its position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
-    /// Its block.
+    /// Block that holds it.
     pub block: usize,
-    /// Its lane there.
+    /// Lane in the block.
     pub lane: usize,
-    /// The number, in the unit of what was searched; of two zeros either.
+    /// Value, in the unit of the searched numbers; the sign of a zero is arbitrary.
     pub number: f64,
 }
 
 impl Found {
-    /// Its place over all blocks.
+    /// Index over all blocks.
     #[inline(always)]
     pub fn place(&self) -> usize {
         self.block * LANES + self.lane
     }
 }
 
-/// Finds among any number of blocks.
+/// Search over any number of blocks.
 #[derive(Clone, Copy)]
 pub struct First<S: Simd> {
     simd: S,
-    /// The largest so far, lane by lane.
+    /// Largest number so far in each lane.
     largest: S::Eight,
-    /// The block in which it was offered: an integer in the bits of a number, moved about but never calculated with.
+    /// Block of that number: an integer stored in the bits of an `f64`, moved but never used in arithmetic.
     block: S::Eight,
 }
 
-/// Stands for no block.
+/// Marks that no block has been found.
 const NOWHERE: u64 = u64::MAX;
 
 impl<S: Simd> Finder<S> for First<S> {
@@ -81,7 +82,7 @@ impl<S: Simd> Finder<S> for First<S> {
     }
 }
 
-/// Finds among at most `N` blocks, up to eight, which it keeps: faster where they fit into registers.
+/// Search over at most `N` blocks (`N` ≤ 8), all of which it stores: faster if they fit into registers.
 #[derive(Clone, Copy)]
 pub struct FirstOf<S: Simd, const N: usize> {
     simd: S,
@@ -97,7 +98,7 @@ impl<S: Simd, const N: usize> Finder<S> for FirstOf<S, N> {
 
     #[inline(always)]
     fn offer(&mut self, block: usize, values: S::Eight) {
-        // No number is put before a NaN.
+        // The order of the operands lets a NaN never replace a number.
         self.kept[block] = self.simd.larger(values, self.kept[block]);
     }
 

@@ -1,21 +1,22 @@
-//! Elementary functions of eight numbers, by +, −, ×, ÷ and √ alone: every machine gives the same bits.
+//! Elementary functions of eight numbers, with only +, −, ×, ÷ and √: every machine gives the same bits.
 //!
-//! Each is within 6·10⁻¹⁶ of its value, relative to it, but for the cosine near a right angle, which is within 10⁻¹⁵ of one.
+//! The relative error of each is below 6·10⁻¹⁶, except for the cosine near a right angle, whose absolute
+//! error is below 10⁻¹⁵.
 
 use super::arithmetic::Simd;
 use super::numbers::Numbers;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LN_2, LOG2_E};
 
 impl<S: Simd> Numbers<S> {
-    /// exp(−z), z ≥ 0; beyond 700 the least value that it has there, 10⁻³⁰⁴.
+    /// exp(−z) for z ≥ 0; beyond 700 the value at 700, about 10⁻³⁰⁴.
     ///
-    /// −z = n·ln 2 + r, |r| ≤ ½·ln 2, and the series of exp(r).
+    /// Uses −z = n·ln 2 + r, |r| ≤ ½·ln 2, and the series of exp(r).
     #[inline(always)]
     pub fn exp_of_minus(self) -> Self {
         const LARGEST: f64 = 700.0;
-        /// Adding it rounds to a whole number, which then stands in the lowest bits.
+        /// Adding this rounds to an integer, which is then in the lowest bits.
         const ROUNDER: f64 = 1.5 * (1_u64 << 52) as f64;
-        /// ln 2 to 32 bits, so that its products with n are exact, and the rest.
+        /// Upper 32 bits of ln 2, so that products with n are exact; the rest follows.
         const LN_2_HIGH: f64 = f64::from_bits(LN_2.to_bits() & !0x1F_FFFF);
         const LN_2_LOW: f64 = 1.9082149292705877e-10;
         let minus = -self.smaller(self.all(LARGEST));
@@ -25,9 +26,9 @@ impl<S: Simd> Numbers<S> {
         rest.series(&EXPONENTIAL).scaled(power)
     }
 
-    /// The angle of the point (x, self) from the axis of x, for x ≥ 0: −π/2 to π/2, and 0 for the origin.
+    /// Angle of the point (x, self) from the x axis, for x ≥ 0: −π/2 to π/2, and 0 for the origin.
     ///
-    /// The arctangent of a number up to 1, by that of one up to tan(π/8).
+    /// Reduces the arctangent of a number up to 1 to that of one up to tan(π/8).
     #[inline(always)]
     pub fn angle_above(self, x: Self) -> Self {
         const TANGENT_OF_EIGHTH: f64 = 0.414_213_562_373_095_03;
@@ -44,7 +45,7 @@ impl<S: Simd> Numbers<S> {
         Self::select(self.below(self.all(0.0)), -angle, angle)
     }
 
-    /// Sine and cosine of angles from −π/2 to π/2, by those of half the angle.
+    /// Sine and cosine of angles from −π/2 to π/2, from those of half the angle.
     #[inline(always)]
     pub fn sin_cos(self) -> (Self, Self) {
         let half = self * self.all(0.5);
@@ -95,7 +96,7 @@ const fn alternating(odd: u32) -> [f64; 10] {
     coefficients
 }
 
-/// arctan(t)/t as a polynomial in t² up to tan²(π/8), fitted in 50 digits at the zeros of a Chebyshev polynomial: the error is
+/// arctan(t)/t as a polynomial in t² up to tan²(π/8), fitted with 50 digits at Chebyshev nodes: the error is
 /// below 4·10⁻¹⁷.
 const ARCTANGENT: [f64; 11] = [
     1.0,
@@ -146,7 +147,8 @@ mod tests {
         }
     }
 
-    /// Every function at many arguments, at every level of instructions: close to `libm`, and the same bits at all.
+    /// Checks a function at many arguments and at every level: close to `libm`, and bit-identical between
+    /// levels.
     fn check(
         function: Function,
         argument: impl Fn(f64) -> [f64; 2],

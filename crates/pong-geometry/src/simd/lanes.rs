@@ -1,7 +1,7 @@
-//! How wide all is.
+//! Number of lanes.
 
-/// How many numbers are worked on at a time.
+/// Numbers processed at a time.
 pub const LANES: usize = 8;
 
-/// One bit per lane: the lowest is lane 0.
+/// Bit mask of lanes; the lowest bit is lane 0.
 pub type LaneBits = u8;

@@ -1,9 +1,9 @@
-//! Eight numbers at a time, in the same bits on every machine.
+//! Arithmetic on eight numbers at a time, with the same bits on every machine.
 //!
-//! A kernel is written once, over a [`Simd`] that it is handed, and [`run`] gives it the widest one that the machine
-//! has. Every operation rounds each of the eight numbers as the plain `f64` operation does, nothing is fused and
-//! nothing is summed across lanes: the level changes the time, never the answer. (The payload of a NaN is not part of
-//! the answer.)
+//! A kernel is written once, generic over a [`Simd`], and [`run`] calls it with the widest one the machine
+//! has. Every operation rounds each lane as the scalar `f64` operation does; nothing is fused and nothing is
+//! summed across lanes. So the level changes the time, never the result. (The payload of a NaN is not part of
+//! the result.)
 
 mod arithmetic;
 mod boxes;
@@ -28,11 +28,11 @@ pub use splat::{MODERATE, Splat, is_moderate};
 
 use std::sync::atomic::{AtomicU8, Ordering};
 
-/// A set of instructions.
+/// Instruction-set level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Level {
-    /// What every machine of this architecture has.
+    /// Instructions that every machine of this architecture has.
     Portable = 1,
     /// Four numbers per instruction (x86-64 with AVX2).
     Avx2 = 2,
@@ -40,13 +40,13 @@ pub enum Level {
     Avx512 = 3,
 }
 
-/// The highest level that may be used.
+/// Highest level that may be used.
 static LEVEL: AtomicU8 = AtomicU8::new(Level::Avx512 as u8);
 
 impl Level {
     const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
 
-    /// The widest level that this machine has.
+    /// Widest level of this machine.
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
@@ -60,13 +60,13 @@ impl Level {
         Self::Portable
     }
 
-    /// The levels that this machine has, the portable one first.
+    /// Levels of this machine, the portable one first.
     pub fn available() -> impl Iterator<Item = Self> {
         let best = Self::best();
         Self::ALL.into_iter().filter(move |&level| level <= best)
     }
 
-    /// The name, for reports.
+    /// Name for reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Portable => "portable",
@@ -76,20 +76,21 @@ impl Level {
     }
 }
 
-/// The level that kernels run at: the best that the machine has, but none above what [`set_level`] chose.
+/// Level at which kernels run: the best of the machine, limited by [`set_level`].
 pub fn level() -> Level {
     let most = LEVEL.load(Ordering::Relaxed);
     Level::available().filter(|&level| level as u8 <= most).max().unwrap_or(Level::Portable)
 }
 
-/// The name of the level in use.
+/// Name of the level in use.
 pub fn level_name() -> &'static str {
     level().name()
 }
 
-/// Chooses the highest level that the whole process may use, and says which it then uses.
+/// Sets the highest level that the process may use, and returns the level then in use.
 ///
-/// For comparisons and tests: results are the same bits at every level. May be called at any time from any thread.
+/// For comparisons and tests: results are bit-identical at every level. May be called at any time from any
+/// thread.
 pub fn set_level(level: Level) -> Level {
     LEVEL.store(level as u8, Ordering::Relaxed);
     self::level()
@@ -114,8 +115,8 @@ macro_rules! run_at_level {
 }
 pub(crate) use run_at_level;
 
-/// Runs a kernel at the level in use. The choice and the call take a few nanoseconds: work that has many small
-/// kernels is itself made one.
+/// Runs a kernel at the level in use. The dispatch takes a few nanoseconds, so code with many small kernels
+/// should itself be one kernel.
 #[inline(always)]
 pub fn run<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
@@ -135,7 +136,7 @@ pub fn run<K: Kernel>(kernel: K) -> K::Output {
     run_portable(kernel)
 }
 
-/// Apart, so that the callers of kernels stay small where it is not used.
+/// Out of line, so that callers of kernels stay small.
 #[cfg_attr(target_arch = "x86_64", inline(never))]
 fn run_portable<K: Kernel>(kernel: K) -> K::Output {
     kernel.run(Portable)

@@ -1,4 +1,4 @@
-//! Eight numbers, and eight vectors, that are written as one is.
+//! Eight numbers, and eight vectors, with the operators of a single one.
 
 use super::arithmetic::Simd;
 use super::lanes::LANES;
@@ -13,47 +13,47 @@ pub struct Numbers<S: Simd> {
 }
 
 impl<S: Simd> Numbers<S> {
-    /// One number, eight times.
+    /// Broadcasts one number to all lanes.
     #[inline(always)]
     pub fn splat(simd: S, value: f64) -> Self {
         Self { simd, eight: simd.splat(value) }
     }
 
-    /// Eight numbers from memory.
+    /// Loads eight numbers.
     #[inline(always)]
     pub fn load(simd: S, values: &[f64; LANES]) -> Self {
         Self { simd, eight: simd.load(values) }
     }
 
-    /// Into memory.
+    /// Stores the numbers to an array.
     #[inline(always)]
     pub fn store(self) -> [f64; LANES] {
         self.simd.store(self.eight)
     }
 
-    /// As the instructions take them.
+    /// Raw register type.
     #[inline(always)]
     pub fn eight(self) -> S::Eight {
         self.eight
     }
 
-    /// This number, eight times.
+    /// Broadcasts one number, with the instruction set of `self`.
     #[inline(always)]
     pub fn all(self, value: f64) -> Self {
         Self::splat(self.simd, value)
     }
 
-    /// `self / divisor` for divisors that are not negative; zero counts as the least number that there is.
+    /// `self / divisor` for non-negative divisors; a zero divisor is replaced by the smallest normal number.
     ///
-    /// A compiler may compute a quotient in every lane and choose afterwards, whatever was chosen before it: so no divisor is
-    /// left to a choice, and what nobody looks at raises no floating-point exception either.
+    /// The divisor is raised for all lanes, not selected: a compiler may divide in every lane and select
+    /// afterwards, and even an unused quotient by zero raises a floating-point exception.
     #[inline(always)]
     pub fn over(self, divisor: Self) -> Self {
         let divisor = divisor.larger(self.all(f64::MIN_POSITIVE));
         Self { eight: self.simd.div(self.eight, divisor.eight), ..self }
     }
 
-    /// Square roots; none may be negative.
+    /// Square roots of non-negative numbers.
     #[inline(always)]
     pub fn sqrt(self) -> Self {
         Self { eight: self.simd.sqrt(self.eight), ..self }
@@ -71,7 +71,7 @@ impl<S: Simd> Numbers<S> {
         Self { eight: self.simd.smaller(self.eight, other.eight), ..self }
     }
 
-    /// Without their signs.
+    /// Absolute values.
     #[inline(always)]
     pub fn abs(self) -> Self {
         Self { eight: self.simd.abs(self.eight), ..self }
@@ -89,13 +89,14 @@ impl<S: Simd> Numbers<S> {
         self.simd.at_least(self.eight, other.eight)
     }
 
-    /// `a` where the mask holds, else `b`.
+    /// `a` where the mask is set, else `b`.
     #[inline(always)]
     pub fn select(mask: S::Mask, a: Self, b: Self) -> Self {
         Self { eight: a.simd.select(mask, a.eight, b.eight), ..a }
     }
 
-    /// `self · 2ⁿ`, exactly, with `n` in the lowest bits of a number `n + 1.5·2⁵²`. The product must be a normal number.
+    /// `self · 2ⁿ`, exactly, where `n` is in the lowest bits of the number `n + 1.5·2⁵²`. The products must
+    /// be normal numbers.
     #[inline(always)]
     pub(super) fn scaled(self, power: Self) -> Self {
         Self { eight: self.simd.scaled(self.eight, power.eight), ..self }
@@ -129,7 +130,7 @@ impl<S: Simd> Mul for Numbers<S> {
     }
 }
 
-/// Zero less the number: of zero, plus zero.
+/// Computes zero minus the number, so that −0 does not occur for zero.
 impl<S: Simd> Neg for Numbers<S> {
     type Output = Self;
 
@@ -139,7 +140,7 @@ impl<S: Simd> Neg for Numbers<S> {
     }
 }
 
-/// Vectors that are shorter have no direction: the squares of their coordinates are no numbers of full precision.
+/// Length below which a vector has no direction: the squares of its coordinates lose precision.
 const SHORTEST: f64 = 1e-150;
 
 /// Eight vectors in registers.
@@ -152,37 +153,37 @@ pub struct Vectors<S: Simd> {
 }
 
 impl<S: Simd> Vectors<S> {
-    /// One vector, eight times.
+    /// Broadcasts one vector to all lanes.
     #[inline(always)]
     pub fn splat(simd: S, v: &Vec3) -> Self {
         Self { x: Numbers::splat(simd, v.x), y: Numbers::splat(simd, v.y), z: Numbers::splat(simd, v.z) }
     }
 
-    /// Eight vectors from memory, coordinate by coordinate.
+    /// Loads eight vectors from coordinate arrays.
     #[inline(always)]
     pub fn load(simd: S, [x, y, z]: &[[f64; LANES]; 3]) -> Self {
         Self { x: Numbers::load(simd, x), y: Numbers::load(simd, y), z: Numbers::load(simd, z) }
     }
 
-    /// Into memory, coordinate by coordinate.
+    /// Stores the vectors to coordinate arrays.
     #[inline(always)]
     pub fn store(self) -> [[f64; LANES]; 3] {
         [self.x.store(), self.y.store(), self.z.store()]
     }
 
-    /// The products with other vectors.
+    /// Dot products with other vectors.
     #[inline(always)]
     pub fn dot(self, other: Self) -> Numbers<S> {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
-    /// The products with three vectors each, as with the rows of matrices.
+    /// Dot products with three vectors each, as with the rows of matrices.
     #[inline(always)]
     pub fn dot_rows(self, [first, second, third]: [Self; 3]) -> Self {
         Self { x: first.dot(self), y: second.dot(self), z: third.dot(self) }
     }
 
-    /// The vectors across these and others.
+    /// Cross products with other vectors.
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
         Self {
@@ -192,7 +193,7 @@ impl<S: Simd> Vectors<S> {
         }
     }
 
-    /// Squares of the lengths.
+    /// Squared lengths.
     #[inline(always)]
     pub fn norm_squared(self) -> Numbers<S> {
         self.dot(self)
@@ -204,7 +205,7 @@ impl<S: Simd> Vectors<S> {
         self.norm_squared().sqrt()
     }
 
-    /// Unit vectors along these; `other` where one is too short to have a direction.
+    /// Unit vectors; `other` where a vector is too short to have a direction.
     #[inline(always)]
     pub fn unit_or(self, other: Self) -> Self {
         let length = self.norm();
@@ -212,13 +213,14 @@ impl<S: Simd> Vectors<S> {
         Self::select(has_length, self.along(length), other)
     }
 
-    /// Vectors of these lengths as unit vectors; shorter ones where one is too short to have a direction.
+    /// Unit vectors of vectors whose lengths are given; where one is too short to have a direction, the
+    /// result is shorter than 1.
     #[inline(always)]
     pub fn along(self, length: Numbers<S>) -> Self {
         self * length.all(1.0).over(length.larger(length.all(SHORTEST)))
     }
 
-    /// `a` where the mask holds, else `b`.
+    /// `a` where the mask is set, else `b`.
     #[inline(always)]
     pub fn select(mask: S::Mask, a: Self, b: Self) -> Self {
         Self {

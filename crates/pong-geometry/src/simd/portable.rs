@@ -1,10 +1,10 @@
-//! Plain arrays: what the other levels must agree with.
+//! Plain arrays: the reference for the other levels.
 
 use super::arithmetic::Simd;
 use super::boxes::{BoxSimd, EightBoxes};
 use super::lanes::{LANES, LaneBits};
 
-/// The level that every machine has.
+/// Level that every machine has.
 #[derive(Clone, Copy, Debug)]
 pub struct Portable;
 

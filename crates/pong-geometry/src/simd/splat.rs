@@ -1,10 +1,10 @@
-//! One vector against eight others.
+//! Operations of one vector with eight others.
 
 use super::arithmetic::Simd;
 use super::lanes::LANES;
 use crate::Vec3;
 
-/// Eight vectors in registers; to begin with one, eight times.
+/// Eight vectors in registers, initially one vector in every lane.
 #[derive(Clone, Copy)]
 pub struct Splat<S: Simd> {
     simd: S,
@@ -14,13 +14,13 @@ pub struct Splat<S: Simd> {
 }
 
 impl<S: Simd> Splat<S> {
-    /// Of a vector.
+    /// Broadcasts a vector to all lanes.
     #[inline(always)]
     pub fn new(simd: S, v: &Vec3) -> Self {
         Self { simd, x: simd.splat(v.x), y: simd.splat(v.y), z: simd.splat(v.z) }
     }
 
-    /// Its products with eight vectors, coordinate by coordinate, in the bits of `Vec3::dot`.
+    /// Dot products with eight vectors given as coordinate arrays, bit-identical to `Vec3::dot`.
     #[inline(always)]
     pub fn dot(&self, [x, y, z]: &[[f64; LANES]; 3]) -> S::Eight {
         let simd = self.simd;
@@ -28,7 +28,7 @@ impl<S: Simd> Splat<S> {
         simd.add(sum, simd.mul(simd.load(z), self.z))
     }
 
-    /// The vector less eight others.
+    /// Differences from eight other vectors.
     #[inline(always)]
     pub fn less(&self, [x, y, z]: &[[f64; LANES]; 3]) -> Self {
         let simd = self.simd;
@@ -40,7 +40,7 @@ impl<S: Simd> Splat<S> {
         }
     }
 
-    /// Squares of lengths, in the bits of `Vec3::norm_squared`.
+    /// Squared lengths, bit-identical to `Vec3::norm_squared`.
     #[inline(always)]
     pub fn norm_squared(&self) -> S::Eight {
         let simd = self.simd;
@@ -48,7 +48,7 @@ impl<S: Simd> Splat<S> {
         simd.add(sum, simd.mul(self.z, self.z))
     }
 
-    /// Squares of the distances to eight boxes along the axes.
+    /// Squared distances to eight axis-aligned boxes.
     #[inline(always)]
     pub fn distance_square_to_boxes(&self, low: &[[f64; LANES]; 3], high: &[[f64; LANES]; 3]) -> S::Eight {
         let simd = self.simd;
@@ -61,10 +61,10 @@ impl<S: Simd> Splat<S> {
     }
 }
 
-/// Numbers up to this size have squares of products of two, and sums of these, that are finite.
+/// Bound below which sums of squares of products of two numbers are finite.
 pub const MODERATE: f64 = 1e60;
 
-/// Whether squares of products of the components with other such numbers are finite.
+/// Returns `true` if squares of products of the components with other such numbers are finite.
 #[inline(always)]
 pub fn is_moderate(v: &Vec3) -> bool {
     (v.x.abs() < MODERATE) & (v.y.abs() < MODERATE) & (v.z.abs() < MODERATE)

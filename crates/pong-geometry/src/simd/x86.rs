@@ -1,5 +1,5 @@
-//! x86-64: one register of eight numbers (AVX-512) or two of four (AVX2). The crate `pulp` hands out its tokens only
-//! where the machine has the instructions, which makes their use safe.
+//! x86-64: one register of eight numbers (AVX-512) or two of four (AVX2). `pulp` returns a token only if the
+//! machine has the instructions, which makes their use safe.
 
 use super::arithmetic::{Kernel, Simd};
 use super::lanes::{LANES, LaneBits};
@@ -7,7 +7,7 @@ use pulp::cast;
 use pulp::x86::{V3, V4};
 use std::arch::x86_64::{__m128d, __m256d, __m256i, __m512d, _CMP_EQ_OQ, _CMP_GE_OQ, _CMP_LT_OQ};
 
-/// A kernel with the level it runs at.
+/// Kernel with the level at which it runs.
 pub(super) struct With<K, S>(pub K, pub S);
 
 impl<K: Kernel, S: Simd> pulp::NullaryFnOnce for With<K, S> {
