@@ -1,7 +1,7 @@
 """Plants the faults of ci/planted/ one by one in a copy of the repository and shows that a test sees each.
 
 An entry says what it `breaks`, and the text `before`, which must stand exactly once in `file`, and `after`. `caught_by` is
-crate, test binary (`lib` for unit tests) and test.
+crate, test program (`lib` for unit tests, `it` for the integration tests) and test with its modules.
 
 A fault is caught when its test passes without it, still builds with it, and then fails by an assertion of its own: not by a
 build error, not by an index out of bounds, not by taking too long.
@@ -57,12 +57,19 @@ class Fault:
             yield f"{self.name}: {self.crate} has no test {self.test} in {self.binary}"
 
     def has_test(self):
-        crate = ROOT / "crates" / self.crate
-        places = {"lib": crate / "src"}.get(self.binary, crate / "tests" / self.binary)
-        files = list(places.rglob("*.rs")) if places.is_dir() else [places.with_suffix(".rs")]
-        *module, function = self.test.split("::")
-        # One in a module is named with it.
-        indent = "^ *" if module else "^"
+        *modules, function = self.test.split("::")
+        folder = ROOT / "crates" / self.crate / ("src" if self.binary == "lib" else f"tests/{self.binary}")
+        if self.binary == "lib":
+            files = folder.rglob("*.rs")
+        elif not folder.is_dir():
+            files = [folder.with_suffix(".rs")]
+        elif modules:
+            # The first module is a file or a folder of the program.
+            files = [folder / f"{modules.pop(0)}.rs"]
+        else:
+            files = [folder / "main.rs"]
+        # One in a module of the file is indented.
+        indent = "^ *" if modules else "^"
         # As a test of its own, or one that a macro makes for a case.
         test = re.compile(
             rf"{indent}#\[test\]\s+(?:#\[.*\]\s+)*fn {function}\(|^    {function} => ", re.MULTILINE

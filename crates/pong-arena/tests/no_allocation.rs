@@ -1,4 +1,6 @@
 //! After it is made, nothing in this crate asks the system for memory or gives any back.
+//!
+//! A program of its own: it counts what the allocator of the process is asked for.
 
 use pong_arena::{Arena, Table};
 use pong_testkit::heap::{COUNTING, Telling, calls_during};

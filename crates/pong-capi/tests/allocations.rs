@@ -1,5 +1,7 @@
 //! What the C interface does in a frame around the engine's evaluation allocates nothing: states in, commit, wrenches,
 //! contacts and report out.
+//!
+//! A program of its own: it counts what the allocator of the process is asked for.
 
 use pong::config::pong_default_config;
 use pong::contacts::{pong_contact, pong_get_contacts};

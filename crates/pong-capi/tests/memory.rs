@@ -1,4 +1,6 @@
 //! What a call of set-up asks for beforehand is enough for what it takes, and not far more.
+//!
+//! A program of its own: it counts what the allocator of the process is asked for.
 
 use pong::memory::of_text;
 use pong_engine::{Config, WorkerSettings, WorldBuilder, WrenchCoupling};

@@ -1,19 +1,19 @@
 //! One scene, one series of answers: whoever does the work, with whichever instructions, however often it is
 //! evaluated, from wherever it is resumed, whether or not workers stall; and from version to version.
+//!
+//! A program of its own: `ci/series` builds it with and without optimisation, and it chooses the level of instructions and
+//! stalls workers of the whole process.
 
+#[allow(dead_code, unused_imports, reason = "these tests use some of it")]
+#[path = "it/common/mod.rs"]
 mod common;
-#[path = "common/own_kinds.rs"]
-mod own_kinds;
-#[path = "common/scenes.rs"]
-mod scenes;
-#[path = "common/stage.rs"]
-mod stage;
 
+use common::own_kinds;
+use common::scenes::all;
+use common::stage::{FrameHash, Scene, Stage, workers};
 use pong_engine::{StatusBits, WorkerSettings, has_tester};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{Level, set_level};
-use scenes::all;
-use stage::{FrameHash, Scene, Stage, sum_up, workers};
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 use std::sync::atomic::Ordering;
@@ -68,6 +68,17 @@ fn must_repeat(case: &str, alone: &Alone, stage: &mut Stage<'_>, frames: std::op
         let got = stage.step(frame);
         assert_eq!(got, alone.series[frame], "{case}: {}, frame {frame}", alone.scene.name);
     }
+}
+
+/// One hash of a whole series of frames.
+fn sum_up(series: &[FrameHash]) -> FrameHash {
+    let mut sum = FrameHash::default();
+    for frame in series {
+        sum.answers.word(frame.answers.0);
+        sum.state.word(frame.state.0);
+        sum.counts.word(frame.counts.0);
+    }
+    sum
 }
 
 /// Prints the hashes, which `ci/series` compares between builds.

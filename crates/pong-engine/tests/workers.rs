@@ -1,19 +1,19 @@
 //! Workers and trouble: too many of them, stalls, panics, the end of a world. What a frame answers is the same with
 //! all of it, and every frame returns.
+//!
+//! A program of its own: with the threads of other tests beside them, none of its workers may come in time.
 
+#[allow(dead_code, unused_imports, reason = "these tests use some of it")]
+#[path = "it/common/mod.rs"]
 mod common;
-#[path = "common/own_kinds.rs"]
-mod own_kinds;
-#[path = "common/stage.rs"]
-mod stage;
 
+use common::own_kinds::on_a_worker;
+use common::stage::Hash;
 use common::{at, load, model, surface};
-use own_kinds::on_a_worker;
 use pong_engine::*;
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Quat, Vec3};
 use pong_testkit::Random;
-use stage::Hash;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};

@@ -2,7 +2,8 @@
 //!
 //!     cargo bench -p pong-fmu --bench step_cost
 
-#[path = "../tests/support/mod.rs"]
+#[allow(dead_code, reason = "uses some of it")]
+#[path = "../tests/it/support/mod.rs"]
 mod support;
 
 use pong_executive::scene::Scene;

@@ -1,6 +1,10 @@
 //! A worker that was killed is a worker that no longer exists: after a fork the child has the pool and no worker.
+//!
+//! A program of its own: it forks, and only the calling thread goes on in the child.
 #![cfg(target_os = "linux")]
 
+#[allow(dead_code, reason = "these tests use some of it")]
+#[path = "it/common/mod.rs"]
 mod common;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};

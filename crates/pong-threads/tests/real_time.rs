@@ -1,6 +1,8 @@
 //! What a host in real time relies on: no allocation in a phase, a start under SCHED_FIFO that does not hang.
 #![cfg(target_os = "linux")]
 
+#[allow(dead_code, reason = "these tests use some of it")]
+#[path = "it/common/mod.rs"]
 mod common;
 
 use std::alloc::{GlobalAlloc, Layout, System};

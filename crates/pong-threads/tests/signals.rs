@@ -1,6 +1,10 @@
 //! Signals are the host's: no worker takes one that another thread could.
+//!
+//! A program of its own: it changes what signals do in the process.
 #![cfg(target_os = "linux")]
 
+#[allow(dead_code, reason = "these tests use some of it")]
+#[path = "it/common/mod.rs"]
 mod common;
 
 use std::sync::{Arc, Mutex};

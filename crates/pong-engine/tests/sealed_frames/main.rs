@@ -1,11 +1,13 @@
 //! Once a world is sealed, no frame asks the system for memory or gives any back: whatever touches, whatever the host
 //! calls, whether limits are hit or not.
+//!
+//! A program of its own: it counts what the allocator of the process is asked for.
 
-#[path = "../common/mod.rs"]
+#[allow(dead_code, unused_imports, reason = "these tests use some of it")]
+#[path = "../it/common/mod.rs"]
 mod common;
 mod heap;
-#[path = "../common/own_kinds.rs"]
-mod own_kinds;
+mod pay_for_use;
 mod registered;
 mod scene;
 

@@ -1,7 +1,7 @@
 //! Laws of the user's own, one of which tells which threads compute.
 
+use crate::common::own_kinds::Glue;
 use crate::heap::count_this_thread;
-use crate::own_kinds::Glue;
 use pong_engine::*;
 use std::sync::Arc;
 

@@ -1,8 +1,8 @@
 //! A world in which every pair of kinds touches and parts, and frames in all the ways in which hosts call.
 
+use crate::common::own_kinds::extensions;
 use crate::common::*;
 use crate::heap::during;
-use crate::own_kinds::extensions;
 use crate::registered::laws;
 use pong_engine::*;
 use pong_geometry::primitive::PrimitiveKind;

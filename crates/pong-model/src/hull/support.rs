@@ -21,7 +21,7 @@ const TURNS: usize = 4;
 const FAR: f64 = 0.25;
 /// The longest normal that tilts within reach make of a unit one: 1, 2 and 2 along three axes.
 const LONGEST: f64 = 3.0;
-/// How many normals are tried in one search; the hardest of the random solids in `tests/convex_families.rs` took 36.
+/// How many normals are tried in one search; the hardest of the random solids in `tests/it/convex_families.rs` took 36.
 const CUTS: usize = 100;
 /// The search ends when no distance is shorter by more than this share of the tolerance.
 const ENOUGH: f64 = 1e-3;

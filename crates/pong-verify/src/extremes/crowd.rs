@@ -16,7 +16,7 @@ pub const CROWD: Extreme = Extreme {
     answer: Answer::Told,
     limit: "room is set at the seal: by default the scene's worst case up to 65,536; beyond it the deepest contacts \
             are kept, `CONTACT_LIMIT` is set and the report says how many there were",
-    also: "`crates/pong-engine/tests/limits.rs`, `workers.rs`",
+    also: "`crates/pong-engine/tests/it/limits.rs`, `crates/pong-engine/tests/workers.rs`",
     rows,
 };
 

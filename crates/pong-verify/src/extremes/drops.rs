@@ -45,7 +45,7 @@ pub const STEP: Extreme = Extreme {
     answer: Answer::Told,
     limit: "linear; several contacts at once, and lever arms, need shorter steps: a note gives the step that is \
             surely stable",
-    also: "case W13, `crates/pong-executive/tests/step_sums.rs`",
+    also: "case W13, `crates/pong-executive/tests/it/step_sums.rs`",
     rows: steps,
 };
 

@@ -13,7 +13,7 @@ pub const FACETS: Extreme = Extreme {
     set_up: "Case W7: rolling and sliding over tiles, a mesh and a ridge, against one plane.",
     answer: Answer::Safe,
     limit: "a sharp ridge is a new wall: beyond 60° between facets the bristle starts at zero",
-    also: "`crates/pong-engine/tests/seams.rs`",
+    also: "`crates/pong-engine/tests/it/seams.rs`",
     rows: facets,
 };
 
@@ -24,7 +24,7 @@ pub const LOADS: Extreme = Extreme {
              1 mm from frame to frame while it is dragged at random, 100,000 frames.",
     answer: Answer::Safe,
     limit: "none found",
-    also: "cases V8, V16, V18; `crates/pong-engine/tests/closed_paths.rs`",
+    also: "cases V8, V16, V18; `crates/pong-engine/tests/it/closed_paths.rs`",
     rows: loads,
 };
 

@@ -14,7 +14,7 @@ pub const TOUCH: Extreme = Extreme {
              of force: twice the stiffness times the step, and rounding of the positions.",
     answer: Answer::Safe,
     limit: "none",
-    also: "`crates/pong-geometry/tests/segment_grazing.rs`, `crates/pong-engine/tests/seams.rs`",
+    also: "`crates/pong-geometry/tests/it/segment_grazing.rs`, `crates/pong-engine/tests/it/seams.rs`",
     rows: touch,
 };
 
@@ -24,7 +24,7 @@ pub const COINCIDENT: Extreme = Extreme {
     set_up: "Features placed exactly on features, in 24 exact quarter turns each, evaluated twice and in a second world.",
     answer: Answer::Safe,
     limit: "where a normal is not unique the engine chooses one, always the same; there is no force at depth 0",
-    also: "`crates/pong-geometry/tests/oracle_*.rs`",
+    also: "`crates/pong-geometry/tests/it/oracle_*.rs`",
     rows: coincident,
 };
 

@@ -17,7 +17,7 @@ pub const DEEP: Extreme = Extreme {
     answer: Answer::Safe,
     limit: "without an earlier pose the nearest face pushes; a sheet pushes up to its thickness; energy in the overlap \
             becomes speed: √(k/m)·δ",
-    also: "`crates/pong-engine/tests/side_of_entry.rs`, case W15",
+    also: "`crates/pong-engine/tests/it/side_of_entry.rs`, case W15",
     rows,
 };
 

@@ -10,7 +10,7 @@ pub const FAR: Extreme = Extreme {
              rounding of the positions plus c × rounding of the velocities, summed over the contacts.",
     answer: Answer::Safe,
     limit: "1e8 m is rounded to 1.5e-8 m, which is 1.5 mN on 1e5 N/m; keep the common origin near the contacts",
-    also: "`crates/pong-engine/tests/invariance.rs`",
+    also: "`crates/pong-engine/tests/it/invariance.rs`",
     rows,
 };
 

@@ -17,7 +17,7 @@ pub const SHAPES: Extreme = Extreme {
     answer: Answer::Refused,
     limit: "triangles lower than 1e-9 of their longest edge, polyhedra thinner than 1e-6 of their diameter, vertices \
             more than 1e-6 of the diameter in front of a face",
-    also: "`crates/pong-model/tests/rejects.rs`",
+    also: "`crates/pong-model/tests/it/rejects.rs`",
     rows: shapes,
 };
 
@@ -29,7 +29,7 @@ pub const ROUNDED: Extreme = Extreme {
     answer: Answer::Safe,
     limit: "far from its origin a shape is lost to rounding: from about ten times its size on, single precision is \
             refused, by name",
-    also: "`crates/pong-model/tests/topology.rs`",
+    also: "`crates/pong-model/tests/it/topology.rs`",
     rows: rounded,
 };
 
@@ -41,7 +41,7 @@ pub const RUN_TIME: Extreme = Extreme {
              that cannot be squared, or a quaternion that is not a unit quaternion.",
     answer: Answer::Refused,
     limit: "numbers above 1e100 and quaternions whose norm is off by more than 1e-3 are refused",
-    also: "`crates/pong-engine/tests/scene.rs`, the fuzz targets",
+    also: "`crates/pong-engine/tests/it/scene.rs`, the fuzz targets",
     rows: run_time,
 };
 

@@ -18,7 +18,7 @@ pub const SIZES: Extreme = Extreme {
              1 m and 1e5 N/m.",
     answer: Answer::Safe,
     limit: "none in this range: no tolerance of the engine is absolute",
-    also: "`crates/pong-engine/tests/invariance.rs`, `crates/pong-geometry/tests/features_scaling.rs`",
+    also: "`crates/pong-engine/tests/it/invariance.rs`, `crates/pong-geometry/tests/it/features_scaling.rs`",
     rows: sizes,
 };
 

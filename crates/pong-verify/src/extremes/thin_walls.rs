@@ -20,7 +20,7 @@ pub const SHOTS: Extreme = Extreme {
     limit: "if something moves farther in a frame than half of the wall's thickness, the engine follows it along a \
             straight line; it misses, and does not report, a path that cuts an edge within that distance, and a \
             sphere that meets the wall only with its rim within a frame",
-    also: "`crates/pong-engine/tests/tunnelling.rs`, `side_of_entry.rs`",
+    also: "`crates/pong-engine/tests/it/tunnelling.rs`, `side_of_entry.rs`",
     rows: shots,
 };
 

@@ -1,0 +1,4 @@
+//! Tests of the step check and of advice, on scenes with closed forms.
+
+mod step_advice;
+mod told;

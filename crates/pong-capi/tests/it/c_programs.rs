@@ -1,0 +1,115 @@
+//! The C and C++ programs of `c_examples`, built with warnings as errors against both libraries, and run.
+
+use crate::support::{lib_dir, out_dir, root, run};
+use std::process::Command;
+
+#[test]
+fn the_programs_build_and_run() {
+    let printed = run(Command::new("make")
+        .arg("-C")
+        .arg(root().join("c_examples"))
+        .arg("check")
+        .arg(format!("LIB_DIR={}", lib_dir().display()))
+        .arg(format!("OUT={}", out_dir("c_programs").display()))
+        .arg(format!("PROGRAMS={}", PROGRAMS.join(" "))));
+    for (variant, program) in ["shared", "static"].iter().flat_map(|v| PROGRAMS.map(|p| (v, p))) {
+        assert!(
+            printed.contains(&format!("{variant}/{program}: ")),
+            "{variant}/{program} did not run:\n{printed}"
+        );
+    }
+}
+
+const PROGRAMS: [&str; 11] = [
+    "minimal",
+    "executive",
+    "misuse",
+    "laws",
+    "calls",
+    "response_log",
+    "floating_point",
+    "host_process",
+    "little_memory",
+    "little_stack",
+    "cpp_smoke",
+];
+
+/// A host keeps wide instructions away by the environment, as for a tool that does not know them all.
+#[test]
+fn the_environment_limits_the_instructions() {
+    let out = out_dir("instructions");
+    run(Command::new("make")
+        .arg("-C")
+        .arg(root().join("c_examples"))
+        .arg(format!("LIB_DIR={}", lib_dir().display()))
+        .arg(format!("OUT={}", out.display()))
+        .arg("PROGRAMS=minimal"));
+    let minimal = |level: &str| {
+        let mut program = Command::new(out.join("shared/minimal"));
+        program.env("LD_LIBRARY_PATH", out.join("shared")).env("PONG_SIMD", level).output().unwrap()
+    };
+    let [narrow, wide] = ["portable", "avx512"].map(minimal);
+    assert!(narrow.status.success() && wide.status.success());
+    assert_eq!(narrow.stdout, wide.stdout, "the same numbers");
+    let refused = minimal("sse");
+    let told = String::from_utf8(refused.stderr).unwrap();
+    assert!(!refused.status.success() && told.contains("PONG_SIMD is `sse`"), "{told}");
+}
+
+/// What a C host logged goes through the engine again and comes out with the same bits: forgotten Objects, switched
+/// pairs, commits of some pairs and frames without a commit included.
+#[test]
+fn the_log_of_a_c_host_can_be_replayed() {
+    let out = out_dir("response_log");
+    run(Command::new("make")
+        .arg("-C")
+        .arg(root().join("c_examples"))
+        .arg(format!("LIB_DIR={}", lib_dir().display()))
+        .arg(format!("OUT={}", out.display()))
+        .arg("PROGRAMS=response_log"));
+    let folder = out.join("logs");
+    let _ = std::fs::remove_dir_all(&folder);
+    run(Command::new(out.join("shared/response_log"))
+        .env("LD_LIBRARY_PATH", out.join("shared"))
+        .arg(&folder));
+    let mut log = pong_record::Log::open(&folder.join("frames")).unwrap();
+    let report = pong_record::replay(&mut log, &pong_record::ReplayOptions::default(), &mut |_| {
+        std::ops::ControlFlow::Continue(())
+    })
+    .unwrap();
+    assert!(report.agrees() && report.compared == 3000 && report.contacts > 700, "{report:?}");
+    let kinds =
+        |kind| log.events().iter().filter(|event| std::mem::discriminant(&event.event) == kind).count();
+    let forgotten = std::mem::discriminant(&pong_record::Event::ClearContactHistory { object: 0 });
+    let some = std::mem::discriminant(&pong_record::Event::Commit { pairs: Vec::new() });
+    assert_eq!((kinds(forgotten), kinds(some)), (6, 1200));
+}
+
+#[test]
+fn the_shared_library_has_a_soname_and_exports_nothing_else() {
+    let library = lib_dir().join("libpong.so");
+    let dynamic = run(Command::new("objdump").arg("-p").arg(&library));
+    let soname = format!("libpong.so.{}", pong::version::PONG_ABI_VERSION);
+    assert!(dynamic.lines().any(|line| line.trim().starts_with("SONAME") && line.trim().ends_with(&soname)));
+    let symbols = run(Command::new("nm").args(["-D", "--defined-only"]).arg(&library));
+    let foreign: Vec<&str> = symbols.lines().filter(|line| !line.contains(" pong_")).collect();
+    assert!(foreign.is_empty(), "{foreign:?}");
+}
+
+#[test]
+fn every_call_of_the_header_is_exported() {
+    let header = std::fs::read_to_string(root().join("include/pong.h")).unwrap();
+    let symbols = run(Command::new("nm").args(["-D", "--defined-only"]).arg(lib_dir().join("libpong.so")));
+    let exported: Vec<&str> = symbols.lines().filter_map(|line| line.split(' ').nth(2)).collect();
+    let code = header.lines().filter(|line| !line.trim_start().starts_with("//") && !line.starts_with('#'));
+    let text: String = code.collect::<Vec<_>>().join("\n");
+    let called = text.split("pong_").skip(1).filter_map(|rest| rest.split_once('(').map(|(name, _)| name));
+    let names: Vec<String> = called
+        .filter(|name| name.chars().all(|c| c.is_ascii_lowercase() || c == '_'))
+        .map(|name| format!("pong_{name}"))
+        .collect();
+    assert!(names.len() > 50, "{}", names.len());
+    let missing: Vec<&String> = names.iter().filter(|name| !exported.contains(&name.as_str())).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+    assert_eq!(names.len(), exported.len(), "exported but not in the header");
+}

@@ -1,0 +1,21 @@
+//! Tests of the program `pong`, as a user runs it.
+
+mod advise;
+mod allowed_folders;
+mod commands;
+mod common;
+mod decompose;
+mod doctor;
+mod fmu;
+mod import;
+mod left_out;
+mod man_pages;
+mod replay;
+mod step_warnings;
+mod terminal;
+mod trade;
+mod trim;
+mod tune;
+mod users_guide;
+mod verify;
+mod view;

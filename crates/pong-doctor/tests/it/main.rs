@@ -1,0 +1,3 @@
+//! Tests of what the doctor says about machines.
+
+mod machines;

@@ -1,0 +1,12 @@
+//! Tests of the executive: motion, scenes and checkpoints.
+
+mod advice;
+mod checkpoint;
+mod common;
+mod contact;
+mod exchange;
+mod free_flight;
+mod scene_faults;
+mod scene_format;
+mod springs;
+mod step_sums;

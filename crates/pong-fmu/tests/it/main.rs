@@ -1,0 +1,5 @@
+//! Tests of FMUs, as an importer sees them.
+
+mod calls;
+mod description;
+mod support;

@@ -1,0 +1,37 @@
+//! Tests of the geometry: contacts, bounding volumes and lanes against independent answers.
+
+mod bore_support;
+mod bores;
+mod bounding_conservative;
+mod bounding_fitting;
+mod bounding_support;
+mod bounding_things;
+mod bounding_tight;
+mod capsule_polyhedron;
+mod common;
+mod ellipsoid_plane;
+mod ellipsoid_point;
+mod ellipsoid_polyhedron;
+mod ellipsoid_triangle;
+mod ellipsoid_triangle_pairs;
+mod exact_boundaries;
+mod exceptions;
+mod features_line_segment;
+mod features_scaling;
+mod features_sphere;
+mod lanes;
+mod nearest_on_triangle;
+mod oracle_entry;
+mod oracle_line_segment;
+mod oracle_point_sphere;
+mod oracle_ray;
+mod oracle_sphere_triangle;
+mod oracle_support;
+mod ray_round;
+mod rods_in_bores;
+mod round_parts;
+mod round_plane;
+mod round_support;
+mod segment_all_faces;
+mod segment_grazing;
+mod sphere_triangle_pairs;

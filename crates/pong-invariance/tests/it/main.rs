@@ -1,0 +1,3 @@
+//! Tests of the invariances themselves.
+
+mod invariances;

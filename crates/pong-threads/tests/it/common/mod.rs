@@ -1,0 +1,80 @@
+//! Jobs and waits of several tests.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering::SeqCst};
+use std::time::{Duration, Instant};
+
+use pong_threads::{Job, Pool, Settings};
+
+/// Long enough for any machine; a test that gets there has failed.
+pub const FOR_EVER: Duration = Duration::from_secs(60);
+
+pub fn wait_until(what: &str, condition: impl Fn() -> bool) {
+    let started = Instant::now();
+    while !condition() {
+        assert!(started.elapsed() < FOR_EVER, "in vain: {what}");
+        std::thread::yield_now();
+    }
+}
+
+/// As many workers as asked for, wherever they find room, and a caller who waits without end.
+pub fn patient(workers: usize) -> Settings {
+    Settings { workers, oversubscribe: true, worker_timeout: FOR_EVER, ..Settings::default() }
+}
+
+pub fn start(job: &Arc<impl Job>, settings: &Settings) -> Pool {
+    Pool::start(job.clone(), settings).unwrap()
+}
+
+/// Counts how often each block ran, and catches two blocks on one lane.
+pub struct Count {
+    pub runs: Vec<AtomicU32>,
+    lanes: Vec<AtomicBool>,
+}
+
+impl Count {
+    pub fn new(blocks: usize) -> Arc<Count> {
+        let lanes = (0..=pong_threads::MAX_WORKERS).map(|_| AtomicBool::new(false)).collect();
+        Arc::new(Count { runs: (0..blocks).map(|_| AtomicU32::new(0)).collect(), lanes })
+    }
+
+    pub fn take(&self) -> Vec<u32> {
+        self.runs.iter().map(|runs| runs.swap(0, SeqCst)).collect()
+    }
+}
+
+impl Job for Count {
+    fn run(&self, block: u32, lane: usize) {
+        if lane == 0 {
+            // Workers shall have their share, however short the blocks.
+            std::thread::yield_now();
+        }
+        assert!(!self.lanes[lane].swap(true, SeqCst), "two blocks on lane {lane}");
+        self.runs[block as usize].fetch_add(1, SeqCst);
+        self.lanes[lane].store(false, SeqCst);
+    }
+}
+
+/// For phases of two blocks: that of the caller waits until a worker has the other, and so each has one.
+pub struct Meet<F> {
+    waiting: AtomicBool,
+    on_worker: F,
+}
+
+impl<F: Fn() + Send + Sync + 'static> Meet<F> {
+    /// `on_worker` is what the worker's block does.
+    pub fn new(on_worker: F) -> Arc<Meet<F>> {
+        Arc::new(Meet { waiting: AtomicBool::new(false), on_worker })
+    }
+}
+
+impl<F: Fn() + Send + Sync + 'static> Job for Meet<F> {
+    fn run(&self, _block: u32, lane: usize) {
+        if lane == 0 {
+            wait_until("a worker takes part", || self.waiting.swap(false, SeqCst));
+        } else {
+            self.waiting.store(true, SeqCst);
+            (self.on_worker)();
+        }
+    }
+}

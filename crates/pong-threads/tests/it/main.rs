@@ -1,0 +1,5 @@
+//! Tests of the pool of workers.
+
+mod common;
+mod phases;
+mod trouble;
