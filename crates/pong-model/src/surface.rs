@@ -120,7 +120,9 @@ impl NormalLaw {
     pub fn bristle_damping(&self, k: f64, k_t: f64) -> f64 {
         match self {
             // Finite on both sides: a compiler may divide before it asks for k, and ∞/∞ traps.
-            Self::Linear { damping, .. } if k.is_finite() => damping * (k_t.min(f64::MAX) / k.min(f64::MAX)).sqrt(),
+            Self::Linear { damping, .. } if k.is_finite() => {
+                damping * (k_t.min(f64::MAX) / k.min(f64::MAX)).sqrt()
+            }
             _ => 0.0,
         }
     }
