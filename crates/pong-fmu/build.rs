@@ -1,4 +1,4 @@
-//! What an FMU holds is handed on to others: the shared library is made without symbols that nobody calls.
+//! FMUs are distributed, so the shared library is linked without unused symbols.
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");

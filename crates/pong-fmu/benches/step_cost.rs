@@ -1,6 +1,7 @@
-//! What a communication step through the FMU costs beside a step of the executive: 8 s of the docking, three times each.
+//! Cost of a communication step through the FMU beside a step of the executive: 8 s of the docking, three
+//! times each.
 //!
-//!     cargo bench -p pong-fmu --bench step_cost
+//! cargo bench -p pong-fmu --bench step_cost
 
 #[allow(dead_code, reason = "uses some of it")]
 #[path = "../tests/it/support/mod.rs"]

@@ -1,5 +1,6 @@
-//! What the folder `resources/` of an FMU holds, with lengths and hashes. The hash of this list is the token that stands in
-//! `modelDescription.xml` too: description, list and files belong together or are refused.
+//! List of the files in the folder `resources/` of an FMU, with lengths and hashes. The hash of this list is
+//! the token, which is also in `modelDescription.xml`: description, list and files are accepted only if they
+//! belong together.
 
 use pong_model::Fnv;
 use serde::{Deserialize, Serialize};
@@ -19,11 +20,11 @@ pub(crate) struct Contents {
     version: u32,
     /// Version of Pong that wrote it.
     pong: String,
-    /// The bodies whose motion the importer gives.
+    /// The bodies whose motion is an input.
     pub inputs: Vec<String>,
-    /// Every model file as it stands in the scene, and where it is here.
+    /// Every model file: its name in the scene, and its file in `resources/`.
     pub models: Vec<(String, String)>,
-    /// Whether outputs have means over a communication step beside them.
+    /// True if outputs include means over a communication step.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub step_means: bool,
     /// Scene, models and meshes.
@@ -67,10 +68,10 @@ impl Contents {
         Ok((text, token))
     }
 
-    /// Reads the list of a folder and holds everything it lists against it.
+    /// Reads the list of a folder and checks every listed file against it.
     ///
     /// # Errors
-    /// Files that are missing or changed, a description that is not of this list: all in one text.
+    /// Files that are missing or changed, a description that does not belong to this list: all in one text.
     pub fn read(resources: &Path, token: &str) -> Result<Self, String> {
         let cure = "unpack the FMU again, or make it anew with `pong fmu`";
         let path = resources.join(CONTENTS_FILE);
@@ -108,7 +109,8 @@ impl Contents {
         Ok(contents)
     }
 
-    /// Refuses names that lead out of `resources/`, and models that are not among the files, before anything is opened.
+    /// Refuses paths that lead out of `resources/`, and models that are not among the files, before any file
+    /// is opened.
     fn check_paths(&self, list: &Path) -> Result<(), String> {
         let named =
             self.models.iter().map(|(_, file)| file).chain(self.files.iter().map(|entry| &entry.path));
@@ -130,7 +132,7 @@ impl Contents {
     }
 }
 
-/// The text of a file of `resources/`. Links that lead out of it are refused.
+/// Reads a text file of `resources/`. Links that lead out of it are refused.
 ///
 /// # Errors
 /// Thing and cause.

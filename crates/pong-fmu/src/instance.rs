@@ -1,9 +1,9 @@
-//! What an importer instantiates: a scene in one of the modes of the standard, whatever its version.
+//! An instance: a scene in one of the modes of the standard, in either version.
 //!
-//! Evaluations are made when a value is asked for, not when one is set: an importer sets numbers one at a time, and a quaternion
-//! is of unit length only when all four are there.
+//! Reading a value evaluates, setting one does not: an importer sets numbers one at a time, and a quaternion
+//! is of unit length only when all four are set.
 //!
-//! A call that is refused leaves the instance as it was.
+//! A refused call leaves the instance unchanged.
 
 use crate::refusal::Refusal;
 use crate::unit::Unit;
@@ -13,24 +13,25 @@ use crate::variables::{
 use pong_engine::StatusBits;
 use pong_executive::{ExecutiveError, LeftOut, Pose, Simulation, Twist, Vec3, Wrench};
 
-/// How far the norm of a quaternion may be from 1: as the engine has it.
+/// Largest deviation of a quaternion's norm from 1, as in the engine.
 const NORM_ERROR_MAX: f64 = 1e-3;
 
-/// A communication step may miss whole steps of the scene by this part of one: more than the rounding of sums of many
-/// communication steps, and less than any step that is meant.
+/// Tolerated deviation of a communication step from whole steps of the scene, in steps: more than the
+/// rounding of sums of many communication steps, and less than any intended step.
 const STEP_TOLERANCE: f64 = 1e-6;
 
-/// Most steps of the scene in one communication step: minutes of work, so that a wrong unit of time is told at once.
+/// Most steps of the scene in one communication step: minutes of work, so that a wrong unit of time is
+/// refused at once.
 const STEPS_MAX: f64 = 1e8;
 
-/// Who integrates.
+/// Interface type: who integrates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     ModelExchange,
     CoSimulation,
 }
 
-/// The modes of the standard that the two kinds have.
+/// Modes of the standard for both interface types.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mode {
     Instantiated,
@@ -57,7 +58,7 @@ impl Mode {
     }
 }
 
-/// What changes at events alone.
+/// Flags that change only at events.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Flags {
     pub touching: bool,
@@ -65,16 +66,16 @@ pub(crate) struct Flags {
     pub left_out: bool,
 }
 
-/// The contacts in short.
+/// Summary of the contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Summary {
-    /// A number without a unit.
+    /// Number of contacts.
     pub count: f64,
-    /// m.
+    /// Largest depth, m.
     pub largest_depth: f64,
 }
 
-/// What an event has changed.
+/// Changes made by an event.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct EventOutcome {
     pub states_changed: bool,
@@ -90,25 +91,25 @@ pub(crate) struct Instance {
     pub(crate) inputs: Vec<f64>,
     pub(crate) states: Vec<f64>,
     pub(crate) rates: Vec<f64>,
-    /// Whether poses, wrenches and rates belong to the values as they are set.
+    /// True if poses, wrenches and rates belong to the present values.
     pub(crate) is_current: bool,
-    /// Whether inputs were set that the simulation does not have yet.
+    /// True if inputs were set that the simulation does not have yet.
     pub(crate) inputs_changed: bool,
-    /// Of the last evaluation, if it was asked for.
+    /// Summary of the last evaluation, if it was requested.
     pub(crate) summary: Option<Summary>,
-    /// Mean contact wrench on every body over the last communication step; empty where there is none, and the wrenches of the
-    /// instant stand for their means.
+    /// Mean contact wrench on every body over the last communication step; empty if there is none, and then
+    /// the present wrenches are used instead.
     pub(crate) means: Vec<Wrench>,
     pub(crate) flags: Flags,
-    /// The flags as they will be after the next event.
+    /// The flags after the next event.
     pub(crate) next_flags: Flags,
-    /// Flags that somebody was warned of in this run.
+    /// Flags already warned of in this run.
     warned: Flags,
-    /// Of the frames of this run that left contacts out the one that advises the largest capacity.
+    /// The frame of this run that left contacts out with the largest advised capacity.
     left_out: Option<LeftOut>,
-    /// What is to be told beside the answers of calls.
+    /// Warnings to be logged.
     pub(crate) warnings: Vec<String>,
-    /// The instant before a step that may fail.
+    /// Saved instant before a step that may fail.
     undo: Vec<u8>,
 }
 
@@ -143,7 +144,7 @@ impl Instance {
         }
     }
 
-    /// As a new instance of the same unit.
+    /// Resets to a new instance of the same unit.
     pub fn reset(&mut self) -> Outcome {
         let parameters = self.unit.variables.parameter_starts.clone();
         self.set_surfaces(&parameters)?;
@@ -233,7 +234,8 @@ impl Instance {
             }
             *place = *value;
             self.inputs_changed |= matches!(slot, Slot::Input(_));
-            // Between communication steps outputs are those of the last step, whatever is set for the next.
+            // Between communication steps outputs are those of the last step, whatever inputs are set for the
+            // next.
             self.is_current &= self.mode == Mode::Step;
         }
         Ok(())
@@ -292,7 +294,7 @@ impl Instance {
 
     // ---- Initialization
 
-    /// Sets the time at which the simulation begins.
+    /// Sets the start time of the simulation.
     pub fn set_start(&mut self, time: f64) -> Outcome {
         self.expect_mode("start time", &[Mode::Instantiated])?;
         if !time.is_finite() {
@@ -308,7 +310,7 @@ impl Instance {
         Ok(())
     }
 
-    /// The first commit.
+    /// Commits the initial state.
     pub fn exit_initialization(&mut self) -> Outcome {
         self.expect_mode("ExitInitializationMode", &[Mode::Initialization])?;
         self.prepare()?;
@@ -330,7 +332,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Sets the simulation up anew from the parameters and inputs as they are set.
+    /// Sets the simulation up again from the present parameters and inputs.
     fn prepare(&mut self) -> Outcome {
         let parameters = std::mem::take(&mut self.parameters);
         let prepared = self.prepare_with(&parameters);
@@ -359,7 +361,7 @@ impl Instance {
         self.inputs_changed = true;
         self.apply_inputs(self.time)?;
         let simulation = &mut self.unit.simulation;
-        // Preloads of the scene were set where its bodies start.
+        // The scene's preloads hold for the nominal initial state.
         let at_the_start = is_nominal && self.time == 0.0;
         if !at_the_start && !self.unit.preload.is_empty() {
             let objects: Vec<_> = simulation.world().scene().objects().collect();
@@ -375,7 +377,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Gives the world the surfaces that parameters make.
+    /// Sets the surfaces of the world from the parameters.
     pub(crate) fn set_surfaces(&mut self, parameters: &[f64]) -> Outcome {
         let scales: Vec<f64> = self
             .unit
@@ -396,7 +398,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Before the simulation runs, states follow from parameters.
+    /// Before the simulation runs, computes states from parameters.
     fn start_values(&mut self) -> Outcome {
         match self.mode {
             Mode::Instantiated | Mode::Initialization if !self.is_current => self.prepare(),
@@ -406,7 +408,7 @@ impl Instance {
 
     // ---- Evaluation
 
-    /// Makes poses, wrenches and rates those of the values as they are set. Nothing is remembered.
+    /// Brings poses, wrenches and rates up to date with the present values. Nothing is committed.
     pub fn evaluate(&mut self) -> Outcome {
         if self.is_current {
             return Ok(());
@@ -423,8 +425,9 @@ impl Instance {
         Ok(())
     }
 
-    /// Leads the bodies that the importer moves, and applies what it applies. An integrator outside gives motions for every
-    /// instant; between communication points a body moves on with the twist that it was given.
+    /// Applies the inputs: motions of bodies moved by the importer, and wrenches. In Model Exchange the
+    /// importer gives motions for every instant; in Co-Simulation a body keeps its given twist between
+    /// communication points.
     fn apply_inputs(&mut self, time: f64) -> Outcome {
         let is_exchange = self.kind == Kind::ModelExchange;
         let Self { unit: Unit { simulation, variables, .. }, inputs, .. } = self;
@@ -433,7 +436,7 @@ impl Instance {
             match input {
                 Input::Motion(body, _) => {
                     let numbers = &inputs[place..place + MOTION_NUMBERS];
-                    // What has moved on to where it is led anyway needs no second commit there.
+                    // A body that is already in its prescribed motion needs no second commit.
                     if is_exchange || motion_numbers(simulation, *body) != numbers {
                         let name = &variables.list[motion_name(variables, place)].name;
                         let (pose, twist) = motion(numbers, &format!("inputs `{name}` and those behind it"))?;
@@ -478,7 +481,7 @@ impl Instance {
         }
     }
 
-    /// Warns once a run of what was missed.
+    /// Warns, once in a run, of missed contacts.
     fn warn_of(&mut self, flags: Flags) {
         let time = self.time;
         if flags.tunnelled && !self.warned.tunnelled {
@@ -500,7 +503,7 @@ impl Instance {
 
     // ---- Model Exchange
 
-    /// The states as the importer has them. Without an integrator outside they are those of the executive.
+    /// The states for the importer. In Co-Simulation they are those of the executive.
     fn current_states(&self) -> std::borrow::Cow<'_, [f64]> {
         match (self.kind, self.mode) {
             (Kind::CoSimulation, Mode::Step | Mode::Terminated) => {
@@ -562,8 +565,8 @@ impl Instance {
         Ok(())
     }
 
-    /// The commit. Tells whether an event must follow: something touches or touches no longer, or a quaternion has left unit
-    /// length.
+    /// Commits the step. Returns true if an event must follow: contact began or ended, or a quaternion has
+    /// left unit length.
     pub fn completed_step(&mut self) -> Outcome<bool> {
         self.expect_mode("CompletedIntegratorStep", &[Mode::Continuous])?;
         if !self.is_current {
@@ -584,7 +587,7 @@ impl Instance {
         states.iter().map(|state| [state[6], state[7], state[8], state[9]])
     }
 
-    /// The event: flags change, quaternions are normalised.
+    /// Handles an event: flags change, quaternions are normalised.
     pub fn update_discrete_states(&mut self) -> Outcome<EventOutcome> {
         self.expect_mode("update of discrete states", &[Mode::Event])?;
         if let Some(place) = self.quaternions().position(|q| !is_direction(&q)) {
@@ -610,7 +613,7 @@ impl Instance {
 
     // ---- Co-Simulation
 
-    /// Has the executive of the scene advance to the end of a communication step.
+    /// Advances the executive of the scene to the end of a communication step.
     pub fn do_step(&mut self, from: f64, length: f64) -> Outcome {
         self.expect_mode("DoStep", &[Mode::Step])?;
         if !(length >= 0.0 && length.is_finite()) {
@@ -652,9 +655,9 @@ impl Instance {
         }
     }
 
-    /// Answers flags and mean wrenches of the communication step.
+    /// Advances to a time; returns flags and mean wrenches of the communication step.
     fn advance(&mut self, target: f64) -> Outcome<(Flags, Vec<Wrench>)> {
-        // What belongs to the instant before the step must be read before contacts are computed anew.
+        // The summary of the instant before the step must be taken before contacts are computed anew.
         self.summary();
         if self.inputs_changed {
             self.apply_inputs(self.unit.simulation.time())?;
@@ -674,7 +677,7 @@ impl Instance {
             self.unit.simulation.set_step(step).map_err(of_simulation)?;
             stepped?;
         } else if whole == 0 {
-            // Too short to be a step: the importer still sees the inputs that it has set.
+            // Too short for a step: evaluate, so that the importer still sees the effect of its inputs.
             self.unit.simulation.commit_initial_states().map_err(of_trial)?;
             flags = self.frame_flags();
         }
@@ -700,7 +703,7 @@ impl Instance {
     }
 }
 
-/// Where the input of a place stands in the list of variables.
+/// Index of an input in the list of variables.
 fn motion_name(variables: &crate::variables::Variables, place: usize) -> usize {
     let found = variables.list.iter().position(|variable| variable.slot == Slot::Input(place));
     found.expect("every input is a variable")
@@ -709,13 +712,13 @@ fn motion_name(variables: &crate::variables::Variables, place: usize) -> usize {
 /// Contact wrenches on all bodies, integrated over the steps of a communication step.
 #[derive(Default)]
 struct Impulses {
-    /// s.
+    /// Time, s.
     time: f64,
     of_bodies: Vec<Wrench>,
 }
 
 impl Impulses {
-    /// Takes in the last step.
+    /// Adds the last step.
     fn add(&mut self, simulation: &Simulation) {
         self.time += simulation.step_length();
         self.of_bodies.resize(simulation.bodies().len(), Wrench::zero());
@@ -739,7 +742,7 @@ fn component(wrench: &Wrench, number: usize) -> f64 {
     if number < 3 { wrench.force[number] } else { wrench.moment[number - 3] }
 }
 
-/// Whether a quaternion can be normalised.
+/// True if a quaternion can be normalised.
 fn is_direction(quaternion: &[f64]) -> bool {
     let length = norm(quaternion);
     length > 0.0 && length.is_finite()
@@ -749,7 +752,7 @@ fn norm(quaternion: &[f64]) -> f64 {
     quaternion.iter().map(|part| part * part).sum::<f64>().sqrt()
 }
 
-/// Pose and twist of thirteen numbers.
+/// Pose and twist from thirteen numbers.
 fn motion(numbers: &[f64], thing: &str) -> Outcome<(Pose, Twist)> {
     let length = norm(&numbers[3..7]);
     let is_unit = (length - 1.0).abs() <= NORM_ERROR_MAX;
@@ -767,7 +770,7 @@ fn of_simulation(error: ExecutiveError) -> Refusal {
     Refusal::error(error.to_string())
 }
 
-/// Of states that another step may avoid.
+/// Refusal of states; a retry with other values or a shorter step may succeed.
 fn of_trial(error: ExecutiveError) -> Refusal {
     Refusal::discard(error.to_string())
 }

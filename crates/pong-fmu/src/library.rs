@@ -1,16 +1,16 @@
 //! The shared library that goes into an FMU.
 
-/// Its file, as cargo makes it.
+/// Its file name, as cargo builds it.
 pub const LIBRARY_FILE: &str = "libpong_fmu.so";
 
-/// What every library holds, so that a program can tell whether it is of its own version.
+/// Version mark contained in every library, for the check that program and library have the same version.
 pub(crate) const MARK: &str =
     concat!("pong-fmu library of version ", env!("CARGO_PKG_VERSION"), ", contents of version 1");
 
 /// `e_machine` of x86-64.
 const X86_64: u8 = 62;
 
-/// Whether these bytes are a library that an FMU of this version can hold.
+/// Checks that these bytes are a library for an FMU of this version.
 ///
 /// # Errors
 /// Cause and cure.

@@ -8,7 +8,7 @@ use pong_model::Model;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Loads what an FMU holds, if it is as it was made.
+/// Loads the contents of an FMU, if they are unchanged.
 ///
 /// # Errors
 /// Files that are missing, changed, or of another FMU: thing, cause and cure.
@@ -25,7 +25,7 @@ pub(crate) fn load(resources: &Path, token: &str) -> Result<Unit, String> {
     }
     let path = resources.join(SCENE_FILE);
     let text = contents::read_text(resources, SCENE_FILE).map_err(unpack)?;
-    // Without a folder the scene names its models as the list does.
+    // With an empty folder the scene names its models as the list does.
     let scene = Scene::parse(&text, &path.display().to_string(), Path::new(""));
     let scene = scene.map_err(|errors| errors.to_string())?;
     let of_file = |file: &Path| {
@@ -38,7 +38,7 @@ pub(crate) fn load(resources: &Path, token: &str) -> Result<Unit, String> {
     Ok(unit)
 }
 
-/// The folder of a URI as FMI 2.0 gives it: `file:///path`, `file:/path` or `file://localhost/path`.
+/// The folder of a URI in the forms of FMI 2.0: `file:///path`, `file:/path` or `file://localhost/path`.
 ///
 /// # Errors
 /// Another kind of address.

@@ -1,7 +1,7 @@
 //! Names of variables in the structured convention of FMI: `object.group.position[1]`.
 
-/// The path of a body or a surface, `object/arm/latch`, as the beginning of names: its parts are separated by dots, and quoted
-/// where they are no identifiers.
+/// The path of a body or a surface, `object/arm/latch`, as a prefix of variable names: its parts are
+/// separated by dots, and quoted where they are no identifiers.
 pub(crate) fn structured(path: &str) -> String {
     path.split('/').map(part).collect::<Vec<_>>().join(".")
 }
@@ -17,14 +17,14 @@ fn part(text: &str) -> String {
         match c {
             '\'' | '\\' => quoted.extend(['\\', c]),
             ' '..='~' => quoted.push(c),
-            // The convention knows ASCII alone.
+            // The convention allows ASCII only.
             _ => quoted.push_str(&format!("{{{:x}}}", u32::from(c))),
         }
     }
     quoted + "'"
 }
 
-/// A name that a C function may begin with, of any name.
+/// A valid prefix of C function names, made from any name.
 pub(crate) fn identifier(name: &str) -> String {
     let mut text: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
     if !text.starts_with(|c: char| c.is_ascii_alphabetic()) {

@@ -12,41 +12,41 @@ use pong_geometry::extension::Extensions;
 use pong_model::grouping::mesh_files;
 use std::path::{Component, Path};
 
-/// What an FMU is to be.
+/// Options of an FMU.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// Bodies whose motion the importer gives, as the scene names them.
+    /// Bodies whose motion is an input, as the scene names them.
     pub inputs: Vec<String>,
-    /// Whether the importer gives the motion of every body that is not fixed: the FMU is contact alone.
+    /// True if the motion of every body that is not fixed is an input: the FMU then only computes contact.
     pub all_inputs: bool,
-    /// Whether contact wrenches have means over a communication step beside them.
+    /// True if outputs include mean contact wrenches over a communication step.
     pub step_means: bool,
-    /// Where models may read files from.
+    /// Extensions and allowed folders of the models.
     pub extensions: Extensions,
 }
 
-/// An FMU, ready to be written.
+/// A complete FMU.
 #[derive(Clone, Debug)]
 pub struct Package {
-    /// The file.
+    /// The contents of the file.
     pub bytes: Vec<u8>,
     /// Name of the scene.
     pub name: String,
     /// Counts of inputs, outputs, parameters and continuous states.
     pub counts: [usize; 4],
-    /// Bodies whose motion the importer gives.
+    /// Bodies whose motion is an input.
     pub inputs: Vec<String>,
-    /// What the author of scene and models should know.
+    /// Warnings for the author of scene and models.
     pub warnings: Vec<String>,
 }
 
 const LICENSE: &str = include_str!("../../../LICENSE");
 const THIRD_PARTY: &str = include_str!("../../../THIRD_PARTY_LICENSES.md");
 
-/// Makes an FMU of a scene around a [shared library](crate::LIBRARY_FILE).
+/// Makes an FMU of a scene with a [shared library](crate::LIBRARY_FILE).
 ///
 /// # Errors
-/// Everything that is wrong with scene, models or library, a line for each: thing, cause and cure.
+/// Every fault of scene, models or library, a line for each: thing, cause and cure.
 pub fn package(path: &Path, library: &[u8], fmi: Fmi, options: &Options) -> Result<Package, String> {
     check_library(library).map_err(|line| format!("shared library: {line}"))?;
     let text = pong_model::files::read_text(path)
@@ -95,7 +95,7 @@ pub fn package(path: &Path, library: &[u8], fmi: Fmi, options: &Options) -> Resu
     Ok(Package { bytes: zip.finish()?, name: unit.name, counts, inputs, warnings: unit.warnings })
 }
 
-/// Takes in a model and the meshes that it names, in a folder of their own; answers where the model is.
+/// Adds a model and the meshes that it names, in a folder of their own; returns the path of the model.
 fn add_model(path: &Path, number: usize, files: &mut Vec<(String, Vec<u8>)>) -> Result<String, String> {
     let unreadable = |path: &Path, reason: std::io::Error| {
         format!("{}: cannot be read: {reason}; name a file that can be read", path.display())

@@ -1,20 +1,20 @@
-//! What an importer is told when a call is refused.
+//! Refusals of calls.
 
-/// Why a call was refused: thing, cause and cure. The instance is as it was before the call.
+/// Refusal of a call, with thing, cause and cure. The instance is as it was before the call.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Refusal {
-    /// Whether a shorter step, or another value, may succeed; otherwise the simulation cannot go on.
+    /// True if a shorter step, or another value, may succeed; otherwise the simulation cannot go on.
     pub may_retry: bool,
     pub text: String,
 }
 
 impl Refusal {
-    /// A call or a file that is wrong.
+    /// Refusal of a wrong call or file.
     pub fn error(text: impl Into<String>) -> Self {
         Self { may_retry: false, text: text.into() }
     }
 
-    /// A state or a value that cannot be used: another may.
+    /// Refusal of a state or a value; another one may be accepted.
     pub fn discard(text: impl Into<String>) -> Self {
         Self { may_retry: true, text: text.into() }
     }

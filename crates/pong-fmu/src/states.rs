@@ -1,4 +1,4 @@
-//! The state of an instance as bytes: FMUstate, in memory and serialised alike. They hold no pointer.
+//! The state of an instance as bytes: FMUstate, in memory or serialised. They hold no pointer.
 //!
 //! ```text
 //! magic 8 | version 8 | token 8 + n | kind, mode, current, changed, flags 8 | time 8
@@ -17,9 +17,9 @@ const MODES: [Mode; 6] =
     [Mode::Instantiated, Mode::Initialization, Mode::Event, Mode::Continuous, Mode::Step, Mode::Terminated];
 
 impl Instance {
-    /// Writes the state.
+    /// Appends the state to `out`.
     pub fn save(&mut self, out: &mut Vec<u8>) {
-        // Contacts are not saved: what is asked of them later must be known now.
+        // Contacts are not saved, so their summary must be computed now.
         let summary = if self.is_current { self.summary() } else { Summary::default() };
         out.clear();
         out.extend_from_slice(MAGIC);
@@ -45,7 +45,7 @@ impl Instance {
         word(out, checksum);
     }
 
-    /// Goes back, or over, to a state that an instance of the same FMU and kind saved.
+    /// Restores a state saved by an instance of the same FMU and kind.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), Refusal> {
         let state = self
             .read(bytes)
@@ -65,7 +65,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Whether a state is one of this FMU, whole and undamaged.
+    /// Checks that a state is one of this FMU, whole and undamaged.
     pub fn check_state(&self, bytes: &[u8]) -> Result<(), Refusal> {
         let read =
             self.read(bytes).map_err(|(cause, cure)| Refusal::error(format!("FMU state: {cause}; {cure}")));
@@ -168,7 +168,7 @@ impl<'b> Reader<'b> {
         Ok(u64::from_le_bytes(*first))
     }
 
-    /// None, or one for each body.
+    /// Reads the wrenches: none, or one for each body.
     fn wrenches(&mut self, bodies: usize) -> Result<Vec<Wrench>, Fault> {
         let is_empty = self.bytes.starts_with(&[0; 8]);
         let numbers = self.numbers(if is_empty { 0 } else { 6 * bodies })?;

@@ -3,20 +3,20 @@
 use pong_engine::{EngineError, ModelId, World};
 use pong_model::{FrictionLaw, NormalLaw, Surface};
 
-/// What a factor is of.
+/// Property that a factor scales.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::IntoStaticStr)]
 #[strum(serialize_all = "lowercase", suffix = "_scale")]
 pub(crate) enum Factor {
-    /// The normal stiffness, and with it that of a bristle that takes a share of it.
+    /// Normal stiffness, and with it the stiffness of a bristle given as a share of it.
     Stiffness,
     /// Damping or dissipation of the normal law.
     Damping,
-    /// μ_k, and with it μ_s.
+    /// Kinetic friction coefficient μ_k, and with it the static μ_s.
     Friction,
 }
 
 impl Factor {
-    /// The value of a surface that it multiplies, with what it is called; `None` if the surface has none.
+    /// Name and value of the scaled property of a surface; `None` if the surface does not have it.
     fn value(self, surface: &Surface) -> Option<(&'static str, f64)> {
         let found = match (self, &surface.normal, &surface.friction) {
             (Self::Stiffness, ..) => Some(("stiffness, N/m", surface.stiffness)),
@@ -54,19 +54,19 @@ impl Factor {
     }
 }
 
-/// A surface with the factors that it can have.
+/// A surface with its possible factors.
 #[derive(Clone, Debug)]
 pub(crate) struct ScaledSurface {
     model: ModelId,
     /// `model/surface`.
     pub path: String,
-    /// As its model has it.
+    /// Its values in the model.
     nominal: Surface,
-    /// With what each is called and its value in the model.
+    /// Factor, name and value in the model.
     pub factors: Vec<(Factor, &'static str, f64)>,
 }
 
-/// All surfaces of a world that have something to be scaled.
+/// All surfaces of a world with a property to scale.
 pub(crate) fn scaled_surfaces(world: &World) -> Vec<ScaledSurface> {
     let mut scaled = Vec::new();
     for (id, model) in world.scene().models() {
@@ -86,10 +86,10 @@ pub(crate) fn scaled_surfaces(world: &World) -> Vec<ScaledSurface> {
 }
 
 impl ScaledSurface {
-    /// Gives the world this surface with its factors.
+    /// Sets this surface in the world, scaled by its factors.
     ///
     /// # Errors
-    /// The engine's, if it cannot have such a surface; it keeps the one that it has.
+    /// The engine's, if the surface is not allowed; the present one then stays.
     pub fn set(&self, world: &mut World, scales: &[f64]) -> Result<(), EngineError> {
         let mut surface = self.nominal.clone();
         for ((factor, ..), scale) in self.factors.iter().zip(scales) {

@@ -1,4 +1,4 @@
-//! A scene in an FMU: what all instances of it have in common, and the simulation that one of them runs.
+//! A scene in an FMU: the data common to all its instances, and the simulation of one of them.
 
 use crate::surfaces::{ScaledSurface, scaled_surfaces};
 use crate::variables::Variables;
@@ -12,34 +12,34 @@ pub(crate) struct Unit {
     pub simulation: Simulation,
     pub variables: Variables,
     pub surfaces: Vec<ScaledSurface>,
-    /// Whether contact wrenches have means over a communication step beside them.
+    /// True if outputs include mean contact wrenches over a communication step.
     pub step_means: bool,
-    /// Friction that is there at the start.
+    /// Initial friction.
     pub preload: Vec<(PairId, FrictionPreload)>,
-    /// The simulation before anything happened.
+    /// Saved initial instant of the simulation.
     pub begin: Vec<u8>,
-    /// How long the scene lasts, s.
+    /// Duration of the scene, s.
     pub duration: f64,
-    /// What the author of scene and models should know.
+    /// Warnings for the author of scene and models.
     pub warnings: Vec<String>,
-    /// Hash of all that it was made of.
+    /// Hash of all its files.
     pub token: String,
 }
 
-/// Which bodies the importer moves.
+/// Bodies that the importer moves.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Inputs {
-    /// Those of these names.
+    /// Bodies with these names.
     Named(Vec<String>),
-    /// Every one that the scene does not hold fixed.
+    /// All bodies that the scene does not hold fixed.
     All,
 }
 
 impl Unit {
-    /// From a scene that was built and not run.
+    /// Makes a unit from a scene that was built and not run.
     ///
     /// # Errors
-    /// Bodies that are not there or named twice: thing, cause and cure.
+    /// Bodies that do not exist or are named twice: thing, cause and cure.
     pub fn new(built: BuiltScene, inputs: &Inputs, step_means: bool) -> Result<Self, String> {
         let mut simulation = built.simulation;
         let led = led_bodies(&simulation, inputs)?;

@@ -1,16 +1,16 @@
-//! The variables of an FMU: a table, from which the description is written and by which values are found. A value reference is
-//! a place in the table.
+//! The variables of an FMU: a table for writing the description and finding values. A value reference is an
+//! index in the table.
 
 use crate::names::structured;
 use crate::surfaces::{Factor, ScaledSurface};
 use pong_executive::{BodyId, Motion, RigidBody, Simulation};
 
-/// Numbers of a motion: position, orientation (w, x, y, z), linear velocity, angular velocity.
+/// Number of values of a motion: position, orientation (w, x, y, z), linear velocity, angular velocity.
 pub(crate) const MOTION_NUMBERS: usize = 13;
-/// Numbers of a wrench: force, moment.
+/// Number of values of a wrench: force, moment.
 pub(crate) const WRENCH_NUMBERS: usize = 6;
 
-/// What a variable is for the importer.
+/// Role of a variable for the importer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::IntoStaticStr)]
 #[strum(serialize_all = "lowercase")]
 pub(crate) enum Causality {
@@ -21,32 +21,32 @@ pub(crate) enum Causality {
     Local,
 }
 
-/// Where the value of a variable is.
+/// Location of the value of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Slot {
     Time,
-    /// By place in [`Variables::parameters`].
+    /// Index in [`Variables::parameters`].
     Parameter(usize),
-    /// By place in [`Variables::inputs`].
+    /// Index in [`Variables::inputs`].
     Input(usize),
-    /// Number of the continuous states.
+    /// Index of a continuous state.
     State(usize),
-    /// Its derivative.
+    /// Derivative of that state.
     Rate(usize),
     /// Pose and twist of a body.
     Motion(BodyId, usize),
     /// Contact wrench on a body.
     Wrench(BodyId, usize),
-    /// Mean of it over the last communication step.
+    /// Mean contact wrench over the last communication step.
     MeanWrench(BodyId, usize),
-    /// How many contacts there are.
+    /// Number of contacts.
     Count,
     LargestDepth,
     /// A Boolean.
     Flag(Flag),
 }
 
-/// What changes at events alone.
+/// Flags that change only at events.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Flag {
     Touching,
@@ -54,21 +54,21 @@ pub(crate) enum Flag {
     LeftOut,
 }
 
-/// What a parameter sets.
+/// Meaning of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Parameter {
-    /// A number of the motion with which a body starts.
+    /// A number of the initial motion of a body.
     Start(BodyId, usize),
-    /// A factor of a surface, by its place among the scaled ones and that of the factor.
+    /// A factor of a surface: index of the scaled surface, index of the factor, and the factor.
     Scale(usize, usize, Factor),
 }
 
-/// What an input sets.
+/// Meaning of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Input {
     /// A number of the motion of a body.
     Motion(BodyId, usize),
-    /// A number of what is applied to a free body.
+    /// A number of the wrench applied to a free body.
     Applied(BodyId, usize),
 }
 
@@ -77,13 +77,13 @@ pub(crate) enum Input {
 pub(crate) struct Variable {
     pub name: String,
     pub description: String,
-    /// Empty for what has none.
+    /// Unit; empty if it has none.
     pub unit: &'static str,
     pub causality: Causality,
     pub slot: Slot,
-    /// Of parameters and inputs, in the variable's unit.
+    /// Start value of parameters and inputs, in the variable's unit.
     pub start: Option<f64>,
-    /// Of states, in the variable's unit.
+    /// Nominal value of states, in the variable's unit.
     pub nominal: Option<f64>,
 }
 
@@ -99,7 +99,7 @@ pub(crate) struct Variables {
     pub nominals: Vec<f64>,
 }
 
-/// Parts of a motion: name, length, unit, what it is.
+/// Parts of a motion: name, length, unit, description.
 const MOTION: [(&str, usize, &str, &str); 4] = [
     ("position", 3, "m", "Position of the origin of"),
     ("orientation", 4, "", "Orientation (quaternion w, x, y, z; group to common components) of"),
@@ -120,7 +120,7 @@ const STATE: [(&str, usize, &str, &str, &str); 4] = [
 ];
 
 impl Variables {
-    /// The variables of a scene; bodies that the importer moves are led already.
+    /// The variables of a scene; bodies moved by the importer are already marked as led.
     pub fn new(
         simulation: &Simulation,
         inputs: &[BodyId],
@@ -266,12 +266,12 @@ impl Variables {
         }
     }
 
-    /// States and, behind each, its derivative.
+    /// Adds the states, each followed by its derivative.
     fn add_states(&mut self, simulation: &Simulation) {
         for id in simulation.free_bodies() {
             let body = simulation.bodies().nth(id.index()).expect("a free body is a body").1;
             let path = structured(&body.name);
-            // At a turn of one radian a second; the other states are of order one.
+            // Angular momentum at one radian a second; the other states are of order one.
             let momentum = body.mass().map_or(1.0, |mass| mass.inertia.amax());
             for (part, length, unit, rate_unit, what) in STATE {
                 for index in 1..=length {
@@ -301,7 +301,7 @@ impl Variable {
     }
 }
 
-/// Pose and twist of a body as the simulation has them now.
+/// Present pose and twist of a body in the simulation.
 pub(crate) fn motion_numbers(simulation: &Simulation, body: BodyId) -> [f64; MOTION_NUMBERS] {
     let (pose, twist) = (simulation.pose(body), simulation.twist(body));
     let (p, q, v, w) = (&pose.position, &pose.orientation, &twist.linear, &twist.angular);

@@ -1,20 +1,21 @@
-//! ZIP files, as small as FMUs need them: deflated, without dates, so that equal contents give equal bytes.
+//! ZIP files with the features that FMUs need: deflated, without dates, so that equal contents give equal
+//! bytes.
 
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
 use std::io::Write;
 
-/// 1980-01-01, the first date that the format knows.
+/// 1980-01-01, the first date of the format.
 const DATE: u16 = 0x0021;
 const DEFLATED: u16 = 8;
-/// 2.0: folders and deflated files.
+/// Version 2.0: folders and deflated files.
 const VERSION: u16 = 20;
-/// Names are UTF-8.
+/// Flag of UTF-8 names.
 const UTF_8: u16 = 1 << 11;
-/// Made under Unix, whose permissions stand in the upper half of the external attributes.
+/// Host system Unix, with permissions in the upper half of the external attributes.
 const UNIX: u16 = 3 << 8;
 
-/// A ZIP file on its way.
+/// A ZIP file being written.
 #[derive(Default)]
 pub(crate) struct Zip {
     bytes: Vec<u8>,
@@ -26,7 +27,7 @@ impl Zip {
     /// Adds a file. Its name has slashes and does not begin with one.
     ///
     /// # Errors
-    /// A file or a sum of files beyond 4 GiB, or more than 65,535 of them: the format ends there.
+    /// Beyond the limits of the format: a file or a sum of files over 4 GiB, or more than 65,535 of them.
     pub fn add(&mut self, name: &str, content: &[u8], is_executable: bool) -> Result<(), String> {
         let packed = deflated(content);
         let mut crc = flate2::Crc::new();
@@ -38,7 +39,7 @@ impl Zip {
         let (at, packed_len, len) = (size(self.bytes.len())?, size(packed.len())?, size(content.len())?);
         self.entries =
             self.entries.checked_add(1).ok_or(format!("{name}: an FMU holds at most 65,535 files"))?;
-        // What the entry and the central directory have in common.
+        // Common fields of the entry and the central directory.
         let mut common = Vec::new();
         for value in [VERSION, UTF_8, DEFLATED, 0, DATE] {
             common.extend(value.to_le_bytes());
@@ -64,7 +65,7 @@ impl Zip {
         Ok(())
     }
 
-    /// The whole file.
+    /// Returns the complete file.
     pub fn finish(mut self) -> Result<Vec<u8>, String> {
         let sizes = [self.directory.len(), self.bytes.len()].map(u32::try_from);
         let [Ok(directory), Ok(at)] = sizes else {

@@ -1,4 +1,4 @@
-//! The binary part of the page: columns of numbers, packed, in the order in which the page asks for them.
+//! The binary part of the page: packed columns of numbers, in the order in which the page reads them.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -7,15 +7,15 @@ use flate2::write::DeflateEncoder;
 use serde::Serialize;
 use std::io::Write;
 
-/// Where a column lies in the unpacked bytes.
+/// Range of a column in the unpacked bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub(crate) struct Column {
-    /// Its numbers: `f64`, `f32`, `u32` or `u8`, little endian.
+    /// Type of its numbers: `f64`, `f32`, `u32` or `u8`, little endian.
     #[serde(rename = "type")]
     kind: &'static str,
     /// First byte, a multiple of eight.
     offset: usize,
-    /// How many numbers.
+    /// Number of values.
     length: usize,
 }
 
@@ -25,8 +25,8 @@ impl Column {
     }
 }
 
-/// Columns one after the other. Each is stored as its numbers' first bytes, then their second bytes and so on: equal
-/// high bytes side by side pack far better.
+/// Columns one after the other. Each is stored with the first bytes of its numbers first, then their second
+/// bytes and so on, because equal high bytes side by side compress much better.
 #[derive(Default)]
 pub(crate) struct Blob {
     bytes: Vec<u8>,
@@ -37,7 +37,7 @@ impl Blob {
         self.add("f64", numbers.into_iter().map(f64::to_le_bytes))
     }
 
-    /// Numbers in single precision.
+    /// Adds numbers in single precision.
     pub fn f32s(&mut self, numbers: impl IntoIterator<Item = f64>) -> Column {
         self.add("f32", numbers.into_iter().map(|number| (number as f32).to_le_bytes()))
     }
@@ -69,7 +69,7 @@ impl Blob {
         Column { kind, offset, length: numbers.len() }
     }
 
-    /// The bytes, deflated, as text.
+    /// The bytes, deflated and encoded as text.
     pub fn packed(&self) -> std::io::Result<String> {
         let mut encoder = DeflateEncoder::new(Vec::new(), Compression::default());
         encoder.write_all(&self.bytes)?;

@@ -1,10 +1,10 @@
-//! Why there is no page.
+//! Errors of making a page.
 
 use pong_model::ModelErrors;
 use pong_record::LogError;
 use std::path::PathBuf;
 
-/// Why a log cannot be shown. The text names the thing, the cause and the cure.
+/// Cause why a log cannot be shown. The text names the thing, the cause and the cure.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViewError {
@@ -21,10 +21,10 @@ pub enum ViewError {
     Foreign {
         /// The file of the model.
         model: PathBuf,
-        /// What does not fit.
+        /// The mismatch.
         cause: String,
     },
-    /// There is nothing to show.
+    /// The log has no frames.
     #[error("{0}: holds no whole frame, so there is nothing to show; let the run write at least one frame")]
     Empty(PathBuf),
     /// The data cannot be packed.

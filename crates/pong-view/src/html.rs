@@ -1,4 +1,4 @@
-//! The page as text: what `page/` and `vendor/` hold, with the data of a run.
+//! The text of the page: `page/` and `vendor/`, with the data of a run.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -14,7 +14,7 @@ macro_rules! modules {
     };
 }
 
-/// The page's modules by the names they import each other by.
+/// The page's modules, by the names in their import statements.
 const MODULES: &[(&str, &str)] = &modules![
     "arrows.js",
     "bodies.js",
@@ -36,7 +36,7 @@ const MODULES: &[(&str, &str)] = &modules![
 const THREE: &str = include_str!("../vendor/three.min.js");
 const THREE_LICENSE: &str = include_str!("../vendor/LICENSE");
 
-/// JSON that may stand in a script element.
+/// JSON escaped for a script element.
 pub(crate) fn json(value: &impl Serialize) -> String {
     let text = serde_json::to_string(value).expect("names and finite numbers are always JSON");
     text.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
@@ -67,9 +67,9 @@ pub(crate) fn page(title: &str, description: &str, data: &str) -> String {
     page + rest
 }
 
-/// Names of modules to their text: a page opened from a disk may load nothing else.
+/// Import map from module names to their text, because a page opened from a disk may not load other files.
 fn imports() -> String {
-    // Without names of their own, errors would name modules by all of their text.
+    // Each text ends with its name, because errors would otherwise name modules by their whole text.
     let url = |name: &str, text: &str| {
         let named = format!("{text}\n//# sourceURL=pong/{}\n", name.trim_start_matches("#view/"));
         format!("data:text/javascript;base64,{}", STANDARD.encode(named))
@@ -125,7 +125,7 @@ mod tests {
         }
     }
 
-    /// What scripts show of names they set as text or as an attribute of its own, never as markup; the page forbids
+    /// Scripts show names only as text or as attributes of their own, never as markup; the page forbids
     /// scripts from anywhere else.
     #[test]
     fn no_module_makes_markup_of_text() {

@@ -1,16 +1,16 @@
-//! A picture of a primitive of which only the support function is known: its convex hull.
+//! Drawing of a primitive given by its support function alone: its convex hull.
 
 use pong_geometry::Vec3;
 use pong_geometry::primitive::CustomPrimitive;
 
-/// Directions along each edge of the cube that is blown up into a ball of directions.
+/// Number of directions along each edge of the cube that is projected onto the sphere of directions.
 const STEPS: usize = 12;
-/// Of the differences that give the place of support.
+/// Step of the finite differences that give the support point.
 const DIFFERENCE: f64 = 1e-5;
 
-/// Corners and triangles of the convex hull; nothing if the primitive is unbounded.
+/// Vertices and triangles of the convex hull; empty if the primitive is unbounded.
 ///
-/// The farthest place along d is the gradient of h(d) = max d·x, continued to all lengths of d.
+/// The support point along d is the gradient of h(d) = max d·x, extended to all lengths of d.
 pub(crate) fn hull(primitive: &dyn CustomPrimitive) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let (directions, triangles) = directions();
     let corners: Vec<Vec3> = directions.iter().map(|direction| farthest(primitive, direction)).collect();
@@ -27,7 +27,7 @@ fn farthest(primitive: &dyn CustomPrimitive, direction: &Vec3) -> Vec3 {
     })
 }
 
-/// Directions all around, and triangles between them that run counter-clockwise seen from outside.
+/// Directions all around, and triangles between them, counter-clockwise seen from outside.
 fn directions() -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let (mut directions, mut triangles) = (Vec::new(), Vec::new());
     let row = STEPS as u32 + 1;
@@ -67,7 +67,7 @@ mod tests {
         }
     }
 
-    /// Half a metre around the segment from (−1, 0, 0) to (1, 0, 0).
+    /// Distance to the capsule of radius ½ m around the segment from (−1, 0, 0) to (1, 0, 0).
     fn distance(p: &Vec3) -> f64 {
         (p - Vec3::new(p.x.clamp(-1.0, 1.0), 0.0, 0.0)).norm()
     }

@@ -1,13 +1,13 @@
 //! A response log as one web page that plays the run: bodies, contacts, forces, plots.
 //!
-//! The page holds everything it needs, so that it can be mailed, archived and opened from a disk years later. What is
-//! drawn comes from `page/`, three.js from `vendor/` (README.md in this crate).
+//! The page is self-contained, so that it can be mailed, archived and opened from a disk years later. The
+//! drawing scripts are in `page/`, three.js is in `vendor/` (README.md in this crate).
 //!
 //! | file | is |
 //! |---|---|
-//! | `thin.rs` | which frames go into the page |
+//! | `thin.rs` | choice of the frames for the page |
 //! | `tables.rs`, `origin.rs` | frames and contacts as columns of numbers |
-//! | `shape.rs`, `surface.rs`, `hull.rs` | what bodies look like |
+//! | `shape.rs`, `surface.rs`, `hull.rs` | drawings of bodies |
 //! | `blob.rs` | columns as text |
 //! | `html.rs` | the page |
 

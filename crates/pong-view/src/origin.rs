@@ -1,21 +1,22 @@
-//! The place that the page measures from: far from a common origin, single precision would make bodies jitter.
+//! Origin of the page's positions: far from a common origin, single precision would make bodies jitter.
 
 use pong_geometry::Vec3;
 
-/// When all bodies travel together more than this many times the size of the scene, the view travels along.
+/// The view moves along when all bodies travel together more than this many times the size of the scene.
 const FAR: f64 = 10.0;
 
-/// The place that positions are relative to.
+/// The origin of positions.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Origin {
-    /// The same in all frames.
+    /// A constant origin.
     Fixed(Vec3),
-    /// Moving with the body of that index: one place for each frame.
+    /// The position of the body with this index in each frame.
     With(usize, Vec<Vec3>),
 }
 
 impl Origin {
-    /// From the places of all bodies, frame after frame (NaN where unknown), and the radii of the bodies, m.
+    /// Chooses the origin from the positions of all bodies, frame after frame (NaN where unknown), and their
+    /// radii, m.
     pub fn choose(places: &[Vec<Vec3>], radii: &[f64]) -> Self {
         let known = |p: &&Vec3| p.iter().all(|x| x.is_finite());
         let all = || places.iter().flatten().filter(known);
@@ -34,7 +35,7 @@ impl Origin {
         if all().next().is_none() { Self::Fixed(Vec3::zeros()) } else { Self::Fixed(0.5 * (low + high)) }
     }
 
-    /// The place in a frame, m.
+    /// The origin in a frame, m.
     pub fn at(&self, frame: usize) -> Vec3 {
         match self {
             Self::Fixed(place) => *place,
@@ -43,7 +44,7 @@ impl Origin {
     }
 }
 
-/// How far a body gets, corner to corner of the box around its path, m; 0 if it is nowhere.
+/// Diagonal of the box around a body's path, m; 0 if it has no position.
 fn travel(path: impl Iterator<Item = Vec3>) -> f64 {
     let (low, high) = bounds(path.filter(|p| p.iter().all(|x| x.is_finite())));
     if low.x <= high.x { (high - low).norm() } else { 0.0 }

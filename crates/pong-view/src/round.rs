@@ -1,15 +1,15 @@
-//! Pictures of round parts: outlines turned about their axes.
+//! Drawings of round parts: outlines revolved about their axes.
 
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{Bore, Capsule, Frustum};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Corners in every circle.
+/// Vertices of every circle.
 const AROUND: u32 = 32;
-/// Steps along the outline of half a ball.
+/// Number of steps along the outline of half a ball.
 const ROUNDING: u32 = 8;
 
-/// Corners and triangles, counter-clockwise seen from where the surface pushes.
+/// Vertices and triangles, counter-clockwise seen from the side on which the surface pushes.
 pub(crate) type Mesh = (Vec<Vec3>, Vec<[u32; 3]>);
 
 pub(crate) fn of_capsule(capsule: &Capsule) -> Mesh {
@@ -35,7 +35,7 @@ pub(crate) fn of_bore(bore: &Bore) -> Mesh {
     turned(&hole.ends[0], &hole.axis, &[(hole.length, hole.radii[1]), (0.0, hole.radii[0])])
 }
 
-/// An outline, as places along and away from an axis, m, turned about it.
+/// Revolves an outline, given as positions along and away from the axis, m.
 fn turned(origin: &Vec3, axis: &Vec3, outline: &[(f64, f64)]) -> Mesh {
     let across = axis.cross(&Vec3::ith(axis.iamin(), 1.0)).normalize();
     let other = axis.cross(&across);
@@ -52,7 +52,7 @@ fn turned(origin: &Vec3, axis: &Vec3, outline: &[(f64, f64)]) -> Mesh {
     (corners, triangles)
 }
 
-/// The two triangles between a corner of one circle and the next, and the circle after it.
+/// The two triangles between vertex `k` of a circle, the next vertex, and the following circle.
 fn quad(circle: u32, k: u32) -> [[u32; 3]; 2] {
     let next = (k + 1) % AROUND;
     let (a, b, c, d) = (circle + k, circle + next, circle + AROUND + next, circle + AROUND + k);
@@ -63,7 +63,7 @@ fn quad(circle: u32, k: u32) -> [[u32; 3]; 2] {
 mod tests {
     use super::*;
 
-    /// Six times the volume that triangles enclose.
+    /// Six times the volume enclosed by triangles.
     fn volume((corners, triangles): &Mesh) -> f64 {
         let of = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|v| corners[v as usize]);
@@ -72,7 +72,8 @@ mod tests {
         triangles.iter().map(of).sum()
     }
 
-    /// Enclosed volumes are those of the formulas, but for the corners of circles: fronts are outside.
+    /// Enclosed volumes agree with the formulas, except for the polygons in place of circles: front faces are
+    /// outside.
     #[test]
     fn pictures_enclose_the_volumes_of_the_parts() {
         let polygon = f64::from(AROUND) / TAU * (TAU / f64::from(AROUND)).sin();

@@ -1,4 +1,4 @@
-//! From a log to a page.
+//! Making a page from a log.
 
 use crate::ViewError;
 use crate::blob::{Blob, Column};
@@ -13,23 +13,23 @@ use pong_record::{Log, Run, RunModel};
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// How a page is made.
+/// Options of a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Keep only every so many-th frame (and the last); `None`: as many as the budget holds.
+    /// Keeps only every n-th frame (and the last); `None`: as many as fit the budget.
     pub every: Option<u64>,
-    /// What the frames may take before packing, bytes. Not looked at if `every` is given.
+    /// Most bytes of the frames before packing. Ignored if `every` is given.
     pub budget: u64,
 }
 
 impl Default for Options {
-    /// All frames up to 64 MB.
+    /// All frames, up to 64 MB.
     fn default() -> Self {
         Self { every: None, budget: 64_000_000 }
     }
 }
 
-/// A page and what is in it.
+/// A page and its contents.
 #[derive(Clone, Debug)]
 pub struct Page {
     /// The text of the HTML file.
@@ -38,19 +38,19 @@ pub struct Page {
     pub frames_in_log: u64,
     /// Frames in the page.
     pub frames: u64,
-    /// Every so many-th frame is in the page.
+    /// Stride of the frames in the page.
     pub every: u64,
     /// Contacts in the page.
     pub contacts: u64,
-    /// Different triangles in the page.
+    /// Distinct triangles in the page.
     pub triangles: u64,
-    /// Data of the frames before and of everything after packing, bytes.
+    /// Size of the frames' data before packing, and of all data after it, bytes.
     pub data_bytes: [u64; 2],
-    /// What the reader of the page is told about its limits.
+    /// Notes to the reader about the page's limits.
     pub notes: Vec<String>,
 }
 
-/// What the page is told besides numbers.
+/// Data of the page other than numbers.
 #[derive(Serialize)]
 struct Description<'a> {
     name: &'a str,
@@ -63,11 +63,11 @@ struct Description<'a> {
     every: u64,
     frames_in_log: u64,
     notes: &'a [String],
-    /// `time`, or `frame` where times do not increase.
+    /// Horizontal axis: `time`, or `frame` where times do not increase.
     axis: &'static str,
     /// The body that the origin moves with.
     origin_body: Option<usize>,
-    /// One place, or one for each frame; m.
+    /// Origin: one position, or one for each frame; m.
     origin: Column,
     objects: Vec<&'a str>,
     bodies: Vec<BodyDescription<'a>>,
@@ -158,7 +158,7 @@ fn bodies<'a>(run: &'a Run, shapes: &[usize]) -> Vec<BodyDescription<'a>> {
     run.bodies.iter().zip(shapes).map(describe).collect()
 }
 
-/// What the reader of the page must know about what it does not show.
+/// Notes to the reader about data that the page does not show.
 fn notes(log: &Log, run: &Run, frames: &Frames, thinning: &Thinning, origin: &Origin) -> Vec<String> {
     let mut notes = Vec::new();
     if thinning.every > 1 {
@@ -189,14 +189,14 @@ fn notes(log: &Log, run: &Run, frames: &Frames, thinning: &Thinning, origin: &Or
     notes
 }
 
-/// The shapes of a run, and who has which.
+/// The shapes of a run, and their assignment to bodies.
 struct Looks {
     shapes: Vec<Shape>,
-    /// Shape of each body.
+    /// Index of the shape of each body.
     of_body: Vec<usize>,
-    /// Movable group and number of the part in its shape, for each primitive of the log.
+    /// Movable group and index of the part in its shape, for each primitive of the log.
     primitives: Vec<[usize; 2]>,
-    /// Models whose hash is not the one in the log.
+    /// Models whose hash differs from the one in the log.
     changed: Vec<String>,
 }
 

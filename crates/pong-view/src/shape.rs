@@ -1,4 +1,4 @@
-//! What a body looks like: its primitives as numbers the page can draw. Bodies of the same model share it.
+//! Drawing of a body: its primitives as numbers for the page. Bodies with the same model share it.
 
 use crate::blob::{Blob, Column};
 use crate::hull::hull;
@@ -16,9 +16,9 @@ pub(crate) struct Part {
     path: String,
     kind: &'static str,
     surface: String,
-    /// First triangle, or first number of its kind's column.
+    /// First triangle, or first entry of its kind's column.
     first: u32,
-    /// How many triangles; 1 for kinds without any.
+    /// Number of triangles; 1 for kinds without any.
     count: u32,
 }
 
@@ -30,15 +30,15 @@ pub(crate) struct Shape {
     by_path: BTreeMap<String, usize>,
     /// Largest distance of anything bounded from the body's origin, m.
     radius: f64,
-    /// Corners of all triangles, (x, y, z).
+    /// Vertices of all triangles, (x, y, z).
     vertices: Column,
-    /// Three corners each: faces of polyhedra, triangles, hulls of custom primitives.
+    /// Three vertices each: faces of polyhedra, triangles, hulls of custom primitives.
     triangles: Column,
-    /// Two corners each: edges that a draughtsman would draw.
+    /// Two vertices each: the free edges and creases to draw.
     edges: Column,
-    /// (x, y, z).
+    /// Positions (x, y, z).
     points: Column,
-    /// Both ends.
+    /// Both end points.
     segments: Column,
     /// Origin and tip.
     rays: Column,
@@ -48,7 +48,7 @@ pub(crate) struct Shape {
     planes: Column,
 }
 
-/// A shape in the making.
+/// A shape being built.
 #[derive(Default)]
 struct Draft {
     surface: Surface,
@@ -89,7 +89,7 @@ impl Shape {
         self.radius
     }
 
-    /// The primitive of that path.
+    /// The primitive with that path.
     pub fn part(&self, path: &str) -> Option<usize> {
         self.by_path.get(path).copied()
     }
@@ -106,7 +106,7 @@ impl Draft {
         Part { path: info.path.clone(), kind: info.kind.name(), surface, first, count }
     }
 
-    /// Adds a primitive and tells where it lies.
+    /// Adds a primitive; returns its range (first and count).
     fn place(&mut self, body: &MovableGroup, info: &PrimitiveInfo) -> (u32, u32) {
         let index = info.elements.start as usize;
         match info.kind {
@@ -150,7 +150,7 @@ impl Draft {
 
     fn ball(&mut self, center: &Vec3, semi_axes: &Vec3, axes: &Mat3) -> (u32, u32) {
         self.reach(center, semi_axes.max());
-        // A left-handed set of axes is the same ellipsoid as the right-handed one.
+        // A left-handed set of axes describes the same ellipsoid as the right-handed one.
         let mut axes = *axes;
         if axes.determinant() < 0.0 {
             axes.neg_mut();
@@ -165,7 +165,7 @@ impl Draft {
     }
 }
 
-/// Adds what belongs to one primitive, so many numbers each, and tells which it is.
+/// Appends the numbers of one primitive, `width` each; returns its range.
 fn one(column: &mut Vec<f64>, width: usize, numbers: impl Iterator<Item = f64>) -> (u32, u32) {
     let first = column.len() / width;
     column.extend(numbers);

@@ -4,7 +4,7 @@ use pong_geometry::Vec3;
 use pong_geometry::primitive::{NO_NEIGHBOR, Polyhedron, TriangleSet};
 use pong_model::{MovableGroup, PrimitiveInfo};
 
-/// Neighbouring triangles whose normals differ by more get an edge between them: cosine of 25°.
+/// Cosine of 25°: an edge is drawn between neighbouring triangles whose normals differ by more.
 const CREASE: f64 = 0.906_307_787;
 
 /// All triangles of a body.
@@ -16,19 +16,20 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    /// The vertices of the meshes come first and keep their numbers.
+    /// Adds the vertices of the meshes first, so that they keep their indices.
     pub fn take_vertices(&mut self, meshes: &TriangleSet) {
         debug_assert!(self.vertices.is_empty());
         self.vertices.clone_from(&meshes.vertices);
     }
 
-    /// Adds the triangles of one primitive, without the mirror images of a two-sided one; tells the first and how many.
+    /// Adds the triangles of one primitive, without the reversed copies of a two-sided one; returns their
+    /// range.
     pub fn add_mesh(&mut self, meshes: &TriangleSet, info: &PrimitiveInfo) -> (u32, u32) {
         let records = &meshes.triangles[info.elements.start as usize..info.first_mirror as usize];
         self.add_all(|surface| surface.triangles.extend(records.iter().map(|record| record.vertices)))
     }
 
-    /// Adds the faces that can push; inner walls stay out.
+    /// Adds the active faces; internal faces are left out.
     pub fn add_polyhedron(&mut self, solid: &Polyhedron) -> (u32, u32) {
         let base = self.vertices.len() as u32;
         self.vertices.extend(solid.vertices.iter().map(|vertex| vertex.position));
@@ -45,7 +46,7 @@ impl Surface {
         })
     }
 
-    /// Adds a closed surface of its own; without triangles, nothing.
+    /// Adds a separate closed surface; does nothing without triangles.
     pub fn add_hull(&mut self, hull: &(Vec<Vec3>, Vec<[u32; 3]>)) -> (u32, u32) {
         let base = self.vertices.len() as u32;
         self.vertices.extend(&hull.0);

@@ -8,43 +8,44 @@ use pong_geometry::Vec3;
 use pong_record::{ContactRow, Frame, FrameRow, Log, Run, StateRow, WrenchRow};
 use serde::Serialize;
 
-/// All frames that stay, as they are read.
+/// All frames that are kept, in reading order.
 #[derive(Default)]
 pub(crate) struct Frames {
     pub rows: Vec<FrameRow>,
     states: Vec<Vec<StateRow>>,
     wrenches: Vec<Vec<WrenchRow>>,
     contacts: Vec<ContactRow>,
-    /// Largest force (N), moment (N·m) and depth (m) of each body since the frame before; empty if none was left out.
+    /// Largest force (N), moment (N·m) and depth (m) of each body since the previous kept frame; empty if
+    /// none was left out.
     peaks: Vec<Vec<[f64; 3]>>,
 }
 
-/// Where the frames lie. Vectors along the common axes, places relative to the origin of their frame.
+/// Columns of the frames. Vectors along the common axes, positions relative to the origin of their frame.
 #[derive(Debug, Serialize)]
 pub(crate) struct FrameColumns {
     /// Number of the frame in its log.
     number: Column,
-    /// s.
+    /// Time, s.
     time: Column,
     flags: Column,
     /// Duration of the evaluation, s; 0 without a clock.
     evaluation: Column,
     /// First contact of each frame, and one more for the end.
     first_contact: Column,
-    /// m, by frame and body.
+    /// Position, m, by frame and body.
     position: Column,
     /// Quaternion (w, x, y, z).
     orientation: Column,
-    /// N.
+    /// Force, N.
     force: Column,
-    /// N·m, about the body's origin.
+    /// Moment about the body's origin, N·m.
     moment: Column,
-    /// Force, moment and depth, where frames were left out.
+    /// Peaks of force, moment and depth, where frames were left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     peaks: Option<Column>,
 }
 
-/// Where the contacts lie.
+/// Columns of the contacts.
 #[derive(Debug, Serialize)]
 pub(crate) struct ContactColumns {
     pair: Column,
@@ -66,7 +67,7 @@ pub(crate) struct ContactColumns {
 }
 
 impl Frames {
-    /// Reads the frames that stay; of the others, the peaks.
+    /// Reads the frames that are kept, and the peaks of the others.
     pub fn read(log: &mut Log, thinning: &Thinning) -> Result<Self, ViewError> {
         let (mut frames, mut frame) = (Self::default(), Frame::default());
         let bodies = log.run().bodies.len();
@@ -86,7 +87,7 @@ impl Frames {
         Ok(frames)
     }
 
-    /// Places of all bodies, frame after frame, m.
+    /// Positions of all bodies, frame after frame, m.
     pub fn places(&self) -> Vec<Vec<Vec3>> {
         self.states
             .iter()
@@ -98,7 +99,7 @@ impl Frames {
         self.contacts.len()
     }
 
-    /// Whether the times of the frames always increase.
+    /// True if the times of the frames always increase.
     pub fn times_increase(&self) -> bool {
         self.rows.windows(2).all(|rows| rows[0].time < rows[1].time)
     }
@@ -169,7 +170,7 @@ fn local(place: &[f64; 3], origin: &Vec3) -> [f64; 3] {
     [place[0] - origin.x, place[1] - origin.y, place[2] - origin.z]
 }
 
-/// Raises the peaks of all bodies to those of a frame.
+/// Raises the peaks of all bodies to the values of a frame.
 fn raise(peaks: &mut [[f64; 3]], frame: &Frame, run: &Run) {
     for (peaks, wrench) in peaks.iter_mut().zip(&frame.wrenches) {
         peaks[0] = peaks[0].max(Vec3::from(wrench.force).norm());

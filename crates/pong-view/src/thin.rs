@@ -1,4 +1,4 @@
-//! Which frames of a log go into the page.
+//! Choice of the frames of a log for the page.
 
 use pong_record::FrameRow;
 
@@ -8,7 +8,7 @@ const BODY: u64 = 28 + 24;
 const PEAKS: u64 = 12;
 const CONTACT: u64 = 90;
 
-/// Every so many-th frame of a log, and the last.
+/// Every n-th frame of a log, and the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Thinning {
     pub every: u64,
@@ -17,7 +17,7 @@ pub(crate) struct Thinning {
 }
 
 impl Thinning {
-    /// As asked for, or else the closest one whose frames stay within the budget, bytes.
+    /// The stride asked for, or else the smallest whose frames stay within the budget, bytes.
     pub fn choose(rows: &[FrameRow], bodies: usize, every: Option<u64>, budget: u64) -> Self {
         let frames = rows.len() as u64;
         let thinned = |every| Self { every, frames };
@@ -31,7 +31,7 @@ impl Thinning {
         thinned(every)
     }
 
-    /// Whether the frame of this index stays.
+    /// True if the frame with this index is kept.
     pub fn keeps(&self, index: u64) -> bool {
         index.is_multiple_of(self.every) || index + 1 == self.frames
     }

@@ -1,4 +1,4 @@
-//! The functions that both versions of the standard have, each under the name that it has there.
+//! The functions that both versions of the standard have, each under its name there.
 
 #![allow(non_snake_case, reason = "the standard names them")]
 
@@ -47,7 +47,7 @@ calls! {
     fn fmi2GetEventIndicators, fmi3GetEventIndicators(_indicators: *mut f64, count: usize) |_instance| none(count, "event indicator");
 }
 
-/// For kinds of variables of which there are none: asked for none of them, all is well.
+/// Reads or writes no variables, for types without variables; refuses any other count.
 pub(super) fn none(count: usize, what: &str) -> Result<(), Refusal> {
     if count == 0 {
         return Ok(());
@@ -55,7 +55,7 @@ pub(super) fn none(count: usize, what: &str) -> Result<(), Refusal> {
     Err(Refusal::error(format!("{what}: the unit has none; take the variables of modelDescription.xml")))
 }
 
-/// For functions that the description says are not there.
+/// Refuses a function that the model description declares absent.
 pub(super) fn absent(function: &str, cure: &str) -> Result<(), Refusal> {
     Err(Refusal::error(format!(
         "{function}: the unit does not have it, as modelDescription.xml says; {cure}"

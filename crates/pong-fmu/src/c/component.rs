@@ -1,4 +1,4 @@
-//! What stands between an importer and an instance at every call: the floating-point environment, panics, messages.
+//! Guards of every call by an importer: floating-point environment, panics, messages.
 
 use super::logger::{DISCARD, ERROR, FATAL, Logger, OK, Status, WARNING};
 use super::pointers::place;
@@ -11,15 +11,15 @@ use std::ffi::c_void;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 
-/// What the importer's pointer points to.
+/// Data behind the importer's pointer.
 pub(super) struct Component {
     instance: Instance,
     pub logger: Logger,
-    /// After a fault inside the library nothing can be relied on.
+    /// True after a fault inside the library, when nothing can be relied on.
     is_broken: bool,
 }
 
-/// Makes an instance, or tells why there is none and answers NULL.
+/// Makes an instance; logs the reason and returns NULL if it fails.
 pub(super) fn instantiate(
     logger: Logger,
     kind: Kind,
@@ -73,7 +73,7 @@ pub(super) unsafe fn call_with_logger(
     pong_fpenv::guarded(|| {
         // SAFETY: NULL, or what `instantiate` made.
         let Ok(component) = (unsafe { place(component.cast::<Component>(), "instance") }) else {
-            // Without an instance there is no logger.
+            // Without an instance there is no logger, so no message.
             return ERROR;
         };
         if component.is_broken {
@@ -112,7 +112,7 @@ pub(super) unsafe fn free(component: *mut c_void) {
     pong_fpenv::guarded(|| {
         // SAFETY: what `instantiate` made, and the importer gives it up.
         let component = unsafe { Box::from_raw(component.cast::<Component>()) };
-        // A panic must not reach C; what is left of the instance then stays.
+        // A panic must not reach C; the rest of the instance then leaks.
         let _ = catch_unwind(AssertUnwindSafe(|| drop(component)));
     });
 }
@@ -124,12 +124,12 @@ fn fault(payload: Box<dyn Any + Send>) -> String {
         _ => "no reason given",
     };
     let text = format!("a fault inside the library: {said}; free the instance and report this");
-    // Dropping a payload runs code of unknown origin.
+    // Forgotten, not dropped: the payload's destructor is unknown code.
     std::mem::forget(payload);
     text
 }
 
-/// A saved state as the importer holds it.
+/// A saved state in the importer's hands.
 pub(super) mod state {
     use super::{Instance, Refusal, c_void, place};
     use crate::c::pointers::{slice, slice_mut};
@@ -137,7 +137,7 @@ pub(super) mod state {
     /// # Safety
     /// As all functions of this module (`c/mod.rs`).
     pub unsafe fn get(instance: &mut Instance, state: *mut *mut c_void) -> Result<(), Refusal> {
-        // SAFETY: by the contract of this function; a state that is there already is written anew.
+        // SAFETY: by the contract of this function; an existing state is overwritten.
         unsafe {
             let state = place(state, "FMU state")?;
             if let Some(bytes) = state.cast::<Vec<u8>>().as_mut() {

@@ -151,7 +151,7 @@ calls! {
     ) |_instance| none(count, "derivative of an output");
 }
 
-/// Steps end before they return: only the time that was reached can be asked for.
+/// Returns the last time reached; other values are refused, because steps end before they return.
 #[unsafe(no_mangle)]
 unsafe extern "C" fn fmi2GetRealStatus(component: *mut c_void, kind: c_int, value: *mut f64) -> Status {
     // SAFETY: by the contract of this module.
@@ -170,7 +170,7 @@ unsafe extern "C" fn fmi2GetRealStatus(component: *mut c_void, kind: c_int, valu
     if status == ERROR { DISCARD } else { status }
 }
 
-/// Nothing is ever pending.
+/// Refuses a status request: nothing is ever pending.
 macro_rules! no_status {
     ($($name:ident: $type:ty;)*) => {$(
         #[unsafe(no_mangle)]
@@ -186,7 +186,7 @@ no_status! {
     fmi2GetStringStatus: *const c_char;
 }
 
-/// A simulation is never ended by the unit.
+/// Returns false: the FMU never ends a simulation.
 #[unsafe(no_mangle)]
 unsafe extern "C" fn fmi2GetBooleanStatus(
     _component: *mut c_void,

@@ -12,10 +12,10 @@ use crate::refusal::Refusal;
 use std::ffi::{c_char, c_int, c_void};
 use std::path::PathBuf;
 
-/// `fmi3Boolean`, a `bool` of C: as a byte, because not every byte is a `bool` of Rust.
+/// `fmi3Boolean`, a `bool` of C: taken as a byte, because not every byte is a valid `bool` of Rust.
 type Boolean = u8;
 
-/// The cure where a function is absent.
+/// Cure in the message of an absent function.
 const DO_WITHOUT: &str = "do without it";
 
 #[unsafe(no_mangle)]
@@ -242,7 +242,7 @@ calls! {
         |_instance| none(count, "clock");
 }
 
-/// Types of which there are no variables.
+/// Types without variables.
 macro_rules! no_variables {
     ($($get:ident, $set:ident: $type:ty, $what:literal;)*) => {
         calls! {$(

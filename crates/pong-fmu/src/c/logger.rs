@@ -11,31 +11,31 @@ pub(super) const DISCARD: Status = 2;
 pub(super) const ERROR: Status = 3;
 pub(super) const FATAL: Status = 4;
 
-/// `fmi2CallbackLogger`: the message is a format of printf.
+/// `fmi2CallbackLogger`: the message is a printf format.
 pub(super) type Fmi2Log =
     unsafe extern "C" fn(*mut c_void, *const c_char, Status, *const c_char, *const c_char, ...);
 /// `fmi3LogMessageCallback`.
 pub(super) type Fmi3Log = unsafe extern "C" fn(*mut c_void, Status, *const c_char, *const c_char);
 
-/// Where messages go.
+/// Destination of messages.
 pub(super) enum Sink {
-    /// With the name of the instance.
+    /// The importer's function, and the name of the instance.
     Fmi2(Fmi2Log, CString),
     Fmi3(Fmi3Log),
-    /// The importer gave no function: nobody can be told.
+    /// No destination, if the importer gave no function.
     None,
 }
 
 pub(super) struct Logger {
     pub sink: Sink,
-    /// Handed back to the importer with every message.
+    /// Passed back to the importer with every message.
     pub environment: *mut c_void,
-    /// Whether events are told. Refusals and warnings always are.
+    /// True if events are logged. Refusals and warnings always are.
     pub tells_events: bool,
 }
 
 impl Logger {
-    /// Tells something, in the category that its status has.
+    /// Logs a message, in the category of its status.
     pub fn tell(&self, status: Status, text: &str) {
         let category = match status {
             OK if !self.tells_events => return,
@@ -49,10 +49,10 @@ impl Logger {
         match &self.sink {
             Sink::None => {}
             Sink::Fmi2(log, name) => {
-                // `%` begins an argument of printf, `#` a value reference: twice they are themselves.
+                // `%` begins an argument of printf, `#` a value reference: doubled they are literal.
                 let message = c_text(&text.replace('%', "%%").replace('#', "##"));
-                // SAFETY: a function of the importer's with texts that live as long as the call; no arguments follow,
-                // because the message names none.
+                // SAFETY: the importer's function with texts that live as long as the call; no arguments
+                // follow, because the message has no conversions.
                 lent(|| unsafe {
                     log(self.environment, name.as_ptr(), status, category.as_ptr(), message.as_ptr());
                 });
@@ -66,7 +66,7 @@ impl Logger {
     }
 }
 
-/// Zero bytes, which would end the text, cannot stand in it: printable texts have none.
+/// Text as a C string. A zero byte would end it early, but printable texts have none.
 pub(super) fn c_text(text: &str) -> CString {
     CString::new(text.replace('\0', " ")).unwrap_or_default()
 }

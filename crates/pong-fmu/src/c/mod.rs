@@ -2,11 +2,11 @@
 //!
 //! # Safety of all functions
 //!
-//! A pointer is NULL or points to what its type says, for as long as the call runs; an instance or a state is one that this
-//! library gave out and that was not freed; text ends with a zero byte; an array has as many elements as the importer says; an
-//! instance is called from one thread at a time. Everything else is checked.
+//! A pointer is NULL or points to what its type says, for as long as the call runs; an instance or a state
+//! was returned by this library and not freed; text ends with a zero byte; an array has as many elements as
+//! the importer says; an instance is called from one thread at a time. Everything else is checked.
 
-/// Functions that call an instance, each under one name or more. In a body `FUNCTION` is the name.
+/// Defines functions that call an instance, each under one or more names. In a body `FUNCTION` is the name.
 macro_rules! calls {
     ($(fn $($name:ident),+ ($($arguments:tt)*) |$instance:ident| $body:expr;)*) => {$(
         calls!(@named [$($name)+] ($($arguments)*) |$instance| $body);

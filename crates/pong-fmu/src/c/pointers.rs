@@ -1,4 +1,4 @@
-//! Pointers of the importer, as slices and references. A NULL is refused.
+//! Pointers of the importer, as slices and references. NULL is refused.
 
 use crate::refusal::Refusal;
 use std::borrow::Cow;
@@ -14,7 +14,7 @@ pub(super) unsafe fn slice<'a, T>(pointer: *const T, length: usize, what: &str) 
     match (length, pointer.is_null()) {
         (0, _) => Ok(&[]),
         (_, true) => Err(null(what)),
-        // SAFETY: the importer says that there are so many elements.
+        // SAFETY: the importer vouches for the number of elements.
         _ => Ok(unsafe { std::slice::from_raw_parts(pointer, length) }),
     }
 }
@@ -29,7 +29,8 @@ pub(super) unsafe fn slice_mut<'a, T>(
     match (length, pointer.is_null()) {
         (0, _) => Ok(&mut []),
         (_, true) => Err(null(what)),
-        // SAFETY: the importer says that there are so many elements, and nobody else uses them during the call.
+        // SAFETY: the importer vouches for the number of elements, and nothing else uses them during the
+        // call.
         _ => Ok(unsafe { std::slice::from_raw_parts_mut(pointer, length) }),
     }
 }

@@ -1,11 +1,11 @@
-//! What the descriptions of both versions have in common.
+//! Common parts of the descriptions of both versions.
 
 use super::xml::Xml;
 use crate::unit::Unit;
 use crate::variables::{Causality, Slot, Variable, Variables};
 
 pub(super) const TOOL: &str = concat!("Pong ", env!("CARGO_PKG_VERSION"));
-/// Relative tolerance that is proposed for solvers with step control: contact depths are small against places.
+/// Relative tolerance proposed for solvers with step control: contact depths are small against positions.
 const TOLERANCE: &str = "1e-8";
 
 /// Counts of inputs, outputs, parameters and continuous states.
@@ -15,7 +15,7 @@ pub(crate) fn counts(unit: &Unit) -> [usize; 4] {
     [of(Causality::Input), of(Causality::Output), of(Causality::Parameter), variables.nominals.len()]
 }
 
-/// Categories of messages, with what they are for.
+/// Categories of messages, with their purpose.
 const LOG_CATEGORIES: [(&str, &str); 5] = [
     ("logEvents", "What an instance does; only if logging is on"),
     ("logStatusWarning", "What the author of scene and models should know"),
@@ -24,7 +24,7 @@ const LOG_CATEGORIES: [(&str, &str); 5] = [
     ("logStatusFatal", "Faults inside the library"),
 ];
 
-/// Units by their exponents of base units.
+/// Units by the exponents of their base units.
 const UNITS: [(&str, &[(&str, &str)]); 10] = [
     ("s", &[("s", "1")]),
     ("1/s", &[("s", "-1")]),
@@ -60,12 +60,13 @@ pub(super) fn write_experiment(xml: &mut Xml, unit: &Unit) {
     let (stop, step) = (format!("{:?}", unit.duration), format!("{:?}", unit.simulation.step_length()));
     let attributes =
         [("startTime", "0.0"), ("stopTime", &stop), ("tolerance", TOLERANCE), ("stepSize", &step)];
-    // A scene that only evaluates its start has no span of time.
+    // A scene that only evaluates its initial state has no time span.
     xml.empty("DefaultExperiment", if unit.duration > 0.0 { &attributes } else { &attributes[2..] });
 }
 
-/// Writes the variables. `write` gets the attributes that both versions have at a variable, those that FMI 2.0 has at its type
-/// instead, and what is called a derivative: `state_of_rate` says which, of the place of a rate.
+/// Writes the variables. `write` gets the common attributes of a variable, and those that FMI 2.0 writes at
+/// its type. `state_of_rate` maps the index of a rate to the reference of its state in the attribute
+/// `derivative`.
 pub(super) fn write_variables(
     xml: &mut Xml,
     unit: &Unit,
@@ -110,7 +111,8 @@ fn variability(causality: Causality, is_flag: bool) -> (&'static str, Option<&'s
     }
 }
 
-/// Places of the variables that the structure lists: outputs, derivatives, and what is calculated in initialization.
+/// Indices of the variables that the structure lists: outputs, derivatives, and variables calculated in
+/// initialization.
 pub(super) struct Structure {
     pub outputs: Vec<usize>,
     pub derivatives: Vec<usize>,
@@ -131,7 +133,7 @@ impl Structure {
     }
 }
 
-/// Whether an event may set a state anew: quaternions are normalised.
+/// True if an event may reinitialise a state: quaternions are normalised.
 fn is_reinitialized(name: &str, slot: Slot) -> bool {
     matches!(slot, Slot::State(_)) && name.contains(".state.orientation[")
 }

@@ -36,7 +36,8 @@ pub(super) fn describe(unit: &Unit, identifier: &str, token: &str) -> String {
     write_units(&mut xml);
     write_categories(&mut xml);
     write_experiment(&mut xml, unit);
-    // Variables are counted from 1; a rate stands behind its state.
+    // Variables are numbered from 1, and a rate follows its state, so the number of the state is the index of
+    // the rate.
     write_variables(
         &mut xml,
         unit,

@@ -34,7 +34,7 @@ pub(super) fn describe(unit: &Unit, identifier: &str, token: &str) -> String {
     write_units(&mut xml);
     write_categories(&mut xml);
     write_experiment(&mut xml, unit);
-    // A rate stands behind its state.
+    // A rate follows its state.
     write_variables(
         &mut xml,
         unit,

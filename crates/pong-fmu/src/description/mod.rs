@@ -1,4 +1,5 @@
-//! What an importer reads of an FMU before it loads it: `modelDescription.xml` of both versions, and a page for people.
+//! Description of an FMU that an importer reads before loading it: `modelDescription.xml` of both versions,
+//! and a page for people.
 
 mod common;
 mod fmi2;

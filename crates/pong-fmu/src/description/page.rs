@@ -1,4 +1,4 @@
-//! The page that importers show of an FMU: what it is, and its variables.
+//! Documentation page of an FMU: its purpose and its variables.
 
 use super::xml::escaped;
 use crate::unit::Unit;

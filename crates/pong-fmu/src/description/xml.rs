@@ -1,6 +1,6 @@
-//! XML as text, indented.
+//! Indented XML text.
 
-/// A document on its way.
+/// An XML document being written.
 pub(super) struct Xml {
     pub text: String,
     depth: usize,
@@ -11,13 +11,13 @@ impl Xml {
         Self { text: "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned(), depth: 0 }
     }
 
-    /// Begins an element that has others in it.
+    /// Opens an element with children.
     pub fn open(&mut self, name: &str, attributes: &[(&str, &str)]) {
         self.tag(name, attributes, ">");
         self.depth += 1;
     }
 
-    /// An element with attributes alone.
+    /// Writes an element without children.
     pub fn empty(&mut self, name: &str, attributes: &[(&str, &str)]) {
         self.tag(name, attributes, "/>");
     }
@@ -37,7 +37,7 @@ impl Xml {
     }
 }
 
-/// A text as it may stand in an attribute or an element. Characters that XML cannot hold are written as question marks.
+/// Text escaped for an attribute or an element. Characters that XML cannot represent become question marks.
 pub(super) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
