@@ -1,6 +1,6 @@
-//! The berthing mechanism on a fixed path: the passive half is moved to and fro against the active one, off-centre and
-//! rolled, guides, standoffs, plungers and paddles in contact for some of the way. Segments, rays, points and spheres on
-//! polyhedra, in fourteen movable groups.
+//! The berthing mechanism on a fixed path: the passive half moves to and fro against the active one,
+//! off-centre and rolled, with guides, standoffs, plungers and paddles in contact for part of the path.
+//! Segments, rays, points and spheres on polyhedra, in fourteen movable groups.
 
 use crate::motion::state;
 use pong_engine::State;
@@ -11,13 +11,13 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Frames of the path, which is closed.
+/// Frames of the closed path.
 pub const FRAMES: usize = 64;
 /// Indicators, one a quadrant.
 pub const INDICATORS: usize = 4;
 const FRAME_SECONDS: f64 = 2e-3;
 
-/// The active half, the passive one, and the indicator.
+/// The active half, the passive half, and the indicator.
 ///
 /// # Errors
 /// The models cannot be loaded.
@@ -27,8 +27,8 @@ pub fn models() -> Result<[Arc<Model>; 3], ModelErrors> {
     Ok([load("active.ron")?, load("passive.ron")?, load("indicator.ron")?])
 }
 
-/// States of all movable groups in every frame: the active half's at rest, the passive half's, those of the indicators,
-/// a quarter of a turn from one to the next.
+/// States of all movable groups in every frame: the active half at rest, the passive half, and the
+/// indicators, a quarter turn apart.
 pub fn states([active, _, indicator]: &[Arc<Model>; 3]) -> Vec<Vec<State>> {
     let fixed: Vec<State> = at_rest(active, &Pose::identity());
     let quarter = |i: usize| Pose {
@@ -43,14 +43,14 @@ pub fn states([active, _, indicator]: &[Arc<Model>; 3]) -> Vec<Vec<State>> {
     (0..FRAMES).map(frame).collect()
 }
 
-/// All groups of an Object where its author placed them.
+/// All groups of an Object at their model poses.
 fn at_rest(model: &Model, root: &Pose) -> Vec<State> {
     let placed =
         |body: &pong_model::MovableGroup| root.compose(&body.initial_pose.unwrap_or_else(Pose::identity));
     model.bodies.iter().map(|body| State::from_motion(&placed(body), &Twist::zero())).collect()
 }
 
-/// From guides that have met to standoffs that press.
+/// Pose of the passive half, from first contact of the guides to compressed standoffs.
 fn passive(frame: f64) -> Pose {
     let phase = frame / FRAMES as f64 * TAU;
     let wave = |shift: f64| (phase + shift).sin();

@@ -1,4 +1,4 @@
-//! W7: a cloud of spheres, each an Object of its own, all paired with all, none touching another.
+//! W7: a cloud of spheres, each a separate Object, all paired with all, none touching another.
 
 use crate::random::Random;
 use crate::ron;
@@ -8,10 +8,10 @@ use std::f64::consts::TAU;
 
 /// Radius of a sphere, m.
 pub const RADIUS: f64 = 0.1;
-/// Distance between the middles of neighbours, m; each moves by up to [`WAY`] about its middle.
+/// Distance between neighbouring lattice points, m; each sphere moves by up to [`WAY`] about its own.
 const SPACING: f64 = 0.5;
 const WAY: f64 = 0.08;
-/// Frames of a pass, which closes.
+/// Frames of the closed pass.
 pub const FRAMES: usize = 32;
 const FRAME_SECONDS: f64 = 0.01;
 
@@ -20,7 +20,7 @@ pub fn model() -> String {
     ron::model("sphere", &format!("Sphere(name: \"s\", center: (0, 0, 0), radius: {RADIUS:?})"))
 }
 
-/// States of `count` spheres in every frame: on a cubic lattice, each on a circle of its own about its place.
+/// States of `count` spheres in every frame: each on a circle about its point of a cubic lattice.
 pub fn states(count: usize) -> Vec<Vec<State>> {
     let side = (count as f64).cbrt().ceil() as usize;
     let mut random = Random(0xc10d + count as u64);

@@ -1,24 +1,24 @@
-//! How far the answers of two engines to the same queries of W1 lie apart.
+//! Difference between two engines' answers to the same queries of W1.
 
 use crate::pairs::Answer;
 use crate::table::Table;
 use pong_geometry::Vec3;
 
-/// The greatest differences of a peer's answers from ours, over all hulls of a pair.
+/// Largest differences of a peer's answers from ours, over all hulls of a pair.
 pub struct Difference {
     pair: String,
     peer: &'static str,
-    /// m
+    /// Depth difference, m.
     depth: f64,
-    /// rad
+    /// Angle between the normals, rad.
     normal: f64,
-    /// Normals off by more than a milliradian.
+    /// Number of normals off by more than a milliradian.
     off: usize,
     hits: usize,
 }
 
 impl Difference {
-    /// Of one peer on one pair, where we find a hit.
+    /// Differences of one peer on one pair, at our hits.
     pub fn between(pair: &str, peer: &'static str, ours: &[Answer], theirs: &[Answer]) -> Self {
         let mut worst = Self { pair: pair.to_owned(), peer, depth: 0.0, normal: 0.0, off: 0, hits: 0 };
         for (ours, theirs) in ours.iter().zip(theirs).filter(|(ours, _)| ours.hit()) {
@@ -32,7 +32,7 @@ impl Difference {
         worst
     }
 
-    /// Joins those of the same pair and peer.
+    /// Merges it with those of the same pair and peer.
     pub fn join(self, all: &mut Vec<Self>) {
         match all.iter_mut().find(|known| (&known.pair, known.peer) == (&self.pair, self.peer)) {
             Some(known) => {
@@ -45,7 +45,7 @@ impl Difference {
         }
     }
 
-    /// All of them.
+    /// Table of all differences.
     pub fn table(all: &[Self]) -> Table {
         let mut table = Table::new(&["pair", "peer", "depth, m", "normal, rad", "normals off by > 1 mrad"]);
         for Self { pair, peer, depth, normal, off, hits } in all {

@@ -1,5 +1,5 @@
-//! The docking model on a fixed path: the passive side is moved to and fro against the active one, off-centre and
-//! turned, petals and rings in contact for most of the way.
+//! The docking model on a fixed path: the passive side moves to and fro against the active one, off-centre
+//! and turned, with petals and rings in contact for most of the path.
 
 use crate::motion::state;
 use pong_engine::State;
@@ -10,14 +10,14 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Frames of the path, which is closed.
+/// Frames of the closed path.
 pub const FRAMES: usize = 64;
-/// Of a path that takes a tenth of a second as a host of 1 kHz sees it, every other frame.
+/// Time between frames, s: every other frame of a host at 1 kHz, 0.13 s for the path.
 const FRAME_SECONDS: f64 = 2e-3;
-/// Height of the passive ring's face over the active vehicle where the two rings touch, m.
+/// Height of the passive ring's face over the active vehicle at contact of the two rings, m.
 const CAPTURED: f64 = 0.3;
 
-/// The active side, then the passive one.
+/// The active side, then the passive side.
 ///
 /// # Errors
 /// The models cannot be loaded.
@@ -27,8 +27,8 @@ pub fn models() -> Result<[Arc<Model>; 2], ModelErrors> {
     Ok([load("idss_active.ron")?, load("idss_passive.ron")?])
 }
 
-/// States of all movable groups in every frame: the active side's at rest where its author placed them, then the
-/// passive side's.
+/// States of all movable groups in every frame: the active side at rest at its model pose, then the passive
+/// side.
 pub fn states(active: &Model) -> Vec<Vec<State>> {
     let at_rest = |body: &pong_model::MovableGroup| {
         State::from_motion(&body.initial_pose.unwrap_or_else(Pose::identity), &Twist::zero())
@@ -41,7 +41,8 @@ pub fn states(active: &Model) -> Vec<Vec<State>> {
     (0..FRAMES).map(frame).collect()
 }
 
-/// The passive side faces the active one, so it is turned over; from petal tips that meet to rings that press.
+/// Pose of the passive side, which is turned over to face the active one, from first contact of petal tips to
+/// pressed rings.
 fn passive(frame: f64) -> Pose {
     let phase = frame / FRAMES as f64 * TAU;
     let wave = |shift: f64| (phase + shift).sin();

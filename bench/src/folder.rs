@@ -1,24 +1,24 @@
-//! A folder of one's own for model files.
+//! A temporary folder for model files.
 
 use crate::terrain::{Source, Terrain};
 use std::path::PathBuf;
 
-/// It goes when it is dropped.
+/// Removed when it is dropped.
 pub struct Folder(PathBuf);
 
 impl Folder {
-    /// An empty one, named after the program.
+    /// Creates an empty folder named after the program.
     ///
     /// # Errors
-    /// It cannot be made.
+    /// The folder cannot be created.
     pub fn new(program: &str) -> std::io::Result<Self> {
         let path = std::env::temp_dir().join(format!("pong_{program}_{}", std::process::id()));
         std::fs::create_dir(&path)?;
         Ok(Self(path))
     }
 
-    /// Writes a terrain: the model file, and the bytes of it and of the mesh file that it names. Another terrain from
-    /// the same kind of file takes its place.
+    /// Writes a terrain as a model file and its mesh file, and returns the path and their bytes. Replaces an
+    /// earlier terrain from the same kind of file.
     ///
     /// # Errors
     /// A file cannot be written.
@@ -37,7 +37,7 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // Nothing to be done about a folder that will not go.
+        // A folder that cannot be removed is left.
         _ = std::fs::remove_dir_all(&self.0);
     }
 }

@@ -1,4 +1,4 @@
-//! A global allocator that counts: bytes held and calls made. The counts are exact, unlike resident memory.
+//! A counting global allocator: bytes held and allocations. The counts are exact, unlike resident memory.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -20,12 +20,12 @@ pub fn peak() -> usize {
     PEAK.load(Relaxed)
 }
 
-/// Starts a new peak from what is held now.
+/// Restarts the peak at the bytes held now.
 pub fn reset_peak() {
     PEAK.store(held(), Relaxed);
 }
 
-/// Calls that took memory, so far.
+/// Allocations so far.
 pub fn calls() -> usize {
     CALLS.load(Relaxed)
 }
@@ -35,7 +35,7 @@ fn took(bytes: usize) {
     PEAK.fetch_max(HELD.fetch_add(bytes, Relaxed) + bytes, Relaxed);
 }
 
-// SAFETY: every call is handed on to `System` as it came; the counters touch no memory of the caller.
+// SAFETY: every call is passed to `System` unchanged; the counters touch no memory of the caller.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         took(layout.size());
@@ -57,7 +57,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// Bytes held now by the account of the C library, memory that engines in C took included.
+/// Bytes held now by the C library's counters, which include engines in C.
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 pub fn held_in_c() -> usize {
     /// `struct mallinfo2` of glibc 2.33 and later.

@@ -6,13 +6,13 @@ use parry3d_f64::transformation::convex_hull;
 use pong_geometry::Vec3;
 use std::f64::consts::PI;
 
-/// Of the ellipsoid on which the vertices lie, m.
+/// Semi-axes of the ellipsoid through the vertices, m.
 pub const SEMI_AXES: [f64; 3] = [0.5, 0.4, 0.3];
 
 /// A convex polyhedron with triangular faces.
 #[derive(Clone)]
 pub struct Hull {
-    /// m
+    /// Vertices, m.
     pub vertices: Vec<Vec3>,
     /// Vertex numbers, counter-clockwise seen from outside.
     pub faces: Vec<[u32; 3]>,
@@ -33,7 +33,7 @@ impl Hull {
         Self { vertices: vertices.iter().map(|v| Vec3::new(v.x, v.y, v.z)).collect(), faces }
     }
 
-    /// A cone of so many sides along z, its rim and its tip where those of the round one are.
+    /// A cone with this many sides along z, with base and tip at those of the round one.
     pub fn cone([base, tip]: [f64; 2], radius: f64, sides: u32) -> Self {
         let rim = |i: u32| {
             let (sine, cosine) = (2.0 * PI * f64::from(i) / f64::from(sides)).sin_cos();

@@ -1,4 +1,4 @@
-//! What the benchmark programs share: scenes, peers on the same scenes, clocks, counters and tables.
+//! Shared parts of the benchmark programs: scenes, peers on the same scenes, clocks, counters and tables.
 
 pub mod berthing;
 pub mod cloud;

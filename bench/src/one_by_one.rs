@@ -1,13 +1,13 @@
-//! Frames timed one by one, by the clock on the wall: for what a mean over a pass would hide.
+//! Single frames timed by the wall clock, for effects that a mean over a pass would hide.
 
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Bytes that are touched between frames, to push all that a frame needs out of the caches.
+/// Bytes touched between frames, to evict all data of a frame from the caches.
 const OTHERS_BYTES: usize = 96 << 20;
 const CACHE_LINE: usize = 64;
 
-/// What the rest of a simulation does to the caches between two frames.
+/// Cache pollution by the rest of a simulation between two frames.
 pub struct Others(Vec<u8>);
 
 impl Default for Others {
@@ -26,21 +26,21 @@ impl Others {
     }
 }
 
-/// How long it takes, s.
+/// Duration of some work, s.
 pub fn seconds(work: impl FnOnce()) -> f64 {
     let start = Instant::now();
     work();
     start.elapsed().as_secs_f64()
 }
 
-/// A quantile of numbers in any order, 0…1; the greatest at 1.
+/// Quantile 0…1 of numbers in any order; the greatest at 1.
 pub fn quantile(values: &mut [f64], share: f64) -> f64 {
     values.sort_by(f64::total_cmp);
     let index = ((values.len() as f64 * share) as usize).min(values.len().saturating_sub(1));
     values.get(index).copied().unwrap_or(f64::NAN)
 }
 
-/// The middles of the earlier and of the later half of what was measured, the smaller first. Sorts each half.
+/// Medians of the earlier and of the later half of the measurements, the smaller first. Sorts each half.
 pub fn middles_of_halves(values: &mut [f64]) -> [f64; 2] {
     let (earlier, later) = values.split_at_mut(values.len() / 2);
     let [a, b] = [earlier, later].map(|half| quantile(half, 0.5));

@@ -1,11 +1,11 @@
-//! A world that has what none of its models uses: what that costs must not be measurable.
+//! A world with registered extensions that none of its models uses; their cost must not be measurable.
 
 use crate::rig;
 use pong_engine::{Laws, NormalForce, NormalInput, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use std::sync::Arc;
 
-/// A law that no surface names.
+/// A law that no surface uses.
 #[derive(Debug)]
 struct Unused;
 
@@ -19,7 +19,7 @@ impl NormalForce for Unused {
     }
 }
 
-/// A world with laws, tests of primitives and tests of volumes that belong to kinds no model has.
+/// A world with laws, tests of primitives and tests of volumes for kinds that no model has.
 pub fn world_with_unused() -> WorldBuilder {
     let mut extensions = Extensions::new();
     extensions.add_contact_test("Gadget", "Gizmo", Arc::new(|_, _, _| None));

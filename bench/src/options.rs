@@ -2,18 +2,18 @@
 
 use std::path::PathBuf;
 
-/// What the user asked for.
+/// Options of a benchmark program.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Small scenes and few frames: does it run at all?
+    /// Small scenes and few frames, as a smoke test.
     pub smoke: bool,
-    /// Rounds; in each everything runs once.
+    /// Number of rounds, in each of which everything runs once.
     pub rounds: usize,
-    /// Without the peers: for profilers.
+    /// Runs without the peers, for profilers.
     pub alone: bool,
-    /// Only the scene of this number, from 0.
+    /// Index of the only scene to run, from 0.
     pub only: Option<usize>,
-    /// A folder for files, where a program writes any.
+    /// Folder for output files, if the program writes any.
     pub into: Option<PathBuf>,
 }
 
@@ -43,7 +43,7 @@ impl Options {
         Ok(options)
     }
 
-    /// Whether the scene of this number is wanted.
+    /// True if the scene of this index should run.
     pub fn wants(&self, scene: usize) -> bool {
         self.only.is_none_or(|only| only == scene)
     }

@@ -1,5 +1,5 @@
-//! One pair per query by the testers of pong-geometry, as the engine uses them: A is carried into B's frame and tested
-//! there.
+//! One pair per query by the testers of pong-geometry, as the engine uses them: A is transformed to B's frame
+//! and tested there.
 
 use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, Target};
 use crate::peer::PairPeer;
@@ -33,7 +33,7 @@ use pong_geometry::simd::{self, Kernel, LANES, Simd};
 use pong_geometry::{Lanes, Mat3, Pose, Transform, Vec3};
 use pong_model::{Model, MovableGroup};
 
-/// The testers on one pair.
+/// Testers of one pair.
 pub struct Ours {
     mover: Mover,
     kind: PrimitiveKind,
@@ -73,7 +73,7 @@ fn ray() -> Ray {
 }
 
 impl Ours {
-    /// For one pair.
+    /// Prepares the testers of one pair.
     ///
     /// # Panics
     /// If the model of the target is refused.
@@ -88,7 +88,7 @@ impl Ours {
         &self.model.bodies[0]
     }
 
-    /// Whether the two touch.
+    /// True if the two touch.
     pub fn touches(&self, x_ba: &Transform) -> bool {
         let mut answers = [Answer::default()];
         self.test_all(&OneElement([*x_ba]), &mut answers);
@@ -101,7 +101,7 @@ impl Ours {
     }
 }
 
-/// The movers of a pass, each in the target's frame.
+/// Movers of a pass, each in the target's frame.
 trait Movers {
     fn point(&self, i: usize) -> Point;
     fn segment(&self, i: usize) -> LineSegment;
@@ -113,7 +113,7 @@ trait Movers {
     fn cone(&self, i: usize) -> Frustum;
 }
 
-/// One element of A, at a pose of its own in every query.
+/// One element of A, with a separate pose in every query.
 trait Poses {
     fn x_ba(&self, i: usize) -> Transform;
 }
@@ -177,13 +177,13 @@ impl<P: Poses> Movers for P {
     }
 }
 
-/// Elements of one movable group A, each placed where a query has its mover, and the one pose of A in B's frame.
+/// Elements of one movable group A, each placed where a query has its mover, and one pose of A in B's frame.
 pub struct Elements {
-    /// Where each element is in A's frame.
+    /// Pose of each element in A's frame.
     pub placed: Vec<Pose>,
-    /// Their origins in A's frame, m.
+    /// Origins of the elements in A's frame, m.
     pub positions: Vec<Vec3>,
-    /// The pose of A in B's frame.
+    /// Pose of A in B's frame.
     pub pose_ba: Pose,
     points: Vec<Point>,
     segments: Vec<LineSegment>,
@@ -197,9 +197,9 @@ pub struct Elements {
 }
 
 impl Elements {
-    /// Those of the queries, in their order.
+    /// Builds the elements of the queries, in their order.
     pub fn new(queries: &Queries) -> Self {
-        // Any pose does; a turned one, so that nothing is multiplied by zero and one alone.
+        // Any pose will do; a rotation avoids trivial products with zero and one.
         let pose_ba = Pose::new(Vec3::new(0.3, -0.2, 0.1), [0.8, 0.1, -0.5, 0.3]);
         let x_ab = pose_ba.inverse();
         let placed: Vec<Pose> =
@@ -264,7 +264,7 @@ impl Movers for Elements {
     }
 }
 
-/// All queries in one kernel, as the engine has all elements of a block in one.
+/// All queries in one kernel, as the engine tests all elements of a block in one.
 struct Pass<'a, M> {
     mover: Mover,
     kind: PrimitiveKind,
@@ -357,7 +357,7 @@ impl<M: Movers> Pass<'_, M> {
         }
     }
 
-    /// Eight points at a time against all faces; then those inside, one by one, as of a first contact.
+    /// Tests eight points at a time against all faces; then those inside one by one, as first contacts.
     #[inline(always)]
     fn points_in_hull<S: Simd>(self, simd: S) {
         let b = &self.body.polyhedra[0];
@@ -377,7 +377,7 @@ impl<M: Movers> Pass<'_, M> {
         }
     }
 
-    /// Eight segments at a time; then those that no face keeps out, one by one.
+    /// Tests eight segments at a time; then those not separated by a face, one by one.
     #[inline(always)]
     fn segments_in_hull<S: Simd>(self, simd: S) {
         let b = &self.body.polyhedra[0];
@@ -397,7 +397,7 @@ impl<M: Movers> Pass<'_, M> {
         }
     }
 
-    /// Eight centres at a time; then those that no face keeps apart, one by one, as of a first contact.
+    /// Tests eight centres at a time; then those not separated by a face, one by one, as first contacts.
     #[inline(always)]
     fn spheres_on_hull<S: Simd>(self, simd: S) {
         let b = &self.body.polyhedra[0];
@@ -415,7 +415,7 @@ impl<M: Movers> Pass<'_, M> {
         }
     }
 
-    /// Each sphere is carried by itself; those near triangles wait until there are eight pairs, as in the engine.
+    /// Transforms each sphere alone; those near triangles are collected in eights, as in the engine.
     #[inline(always)]
     fn spheres_on_triangle<S: Simd>(self, simd: S) {
         let b = &self.body.triangles;
@@ -518,12 +518,12 @@ fn sphere_on_hull(a: &Sphere, b: &Polyhedron) -> Option<Interference> {
     }
 }
 
-/// A point is a ball of no size.
+/// A point as a sphere of radius zero.
 fn ball(point: &Point) -> Sphere {
     Sphere { center: point.position, radius: 0.0 }
 }
 
-/// The balls at the ends, and the edges that the axis crosses between them.
+/// A capsule as the spheres at its ends and the edges that its axis crosses between them.
 fn capsule_on_hull(a: &Capsule, b: &Polyhedron) -> Option<Interference> {
     let at_hull = CapsuleAtPiece::new(a, b)?;
     let mut found = deepest(balls(a).iter().map(|ball| sphere_on_hull(ball, b)));
@@ -550,7 +550,7 @@ fn deepest(found: impl IntoIterator<Item = Option<Interference>>) -> Option<Inte
     found.into_iter().flatten().max_by(|a, b| a.depth.total_cmp(&b.depth))
 }
 
-/// Compared where they are: to move them first takes longer than to compare them.
+/// The deeper one, compared in place: moving them first is slower.
 fn deepest_of_both(found: &[Option<Interference>; 2]) -> Option<Interference> {
     found.iter().flatten().max_by(|a, b| a.depth.total_cmp(&b.depth)).copied()
 }
@@ -563,7 +563,7 @@ fn deepest_in_bore(found: EndsInBore) -> Option<Interference> {
     deepest(found.into_iter().flatten())
 }
 
-/// What a test that may emit several contacts emits last.
+/// The last contact of a test that may emit several.
 #[inline(always)]
 fn last(test: impl FnOnce(&mut dyn FnMut(TriangleContact))) -> Option<Interference> {
     let mut found = None;

@@ -1,5 +1,5 @@
-//! One pair of primitives per query: which pairs, at which poses, and what an answer is. W1 takes some of them, the
-//! benchmark of testers all.
+//! One pair of primitives per query: kinds, poses and the form of an answer. W1 uses some of the pairs, the
+//! tester benchmark all.
 
 use crate::hull::{self, Hull, TRIANGLE};
 use crate::random::{Random, rotation};
@@ -14,51 +14,52 @@ pub const RADIUS: f64 = 0.1;
 pub const SEMI_AXES: [f64; 3] = [0.2, 0.12, 0.08];
 /// Half the length of the segment, which lies along z, m.
 pub const HALF_LENGTH: f64 = 0.25;
-/// The ray: origin, direction and length, m. Long enough to begin and end outside everything.
+/// The ray: origin, direction and length, m, long enough to begin and end outside everything.
 pub const RAY: ([f64; 3], [f64; 3], f64) = ([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], 2.0);
 /// Vertices of the hulls: 12, 32 and 128 faces.
 pub const HULLS: [usize; 3] = [8, 18, 66];
-/// Radius of the sphere that is a target, m.
+/// Radius of the target sphere, m.
 pub const TARGET_RADIUS: f64 = 0.3;
-/// Half the length of the round parts that move, which lie along z, m; their radius is [`RADIUS`], that of a cone's end 1 half.
+/// Half the length of the moving round parts along z, m; their radius is [`RADIUS`], half of it at end 1 of a
+/// cone.
 pub const ROUND_HALF_LENGTH: f64 = 0.15;
-/// Ends, m, on z, and radius, m, of the round parts that are targets. A cone comes to a point at its end 1: parry has no
-/// other.
+/// Ends on z, m, and radius, m, of the target round parts. A cone is pointed at its end 1, the only kind in
+/// parry.
 pub const TARGET_ROUND: ([f64; 2], f64) = ([-0.3, 0.3], 0.3);
-/// Half the length and radius of the hole that is a target, m: every mover fits in.
+/// Half the length and radius of the target hole, m: every mover fits in.
 pub const HOLE: (f64, f64) = (8.0, 3.0);
-/// How far below a plane the movers start from, m: less than a ray reaches above its middle.
+/// Start depth of the movers below a plane, m: less than a ray reaches above its middle.
 const BELOW_PLANE: f64 = 0.2;
 /// Depths of the hits and gaps of the misses, m.
 const DEPTHS: (f64, f64) = (0.005, 0.1);
 const GAPS: (f64, f64) = (0.005, 0.3);
 
-/// The primitive that moves.
+/// The moving primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mover {
-    /// At its own origin.
+    /// A point at its own origin.
     Point,
-    /// [`HALF_LENGTH`]
+    /// See [`HALF_LENGTH`].
     Segment,
-    /// [`RAY`]
+    /// See [`RAY`].
     Ray,
-    /// [`RADIUS`]
+    /// See [`RADIUS`].
     Sphere,
-    /// [`SEMI_AXES`]
+    /// See [`SEMI_AXES`].
     Ellipsoid,
-    /// [`ROUND_HALF_LENGTH`]
+    /// See [`ROUND_HALF_LENGTH`].
     Capsule,
-    /// [`ROUND_HALF_LENGTH`]
+    /// See [`ROUND_HALF_LENGTH`].
     Cylinder,
-    /// [`ROUND_HALF_LENGTH`]
+    /// See [`ROUND_HALF_LENGTH`].
     Cone,
 }
 
-/// The primitive in whose frame is asked.
+/// The target primitive, in whose frame the query is made.
 pub enum Target {
     /// A convex polyhedron.
     Hull(Hull),
-    /// [`TRIANGLE`], from its front.
+    /// The front of [`TRIANGLE`].
     Triangle,
     /// A sphere.
     Sphere,
@@ -66,13 +67,13 @@ pub enum Target {
     Ellipsoid,
     /// The half space below z = 0.
     Plane,
-    /// [`TARGET_ROUND`]
+    /// See [`TARGET_ROUND`].
     Capsule,
-    /// [`TARGET_ROUND`]
+    /// See [`TARGET_ROUND`].
     Cylinder,
-    /// [`TARGET_ROUND`]
+    /// See [`TARGET_ROUND`].
     Cone,
-    /// [`HOLE`]: touched from within.
+    /// [`HOLE`], touched from within.
     Bore,
 }
 
@@ -92,7 +93,7 @@ impl Mover {
         })
     }
 
-    /// The kind in the engine's table.
+    /// Kind in the engine's table.
     pub fn kind(self) -> PrimitiveKind {
         match self {
             Self::Point => PrimitiveKind::Point,
@@ -108,7 +109,7 @@ impl Mover {
 }
 
 impl Target {
-    /// The targets of a kind: hulls in three sizes, one of each other kind, none of those that are never B.
+    /// Targets of a kind: hulls in three sizes, one of each other kind, none of kinds that are never B.
     pub fn of(kind: PrimitiveKind) -> Vec<Self> {
         match kind {
             PrimitiveKind::Polyhedron => {
@@ -126,7 +127,7 @@ impl Target {
         }
     }
 
-    /// The kind in the engine's table.
+    /// Kind in the engine's table.
     pub fn kind(&self) -> PrimitiveKind {
         match self {
             Self::Hull(_) => PrimitiveKind::Polyhedron,
@@ -141,7 +142,7 @@ impl Target {
         }
     }
 
-    /// Number of faces, of a hull.
+    /// Number of faces of a hull.
     pub fn faces(&self) -> Option<usize> {
         match self {
             Self::Hull(hull) => Some(hull.faces.len()),
@@ -174,10 +175,10 @@ fn round_model(kind: &str, [one, other]: [f64; 2], radius: &str, value: impl std
     format!("{kind}(name: \"b\", ends: ((0, 0, {one:?}), (0, 0, {other:?})), {radius}: {value:?})")
 }
 
-/// Every pair of kinds that the engine has a tester for, hulls in three sizes.
+/// Every pair of kinds with a tester in the engine; hulls in three sizes.
 ///
 /// # Panics
-/// If there is no mover or no target of a kind that the engine tests: then there is no benchmark of its tester.
+/// A kind that the engine tests has no mover or no target, so its tester has no benchmark.
 pub fn all() -> Vec<(Mover, Target)> {
     let kinds = PrimitiveKind::ALL;
     let tested = kinds.into_iter().flat_map(|a| kinds.map(|b| (a, b))).filter(|&(a, b)| has_tester(a, b));
@@ -195,30 +196,31 @@ fn of_kinds(a: PrimitiveKind, b: PrimitiveKind) -> impl Iterator<Item = (Mover, 
     mover.into_iter().cycle().zip(targets)
 }
 
-/// Pairs of poses in a common frame, in the forms that engines take, in an order that can be made anew.
+/// Pairs of poses in a common frame, in the forms that engines take, in an order that can be shuffled.
 pub struct Queries {
-    /// Of the mover and of the target, in the common frame.
+    /// Poses of the mover and of the target, in the common frame.
     pub poses: Vec<[Pose; 2]>,
-    /// Of the target, for engines whose cylinders lie along y: by [`along_y`].
+    /// Poses of the target for engines whose cylinders lie along y, see [`along_y`].
     pub along_y: Vec<Pose>,
-    /// The same as `poses` for engines in C: of each a position, m, and a quaternion (w, x, y, z).
+    /// The `poses` for engines in C: a position, m, and a quaternion (w, x, y, z) each.
     pub numbers: Vec<[[f64; 7]; 2]>,
-    /// Of the mover in the target's frame.
+    /// Poses of the mover in the target's frame.
     pub transforms: Vec<Transform>,
-    /// Whether they touch, by construction.
+    /// True for pairs that touch, by construction.
     pub hits: Vec<bool>,
     shuffles: Random,
 }
 
-/// The deepest contact, if there is one: as an engine in C writes it. In the target's frame, or the common one.
+/// The deepest contact, if there is one, in the layout of engines in C; in the target's frame or the common
+/// one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Answer {
-    /// Depth; for rays the distance along the ray, m. Zero: no contact.
+    /// Depth; for rays the distance along the ray, m; zero for no contact.
     pub depth: f64,
     /// Unit normal from the target to the mover.
     pub normal: [f64; 3],
-    /// A point of the contact, m; which one is each engine's own choice.
+    /// A point of the contact, m; each engine chooses its own.
     pub point: [f64; 3],
 }
 
@@ -228,18 +230,18 @@ impl Answer {
         Self { depth, normal: normal.into(), point: point.into() }
     }
 
-    /// Whether there is a contact.
+    /// True if there is a contact.
     pub fn hit(&self) -> bool {
         self.depth > 0.0
     }
 }
 
-/// How far from the origin of the common frame a target may lie along each axis, m.
+/// Largest distance of a target from the origin of the common frame along each axis, m.
 const TARGET_PLACES: f64 = 2.0;
 
 impl Queries {
-    /// `count` pairs of poses in random order: half overlap by 5 to 100 mm along a random line, half are 5 to 300 mm
-    /// apart. `touches` says whether the two touch; it is only asked where they begin to.
+    /// `count` pairs of poses in random order: half overlap by 5 to 100 mm along a random line, half are 5 to
+    /// 300 mm apart. `touches` tests for contact; it is used only to find its onset.
     pub fn new(count: usize, mover: Mover, target: &Target, touches: impl Fn(&Transform) -> bool) -> Self {
         let mut random = Random(0x7731 + count as u64);
         let hits: Vec<bool> = (0..count).map(|i| i % 2 == 0).collect();
@@ -268,8 +270,8 @@ impl Queries {
         self.transforms.push(Pose::relative(&poses[0], &poses[1]).transform());
     }
 
-    /// Another order. In one order the branch predictor learns hits and misses by heart from pass to pass, which no
-    /// frame of a simulation allows it.
+    /// Shuffles the order. In a fixed order the branch predictor learns the hits and misses from pass to
+    /// pass, which no frame of a simulation allows.
     pub fn shuffle(&mut self) {
         for i in (1..self.hits.len()).rev() {
             let j = self.shuffles.between(0.0, (i + 1) as f64) as usize;
@@ -282,7 +284,7 @@ impl Queries {
     }
 }
 
-/// A frame whose y axis is the z axis of ours: its x, y and z are our y, z and x. Seen from ours.
+/// Pose, in our frame, of a frame whose y axis is our z axis: its x, y and z are our y, z and x.
 pub fn along_y() -> Pose {
     Pose::new(Vec3::zeros(), [0.5; 4])
 }
@@ -309,21 +311,21 @@ fn pose(
     let middle = middle(random, target);
     let at = |along: f64| Pose { position: middle + line * along, orientation };
     match target {
-        // What is in a hole begins to touch where it goes outward.
+        // A body in a hole begins to touch on its way outward.
         Target::Bore => place(random, !hit, at, |x| !touches(x)),
         _ => place(random, hit, at, touches),
     }
 }
 
-/// A pose along a line on which two convex bodies, overlapping where it begins, part within 4 m: 5 to 100 mm before
-/// they part, or 5 to 300 mm after.
+/// A pose along a line on which two convex bodies, overlapping at its start, separate within 4 m: 5 to 100 mm
+/// before they separate, or 5 to 300 mm after.
 pub fn place(
     random: &mut Random,
     hit: bool,
     at: impl Fn(f64) -> Pose,
     touches: impl Fn(&Transform) -> bool,
 ) -> Pose {
-    // Convex bodies overlap along one stretch of a line: from the middle out to where they just touch.
+    // Convex bodies overlap along one interval of a line: from the middle outward to first contact.
     let (mut inside, mut outside) = (0.0, 4.0);
     for _ in 0..60 {
         let half = 0.5 * (inside + outside);
@@ -335,10 +337,10 @@ pub fn place(
     })
 }
 
-/// The line along which the mover comes, made to suit the pair; `None` if it cannot be.
+/// Line of approach of the mover, adapted to the pair; `None` if it is unusable.
 ///
-/// A ray is moved across itself, so that its line hits or misses, wherever it ends; over a plane it is lifted. Planes
-/// and triangles are met from the front, by rays within 60° of their normal.
+/// A ray moves sideways, so that its line hits or misses wherever it ends; over a plane it is lifted. Planes
+/// and triangles are approached from the front, by rays within 60° of their normal.
 fn usable_line(mover: Mover, target: &Target, orientation: &Quat, line: Vec3) -> Option<Vec3> {
     let one_sided = matches!(target, Target::Triangle | Target::Plane);
     let upward = Vec3::new(line.x, line.y, line.z.abs());
@@ -352,14 +354,14 @@ fn usable_line(mover: Mover, target: &Target, orientation: &Quat, line: Vec3) ->
     match (mover, target) {
         (_, Target::Plane) => (upward.z > 0.5).then_some(upward),
         (Mover::Ray, _) => Some((line - direction * line.dot(&direction)).normalize()),
-        // A capsule that lies on it: beside a thin triangle one that stands has its lower end soon behind it.
+        // A capsule that lies flat: beside a thin triangle the lower end of an upright one is soon behind it.
         (Mover::Capsule, Target::Triangle) => (direction.z.abs() < 0.3 && upward.z > 0.5).then_some(upward),
         (_, Target::Triangle) => Some(upward),
         _ => Some(line),
     }
 }
 
-/// Across the axis of a hole; a ray leaves it ahead.
+/// Direction across the axis of a hole; a ray leaves it ahead.
 fn outward_line(mover: Mover, direction: &Vec3, line: &Vec3) -> Option<Vec3> {
     let across = Vec3::new(line.x, line.y, 0.0).try_normalize(0.1)?;
     (mover != Mover::Ray || direction.dot(&across) > 0.3).then_some(across)

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 /// One plot.
 pub struct Panel {
-    /// What is along x.
+    /// Label of the x axis.
     pub x: &'static str,
     /// Lines: a name, then points (x, y), both above zero.
     pub lines: Vec<(String, Vec<(f64, f64)>)>,
@@ -12,14 +12,14 @@ pub struct Panel {
 
 const WIDTH: f64 = 300.0;
 const HEIGHT: f64 = 220.0;
-/// Room left of, above and below each plot.
+/// Margins left of, above and below each plot.
 const MARGIN: (f64, f64, f64) = (58.0, 26.0, 46.0);
 /// Room below for the names of the lines.
 const LEGEND: f64 = 18.0;
-/// Colours that are told apart by people who see red and green alike.
+/// Colours that are distinguishable with red-green colour blindness.
 const COLORS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 
-/// All panels in one file; `y` is along y.
+/// All panels in one SVG file; `y` is the label of the y axis.
 pub fn svg(panels: &[Panel], y: &str) -> String {
     let (left, above, below) = MARGIN;
     let names = panels.iter().map(|panel| panel.lines.len()).max().unwrap_or(0) as f64;
@@ -46,7 +46,7 @@ struct Axis {
 }
 
 impl Axis {
-    /// From a power of ten, or of two where that is enough, to one.
+    /// Axis between powers of ten, or of two where that suffices.
     fn around(values: impl Iterator<Item = f64> + Clone, length: f64) -> Self {
         let low = values.clone().fold(f64::INFINITY, f64::min).log10();
         let high = values.fold(0.0, f64::max).log10();
@@ -55,7 +55,7 @@ impl Axis {
         Self { low, high: high.max(low + step), length }
     }
 
-    /// From the least value to the greatest, with a little room.
+    /// Axis from the least value to the greatest, with a margin.
     fn between(values: impl Iterator<Item = f64> + Clone, length: f64) -> Self {
         let low = values.clone().fold(f64::INFINITY, f64::min).log10();
         let high = values.fold(0.0, f64::max).log10();

@@ -1,8 +1,9 @@
-//! Contenders that run the same pass in turn: in every round each once, so that what else the machine does meets all.
+//! Contenders that run the same pass in turn, each once per round, so that disturbances by the machine affect
+//! all alike.
 
 use crate::timing::{Clock, Ratios, Times};
 
-/// What runs against what.
+/// Contenders and settings of a race.
 pub struct Race<'a> {
     contenders: Vec<Contender<'a>>,
     warm_ups: usize,
@@ -10,7 +11,7 @@ pub struct Race<'a> {
 
 struct Contender<'a> {
     name: String,
-    /// What comes before every pass and is not timed.
+    /// Untimed preparation of every pass.
     prepare: Box<dyn FnMut() + 'a>,
     pass: Box<dyn FnMut(usize) + 'a>,
 }
@@ -22,28 +23,28 @@ impl Default for Race<'_> {
 }
 
 impl<'a> Race<'a> {
-    /// A race without contenders, with one pass to warm up before each that counts.
+    /// A race without contenders, with one warm-up pass before each counted one.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// A race with so many passes to warm up before each that counts: for scenes that the contenders before have
-    /// pushed out of the caches, and that one pass does not bring back.
+    /// A race with several warm-up passes before each counted one: for scenes that other contenders evict
+    /// from the caches and that one pass does not bring back.
     pub fn with_warm_ups(warm_ups: usize) -> Self {
         Self { warm_ups, ..Self::default() }
     }
 
-    /// One more contender: its name in the table, and one whole pass.
+    /// Adds a contender: its name in the table, and one whole pass.
     pub fn enter(&mut self, name: &str, pass: impl FnMut() + 'a) {
         self.enter_prepared(name, || (), pass);
     }
 
-    /// One more contender, with what comes before each of its passes and is not timed.
+    /// Adds a contender with an untimed preparation of each pass.
     pub fn enter_prepared(&mut self, name: &str, prepare: impl FnMut() + 'a, mut pass: impl FnMut() + 'a) {
         self.enter_boxed(name, Box::new(prepare), Box::new(move |_| pass()));
     }
 
-    /// One more contender, which is told the number of the round: for one that is of several equals in turn.
+    /// Adds a contender whose pass takes the number of the round, to choose among equal instances in turn.
     pub fn enter_in_turn(&mut self, name: &str, pass: impl FnMut(usize) + 'a) {
         self.enter_boxed(name, Box::new(|| ()), Box::new(pass));
     }
@@ -52,9 +53,9 @@ impl<'a> Race<'a> {
         self.contenders.push(Contender { name: name.to_owned(), prepare, pass });
     }
 
-    /// Runs `rounds` rounds. In each, every contender warms up and then runs the pass that counts: so its data are back
-    /// in the caches that the contender before it has filled, and all are measured alike. `items` is what a pass is
-    /// shared among: frames, queries.
+    /// Runs `rounds` rounds. In each, every contender warms up, which restores its data to the caches that
+    /// the contender before has filled, and then runs the counted pass. `items` is the number of frames or
+    /// queries in a pass.
     pub fn run(mut self, rounds: usize, items: usize) -> Outcome {
         let mut times: Vec<Times> = self.contenders.iter().map(|_| Times::new(items)).collect();
         for round in 0..rounds {

@@ -1,10 +1,10 @@
-//! Random numbers of the scenes: every run has the same ones.
+//! Random numbers of the scenes, the same in every run.
 
 use pong_geometry::{Pose, Quat, Vec3};
 
 pub use pong_testkit::Random;
 
-/// An orientation, every one as likely.
+/// A uniformly distributed orientation.
 pub fn rotation(random: &mut Random) -> Quat {
     loop {
         let wxyz: [f64; 4] = std::array::from_fn(|_| random.between(-1.0, 1.0));

@@ -12,9 +12,9 @@ use std::sync::{Arc, OnceLock};
 pub struct Rig {
     /// The world.
     pub world: World,
-    /// What sealing told.
+    /// Report of sealing.
     pub report: SealReport,
-    /// The pairs, in the order in which they were named.
+    /// Pairs, in the order of naming.
     pub pairs: Vec<PairId>,
     states: Vec<(InterfaceId, State)>,
     wrenches: Vec<f64>,
@@ -31,15 +31,15 @@ impl Rig {
     /// A world of one Object per model, with some of them paired.
     ///
     /// # Errors
-    /// Whatever the engine refuses.
+    /// Any error of the engine.
     pub fn new(models: &[Arc<Model>], pairs: &[(usize, usize)], threads: usize) -> Result<Self, EngineError> {
         Self::in_world(WorldBuilder::new(config(threads)), models, pairs)
     }
 
-    /// As [`new`](Self::new), in a world that was made for it.
+    /// As [`new`](Self::new), in the world of `builder`.
     ///
     /// # Errors
-    /// Whatever the engine refuses.
+    /// Any error of the engine.
     pub fn in_world(
         builder: WorldBuilder,
         models: &[Arc<Model>],
@@ -48,8 +48,9 @@ impl Rig {
         Unsealed::new(builder, models, pairs)?.seal()
     }
 
-    /// One whole frame: states in (of all movable groups of all Objects, or of the first so many), forces and
-    /// friction, contact state kept, wrenches out, those of the movable groups whose states came in.
+    /// Runs one whole frame: sets states (of all movable groups of all Objects, or of the first ones),
+    /// computes forces and friction, commits, and returns the wrenches of the movable groups whose states
+    /// were set.
     ///
     /// # Panics
     /// If the engine refuses the states.
@@ -60,7 +61,7 @@ impl Rig {
         self.read(states.len())
     }
 
-    /// States in.
+    /// Sets states.
     ///
     /// # Panics
     /// If the engine refuses them.
@@ -71,7 +72,7 @@ impl Rig {
         self.world.set_states(known).expect("finite states");
     }
 
-    /// Wrenches out, of the first so many movable groups.
+    /// Returns the wrenches of the first `groups` movable groups.
     ///
     /// # Panics
     /// If no frame has run.
@@ -91,7 +92,7 @@ impl Unsealed {
     /// Objects in a world, one per model, with some of them paired.
     ///
     /// # Errors
-    /// Whatever the engine refuses.
+    /// Any error of the engine.
     pub fn new(
         mut builder: WorldBuilder,
         models: &[Arc<Model>],
@@ -121,7 +122,7 @@ impl Unsealed {
     /// Ends set-up.
     ///
     /// # Errors
-    /// Whatever the engine refuses.
+    /// Any error of the engine.
     pub fn seal(self) -> Result<Rig, EngineError> {
         let Self { builder, pairs, states } = self;
         let (world, report) = builder.seal()?;
@@ -141,8 +142,8 @@ impl Peer for Rig {
     }
 }
 
-/// Settings of a world that runs on so many threads, the caller's among them. Workers that outnumber the cores are
-/// allowed; those that do not are bound to cores of their own, as [`bind_caller`] binds the caller.
+/// Settings of a world on this many threads, including the caller's. More workers than cores are allowed;
+/// otherwise workers are bound to separate cores, as [`bind_caller`] binds the caller.
 pub fn config(threads: usize) -> Config {
     let cores = cores();
     let workers = (threads > 1).then(|| WorkerSettings {
@@ -160,14 +161,14 @@ pub fn thread_counts(most: usize) -> impl Iterator<Item = usize> {
     std::iter::successors(Some(1), |count| Some(2 * count)).take_while(move |&count| count <= most)
 }
 
-/// Binds the calling thread to the first core that it may use, beside which the workers of [`config`] have theirs.
+/// Binds the calling thread to the first core of its mask; the workers of [`config`] use the others.
 pub fn bind_caller() {
     if let Some(&id) = cores().first() {
         core_affinity::set_for_current(CoreId { id });
     }
 }
 
-/// The cores that this process may use, or might when it began.
+/// The cores that this process was allowed to use when it began.
 fn cores() -> &'static [usize] {
     static CORES: OnceLock<Vec<usize>> = OnceLock::new();
     CORES.get_or_init(|| {
@@ -181,7 +182,7 @@ fn cores() -> &'static [usize] {
 pub struct Fingerprint(Fnv);
 
 impl Fingerprint {
-    /// Takes numbers in.
+    /// Adds numbers to the hash.
     pub fn add(&mut self, numbers: &[f64]) {
         self.0.numbers(numbers.iter().copied());
     }

@@ -1,7 +1,7 @@
 //! W2, the docking ring: wedges on a ring of radius 0.6 m on one body, many small tips around it on the other.
 //!
-//! Both bodies move and turn; against each other they move by a few millimetres and milliradians. The motion
-//! closes after [`FRAMES`], so that passes can follow one another.
+//! Both bodies move and turn; relative to each other they move by a few millimetres and milliradians. The
+//! motion closes after [`FRAMES`], so that passes can follow one another.
 
 use crate::motion::state;
 use crate::random::Random;
@@ -14,31 +14,31 @@ use std::f64::consts::TAU;
 pub const SIZES: [(usize, usize); 3] = [(12, 200), (48, 1000), (96, 5000)];
 /// A ring with work for many cores.
 pub const LARGE: (usize, usize) = (96, 50_000);
-/// All of these, the smallest first, or that one alone.
+/// All sizes from the smallest to [`LARGE`], or only the smallest for a smoke test.
 pub fn sizes(smoke: bool) -> impl Iterator<Item = (usize, usize)> {
     SIZES.into_iter().chain([LARGE]).take(if smoke { 1 } else { usize::MAX })
 }
 
 /// Frames of one pass.
 pub const FRAMES: usize = 64;
-/// Radius of a tip that is a sphere, m.
+/// Radius of a spherical tip, m.
 pub const TIP_RADIUS: f64 = 2e-3;
 /// Vertex numbers of a wedge's faces, counter-clockwise seen from outside.
 pub const WEDGE_FACES: [[u32; 4]; 6] =
     [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 
 const RING_RADIUS: f64 = 0.6;
-/// Share of the ring that wedges fill at their foot.
+/// Share of the ring that wedges fill at their base.
 const FILLED: f64 = 0.6;
 const WEDGE_HEIGHT: f64 = 0.1;
 const HALF_THICKNESS: f64 = 0.015;
-/// How far a wedge's top leans outward, m.
+/// Outward lean of a wedge's top, m.
 const FLARE: f64 = 0.03;
-/// Width and thickness of a wedge's top over those of its foot.
+/// Width and thickness of a wedge's top, relative to its base.
 const TAPER: [f64; 2] = [0.8, 0.6];
 const FRAME_SECONDS: f64 = 0.01;
 
-/// What the tips are.
+/// Kind of the tips.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tip {
     /// Spheres of [`TIP_RADIUS`].
@@ -56,7 +56,7 @@ impl Tip {
 
 /// The scene, each body in its own frame.
 pub struct Ring {
-    /// Corners of the wedges; the bits of a corner's number say outward, forward, up.
+    /// Corners of the wedges; the bits of a corner's index select outward, forward, up.
     pub wedges: Vec<[Vec3; 8]>,
     /// Centres of the tips.
     pub tips: Vec<Vec3>,
@@ -112,7 +112,7 @@ fn wedge(angle: f64, count: usize) -> [Vec3; 8] {
     })
 }
 
-/// A place in the zone around the ring of which the wedges fill some 3 %.
+/// A point in the zone around the ring, of which the wedges fill about 3 %.
 fn tip(random: &mut Random) -> Vec3 {
     let angle = random.between(0.0, TAU);
     let radius = RING_RADIUS + random.between(-0.085, 0.115);

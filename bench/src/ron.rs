@@ -14,7 +14,7 @@ pub fn model(name: &str, primitives: &str) -> String {
     )
 }
 
-/// A vector, to the last bit.
+/// A vector with all digits.
 pub fn vector(v: &Vec3) -> String {
     format!("({:?},{:?},{:?})", v.x, v.y, v.z)
 }

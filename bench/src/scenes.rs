@@ -22,13 +22,13 @@ pub const FIXED: [&str; 4] = ["docking", "ring", "wheels", "contact"];
 /// States of all movable groups, frame by frame.
 pub type Frames = Vec<Vec<State>>;
 
-/// A scene before there is a world: one Object per model, some of them paired, and a path that closes.
+/// A scene before a world exists: one Object per model, some of them paired, and a closed path.
 pub struct Scene {
-    /// One per Object.
+    /// Models, one per Object.
     pub models: Vec<Arc<Model>>,
-    /// Objects that may touch.
+    /// Pairs of Objects that may touch.
     pub pairs: Vec<(usize, usize)>,
-    /// A pass.
+    /// States of a pass.
     pub states: Frames,
 }
 
@@ -37,7 +37,7 @@ impl Scene {
     /// plane.
     ///
     /// # Errors
-    /// A name that is none of them, or what a model breaks.
+    /// Unknown name, or a fault of a model.
     pub fn fixed(name: &str) -> Result<Self, Box<dyn Error>> {
         match name {
             "docking" => Self::docking(),
@@ -52,7 +52,7 @@ impl Scene {
     /// The docking model.
     ///
     /// # Errors
-    /// What a model breaks.
+    /// A fault of a model.
     pub fn docking() -> Result<Self, Box<dyn Error>> {
         let models = docking::models()?;
         let states = docking::states(&models[0]);
@@ -62,7 +62,7 @@ impl Scene {
     /// The berthing mechanism: both halves and four indicators.
     ///
     /// # Errors
-    /// What a model breaks.
+    /// A fault of a model.
     pub fn berthing() -> Result<Self, Box<dyn Error>> {
         let models = berthing::models()?;
         let states = berthing::states(&models);
@@ -72,10 +72,10 @@ impl Scene {
         Ok(Self { models: objects.collect(), pairs: pairs.collect(), states })
     }
 
-    /// W7: so many spheres, all paired with all.
+    /// W7: spheres, all paired with all.
     ///
     /// # Errors
-    /// What a model breaks.
+    /// A fault of a model.
     pub fn cloud(count: usize) -> Result<Self, Box<dyn Error>> {
         Ok(Self {
             models: vec![parse(&cloud::model())?; count],
@@ -84,18 +84,18 @@ impl Scene {
         })
     }
 
-    /// One movable group of primitives and one of others, paired, at rest.
+    /// One movable group of primitives against one of others, paired, at rest.
     ///
     /// # Errors
-    /// What a model breaks.
+    /// A fault of a model.
     pub fn two(a: &str, b: &str, states: [State; 2]) -> Result<Self, Box<dyn Error>> {
         Ok(Self { models: vec![parse(a)?, parse(b)?], pairs: vec![(0, 1)], states: vec![states.to_vec()] })
     }
 
-    /// Spheres of one movable group over a plane of another: 4 mm deep, or so much higher, m.
+    /// Spheres of one movable group over a plane of another: 4 mm deep, raised by `higher`, m.
     ///
     /// # Errors
-    /// If the engine's loader refuses the models, which would be a mistake here.
+    /// The engine's loader refuses the models.
     pub fn spheres_on_plane(count: usize, higher: f64) -> Result<Self, Box<dyn Error>> {
         let sphere = |i: usize| {
             let center = ron::vector(&Vec3::new((i % 8) as f64, (i / 8) as f64, 0.0));
@@ -107,18 +107,18 @@ impl Scene {
         Self::two(&spheres, &plane, [State::from_motion(&placed, &Twist::zero()), State::identity()])
     }
 
-    /// W2.
+    /// Scene of W2.
     ///
     /// # Errors
-    /// What a model breaks.
+    /// A fault of a model.
     pub fn ring(ring: &Ring, tip: Tip) -> Result<Self, Box<dyn Error>> {
         Ok(Self { models: ring_models(ring, tip)?.into(), pairs: vec![(0, 1)], states: ring_states() })
     }
 
-    /// W3: the terrain, and six wheels of which each is paired with it.
+    /// Scene of W3: the terrain, and six wheels that are each paired with it.
     ///
     /// # Errors
-    /// What a model breaks.
+    /// A fault of a model.
     pub fn wheels(terrain: &Terrain, wheel: Wheel) -> Result<Self, Box<dyn Error>> {
         let ground = parse(&terrain.files(Source::Inline).0)?;
         let rolling = parse(&wheel.model())?;
@@ -129,10 +129,10 @@ impl Scene {
         })
     }
 
-    /// The scene in a world that was made for it.
+    /// Builds the scene in the world of `builder`.
     ///
     /// # Errors
-    /// Whatever the engine refuses.
+    /// Any error of the engine.
     pub fn rig(&self, builder: WorldBuilder) -> Result<Rig, EngineError> {
         Rig::in_world(builder, &self.models, &self.pairs)
     }
@@ -141,15 +141,15 @@ impl Scene {
 /// A model from the text of its file.
 ///
 /// # Errors
-/// What the model breaks.
+/// A fault of the model.
 pub fn parse(text: &str) -> Result<Arc<Model>, Box<dyn Error>> {
     Ok(Arc::new(pong_model::parse(text, "scene.ron", None, &Extensions::new())?))
 }
 
-/// W2 on so many threads.
+/// W2 on this many threads.
 ///
 /// # Errors
-/// Whatever the engine refuses.
+/// Any error of the engine.
 pub fn ring(ring: &Ring, tip: Tip, threads: usize) -> Result<Rig, Box<dyn Error>> {
     Ok(Rig::new(&ring_models(ring, tip)?, &[(0, 1)], threads)?)
 }
@@ -157,7 +157,7 @@ pub fn ring(ring: &Ring, tip: Tip, threads: usize) -> Result<Rig, Box<dyn Error>
 /// The two bodies of W2.
 ///
 /// # Errors
-/// What a model breaks.
+/// A fault of a model.
 pub fn ring_models(ring: &Ring, tip: Tip) -> Result<[Arc<Model>; 2], Box<dyn Error>> {
     Ok([parse(&ring.wedge_model())?, parse(&ring.tip_model(tip))?])
 }
@@ -170,7 +170,7 @@ pub fn ring_states() -> Frames {
 /// W3 on one thread.
 ///
 /// # Errors
-/// Whatever the engine refuses.
+/// Any error of the engine.
 pub fn wheels(terrain: &Terrain, wheel: Wheel) -> Result<Rig, Box<dyn Error>> {
     Ok(Scene::wheels(terrain, wheel)?.rig(WorldBuilder::new(crate::rig::config(1)))?)
 }

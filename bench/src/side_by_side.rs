@@ -1,7 +1,7 @@
-//! Two worlds side by side, on a core each: what two cores can do together at best.
+//! Two independent worlds, on a core each: upper bound of the speed-up by two cores.
 //!
-//! Cores may share more than memory: two that are threads of one processor core, or run slower when both are busy, do less
-//! together than twice what one does alone. Two worlds that know nothing of each other have no other reason to be slow.
+//! Cores may share more than memory: two hardware threads of one core, or cores that run slower when both are
+//! busy, do together less than twice the work of one. Two independent worlds have no other reason to be slow.
 
 use crate::rig::{Rig, config};
 use crate::scenes::Frames;
@@ -12,35 +12,35 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// One world for the caller, and one for a worker with a core of its own.
+/// One world for the caller, and one for a worker on its own core.
 pub struct SideBySide {
     pool: Pool,
     worlds: Arc<Worlds>,
 }
 
-/// Both worlds, of which each lane steps its own.
+/// Both worlds; each worker index steps its own.
 struct Worlds {
     lanes: [Mutex<OnPath>; 2],
     path: Frames,
-    /// Frames of the pass that nobody has begun.
+    /// Frames of the pass that have not begun.
     left: AtomicUsize,
 }
 
-/// A world, and which frame of the path it has next.
+/// A world and its next frame of the path.
 struct OnPath {
     rig: Rig,
     next: usize,
 }
 
 impl SideBySide {
-    /// Of two worlds of one thread each, and a path of frames that closes; `None` where there is one core.
+    /// Prepares two worlds of one thread each, and a closed path of frames; `None` on a single core.
     ///
     /// # Errors
-    /// If the system starts no thread.
+    /// The system cannot start a thread.
     pub fn new(rigs: [Rig; 2], path: Frames) -> Result<Option<Self>, StartError> {
         let lanes = rigs.map(|rig| Mutex::new(OnPath { rig, next: 0 }));
         let worlds = Arc::new(Worlds { lanes, path, left: AtomicUsize::new(0) });
-        // A pass is over when all of its frames are.
+        // A pass ends when all of its frames have.
         let worker_timeout = Duration::from_secs(1);
         let settings = config(2).workers.unwrap_or_default();
         let settings = WorkerSettings { oversubscribe: false, worker_timeout, ..settings };
@@ -48,10 +48,11 @@ impl SideBySide {
         Ok((pool.workers() == 1).then_some(Self { pool, worlds }))
     }
 
-    /// As many frames as the path has, shared out: whoever is ready begins the next one of its own world.
+    /// Runs the frames of the path once, shared dynamically: whoever is ready begins the next one in its own
+    /// world.
     ///
     /// # Panics
-    /// If the worker does not come back.
+    /// The worker does not return.
     pub fn pass(&mut self) {
         self.worlds.left.store(self.worlds.path.len(), Relaxed);
         let lanes = self.worlds.lanes.len() as u32;
@@ -60,7 +61,7 @@ impl SideBySide {
 }
 
 impl Job for Worlds {
-    /// Runs frames until none is left: a block for each lane, however few frames it comes in time for.
+    /// Runs frames until none is left: one block per worker, however few frames it gets.
     fn run(&self, _block: u32, lane: usize) {
         let mut own = self.lanes[lane].lock().unwrap_or_else(PoisonError::into_inner);
         let OnPath { rig, next } = &mut *own;

@@ -1,4 +1,4 @@
-//! Tables in Markdown that also read well in a terminal.
+//! Markdown tables that are also readable in a terminal.
 
 use crate::timing::{Clock, Times, digits};
 use std::fmt;
@@ -14,7 +14,7 @@ impl Table {
         Self { rows: vec![head.iter().map(|&cell| cell.to_owned()).collect()] }
     }
 
-    /// One more row.
+    /// Adds a row.
     pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         self.rows.push(cells.into_iter().collect());
     }
@@ -40,7 +40,8 @@ impl fmt::Display for Table {
     }
 }
 
-/// Shortest and middle pass: `20.1 / 20.9`, in units of `unit` seconds; a dash for who did not run.
+/// Shortest and median pass: `20.1 / 20.9`, in units of `unit` seconds; a dash for contenders that did not
+/// run.
 pub fn min_and_median(times: Option<&Times>, clock: Clock, unit: f64) -> String {
     let told = |times: &Times| {
         format!("{} / {}", digits(times.min(clock) / unit), digits(times.median(clock) / unit))
@@ -48,19 +49,19 @@ pub fn min_and_median(times: Option<&Times>, clock: Clock, unit: f64) -> String 
     times.map_or("–".to_owned(), told)
 }
 
-/// What a value displays, or a dash.
+/// Text of a value, or a dash.
 pub fn or_dash(value: Option<impl fmt::Display>) -> String {
     value.map_or("–".to_owned(), |value| value.to_string())
 }
 
-/// A target for a number that is not measured by a clock, and whether it is reached.
+/// Target for a number that is not a time, and whether it is reached.
 pub fn at_most(wanted: f64, value: f64) -> String {
     ratio_at_most(wanted, Some([value; 2]))
 }
 
-/// A target for a ratio of times, and whether it is reached: `≤ 2.00, reached`, `≤ 2.00, missed 1.3 times`. Given are
-/// the ratios of two halves of the rounds: where one half reaches the target and the other misses it, the table says
-/// `at the limit`, since another run may say either.
+/// Target for a ratio of times, and the verdict: `≤ 2.00, reached`, `≤ 2.00, missed 1.3 times`. Given the
+/// ratios of two halves of the rounds: if one half reaches the target and the other misses it, the verdict is
+/// `at the limit`, since another run may decide either way.
 pub fn ratio_at_most(wanted: f64, halves: Option<[f64; 2]>) -> String {
     let wanted_text = digits(wanted);
     match halves {
@@ -71,7 +72,7 @@ pub fn ratio_at_most(wanted: f64, halves: Option<[f64; 2]>) -> String {
     }
 }
 
-/// The same where more is better.
+/// As [`ratio_at_most`], for ratios where more is better.
 pub fn ratio_at_least(wanted: f64, halves: Option<[f64; 2]>) -> String {
     let inverse = ratio_at_most(1.0 / wanted, halves.map(|[less, more]| [1.0 / more, 1.0 / less]));
     let (_, verdict) = inverse.split_once(", ").unwrap_or_default();

@@ -15,7 +15,7 @@ pub struct Terrain {
     pub cells: [usize; 2],
 }
 
-/// What a mesh is read from.
+/// Source of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// Binary STL, named by the model file.
@@ -59,7 +59,7 @@ impl Terrain {
         (0..ny).flat_map(|j| (0..nx).map(move |i| (i, j))).flat_map(cell).collect()
     }
 
-    /// The model file, and the mesh file that it names, if any.
+    /// The model file, and the mesh file it names, if any.
     pub fn files(&self, source: Source) -> (String, Option<(&'static str, Vec<u8>)>) {
         let named =
             |file: &str| ron::model("terrain", &format!("TriangleMesh(name: \"ground\", file: \"{file}\")"));
@@ -112,23 +112,23 @@ impl Terrain {
     }
 }
 
-/// The ground at a place. Rounded to f32, so that every kind of file holds the same mesh.
+/// Ground position at x and y, rounded to f32, so that every kind of file holds the same mesh.
 fn at(x: f64, y: f64) -> Vec3 {
     let z = BUMP * (x * 1.3).sin() * (y * 1.7).cos() + 0.25 * BUMP * (x * 7.1 + y * 5.3).sin();
     Vec3::new(x, y, z).map(|x| f64::from(x as f32))
 }
 
-/// What rolls.
+/// Kind of the wheels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wheel {
     /// A sphere.
     Sphere {
-        /// m
+        /// Radius, m.
         radius: f64,
     },
     /// An ellipsoid with its axes along those of its body.
     Ellipsoid {
-        /// m
+        /// Semi-axes, m.
         semi_axes: [f64; 3],
     },
 }
@@ -159,7 +159,7 @@ impl Wheel {
         ron::model("wheel", &shape)
     }
 
-    /// How far it reaches below its centre when it stands upright, m.
+    /// Reach below its centre when upright, m.
     fn reach(self) -> f64 {
         match self {
             Self::Sphere { radius } => radius,
@@ -170,14 +170,14 @@ impl Wheel {
 
 /// Number of wheels.
 pub const WHEELS: usize = 6;
-/// Where the wheels are around the middle of the vehicle, m.
+/// Positions of the wheels about the middle of the vehicle, m.
 const PLACES: [(f64, f64); WHEELS] =
     [(-0.5, -0.4), (0.0, -0.4), (0.5, -0.4), (-0.5, 0.4), (0.0, 0.4), (0.5, 0.4)];
-/// How deep the lowest point of a wheel is pressed below the ground beneath it, m.
+/// Depth of a wheel's lowest point below the ground beneath it, m.
 const PRESSED: f64 = 0.004;
 
-/// States of the terrain, at rest, and of the wheels, which roll to and fro near the middle, each with the lowest
-/// point of its upright self 4 mm below the ground.
+/// States of the terrain, at rest, and of the wheels, which roll to and fro near the middle, each with the
+/// lowest point of its upright shape 4 mm below the ground.
 pub fn states(frames: usize, wheel: Wheel) -> Vec<Vec<State>> {
     let states = |frame: usize| {
         let phase = frame as f64 / frames as f64 * std::f64::consts::TAU;

@@ -1,20 +1,20 @@
-//! Times of passes, and what is told of them.
+//! Times of passes, and their statistics.
 
 use cpu_time::ThreadTime;
 use std::sync::OnceLock;
 use std::time::Instant;
 
-/// Which clock.
+/// Clock of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clock {
-    /// Processor time of the calling thread: a pass is not charged for the time that other programs had the core,
-    /// though what they do to its caches is still in it. Says nothing of the work of other threads.
+    /// Processor time of the calling thread: excludes the time that other programs had the core, but not
+    /// their effect on its caches. Excludes the work of other threads.
     Thread,
     /// Wall-clock time: for passes on more than one thread.
     Wall,
 }
 
-/// A clock on the wall for the engine, ns since it was first asked.
+/// Wall clock for the engine, ns since its first reading.
 pub fn now_ns() -> u64 {
     static START: OnceLock<Instant> = OnceLock::new();
     START.get_or_init(Instant::now).elapsed().as_nanos() as u64
@@ -27,12 +27,12 @@ pub struct Times {
 }
 
 impl Times {
-    /// None yet, of passes over so many items.
+    /// No times yet, for passes over this many items.
     pub fn new(items: usize) -> Self {
         Self { items: items as f64, passes: Vec::new() }
     }
 
-    /// Runs `pass` and keeps its time.
+    /// Runs `pass` and records its time.
     pub fn run(&mut self, pass: impl FnOnce()) {
         let (wall, thread) = (Instant::now(), ThreadTime::now());
         pass();
@@ -40,17 +40,17 @@ impl Times {
         self.passes.push([thread, wall].map(|time| time.as_secs_f64() / self.items));
     }
 
-    /// The shortest pass, s per item.
+    /// Shortest pass, s per item.
     pub fn min(&self, clock: Clock) -> f64 {
         self.by(clock).fold(f64::INFINITY, f64::min)
     }
 
-    /// The middle pass, s per item.
+    /// Median pass, s per item.
     pub fn median(&self, clock: Clock) -> f64 {
         median(self.by(clock).collect())
     }
 
-    /// The shortest passes of the earlier and of the later half of the rounds, s per item.
+    /// Shortest passes of the earlier and of the later half of the rounds, s per item.
     pub fn min_of_halves(&self, clock: Clock) -> [f64; 2] {
         let passes: Vec<f64> = self.by(clock).collect();
         let (earlier, later) = passes.split_at(passes.len() / 2);
@@ -58,7 +58,7 @@ impl Times {
         if earlier.is_empty() { [least(later); 2] } else { [least(earlier), least(later)] }
     }
 
-    /// Ratios to another's passes of the same rounds.
+    /// Ratios to the passes of another contender in the same rounds.
     pub fn over(&self, other: &Times, clock: Clock) -> Ratios {
         Ratios(self.by(clock).zip(other.by(clock)).map(|(mine, theirs)| mine / theirs).collect())
     }
@@ -68,18 +68,18 @@ impl Times {
     }
 }
 
-/// Ratios of passes that ran next to each other.
+/// Ratios of adjacent passes.
 #[derive(Clone)]
 pub struct Ratios(Vec<f64>);
 
 impl Ratios {
-    /// The middle one.
+    /// Median ratio.
     pub fn median(&self) -> f64 {
         median(self.0.clone())
     }
 
-    /// The middle ones of the earlier and the later half of the rounds, the smaller first: a verdict that both halves
-    /// give has been found twice.
+    /// Medians of the earlier and the later half of the rounds, the smaller first: a verdict of both halves
+    /// has been confirmed.
     pub fn halves(&self) -> [f64; 2] {
         let (earlier, later) = self.0.split_at(self.0.len() / 2);
         let mut halves = [earlier, later].map(|half| median(half.to_vec()));
@@ -110,7 +110,7 @@ pub fn digits(x: f64) -> String {
     format!("{x:.decimals$}")
 }
 
-/// The middle one of numbers; none of none.
+/// Median of numbers; NaN for none.
 pub fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)

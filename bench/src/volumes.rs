@@ -5,20 +5,20 @@ use crate::random::{Random, rotation};
 use pong_geometry::bounding::{Volume, VolumeTests};
 use pong_geometry::{Pose, Transform, Vec3};
 
-/// Two volumes and where they meet.
+/// Two volumes and their relative poses.
 pub struct VolumePair {
-    /// In its own frame; carried to B.
+    /// Volume in its own frame; transformed to B.
     pub a: Volume,
-    /// In its own frame.
+    /// Volume in its own frame.
     pub b: Volume,
-    /// Whether they overlap, by construction.
+    /// True if they overlap, by construction.
     pub overlap: bool,
-    /// A's frame in B's.
+    /// Poses of A's frame in B's.
     pub transforms: Vec<Transform>,
 }
 
 impl VolumePair {
-    /// All pairs of kinds, each overlapping and apart, at so many random poses.
+    /// All pairs of kinds, each overlapping and apart, at `count` random poses.
     pub fn all(count: usize) -> Vec<Self> {
         let mut random = Random(0x766f_6c75);
         let mut out = Vec::new();
@@ -33,18 +33,18 @@ impl VolumePair {
         out
     }
 
-    /// `Aabb-Sphere`
+    /// Name such as `Aabb-Sphere`.
     pub fn name(&self) -> String {
         format!("{}-{}", self.a.kind_name(), self.b.kind_name())
     }
 
-    /// How many of the poses are taken for overlapping.
+    /// Number of poses that test as overlapping.
     pub fn met(&self, tests: &VolumeTests) -> usize {
         self.transforms.iter().filter(|x_ba| tests.overlap(&self.a, &self.b, x_ba)).count()
     }
 }
 
-/// One volume of each kind that has a size, around a place near the origin.
+/// One volume of each bounded kind, near the origin.
 fn kinds(random: &mut Random) -> Vec<Volume> {
     let mut shape = || (random.direction() * 0.05, Vec3::from_fn(|_, _| random.between(0.2, 0.5)));
     let [(c, h), (d, k), (e, r)] = [shape(), shape(), shape()];
@@ -59,16 +59,16 @@ fn kinds(random: &mut Random) -> Vec<Volume> {
     all
 }
 
-/// Whether there is something to measure. Lists every kind: one that is new must be made in [`kinds`].
+/// True if the kind has a test to measure. Lists every kind: a new one must be added to [`kinds`].
 fn is_benched(volume: &Volume) -> bool {
     match volume {
         Volume::Aabb { .. } | Volume::Sphere { .. } | Volume::Obb { .. } => true,
-        // One answer; and a user's own test.
+        // Constant answer, and the user's own test.
         Volume::Unbounded | Volume::Custom(_) => false,
     }
 }
 
-/// From the place where the centres meet, along a random line, until their test takes them for apart.
+/// A pose on a random line from coincident centres to where the test separates them.
 fn pose(random: &mut Random, a: &Volume, b: &Volume, overlap: bool) -> Transform {
     let (orientation, line) = (rotation(random), random.direction());
     let tests = VolumeTests::default();
@@ -80,7 +80,7 @@ fn pose(random: &mut Random, a: &Volume, b: &Volume, overlap: bool) -> Transform
 mod tests {
     use super::*;
 
-    /// Points all over a volume, its surface among them.
+    /// Points in a volume and on its surface.
     fn points(volume: &Volume, random: &mut Random) -> Vec<Vec3> {
         let mut cube = || Vec3::from_fn(|_, _| random.between(-1.0, 1.0));
         let point = |v: Vec3| match volume {

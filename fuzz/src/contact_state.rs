@@ -1,4 +1,4 @@
-//! The contact state block: what is restored must be refused, or be fit for frames.
+//! The contact state block: a restored block must be refused, or be usable in frames.
 
 use crate::count;
 use crate::input::Input;
@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 const MODELS: [&str; 2] =
     [include_str!("../seeds/c_models/ball.ron"), include_str!("../seeds/c_models/solid.ron")];
-/// Few, so that the block is short and the fuzzer hits what matters.
+/// Contact capacity, small so that the block is short and most mutations hit relevant fields.
 const CAPACITY: usize = 16;
 const CHECKSUM: usize = 8;
 const HEAD: usize = 24;
@@ -15,13 +15,14 @@ const HEAD: usize = 24;
 struct Scene {
     world: World,
     interfaces: Vec<InterfaceId>,
-    /// A block with contacts in it.
+    /// A valid block with contacts.
     block: Vec<u8>,
 }
 
 static SCENE: OnceLock<Mutex<Scene>> = OnceLock::new();
 
-/// The first byte says whether the rest is a block as it stands, or changes to a good one with its checksum put right.
+/// The first byte selects whether the rest is a block itself, or changes to a valid one with a corrected
+/// checksum.
 pub fn run(data: &[u8]) {
     count::input();
     let mut scene = SCENE.get_or_init(|| Mutex::new(scene())).lock().expect("one thread");
@@ -41,13 +42,13 @@ pub fn run(data: &[u8]) {
     scene.block = good;
 }
 
-/// Numbers written into a good block: each three bytes of place and kind, and the value.
+/// Writes numbers into a valid block: three bytes of position and kind, then the value.
 fn changed(good: &[u8], input: &mut Input<'_>) -> Vec<u8> {
     let mut block = good.to_vec();
     let body = block.len() - CHECKSUM;
     let used = block[..body].iter().rposition(|byte| *byte != 0).unwrap_or(0);
     while !input.is_empty() {
-        // Mostly behind the head, which says whether it is a block of this world.
+        // Mostly behind the header, which identifies the world of the block.
         let place = usize::from(u16::from_le_bytes(input.bytes()));
         let at = if input.chance(16) { place % body } else { HEAD + place % (used - HEAD) };
         if input.chance(128) {
@@ -68,7 +69,7 @@ fn frames(scene: &mut Scene) {
     let Scene { world, interfaces, .. } = scene;
     for k in 0..2 {
         set_states(world, interfaces, f64::from(k) * 1e-3);
-        // A pose or a spring of 1e300 m is a number, and what comes of it is told.
+        // A pose or a spring deflection of 1e300 m is finite, and its overflow is reported.
         if world.step().is_err() {
             return;
         }

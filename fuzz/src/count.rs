@@ -1,15 +1,15 @@
-//! How much was done, told when the program ends.
+//! Counters, printed when the program ends.
 
 use std::sync::Once;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Inputs of this process.
 static INPUTS: AtomicU64 = AtomicU64::new(0);
-/// Of them those that the engine accepted.
+/// Inputs that the engine accepted.
 static ACCEPTED: AtomicU64 = AtomicU64::new(0);
 /// Calls of the C interface.
 static CALLS: AtomicU64 = AtomicU64::new(0);
-/// Of them those that succeeded.
+/// Calls that succeeded.
 static SUCCEEDED: AtomicU64 = AtomicU64::new(0);
 /// Frames that were computed.
 static FRAMES: AtomicU64 = AtomicU64::new(0);
@@ -24,7 +24,7 @@ pub fn input() {
     INPUTS.fetch_add(1, Ordering::Relaxed);
 }
 
-/// Counts an input that is good.
+/// Counts an accepted input.
 pub fn accepted() {
     ACCEPTED.fetch_add(1, Ordering::Relaxed);
 }

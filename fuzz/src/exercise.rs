@@ -1,4 +1,4 @@
-//! What was accepted as a model must be fit for frames.
+//! Frames of an accepted model, which must be computable.
 
 use crate::count;
 use crate::input::Input;
@@ -6,11 +6,11 @@ use pong_engine::{Config, State, WorldBuilder};
 use pong_model::Model;
 use std::sync::Arc;
 
-/// More elements than this would only be slow.
+/// Models of more elements are skipped, as too slow.
 const ELEMENTS_MAX: usize = 3000;
-/// Contacts that the world has room for: some inputs are to have more.
+/// Contact capacity of the world, which some inputs should exceed.
 const CAPACITY: usize = 64;
-/// A small model of each kind that others are tested against.
+/// A small model of each kind of partner.
 const PARTNER: &str = r#"(format: "pong-model", version: 1, name: "partner",
     surfaces: {"s": (stiffness: 1e5, normal: Linear(damping: 10.0), friction: Bristle(mu: 0.3))},
     root: (name: "partner", surface: "s", primitives: [
@@ -25,7 +25,7 @@ const PARTNER: &str = r#"(format: "pong-model", version: 1, name: "partner",
 /// Seals a world of two Objects of the model and a partner, and runs some frames with states made of the bytes.
 ///
 /// # Panics
-/// Where a frame is refused that should not be, or a number that comes out is not finite.
+/// If a valid frame is refused, or a result is not finite.
 pub fn run(model: Model, input: &mut Input<'_>) {
     if elements(&model) > ELEMENTS_MAX {
         return;
@@ -40,7 +40,7 @@ pub fn run(model: Model, input: &mut Input<'_>) {
         .map(|(name, model)| builder.create_object(model, name).expect("set-up"));
     builder.pair(objects[0], objects[1]).expect("set-up");
     builder.pair(objects[0], objects[2]).expect("set-up");
-    // Of one movable group it is refused.
+    // Refused for a model of one movable group.
     let _ = builder.pair(objects[0], objects[0]);
     let Ok((mut world, _)) = builder.seal() else { return };
     let interfaces: Vec<_> =
@@ -72,7 +72,7 @@ fn elements(model: &Model) -> usize {
     model.bodies.iter().map(of_body).sum()
 }
 
-/// Close to the origin, turned about any axis, and slow.
+/// A state close to the origin, in any orientation, and slow.
 fn state(input: &mut Input<'_>) -> State {
     let mut state = State::identity();
     state.position = [input.small(0.25), input.small(0.25), input.small(0.25)];

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 static FOLDER: OnceLock<PathBuf> = OnceLock::new();
 
-/// The folder; in memory where the system has such a place.
+/// The folder; in memory where the system has such a file system.
 pub fn folder() -> &'static Path {
     FOLDER.get_or_init(|| {
         let memory = Path::new("/dev/shm");
@@ -18,7 +18,7 @@ pub fn folder() -> &'static Path {
     })
 }
 
-/// Writes a file of that folder and answers its path.
+/// Writes a file in that folder and returns its path.
 pub fn write(name: &str, bytes: &[u8]) -> PathBuf {
     let path = folder().join(name);
     std::fs::write(&path, bytes).expect("a file of the targets");

@@ -2,7 +2,7 @@
 
 use crate::mesh;
 
-/// The container tells itself by its first bytes.
+/// Runs an import; the container is recognised by its first bytes.
 pub fn run(data: &[u8]) {
     mesh::import(data, if data.starts_with(b"glTF") { "glb" } else { "gltf" });
 }

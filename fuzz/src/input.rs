@@ -1,6 +1,6 @@
-//! Bytes from the fuzzer as choices and numbers. When they end, every further one is zero.
+//! Bytes from the fuzzer as choices and numbers. After the end, every further byte is zero.
 
-/// Numbers at which arithmetic or a check may change its mind.
+/// Numbers at which arithmetic or a check may change behaviour.
 pub(crate) const NUMBERS: [f64; 24] = [
     0.0,
     -0.0,
@@ -28,42 +28,42 @@ pub(crate) const NUMBERS: [f64; 24] = [
     f64::NAN,
 ];
 
-/// What is left of the bytes.
+/// The remaining bytes.
 pub struct Input<'a> {
     data: &'a [u8],
 }
 
 impl<'a> Input<'a> {
-    /// All of them.
+    /// Starts at the first byte.
     pub fn new(data: &'a [u8]) -> Self {
         Self { data }
     }
 
-    /// Whether there are none left.
+    /// True if no bytes are left.
     pub fn is_empty(&self) -> bool {
         self.data.is_empty()
     }
 
-    /// The next one.
+    /// The next byte.
     pub fn byte(&mut self) -> u8 {
         let Some((first, rest)) = self.data.split_first() else { return 0 };
         self.data = rest;
         *first
     }
 
-    /// The next `N`.
+    /// The next `N` bytes.
     pub fn bytes<const N: usize>(&mut self) -> [u8; N] {
         std::array::from_fn(|_| self.byte())
     }
 
-    /// At most so many of the next ones.
+    /// At most `length` of the next bytes.
     pub fn slice(&mut self, length: usize) -> &'a [u8] {
         let (taken, rest) = self.data.split_at(length.min(self.data.len()));
         self.data = rest;
         taken
     }
 
-    /// All that are left.
+    /// All remaining bytes.
     pub fn rest(&mut self) -> &'a [u8] {
         self.slice(usize::MAX)
     }
@@ -73,12 +73,12 @@ impl<'a> Input<'a> {
         self.byte() as usize % count
     }
 
-    /// True for `of_256` of all bytes; not when they have ended.
+    /// True with a probability of `of_256`/256; false after the end.
     pub fn chance(&mut self, of_256: u8) -> bool {
         !self.is_empty() && 255 - self.byte() < of_256
     }
 
-    /// One of several.
+    /// One of several values.
     pub fn one_of<T: Copy>(&mut self, all: &[T]) -> T {
         all[self.below(all.len())]
     }
@@ -88,7 +88,7 @@ impl<'a> Input<'a> {
         f64::from(self.byte() as i8) / 32.0 * scale
     }
 
-    /// A number that may be anything.
+    /// Any number.
     pub fn number(&mut self) -> f64 {
         match self.below(8) {
             0 => f64::from_le_bytes(self.bytes()),

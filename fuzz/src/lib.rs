@@ -1,7 +1,7 @@
-//! What the fuzz targets do with the bytes they are handed.
+//! Fuzz targets as functions of bytes.
 //!
-//! Each module has a `run(data)` that any bytes may be given to: it must come back, in time, without a panic, and what
-//! the engine accepted must give finite numbers. `targets/` hands them to libFuzzer, `docs/fuzzing.md` tells how.
+//! Each module has a `run(data)` that accepts any bytes: it must return, in time, without a panic, and
+//! accepted input must give finite numbers. `targets/` connects them to libFuzzer, see `docs/fuzzing.md`.
 
 pub mod c_calls;
 pub mod contact_state;

@@ -1,4 +1,4 @@
-//! The log reader: a folder of files, some of them what the bytes say.
+//! The log reader, on a folder with files altered by the bytes.
 
 use crate::input::Input;
 use crate::{count, files};
@@ -10,13 +10,13 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 const MODEL: &str = include_str!("../seeds/c_models/ball.ron");
-/// Frames that are looked at.
+/// Number of frames that are read.
 const LOOK_AT: u64 = 8;
 
-/// Names and contents of the files of a good log.
+/// Names and contents of the files of a valid log.
 static GOOD: OnceLock<Vec<(PathBuf, Vec<u8>)>> = OnceLock::new();
 
-/// The first byte says which file is another one, and whether all of it or some places.
+/// The first byte selects the altered file, and whether all of it or some bytes are replaced.
 pub fn run(data: &[u8]) {
     count::input();
     let good = GOOD.get_or_init(good_log);
@@ -29,7 +29,7 @@ pub fn run(data: &[u8]) {
     std::fs::write(folder.join(name), contents).expect("a file of the log");
 }
 
-/// Bytes written over, taken out or put in.
+/// Overwrites, removes or inserts bytes.
 fn patched(good: &[u8], input: &mut Input<'_>) -> Vec<u8> {
     let mut bytes = good.to_vec();
     while !input.is_empty() {
@@ -66,7 +66,7 @@ fn read(folder: &Path) {
     }
 }
 
-/// A log of a ball that goes into another one, as the recorder writes it; every kind of event is in it.
+/// A log of two colliding balls, as the recorder writes it, with every kind of event.
 fn good_log() -> Vec<(PathBuf, Vec<u8>)> {
     let folder = files::folder().join("log");
     let mut builder = WorldBuilder::new(Config { contact_capacity: Some(32), ..Config::default() });
@@ -108,7 +108,7 @@ fn good_log() -> Vec<(PathBuf, Vec<u8>)> {
     files
 }
 
-/// The files of a folder and those below, with their paths from the top.
+/// All files of a folder and its subfolders, with their paths relative to `top`.
 fn gather(top: &Path, folder: &Path, files: &mut Vec<(PathBuf, Vec<u8>)>) {
     for entry in std::fs::read_dir(folder).expect("the folder of the log") {
         let path = entry.expect("an entry").path();

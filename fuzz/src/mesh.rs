@@ -1,4 +1,4 @@
-//! The mesh readers: the importer's and, for OBJ and STL, that of the model loader.
+//! The mesh readers: that of the importer and, for OBJ and STL, that of the model loader.
 
 use crate::input::Input;
 use crate::{count, exercise, files, text};
@@ -6,7 +6,7 @@ use pong_geometry::extension::Extensions;
 use pong_import::{DefaultSurface, Options};
 use std::path::Path;
 
-/// A file with this ending through the importer; what comes out is loaded and used.
+/// Imports a file with this extension; the model is loaded and used.
 pub fn import(data: &[u8], ending: &str) {
     count::input();
     let file = files::write(&format!("mesh.{ending}"), data);
@@ -17,7 +17,7 @@ pub fn import(data: &[u8], ending: &str) {
         Ok(_) => {
             count::accepted();
             text::accepted(data);
-            // A model that needs a law or a kind of the host's is written and cannot be loaded here.
+            // A model that needs a law or a kind of the host is written but cannot be loaded here.
             if let Ok(model) = pong_model::load(&output, &Extensions::new()) {
                 exercise::run(model, &mut Input::new(data));
             }
@@ -26,7 +26,7 @@ pub fn import(data: &[u8], ending: &str) {
     }
 }
 
-/// A file with this ending as the mesh of a model, as surface and as solid.
+/// Loads a file with this extension as the mesh of a model, as surface and as solid.
 pub fn load(data: &[u8], ending: &str) {
     let name = format!("mesh.{ending}");
     let file = files::write(&name, data);

@@ -1,10 +1,10 @@
-//! The model parser: text to a model, or to a list of faults that can be read.
+//! The model parser: text to a model, or to a list of readable faults.
 
 use crate::input::Input;
 use crate::{count, exercise, text};
 use pong_geometry::extension::Extensions;
 
-/// Text, with the states of the frames taken from the same bytes.
+/// Parses text; the states of the frames are taken from the same bytes.
 pub fn run(data: &[u8]) {
     count::input();
     let Ok(words) = std::str::from_utf8(data) else { return };
@@ -25,7 +25,7 @@ pub fn run(data: &[u8]) {
     }
 }
 
-/// The end of the text: what a mutation there changes is the states.
+/// The end of the text, so that a mutation there changes the states.
 fn states(data: &[u8]) -> Input<'_> {
     Input::new(&data[data.len().saturating_sub(90)..])
 }

@@ -1,14 +1,14 @@
-//! The scene parser; a scene that can be built is run for some steps.
+//! The scene parser; a valid scene is run for some steps.
 
 use crate::{count, files, text};
 use pong_executive::scene::Scene;
 use std::sync::Once;
 
-/// Steps of a scene that was accepted.
+/// Steps of a valid scene.
 const STEPS: u64 = 3;
-/// Sub-steps beyond this would only be slow.
+/// Scenes with more sub-steps are skipped, as too slow.
 const WORK_MAX: usize = 4096;
-/// The models that seeds name, beside the scene.
+/// Models that seeds name, beside the scene.
 const MODELS: [(&str, &str); 3] = [
     ("ball.ron", include_str!("../../models/verification/ball.ron")),
     ("ground.ron", include_str!("../../models/verification/ground.ron")),
@@ -17,7 +17,7 @@ const MODELS: [(&str, &str); 3] = [
 
 static WRITTEN: Once = Once::new();
 
-/// Text; models are looked for in a folder with three of them.
+/// Parses text; models are found in a folder with three of them.
 pub fn run(data: &[u8]) {
     count::input();
     WRITTEN.call_once(|| {
@@ -30,7 +30,7 @@ pub fn run(data: &[u8]) {
         Ok(scene) => scene,
         Err(errors) => return assert!(!errors.to_string().is_empty()),
     };
-    // Any number of sub-steps is allowed, and takes its time.
+    // Any number of sub-steps is valid, but slow.
     if substeps(words) > WORK_MAX {
         return;
     }
@@ -48,7 +48,7 @@ pub fn run(data: &[u8]) {
     }
 }
 
-/// The largest number behind the word.
+/// The largest number after the word `substeps`.
 fn substeps(text: &str) -> usize {
     let numbers = text.split("substeps").skip(1).map(|rest| {
         let digits = rest.trim_start_matches([' ', ':', '\n', '\t']);

@@ -2,7 +2,7 @@
 
 use crate::mesh;
 
-/// Through both readers.
+/// Runs both readers.
 pub fn run(data: &[u8]) {
     mesh::import(data, "stl");
     mesh::load(data, "stl");

@@ -1,24 +1,24 @@
-//! Mutations of text that leave most of it a model, a scene or a mesh: libFuzzer's own change single bytes, and of a
-//! hundred texts that they made the parser accepted one.
+//! Mutations of text that keep most of it a valid model, scene or mesh: libFuzzer's own mutations change
+//! single bytes, of which the parser accepted one text in a hundred.
 //!
-//! A text is seen as numbers, words and pieces: what stands between the commas of a bracket, or a line where there are
-//! no brackets. Numbers become other numbers, words other words of the text; pieces are left out, doubled or put in place
-//! of another. Half of the mutations begin with a text that was accepted: libFuzzer keeps most of all what is refused in
-//! new ways, and nothing becomes good of that.
+//! A text is divided into numbers, words and pieces (parts between the commas of a bracket, or lines where
+//! there are no brackets). Numbers are replaced by other numbers, words by other words of the text; pieces
+//! are removed, doubled or replaced by others. Half of the mutations start from an accepted text, because
+//! libFuzzer mostly keeps texts that are refused in new ways, from which nothing valid results.
 
 use crate::input::NUMBERS;
 use pong_testkit::Random;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Of eight mutations so many are libFuzzer's own.
+/// Share of mutations by libFuzzer itself, in eighths.
 const OWN: usize = 2;
-/// Accepted texts that are kept.
+/// Number of accepted texts that are kept.
 const KEPT: usize = 512;
 
 static ACCEPTED: Mutex<Vec<Vec<u8>>> = Mutex::new(Vec::new());
 
-/// Remembers a text that was accepted; when there are many, in place of another.
+/// Keeps an accepted text; replaces another one when there are many.
 pub fn accepted(text: &[u8]) {
     let mut kept = ACCEPTED.lock().unwrap_or_else(PoisonError::into_inner);
     if kept.len() < KEPT {
@@ -30,7 +30,8 @@ pub fn accepted(text: &[u8]) {
     }
 }
 
-/// As libFuzzer asks of a mutator: `data[..size]` is the text, room is for `max_size` bytes; answers the new length.
+/// libFuzzer's custom mutator: `data[..size]` is the text, with room for `max_size` bytes; returns the new
+/// length.
 pub fn mutate(data: &mut [u8], size: usize, max_size: usize, seed: u32) -> usize {
     let mut dice = Random(u64::from(seed) | 1 << 40);
     let is_text = std::str::from_utf8(&data[..size]).is_ok();
@@ -48,7 +49,7 @@ pub fn mutate(data: &mut [u8], size: usize, max_size: usize, seed: u32) -> usize
     text.len()
 }
 
-/// What a mutation begins with.
+/// Text at which a mutation starts.
 fn base(given: &[u8], dice: &mut Random) -> Vec<u8> {
     let kept = ACCEPTED.lock().unwrap_or_else(PoisonError::into_inner);
     if kept.is_empty() || dice.below(2) == 0 { given.to_vec() } else { kept[dice.below(kept.len())].clone() }
@@ -88,7 +89,7 @@ fn change(text: &mut Vec<u8>, dice: &mut Random) {
     text.splice(place, new);
 }
 
-/// Another number: one at which a check may change its mind, one from elsewhere in the text, or a multiple.
+/// Another number: one at which a check may change behaviour, one from elsewhere in the text, or a multiple.
 fn number(old: &[u8], parts: &Parts, text: &[u8], dice: &mut Random) -> Vec<u8> {
     const FACTORS: [f64; 8] = [-1.0, 0.0, 0.5, 0.999_999_9, 1.000_000_1, 2.0, 10.0, 1e-3];
     let value: f64 = std::str::from_utf8(old).ok().and_then(|word| word.parse().ok()).unwrap_or(1.0);
@@ -99,19 +100,19 @@ fn number(old: &[u8], parts: &Parts, text: &[u8], dice: &mut Random) -> Vec<u8> 
         4 => value + (dice.below(9) as f64 - 4.0) * 0.25,
         _ => value * FACTORS[dice.below(FACTORS.len())],
     };
-    // An index stays one.
+    // An integer stays an integer.
     let is_whole = !old.iter().any(|byte| b".eE".contains(byte));
     if is_whole && new.fract() == 0.0 && new.abs() < 1e15 { format!("{new:.0}") } else { format!("{new:?}") }
         .into_bytes()
 }
 
-/// A piece with the comma or the end of line that follows it.
+/// A piece with the following comma or line end.
 fn with_separator(piece: &Range<usize>, text: &[u8]) -> Range<usize> {
     let follows = matches!(text.get(piece.end), Some(b',' | b'\n'));
     piece.start..piece.end + usize::from(follows)
 }
 
-/// Where the numbers, words and pieces of a text are.
+/// Positions of the numbers, words and pieces of a text.
 #[derive(Default)]
 struct Parts {
     numbers: Vec<Range<usize>>,
@@ -122,7 +123,7 @@ struct Parts {
 impl Parts {
     fn new(text: &[u8]) -> Self {
         let mut parts = Self::default();
-        // Where the pieces began that are open, the outermost first.
+        // Starts of the open pieces, the outermost first.
         let mut open = Vec::new();
         let mut line = 0;
         let mut at = 0;
@@ -171,7 +172,7 @@ impl Parts {
         }
     }
 
-    /// A piece ends here, and the next one begins behind.
+    /// Ends a piece; the next one begins behind it.
     fn piece(&mut self, start: Option<&mut usize>, end: usize) {
         let Some(start) = start else { return };
         if *start < end {

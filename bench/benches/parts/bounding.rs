@@ -1,4 +1,5 @@
-//! Every pair of bounding volumes, ns per pair; and what finds the elements of a leaf that a box may touch, ns per box.
+//! Every pair of bounding volumes, ns per pair, and the search for a leaf's elements that a box may touch, ns
+//! per box.
 
 use crate::clock::{ThreadTime, per_item};
 use criterion::{BenchmarkId, Criterion};
@@ -14,10 +15,10 @@ use std::error::Error;
 use std::hint::black_box;
 
 const POSES: usize = 1024;
-/// Half the size of a box that is looked for: a wheel's, m.
+/// Half the size of a query box: a wheel's, m.
 const HALF: f64 = 0.25;
 
-/// All of them.
+/// Runs all of them.
 pub fn all(criterion: &mut Criterion<ThreadTime>) -> Result<(), Box<dyn Error>> {
     volumes(criterion);
     box_tree(criterion)
@@ -42,7 +43,7 @@ fn box_tree(criterion: &mut Criterion<ThreadTime>) -> Result<(), Box<dyn Error>>
     let mut group = criterion.benchmark_group("box_tree");
     for terrain in Terrain::SIZES {
         let id = BenchmarkId::from_parameter(format!("{}_triangles", terrain.count()));
-        // Loaded only if it is asked for.
+        // Loaded only if requested.
         let mut ground = None;
         group.bench_function(id, |bencher| {
             let (model, boxes) = ground.get_or_insert_with(|| {
@@ -61,7 +62,7 @@ fn box_tree(criterion: &mut Criterion<ThreadTime>) -> Result<(), Box<dyn Error>>
     Ok(())
 }
 
-/// Boxes of a wheel's size with their middles at vertices of the ground.
+/// Query boxes of a wheel's size, centred at vertices of the ground.
 fn boxes(terrain: &Terrain, tree: &BoxTree) -> Vec<NarrowBox> {
     let vertices = terrain.vertices();
     let mut random = Random(0x626f_7865);
@@ -77,7 +78,7 @@ fn descend(tree: &BoxTree, boxes: &[NarrowBox]) -> u32 {
     simd::run(Descent { tree, boxes })
 }
 
-/// How many elements' boxes meet them.
+/// Numbers of elements whose boxes overlap the query boxes.
 struct Descent<'a> {
     tree: &'a BoxTree,
     boxes: &'a [NarrowBox],

@@ -1,5 +1,5 @@
-//! The calls that a host makes. Those of a frame in ns per frame, by the clock on the wall where only a part of the
-//! frame is timed; `clock` is what such a time holds besides.
+//! Calls of a host. Calls of a frame in ns per frame, by the wall clock if only a part of the frame is timed;
+//! `clock` is the overhead included in such a time.
 
 use crate::clock::{ThreadTime, middle_of, per_item};
 use criterion::{BatchSize, BenchmarkGroup, BenchmarkId, Criterion};
@@ -17,7 +17,7 @@ use std::hint::black_box;
 
 type Group<'a> = BenchmarkGroup<'a, ThreadTime>;
 
-/// All of them.
+/// Runs all of them.
 pub fn all(criterion: &mut Criterion<ThreadTime>) -> Result<(), Box<dyn Error>> {
     let mut group = criterion.benchmark_group("calls");
     for name in FIXED {
@@ -78,12 +78,12 @@ fn frames(group: &mut Group<'_>, name: &str, scene: &Scene) -> Result<(), Box<dy
     Ok(())
 }
 
-/// The mean over the frames of a pass, ns.
+/// Mean over the frames of a pass, ns.
 fn each(states: &[Vec<State>], mut frame: impl FnMut(&[State]) -> f64) -> f64 {
     states.iter().map(|states| frame(states)).sum::<f64>() / states.len() as f64
 }
 
-/// By the clock on the wall, which is read sooner than that of the thread, ns.
+/// Wall-clock time, which is faster to read than the thread's clock, ns.
 fn timed<T>(part: impl FnOnce() -> T) -> f64 {
     let start = now_ns();
     black_box(part());
@@ -98,7 +98,7 @@ fn contact_state(group: &mut Group<'_>, name: &str, scene: &Scene) -> Result<(),
         rig.step(states);
         rig.world.report().contacts > 0
     };
-    // Up to a frame in the middle of the path that has something to save.
+    // Up to a frame in the middle of the path that has contact state to save.
     let middle = scene.states.len() / 2;
     scene.states[..middle].iter().for_each(|states| _ = rig.step(states));
     scene.states[middle..].iter().find(|states| touching(&mut rig, states)).ok_or("nothing touches")?;

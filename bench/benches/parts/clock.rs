@@ -1,9 +1,10 @@
-//! Processor time of the thread as criterion's clock: the time for which another program had the core does not count.
+//! Processor time of the thread as criterion's clock: time in which another program had the core does not
+//! count.
 
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};
 use pong_bench::timing::median;
 
-/// In ns, so that a time may be shared among the queries or frames of a pass.
+/// Clock in ns, so that a time can be divided among the queries or frames of a pass.
 pub struct ThreadTime;
 
 impl Measurement for ThreadTime {
@@ -36,13 +37,13 @@ impl Measurement for ThreadTime {
     }
 }
 
-/// The middle one of so many passes that say their own time, times their number, ns. For times by the clock on the
-/// wall: a pass from which another program took the core does not count.
+/// Median of passes that return their own time, times their number, ns. For wall-clock times: a pass
+/// interrupted by another program does not count.
 pub fn middle_of(passes: u64, mut pass: impl FnMut() -> f64) -> f64 {
     median((0..passes).map(|_| pass()).collect()) * passes as f64
 }
 
-/// Time of `passes` calls, shared among the items of a pass, ns.
+/// Time of `passes` calls, divided by the items of a pass, ns.
 pub fn per_item(passes: u64, items: usize, mut pass: impl FnMut()) -> f64 {
     let start = ThreadTime.start();
     (0..passes).for_each(|_| pass());

@@ -1,4 +1,5 @@
-//! Every part of the engine by itself, by criterion: `bash bench/run criterion [NAME PART] [OPTIONS OF CRITERION]`.
+//! Separate benchmarks of every part of the engine, by criterion: `bash bench/run criterion [NAME PART]
+//! [OPTIONS OF CRITERION]`.
 
 mod bounding;
 mod calls;

@@ -1,5 +1,5 @@
-//! Every stage of a frame on the fixed scenes, by the engine's own watch: ns per frame by the clock on the wall, the
-//! reading of the clock included. Energies are kept, so that no stage is empty.
+//! Every stage of a frame on the fixed scenes, by the engine's own timer: wall-clock ns per frame, including
+//! the reading of the clock. Energies are kept, so that no stage is empty.
 
 use crate::clock::{ThreadTime, middle_of};
 use criterion::{BenchmarkId, Criterion};
@@ -9,7 +9,7 @@ use pong_bench::timing::now_ns;
 use pong_engine::{Config, Stage, State, WorldBuilder};
 use std::error::Error;
 
-/// All of them.
+/// Runs all of them.
 pub fn all(criterion: &mut Criterion<ThreadTime>) -> Result<(), Box<dyn Error>> {
     let mut group = criterion.benchmark_group("stages");
     for name in FIXED {

@@ -1,5 +1,5 @@
-//! Every interference tester of the capability table, and the tests of eight elements that the engine puts before them;
-//! ns per query.
+//! Every interference tester of the capability table, and the eight-element tests that the engine runs before
+//! them; ns per query.
 
 use crate::clock::{ThreadTime, per_item};
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion};
@@ -13,13 +13,13 @@ use std::hint::black_box;
 
 const POSES: usize = 4096;
 
-/// All of them.
+/// Runs all of them.
 pub fn all(criterion: &mut Criterion<ThreadTime>) {
     let mut group = criterion.benchmark_group("testers");
     for (mover, target) in pairs::all() {
         let mut ours = Ours::new(mover, &target);
         let id = id([mover.kind(), target.kind()].map(PrimitiveKind::name).join("-"), &target);
-        // Looked for once, and only if they are asked for.
+        // Searched once, and only if requested.
         let mut queries = None;
         let mut answers = vec![Answer::default(); POSES];
         group.bench_function(id, |bencher| {
@@ -44,7 +44,7 @@ fn id(name: String, target: &Target) -> BenchmarkId {
     }
 }
 
-/// The poses; a tester that takes a hit for a miss is not worth timing.
+/// The poses, after a check: a tester that confuses hits and misses is not worth timing.
 fn checked(mover: Mover, target: &Target, ours: &mut Ours) -> Queries {
     let queries = Queries::new(POSES, mover, target, |x| ours.touches(x));
     let mut answers = vec![Answer::default(); POSES];

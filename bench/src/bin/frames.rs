@@ -1,8 +1,8 @@
 //! Frames of one fixed scene, for a counter of instructions: `frames SCENE [FRAMES] [cold]`.
 //!
-//! All that happens in the function `pong_bench_frames` is frames: `ci/instructions` counts in there alone. The
-//! level of instructions is fixed, so that a counter that knows fewer than the machine counts the same. With `cold`, more
-//! memory than the counter's caches hold is read before each frame.
+//! Only frames run in the function `pong_bench_frames`, in which `ci/instructions` counts. The instruction
+//! set level is fixed, so that a counter that supports fewer instructions than the machine counts the same.
+//! With `cold`, more memory than the counter's caches hold is read before each frame.
 
 use pong_bench::rig::Rig;
 use pong_bench::scenes::{self, FRAMES, Frames, Scene};
@@ -15,9 +15,9 @@ use std::sync::Arc;
 
 const SCENES: &str =
     "docking, docking_crowded, docking_unused, docking_pair_off, ring, wheels, contact, contacts";
-/// Objects that meet nobody, in a crowded scene.
+/// Objects without contact in a crowded scene.
 const BYSTANDERS: usize = 1000;
-/// What is read before a cold frame, bytes: twice the largest cache that `ci/instructions` simulates.
+/// Memory read before a cold frame, bytes: twice the largest cache that `ci/instructions` simulates.
 const OTHER_WORK: usize = 16 << 20;
 /// A cache line, bytes.
 const LINE: usize = 64;
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let level = set_level(Level::Avx2);
     let (mut rig, states) = scene(&name)?;
-    // Whatever grows has grown after one pass.
+    // All buffers have grown after one pass.
     let contacts: u32 = states.iter().map(|states| contacts(&mut rig, states)).sum();
     if contacts == 0 {
         return Err(format!("{name}: nothing touches").into());
@@ -58,7 +58,7 @@ fn contacts(rig: &mut Rig, states: &[State]) -> u32 {
     rig.world.report().contacts
 }
 
-/// The frames that count. Its name is looked for.
+/// The counted frames. The counter finds this function by name.
 #[unsafe(no_mangle)]
 #[inline(never)]
 fn pong_bench_frames(rig: &mut Rig, states: &[Vec<State>], frames: usize) {
@@ -79,7 +79,7 @@ fn scene(name: &str) -> Result<(Rig, Frames), Box<dyn Error>> {
             scene.models.extend(vec![bystander; BYSTANDERS]);
         }
         "docking_unused" => builder = optional::world_with_unused(),
-        // A third Object in the way of the first as well, their pair switched off.
+        // A third Object also touches the first, but their pair is disabled.
         "docking_pair_off" => {
             scene.models.push(Arc::clone(&scene.models[1]));
             scene.pairs.push((0, 2));

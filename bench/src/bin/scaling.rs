@@ -1,4 +1,4 @@
-//! How a frame's time grows: with threads, with triangles, with points. Writes a table of numbers and a plot.
+//! Growth of a frame's time with threads, triangles and points. Writes a table of numbers and a plot.
 
 use pong_bench::floor::ring::ByHand;
 use pong_bench::options::Options;
@@ -18,7 +18,7 @@ use std::fmt::Write as _;
 use std::hint::black_box;
 use std::path::PathBuf;
 
-/// One engine at one place of an axis.
+/// One engine at one point of an axis.
 struct Entry {
     line: String,
     at: f64,
@@ -26,7 +26,7 @@ struct Entry {
     states: Vec<Vec<State>>,
 }
 
-/// What runs at the places of an axis.
+/// Engines at the points of an axis.
 type Entries = fn(bool) -> Result<Vec<Entry>, Box<dyn Error>>;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             axes.push((axis, clock, entries(smoke)?));
         }
     }
-    // The pools have begun, with all cores before them.
+    // All worker pools have started, with all cores available to them.
     bind_caller();
     let (mut panels, mut numbers) = (Vec::new(), String::from("axis,line,at,least_us,middle_us\n"));
     println!("µs per frame, shortest of {} passes\n", options.rounds);
@@ -67,7 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Line, place, shortest and middle pass in µs per frame; all in the same rounds.
+/// Line, x value, shortest and median pass in µs per frame; all in the same rounds.
 fn measure(mut entries: Vec<Entry>, clock: Clock, rounds: usize) -> Vec<(String, f64, f64, f64)> {
     let frames = entries[0].states.len();
     let mut race = Race::new();
@@ -82,7 +82,7 @@ fn measure(mut entries: Vec<Entry>, clock: Clock, rounds: usize) -> Vec<(String,
     told.collect()
 }
 
-/// A row per place, a column per line.
+/// One row per x value, one column per line.
 fn table(panel: &Panel) -> Table {
     let head: Vec<&str> =
         std::iter::once(panel.x).chain(panel.lines.iter().map(|(line, _)| line.as_str())).collect();
@@ -100,7 +100,7 @@ fn table(panel: &Panel) -> Table {
 
 // ---- axes
 
-/// From one thread to twice as many as there are cores, and to more than a few where cores are few.
+/// From one thread to twice the number of cores, and to a minimum where cores are few.
 fn threads(smoke: bool) -> Result<Vec<Entry>, Box<dyn Error>> {
     let cores = std::thread::available_parallelism()?.get();
     let counts: Vec<usize> = rig::thread_counts(if smoke { 2 } else { (2 * cores).max(16) }).collect();

@@ -1,5 +1,5 @@
-//! Where the time of a frame goes: every stage by the engine's own clock, the middle of all frames. The engine asks the clock
-//! between the stages, so these frames are a little longer than others.
+//! Time of every stage of a frame by the engine's own clock, median of all frames. The engine reads the clock
+//! between the stages, so these frames are slightly longer than others.
 
 use pong_bench::options::Options;
 use pong_bench::rig::{self, Rig};
@@ -48,10 +48,10 @@ fn scenes(smoke: bool) -> Result<Vec<(String, Scene)>, Box<dyn Error>> {
     Ok(scenes)
 }
 
-/// The whole frame and every column after it, ns.
+/// Medians of the whole frame and of every following column, ns.
 fn middles(rig: &mut Rig, states: &[Vec<State>], rounds: usize) -> Vec<f64> {
     let mut columns = vec![Vec::new(); 1 + Stage::ALL.len() + Work::ALL.len()];
-    // Whatever grows has grown after one pass.
+    // All buffers have grown after one pass.
     for pass in 0..=rounds {
         for states in states {
             let began = now_ns();

@@ -1,4 +1,4 @@
-//! W10: what a frame costs before anything is large: an empty one, one contact, each further one, many points in one
+//! W10: fixed costs of a frame: empty, one contact, each further contact, many points in one convex body.
 //! convex body.
 
 use pong_bench::hull::Hull;
@@ -18,9 +18,9 @@ use std::hint::black_box;
 const MICRO: f64 = 1e-6;
 const FRAMES: usize = 256;
 const POINTS: usize = 512;
-/// Spheres of the scene in which the cost of a further contact is measured.
+/// Spheres in the scene that measures the cost of a further contact.
 const MANY: usize = 65;
-/// Most µs of a frame of one contact.
+/// Target for a frame of one contact, µs.
 const ONE_CONTACT: f64 = 0.5;
 
 const EMPTY: &str = "nothing near";

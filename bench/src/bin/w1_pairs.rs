@@ -26,13 +26,13 @@ const PEERS: [&str; 3] = ["parry", "MuJoCo", "ODE"];
 struct Case {
     mover: Mover,
     on: On,
-    /// Greatest time to reach in W1 and in W1b, as a share of the floor's for points, else of the best peer's.
+    /// Target times in W1 and in W1b, relative to the floor's for points, else to the best peer's.
     wanted: [Option<f64>; 2],
 }
 
 #[derive(Clone, Copy)]
 enum On {
-    /// A hull of so many vertices.
+    /// A hull with this many vertices.
     Hull(usize),
     Triangle,
     Capsule,
@@ -224,7 +224,8 @@ impl Case {
         }
     }
 
-    /// Whether all mean the same by depth: of a bar on a hull Pong measures both ends, the others one depth.
+    /// True if all engines define depth alike: for a segment on a hull Pong measures both ends, the others
+    /// one depth.
     fn depths_compare(&self) -> bool {
         !matches!((self.mover, self.on), (Mover::Segment, On::Hull(_)))
     }
@@ -237,7 +238,7 @@ impl Case {
         }
     }
 
-    /// Times of all, and ours over the floor's or over those of the best of the peers.
+    /// Times of all engines, and the ratio of ours to the floor's or to the best peer's.
     fn row(&self, name: &str, outcome: &Outcome, peers: &[&str], wanted: Option<f64>) -> Vec<String> {
         let shortest = |who: &str| outcome.of(who).map(|times| times.min(Clock::Thread));
         let best = peers.iter().copied().filter(|who| shortest(who).is_some());
@@ -253,7 +254,8 @@ impl Case {
     }
 }
 
-/// Everyone must find the hits and misses that were made; what they find at hits is compared with ours.
+/// Checks that every engine finds the constructed hits and misses, and compares their answers at hits with
+/// ours.
 fn check(
     case: &Case,
     name: &str,
@@ -278,7 +280,7 @@ fn check(
     Ok(())
 }
 
-/// Normals and points carried into the target's frame.
+/// Transforms normals and points to the target's frame.
 fn in_target_frame(from: AnswerFrame, queries: &Queries, answers: &mut [Answer]) {
     for (answer, [_, target]) in answers.iter_mut().zip(&queries.poses) {
         let x = match from {

@@ -1,4 +1,5 @@
-//! W2: the docking ring. The engine's whole frame beside the collision detection alone of others, in the same rounds.
+//! W2: the docking ring. The engine's whole frame beside only the collision detection of others, in the same
+//! rounds.
 
 use pong_bench::floor::ring::ByHand;
 use pong_bench::heap;
@@ -24,20 +25,21 @@ const ONE: &str = "Pong";
 const TWO: &str = "Pong, two threads";
 const SIDE_BY_SIDE: &str = "Pong, two worlds side by side";
 const FLOOR: &str = "floor";
-/// Equal worlds, and floors, that take turns from round to round: where one happens to lie in memory moves its frames by 2 to 4 %.
+/// Equal worlds, and floors, used in turn from round to round: the memory layout of one world changes its
+/// frame time by 2 to 4 %.
 const WORLDS: usize = 4;
 const PEERS: [&str; 4] = ["parry", "parry, own loop", "MuJoCo", "ODE"];
 
-/// What is wanted of a size.
+/// Targets of a size.
 #[derive(Clone, Copy)]
 struct Wanted {
-    /// Greatest time of a whole frame over the floor's detection.
+    /// Target time of a whole frame, relative to the floor's detection.
     over_floor: f64,
-    /// Least gain of two threads over one: never slower on the small ring.
+    /// Target speed-up of two threads over one: never slower on the small ring.
     gain: f64,
 }
 
-/// In the order of [`ring::SIZES`].
+/// Targets, in the order of [`ring::SIZES`].
 const WANTED: [Wanted; 3] = [
     Wanted { over_floor: 3.5, gain: 1.0 },
     Wanted { over_floor: 3.0, gain: 1.6 },
@@ -121,7 +123,7 @@ fn run(
     let mut side_by_side =
         SideBySide::new([scenes::ring(&ring, tip, 1)?, scenes::ring(&ring, tip, 1)?], path)?;
 
-    // Behind a pointer, as the peers: compiled into its pass the floor takes 10 % longer.
+    // Behind a pointer, as the peers: inlined into its pass, the floor takes 10 % longer.
     let mut floors: Vec<Box<dyn Peer>> =
         (0..WORLDS).map(|_| Box::new(ByHand::new(&ring, tip)) as Box<dyn Peer>).collect();
     let mut others = if options.alone { Vec::new() } else { others(&ring, tip) };
@@ -137,7 +139,7 @@ fn run(
         cross_check(&name, first, (who, &mut **peer), &states)?;
     }
     let mut race = Race::new();
-    // Those with two threads first: after a warm-up of one thread theirs sleep, and slow nobody down.
+    // Two threads first: their workers sleep after the warm-up of one thread and slow nothing down.
     race.enter_in_turn(TWO, |round| pass(&mut two[round % WORLDS], &states));
     if let Some(side_by_side) = &mut side_by_side {
         race.enter(SIDE_BY_SIDE, || side_by_side.pass());
@@ -173,7 +175,7 @@ fn pass(peer: &mut dyn Peer, states: &States) {
     }
 }
 
-/// What a frame does, the bits of all wrenches of the first pass, and memory taken in the second.
+/// Counts of a frame, hash of all wrenches of the first pass, and memory taken in the second.
 fn first_pass(name: &str, rig: &mut Rig, states: &States) -> Result<[String; 6], Box<dyn Error>> {
     let mut fingerprint = Fingerprint::default();
     let (mut contacts, mut volumes, mut primitives) = (0.0, 0.0, 0.0);
@@ -201,8 +203,8 @@ fn first_pass(name: &str, rig: &mut Rig, states: &States) -> Result<[String; 6],
     ])
 }
 
-/// Everyone must find as many contacts in every frame. ODE's test of a sphere near an edge differs by a rounding that
-/// shows in a frame or two: that is told.
+/// Checks that every engine finds as many contacts in every frame. ODE's test of a sphere near an edge
+/// differs by a rounding that affects a frame or two; this is reported.
 fn cross_check(
     name: &str,
     rig: &mut Rig,
@@ -235,7 +237,7 @@ impl Tables {
         let verdict = ratio_at_most(wanted.over_floor, floor.as_ref().map(Ratios::halves));
         let ratios = PEERS.map(|who| or_dash(outcome.ratio(ONE, who, Clock::Thread)));
         self.ratios.row(name().chain([or_dash(floor), verdict]).chain(ratios));
-        // Neighbours take a core now and then: the shortest passes had both.
+        // Other processes occasionally take a core: the shortest passes had both.
         let shortest = |who| outcome.of(who).map(|times| times.min(Clock::Wall));
         let gain = shortest(ONE).zip(shortest(TWO)).map(|(one, two)| one / two);
         let of_halves = |who| outcome.of(who).map(|times| times.min_of_halves(Clock::Wall));

@@ -13,12 +13,12 @@ use std::error::Error;
 use std::hint::black_box;
 
 const MICRO: f64 = 1e-6;
-/// Greatest time over that on the smallest terrain.
+/// Target time, relative to that on the smallest terrain.
 const OVER_SMALLEST: f64 = 1.2;
-/// Passes that warm up: a mesh of a million triangles, its tree and what it shares caches with come back slowly.
+/// Warm-up passes: the caches of a mesh of a million triangles and its tree refill slowly.
 const WARM_UPS: usize = 4;
 
-/// Greatest time as a share of the best peer's.
+/// Target time, relative to the best peer's.
 fn over_best(wheel: Wheel) -> f64 {
     match wheel {
         Wheel::Sphere { .. } => 0.8,
@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Every size and every engine in the same rounds: sizes are compared too.
+/// Runs every size and every engine in the same rounds, because sizes are compared too.
 fn run(
     sizes: &[Terrain],
     wheel: Wheel,
@@ -85,7 +85,7 @@ fn peers(terrain: &Terrain, wheel: Wheel) -> Vec<(&'static str, Box<dyn Peer>)> 
     peers
 }
 
-/// How far the deepest contact of each peer is from ours, which stands first.
+/// Distance of each peer's deepest contact from ours, which comes first.
 fn compare_depths(all: &mut [Named], wheel: Wheel, states: &[Vec<State>], depths: &mut Table) {
     const MILLI: f64 = 1e-3;
     let of_all = all.iter_mut().map(|(_, peer)| {
@@ -105,7 +105,7 @@ fn compare_depths(all: &mut [Named], wheel: Wheel, states: &[Vec<State>], depths
     }
 }
 
-/// Contacts per frame of everyone: how many is each engine's own choice, but none is wrong.
+/// Contacts per frame of every engine: the number is its own choice, but zero is wrong.
 fn contacts(all: &mut [Named], states: &[Vec<State>]) -> Result<Vec<f64>, Box<dyn Error>> {
     let mut out = Vec::new();
     for (name, peer) in all {

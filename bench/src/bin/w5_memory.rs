@@ -1,4 +1,4 @@
-//! W5: what a terrain of a million triangles occupies, bytes per contact, calls for memory per frame.
+//! W5: memory of a terrain of a million triangles, bytes per contact, allocations per frame.
 
 use parry3d_f64::query::{ContactManifold, TrackedContact};
 use pong_bench::folder::Folder;
@@ -20,7 +20,7 @@ use std::time::Instant;
 #[global_allocator]
 static HEAP: heap::Counting = heap::Counting;
 
-/// Most bytes of a triangle, with the tree that finds it, and of what is kept of a contact.
+/// Target bytes per triangle, with its search tree, and per kept contact.
 const PER_TRIANGLE: f64 = 64.0;
 const PER_CONTACT: f64 = 160.0;
 const MEBIBYTE: f64 = 1024.0 * 1024.0;
@@ -93,13 +93,13 @@ fn load(folder: &Folder, terrain: Terrain, source: Source) -> Result<[String; 7]
     ])
 }
 
-/// Corners and what is known of each triangle: all but what finds them.
+/// Bytes of vertices and triangle data without the search tree.
 fn without_tree(body: &MovableGroup) -> usize {
     size_of_val(&*body.triangles.vertices) + size_of_val(&*body.triangles.triangles)
 }
 
-/// Bytes that others hold for the terrain, and what corners and triangles alone take. Engines in C are asked through
-/// the C library's own account.
+/// Bytes that other engines hold for the terrain, and those of vertices and triangles alone. Engines in C are
+/// measured by the C library's counters.
 fn peers(terrain: &Terrain) -> Vec<(&'static str, usize, Option<usize>)> {
     let mut out = Vec::new();
     let before = heap::held();
@@ -119,7 +119,7 @@ fn peers(terrain: &Terrain) -> Vec<(&'static str, usize, Option<usize>)> {
     }
     #[cfg(feature = "mujoco")]
     {
-        // The arena that every scene gets is none of the terrain's.
+        // The arena of every scene does not count.
         let small = Terrain { cells: [2, 2] };
         let held = |terrain: &Terrain| {
             let before = heap::held_in_c();
@@ -135,7 +135,7 @@ fn peers(terrain: &Terrain) -> Vec<(&'static str, usize, Option<usize>)> {
 
 // ---- contacts
 
-/// Memory of sealed worlds that differ in nothing but how many contacts they have room for.
+/// Memory of sealed worlds that differ only in their contact capacity.
 fn contacts(size: usize) -> Result<Table, Box<dyn Error>> {
     const ROOM: usize = 1024;
     let ring = Ring::new(ring::SIZES[size]);
@@ -194,7 +194,7 @@ fn calls(size: usize) -> Result<Table, Box<dyn Error>> {
     Ok(table)
 }
 
-/// Calls that took memory in a second pass over the same frames.
+/// Allocations in a second pass over the same frames.
 fn per_frame(peer: &mut dyn Peer, states: &[Vec<pong_engine::State>]) -> f64 {
     let mut pass = || states.iter().for_each(|states| _ = std::hint::black_box(peer.frame(states)));
     pass();

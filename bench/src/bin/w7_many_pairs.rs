@@ -1,4 +1,4 @@
-//! W7: many Objects, all paired, none touching: what finding nothing costs.
+//! W7: many Objects, all paired, none touching: cost of empty results.
 
 use pong_bench::cloud::{self, FRAMES};
 use pong_bench::heap;
@@ -18,9 +18,9 @@ static HEAP: heap::Counting = heap::Counting;
 const MICRO: f64 = 1e-6;
 const MEBIBYTE: f64 = 1024.0 * 1024.0;
 const COUNTS: [usize; 3] = [100, 300, 1000];
-/// Rounds of the largest scene at most: a pass of it takes seconds.
+/// Most rounds of the largest scene: a pass of it takes seconds.
 const ROUNDS_OF_LARGEST: usize = 2;
-/// Greatest time over MuJoCo's.
+/// Target time, relative to MuJoCo's.
 const OVER_MUJOCO: f64 = 1.0;
 
 fn main() -> Result<(), Box<dyn Error>> {

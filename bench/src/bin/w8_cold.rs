@@ -1,4 +1,4 @@
-//! W8: cold frames: between two frames the rest of a simulation has filled the caches.
+//! W8: cold frames: between two frames, other work of a simulation fills the caches.
 
 use pong_bench::one_by_one::{Others, middles_of_halves, quantile, seconds};
 use pong_bench::options::Options;
@@ -14,7 +14,7 @@ use std::error::Error;
 use std::hint::black_box;
 
 const MICRO: f64 = 1e-6;
-/// Greatest time of a cold frame over a warm one.
+/// Target time of a cold frame, relative to a warm one.
 const COLD_OVER_WARM: f64 = 3.0;
 
 type Contender = (String, Box<dyn Peer>, Vec<Vec<State>>, Option<f64>);

@@ -1,5 +1,5 @@
-//! W9: latency: a frame of the ring (48, 1000) once a millisecond, alone, with a worker, with a worker that is woken shortly
-//! before, and with a rehearsal: the frame before is evaluated once more, so that the caches hold what the next one needs.
+//! W9: latency: a frame of the ring (48, 1000) once a millisecond: alone, with a worker, with a worker woken
+//! shortly before, and with a rehearsal, in which the previous frame is evaluated again to warm the caches.
 
 use pong_bench::one_by_one::{middles_of_halves, quantile, seconds};
 use pong_bench::options::Options;
@@ -16,10 +16,10 @@ use std::time::{Duration, Instant};
 
 const MICRO: f64 = 1e-6;
 const PERIOD: Duration = Duration::from_millis(1);
-/// Long enough for a sleeping worker to be up, short against a frame.
+/// Lead time: long enough to wake a sleeping worker, short against a frame.
 const AHEAD: Duration = Duration::from_micros(100);
 
-/// Frames of one world before those of the next: what else the machine does then falls on all alike.
+/// Frames of one world before those of the next, so that disturbances by the machine affect all alike.
 const TURN: u32 = 250;
 
 /// One way to run the frames.
@@ -27,9 +27,9 @@ struct Way {
     name: &'static str,
     rig: Rig,
     prewake: bool,
-    /// Whether the states at hand are evaluated shortly before.
+    /// True if the present states are evaluated shortly before the frame.
     rehearse: bool,
-    /// By frame, s.
+    /// Times by frame, s.
     times: Vec<f64>,
     late: u32,
 }
@@ -84,7 +84,7 @@ impl Way {
         self.rig.world.quiesce();
     }
 
-    /// The middle frame of every turn, s.
+    /// Median frame of every turn, s.
     fn middles(&self) -> Vec<f64> {
         self.times.chunks(TURN as usize).map(|turn| quantile(&mut turn.to_vec(), 0.5)).collect()
     }
@@ -103,7 +103,7 @@ fn told(ways: &mut [Way; 5]) -> Table {
     ]);
     let alone = ways[0].middles();
     for way in ways {
-        // Turn by turn: what the machine does beside it changes within seconds.
+        // Turn by turn: disturbances by the machine change within seconds.
         let mut ratios: Vec<f64> = way.middles().iter().zip(&alone).map(|(own, alone)| own / alone).collect();
         let halves = middles_of_halves(&mut ratios);
         let told = [0.5, 0.99, 0.999, 1.0].map(|share| digits(quantile(&mut way.times, share) / MICRO));

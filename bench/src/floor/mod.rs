@@ -1,22 +1,22 @@
-//! What the processor needs at the very least: plane tests written by hand for its widest registers, without any of
-//! what an engine is for. They use fused multiply-add, which the engine must not.
+//! Lower bounds of the time: hand-written plane tests for the widest registers of the processor, without the
+//! other parts of an engine. They use fused multiply-add, which the engine must not.
 
 pub mod planes;
 pub mod ring;
 
-/// Width of the registers that are used.
+/// Width of the registers in use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// Eight numbers at a time.
     Avx512,
     /// Four at a time.
     Avx2,
-    /// What the compiler makes of a loop.
+    /// Plain loops, vectorised by the compiler.
     Portable,
 }
 
 impl Level {
-    /// The best of this processor.
+    /// The best level of this processor.
     pub fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
         if std::is_x86_feature_detected!("fma") {

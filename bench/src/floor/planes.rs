@@ -1,4 +1,4 @@
-//! A point against the planes of a convex body, eight planes at a time: how high above the highest it lies.
+//! A point against the planes of a convex body, eight planes at a time: height above the highest plane.
 
 use super::Level;
 use pong_geometry::{Pose, Transform, Vec3};
@@ -10,7 +10,7 @@ use std::arch::x86_64::*;
 #[repr(align(64))]
 pub struct Block([[f64; 8]; 4]);
 
-/// The blocks of a convex body; what is left of the last one repeats its last plane.
+/// Blocks of a convex body; the last block is filled with copies of its last plane.
 pub fn blocks(planes: &[(Vec3, f64)]) -> Vec<Block> {
     let block = |planes: &[(Vec3, f64)]| {
         let plane = |lane: usize| planes[lane.min(planes.len() - 1)];
@@ -20,8 +20,8 @@ pub fn blocks(planes: &[(Vec3, f64)]) -> Vec<Block> {
     planes.chunks(8).map(block).collect()
 }
 
-/// The floor of one point against a convex body: for every pair of poses, brings the point's group into the body's frame
-/// and takes the greatest height of the point above any plane, m. Negative where it is inside: minus the depth.
+/// Floor of one point against a convex body: for every pair of poses, transforms the point to the body's
+/// frame and takes its greatest height above any plane, m. Negative inside: minus the depth.
 pub fn heights(level: Level, blocks: &[Block], point: &Vec3, poses: &[[Pose; 2]], out: &mut [f64]) {
     match level {
         #[cfg(target_arch = "x86_64")]
@@ -38,7 +38,7 @@ pub fn heights(level: Level, blocks: &[Block], point: &Vec3, poses: &[[Pose; 2]]
     }
 }
 
-/// The floor of many points of one body under one pose.
+/// Floor of many points of one body under one pose.
 pub fn heights_of_many(level: Level, blocks: &[Block], points: &[Vec3], x: &Transform, out: &mut [f64]) {
     match level {
         #[cfg(target_arch = "x86_64")]
@@ -87,13 +87,13 @@ fn heights_of_many_avx2(blocks: &[Block], points: &[Vec3], x: &Transform, out: &
     }
 }
 
-/// A point of one group seen from another: two rotations by quaternions are the least that it takes.
+/// A point of one group in the frame of another, by two quaternion rotations, the least possible.
 #[inline(always)]
 fn seen([mover, target]: &[Pose; 2], point: &Vec3) -> Vec3 {
     target.orientation.inverse() * (mover.position - target.position + mover.orientation * point)
 }
 
-/// A point carried by a pose, fused.
+/// A point transformed by a pose, with fused operations.
 #[inline]
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "fma")]
@@ -103,7 +103,7 @@ pub(super) fn carried(x: &Transform, p: &Vec3) -> Vec3 {
     Vec3::new(row(0), row(1), row(2))
 }
 
-/// The greatest height of a point above any plane, m.
+/// Greatest height of a point above any plane, m.
 #[inline]
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,fma")]
@@ -119,7 +119,7 @@ pub(super) fn greatest_avx512(blocks: &[Block], p: &Vec3) -> f64 {
     _mm512_reduce_max_pd(greatest)
 }
 
-/// The greatest height of a point above any plane, m.
+/// Greatest height of a point above any plane, m.
 #[inline]
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
@@ -140,7 +140,7 @@ pub(super) fn greatest_avx2(blocks: &[Block], p: &Vec3) -> f64 {
     _mm_cvtsd_f64(_mm_max_pd(two, _mm_unpackhi_pd(two, two)))
 }
 
-/// The greatest height of a point above any plane, m.
+/// Greatest height of a point above any plane, m.
 pub(super) fn greatest_portable(blocks: &[Block], p: &Vec3) -> f64 {
     let mut greatest = [f64::NEG_INFINITY; 8];
     for Block([nx, ny, nz, offset]) in blocks {
@@ -158,7 +158,7 @@ mod tests {
     use crate::hull::Hull;
     use crate::pairs::{Mover, Queries, Target};
 
-    /// Every level that this machine has finds the height that the planes have, one by one.
+    /// Every level of this machine finds the height that the planes give one by one.
     #[test]
     fn all_levels_find_the_highest_plane() {
         for vertices in [8, 18, 66] {

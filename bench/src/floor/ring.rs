@@ -1,6 +1,6 @@
-//! The docking ring by hand: eight tips a step are carried and asked whether they lie in the slab between the lowest and
-//! the highest of the wedges; those that do are looked up in a grid of 64 × 64 cells seen along the axis, and tested
-//! against the six planes of each wedge in their cell. Depths out, and nothing else.
+//! The docking ring by hand: eight tips at a time are transformed and tested against the slab between the
+//! lowest and the highest point of the wedges; those inside are looked up in a grid of 64 × 64 cells across
+//! the axis and tested against the six planes of each wedge in their cell. The result is depths only.
 
 use super::Level;
 use super::planes::{Block, blocks, greatest_portable};
@@ -14,7 +14,7 @@ use pong_geometry::{Pose, Transform, Vec3};
 use std::arch::x86_64::*;
 
 const CELLS: usize = 64;
-/// Half the side of the grid, m: beyond every wedge and tip that can touch.
+/// Half the side of the grid, m: it contains every wedge and every tip that can touch.
 const HALF_SIDE: f64 = 0.72;
 const CELL: f64 = 2.0 * HALF_SIDE / CELLS as f64;
 const LANES: usize = 8;
@@ -22,23 +22,23 @@ const LANES: usize = 8;
 /// Eight tips: their coordinates along x, y and z, m.
 type Eight = [[f64; LANES]; 3];
 
-/// The ring, its grid and what the last frame found.
+/// The ring, its grid and the results of the last frame.
 pub struct ByHand {
     level: Level,
     wedges: Vec<[Vec3; 8]>,
     planes: Vec<Vec<(Vec3, f64)>>,
-    /// The same planes, ready for wide registers.
+    /// Planes of the wedges, arranged for wide registers.
     blocks: Vec<Block>,
-    /// Per cell, where its wedges begin in the list; one more at the end.
+    /// Start of each cell's wedges in `list`, with one more entry at the end.
     starts: Vec<u32>,
     list: Vec<u32>,
-    /// What is left of the last eight repeats the last tip.
+    /// Tips in eights; the last eight are filled with copies of the last tip.
     tips: Vec<Eight>,
     tip_count: usize,
     radius: f64,
-    /// Between which heights a tip's centre may touch, m.
+    /// Range of heights of a tip's centre that may touch, m.
     slab: [f64; 2],
-    /// Tip, wedge, depth.
+    /// Contacts: tip, wedge, depth.
     found: Vec<(u32, u32, f64)>,
 }
 
@@ -72,7 +72,7 @@ impl ByHand {
         grid
     }
 
-    /// The tips of one step that may touch: where they are and which those are.
+    /// Tests the tips of one eight that are inside the grid.
     #[inline(always)]
     fn test_those_inside(
         &mut self,
@@ -88,7 +88,7 @@ impl ByHand {
         }
     }
 
-    /// A tip over the grid.
+    /// Tests a tip over the grid.
     #[inline(always)]
     fn test_tip(&mut self, tip: usize, p: Vec3, greatest: impl Fn(&[Block], &Vec3) -> f64) {
         let [column, row] = [p.x, p.y].map(|x| ((x + HALF_SIDE) * (1.0 / CELL)) as usize);
@@ -102,7 +102,8 @@ impl ByHand {
         }
     }
 
-    /// Below all planes or within a radius of them: of a sphere above a plane the true distance counts.
+    /// Records a contact if the tip is below all planes or within a radius of them; for a sphere above a
+    /// plane the true distance counts.
     fn take(&mut self, tip: usize, wedge: usize, height: f64, p: &Vec3) {
         let distance = match height < 0.0 {
             true => height,
@@ -139,7 +140,7 @@ impl ByHand {
     }
 }
 
-/// Eight tips carried, and those of them in the slab and over the grid.
+/// Transforms eight tips, and returns a mask of those in the slab and over the grid.
 #[inline]
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,fma")]
@@ -164,7 +165,7 @@ fn inside_avx512(tips: &Eight, x: &Transform, [low, high]: [f64; 2]) -> (Eight, 
     (p, inside)
 }
 
-/// Eight tips carried, four at a time, and those of them in the slab and over the grid.
+/// Transforms eight tips, four at a time, and returns a mask of those in the slab and over the grid.
 #[inline]
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
@@ -194,7 +195,7 @@ fn inside_avx2(tips: &Eight, x: &Transform, [low, high]: [f64; 2]) -> (Eight, u8
     (p, all)
 }
 
-/// Eight tips carried, and those of them in the slab and over the grid.
+/// Transforms eight tips, and returns a mask of those in the slab and over the grid.
 fn inside_portable(tips: &Eight, x: &Transform, [low, high]: [f64; 2]) -> (Eight, u8) {
     let mut p: Eight = [[0.0; LANES]; 3];
     let mut inside = 0;
@@ -231,7 +232,7 @@ impl Peer for ByHand {
     }
 }
 
-/// The faces' planes: unit normals and offsets.
+/// Planes of the faces: unit normals and offsets.
 pub fn planes(wedge: &[Vec3; 8]) -> Vec<(Vec3, f64)> {
     let plane = |face: &[u32; 4]| {
         let [a, b, _, d] = face.map(|v| wedge[v as usize]);
@@ -241,8 +242,8 @@ pub fn planes(wedge: &[Vec3; 8]) -> Vec<(Vec3, f64)> {
     WEDGE_FACES.iter().map(plane).collect()
 }
 
-/// Whether a wedge, seen along the axis and grown by a radius, may reach into the cell around `middle`: along x, y,
-/// and the two directions that it is built on.
+/// Tests whether a wedge, projected along the axis and grown by a radius, may reach into the cell around
+/// `middle`: along x, y, and the two directions in which it is built.
 fn reaches(wedge: &[Vec3; 8], middle: [f64; 2], radius: f64) -> bool {
     let outward = wedge.iter().sum::<Vec3>().xy().normalize();
     let (x, y) = (pong_geometry::Vec3::x().xy(), pong_geometry::Vec3::y().xy());
@@ -255,7 +256,7 @@ fn reaches(wedge: &[Vec3; 8], middle: [f64; 2], radius: f64) -> bool {
     })
 }
 
-/// Distance of a point outside from a wedge, m: only faces that it lies above can be nearest.
+/// Distance of an outer point from a wedge, m: only faces below the point can be nearest.
 fn distance(p: &Vec3, wedge: &[Vec3; 8], planes: &[(Vec3, f64)]) -> f64 {
     let to_face = |(face, (normal, offset)): (&[u32; 4], &(Vec3, f64))| {
         let height = normal.dot(p) - offset;

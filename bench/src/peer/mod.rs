@@ -1,4 +1,4 @@
-//! Other engines on the same scenes: collision detection alone, without forces, friction or memory of contacts.
+//! Other engines on the same scenes: only collision detection, without forces, friction or contact memory.
 
 #[cfg(feature = "mujoco")]
 pub mod mujoco;
@@ -19,10 +19,10 @@ use std::borrow::Cow;
 
 /// An engine on a scene of bodies.
 pub trait Peer {
-    /// One frame from the states of the bodies; how many contacts it found.
+    /// Runs one frame from the states of the bodies and returns the number of contacts.
     fn frame(&mut self, states: &[State]) -> usize;
 
-    /// Depth of the deepest contact of the last frame, m; `None` from those who do not say.
+    /// Depth of the deepest contact of the last frame, m; `None` if the engine does not report it.
     fn deepest(&self) -> Option<f64> {
         None
     }
@@ -30,22 +30,22 @@ pub trait Peer {
 
 /// An engine on one pair of primitives.
 pub trait PairPeer {
-    /// Answers all queries, from the two poses to the contact: for each the deepest one, if there is any.
+    /// Answers all queries, from the two poses to the contact: the deepest one of each, if any.
     fn pass(&mut self, queries: &Queries, answers: &mut [Answer]);
 
-    /// One pose, many primitives: elements of one body as A, with one relative pose for all. `false` from those who have
-    /// no such way.
+    /// One pose, many primitives: elements of one body as A, with one relative pose for all. Returns `false`
+    /// if the engine has no such query.
     fn pass_over_elements(&mut self, _elements: &Elements, _answers: &mut [Answer]) -> bool {
         false
     }
 
-    /// The frame of the normals and points in answers.
+    /// Frame of the normals and points in answers.
     fn frame_of_answers(&self) -> AnswerFrame {
         AnswerFrame::Target
     }
 }
 
-/// What the normals and points of an answer are seen from.
+/// Frame of the normals and points of an answer.
 pub enum AnswerFrame {
     /// The target.
     Target,
@@ -55,7 +55,7 @@ pub enum AnswerFrame {
     Common,
 }
 
-/// The polyhedron that a target is, or that stands for a cone in engines that have none.
+/// The polyhedron of a target, or in place of a cone for engines without cones.
 #[cfg(any(feature = "mujoco", feature = "ode"))]
 fn hull_of(target: &Target) -> Option<Cow<'_, Hull>> {
     const SIDES: u32 = 64;
@@ -66,7 +66,7 @@ fn hull_of(target: &Target) -> Option<Cow<'_, Hull>> {
     }
 }
 
-/// Position and quaternion (w, x, y, z), as engines in C take them.
+/// Position and quaternion (w, x, y, z) in the layout of engines in C.
 #[cfg(any(feature = "mujoco", feature = "ode"))]
 fn pose_numbers(state: &State) -> [f64; 7] {
     let ([x, y, z], [w, i, j, k]) = (state.position, state.orientation);

@@ -40,7 +40,7 @@ pub fn version() -> String {
     unsafe { CStr::from_ptr(pong_mujoco_version()) }.to_string_lossy().into_owned()
 }
 
-/// A free body's own part; its inertia is of no account here, but MuJoCo wants one.
+/// MJCF of a free body; its inertia is irrelevant here, but MuJoCo requires one.
 const FREE: &str = "<freejoint/><inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>";
 
 /// A scene from MJCF text.
@@ -76,7 +76,7 @@ impl Drop for Scene {
 pub struct Mujoco {
     scene: Scene,
     poses: Vec<f64>,
-    /// Whether the first state is that of the world itself.
+    /// True if the first state is that of the world body.
     on_ground: bool,
 }
 
@@ -100,13 +100,13 @@ impl Mujoco {
         Self { scene: Scene::load(&assets, &world), poses: Vec::new(), on_ground: false }
     }
 
-    /// W7: so many spheres, each a free body, any two of which may touch.
+    /// W7: spheres as free bodies, any two of which may touch.
     pub fn cloud(count: usize) -> Self {
         let body = format!("<body>{FREE}<geom type=\"sphere\" size=\"{}\"/></body>", crate::cloud::RADIUS);
         Self { scene: Scene::load("", &body.repeat(count)), poses: Vec::new(), on_ground: false }
     }
 
-    /// Wheels on a height field: MuJoCo has no mesh that is not convex.
+    /// Wheels on a height field: MuJoCo has no non-convex meshes.
     pub fn terrain(terrain: &Terrain, wheel: Wheel, wheels: usize) -> Self {
         let (heights, [half_x, half_y]) = terrain.heights();
         let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
@@ -151,7 +151,7 @@ pub struct MujocoPair {
 }
 
 impl MujocoPair {
-    /// For one pair; `None` for the triangle, which MuJoCo does not have. Of a cone it has a polyhedron.
+    /// Builds one pair; `None` for the triangle, which MuJoCo does not have. Cones are polyhedra.
     pub fn new(mover: Mover, target: &Target) -> Option<Self> {
         const THIN: f64 = 1e-9;
         let shape = match mover {

@@ -21,7 +21,7 @@ const SPHERE: c_int = 0;
 const CAPSULE: c_int = 1;
 const A_RAY: c_int = 2;
 const CYLINDER: c_int = 3;
-/// ODE has no points: what stands for one is a nanometre across.
+/// Radius of the sphere in place of a point, which ODE lacks, m.
 const THIN: f64 = 1e-9;
 
 unsafe extern "C" {
@@ -61,11 +61,11 @@ unsafe extern "C" {
     fn pong_ode_rays(scene: *mut Opaque, poses: *const f64, count: c_int, start: f64, answers: *mut Answer);
 }
 
-/// A convex geom as ODE reads it; ODE keeps pointers into it.
+/// A convex geom in ODE's layout; ODE keeps pointers into it.
 struct Convex {
     planes: Vec<[f64; 4]>,
     points: Vec<[f64; 3]>,
-    /// Number of corners, then the corners, polygon after polygon.
+    /// Number of corners, then the corners, for each polygon.
     polygons: Vec<c_uint>,
 }
 
@@ -79,7 +79,7 @@ impl Convex {
     }
 }
 
-/// The scene, and what it points into.
+/// The scene, with the memory it points into.
 struct Scene {
     pointer: *mut Opaque,
     convexes: Vec<Convex>,
@@ -87,11 +87,11 @@ struct Scene {
     triangles: Vec<[u32; 3]>,
 }
 
-/// What ODE keeps the geoms of a body in. Its hash space, which it makes where nobody chooses, is slower on these scenes
-/// than either.
+/// Kind of space that holds the geoms of a body. ODE's default, a hash space, is slower on these scenes than
+/// either.
 #[derive(Clone, Copy, Debug)]
 pub enum Space {
-    /// A quadtree over the place where the scene is.
+    /// A quadtree over the region of the scene.
     Quadtree,
     /// Sweep and prune along x, then y, then z.
     SweepAndPrune,
@@ -166,7 +166,7 @@ impl OdeRing {
     /// The ring.
     pub fn new(ring: &Ring, tip: Tip, space: Space) -> Self {
         let mut scene = Scene::new(space);
-        // ODE wants the origin of a convex geom inside.
+        // ODE requires the origin of a convex geom to be inside.
         let centers: Vec<Vec3> = ring.wedges.iter().map(|wedge| wedge.iter().sum::<Vec3>() / 8.0).collect();
         let convex = |(wedge, center): (&[Vec3; 8], &Vec3)| {
             let wedge = wedge.map(|corner| corner - center);
@@ -205,7 +205,7 @@ impl Peer for OdeRing {
     }
 }
 
-/// ODE's triangle mesh and wheels on it, each asked for alone.
+/// ODE's triangle mesh and wheels on it, each queried alone.
 pub struct OdeTerrain {
     scene: Scene,
     poses: Vec<f64>,
@@ -244,8 +244,8 @@ pub struct OdePair {
 }
 
 impl OdePair {
-    /// For one pair; `None` where ODE has no such primitive. Of rays against convex bodies it finds hardly any. Of a cone
-    /// it has a polyhedron.
+    /// Builds one pair; `None` if ODE lacks the primitive. Its rays against convex bodies find hardly any
+    /// hits. Cones are polyhedra.
     pub fn new(mover: Mover, target: &Target) -> Option<Self> {
         if matches!(mover, Mover::Ellipsoid | Mover::Cylinder | Mover::Cone) {
             return None;

@@ -35,10 +35,10 @@ fn wedge(corners: &[Vec3; 8]) -> ConvexPolyhedron {
         .expect("a wedge is convex")
 }
 
-/// What parry keeps of one pair of shapes.
+/// Data kept by parry for one pair of shapes.
 type Kept = (Vec<ContactManifold<(), ()>>, Option<ContactManifoldsWorkspace>);
 
-/// One shape against others through parry's own pair dispatch, with what it keeps from frame to frame.
+/// One shape against others through parry's own pair dispatch, with its data kept from frame to frame.
 pub struct Manifolds {
     first: Box<dyn Shape>,
     second: Box<dyn Shape>,
@@ -104,7 +104,7 @@ pub fn trimesh(terrain: &Terrain) -> TriMesh {
     TriMesh::new(vertices, terrain.triangles()).expect("a terrain has triangles")
 }
 
-/// A loop of one's own over parry's tree of wedges and its projection of a point.
+/// A custom loop over parry's tree of wedges and its point projection.
 pub struct Loop {
     wedges: Vec<ConvexPolyhedron>,
     tree: Bvh,

@@ -1,4 +1,4 @@
-//! W1 by parry: the function that its own dispatch would call, called directly.
+//! W1 by parry: direct calls of the function that its dispatch would choose.
 
 use super::parry::{pose, vector};
 use super::{AnswerFrame, PairPeer};
@@ -27,12 +27,12 @@ enum Shapes {
     Hull(ConvexPolyhedron),
     Triangle(Triangle),
     Capsule(Capsule),
-    /// Along y, as the cone.
+    /// A cylinder along y, as is the cone.
     Cylinder(Cylinder),
     Cone(Cone),
 }
 
-/// An ellipsoid is one support function away.
+/// An ellipsoid, given by its support function.
 struct Ellipsoid;
 
 impl SupportMap for Ellipsoid {
@@ -44,7 +44,7 @@ impl SupportMap for Ellipsoid {
 }
 
 impl Parry {
-    /// For one pair, if the target is one of W1's.
+    /// Builds one pair, if the target is one of W1's.
     ///
     /// # Panics
     /// If parry refuses the hull.
@@ -105,7 +105,7 @@ impl PairPeer for Parry {
 }
 
 impl Parry {
-    /// Answers one query after another, given the mover's pose in the target's frame of each.
+    /// Answers queries one by one, from the mover's pose in the target's frame.
     fn each(&self, answers: &mut [Answer], x_ba: impl Fn(usize) -> Pose) {
         match &self.target {
             Shapes::Hull(b) => self.on(b, answers, x_ba),
@@ -168,7 +168,7 @@ fn ball(x: &Pose, b: &impl Shape) -> Option<Answer> {
     touch(contact_convex_polyhedron_ball(x, b, &Ball::new(RADIUS), 0.0))
 }
 
-/// Of two capsules parry has a test of its own, which fills a manifold that is kept.
+/// Contact of two capsules, by parry's dedicated test, which fills a persistent manifold.
 fn capsules(x: &Pose, b: &Capsule, kept: &mut ContactManifold<(), ()>) -> Option<Answer> {
     contact_manifold_capsule_capsule(x, b, &capsule(), 0.0, kept);
     let found = kept.points.first()?;

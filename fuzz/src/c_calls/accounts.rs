@@ -1,4 +1,4 @@
-//! Energy accounts: of contacts, of pairs of movable groups, and what to do about one that makes energy.
+//! Energy accounts: of contacts, of pairs of movable groups, and the response to one that gains energy.
 
 use super::frames::finite;
 use super::session::{Session, Sure, read_text};
@@ -68,7 +68,7 @@ impl Session<'_> {
             return;
         }
         assert!(place.get() <= capacity, "{} accounts where {capacity} fit", place.get());
-        // SAFETY: the call succeeded, so so many were written.
+        // SAFETY: the call succeeded, so this many were written.
         unsafe { accounts.set_len(place.get()) };
         accounts.iter().for_each(check);
     }

@@ -1,4 +1,4 @@
-//! What is done between frames: contact state, pairs, surfaces, forgetting, workers.
+//! Calls between frames: contact state, pairs, surfaces, clearing of history, workers.
 
 use super::frames::finite;
 use super::laws;
@@ -20,7 +20,7 @@ use pong::workers::{pong_prewake, pong_quiesce};
 use pong::world::pong_destroy_world;
 use std::ffi::c_char;
 
-/// Surfaces of the models, and another.
+/// Surfaces of the models, and an unknown one.
 const SURFACES: [&str; 6] = ["rubber", "rock", "wall", "own", "foam", "nope"];
 
 impl Session<'_> {
@@ -37,17 +37,17 @@ impl Session<'_> {
         }
     }
 
-    /// What the laws of this world do from now on.
+    /// Changes the behaviour of this world's laws.
     pub fn change_laws(&mut self) {
         let kind = self.input.below(laws::KINDS as usize) as u8;
         if let Some(host) = self.host() {
             host.behaviour.set(kind);
-            // Whether the frame there is counts is for the next evaluation to say.
+            // The next evaluation decides whether the present frame is valid.
             host.has_frame = false;
         }
     }
 
-    /// A clone that remembers the same, takes a frame and is destroyed.
+    /// Clones the world with its memory, runs a frame in the clone and destroys it.
     fn clone_world(&mut self) {
         let (world, known) = self.world();
         let sealed = self.host().is_some_and(|host| host.sealed);
@@ -71,7 +71,7 @@ impl Session<'_> {
             self.call("save", Sure::Right, || unsafe { pong_save_contact_state(world, pointer, size) });
         }
         assert!(blocks[0] == blocks[1], "a clone remembers something else");
-        // A law that calls its own world back would call the first one, which is free.
+        // A law that calls its own world back would call the first one, which is not in a call.
         if self.host().is_some_and(|host| !host.behaviour.calls_back()) {
             self.call("step", Sure::Unknown, || unsafe { pong_step(clone) });
         }
@@ -152,7 +152,7 @@ impl Session<'_> {
         self.call("forget", sure, || unsafe { pong_clear_contact_history(world, object) });
     }
 
-    /// Which contacts there are to be preloaded, and whether their forces are numbers, is the scene's.
+    /// Preloads contacts; the scene decides whether there are any and whether their forces are finite.
     fn preload(&mut self) {
         let (world, known) = self.world();
         let (pair, good) = self.id(|ids| &ids.pairs, |bits| pong_pair_id { bits });
@@ -202,7 +202,7 @@ impl Session<'_> {
         self.call("set surface", sure, || unsafe { pong_set_surface(world, model, name.pointer(), &values) });
     }
 
-    /// Other values. Answers whether any of them is certainly wrong.
+    /// Changes values. Returns whether any of them is certainly invalid.
     fn change(&mut self, values: &mut pong_surface_values) -> bool {
         match self.input.below(4) {
             0 => {
@@ -222,7 +222,7 @@ impl Session<'_> {
                 *numbers.into_iter().nth(which).expect("one of them") = number;
                 let linear = values.normal_law == 0;
                 let power_law = matches!(values.normal_law, 5 | 6);
-                // Others may belong to a law that the surface has not.
+                // Others may belong to a law that the surface does not have.
                 match which {
                     0 => (1e-100..=1e100).contains(&number) || number == f64::INFINITY,
                     1 | 2 if linear => (0.0..=1e100).contains(&number),

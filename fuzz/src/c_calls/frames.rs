@@ -12,7 +12,7 @@ use pong::report::{pong_get_ledger, pong_get_report, pong_ledger, pong_report};
 use pong::states::{pong_default_state, pong_get_state, pong_set_state, pong_set_states, pong_state};
 use pong::wrenches::{pong_get_wrench, pong_get_wrenches, pong_wrench};
 
-/// Largest number of a state.
+/// Largest number in a valid state.
 const LARGEST: f64 = 1e100;
 
 impl Session<'_> {
@@ -42,7 +42,7 @@ impl Session<'_> {
         }
     }
 
-    /// A good state near the origin, where others are.
+    /// Sets a valid state near the origin, where others are.
     pub fn set_near(&mut self, index: usize) {
         let state = self.near();
         let Some(host) = self.host() else { return };
@@ -68,7 +68,7 @@ impl Session<'_> {
         state
     }
 
-    /// Any numbers. Answers whether they can be a state.
+    /// Any numbers. Returns whether they form a valid state.
     fn any_state(&mut self) -> (pong_state, Sure) {
         let mut state = self.near();
         for _ in 0..=self.input.below(3) {
@@ -123,7 +123,7 @@ impl Session<'_> {
             ids.push(id);
             states.push(state);
         }
-        // A length that no array can have, or an array that is not there.
+        // An impossible length, or a NULL array.
         let (count, at) = match self.input.byte() {
             255 => (usize::MAX, ids.as_ptr()),
             254 if !ids.is_empty() => (ids.len(), std::ptr::null()),
@@ -184,7 +184,7 @@ impl Session<'_> {
         }
     }
 
-    /// All wrenches of a frame that succeeded must be numbers.
+    /// Checks that all wrenches of a successful frame are finite.
     fn look_at_frame(&mut self) {
         let Some(host) = self.host() else { return };
         host.has_frame = true;
@@ -255,7 +255,7 @@ impl Session<'_> {
             return;
         }
         assert!(place.get() <= capacity, "{} contacts where {capacity} fit", place.get());
-        // SAFETY: the call succeeded, so so many were written.
+        // SAFETY: the call succeeded, so this many were written.
         unsafe { contacts.set_len(place.get()) };
         for contact in &contacts {
             let vectors =
@@ -296,7 +296,7 @@ impl Session<'_> {
     }
 }
 
-/// No number may leave the library that is none.
+/// Checks that the library returns only finite numbers.
 pub fn finite<'a>(mut numbers: impl Iterator<Item = &'a f64> + Clone, what: &str) {
     let all: Vec<f64> = numbers.clone().copied().collect();
     assert!(numbers.all(|x| x.is_finite()), "{what} of {all:?}");

@@ -1,4 +1,4 @@
-//! A world and what its host knows of it.
+//! A world and the harness's knowledge of it.
 
 use super::laws::Behaviour;
 use pong::ids::{pong_interface_id, pong_model_id, pong_object_id, pong_pair_id};
@@ -18,20 +18,20 @@ pub struct Host {
     pub world: *mut pong_world,
     pub ids: Ids,
     pub sealed: bool,
-    /// Whether each Interface has a state.
+    /// True for each Interface whose state is set.
     pub set: Vec<bool>,
-    /// How the laws of this world behave; its address is their `user` pointer.
+    /// Behaviour of this world's laws; its address is their `user` pointer.
     pub behaviour: Box<Behaviour>,
-    /// Whether a model with laws of the host's may be in it.
+    /// True if a model with laws of the host may be loaded.
     pub own_laws: bool,
-    /// Whether a frame was computed and its outcome not yet made doubtful.
+    /// True if a frame was computed and has not been invalidated.
     pub has_frame: bool,
     pub contact_capacity: u64,
     pub state_size: usize,
     /// A contact state saved before.
     pub saved: Option<Vec<u8>>,
     pub logging: bool,
-    /// Numbers were set at which sums may leave the range of numbers.
+    /// True if numbers were set whose sums may overflow.
     pub extreme: bool,
 }
 
@@ -53,7 +53,7 @@ impl Host {
         }
     }
 
-    /// Whether a frame cannot be refused.
+    /// True if a frame must succeed.
     pub fn is_ready(&self) -> bool {
         self.sealed && self.set.iter().all(|set| *set) && !self.own_laws
     }

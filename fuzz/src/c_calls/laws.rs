@@ -1,4 +1,4 @@
-//! Laws by callback. What they answer depends on their input and on the behaviour that the sequence sets.
+//! Laws by callback. Their results depend on the input and on the behaviour set by the sequence.
 
 use pong::frames::pong_step;
 use pong::law_types::{pong_friction_input, pong_friction_output, pong_normal_input};
@@ -7,15 +7,15 @@ use pong::world::pong_world;
 use std::ffi::c_void;
 use std::sync::atomic::{AtomicPtr, AtomicU8, Ordering};
 
-/// What the laws of a world do.
+/// Behaviour of the laws of a world.
 pub struct Behaviour {
     kind: AtomicU8,
     world: AtomicPtr<pong_world>,
 }
 
-/// Kinds of behaviour; 0 is good.
+/// Number of behaviours; 0 is correct.
 pub const KINDS: u8 = 7;
-/// A call of the own world from inside a law.
+/// Behaviour that calls the same world from inside a law.
 const CALLS_BACK: u8 = 4;
 
 impl Behaviour {
@@ -27,7 +27,7 @@ impl Behaviour {
         self.kind.store(kind % KINDS, Ordering::Relaxed);
     }
 
-    /// Whether the laws call their world back.
+    /// True if the laws call their world back.
     pub fn calls_back(&self) -> bool {
         self.kind.load(Ordering::Relaxed) == CALLS_BACK
     }
@@ -36,7 +36,7 @@ impl Behaviour {
         std::ptr::from_ref(self).cast_mut().cast()
     }
 
-    /// A good answer, or what is wrong instead.
+    /// The correct result, or a faulty one by behaviour.
     fn answer(&self, good: f64) -> f64 {
         match self.kind.load(Ordering::Relaxed) {
             1 => f64::NAN,
@@ -63,7 +63,7 @@ pub unsafe extern "C" fn normal(input: *const pong_normal_input, user: *mut c_vo
     behaviour.answer(input.stiffness * input.depth)
 }
 
-/// Viscous friction that remembers how often it was asked.
+/// Viscous friction that counts its calls.
 pub unsafe extern "C" fn friction(
     input: *const pong_friction_input,
     state: *mut f64,

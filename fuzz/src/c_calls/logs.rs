@@ -8,9 +8,9 @@ use pong::log::{
     pong_stop_log,
 };
 
-/// Folders below that of the process.
+/// Folders below the folder of the process.
 const FOLDERS: [&str; 2] = ["log_1", "log_2"];
-/// What a log costs, in units of a world.
+/// Cost of a log, in units of a world.
 const COST: u32 = 4;
 
 impl Session<'_> {
@@ -29,7 +29,7 @@ impl Session<'_> {
             return;
         }
         self.costs += COST;
-        // Files come and go between two runs of one input.
+        // Files change between two runs of one input.
         self.alone = false;
         let (world, known) = self.world();
         let sealed = self.host().is_some_and(|host| host.sealed);
@@ -40,7 +40,7 @@ impl Session<'_> {
             .collect();
         let names: Vec<&str> = folders.iter().map(String::as_str).collect();
         let folder = self.text(&names);
-        // Other texts name places that are nobody's business.
+        // Other texts name paths outside of the folder.
         let ours = folder
             .text
             .as_ref()
@@ -97,7 +97,7 @@ impl Session<'_> {
     }
 }
 
-/// Removes what logs have left.
+/// Removes the folders of logs.
 pub fn remove_folders() {
     for name in FOLDERS {
         let folder = files::folder().join(name);

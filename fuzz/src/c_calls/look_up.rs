@@ -1,4 +1,4 @@
-//! Names, paths, counts, user data: what may be asked at any time.
+//! Names, paths, counts, user data: queries that are valid at any time.
 
 use super::session::{Session, Sure, read_text};
 use super::set_up::OBJECTS;
@@ -22,7 +22,7 @@ use pong::version::{pong_abi_version, pong_version_string};
 use pong::workers::{pong_get_worker, pong_worker, pong_worker_count, pong_worker_text};
 use std::ffi::c_char;
 
-/// Paths of groups and primitives of the models, and others.
+/// Paths of groups and primitives of the models, and unknown ones.
 const PATHS: [&str; 9] =
     ["", "ball", "ball/latch", "latch", "arm", "ball/shell/sphere", "solid/sheet/sheet", "/", "nope"];
 
@@ -100,7 +100,7 @@ impl Session<'_> {
         let place = self.place::<usize>();
         let capacity = self.input.below(4);
         let mut list = Vec::<pong_interface_id>::with_capacity(capacity);
-        // An impossible length is refused, like an array that is not there.
+        // An impossible length is refused, like a NULL array.
         let (pointer, length) = match self.input.byte() {
             255 => (list.as_mut_ptr(), usize::MAX),
             254 => (std::ptr::null_mut(), 3),

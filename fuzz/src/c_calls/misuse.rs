@@ -1,4 +1,4 @@
-//! Two threads on one world: one of them is refused, and nothing else happens.
+//! Two threads on one world: one of them is refused, without other effects.
 
 use super::session::{Session, Sure, check};
 use super::set_up::COSTS_MAX;
@@ -8,11 +8,11 @@ use pong::status::pong_status;
 use pong::world::pong_world;
 use pong::wrenches::{pong_get_wrench, pong_wrench};
 
-/// A pointer that another thread may have.
+/// A pointer shared with another thread.
 #[derive(Clone, Copy)]
 struct Shared(*mut pong_world);
 
-// SAFETY: the library allows calls of one world from any thread, and refuses them meanwhile.
+// SAFETY: the library allows calls of one world from any thread, and refuses concurrent ones.
 unsafe impl Send for Shared {}
 
 /// Calls of each thread.
@@ -34,7 +34,8 @@ impl Session<'_> {
             for k in 0..CALLS {
                 let mut wrench = pong_wrench { force: [0.0; 3], moment: [0.0; 3] };
                 let mut count = 0;
-                // SAFETY: the world lives until both threads are done; the places are those of this thread.
+                // SAFETY: the world lives until both threads are done; the output arguments are local to this
+                // thread.
                 let status = unsafe {
                     match k % 5 {
                         0 => pong_step(world),
@@ -52,7 +53,8 @@ impl Session<'_> {
         std::thread::scope(|scope| {
             let other = scope.spawn(calls);
             calls();
-            // The end of the scope would wait for the calls alone, and what the thread leaves last would look like a leak.
+            // Joins explicitly: the scope waits for the calls only, and the thread's last allocations would
+            // look like a leak.
             other.join().expect("no panic");
         });
         if let Some(host) = self.host() {

@@ -1,19 +1,20 @@
-//! Sequences of C calls: any order, any ids, any numbers, and what the documentation says becomes of them.
+//! Sequences of C calls: any order, any ids, any numbers, checked against the documented results.
 //!
-//! The bytes are a program for [`Session`]: which call, on which world, with which arguments. Every argument is known to
-//! be right, wrong or unknown, so that for most calls the harness knows whether they must succeed or must be refused.
+//! The bytes are a program for [`Session`]: the call, its world and its arguments. Every argument is known to
+//! be valid, invalid or unknown, so that for most calls the harness knows whether they must succeed or be
+//! refused.
 //!
 //! | file | calls |
 //! |---|---|
-//! | `session.rs` | what every call is checked for; ids, places, texts and numbers as arguments |
-//! | `host.rs` | a world and what its host knows of it |
+//! | `session.rs` | checks of every call; ids, output pointers, texts and numbers as arguments |
+//! | `host.rs` | a world and the harness's knowledge of it |
 //! | `laws.rs` | laws by callback, well behaved or not |
 //! | `set_up.rs`, `step_plans.rs`, `look_up.rs`, `frames.rs`, `between.rs`, `logs.rs` | the calls, by phase |
 //! | `accounts.rs` | energy accounts |
 //! | `misuse.rs` | two threads on one world |
 //!
-//! Some inputs run twice: the second time without the calls that were refused the first time. Every frame must come
-//! out with the same bits, since a refused call changes nothing that a later frame can see.
+//! Some inputs run twice, the second time without the calls that were refused the first time. Every frame
+//! must have the same bits, since a refused call changes nothing that a later frame can see.
 
 mod accounts;
 mod between;
@@ -31,13 +32,13 @@ use crate::count;
 use crate::input::Input;
 use session::Session;
 
-/// How often the same bytes are run, one after the other in the same worlds: to make a world takes longer than a
-/// hundred calls.
+/// Number of runs of the same bytes, one after the other in the same worlds: creating a world takes longer
+/// than a hundred calls.
 const PASSES: [u32; 8] = [1, 1, 2, 4, 8, 16, 32, 64];
-/// Calls of an input; beyond it no further pass begins.
+/// Calls of an input after which no further pass begins.
 const CALLS_MAX: usize = 20_000;
 
-/// Runs the calls that the bytes stand for.
+/// Runs the calls encoded by the bytes.
 pub fn run(data: &[u8]) {
     count::input();
     let Some((first, rest)) = data.split_first() else { return };
@@ -70,7 +71,7 @@ impl Session<'_> {
         }
     }
 
-    /// One call, frames more often than others.
+    /// Makes one call; frames are more frequent than others.
     fn one_call(&mut self) {
         match self.input.byte() {
             0..=99 => self.call_of_a_frame(),

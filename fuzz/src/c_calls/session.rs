@@ -1,4 +1,4 @@
-//! What every call is checked for, and arguments of every kind.
+//! Checks of every call, and generators of all kinds of arguments.
 
 use super::host::{Host, Ids};
 use crate::count;
@@ -10,12 +10,12 @@ use std::collections::HashSet;
 use std::ffi::{CStr, CString, c_char};
 use std::mem::MaybeUninit;
 
-/// Whether an argument, or a whole call, is right.
+/// Validity of an argument, or of a whole call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sure {
     /// The call must be refused.
     Wrong,
-    /// Nobody knows.
+    /// The result is not known.
     Unknown,
     /// The call must succeed.
     Right,
@@ -30,18 +30,18 @@ impl Sure {
         }
     }
 
-    /// Wrong unless the condition holds.
+    /// `Wrong` unless the condition holds.
     pub fn only_if(self, condition: bool) -> Self {
         self.and(if condition { Self::Right } else { Self::Wrong })
     }
 
-    /// Nothing is sure any more where the condition holds.
+    /// `Unknown` if the condition holds.
     pub fn unless(self, condition: bool) -> Self {
         self.and(if condition { Self::Unknown } else { Self::Right })
     }
 }
 
-/// A place in memory for a result: of its exact size, so that a byte too much is found; or none, or a crooked one.
+/// An output argument of exact size, so that an overrun by a byte is detected; or NULL, or misaligned.
 pub struct Place<T> {
     pub pointer: *mut T,
     pub sure: Sure,
@@ -49,37 +49,37 @@ pub struct Place<T> {
 }
 
 impl<T: Copy> Place<T> {
-    /// What was written. Only after a success with a place that is right.
+    /// The value written. Valid only after a success with a valid output argument.
     pub fn get(&self) -> T {
         // SAFETY: by the contract of this function.
         unsafe { self.memory.as_ptr().read() }
     }
 }
 
-/// A crooked place: aligned to nothing.
+/// Memory for misaligned pointers.
 static mut CROOKED: [u64; 512] = [0; 512];
 
-/// How many worlds a host has at a time.
+/// Most worlds of a host at a time.
 pub const WORLDS: usize = 3;
 
-/// Most bytes of contact state that an input copies: a second's worth under the sanitizer.
+/// Most bytes of contact state that an input copies: about a second under the sanitizer.
 const COPIED_MAX: usize = 256 << 20;
 
 pub struct Session<'a> {
     pub input: Input<'a>,
     hosts: [Option<Box<Host>>; WORLDS],
     pub current: usize,
-    /// Ids of worlds that are gone.
+    /// Ids of destroyed worlds.
     pub stale: Ids,
-    /// Calls so far, and those that were refused.
+    /// Calls so far, and the refused ones.
     made: usize,
     refused: Vec<usize>,
     left_out: HashSet<usize>,
-    /// What the frames were, as one number.
+    /// Hash of all frames.
     frames: Fnv,
-    /// No second thread, worker or clock had a part in it.
+    /// True if no second thread, worker or clock took part.
     pub alone: bool,
-    /// Expensive things done so far.
+    /// Expensive calls so far.
     pub costs: u32,
     /// Sizes of contact states saved and restored so far, bytes.
     copied: usize,
@@ -102,12 +102,13 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// As [`new`](Self::new), leaving out these calls.
+    /// As [`new`](Self::new), skipping these calls.
     pub fn without(data: &'a [u8], refused: Vec<usize>) -> Self {
         Self { left_out: refused.into_iter().collect(), ..Self::new(data) }
     }
 
-    /// Ends all worlds; answers the calls that were refused, the frames, and whether no other thread had a part.
+    /// Destroys all worlds; returns the refused calls, the hash of the frames, and whether no other thread
+    /// took part.
     pub fn finish(mut self) -> (Vec<usize>, Fnv, bool) {
         for slot in 0..WORLDS {
             self.current = slot;
@@ -117,7 +118,7 @@ impl<'a> Session<'a> {
         (self.refused, self.frames, self.alone)
     }
 
-    /// Makes a call and checks what it says of itself.
+    /// Makes a call and checks its status and message.
     pub fn call(&mut self, name: &str, sure: Sure, call: impl FnOnce() -> pong_status) -> bool {
         self.made += 1;
         if self.left_out.contains(&self.made) {
@@ -125,7 +126,7 @@ impl<'a> Session<'a> {
         }
         let status = call();
         count::call(status == pong_status::Ok);
-        // What was left out may be missed.
+        // Skipped calls make later results uncertain.
         check(name, status, if self.is_again() { Sure::Unknown } else { sure });
         if status != pong_status::Ok {
             self.refused.push(self.made);
@@ -133,7 +134,7 @@ impl<'a> Session<'a> {
         status == pong_status::Ok
     }
 
-    /// Whether contact state of so many bytes may still be copied: blocks of some scenes are megabytes.
+    /// True if contact state of this size may still be copied: blocks of some scenes are megabytes.
     pub fn may_copy(&mut self, bytes: usize) -> bool {
         self.copied = self.copied.saturating_add(bytes);
         self.copied <= COPIED_MAX
@@ -144,12 +145,12 @@ impl<'a> Session<'a> {
         self.made
     }
 
-    /// Whether calls are left out, so that what follows from their success is not known.
+    /// True if calls are skipped, so that results which depend on them are not known.
     pub fn is_again(&self) -> bool {
         !self.left_out.is_empty()
     }
 
-    /// Takes note of what a frame was.
+    /// Adds the bits of a frame to the hash.
     pub fn note(&mut self, words: impl Iterator<Item = u64>) {
         for word in words {
             self.frames.word(word);
@@ -164,7 +165,7 @@ impl<'a> Session<'a> {
         &mut self.hosts
     }
 
-    /// The present world; now and then NULL, always where there is none.
+    /// The present world; occasionally NULL, always if there is none.
     pub fn world(&mut self) -> (*mut pong_world, Sure) {
         let nothing = self.input.chance(2);
         match self.host() {
@@ -173,7 +174,7 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// An id: mostly a good one, else zero, one of another world, one of a world that is gone, or any number.
+    /// An id: mostly valid, else zero, one of another world, one of a destroyed world, or any number.
     pub fn id<T: Copy>(&mut self, of: impl Fn(&Ids) -> &Vec<T>, make: impl Fn(u64) -> T) -> (T, Sure) {
         let good = !self.input.chance(12);
         if good {
@@ -198,7 +199,7 @@ impl<'a> Session<'a> {
         (wrong.unwrap_or(make(0)), Sure::Wrong)
     }
 
-    /// A place for a result.
+    /// An output argument for a result.
     pub fn place<T>(&mut self) -> Place<T> {
         let mut memory = Box::<T>::new_uninit();
         let (pointer, sure) = match (self.input.chance(6), align_of::<T>()) {
@@ -212,7 +213,7 @@ impl<'a> Session<'a> {
         Place { pointer, sure, memory }
     }
 
-    /// One of some texts, or one that is none.
+    /// One of several texts, or an invalid one.
     pub fn text(&mut self, all: &[&str]) -> Text {
         match self.input.byte() {
             0..=2 => Text { text: None, sure: Sure::Wrong },
@@ -224,7 +225,7 @@ impl<'a> Session<'a> {
     }
 }
 
-/// A text and whether it is one.
+/// A text and its validity.
 pub struct Text {
     pub text: Option<CString>,
     pub sure: Sure,
@@ -236,7 +237,7 @@ impl Text {
     }
 }
 
-/// What must hold after any call.
+/// Checks the conditions that hold after any call.
 pub fn check(name: &str, status: pong_status, sure: Sure) {
     // SAFETY: the message is never NULL, ends with a zero byte and lives until the thread's next call.
     let message = unsafe { CStr::from_ptr(pong_last_message()) }.to_string_lossy();
@@ -252,7 +253,7 @@ pub fn check(name: &str, status: pong_status, sure: Sure) {
     }
 }
 
-/// A text of the library's: readable to its end.
+/// Reads a text of the library to its end.
 pub fn read_text(text: *const c_char) {
     assert!(!text.is_null(), "a text that is NULL after a success");
     // SAFETY: the library promises a text that ends with a zero byte.

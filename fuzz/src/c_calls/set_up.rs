@@ -17,7 +17,7 @@ use pong::version::{pong_check_abi, pong_layout_hash};
 use pong::world::{pong_create_world, pong_destroy_world};
 use std::ffi::{CString, c_char};
 
-/// The models; the last one is faulty, the one with laws of the host's is [`OWN_LAWS`].
+/// Models; the last one is faulty, and the one with laws of the host is [`OWN_LAWS`].
 const MODELS: [&str; 5] = [
     include_str!("../../seeds/c_models/ball.ron"),
     include_str!("../../seeds/c_models/solid.ron"),
@@ -29,20 +29,20 @@ const OWN_LAWS: usize = 2;
 const FAULTY: usize = 4;
 /// Names of Objects.
 pub const OBJECTS: [&str; 5] = ["a", "b", "c", "a/b", ""];
-/// Groups of the models by path, by name and not at all.
+/// Groups of the models by path and by name, and an unknown one.
 const GROUPS: [&str; 6] = ["", "ball/latch", "latch", "shell", "ball/shell", "nope"];
 /// Names of laws; the first two are those of the model.
 const LAWS: [&str; 4] = ["force", "friction", "other", ""];
-/// Models, Objects and pairs of one world: more would only be slow.
+/// Most models, Objects and pairs of one world: more would only be slow.
 const MOST: usize = 6;
-/// Worlds, seals, logs and threads of one input.
+/// Most worlds, seals, logs and threads of one input.
 pub const COSTS_MAX: u32 = 8;
 
 impl Session<'_> {
-    /// A world that is ready for frames, or nothing: sequences of any bytes seldom get that far.
+    /// Creates a world ready for frames, or nothing: random sequences seldom get that far.
     pub fn prologue(&mut self, kind: u8) {
         if kind > 0 {
-            // Without bytes every argument is right.
+            // Without bytes every argument is valid.
             let bytes = std::mem::replace(&mut self.input, Input::new(&[]));
             self.good_scene(kind);
             self.input = bytes;
@@ -121,7 +121,7 @@ impl Session<'_> {
             self.call("destroy", Sure::Right, || unsafe { pong_destroy_world(std::ptr::null_mut()) });
         } else {
             self.destroy();
-            // The host goes on with another world, if it has one.
+            // The host continues with another world, if it has one.
             let other = self.hosts().iter().position(Option::is_some);
             self.current = other.unwrap_or(self.current);
         }
@@ -130,7 +130,7 @@ impl Session<'_> {
     pub fn destroy(&mut self) {
         let current = self.current;
         let Some(host) = self.hosts()[current].take() else { return };
-        // SAFETY: the world lives, and nobody has it any more.
+        // SAFETY: the world lives, and no other reference to it is left.
         self.call("destroy", Sure::Right, || unsafe { pong_destroy_world(host.world) });
         self.stale = host.ids.clone();
     }
@@ -335,7 +335,7 @@ impl Session<'_> {
         let (world, known) = self.world();
         let sealed = self.host().is_none_or(|host| host.sealed);
         let place = self.place::<pong_pair_id>();
-        // Nobody need want to know a pair's id.
+        // The output argument of a pair's id is optional.
         let optional = place.pointer.is_null() || place.sure == Sure::Right;
         let sure = known.and(Sure::Unknown).only_if(!sealed && optional);
         let done = if self.input.chance(128) {
@@ -354,7 +354,7 @@ impl Session<'_> {
         }
     }
 
-    /// Keeps two groups apart, known or not.
+    /// Filters the pair of two groups, known or unknown.
     fn filter(&mut self) {
         let (world, known) = self.world();
         let sealed = self.host().is_none_or(|host| host.sealed);

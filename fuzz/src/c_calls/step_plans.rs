@@ -1,4 +1,4 @@
-//! Masses and steps, and what acts by them.
+//! Masses, steps and their loads.
 
 use super::session::{Session, Sure};
 use pong::ids::pong_interface_id;
@@ -8,7 +8,7 @@ use pong::step_plan::{
 };
 
 impl Session<'_> {
-    /// Masses and a step, in most worlds.
+    /// Valid masses and a step, in most worlds.
     pub fn good_plan(&mut self, kind: u8) {
         if kind == 1 {
             return;
@@ -26,7 +26,7 @@ impl Session<'_> {
         self.call("plan step", Sure::Right, || unsafe { pong_plan_step(world, &plan) });
     }
 
-    /// Any mass and plan; what acts by the plan that there is.
+    /// Any mass and plan, and loads of the present plan.
     pub fn plan_any(&mut self) {
         let (world, known) = self.world();
         let sealed = self.host().is_some_and(|host| host.sealed);
