@@ -1,13 +1,15 @@
-//! Accounts of contacts and of pairs of movable groups, on request (see [`EnergyAccount`]).
+//! Energy accounts of contacts and of pairs of movable groups, on request (see [`EnergyAccount`]).
 //!
-//! The work of a wrench that the host holds from one commit to the next, with x the origin of A seen from B, is
+//! The work of a wrench that the host holds from one commit to the next, with x the origin of A seen from B,
+//! is
 //!
 //! ```text
 //! W = F·Δx + M·φ
 //! ```
 //!
-//! with F and M those of the commit before, or of one that is as many frames older as the wrenches come late. They are
-//! taken as held along the axes of B: held along common axes while B turns by φ_B they do ½|F||x|φ_B² more at most.
+//! F and M are those of the previous commit, or older by the number of delay frames. They are taken as
+//! constant in the axes of B. If they are constant in common axes instead, while B rotates by φ_B, the work
+//! differs by at most ½|F||x|φ_B².
 
 use super::displacement::Displacement;
 use super::interval::Interval;
@@ -24,32 +26,32 @@ use crate::state::{ContactMemory, ContactRecord, ContactRole};
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Pose, Vec3, Wrench};
 
-/// The accounts of one frame.
+/// The energy accounts of one frame.
 pub(crate) struct Accounts<'a> {
     pub scene: &'a Scene,
     pub sealed: &'a Sealed,
     pub memory: &'a ContactMemory,
     pub input: &'a WorkerInput,
     pub coupling: WrenchCoupling,
-    /// What a commit will remember of pairs.
+    /// Pair energies for the next commit.
     pub pairs: &'a mut PairEnergies,
-    /// What happened to each pair since the last commit.
+    /// Energies of each pair since the last commit.
     pub intervals: &'a mut [Interval],
-    /// What a commit will remember of contacts.
+    /// Contact energies for the next commit.
     pub energies: &'a mut ContactEnergies,
 }
 
-/// Force of a contact on A, by what makes it, and its place.
+/// Force of a contact on A, split by origin, and its contact point.
 #[derive(Default)]
 struct ForceParts {
     point_b: Vec3,
     normal_b: Vec3,
     friction_b: Vec3,
-    /// In the normal spring and in the bristle, J.
+    /// Energy stored in the normal spring and in the bristle, J.
     stored: [f64; 2],
 }
 
-/// Work on the bodies of the normal force and of friction, as if the force followed the motion.
+/// Work of the normal force and of friction on the bodies, J, for forces that follow the motion.
 #[derive(Default)]
 struct WorkAlongMotion {
     normal: f64,
@@ -59,10 +61,10 @@ struct WorkAlongMotion {
 /// Work on the bodies since the last commit, J.
 #[derive(Default)]
 struct Work {
-    /// Of the wrench as the host uses it.
+    /// Work of the wrench as the host applies it, J.
     as_used: f64,
     along_motion: WorkAlongMotion,
-    /// The wrench that a host which holds wrenches was sent at the last commit.
+    /// Wrench of the last commit, if the host holds wrenches over the frame.
     sent: Option<Wrench>,
 }
 
@@ -81,7 +83,7 @@ impl Accounts<'_> {
         self.intervals.fill(Interval::default());
     }
 
-    /// Takes in a contact that pushes, which may continue a committed one.
+    /// Adds a contact that pushes, which may continue a committed one.
     pub fn contact(
         &mut self,
         index: usize,
@@ -104,14 +106,14 @@ impl Accounts<'_> {
         interval.pushes = true;
         let mut one = self.entry(&before, &now, &done.along_motion, begins);
         if displacement.is_none() {
-            // Without an earlier pose the host has put the bodies into each other.
+            // Without an earlier pose, the host placed the bodies in contact: all stored energy is inserted.
             one.inserted = now.stored[0] + now.stored[1];
             one.damping_loss += now.stored[0];
             one.friction_loss += now.stored[1];
         }
         self.note(pair, &one, &done);
         if begins && displacement.is_some() && self.memory.pair_energies.pairs[pair].episode.lasts {
-            // What another contact of the pair had stored may now be this one's.
+            // A new contact may take over energy that another contact of the pair had stored.
             one.inserted = (now.stored[0] + now.stored[1] + done.as_used).max(0.0);
             one.damping_loss += one.inserted;
         }
@@ -121,7 +123,7 @@ impl Accounts<'_> {
         self.energies.set(index, energy, delayed, done.sent);
     }
 
-    /// Takes in a committed contact that is no more.
+    /// Adds a committed contact that has ended.
     pub fn ended(&mut self, earlier: usize, displacement: Option<&Displacement>) {
         let Some(committed) = self.memory.energies.get(earlier) else { return };
         let record = &self.memory.records[earlier];
@@ -131,8 +133,8 @@ impl Accounts<'_> {
         self.note(record.key.group_pair as usize, &one, &done);
     }
 
-    /// Work since the last commit, of the wrench as the host uses it and as it would have followed the motion; none without
-    /// an earlier pose.
+    /// Work since the last commit, of the wrench as the host applies it and for forces that follow the
+    /// motion; zero without an earlier pose.
     fn work(
         &self,
         delayed: &[Wrench],
@@ -145,7 +147,7 @@ impl Accounts<'_> {
         match self.coupling {
             WrenchCoupling::ZeroOrderHold { .. } => {
                 let sent = record.map_or_else(Wrench::zero, |record| displacement.held(record));
-                // A contact that begins has nothing on its way yet.
+                // A new contact has no delayed wrench yet.
                 let nothing = if self.coupling.delay() > 0 { Wrench::zero() } else { sent };
                 let arrives = delayed.first().copied().unwrap_or(nothing);
                 Work { as_used: displacement.origin_work(&arrives), along_motion, sent: Some(sent) }
@@ -180,7 +182,7 @@ impl Accounts<'_> {
         interval.along_motion += done.along_motion.sum();
     }
 
-    /// The force of a contact by what makes it.
+    /// Force of a contact, split into normal and friction force.
     fn force_parts(&self, contact: &FrameContact) -> ForceParts {
         let found = &contact.found;
         let (body_a, body_b) = self.sealed.bodies_of(found.key.direction());
@@ -197,7 +199,7 @@ impl Accounts<'_> {
         }
     }
 
-    /// Ends a frame: sums of pairs, and episodes that are over.
+    /// Ends a frame: sums the pairs and closes finished episodes.
     pub fn close(&mut self, motions: &Motions<'_>, enabled: &[bool]) {
         if self.coupling.delay() > 0 {
             self.exchange_wrenches(motions, enabled);
@@ -218,7 +220,7 @@ impl Accounts<'_> {
         }
     }
 
-    /// What comes later is the wrench of a whole pair: it comes even if the contacts that made it are gone.
+    /// Advances the delayed wrenches. The delayed wrench of a pair arrives even if its contacts have ended.
     fn exchange_wrenches(&mut self, motions: &Motions<'_>, enabled: &[bool]) {
         let mut records = self.memory.records.iter().peekable();
         for (pair, groups) in self.sealed.group_pairs.iter().enumerate() {
@@ -248,7 +250,7 @@ fn on_first(record: &ContactRecord, first_seen_from_second: &Pose) -> Wrench {
     Wrench::of_force_at(-(rotation * record.force_b), &(rotation * record.point_b))
 }
 
-/// Work of a wrench on the first group over its way, seen from the second.
+/// Work of a wrench on the first group over its displacement, seen from the second.
 fn work_on_first(wrench: &Wrench, before: &Pose, after: &Pose) -> f64 {
     let rotation = rotation_vector(&(after.orientation * before.orientation.inverse()));
     wrench.force.dot(&(after.position - before.position)) + wrench.moment.dot(&rotation)
@@ -261,7 +263,7 @@ impl WorkAlongMotion {
 }
 
 impl Displacement {
-    /// Work of a force as it follows the motion: the trapezoid rule.
+    /// Work of forces that follow the motion, by the trapezoidal rule.
     fn work_along_motion(&self, before: &ForceParts, now: Option<&ForceParts>) -> WorkAlongMotion {
         let work = |of: fn(&ForceParts) -> &Vec3| {
             self.half_work(&before.point_b, of(before), false)
@@ -270,12 +272,12 @@ impl Displacement {
         WorkAlongMotion { normal: work(|parts| &parts.normal_b), friction: work(|parts| &parts.friction_b) }
     }
 
-    /// Wrench of a committed contact on A about its origin.
+    /// Wrench of a committed contact on A about A's origin.
     fn held(&self, record: &ContactRecord) -> Wrench {
         Wrench::of_force_at(record.force_b, &(record.point_b - self.origin_before_b))
     }
 
-    /// Work of a wrench on A about its origin.
+    /// Work of a wrench on A about A's origin.
     fn origin_work(&self, wrench: &Wrench) -> f64 {
         wrench.force.dot(&(self.origin_now_b - self.origin_before_b)) + wrench.moment.dot(&self.rotation_b)
     }

@@ -1,4 +1,4 @@
-//! What the stage of energies writes.
+//! Buffers of the energy stage.
 
 use super::interval::Interval;
 use crate::energy::contact::ContactEnergies;
@@ -7,19 +7,20 @@ use crate::energy::ledger::LedgerEntry;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
 
-/// Energies of a frame: what a commit would remember of them.
+/// Energies of a frame, as a commit would store them.
 pub(crate) struct EnergyBuffers {
     /// Work done on the bodies since the world began, J.
     pub work: f64,
     /// Energy that left the contacts for good since the world began, J.
     pub dissipated: f64,
-    /// What the frame adds to both, by pair of movable groups, for a commit of some pairs; none unless the ledger is kept.
+    /// Contributions of the frame to both, per pair of movable groups, for partial commits; empty without a
+    /// ledger.
     pub added: Vec<LedgerEntry>,
-    /// Of the contacts, by their places in the caller's buffer; none unless accounts are kept.
+    /// Energies of the contacts, by index in the caller's buffer; empty unless accounts are kept.
     pub contacts: ContactEnergies,
-    /// Of the pairs of movable groups; none unless accounts are kept.
+    /// Energies of the pairs of movable groups; empty unless accounts are kept.
     pub pairs: PairEnergies,
-    /// What happened to each pair since the last commit.
+    /// Energies of each pair since the last commit.
     pub intervals: Vec<Interval>,
 }
 

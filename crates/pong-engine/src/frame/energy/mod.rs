@@ -1,13 +1,14 @@
-//! Energies between commits (docs/theory.md, 6), kept on request.
+//! Energies between commits (docs/theory.md, 6), computed on request.
 //!
-//! Work of a contact's force on the two bodies, by the trapezoid rule over the relative displacement since the
-//! last commit: with o the reference point of A,
+//! Work of a contact's force on the two bodies, by the trapezoidal rule over the relative displacement since
+//! the last commit, with o the reference point of A:
 //!
 //! ```text
 //! W = Σ_{then, now} ½·(F·Δo + ((c − o) × F)·φ)
 //! ```
 //!
-//! and dissipated = −W − Δstored. A contact that ended did its last half of the work and lost what it stored.
+//! and dissipated = −W − Δstored. An ended contact contributes the half for its last force, and its stored
+//! energy is lost.
 
 pub(crate) mod accounts;
 pub(crate) mod buffers;
@@ -26,7 +27,7 @@ use buffers::EnergyBuffers;
 use displacement::Displacement;
 use pong_geometry::Vec3;
 
-/// Fills in the energies of the contacts and the totals.
+/// Computes the energies of the contacts and the totals.
 #[inline]
 pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationInput { scene, sealed, memory, .. } = *given;
@@ -76,7 +77,7 @@ pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers
         }
         let motion = motions.known(near, input, found.key.direction());
         let mut before = Before::default();
-        // Two contacts may continue one record; its energy goes to the first.
+        // If two contacts continue one record, the first gets its energy.
         let earlier = place.continues().filter(|&record| !continued[record]);
         if let Some(earlier) = earlier {
             continued[earlier] = true;
@@ -114,7 +115,7 @@ pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers
     accounts.iter_mut().for_each(|accounts| accounts.close(&motions, enabled));
 }
 
-/// What a contact was at the last commit; all zero if it was none.
+/// State of a contact at the last commit; zero for a new contact.
 #[derive(Default)]
 struct Before {
     point_b: Vec3,
@@ -136,17 +137,17 @@ impl Before {
     }
 }
 
-/// Displacement at a contact that is no more.
+/// Displacement at an ended contact.
 fn displacement_of_ended(earlier: &ContactRecord, motions: &Motions<'_>) -> Option<Displacement> {
     let motion = motions.of(earlier.key.direction());
     let since = motion.since_commit.as_ref()?;
-    // Any point carried by A serves as reference; the contact's own place then is at hand.
+    // Any point of A can serve as reference; take the contact point.
     let local = since.x_ba.inverse().point(&earlier.point_b);
     Some(Displacement::new(since, &motion.x_ba, &local))
 }
 
-/// Work and dissipation of a contact that is no more: half of the work of its last force, and its stored energy is
-/// gone.
+/// Work and dissipation of an ended contact: half of the work of its last force; its stored energy is
+/// dissipated.
 fn end_contact(earlier: &ContactRecord, displacement: Option<&Displacement>) -> LedgerEntry {
     let half =
         |displacement: &Displacement| displacement.half_work(&earlier.point_b, &earlier.force_b, false);

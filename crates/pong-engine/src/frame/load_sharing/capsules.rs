@@ -1,13 +1,16 @@
-//! What the balls at the ends of a capsule and the edges between them carry of a polyhedron or of triangles: of the convex edges that
-//! the axis crosses the deepest carries what the balls do not (docs/theory.md, 2.8).
+//! Couples the spheres at the ends of a capsule with the edge between them, against a polyhedron or
+//! triangles. Of the convex edges that the axis crosses, the deepest carries the load that the end spheres do
+//! not (docs/theory.md, 2.8).
 
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use pong_geometry::Vec3;
 
-/// The deepest edge between the ends, if it is deeper than both balls.
+/// Assigns weights to the end contacts and to the deepest edge between them, if that is deeper than both
+/// spheres; drops all other edges.
 ///
-/// With E the square of its depth, and A and B those of how far the balls at the two ends have to move, the stored energy is then
-/// ¼k(E + A·B/E), and else ¼k(A + B). Its derivatives are the weights.
+/// With E the square of the edge's depth, and A and B the squares of the minimum translations of the two
+/// spheres, the stored energy is ¼k(E + A·B/E), and ¼k(A + B) without an edge. The weights are its
+/// derivatives.
 pub(super) fn couple(ends: &mut [ContactCandidate], middle: &mut [ContactCandidate]) {
     let squares = [0, 1].map(|end| square_moved(ends, end));
     let deeper = |a: usize, b: usize| if middle[b].depth > middle[a].depth { b } else { a };
@@ -26,7 +29,7 @@ pub(super) fn couple(ends: &mut [ContactCandidate], middle: &mut [ContactCandida
     }
 }
 
-/// Square of the least motion that clears the ball at an end, m².
+/// Square of the minimum translation of the sphere at an end, m².
 fn square_moved(ends: &[ContactCandidate], end: u32) -> f64 {
     let of_end = ends.iter().filter(|contact| contact.key.end == end && contact.takes_part());
     let moved = of_end.map(|contact| contact.normal_b * (contact.weight * contact.depth));

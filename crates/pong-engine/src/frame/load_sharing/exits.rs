@@ -1,25 +1,28 @@
-//! Which piece of a body carries an end of a line segment that leaves the body where an inner wall ends.
+//! Selects the piece of a body that carries an end of a line segment which leaves the body at the boundary
+//! edge of an internal face.
 
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use pong_geometry::interference::segment_at_walls::{ExitAtWall, exit_at_wall, part_inside};
 use pong_geometry::primitive::LineSegment;
 
-/// Of pieces that a segment leaves in one place only those count that hold at least this share of what the longest of them
-/// holds of it: others only touch.
+/// Among pieces that a segment leaves at one point, those holding less than this share of the longest part
+/// are only touched.
 const SHARE_HELD: f64 = 0.5;
 
-/// Whether a segment leaves by the edge in which a wall ends, but by the wall as rounding has it.
+/// Returns true for an exit through the boundary edge of an internal face that rounding has put on the
+/// internal face.
 pub(super) fn is_exit_that_stands_in(contact: &ContactCandidate) -> bool {
     contact.half && contact.status == CandidateStatus::StandIn
 }
 
-/// Marks as dropped what a body lacks of the exits of one end (`group`: the contacts of the end with the pieces of one body).
+/// Culls redundant exits of one end (`group`: contacts of the end with the pieces of one body).
 ///
-/// Rounding lets a segment that leaves through the edge in which a wall ends leave the pieces on both sides of the wall, or
-/// neither. Of the pieces that it leaves in one place, the first counts that holds much of it, and before others one that it
-/// leaves by an active face. A piece that it leaves by the wall counts only if no piece holds what lies beyond. A tip that lies
-/// there is decided alike.
+/// A segment that leaves through the boundary edge of an internal face may, by rounding, leave the pieces on
+/// both sides of that face, or neither. Of the pieces that it leaves at one point, the first with a large
+/// part of the segment counts, and an exit through an active face takes precedence. An exit through the
+/// internal face counts only if no piece contains the segment beyond it. A segment end at that point is
+/// treated in the same way.
 pub(super) fn keep_one_of_exits(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     let Some(first) = group.first() else { return };
     let local = &context.body_a.segments[first.element_a as usize];
@@ -40,16 +43,17 @@ struct Exits<'a> {
 }
 
 impl Exits<'_> {
-    /// How the segment leaves the piece of a contact, if that is where a wall ends.
+    /// Exit of the segment from a contact's piece, if it is at the boundary edge of an internal face.
     fn of(&self, found: &ContactCandidate) -> Option<Exit> {
         let may_leave = found.status == CandidateStatus::AtWall || is_exit_that_stands_in(found);
         let piece = &self.context.body_b.polyhedra[found.element_b as usize];
-        // What a segment crosses may be told of its other end.
+        // The exit may be at the other end of the segment.
         let at = |end: usize| Some(Exit { end, at_wall: exit_at_wall(&self.segment, piece, end)? });
         if may_leave { at(self.end).or_else(|| at(1 - self.end)) } else { None }
     }
 
-    /// Whether the segment leaves a piece at the place of an exit, and does not end in all that it is in there.
+    /// Returns true if the segment really leaves some piece at the exit, instead of ending there in all of
+    /// them.
     fn leaves(&self, exit: &Exit, group: &[ContactCandidate]) -> bool {
         let mut others = group.iter().filter_map(|found| self.of(found));
         others.any(|other| !other.at_wall.is_tip && other.is_at_place_of(exit))
@@ -71,7 +75,7 @@ impl Exits<'_> {
             && !(is_exit_that_stands_in(&group[index]) && self.goes_on(exit))
     }
 
-    /// Whether another piece of the body holds more of the segment beyond an exit than rounding.
+    /// Returns true if another piece of the body contains the segment beyond an exit by more than rounding.
     fn goes_on(&self, exit: &Exit) -> bool {
         let (place, slack) = (exit.place(), exit.at_wall.slack);
         let mut parts =
@@ -83,19 +87,19 @@ impl Exits<'_> {
     }
 }
 
-/// Where the segment leaves a piece.
+/// Exit of the segment from a piece.
 struct Exit {
     end: usize,
     at_wall: ExitAtWall,
 }
 
 impl Exit {
-    /// As a parameter along the segment.
+    /// Parameter along the segment.
     fn place(&self) -> f64 {
         self.at_wall.inside[self.end]
     }
 
-    /// How much of the segment the piece holds, as a share of it.
+    /// Share of the segment that lies in the piece.
     fn held(&self) -> f64 {
         self.at_wall.inside[1] - self.at_wall.inside[0]
     }

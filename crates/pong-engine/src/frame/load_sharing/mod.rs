@@ -1,4 +1,4 @@
-//! Which of the interferences found for a chunk of A count, and with what weight.
+//! Load sharing: decides which candidates of a chunk of A count, and with which weight.
 
 mod capsules;
 mod exits;
@@ -26,14 +26,15 @@ use ray_hits::keep_first_ray_hits;
 use rims::{keep_one_side_of_rims, keep_one_way_at_places};
 use solver::{SharedContact, share_within};
 
-/// Relative: depths this close are as deep as each other.
+/// Relative difference below which two depths count as equal.
 const FALLBACK_DEPTH_SLACK: f64 = 1e-9;
 
-/// Sorts the contacts of a chunk, whose elements are of one kind, into the order of every sum and assigns their weights. Those
-/// that do not count are marked as dropped. All contacts of a key are among those of one chunk.
+/// Sorts the candidates of a chunk into summation order, assigns their weights, and culls those that do not
+/// count. All elements of the chunk are of one kind, and all contacts of a key are in one chunk.
 ///
 /// # Errors
-/// `Full` if the scratch memory was too small for one surface: the deepest of its contacts were shared.
+/// [`Full`] if the scratch memory was too small for one surface; then its deepest contacts have been shared
+/// exactly.
 pub(crate) fn assign_weights(
     context: &PairContext<'_>,
     kind_a: PrimitiveKind,
@@ -44,7 +45,7 @@ pub(crate) fn assign_weights(
     if let [alone] = &mut found[..]
         && !is_under_capsule(alone)
     {
-        // It has nothing to share with and keeps the weight 1; nor is there a piece behind the wall.
+        // A single contact keeps weight 1. If it lies beyond an internal face, no piece exists there.
         if alone.status == CandidateStatus::BeyondWall {
             alone.status = CandidateStatus::Culled;
         }
@@ -58,7 +59,7 @@ pub(crate) fn assign_weights(
             keep_one_side_of_rims(found, context);
             keep_one_way_at_places(found);
         }
-        // Front and back are two surfaces: what they have in common is told before each shares.
+        // The front and the back are separate surfaces; resolve their common rim before each shares.
         PrimitiveKind::Capsule => keep_one_side_of_rims(found, context),
         _ => {}
     }
@@ -75,8 +76,8 @@ pub(crate) fn assign_weights(
     outcome
 }
 
-/// Assigns the weights of contacts of capsules, in the order of sums: the balls at their ends share as spheres do, each with half a
-/// spring.
+/// Assigns the weights of contacts of capsules, in summation order. The end spheres share as spheres do, each
+/// with half a spring.
 fn share_capsules(
     found: &mut [ContactCandidate],
     context: &PairContext<'_>,
@@ -87,7 +88,7 @@ fn share_capsules(
     let surface = |found: &ContactCandidate| (found.key.head(), found.key.shell_b);
     for body in found.chunk_by_mut(|a, b| surface(a) == surface(b)) {
         let edges = body.partition_point(|found| found.key.end < BETWEEN_ENDS);
-        // What lies on round solids and planes has three contacts with weights of their own.
+        // Contacts with round solids and planes already have their weights.
         if !body[0].shares {
             continue;
         }
@@ -107,12 +108,12 @@ fn share_capsules(
     outcome
 }
 
-/// Whether a contact is that of an edge which a capsule crosses.
+/// Returns true for the contact of a capsule's axis with an edge between its ends.
 fn is_under_capsule(contact: &ContactCandidate) -> bool {
     contact.shares && contact.half && contact.key.end == BETWEEN_ENDS
 }
 
-/// Of the contacts of a key, those that one body has.
+/// Resolves the contacts of one key with one body before load sharing.
 fn settle_group(group: &mut [ContactCandidate], kind_a: PrimitiveKind, context: &PairContext<'_>) {
     if group.iter().any(is_at_wall) {
         match group[0].half && !group[0].shares {
@@ -137,7 +138,7 @@ fn settle_group(group: &mut [ContactCandidate], kind_a: PrimitiveKind, context: 
     }
 }
 
-/// Centre, in A's frame, and radius of the sphere, or of the ball at the end of a capsule, m.
+/// Centre in A's frame and radius of the sphere, or of a capsule's end sphere, m.
 fn ball_of(contact: &ContactCandidate, context: &PairContext<'_>) -> (Vec3, f64) {
     let (body_a, element) = (context.body_a, contact.element_a as usize);
     if contact.half {
@@ -153,12 +154,13 @@ fn is_at_wall(contact: &ContactCandidate) -> bool {
         || is_exit_that_stands_in(contact)
 }
 
-/// A point (or a sphere's centre) at inner walls of a body is in one of its pieces, whatever rounding says: where several
-/// walls meet, each piece works out by itself on which side of its own walls the point is.
+/// Selects the piece for a point or sphere centre at internal faces of a body. Each piece decides for itself,
+/// with rounding, on which side of its internal faces the point lies, so several pieces may claim it, or
+/// none.
 ///
-/// Of the pieces that it is in, the first counts. If it is in none, it is where rounding opens a gap: the first piece
-/// counts that has all its neighbours there. Without the neighbours it is not a gap but the outside, beside a convex edge
-/// in which a wall ends.
+/// The first piece that contains the point counts. If none does, rounding has opened a gap between pieces:
+/// the first piece whose neighbours are all present counts. Without these neighbours the point is outside the
+/// body, beside a convex edge at which an internal face ends.
 fn choose_piece_at_walls(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     let in_piece = |contact: &ContactCandidate| {
         contact.entry_face != NO_FACE && contact.status != CandidateStatus::BeyondWall
@@ -179,8 +181,8 @@ fn choose_piece_at_walls(group: &mut [ContactCandidate], context: &PairContext<'
     }
 }
 
-/// The endpoint of a segment at inner walls of a body is in one of its pieces as well, and decided alike. Where a segment crosses an
-/// edge differs from piece to piece and is another contact; its endpoint is the same to the bit.
+/// Selects the piece for a segment's end at internal faces of a body, in the same way. Only contacts with
+/// exactly this end point are compared; where the segment crosses an edge, each piece finds another point.
 fn choose_piece_of_end_at_walls(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     keep_one_of_exits(group, context);
     keep_first_of_edges(group, &context.body_b.polyhedra);
@@ -203,7 +205,8 @@ fn choose_piece_of_end_at_walls(group: &mut [ContactCandidate], context: &PairCo
     }
 }
 
-/// An edge in which a wall ends is found by the pieces on both sides of the wall: the first counts.
+/// Keeps the first of equal edge contacts: the pieces on both sides of an internal face both find the edge in
+/// which it ends.
 fn keep_first_of_edges(group: &mut [ContactCandidate], polyhedra: &[Polyhedron]) {
     let is_edge =
         |found: &ContactCandidate| found.status == CandidateStatus::AtWall && !found.feature.is_face();
@@ -219,14 +222,15 @@ fn keep_first_of_edges(group: &mut [ContactCandidate], polyhedra: &[Polyhedron])
     }
 }
 
-/// Whether at each wall of a piece at which a place is there is another piece that it is in or at.
+/// Returns true if another piece contains the point, or has it on its surface, at each of the piece's
+/// internal faces there.
 fn has_neighbors_at_walls(found: &ContactCandidate, place: &Vec3, context: &PairContext<'_>) -> bool {
     if found.status != CandidateStatus::BeyondWall {
         return false;
     }
     let body = context.body_b;
     let holds = |piece: &Polyhedron| piece.containment(place) != Containment::Outside;
-    // Twins have the same plane to the bit.
+    // The two sides of an internal face have bit-identical planes.
     let has_twin = |wall: &PolyhedronFace| {
         let is_twin = |face: &PolyhedronFace| face.normal == -wall.normal && face.offset == -wall.offset;
         let pieces = body.polyhedra.iter().filter(|piece| piece.faces.iter().any(is_twin));
@@ -235,7 +239,7 @@ fn has_neighbors_at_walls(found: &ContactCandidate, place: &Vec3, context: &Pair
     body.polyhedra[found.element_b as usize].walls_at(place).all(has_twin)
 }
 
-/// The weights of the contacts of one sphere or ellipsoid with one surface.
+/// Computes the weights of the contacts of one sphere or ellipsoid with one surface.
 fn find_shares(
     group: &mut [ContactCandidate],
     triangles: &TriangleSet,
@@ -256,7 +260,7 @@ fn find_shares(
     outcome
 }
 
-/// What carries nothing is only remembered, or does not count.
+/// Contacts without load become `Tracked` if they have to be remembered, and are culled otherwise.
 fn drop_idle(group: &mut [ContactCandidate]) {
     for contact in group.iter_mut().filter(|contact| contact.takes_part()) {
         if contact.weight > 0.0 {
@@ -270,10 +274,11 @@ fn drop_idle(group: &mut [ContactCandidate]) {
     }
 }
 
-/// A fallback contact counts where no other has its place; then it is what rounding has made it miss.
+/// Resolves fallback candidates: one becomes regular if no regular contact is at its point, because rounding
+/// then made the regular one miss.
 ///
-/// Another wall that the same ball touches does not have the place, however deep it is. Of an ellipsoid a deeper contact in
-/// the same place is another minimum there, and not what rounding has made this one miss.
+/// A sphere's contact at another point does not replace it, at whatever depth. For an ellipsoid, a deeper
+/// contact at the same point is another minimum and does not replace it either.
 fn settle_fallbacks(group: &mut [ContactCandidate], kind_a: PrimitiveKind) {
     let is_fallback = |contact: &ContactCandidate| {
         matches!(contact.status, CandidateStatus::Fallback | CandidateStatus::BackFaceFallback)
@@ -284,8 +289,8 @@ fn settle_fallbacks(group: &mut [ContactCandidate], kind_a: PrimitiveKind) {
     if !group.iter().any(is_fallback) {
         return;
     }
-    // Faces first: where rounding has made a face and its edge miss one place, the face yields to what is less deep, and an
-    // edge would not.
+    // Faces first: if rounding made both a face and its edge miss one point, only the face gives way to a
+    // less deep contact.
     let count = group.len();
     for (is_face, i) in [true, false].into_iter().flat_map(|is_face| (0..count).map(move |i| (is_face, i))) {
         let fallback = &group[i];
@@ -309,9 +314,9 @@ fn settle_fallbacks(group: &mut [ContactCandidate], kind_a: PrimitiveKind) {
     }
 }
 
-/// An ellipsoid so deep that a face and another feature that meets it convexly both have a minimum is pushed by the less
-/// deep alone, and so is one with its centre behind an edge or a vertex, however many triangles lie between the two. Which face that yields is in the model must not matter: a face
-/// that is cut no longer has the edge to which it yields.
+/// Drops the deeper of two convexly meeting features at which a deep ellipsoid has a minimum, if it is a
+/// face, or if the centre is behind it. The test uses positions, not mesh adjacency, because a cut face may
+/// have lost the edge that it shares with the other feature.
 fn drop_deeper_faces(group: &mut [ContactCandidate]) {
     let counts = |contact: &ContactCandidate| {
         contact.role == ContactRole::Active
@@ -337,8 +342,9 @@ fn drop_deeper_faces(group: &mut [ContactCandidate]) {
     }
 }
 
-/// With the centre behind, a face yields to a less deep one that meets it convexly, as in a polyhedron, and to such an edge or
-/// vertex: a centre on the rim of a face in front is behind the next by rounding alone.
+/// With the centre behind it, a face yields to a less deep face that meets it convexly, as in a polyhedron,
+/// and to such an edge or vertex. A centre on the rim of a front face is behind the next face only by
+/// rounding.
 fn drop_deeper_of_convex_faces(group: &mut [ContactCandidate], triangles: &TriangleSet) {
     if !group.iter().any(|contact| contact.status == CandidateStatus::BackFace) {
         return;
@@ -368,7 +374,7 @@ fn is_triangles_face(contact: &ContactCandidate) -> bool {
     contact.kind_b == PrimitiveKind::Triangle && contact.feature.is_face()
 }
 
-/// Whether the triangles of two contacts meet convexly in an edge.
+/// Returns true if the triangles of two contacts share a convex edge.
 fn meet_in_an_edge(contact: &ContactCandidate, other: &ContactCandidate, triangles: &TriangleSet) -> bool {
     let neighbors = &triangles.triangles[contact.element_b as usize].neighbors;
     let edge = neighbors.iter().position(|neighbor| *neighbor == other.element_b);
@@ -378,16 +384,16 @@ fn meet_in_an_edge(contact: &ContactCandidate, other: &ContactCandidate, triangl
     })
 }
 
-/// Whether two faces meet convexly, however many triangles lie between the two that push: where each is touched lies below
-/// the plane of the other. Beside a concave edge it lies above; in the wedge behind one both are touched in the edge, or
-/// in pieces of it that lie in both planes.
+/// Returns true if two faces meet convexly, with any number of triangles between them: the contact point of
+/// each lies below the plane of the other. At a concave edge it lies above. In the wedge behind a concave
+/// edge both contact points are on the edge, or in coplanar pieces, and the faces do not count as convex.
 fn meet_below(contact: &ContactCandidate, other: &ContactCandidate, triangles: &TriangleSet) -> bool {
     let on = |of: &ContactCandidate| nearest_in_plane(&touched(of), &triangles.corners(of.element_b));
     let (places, normals) = ([&on(contact), &on(other)], [&contact.normal_b, &other.normal_b]);
     are_convex(places, normals) && !are_in_both_planes(places, normals)
 }
 
-/// A stand-in counts only where nothing else is as deep.
+/// Culls `StandIn` candidates unless no regular contact is as deep.
 fn cull_idle_stand_ins(group: &mut [ContactCandidate]) {
     let deepest = group
         .iter()

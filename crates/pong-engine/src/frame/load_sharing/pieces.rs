@@ -1,4 +1,4 @@
-//! Which contacts of one ellipsoid or sphere with the pieces of one body count: those that the uncut body would have.
+//! Drops contacts of one ellipsoid or sphere with the pieces of a body that the uncut body would not have.
 
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::state::{ContactRole, NO_FACE};
@@ -6,22 +6,24 @@ use pong_geometry::Vec3;
 use pong_geometry::interference::FeatureKind;
 use pong_geometry::primitive::Polyhedron;
 
-/// Relative: depths this close are one depth, so that rounding does not choose between two features.
+/// Relative difference below which two depths count as equal, so that rounding does not select the feature.
 const DEPTH_SLACK: f64 = 1e-12;
-/// Relative to the distance of two places: how far in front of a plane a place counts as in it. A fold that single
-/// precision can hold is steeper.
+/// Distance in front of a plane up to which a point counts as in it, relative to the distance between the two
+/// points. Folds that single precision can represent are steeper.
 const PLANE_SLACK: f64 = 1e-9;
-/// Relative to the coordinates: by how much rounding alone moves a place, some tens of units in the last place.
+/// Rounding error of a position, relative to the coordinates: some tens of units in the last place.
 const ROUNDING: f64 = 1e-14;
-/// Relative to the coordinates: places this close are one place, where the pieces of a flat face meet.
+/// Distance below which two points count as equal, where pieces of a flat face meet; relative to the
+/// coordinates.
 const PLACE_SLACK: f64 = 1e-9;
 
-/// Marks as dropped what an ellipsoid would not have on the uncut body (`group`: its contacts with the pieces of one
-/// body).
+/// Culls contacts that an ellipsoid would not have on the uncut body (`group`: its contacts with the pieces
+/// of one body).
 ///
-/// A piece finds the least overlap among its own features. Of two pieces' features that meet convexly, only the less
-/// deep is the minimum translation; features that meet concavely, as two walls of a corner, are overcome each for itself.
-/// A contact that only stands in for a piece counts if there is none but such.
+/// Each piece reports the minimum translation over its own features. Of two features of different pieces that
+/// meet convexly, only the less deep is the minimum translation of the body; features that meet concavely,
+/// such as two walls of a corner, each push on their own. `StandIn` candidates count only if there are no
+/// others.
 pub(crate) fn drop_what_the_body_lacks(group: &mut [ContactCandidate], pieces: &[Polyhedron]) {
     let stands_in = |contact: &ContactCandidate| contact.status == CandidateStatus::StandIn;
     if !group.iter().all(stands_in) {
@@ -44,9 +46,8 @@ pub(crate) fn drop_what_the_body_lacks(group: &mut [ContactCandidate], pieces: &
     }
 }
 
-/// The least deep of the contacts that are deeper than the one at `last`; of equally deep ones they follow each other in
-/// their order. What covers a contact is thus known to count itself before it is asked: otherwise the order of the model
-/// would decide where one contact is covered by a second, and the second by a third.
+/// Index of the next contact after `last` by increasing depth, ties by index. In this order a contact is
+/// judged only after all contacts that may cull it, so that the result does not depend on model order.
 pub(super) fn next_deeper(group: &[ContactCandidate], last: Option<usize>) -> Option<usize> {
     let place = |index: usize| (group[index].depth, index);
     let follows = |index: &usize| last.is_none_or(|last| place(*index) > place(last));
@@ -54,31 +55,32 @@ pub(super) fn next_deeper(group: &[ContactCandidate], last: Option<usize>) -> Op
     (0..group.len()).filter(follows).reduce(less)
 }
 
-/// Whether the first contact is less deep; of two equally deep ones the first in the order of sums is.
+/// Returns true if the first contact is less deep; ties by summation order.
 pub(crate) fn pushes_before(contact: &ContactCandidate, other: &ContactCandidate) -> bool {
     let rounding = DEPTH_SLACK * other.depth;
     let difference = contact.depth - other.depth;
     difference < -rounding || (difference <= rounding && contact.order() < other.order())
 }
 
-/// Whether what is touched belongs to one convex body.
+/// Returns true if the features of two contacts meet convexly.
 fn meet_convexly(contact: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhedron]) -> bool {
     if contact.status == CandidateStatus::StandIn && other.status == CandidateStatus::StandIn {
-        // The feet lie beside the pieces and say nothing; the faces themselves do.
+        // Foot points beside the pieces are inconclusive; compare the faces themselves.
         return lies_below(contact, other, pieces) && lies_below(other, contact, pieces);
     }
     if contact.feature.is_face()
         && other.feature.is_face()
         && are_one_place(&touched(contact), &touched(other))
     {
-        // Where the pieces meet, two faces are touched in one place: that says nothing, the faces themselves do.
+        // Where pieces meet, two faces share one contact point, which is inconclusive; compare the faces
+        // themselves.
         return lies_below(contact, other, pieces) && lies_below(other, contact, pieces);
     }
     is_part_of(contact, other, pieces) || is_part_of(other, contact, pieces) || touch_convexly(contact, other)
 }
 
-/// Whether the first contact is of an edge or a vertex of the face or the edge of the second. What pushes there is convex; the
-/// places say less, since corners in single precision may lie in front of the plane.
+/// Returns true if the first contact is at an edge or vertex of the second's face or edge. Such features meet
+/// convexly; positions are less reliable, since corners in single precision may lie in front of the plane.
 fn is_part_of(contact: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhedron]) -> bool {
     let piece = &pieces[contact.element_b as usize];
     let is_corner = |vertex: u32| has_corner(other, &piece.vertices[vertex as usize].position, pieces);
@@ -89,7 +91,7 @@ fn is_part_of(contact: &ContactCandidate, other: &ContactCandidate, pieces: &[Po
     }
 }
 
-/// Whether a face or an edge that pushes has a corner at a place.
+/// Returns true if a contact's face or edge has a corner at a position.
 fn has_corner(contact: &ContactCandidate, place: &Vec3, pieces: &[Polyhedron]) -> bool {
     let (piece, index) = (&pieces[contact.element_b as usize], contact.feature.index());
     let is_there = |vertex: u32| piece.vertices[vertex as usize].position == *place;
@@ -100,10 +102,10 @@ fn has_corner(contact: &ContactCandidate, place: &Vec3, pieces: &[Polyhedron]) -
     }
 }
 
-/// Whether the features of two contacts belong to one convex body, by the places that are touched.
+/// Returns true if the features of two contacts meet convexly, judged by their contact points.
 ///
-/// Of two that are touched in one place neither lies below the other. An edge or a vertex that pushes is convex; two faces
-/// may meet flat or concavely there.
+/// Equal contact points are below each other's planes in either case: an edge or vertex that pushes is
+/// convex, but two faces may meet flat or concavely there.
 pub(super) fn touch_convexly(contact: &ContactCandidate, other: &ContactCandidate) -> bool {
     let (here, there) = (touched(contact), touched(other));
     if are_one_place(&here, &there) {
@@ -112,37 +114,37 @@ pub(super) fn touch_convexly(contact: &ContactCandidate, other: &ContactCandidat
     are_convex([&here, &there], [&contact.normal_b, &other.normal_b])
 }
 
-/// Whether two places belong to one convex body: each lies below the plane through the other across its normal, or in it.
-/// To push out of either is then to push out of both. One place does not.
+/// Returns true if each point lies in or below the plane through the other one normal to its contact normal;
+/// the points must differ. Pushing A out at either point then pushes it out at both.
 pub(super) fn are_convex([here, there]: [&Vec3; 2], [normal, other_normal]: [&Vec3; 2]) -> bool {
     let apart = there - here;
     let slack = plane_slack(here, there);
     !are_one_place(here, there) && normal.dot(&apart) <= slack && other_normal.dot(&apart) >= -slack
 }
 
-/// Whether each of two places lies in the plane through the other across its normal.
+/// Returns true if each point lies in the plane through the other one normal to its contact normal.
 pub(super) fn are_in_both_planes([here, there]: [&Vec3; 2], normals: [&Vec3; 2]) -> bool {
     let apart = there - here;
     let slack = plane_slack(here, there);
     normals.iter().all(|normal| normal.dot(&apart).abs() <= slack)
 }
 
-/// How far in front of a plane through one place another counts as in it, m.
+/// Distance in front of a plane through one point up to which another counts as in it, m.
 fn plane_slack(here: &Vec3, there: &Vec3) -> f64 {
     PLANE_SLACK * (there - here).norm() + ROUNDING * (here.amax() + there.amax())
 }
 
-/// Whether only rounding keeps two places apart.
+/// Returns true if two points differ only by rounding.
 pub(super) fn are_one_place(here: &Vec3, there: &Vec3) -> bool {
     (there - here).norm() <= PLACE_SLACK * (here.amax() + there.amax())
 }
 
-/// Where A's deepest point comes to lie once it is pushed out.
+/// Position of A's deepest point after the minimum translation.
 pub(super) fn touched(contact: &ContactCandidate) -> Vec3 {
     contact.deepest_b + contact.normal_b * contact.depth
 }
 
-/// Whether the face of one contact lies below the plane of another, or in it.
+/// Returns true if the face of one contact lies in or below the plane of the other.
 fn lies_below(of: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhedron]) -> bool {
     let piece = &pieces[of.element_b as usize];
     let plane = &pieces[other.element_b as usize].faces[other.feature.index()];
@@ -151,12 +153,12 @@ fn lies_below(of: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhed
         <= PLANE_SLACK * piece.diameter
 }
 
-/// Marks as dropped what a sphere has twice on a convex edge in which a wall ends (`group`: its contacts with the pieces of one
-/// body).
+/// Culls duplicate contacts of a sphere at a convex edge in which an internal face ends (`group`: its
+/// contacts with the pieces of one body).
 ///
-/// A centre on such an edge lies in the planes of the faces on both sides, and each of them belongs to another piece. Where
-/// corners are rounded to single precision, the outlines of the two overlap. The uncut body has one contact there: the less deep
-/// counts.
+/// A centre on such an edge lies in the planes of both adjacent faces, which belong to different pieces. With
+/// corners rounded to single precision, the outlines of the two faces overlap. The uncut body has one contact
+/// there: the less deep one.
 pub(super) fn drop_second_of_edges(group: &mut [ContactCandidate], radius: f64, pieces: &[Polyhedron]) {
     let is_on_surface = |contact: &ContactCandidate| {
         let slack = pieces[contact.element_b as usize].planes().wall_slack;
@@ -182,7 +184,7 @@ pub(super) fn drop_second_of_edges(group: &mut [ContactCandidate], radius: f64, 
     }
 }
 
-/// Whether the centre of a sphere lies on one convex edge for both of its contacts.
+/// Returns true if the sphere's centre lies on one convex edge common to both contacts.
 fn share_an_edge(
     contact: &ContactCandidate,
     other: &ContactCandidate,
@@ -193,7 +195,7 @@ fn share_an_edge(
         .any(|ends| edges_under(other, radius, pieces).any(|other_ends| ends == other_ends))
 }
 
-/// The ends of the convex edges that the centre of a sphere lies on, of those that what pushes it has.
+/// End points of the convex edges of a contact's feature on which the sphere's centre lies.
 fn edges_under<'p>(
     contact: &ContactCandidate,
     radius: f64,

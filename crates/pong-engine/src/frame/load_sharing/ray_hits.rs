@@ -1,21 +1,21 @@
-//! Which hit of a ray is the first one (docs/theory.md, 2.5).
+//! First hit of a ray (docs/theory.md, 2.5).
 
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 
-/// How many roundings of the place of a hit, over the slope of the flatter face, two distances may be apart and count
-/// as one.
+/// Rounding errors, in units of the hit position's rounding over the slope of the flatter face, up to which
+/// two distances count as equal.
 const ROUNDINGS: f64 = 64.0;
 
-/// One contact per ray: the first hit, ties in key order. Rays that also hit other movable groups of the same Object
-/// are judged when all are known.
+/// Keeps one contact per ray: the first hit, ties in key order. Rays that also hit other movable groups of
+/// the same Object are resolved after all contacts are known.
 pub(super) fn keep_first_ray_hits(found: &mut [ContactCandidate], context: &PairContext<'_>) {
     for hits in found.chunk_by_mut(|a, b| a.key.primitive_a == b.key.primitive_a) {
         let mut first: Option<usize> = None;
         for other in 0..hits.len() {
-            // What a registered test finds for a ray has no distance and takes no part.
+            // Contacts of registered testers have no ray distance and are not compared.
             if hits[other].ray_distance == f64::INFINITY {
                 continue;
             }
@@ -30,10 +30,10 @@ pub(super) fn keep_first_ray_hits(found: &mut [ContactCandidate], context: &Pair
     }
 }
 
-/// Whether the ray hits this face before the other one.
+/// Returns true if the ray hits this face before the other.
 ///
-/// Through a fold whose faces both lie on one side of the ray, rays beside it hit the face that hides the other, or
-/// none. In the fold itself the distances are equal, and rounding would choose.
+/// At a fold with both faces on one side of the ray, the distances are equal and rounding would decide. Then
+/// the face that hides the other from neighbouring rays counts.
 fn is_first(hit: &ContactCandidate, other: &ContactCandidate, context: &PairContext<'_>) -> bool {
     let is_on_mesh = |hit: &ContactCandidate| hit.kind_b == PrimitiveKind::Triangle;
     if is_on_mesh(hit)
@@ -45,8 +45,8 @@ fn is_first(hit: &ContactCandidate, other: &ContactCandidate, context: &PairCont
     hit.ray_distance < other.ray_distance
 }
 
-/// Whether a face hides the other one from rays beside a ray through the line in which their planes meet; `None` if the
-/// ray does not pass there, or if the faces lie on both sides of it.
+/// Returns true if a face hides the other from rays next to one that passes through the line where their
+/// planes meet; `None` if the ray does not pass there, or if the faces lie on different sides of it.
 fn is_in_front_at_a_fold(
     hit: &ContactCandidate,
     other: &ContactCandidate,
@@ -63,7 +63,7 @@ fn is_in_front_at_a_fold(
     if apart * slopes[0].min(slopes[1]) > ROUNDINGS * f64::EPSILON * reached {
         return None;
     }
-    // Across the ray and the fold: how far each face lies to that side.
+    // Signed offset of each face from the ray, perpendicular to the ray and the fold.
     let across = direction.cross(&normals[0].cross(&normals[1]));
     let sides = [hit, other].map(|hit| {
         let [a, b, c] = triangles.corners(hit.element_b);
@@ -72,7 +72,7 @@ fn is_in_front_at_a_fold(
     if sides[0] * sides[1] <= 0.0 {
         return None;
     }
-    // What the distance grows by for a ray that is so far to that side.
+    // Increase of the hit distance for a ray shifted to that side.
     let across: Vec3 = across * sides[0].signum();
     let grows = |k: usize| normals[k].dot(&across) / slopes[k];
     Some(grows(0) < grows(1))

@@ -1,4 +1,4 @@
-//! The rim of a two-sided surface, which its front and its back have in common (docs/theory.md, 2.2).
+//! Rim of a two-sided surface, shared by its front and its back (docs/theory.md, 2.2).
 
 use super::pieces::{are_one_place, touched};
 use crate::frame::input::PairContext;
@@ -6,9 +6,10 @@ use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::state::ContactRole;
 use pong_geometry::primitive::PrimitiveKind;
 
-/// Where a centre lies in the plane of a two-sided triangle, beyond its rim, it is in front of both sides, and beyond a
-/// vertex of the rim that is folded it may be in front of two faces on different sides. Both sides then push with the
-/// one edge or vertex: the front counts.
+/// Keeps one of the two sides' contacts at a common rim. A centre in the plane of a two-sided triangle,
+/// beyond its rim, is in front of both sides; beyond a vertex of a folded rim it may be in front of two faces
+/// on different sides. Both sides then push with the same edge or vertex, and only the front's contact
+/// counts.
 pub(super) fn keep_one_side_of_rims(found: &mut [ContactCandidate], context: &PairContext<'_>) {
     for index in 0..found.len() {
         if is_of_a_back(&found[index], context) {
@@ -20,12 +21,12 @@ pub(super) fn keep_one_side_of_rims(found: &mut [ContactCandidate], context: &Pa
     }
 }
 
-/// Cosine below which two normals count as opposite: where the centre is near the place, rounding turns the direction.
+/// Cosine below which two normals count as opposite; near the contact point, rounding rotates the normal.
 const OPPOSITE_COSINE_MAX: f64 = -0.999;
 
-/// No place pushes both ways. Where a face ends that has the centre behind it, the edge or vertex there pushes what is on the
-/// other side the opposite way, and so does the other side of a two-sided triangle; on the border rounding may find both:
-/// the face that has the centre behind it counts.
+/// Culls contacts that push in the opposite direction at one point. At the end of a face that has the centre
+/// behind it, the edge or vertex, or the other side of a two-sided triangle, pushes the opposite way; on the
+/// border, rounding may find both. The face with the centre behind it counts.
 pub(super) fn keep_one_way_at_places(found: &mut [ContactCandidate]) {
     for index in 0..found.len() {
         if !is_behind_a_face(&found[index]) {
@@ -45,7 +46,7 @@ pub(super) fn keep_one_way_at_places(found: &mut [ContactCandidate]) {
     }
 }
 
-/// Whether a face pushes a centre that is behind it.
+/// Returns true if the contact is a face that has the centre behind it.
 fn is_behind_a_face(contact: &ContactCandidate) -> bool {
     contact.kind_b == PrimitiveKind::Triangle
         && contact.shares
@@ -54,7 +55,7 @@ fn is_behind_a_face(contact: &ContactCandidate) -> bool {
         && matches!(contact.status, CandidateStatus::BackFace | CandidateStatus::BackFaceFallback)
 }
 
-/// Whether an edge or a vertex of a back pushes.
+/// Returns true if the contact is at an edge or vertex of a back side.
 fn is_of_a_back(contact: &ContactCandidate, context: &PairContext<'_>) -> bool {
     contact.kind_b == PrimitiveKind::Triangle
         && contact.shares
@@ -62,11 +63,11 @@ fn is_of_a_back(contact: &ContactCandidate, context: &PairContext<'_>) -> bool {
         && contact.element_b >= context.body_b.primitives[contact.primitive_b as usize].first_mirror
 }
 
-/// Relative: what rounding leaves between the depths of one place, seen from both sides.
+/// Relative rounding difference between the depths at one point as seen from both sides.
 const SAME_DEPTH_SLACK: f64 = 1e-9;
 
-/// Whether the same edge or vertex pushes as much, for all that rounding can tell: where a centre is on the rim itself, the
-/// direction is each side's own.
+/// Returns true if the front has the same edge or vertex contact, up to rounding. The normals are not
+/// compared: for a centre on the rim itself, each side has its own.
 fn is_front_of(front: &ContactCandidate, back: &ContactCandidate) -> bool {
     (front.key.primitive_a, front.key.end) == (back.key.primitive_a, back.key.end)
         && front.primitive_b == back.primitive_b

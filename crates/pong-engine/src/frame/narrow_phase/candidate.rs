@@ -1,4 +1,4 @@
-//! A contact as a contact tester finds it, before anything is decided about it.
+//! Contact candidates, as the contact testers find them.
 
 use crate::state::{ContactKey, ContactRole, NO_FACE, RecordRange};
 use pong_geometry::Vec3;
@@ -6,10 +6,10 @@ use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::Item;
 
-/// The order of every sum: by key, then by what of B pushes.
+/// Summation order: by key, then by feature of B.
 pub(crate) type ContactOrder = (ContactKey, u32, u32, Feature);
 
-/// A contact as a tester finds it. Vectors are in the frame of B's movable group.
+/// Contact candidate of a contact tester. Vectors are in the frame of B's movable group.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContactCandidate {
     pub key: ContactKey,
@@ -17,56 +17,59 @@ pub(crate) struct ContactCandidate {
     pub element_a: u32,
     pub element_b: u32,
     pub feature: Feature,
-    /// Face that memory has reached in the polyhedron of B.
+    /// Current face of entry in the polyhedron of B.
     pub entry_face: u32,
-    /// The committed records under its key, if the tester has looked for them.
+    /// Committed records of its key, if the tester has looked them up.
     pub remembered: Option<RecordRange>,
     pub kind_b: PrimitiveKind,
-    /// Which element of its chunk the element of A is.
+    /// Index of A's element in its chunk.
     pub lane: u8,
-    /// Half a spring (the end of a segment) or a whole one.
+    /// True for half a spring (one end of a segment).
     pub half: bool,
-    /// Whether contacts under the same key share one spring.
+    /// True if the contacts of its key share one spring.
     pub shares: bool,
     pub status: CandidateStatus,
     pub role: ContactRole,
-    /// m; positive. This and the vectors below are in B's frame.
+    /// Depth, m; positive. The vectors below are in B's frame.
     pub depth: f64,
     /// Unit vector from B to A.
     pub normal_b: Vec3,
-    /// The deepest place of A, m.
+    /// Deepest point of A, m.
     pub deepest_b: Vec3,
-    /// Distance along a ray, m; infinite for everything else.
+    /// Distance along a ray, m; infinite for other kinds.
     pub ray_distance: f64,
-    /// The weight w of docs/theory.md, 2.2; 1 for a single contact.
+    /// Weight w of docs/theory.md, 2.2; 1 for a single contact.
     pub weight: f64,
 }
 
-/// How a contact stands among those of the same surface.
+/// Standing of a candidate among those of the same surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum CandidateStatus {
-    /// Nothing special.
+    /// Regular contact, with the centre in front.
     Front,
-    /// The centre is behind the face.
+    /// Regular contact, with the centre behind the face.
     BackFace,
-    /// Pushes within rounding alone: counts where no other contact has the place.
+    /// Fallback for a contact lost to rounding; used only if no regular contact is at the same point.
     Fallback,
-    /// The same with the centre behind the face.
+    /// Fallback with the centre behind the face.
     BackFaceFallback,
-    /// Stands in for what has lost its foot: counts only where nothing else is as deep. Of a segment: for what leaves a piece
-    /// within rounding where a wall ends.
+    /// Fallback for a feature whose foot point lies just outside it by rounding; used only if no regular
+    /// contact is as deep. For a segment: an exit through an internal face, within rounding of its boundary
+    /// edge.
     StandIn,
-    /// A point or the endpoint of a segment in a piece, at an inner wall, or an edge in which the wall ends: counts unless a
-    /// piece of lower index has it as well. Also a segment's exit beside a wall, which one piece carries.
+    /// Point or segment end in a piece, on an internal face or on the boundary edge of one; used unless a
+    /// piece of lower index has the same contact. Also the exit of a segment next to an internal face, which
+    /// only one piece carries.
     AtWall,
-    /// A point or endpoint at an inner wall of a piece, but beyond: counts only where rounding leaves it in no piece at all.
+    /// Point or segment end just beyond an internal face of a piece; used only if rounding leaves it in no
+    /// piece.
     BeyondWall,
-    /// Turned out not to count.
+    /// Dropped.
     Culled,
 }
 
 impl ContactCandidate {
-    /// Of no two elements; whole, in front and alone, as most contacts are. Something to fill memory with.
+    /// Placeholder to fill memory, with the defaults of most candidates: whole spring, in front, unshared.
     pub const NOTHING: Self = Self {
         key: ContactKey { group_pair: 0, flipped: 0, primitive_a: 0, shell_b: 0, end: 0 },
         primitive_b: 0,
@@ -88,7 +91,7 @@ impl ContactCandidate {
         weight: 1.0,
     };
 
-    /// A whole contact, as most are, of an element of A and one of B.
+    /// Candidate of an element of A and one of B, with a whole spring.
     #[inline(always)]
     pub fn new(
         key: ContactKey,
@@ -111,27 +114,27 @@ impl ContactCandidate {
         }
     }
 
-    /// It shares its spring with others under its key; half a spring at the end of an axis.
+    /// Marks it as sharing a spring with the others of its key; `half` at the end of an axis.
     pub fn share(&mut self, half: bool) {
         (self.shares, self.half) = (true, half);
     }
 
-    /// Where the contact stands in every sum.
+    /// Position in the summation order.
     pub fn order(&self) -> ContactOrder {
         (self.key, self.primitive_b, self.element_b, self.feature)
     }
 
-    /// Whether it takes part in what the contacts of a ball share.
+    /// Returns true if it takes part in load sharing.
     pub fn takes_part(&self) -> bool {
         self.status != CandidateStatus::Culled && self.role == ContactRole::Active
     }
 
-    /// h: the end of a segment has half of a spring.
+    /// Factor h: one half at the end of a segment, otherwise one.
     pub fn half_or_whole(&self) -> f64 {
         if self.half { 0.5 } else { 1.0 }
     }
 
-    /// Weight with the half spring of a segment's end taken in.
+    /// Weight including the factor h.
     pub fn full_weight(&self) -> f64 {
         self.half_or_whole() * self.weight
     }

@@ -1,4 +1,4 @@
-//! One element of A against one element of B, and what contact testers find for a chunk of A.
+//! One element of A against one element of B, and the candidates of a chunk of A.
 
 use super::candidate::{CandidateStatus, ContactCandidate};
 use super::nearest_side::KnownSides;
@@ -17,25 +17,25 @@ use pong_geometry::primitive::{Capsule, Containment, PrimitiveKind, Sphere, Tria
 use pong_geometry::simd::{LANES, Simd};
 use pong_model::{Item, MovableGroup, PrimitiveInfo};
 
-/// The candidates that contact testers find for one chunk of A.
+/// Candidates that the contact testers find for one chunk of A.
 pub(crate) struct ChunkCandidates<'m> {
     pub list: &'m mut Table<ContactCandidate>,
-    /// How many there were, those without room included.
+    /// Number of candidates, including those dropped for lack of room.
     pub seen: u64,
-    /// Whether there was no room for all: then at least the deeper half of what there is room for stays, which is no
+    /// True if there was not enough room. Then at least the deeper half of the capacity is kept, which is no
     /// less than a frame may keep.
     pub overflowed: bool,
     pub deferred: &'m mut DeferredPairs,
     pub sides: KnownSides,
 }
 
-/// Spheres or ellipsoids that may touch triangles. Their tests are deferred until eight are together or the batch of B ends. A
-/// chunk has elements of one kind.
+/// Pairs of spheres or ellipsoids with triangles. Their tests are deferred until there are eight or the batch
+/// of B ends. A chunk has elements of one kind.
 #[derive(Debug)]
 pub(crate) struct DeferredPairs {
     pub spheres: SphereTrianglePairs,
     pub ellipsoids: EllipsoidTrianglePairs,
-    /// Of each pair the lane of A and the triangle.
+    /// Lane of A and triangle of each pair.
     pub from: [(u8, Item); LANES],
 }
 
@@ -51,13 +51,13 @@ impl Default for DeferredPairs {
 }
 
 impl DeferredPairs {
-    /// How many there are.
+    /// Number of pairs.
     #[inline]
     pub fn count(&self) -> usize {
         self.spheres.count() + self.ellipsoids.count()
     }
 
-    /// Adds an element and a triangle, which has a thickness for it, m; answers the pair's place.
+    /// Adds a pair of an element and a triangle with this thickness for it, m; returns the pair's index.
     #[inline(always)]
     pub fn add(&mut self, element: &Ellipsoidal<'_>, triangle: u32, thickness: f64) -> usize {
         match element {
@@ -66,7 +66,7 @@ impl DeferredPairs {
         }
     }
 
-    /// Makes the pairs that are pushed from here on those of an element, with a thickness for it, m.
+    /// Sets the element of the pairs pushed next, and the thickness for it, m.
     #[inline(always)]
     pub fn begin<S: Simd>(&mut self, simd: S, element: &Ellipsoidal<'_>, thickness: f64) {
         match element {
@@ -75,7 +75,7 @@ impl DeferredPairs {
         }
     }
 
-    /// Adds a pair of the element that was begun with last; answers its place.
+    /// Adds a pair of the element set by `begin`; returns its index.
     #[inline(always)]
     pub fn push(&mut self, element: &Ellipsoidal<'_>, triangle: u32) -> usize {
         match element {
@@ -84,7 +84,8 @@ impl DeferredPairs {
         }
     }
 
-    /// Tells which of the pairs may touch, whose triangles are of a set; then there are none.
+    /// Filters the pairs eight at a time against their set of triangles, and removes them; the result marks
+    /// those that may touch.
     #[inline(always)]
     pub fn tell(&mut self, set: &TriangleSet) -> PairsTold {
         if self.ellipsoids.count() > 0 {
@@ -101,7 +102,7 @@ impl DeferredPairs {
 
 impl<'m> ChunkCandidates<'m> {
     pub fn new(list: &'m mut Table<ContactCandidate>, deferred: &'m mut DeferredPairs) -> Self {
-        // A panic may have left some.
+        // A panic may have left candidates behind.
         list.clear();
         deferred.clear();
         Self { list, seen: 0, overflowed: false, deferred, sides: KnownSides::default() }
@@ -112,13 +113,13 @@ impl<'m> ChunkCandidates<'m> {
         (self.seen, self.overflowed) = (0, false);
     }
 
-    /// Whether pairs were put off that are not tested yet.
+    /// Returns true if there are deferred tests.
     #[inline]
     pub fn has_deferred(&self) -> bool {
         self.deferred.count() > 0
     }
 
-    /// A place for one candidate more; the caller writes all of it.
+    /// Slot for one more candidate; the caller writes all of it.
     pub fn slot(&mut self) -> &mut ContactCandidate {
         self.seen += 1;
         if self.list.len() == self.list.capacity() {
@@ -134,14 +135,14 @@ impl<'m> ChunkCandidates<'m> {
     }
 }
 
-/// The end of a contact of a capsule between its two ends.
+/// Value of `end` for a contact of a capsule between its ends.
 pub(crate) const BETWEEN_ENDS: u32 = 2;
 
-/// A sphere, or the ball at an end of a capsule.
+/// A sphere, or the end sphere of a capsule.
 pub(crate) struct Ball<'s> {
-    /// In B's frame. Not a copy: whoever copies what was just written waits for it.
+    /// The sphere in B's frame. Borrowed, because copying values just written would stall.
     pub sphere: &'s Sphere,
-    /// Of a capsule.
+    /// End index, for a capsule.
     pub end: Option<u32>,
 }
 
@@ -151,22 +152,22 @@ impl<'s> Ball<'s> {
         Self { sphere, end: None }
     }
 
-    /// The balls at the ends of a capsule.
+    /// The two end spheres of a capsule.
     pub fn at_ends([first, second]: &'s [Sphere; 2]) -> [Self; 2] {
         [Self { sphere: first, end: Some(0) }, Self { sphere: second, end: Some(1) }]
     }
 }
 
-/// The spheres that a capsule ends in.
+/// Spheres at the ends of a capsule.
 pub(crate) fn end_spheres(capsule: &Capsule) -> [Sphere; 2] {
     capsule.ends.map(|center| Sphere { center, radius: capsule.radius })
 }
 
-/// One element as A against one element as B.
+/// One element of A against one element of B.
 pub(crate) struct ElementPair<'a> {
     pub context: &'a PairContext<'a>,
     pub item_a: Item,
-    /// Which of its chunk it is.
+    /// Index of A's element in its chunk.
     pub lane: u8,
     pub item_b: Item,
     pub kind_b: PrimitiveKind,
@@ -189,7 +190,8 @@ impl<'a> ElementPair<'a> {
         &self.body_b().primitives[self.item_b.primitive as usize]
     }
 
-    /// For a point inside B's polyhedron, given in both frames, the face that memory reaches and the one that pushes.
+    /// Current face of entry, and pushing face, for a point inside B's polyhedron, given in A's frame
+    /// (`local`) and B's (`p`).
     #[inline]
     pub fn entry_face(&self, remembered: &RecordsOfKey<'_>, local: &Vec3, p: &Vec3) -> Option<EntryFace> {
         PolyhedronEntry {
@@ -220,12 +222,12 @@ impl<'a> ElementPair<'a> {
         }
     }
 
-    /// The key at one of the ends of A's element.
+    /// Key at one end of A's element.
     pub fn key_at(&self, end: u32) -> ContactKey {
         ContactKey { end, ..self.key() }
     }
 
-    /// The centre of a ball of A, in A's frame, m. Most tests end without it.
+    /// Centre of a sphere of A in A's frame, m. Rarely needed.
     pub fn center_a(&self, ball: &Ball<'_>) -> &'a Vec3 {
         let element = self.item_a.element as usize;
         match ball.end {
@@ -240,13 +242,13 @@ impl<'a> ElementPair<'a> {
         }
     }
 
-    /// A contact of a ball, which shares its spring with others of the same surface.
+    /// Adds a sphere's contact, which shares its spring with the others of the same surface.
     pub fn sharing(&self, ball: &Ball<'_>, contact: &Interference, found: &mut ChunkCandidates<'_>) {
         let key = self.key_at(ball.end.unwrap_or(0));
         self.emit_under(key, contact, found, |out| out.share(ball.end.is_some()));
     }
 
-    /// An edge that a capsule crosses between its ends.
+    /// Adds the contact of a capsule's axis with an edge between its ends.
     pub fn between_ends(&self, crossing: &Interference, found: &mut ChunkCandidates<'_>) {
         self.emit_under(self.key_at(BETWEEN_ENDS), crossing, found, |out| out.share(true));
     }
@@ -260,7 +262,7 @@ impl<'a> ElementPair<'a> {
         self.emit_under(self.key(), contact, found, adjust);
     }
 
-    /// A contact under a key that was worked out before.
+    /// Adds a candidate under a key computed earlier.
     #[inline]
     pub fn emit_under(
         &self,
@@ -275,7 +277,7 @@ impl<'a> ElementPair<'a> {
     }
 }
 
-/// How a point in a piece of a body stands among those of the same surface.
+/// Candidate status of a point in a piece of a body.
 pub(crate) fn status_of(containment: Containment) -> CandidateStatus {
     match containment {
         Containment::AtWall => CandidateStatus::AtWall,
@@ -284,7 +286,7 @@ pub(crate) fn status_of(containment: Containment) -> CandidateStatus {
     }
 }
 
-/// A test was handed a primitive of another kind than its row in the table of pairs says.
+/// Reports a tester that was called with a primitive of a kind other than its table row's.
 #[cold]
 pub(crate) fn wrong_kind(a: &TransformedPrimitive) -> ! {
     unreachable!("the row of this test in the table of pairs names another kind than that of {a:?}")

@@ -1,7 +1,7 @@
-//! Elements of A by themselves against what they may touch of B.
+//! Single elements of A against their candidates of B.
 //!
-//! Of the triangles whose boxes a wheel reaches, few push. Which ones is asked of eight pairs at a time, for several wheels
-//! together: what is left over of one fills up with what comes of the next.
+//! Few of the triangles whose boxes a wheel reaches push. The pairs are filtered eight at a time for several
+//! wheels together, so that the lanes are filled across wheels.
 
 use super::element_pair::{Ball, ChunkCandidates, DeferredPairs, ElementPair};
 use super::on_triangle::thickness_for;
@@ -20,16 +20,16 @@ use pong_geometry::simd::{LANES, Simd};
 use pong_model::box_tree::lanes;
 use pong_model::{Batch, Item};
 
-/// An element by itself and a batch of B.
+/// A single element of A and a batch of B.
 #[derive(Clone, Copy)]
 pub(crate) struct LonePair<'a> {
     pub context: &'a PairContext<'a>,
-    /// Which the element is the first of.
+    /// Chunk with the element as its first.
     pub chunk: &'a Chunk<'a>,
     pub batch: &'a Batch,
 }
 
-/// Asks of all pairs of a sphere or an ellipsoid and a triangle which may touch, and keeps those.
+/// Filters all pairs of a sphere or an ellipsoid with a triangle, and keeps those that may touch.
 #[inline(always)]
 pub(crate) fn narrow_down<S: Simd>(
     simd: S,
@@ -56,7 +56,7 @@ pub(crate) fn narrow_down<S: Simd>(
         for number in 0..found {
             let place = ways[way].place_of(number);
             let item = items[place as usize];
-            // Most are of one mesh: to foresee that is quicker than to look it up.
+            // Most triangles are of the same mesh; the comparison avoids a lookup.
             if item.primitive != last {
                 last = item.primitive;
                 deferred.begin(simd, &element, thickness_for(context, &element, item));
@@ -65,7 +65,7 @@ pub(crate) fn narrow_down<S: Simd>(
             asked.from[lane] = (way as u32, place);
             if lane + 1 == LANES {
                 asked.keep_near(ways, deferred);
-                // The eight places are free again, and what stands in them is of others.
+                // The lanes have been taken; the next pair has to set its element again.
                 last = u32::MAX;
             }
         }
@@ -74,10 +74,10 @@ pub(crate) fn narrow_down<S: Simd>(
     asked.keep_near(ways, deferred);
 }
 
-/// Pairs of elements of one kind and triangles of one body that are about to be asked.
+/// Pairs of elements of one kind with triangles of one body, waiting to be filtered.
 struct Asked<'a> {
     of: Option<(PrimitiveKind, &'a TriangleSet)>,
-    /// Of each the way and the triangle's place in its batch.
+    /// Per pair: traversal index and the triangle's index in its batch.
     from: [(u32, u32); LANES],
 }
 
@@ -87,7 +87,7 @@ impl<'a> Asked<'a> {
         self.of.is_none_or(|of| of.0 == kind && std::ptr::eq(of.1, set))
     }
 
-    /// Asks them, and keeps those that may touch: on every way no more than were asked of it, in their order.
+    /// Filters the pairs and keeps those that may touch, in their order. No traversal keeps more than it had.
     #[inline(always)]
     fn keep_near(&mut self, ways: &mut [LoneElement], deferred: &mut DeferredPairs) {
         let Some((_, set)) = self.of else { return };
@@ -99,7 +99,8 @@ impl<'a> Asked<'a> {
     }
 }
 
-/// Tests an element by itself against what was found of a batch and narrowed down, and what is still to be found of it.
+/// Tests a single element against the filtered candidates of a batch, then continues its traversal for the
+/// rest.
 #[inline(always)]
 pub(crate) fn test_lone<S: Simd>(
     simd: S,
@@ -143,7 +144,7 @@ fn test_found<S: Simd>(
     }
 }
 
-/// A sphere or an ellipsoid against the triangles that it may touch.
+/// Tests a sphere or an ellipsoid against the triangles that it may touch.
 #[inline(always)]
 fn test_near(pair: LonePair<'_>, (items, way): (&[Item], &LoneElement), found: &mut ChunkCandidates<'_>) {
     let LonePair { context, chunk, .. } = pair;

@@ -1,4 +1,4 @@
-//! Pairs of primitives: contacts as contact testers find them.
+//! Narrow phase: pairs of primitives give contact candidates.
 
 pub(crate) mod candidate;
 pub(crate) mod element_pair;

@@ -1,5 +1,5 @@
-//! On which side of a surface of triangles a centre lies, told from the surface's nearest point: for a centre without an
-//! earlier place.
+//! Side of a triangle surface on which a centre lies, from the nearest point of the surface; for a centre
+//! without an earlier position.
 
 use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
@@ -10,24 +10,24 @@ use pong_geometry::simd::{LANES, Portable};
 use pong_model::box_tree::{Child, lanes};
 use pong_model::{Item, MovableGroup};
 
-/// How much wider than a distance the box is in which triangles at that distance are looked for.
+/// Relative widening of the box that is searched for triangles at a given distance.
 const REACH_SLACK: f64 = 1e-6;
 
-/// Relative to the lengths involved: a centre this little in front of a plane, or behind it, is in it.
+/// Distance from a plane, relative to the lengths involved, below which a centre counts as in it.
 pub(crate) const ROUNDING: f64 = 1e-12;
 
 /// A triangle of a body, and the centre of a sphere or ellipsoid.
 pub(crate) struct Nearby<'a> {
     pub body: &'a MovableGroup,
     pub item: Item,
-    /// In the frame of the triangle's movable group, m.
+    /// Centre in the frame of the triangle's movable group, m.
     pub center_b: Vec3,
 }
 
-/// A sphere, an ellipsoid, or one end of a capsule.
+/// A sphere or an ellipsoid (end 0), or one end of a capsule.
 type End = (Item, u32);
 
-/// The sides that were asked for in a block, so that each ball and surface are looked at once.
+/// Cache of the sides determined in a block, one entry per element end and surface.
 #[derive(Default)]
 pub(crate) struct KnownSides {
     of: [Option<(End, u32, bool)>; LANES],
@@ -35,7 +35,7 @@ pub(crate) struct KnownSides {
 }
 
 impl KnownSides {
-    /// Whether something of A is in front of a surface; `find` answers if nobody has asked before.
+    /// Returns true if an element of A is in front of a surface; `find` is called if the cache has no entry.
     pub fn in_front(&mut self, end_a: End, shell: u32, find: impl FnOnce() -> bool) -> bool {
         let known = self.of.iter().flatten().find(|(end, of, _)| (*end, *of) == (end_a, shell));
         if let Some((_, _, in_front)) = known {
@@ -49,13 +49,13 @@ impl KnownSides {
 }
 
 impl Nearby<'_> {
-    /// Whether the triangle is the back of a two-sided one.
+    /// Returns true if the triangle is the back of a two-sided one.
     pub fn is_mirror(&self) -> bool {
         self.item.element >= self.body.primitives[self.item.primitive as usize].first_mirror
     }
 
-    /// Whether the centre is behind a contact with the triangle: behind all faces that meet at what pushes. A centre in a
-    /// two-sided triangle is on its front, so it is behind the back.
+    /// Returns true if the centre is behind a contact with the triangle: behind all faces that meet at the
+    /// contact feature. A centre in the plane of a two-sided triangle is on its front, hence behind its back.
     pub fn is_behind(&self, contact: &TriangleContact) -> bool {
         let Interference { depth, normal_b, deepest_b, feature } = &contact.interference;
         let arm = self.center_b - deepest_b;
@@ -65,24 +65,24 @@ impl Nearby<'_> {
         height <= -rounding && !is_in_front_of_a_face(&self.center_b, set, triangle, *feature, rounding)
     }
 
-    /// Whether a place is in front of the triangle's plane, or within rounding of it. What is so near the plane of a two-sided
-    /// triangle is on its front, and so behind its back.
+    /// Returns true if a point is in front of the triangle's plane, or within rounding of it. Within rounding
+    /// of a two-sided triangle, it is on the front, hence behind the back.
     pub fn is_in_front_of_triangle(&self, p: &Vec3) -> bool {
         let view = TriangleView::new(&self.body.triangles, self.item.element);
         let rounding = ROUNDING * ((p - view.corners[0]).amax() + p.amax());
         if self.is_mirror() { view.height(p) > rounding } else { view.height(p) >= -rounding }
     }
 
-    /// The surface that the triangle belongs to; that of its front, if it is a back.
+    /// Shell that the triangle belongs to; for a back, that of its front.
     pub fn surface(&self) -> u32 {
         self.shell(self.front())
     }
 
-    /// Whether the centre is in front of the surface at the surface's point that is nearest to it. Of a two-sided
-    /// triangle every centre is in front.
+    /// Returns true if the centre is in front of the surface at the surface point nearest to it; always true
+    /// for two-sided triangles.
     ///
-    /// The nearest of all triangles of the surface decides, of equally near ones the first in the model: so bounding
-    /// volumes, leaves and blocks decide nothing.
+    /// The nearest triangle of the whole surface decides, ties by model order. The result therefore does not
+    /// depend on bounding volumes, leaves or blocks.
     pub fn is_in_front(&self) -> bool {
         let set = &self.body.triangles;
         let (front, shell) = (self.front(), self.surface());
@@ -98,7 +98,7 @@ impl Nearby<'_> {
                 }
             }
         });
-        // A centre on the surface is in front, however rounding places it.
+        // A centre on the surface, within rounding, is in front.
         let rounding = ROUNDING * self.center_b.amax();
         let info = &self.body.primitives[nearest.primitive as usize];
         square <= rounding * rounding
@@ -106,7 +106,7 @@ impl Nearby<'_> {
             || is_in_front_at(&self.center_b, set, nearest.element, place)
     }
 
-    /// The triangle itself, or the one whose back it is.
+    /// The triangle itself or, for a back, its front.
     fn front(&self) -> u32 {
         let info = &self.body.primitives[self.item.primitive as usize];
         let element = self.item.element;
@@ -118,7 +118,7 @@ impl Nearby<'_> {
     }
 }
 
-/// Calls `visit` with every triangle whose box meets that between two corners.
+/// Calls `visit` for every triangle whose box overlaps the given box.
 pub(crate) fn visit_triangles(body: &MovableGroup, low: &Vec3, high: &Vec3, visit: &mut dyn FnMut(Item)) {
     let tree = &body.tree;
     for batch in tree.batches.iter().filter(|batch| batch.kind == PrimitiveKind::Triangle) {

@@ -1,4 +1,4 @@
-//! What a sphere and an ellipsoid have in common on a triangle: the side that they came from, and how deep they are pushed.
+//! Common part of the sphere and ellipsoid tests against a triangle: side of origin, and thickness.
 
 use super::candidate::CandidateStatus;
 use super::element_pair::{ChunkCandidates, ElementPair};
@@ -15,17 +15,17 @@ use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
 use pong_geometry::primitive::{Ellipsoid, Sphere};
 use pong_model::Item;
 
-/// The centre of a sphere, of an ellipsoid, or of the ball at an end of a capsule.
+/// Centre of a sphere, of an ellipsoid, or of a capsule's end sphere.
 pub(crate) struct Centre {
-    /// In A's frame, m.
+    /// Centre in A's frame, m.
     pub center_a: Vec3,
-    /// In B's frame, m.
+    /// Centre in B's frame, m.
     pub center_b: Vec3,
-    /// Of a capsule.
+    /// End index, for a capsule.
     pub end: Option<u32>,
 }
 
-/// A contact of one sphere's or ellipsoid's centre with one triangle, unless the centre came from behind.
+/// Adds the contact of one centre with one triangle, unless the centre came from behind.
 pub(crate) fn on_triangle(
     pair: &ElementPair<'_>,
     center: &Centre,
@@ -62,7 +62,8 @@ pub(crate) fn on_triangle(
     });
 }
 
-/// Whether the sphere or ellipsoid was behind a feature of the triangle, and over it, at the last commit.
+/// Returns true if the sphere or ellipsoid was behind a feature of the triangle, and over it, at the last
+/// commit.
 fn touched_triangle_behind(pair: &ElementPair<'_>, end: Option<u32>, feature: Feature) -> bool {
     let Some(since) = pair.motion().since_commit else { return false };
     let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
@@ -92,7 +93,7 @@ fn touched_triangle_behind(pair: &ElementPair<'_>, end: Option<u32>, feature: Fe
     touched
 }
 
-/// How far behind a triangle the centre of an ellipsoid is still pushed to the front, m.
+/// Distance behind a triangle up to which an ellipsoid's centre is pushed to the front, m.
 pub(crate) fn thickness_for_ellipsoid(
     context: &PairContext<'_>,
     triangle: Item,
@@ -102,8 +103,8 @@ pub(crate) fn thickness_for_ellipsoid(
     given.unwrap_or(ellipsoid.smallest_semi_axis())
 }
 
-/// Whether a contact would push a centre without an earlier place from behind, though the centre is in front of the
-/// surface at its nearest point.
+/// Returns true if a contact would push from behind a centre that has no earlier position and that is in
+/// front of the surface at its nearest point.
 fn is_set_down_in_front(
     pair: &ElementPair<'_>,
     center: &Centre,
@@ -115,13 +116,13 @@ fn is_set_down_in_front(
     nearby.is_behind(contact) && sides.in_front((pair.item_a, end), nearby.surface(), || nearby.is_in_front())
 }
 
-/// How far behind a triangle the centre of a sphere is still pushed to the front, m.
+/// Distance behind a triangle up to which a sphere's centre is pushed to the front, m.
 #[inline]
 pub(crate) fn thickness_for_sphere(context: &PairContext<'_>, triangle: Item, sphere: &Sphere) -> f64 {
     context.body_b.primitives[triangle.primitive as usize].thickness.unwrap_or(sphere.radius)
 }
 
-/// How far behind a triangle the centre of an element is still pushed to the front, m.
+/// Distance behind a triangle up to which an element's centre is pushed to the front, m.
 #[inline(always)]
 pub(crate) fn thickness_for(context: &PairContext<'_>, element: &Ellipsoidal<'_>, triangle: Item) -> f64 {
     match element {

@@ -1,11 +1,11 @@
-//! Tests that the host has registered.
+//! Contact tests registered by the host.
 
 use super::element_pair::{ChunkCandidates, ElementPair};
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::primitive::PrimitiveKind::{self, Custom, Plane, Polyhedron, Triangle};
 use pong_model::{Item, MovableGroup};
 
-/// Runs the test that is registered for a pair of kinds, if there is one.
+/// Runs the test registered for a pair of kinds, if any.
 pub(crate) fn test(pair: &ElementPair<'_>, found: &mut ChunkCandidates<'_>) {
     let a = element_ref(pair.body_a(), pair.item_a);
     let b = element_ref(pair.body_b(), pair.item_b);
@@ -18,7 +18,7 @@ pub(crate) fn test(pair: &ElementPair<'_>, found: &mut ChunkCandidates<'_>) {
     pair.whole(test(a, b, &pair.motion().x_ba), found);
 }
 
-/// An element as registered testers see it.
+/// View of an element for registered tests.
 fn element_ref(body: &MovableGroup, item: Item) -> PrimitiveRef<'_> {
     let i = item.element as usize;
     match body.primitives[item.primitive as usize].kind {

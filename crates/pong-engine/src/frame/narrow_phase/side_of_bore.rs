@@ -1,4 +1,4 @@
-//! Whether what touches the wall of a bore came from the hole (docs/theory.md, 2.8).
+//! Role of a contact with the wall of a bore (docs/theory.md, 2.8).
 
 use super::element_pair::ElementPair;
 use crate::state::{ContactRole, RecordsOfKey};
@@ -6,8 +6,9 @@ use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::ball_bore::is_behind_wall;
 
-/// The role of a contact of a place of A, given in its frame. What was behind the wall at the last commit, and not pushed there,
-/// came through the wall from behind: it is not pushed into the hole until it has left the wall.
+/// Role of a contact at a point given in A's frame. A point that was behind the wall at the last commit, and
+/// not pushed there, came through the wall from behind. It is not pushed into the hole until it has left the
+/// wall.
 pub(crate) fn role_in_bore(
     pair: &ElementPair<'_>,
     remembered: &RecordsOfKey<'_>,

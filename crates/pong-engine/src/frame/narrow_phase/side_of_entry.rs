@@ -1,5 +1,5 @@
-//! From which side something came in: polyhedra push it back there, triangles leave alone what came from behind
-//! (docs/theory.md, 2.2 and 2.4).
+//! Side of entry: polyhedra push an element back to the side it came from; triangles do not push one that
+//! came from behind (docs/theory.md, 2.2 and 2.4).
 
 use crate::frame::input::motion::SinceCommit;
 use crate::frame::narrow_phase::nearest_side::{Nearby, ROUNDING, visit_triangles};
@@ -17,11 +17,11 @@ use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray};
 use pong_model::{Item, MovableGroup};
 use std::num::NonZeroU32;
 
-/// Which face of a polyhedron memory reaches, and which one pushes. There may be none: an option of it still fits a register,
-/// and what comes back through memory in two halves would be waited for.
+/// Current face of entry of a polyhedron, and the face that pushes. Packed, so that the `Option` is returned
+/// in one register.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EntryFace {
-    /// And one more.
+    /// Index of the current face plus one.
     reached: NonZeroU32,
     pushes: u32,
 }
@@ -31,12 +31,12 @@ impl EntryFace {
         Self { reached: NonZeroU32::MIN.saturating_add(reached as u32), pushes: pushes as u32 }
     }
 
-    /// The face that is remembered.
+    /// Face to remember.
     pub fn reached(self) -> u32 {
         self.reached.get() - 1
     }
 
-    /// The face that pushes.
+    /// Face that pushes.
     pub fn pushes(self) -> usize {
         self.pushes as usize
     }
@@ -44,23 +44,23 @@ impl EntryFace {
 
 /// A point (or a sphere's centre) inside a piece of B.
 pub(crate) struct PolyhedronEntry<'a> {
-    /// What is remembered of A's primitive there.
+    /// Records of A's primitive with this surface.
     pub records: &'a [ContactRecord],
     pub body: &'a MovableGroup,
     pub shell: u32,
-    /// Which polyhedron of the body.
+    /// Index of the polyhedron in the body.
     pub piece: u32,
-    /// The point, in A's frame. Where it was at the last commit is rarely asked for.
+    /// The point in A's frame. Its earlier position in B's frame is computed on demand, which is rare.
     pub point_a: &'a Vec3,
     pub since: Option<&'a SinceCommit>,
-    /// And in B's frame.
+    /// The point in B's frame.
     pub point_b: Vec3,
-    /// Whether the model of B remembers sides of entry.
+    /// True if B's model remembers sides of entry.
     pub remembers: bool,
 }
 
 impl PolyhedronEntry<'_> {
-    /// The faces for a point that is inside the piece; `None` if no face of the piece is active.
+    /// Faces for a point inside the piece; `None` if the piece has no active face.
     pub fn face(&self) -> Option<EntryFace> {
         let polyhedron = self.polyhedron();
         if !self.remembers {
@@ -75,7 +75,7 @@ impl PolyhedronEntry<'_> {
         Some(EntryFace::new(reached.face, reached.pushes))
     }
 
-    /// Where the point was at the last commit, in B's frame.
+    /// Position of the point at the last commit, in B's frame.
     fn earlier_b(&self) -> Option<Vec3> {
         self.since.map(|since| since.x_ba.point(self.point_a))
     }
@@ -84,8 +84,8 @@ impl PolyhedronEntry<'_> {
         &self.body.polyhedra[self.piece as usize]
     }
 
-    /// The committed face; carried over if it belongs to another piece of the same surface and the straight line
-    /// since the last commit came from there through an inner wall.
+    /// Remembered face of entry. If it belongs to another piece of the same surface, it is transferred if the
+    /// straight path since the last commit came from there through an internal face.
     fn remembered(&self) -> Option<usize> {
         let with_face = || self.records.iter().filter(|record| record.entry_face != NO_FACE);
         let record =
@@ -98,13 +98,14 @@ impl PolyhedronEntry<'_> {
         let polyhedron = self.polyhedron();
         let entry = self.earlier_b().and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
         match entry {
-            // Out of the old piece and in again: leaving has ended the memory.
+            // The path left the old piece and entered again; leaving cleared the memory.
             Some(entry) if polyhedron.faces[entry.face].active => Some(entry.face),
             _ => face_most_along(&old.normal, &self.point_b, polyhedron),
         }
     }
 
-    /// The face by which the straight line since the last commit came in; the least deep one without a line.
+    /// Face through which the straight path since the last commit entered; the least deep one if there is no
+    /// path.
     fn entered_by(&self) -> Option<usize> {
         let polyhedron = self.polyhedron();
         let entry = self.earlier_b().and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
@@ -117,8 +118,8 @@ impl PolyhedronEntry<'_> {
         }
     }
 
-    /// The line came through an inner wall at `at`: the active face by which it had come into the surface, the
-    /// nearest one before the wall, carried over into this piece.
+    /// Face of entry for a path that came through an internal face at `at`: the last active face before it by
+    /// which the path entered the surface, transferred to this piece.
     fn entered_through_wall(&self, at: f64) -> Option<usize> {
         let earlier = self.earlier_b()?;
         let wall = earlier + (self.point_b - earlier) * at;
@@ -140,24 +141,25 @@ impl PolyhedronEntry<'_> {
     }
 }
 
-/// The centre of a sphere or ellipsoid against one triangle of B.
+/// Centre of a sphere or ellipsoid against one triangle of B.
 pub(crate) struct TriangleEntry<'a> {
-    /// What is remembered of A's primitive and the surface.
+    /// Records of A's primitive with this surface.
     pub remembered: &'a RecordsOfKey<'a>,
-    /// The surface.
+    /// Shell of the surface.
     pub shell: u32,
     pub body: &'a MovableGroup,
     pub triangle: Item,
-    /// The centre, in B's frame.
+    /// Centre in B's frame.
     pub center_b: Vec3,
-    /// Where it was at the last commit, in B's frame.
+    /// Centre at the last commit, in B's frame.
     pub earlier_b: Option<Vec3>,
-    /// Whether A touched a feature of the triangle from behind at the last commit, whether or not that pushed.
+    /// Returns true if A touched a feature of the triangle from behind at the last commit, whether it was
+    /// pushed or not.
     pub touched_behind: &'a dyn Fn(Feature) -> bool,
 }
 
 impl TriangleEntry<'_> {
-    /// Whether a contact pushes or is barred; `None` if it does not count at all.
+    /// Role of a contact: pushes, or is on the wrong side; `None` if there is no contact.
     pub fn role(&self, contact: &TriangleContact) -> Option<ContactRole> {
         let nearby = self.nearby();
         let may_be_behind = contact.standing != Standing::Front || nearby.is_mirror();
@@ -176,12 +178,15 @@ impl TriangleEntry<'_> {
         Some(if barred { ContactRole::WrongSide } else { ContactRole::Active })
     }
 
-    /// Whether a feature that the centre is behind pushes it back to the front: the centre came from there.
+    /// Returns true if a feature that has the centre behind it pushes it back to the front, because the
+    /// centre came from there. That is so
+    /// - if at the last commit it was behind a feature that pushed the same way;
+    /// - if it was in front of a face of this feature, and has not merely passed beside it; or
+    /// - if its path since then came through the surface from the front, and the crossing is no nearer than
+    ///   its depth below this feature.
     ///
-    /// It did if it was behind a feature that pushed the same way at the last commit, if it was in front of a face of this
-    /// one and has not merely passed beside it, or if its line since then has come through the surface from the front and
-    /// not gone deeper since than it lies below this feature: another sheet of the surface, on whose back the centre has
-    /// been all the time, is farther away.
+    /// Otherwise the feature belongs to a farther sheet of the surface, behind which the centre has been all
+    /// the time.
     fn pushes_from_behind(&self, contact: &TriangleContact) -> bool {
         let Some(earlier) = self.earlier_b else { return true };
         let Interference { depth, normal_b, deepest_b, feature } = &contact.interference;
@@ -199,7 +204,7 @@ impl TriangleEntry<'_> {
         let is_or_was_in_plane =
             || in_plane(self.height_of(&earlier), &earlier) || in_plane(-below, &self.center_b);
         if self.nearby().is_mirror() && is_or_was_in_plane() {
-            // In the plane, which counts as on the front: nothing has been crossed.
+            // In the plane, which counts as the front: no crossing.
             return false;
         }
         if below > (self.center_b - earlier).norm() {
@@ -209,11 +214,12 @@ impl TriangleEntry<'_> {
         crossed.from_front < crossed.from_behind && below <= crossed.from_front * (1.0 + ROUNDING)
     }
 
-    /// Whether a centre that was in front of a feature's plane at the last commit, and is behind it now, has come there
-    /// through the surface, or belongs to its back.
+    /// Returns true if a centre that was in front of a feature's plane at the last commit, and is behind it
+    /// now, came through the surface or belongs to its back.
     ///
-    /// Planes reach beyond their faces. A centre whose line since then crosses the surface nowhere, and that is in front of
-    /// it now, has passed the plane beside the face: it is pushed as if set down there, unless the contact held it already.
+    /// A plane extends beyond its face. If the path since then does not cross the surface, and the centre is
+    /// in front of it now, it has passed the plane beside the face. It is then treated as placed there,
+    /// unless the contact held it already.
     fn came_through_or_under(&self, contact: &TriangleContact, earlier: &Vec3) -> bool {
         let normal_b = &contact.interference.normal_b;
         let held = |role| self.remembered.matching(normal_b, role).is_some();
@@ -223,8 +229,8 @@ impl TriangleEntry<'_> {
             || !self.nearby().is_in_front()
     }
 
-    /// Whether the centre was in front of one of the triangles that meet at a feature at the last commit, whichever of them
-    /// the feature is counted with. A centre in a triangle is in front of it; in a two-sided one it is on its front.
+    /// Returns true if the centre was in front of any triangle that meets at the feature at the last commit.
+    /// A centre in a triangle's plane is in front of it; for a two-sided triangle, on its front.
     fn was_in_front(&self, earlier: &Vec3, feature: Feature) -> bool {
         let rounding = ROUNDING * earlier.amax() * if self.nearby().is_mirror() { -1.0 } else { 1.0 };
         is_in_front_of_a_face(earlier, &self.body.triangles, self.triangle.element, feature, rounding)
@@ -234,9 +240,9 @@ impl TriangleEntry<'_> {
         TriangleView::new(&self.body.triangles, self.triangle.element).height(p)
     }
 
-    /// Whether a contact that is remembered, of nearly this normal, held the centre from behind, or in its plane. One of
-    /// another feature speaks for this one if the centre has come over it since: what it was over already, and did not
-    /// push then, does not push now.
+    /// Returns true if a remembered contact with nearly this normal held the centre from behind, or in its
+    /// plane. A contact of another feature counts only if the centre has moved over the present feature
+    /// since: one that it was over before, and that did not push, does not push now.
     fn was_held_behind(&self, present: &Interference, earlier: &Vec3) -> bool {
         let records = self.remembered.records;
         let Interference { normal_b, feature, .. } = present;
@@ -254,17 +260,18 @@ impl TriangleEntry<'_> {
             || (records.iter().any(held) && !(self.touched_behind)(*feature))
     }
 
-    /// Whether the last crossing of the surface by the straight line since the last commit was from behind.
+    /// Returns true if the last crossing of the surface by the path since the last commit was from behind.
     fn came_from_behind(&self, earlier: &Vec3, shell: u32) -> bool {
         let crossed = self.last_crossings(earlier, shell);
         crossed.from_behind < crossed.from_front
     }
 
-    /// The last crossings of the surface by the straight line since the last commit.
+    /// Last crossings of the surface by the straight path since the last commit.
     ///
-    /// One line tells the crossings from either side, so that both sides of a two-sided triangle tell the same of it. A line
-    /// that begins or ends within rounding of the surface begins or ends in front of it; of a two-sided triangle on its front.
-    /// A line that goes in and out at one place, as through a vertex from without, has crossed nothing there.
+    /// Both directions are evaluated on one line, so that the two sides of a two-sided triangle agree. A path
+    /// that starts or ends within rounding of the surface does so in front of it (on the front, for a
+    /// two-sided triangle). Entering and leaving at one point, as through a vertex from outside, is no
+    /// crossing.
     fn last_crossings(&self, earlier: &Vec3, shell: u32) -> LastCrossings {
         let length = (self.center_b - earlier).norm();
         let rounding = ROUNDING * (length + earlier.amax() + self.center_b.amax());
@@ -272,7 +279,7 @@ impl TriangleEntry<'_> {
         loop {
             let last = self.last_crossings_before(earlier, shell, since);
             let LastCrossings { from_behind, from_front } = last;
-            // Nothing is as far as infinity; the difference of two infinities is never asked for.
+            // `are_any` excludes two infinities, whose difference would be NaN.
             if !last.are_any() || from_behind.max(from_front) > from_behind.min(from_front) + rounding {
                 return last;
             }
@@ -280,12 +287,12 @@ impl TriangleEntry<'_> {
         }
     }
 
-    /// The last crossings that lie more than `since` (m) before the end of the line.
+    /// Last crossings that lie more than `since` (m) before the end of the path.
     fn last_crossings_before(&self, earlier: &Vec3, shell: u32, since: f64) -> LastCrossings {
         let mut last = LastCrossings { from_behind: f64::INFINITY, from_front: f64::INFINITY };
         let Some(line) = Ray::between(earlier, &self.center_b) else { return last };
         let length = line.length;
-        // Where the line begins and ends is told by heights: along the line, what grazes a face meets it anywhere.
+        // The ends of the path are judged by heights: a grazing line meets a face at an undefined parameter.
         let ray = Ray { length: f64::MAX, ..line };
         visit_triangles(self.body, &earlier.inf(&self.center_b), &earlier.sup(&self.center_b), &mut |item| {
             let (set, triangle) = (&self.body.triangles, item.element);
@@ -314,7 +321,7 @@ impl TriangleEntry<'_> {
     }
 }
 
-/// How far before its end a line last crossed a surface from either side, m; infinite if it did not.
+/// Distance before the end of a path of its last crossing from either side, m; infinite without a crossing.
 struct LastCrossings {
     from_behind: f64,
     from_front: f64,

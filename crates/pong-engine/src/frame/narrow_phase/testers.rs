@@ -1,4 +1,5 @@
-//! Elements of A that may touch an element of B: which contact tester they go to, and eight at a time where that is quicker.
+//! Dispatches the elements of A that may touch an element of B to their contact tester, eight at a time where
+//! that is faster.
 
 use super::element_pair::{Ball, ChunkCandidates, ElementPair};
 use super::on_triangle::thickness_for;
@@ -13,10 +14,10 @@ use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::Item;
 use pong_model::box_tree::lanes;
 
-/// So many line segments near a polyhedron are asked together: fewer end sooner one by one.
+/// Line segments near a polyhedron from which the eight-wide test is faster.
 const WORTH_EIGHT: u32 = 2;
 
-/// One element of B against a chunk of A.
+/// One element of B, to be tested against a chunk of A.
 pub(crate) struct Target<'a> {
     pub context: &'a PairContext<'a>,
     pub item_b: Item,
@@ -24,7 +25,7 @@ pub(crate) struct Target<'a> {
 }
 
 impl<'a> Target<'a> {
-    /// Tests the elements of A whose boxes the element's box meets.
+    /// Tests the elements of A in the lanes `near`, whose boxes overlap the element's.
     #[inline(always)]
     pub fn test_lanes<S: Simd>(
         &self,
@@ -50,7 +51,8 @@ impl<'a> Target<'a> {
         counts.note_testers(chunk.kind, self.kind_b, tested, (found.seen - before) as u32);
     }
 
-    /// Most points, spheres and line segments near a polyhedron end here: apart by the plane of one face.
+    /// Removes elements that the plane of one face of the polyhedron separates: most points, spheres and line
+    /// segments.
     #[inline(always)]
     fn not_separated<S: Simd>(&self, simd: S, chunk: &Chunk<'_>, near: LaneBits) -> LaneBits {
         if self.kind_b != Polyhedron {
@@ -91,13 +93,14 @@ impl<'a> Target<'a> {
     }
 }
 
-/// Whether pairs of such kinds wait until there are eight of them.
+/// Returns true if pairs of these kinds are deferred until there are eight.
 #[inline(always)]
 pub(super) fn is_deferred(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
     kind_b == Triangle && matches!(kind_a, PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid)
 }
 
-/// Defers the tests of spheres or ellipsoids of a chunk, by their lanes, near a triangle until there are eight such pairs.
+/// Defers the tests of spheres or ellipsoids of a chunk, by lane, against a triangle until there are eight
+/// pairs.
 #[inline(always)]
 fn defer(
     context: &PairContext<'_>,
@@ -117,8 +120,8 @@ fn defer(
     }
 }
 
-/// Makes the deferred tests of a chunk, in the order in which they came. The chunk comes as a copy, made here alone: one whose
-/// address is handed on would be written to memory for every chunk.
+/// Runs the deferred tests of a chunk in their order. Takes the chunk by value: passing a reference would
+/// force it to memory for every chunk.
 #[inline(never)]
 pub(crate) fn test_deferred(
     context: &PairContext<'_>,
@@ -147,7 +150,7 @@ fn test_spheres(context: &PairContext<'_>, chunk: &Chunk<'_>, found: &mut ChunkC
 
 fn test_ellipsoids(context: &PairContext<'_>, chunk: &Chunk<'_>, found: &mut ChunkCandidates<'_>) {
     let near = found.deferred.ellipsoids.take(&context.body_b.triangles);
-    // Mostly several in a row are of one ellipsoid.
+    // Consecutive pairs usually have the same ellipsoid.
     let mut ready: Option<(u8, EllipsoidOnTriangles)> = None;
     for place in lanes(near) {
         let (lane, item_b) = found.deferred.from[place];

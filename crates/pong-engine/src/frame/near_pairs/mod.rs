@@ -1,13 +1,13 @@
-//! Pairs of movable groups that may find anything in a frame: the broad phase before the pairs.
+//! Pairs of movable groups that may have contacts in a frame: the broad phase over groups.
 //!
-//! Where movable groups meet few others, every pair that is on is visited. Where they meet many, a pair is visited only
-//! if the bounds that the two have swept since the last commit overlap ([`SweptBounds`]; docs/theory.md, 2.7): of all
-//! others a visit would find nothing, neither a contact nor a passage. What is remembered of contacts that ended is
-//! looked at without a visit.
+//! If groups have few pairs each, every enabled pair is visited. If they have many, a pair is visited only if
+//! the bounds that the two have swept since the last commit overlap ([`SweptBounds`]; docs/theory.md, 2.7): a
+//! visit of any other pair would find neither a contact nor tunnelling. Records of ended contacts are handled
+//! without a visit.
 //!
-//! Which bounds overlap is asked of a tree of widened bounds ([`BoundsTree`]) whose answer holds until a movable group
-//! has left its widened bounds. The pairs that are visited are those whose own bounds overlap, so they are the same
-//! with and without what is kept from earlier frames.
+//! Overlaps are found with a tree of widened bounds ([`BoundsTree`]); its result stays valid until a group
+//! leaves its widened bounds. The pairs visited are those whose exact bounds overlap, so they do not depend
+//! on results kept from earlier frames.
 
 mod swept;
 #[cfg(test)]
@@ -21,18 +21,18 @@ use pong_geometry::Pose;
 use swept::{Bounds, SweptBounds};
 use tree::BoundsTree;
 
-/// Pairs of movable groups whose motions are computed at once. More are near in worlds where everything is crowded or
-/// spins; then the frame's work is done in rounds.
+/// Number of pairs whose motions are computed at once. Crowded or spinning worlds have more pairs; their
+/// frames run in several rounds.
 pub(crate) const MOTIONS_AT_ONCE: usize = 4096;
 
-/// A movable group that meets more others than this, on average, is bounded first: to visit so many pairs takes some ten
-/// times as long.
+/// Average number of pairs per movable group above which groups are bounded first; visiting so many pairs
+/// takes about ten times as long.
 const MET_MIN: usize = 32;
 
-/// Pairs of movable groups that a frame visits, in their order.
+/// Pairs of movable groups that a frame visits, in order.
 pub(crate) struct NearPairs {
     list: Vec<u32>,
-    /// None where groups meet few others.
+    /// Present only if groups have many pairs each.
     many: Option<Box<ManyPairs>>,
 }
 
@@ -45,19 +45,19 @@ impl NearPairs {
         }
     }
 
-    /// Memory of so many pairs of so many movable groups, bytes.
+    /// Memory for this many pairs and movable groups, bytes.
     pub fn bytes(pairs: usize, bodies: usize) -> usize {
         let lists = if are_many(pairs, bodies) { 2 } else { 1 };
         let of_body = size_of::<usize>() + SweptBounds::BYTES_EACH + BoundsTree::BYTES_EACH;
         lists * pairs * size_of::<u32>() + bodies * (of_body + size_of::<Bounds>())
     }
 
-    /// The pairs, in their order.
+    /// The pairs to visit, in order.
     pub fn list(&self) -> &[u32] {
         &self.list
     }
 
-    /// Where the motions of a pair are, if they are those of this frame.
+    /// Index of a pair's motions, if the motions of all visited pairs are stored.
     #[inline]
     pub fn slot(&self, group_pair: u32) -> Option<usize> {
         if self.list.len() > MOTIONS_AT_ONCE {
@@ -82,7 +82,7 @@ impl NearPairs {
         }
     }
 
-    /// Visits every pair from now on, as if there were few.
+    /// Disables the selection: every enabled pair is visited from now on.
     #[cfg(test)]
     pub fn visit_all(&mut self) {
         self.many = None;
@@ -93,15 +93,15 @@ fn are_many(pairs: usize, bodies: usize) -> bool {
     2 * pairs > MET_MIN * bodies
 }
 
-/// The bounds of all movable groups that meet others, and the pairs whose widened bounds overlap.
+/// Bounds of the movable groups that are in a pair, and the pairs whose widened bounds overlap.
 struct ManyPairs {
     swept: SweptBounds,
-    /// Widened bounds of every movable group, by which `candidates` were found.
+    /// Widened bounds of each movable group from which `candidates` was found.
     widened: Vec<Bounds>,
-    /// Pairs whose widened bounds overlap, in their order.
+    /// Pairs whose widened bounds overlap, in order.
     candidates: Vec<u32>,
     tree: BoundsTree,
-    /// Where the pairs of each movable group as the first of the two begin, and behind them the end of the last.
+    /// Per movable group, the index of its first pair as `first`; one more entry marks the end.
     first_pair: Vec<usize>,
 }
 
@@ -138,7 +138,7 @@ impl ManyPairs {
         }));
     }
 
-    /// Widens the present bounds, and lists the pairs that overlap then.
+    /// Widens the current bounds, and lists the pairs that overlap.
     fn widen(&mut self, sealed: &Sealed) {
         for &body in &*sealed.paired_bodies {
             self.widened[body] = self.swept.widened(body);
@@ -155,8 +155,8 @@ impl ManyPairs {
     }
 }
 
-/// Where the pair with `second` is among the pairs of one movable group. Where each is paired with each it is at the place
-/// that the numbers tell.
+/// Index of the pair with `second` among the pairs of one movable group. If all groups are paired with each
+/// other, it follows from the group indices.
 fn place_of(second: usize, of_first: &[GroupPair]) -> Option<usize> {
     let guess = second.checked_sub(of_first.first()?.second)?;
     if of_first.get(guess).is_some_and(|pair| pair.second == second) {

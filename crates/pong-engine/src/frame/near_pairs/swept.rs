@@ -1,14 +1,15 @@
-//! What movable groups may have swept since the last commit (docs/theory.md, 2.7).
+//! Bounds of the volume that movable groups may have swept since the last commit (docs/theory.md, 2.7).
 //!
-//! Movable group *i* lies in a ball of radius rᵢ. P and P′ are its centre now and then, seen along common axes from a
-//! place that moves with all of them; sᵢ = |P − P′|. With θ the largest chord 2·sin(φ/2) of the rotations φ since then,
+//! Movable group *i* lies in a ball of radius rᵢ. P and P′ are its centre now and then, in common axes about
+//! a reference point that moves with all groups; sᵢ = |P − P′|. With θ the largest chord 2·sin(φ/2) of the
+//! rotations φ since then,
 //!
 //! ```text
 //! box of i = box around P and P′, grown by Rᵢ = (rᵢ + θ·sᵢ/4)/(1 − θ)
 //! ```
 //!
-//! If the boxes of two are apart, so are their balls now, and every line that a place of one has gone since then as
-//! seen from the other misses the other's ball.
+//! If two boxes are disjoint, the balls are apart now, and the path of any point of one group relative to the
+//! other misses the other's ball.
 
 use crate::scene::Scene;
 use crate::state::{CommittedPoses, Past};
@@ -17,22 +18,21 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Pose, Vec3};
 use pong_model::{MovableGroup, PrimitiveInfo};
 
-/// What has turned by a longer chord since the last commit (a quarter: 14°) is not bounded: its lines, seen from itself,
-/// come near everything that it turns towards.
+/// Largest bounded chord (a quarter: 14°). The paths of a group that has turned further, seen from itself,
+/// sweep past everything in that direction, so it gets no bounds.
 const CHORD_MAX: f64 = 0.25;
 
-/// Boxes are grown by this share of all lengths that they are computed from: ten thousand times what rounding makes of
-/// them here and in the tests of pairs.
+/// Relative margin of the boxes: ten thousand times the rounding error here and in the pair tests.
 const RELATIVE_MARGIN: f64 = 1e-12;
 
-/// By how many times what it has moved since the last commit a box is widened, so that the next frames find it still inside.
+/// Widening in units of the motion since the last commit, so that the box stays valid for that many frames.
 const FRAMES_AHEAD: f64 = 8.0;
 
-/// A box is widened at least and at most by these shares of the ball's radius, or else by its way: by too little it is soon
-/// left, by too much pairs become candidates that are not near.
+/// Least and greatest widening, as shares of the ball's radius; a larger share applies if the motion since
+/// the last commit is larger. Too little is soon left, too much makes candidates of pairs that are not near.
 const WIDENED_BY: [f64; 2] = [0.125, 1.0];
 
-/// A box along common axes, m.
+/// A box in common axes, m.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     pub low_w: Vec3,
@@ -40,22 +40,22 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Holds nothing.
+    /// The empty box.
     pub fn nothing() -> Self {
         Self { low_w: Vec3::repeat(f64::INFINITY), high_w: Vec3::repeat(f64::NEG_INFINITY) }
     }
 
-    /// Holds everything.
+    /// The unbounded box.
     pub fn everything() -> Self {
         Self { low_w: Vec3::repeat(f64::NEG_INFINITY), high_w: Vec3::repeat(f64::INFINITY) }
     }
 
-    /// Whether all numbers are finite.
+    /// Returns true if all bounds are finite.
     pub fn is_finite(&self) -> bool {
         (self.high_w - self.low_w).sum().is_finite()
     }
 
-    /// Whether the two are not certainly apart.
+    /// Returns true unless the two boxes are certainly disjoint.
     #[inline]
     pub fn overlap(&self, other: &Self) -> bool {
         let apart =
@@ -63,7 +63,7 @@ impl Bounds {
         !(apart(0) || apart(1) || apart(2))
     }
 
-    /// Whether the other lies inside; one that holds everything holds no other.
+    /// Returns true if the other box lies inside. An unbounded box contains only unbounded boxes.
     #[inline]
     pub fn hold(&self, other: &Self) -> bool {
         let inside =
@@ -71,7 +71,7 @@ impl Bounds {
         inside(0) && inside(1) && inside(2) && (self.low_w[0].is_finite() || !other.low_w[0].is_finite())
     }
 
-    /// The smallest that holds both.
+    /// Smallest box that contains both.
     pub fn merge(&self, other: &Self) -> Self {
         Self { low_w: self.low_w.inf(&other.low_w), high_w: self.high_w.sup(&other.high_w) }
     }
@@ -81,24 +81,24 @@ impl Bounds {
     }
 }
 
-/// The ball around a movable group, in its frame, m.
+/// Bounding ball of a movable group, in its frame, m.
 #[derive(Clone, Copy, Debug)]
 struct Ball {
     center: Vec3,
-    /// Infinite if nothing bounds the group.
+    /// Infinite if the group is unbounded.
     radius: f64,
 }
 
 impl Ball {
-    /// Around a movable group: the ball of the root of its tree of bounding volumes, or a smaller one about the same centre
-    /// where that is known.
+    /// Bounding ball of a movable group: around its root volume, or a smaller one about the same centre if
+    /// the primitives give one.
     fn around(body: &MovableGroup) -> Self {
         let (center, radius) = match &body.tree.nodes[0].volume {
             Volume::Aabb { center, half } | Volume::Obb { center, half, .. } => (*center, half.norm()),
             Volume::Sphere { center, radius } => (*center, *radius),
             Volume::Custom(_) | Volume::Unbounded => (Vec3::zeros(), f64::INFINITY),
         };
-        // A box around a ball has corners that reach farther than the ball.
+        // The corners of a box around a sphere lie outside the sphere.
         let plain = |info: &PrimitiveInfo| {
             matches!(info.kind, PrimitiveKind::Point | PrimitiveKind::LineSegment | PrimitiveKind::Sphere)
         };
@@ -113,33 +113,33 @@ impl Ball {
     }
 
     fn center_in(&self, pose: &Pose, origin: &Vec3) -> Vec3 {
-        // Differences before anything else: no precision goes to where the common origin is.
+        // Subtract positions first, so that no precision is lost to a far origin.
         (pose.position - origin) + pose.orientation * self.center
     }
 }
 
-/// A movable group on its way from the last commit.
+/// Motion of a movable group since the last commit.
 #[derive(Clone, Copy, Debug)]
 struct Sweep {
     now: Vec3,
     before: Vec3,
-    /// Chord 2·sin(φ/2) of its rotation, or a little more.
+    /// Chord 2·sin(φ/2) of its rotation φ, or slightly more.
     chord: f64,
 }
 
-/// Bounds of what movable groups may have swept since the last commit. By number of the movable group; of those that meet
-/// nobody there is none.
+/// Bounds of the volumes swept since the last commit, by index of the movable group; only groups in a pair
+/// have valid bounds.
 pub(super) struct SweptBounds {
     pub bounds: Vec<Bounds>,
-    /// By how much each is to be widened, m.
+    /// Widening of each box, m.
     ahead: Vec<f64>,
     balls: Vec<Ball>,
-    /// By place among the movable groups that meet others.
+    /// By position in the list of groups that are in a pair.
     sweeps: Vec<Sweep>,
 }
 
 impl SweptBounds {
-    /// Memory of a movable group, bytes.
+    /// Memory per movable group, bytes.
     pub const BYTES_EACH: usize =
         size_of::<Bounds>() + size_of::<f64>() + size_of::<Ball>() + size_of::<Sweep>();
 
@@ -154,8 +154,8 @@ impl SweptBounds {
         }
     }
 
-    /// Bounds what these movable groups have swept since the only commit that pairs are remembered of, or where they are
-    /// if nothing is remembered.
+    /// Bounds the volumes that these groups have swept since the last commit (one epoch), or their current
+    /// volumes without history.
     pub fn sweep(&mut self, bodies: &[usize], poses: &[Pose], committed: &CommittedPoses) {
         let Some(&first) = bodies.first() else { return };
         let pose_before = |body: usize| match committed.past() {
@@ -199,13 +199,13 @@ impl SweptBounds {
         }
     }
 
-    /// The bounds of a movable group with room for some of what it will do next.
+    /// Bounds of a movable group, widened for its next motion.
     pub fn widened(&self, body: usize) -> Bounds {
         self.bounds[body].grown(self.ahead[body])
     }
 }
 
-/// Chord 2·sin(φ/2) of a rotation, at most 2·|q − q′|: with q and −q one rotation, the shorter of two.
+/// Chord 2·sin(φ/2) of a rotation, at most 2·|q − q′|; of q and −q, the nearer one counts.
 fn chord(pose: &Pose, before: &Pose) -> f64 {
     let (q, p) = (&pose.orientation.coords, &before.orientation.coords);
     2.0 * (q - p).norm_squared().min((q + p).norm_squared()).sqrt()

@@ -1,5 +1,6 @@
-//! Frames that visit the pairs that are near against frames that visit all: the same bits, in worlds of many groups that
-//! rest, fly, spin, are far away, drift together, and are switched off, forgotten and saved on the way.
+//! Frames that visit only near pairs against frames that visit all pairs: bit-identical results in worlds of
+//! many groups that rest, fly, spin, are far away or drift together, with pairs switched off, cleared and
+//! saved meanwhile.
 
 use super::swept::Bounds;
 use super::tree::BoundsTree;
@@ -8,7 +9,7 @@ use pong_geometry::Vec3;
 use pong_geometry::extension::Extensions;
 use std::sync::Arc;
 
-/// Numbers from a fixed seed.
+/// Random numbers from a fixed seed.
 struct Random(u64);
 
 impl Random {
@@ -34,7 +35,7 @@ const CUBE: &str = "Polyhedron(name: \"c\", vertices: [(0.2,-0.1,-0.1),(0.4,-0.1
                     (0.2,-0.1,0.1),(0.4,-0.1,0.1),(0.2,0.1,0.1),(0.4,0.1,0.1)], \
                     faces: [[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5]])";
 
-/// Objects of five models: a ball, a cube beside its origin, rods with a ray, two movable groups, half a space.
+/// Five models: a ball, a cube beside its origin, rods with a ray, two movable groups, a half-space.
 fn models() -> [String; 5] {
     let ball = |r: f64| format!("Sphere(name: \"b\", center: (0,0,0), radius: {r:?})");
     let rods = "LineSegment(name: \"l\", ends: ((0,-0.3,0),(0,0.3,0))), Point(name: \"p\", position: (0.1,0,0)), \
@@ -54,7 +55,7 @@ fn models() -> [String; 5] {
     })
 }
 
-/// A world, and where all its movable groups are on their way.
+/// A world and the states of all its movable groups.
 struct Flock {
     world: World,
     interfaces: Vec<InterfaceId>,
@@ -62,17 +63,17 @@ struct Flock {
     states: Vec<State>,
 }
 
-/// Where a flock is and how it moves from frame to frame.
+/// Initial positions and motion of a flock.
 struct Regime {
-    /// Half the edge of the cube that it starts in, m.
+    /// Half the edge of the initial cube, m.
     room: f64,
-    /// Where the origin is, m.
+    /// Offset of the origin, m.
     origin: f64,
-    /// Common way of all in a frame, m.
+    /// Common displacement per frame, m.
     drift: f64,
-    /// Way of each in a frame, m.
+    /// Displacement of each group per frame, m.
     way: f64,
-    /// Greatest angle of each in a frame, rad.
+    /// Greatest rotation of each group per frame, rad.
     turn: f64,
 }
 
@@ -92,7 +93,7 @@ impl Flock {
         let mut pairs = Vec::new();
         for (i, &a) in objects.iter().enumerate() {
             for &b in &objects[i + 1..] {
-                // Named in either order; few are not paired.
+                // Pair almost all Objects, named in either order.
                 if random.below(20) > 0 {
                     let (a, b) = if random.below(2) == 0 { (a, b) } else { (b, a) };
                     pairs.push(builder.pair(a, b).unwrap());
@@ -132,7 +133,7 @@ impl Flock {
         self.world.set_states(&named).unwrap();
     }
 
-    /// All that a frame answers, and all that it remembers.
+    /// All results of a frame, and its contact state.
     fn told(&self, report: FrameReport) -> (String, Vec<u8>) {
         let wrench = |interface: &InterfaceId| self.world.wrench(*interface).unwrap();
         let wrenches: Vec<_> = self.interfaces.iter().map(wrench).collect();
@@ -153,7 +154,8 @@ impl Flock {
     }
 }
 
-/// Plays the same in both worlds; how many pairs the first visited, of how many, and how often anything touched or went through.
+/// Runs both worlds through the same frames. Returns the number of pairs that the first visited, of all
+/// pairs, and of contacts and passages.
 fn compare(seed: u64, config: &Config, plane: bool, regime: &Regime) -> [usize; 4] {
     let mut near = Flock::new(config.clone(), plane, regime, &mut Random(seed));
     let mut all = Flock::new(config.clone(), plane, regime, &mut Random(seed));
@@ -192,7 +194,7 @@ fn compare(seed: u64, config: &Config, plane: bool, regime: &Regime) -> [usize; 
         seen[0] += near.world.runtime_mut().frame.near.list().len();
         seen[1] += all.world.runtime_mut().frame.near.list().len();
         if frame % 8 == 7 {
-            // The same pairs without anything of earlier frames.
+            // The same pairs must be found without data of earlier frames.
             let mut fresh = near.world.try_clone().unwrap();
             assert_eq!(near.world.evaluate().unwrap(), fresh.evaluate().unwrap());
             assert_eq!(
@@ -247,11 +249,11 @@ fn a_far_origin_and_a_common_drift_change_nothing() {
     assert!(2 * near < all, "{near} of {all}: a drift of all is no motion");
 }
 
-/// All are so far apart, but for two balls, that for a frame no pair at all is visited. What the two have moved when they meet
-/// again counts from then, not from the last frame that visited them.
+/// For one frame no pair is visited, because all but two balls are far apart. When the two meet again, their
+/// motion counts from that frame's commit, not from the last frame that visited them.
 #[test]
 fn after_a_frame_without_any_pair_the_way_counts_from_there() {
-    /// Of the movable groups the first is a ball, too.
+    /// Index of the second ball; group 0 is the first.
     const BALL: usize = 5;
     let mut flocks = [(); 2].map(|()| Flock::new(Config::default(), false, &CALM, &mut Random(50)));
     flocks[1].world.runtime_mut().frame.near.visit_all();

@@ -1,34 +1,34 @@
-//! Which of many boxes overlap: by a tree that halves them along the axis on which they lie farthest apart.
+//! Tree that finds overlapping boxes; each node halves its boxes along the axis of largest spread.
 
 use super::swept::Bounds;
 
-/// Boxes of a leaf at most.
+/// Maximum boxes per leaf.
 const LEAF: usize = 8;
 
-/// A node; its first child follows it.
+/// A node; its first child is the next node.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     bounds: Bounds,
-    /// Its boxes' places in the order.
+    /// Range of its boxes in `order`.
     first: u32,
     end: u32,
-    /// Its second child; zero for a leaf.
+    /// Index of its second child; zero for a leaf.
     second: u32,
 }
 
-/// The tree, and memory for it.
+/// The tree, with its memory.
 pub(super) struct BoundsTree {
-    /// Numbers of the boxes.
+    /// Indices of the bounded boxes, in tree order.
     order: Vec<u32>,
     nodes: Vec<Node>,
-    /// Numbers of boxes that are not finite.
+    /// Indices of the boxes that are not finite.
     unbounded: Vec<u32>,
 }
 
-/// What is told of two boxes that overlap.
+/// Callback for the indices of two overlapping boxes.
 type Found<'f> = dyn FnMut(usize, usize) + 'f;
 
-/// Tells which of some boxes overlap one.
+/// Reports which of some boxes overlap one.
 fn tell<'o>(one: u32, others: impl IntoIterator<Item = &'o u32>, boxes: &[Bounds], found: &mut Found<'_>) {
     for &other in others {
         if boxes[one as usize].overlap(&boxes[other as usize]) {
@@ -38,20 +38,20 @@ fn tell<'o>(one: u32, others: impl IntoIterator<Item = &'o u32>, boxes: &[Bounds
 }
 
 impl BoundsTree {
-    /// Memory of a box, bytes.
+    /// Memory per box, bytes.
     pub const BYTES_EACH: usize = 2 * size_of::<u32>() + size_of::<Node>();
 
-    /// Room for so many boxes.
+    /// Allocates room for this many boxes.
     pub fn with_capacity(boxes: usize) -> Self {
         Self {
             order: Vec::with_capacity(boxes),
-            // A box is halved while it has more than LEAF, so that a leaf has at least half as many.
+            // Only nodes with more than LEAF boxes are halved, so a leaf has at least LEAF/2.
             nodes: Vec::with_capacity(boxes + 1),
             unbounded: Vec::with_capacity(boxes),
         }
     }
 
-    /// Tells every two of the boxes that are not certainly apart, each once, in no order.
+    /// Reports every pair of boxes that is not certainly disjoint, once each and unordered.
     pub fn overlaps(&mut self, numbers: &[usize], boxes: &[Bounds], found: &mut Found<'_>) {
         self.order.clear();
         self.nodes.clear();
@@ -69,7 +69,7 @@ impl BoundsTree {
         }
     }
 
-    /// Appends the node of the boxes at some places, and all below it.
+    /// Appends the node of a range of boxes, and all nodes below it.
     fn build(&mut self, first: usize, end: usize, boxes: &[Bounds]) {
         let own = &self.order[first..end];
         let bounds = own.iter().fold(Bounds::nothing(), |all, &one| all.merge(&boxes[one as usize]));
@@ -78,7 +78,7 @@ impl BoundsTree {
         if end - first <= LEAF {
             return;
         }
-        // Twice the middle: an order is all that is asked for.
+        // Twice the centre; only its order matters.
         let middle =
             |one: u32, axis: usize| boxes[one as usize].low_w[axis] + boxes[one as usize].high_w[axis];
         let spread = |axis: usize| {
@@ -101,7 +101,7 @@ impl BoundsTree {
         &self.order[node.first as usize..node.end as usize]
     }
 
-    /// Boxes below one node against each other.
+    /// Reports overlaps among the boxes below one node.
     fn within(&self, index: u32, boxes: &[Bounds], found: &mut Found<'_>) {
         let node = &self.nodes[index as usize];
         if node.second != 0 {
@@ -115,7 +115,7 @@ impl BoundsTree {
         }
     }
 
-    /// Boxes below one node against those below another.
+    /// Reports overlaps between the boxes below two nodes.
     fn between(&self, a: u32, b: u32, boxes: &[Bounds], found: &mut Found<'_>) {
         let (node_a, node_b) = (&self.nodes[a as usize], &self.nodes[b as usize]);
         if !node_a.bounds.overlap(&node_b.bounds) {
@@ -128,7 +128,7 @@ impl BoundsTree {
             }
             return;
         }
-        // The one of more boxes is opened.
+        // Descend into the node with more boxes.
         let opens_a = node_b.second == 0
             || (node_a.second != 0 && node_a.end - node_a.first >= node_b.end - node_b.first);
         if opens_a {

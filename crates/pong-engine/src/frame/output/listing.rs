@@ -1,4 +1,4 @@
-//! The contacts of a frame as the host sees them: ids, common frame.
+//! Contacts of a frame for the host: ids, common frame.
 
 use crate::contact::{Contact, ContactSide};
 use crate::energy::account::EnergyAccount;
@@ -11,7 +11,7 @@ use crate::sealed::{Sealed, SurfaceTable};
 use pong_geometry::{Pose, Vec3};
 
 impl EvaluationBuffers {
-    /// Every contact that pushes, in key order.
+    /// Contacts that push, in key order.
     pub fn list_contacts<'a>(
         &'a self,
         scene: &'a Scene,
@@ -20,7 +20,7 @@ impl EvaluationBuffers {
         self.pushing().map(move |contact| self.list_contact(contact, scene, sealed))
     }
 
-    /// Accounts of the contacts that push, in key order.
+    /// Energy accounts of the contacts that push, in key order.
     pub fn list_accounts(&self) -> impl Iterator<Item = EnergyAccount> {
         let pushing = self.order.iter().filter(|place| place.pushes());
         pushing.filter_map(|place| {
@@ -29,7 +29,7 @@ impl EvaluationBuffers {
         })
     }
 
-    /// Tangents of the normal forces of the contacts that push, in key order.
+    /// Normal-force tangents of the contacts that push, in key order.
     pub fn list_tangents<'a>(
         &'a self,
         scene: &'a Scene,

@@ -1,4 +1,5 @@
-//! What a frame hands out: contacts in order, wrenches, the list that a host sees, and bristles preloaded after a commit.
+//! Results of a frame: ordered contacts, wrenches, the host's contact list, records for the commit, and
+//! preloaded bristles.
 
 mod listing;
 pub(crate) mod order;

@@ -1,4 +1,5 @@
-//! The contacts that count, in the order of every sum; where there are too many, the deepest.
+//! Sorts the contacts into summation order and applies the limits: first hit per ray, and the deepest if
+//! there are too many.
 
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces;
@@ -13,7 +14,7 @@ use crate::scene::Scene;
 use crate::sealed::Sealed;
 use pong_arena::Arena;
 
-/// Puts the contacts in order, whoever found them.
+/// Sorts the contacts of all threads.
 #[inline]
 pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationInput { scene, sealed, .. } = *given;
@@ -32,7 +33,8 @@ pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBu
     frame.report.contacts_wanted = saturated(pushing);
     if demand.overflowed || pushing > capacity as u64 || remembered > spare as u64 {
         frame.report.status.set(StatusBits::CONTACT_LIMIT);
-        // There is room to remember as many as there is for those that push, and for no fewer interferences at once.
+        // Records have at least as much capacity as contacts that push, and chunk candidates at least as much
+        // as records.
         frame.report.contacts_wanted = saturated(pushing.max(remembered).max(demand.at_once));
         frame.caller.out.keep_deepest(capacity, spare);
         list(frame);
@@ -48,7 +50,7 @@ fn saturated(count: u64) -> u32 {
     count.try_into().unwrap_or(u32::MAX)
 }
 
-/// Contacts below this are simply sorted.
+/// Fewer contacts than this are sorted by comparison.
 const WORTH_DIGITS: usize = 24;
 
 /// Lists all contacts in order.
@@ -71,14 +73,14 @@ fn list(frame: &mut EvaluationBuffers) {
     }
 }
 
-/// Sorts contacts by the heads of their keys, digit by digit, the lowest first (radix sort: D. E. Knuth, The Art of Computer
-/// Programming, vol. 3, 5.2.5). Contacts come in the order of the tree, so no processor foretells which of two is the smaller:
-/// here none is compared with another.
+/// Radix sort of contacts by the high words of their keys, lowest digit first (D. E. Knuth, The Art of
+/// Computer Programming, vol. 3, 5.2.5). Contacts come in tree order, so comparisons would be mispredicted; a
+/// radix sort has none.
 #[inline(never)]
 fn sort_by_digits(places: &mut [Place], scratch: &mut Arena) {
     let first = places[0].head;
     let mut differing = places.iter().fold(0, |bits, place| bits | (place.head ^ first));
-    // Digits of one length, short enough that their counts are few beside the contacts.
+    // Digits of equal length, short enough that there are few counters compared with the contacts.
     let digits = differing.count_ones().div_ceil(DIGIT_BITS).max(1);
     let bits = differing.count_ones().div_ceil(digits);
     let mask = (1 << bits) - 1;
@@ -98,10 +100,10 @@ fn sort_by_digits(places: &mut [Place], scratch: &mut Arena) {
     }
 }
 
-/// Most bits of a digit.
+/// Maximum bits of a digit.
 const DIGIT_BITS: u32 = 8;
 
-/// Copies places in the order of one digit of their heads; those that have it in common stay in their order.
+/// Copies the references in the order of one digit of their high words; stable.
 fn place_by_digit((from, to): (&[Place], &mut [Place]), shift: u32, mask: u64) {
     let digit = |place: &Place| (place.head >> shift & mask) as usize;
     let mut ends = [0_u32; 1 << DIGIT_BITS];
@@ -120,12 +122,13 @@ fn place_by_digit((from, to): (&[Place], &mut [Place]), shift: u32, mask: u64) {
     }
 }
 
-/// One contact per ray and opposing Object: the least distance, ties in the order of sums.
+/// Keeps one contact per ray and opposing Object: the nearest, ties by summation order.
 fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuffers) {
     let EvaluationBuffers { caller, order, .. } = frame;
     let WorkerContext { scratch, out, .. } = &mut **caller;
     scratch.reset();
-    // (body of A, ray, Object of B, place in the order): hits of one ray on one Object side by side, the first first.
+    // (body of A, ray, Object of B, index in the order), sorted by these and distance, so that the first of
+    // each ray and Object is the nearest.
     let mut hits = scratch.list(order.len()).expect("sealing has sized the scratch");
     for (place, found) in order.iter().map(|place| &out.contacts[place.slot.index()].found).enumerate() {
         if found.ray_distance < f64::INFINITY {
@@ -155,7 +158,7 @@ mod tests {
     use crate::state::Slot;
     use pong_testkit::Random;
 
-    /// Of few and of many, in few and in many directions, with heads in common: those stay in their order.
+    /// High words of few and of many contacts, with few and many directions; equal words keep their order.
     #[test]
     fn digits_put_contacts_in_the_order_of_their_heads() {
         let mut random = Random::new(7, 0, 0);
@@ -177,7 +180,7 @@ mod tests {
         }
     }
 
-    /// The highest bit and the lowest, and no difference at all.
+    /// High words that differ only in the highest or lowest bit, or not at all.
     #[test]
     fn digits_at_the_ends_of_the_heads_count() {
         for bit in [0, 1, 32, 55, 56, 62, 63] {

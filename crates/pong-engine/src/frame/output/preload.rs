@@ -1,13 +1,13 @@
-//! Friction that is there before the first frame: bristles that stand where a motion, or a load, that has lasted would have
-//! brought them (theory manual, section 4).
+//! Friction present before the first frame: bristles are set to the state that a steady motion or a constant
+//! load would have produced (theory manual, section 4).
 //!
 //! ```text
 //! sliding:   p = (μ_k·F_n/K)·v_t/|v_t|, slipping
-//! holding F: p = −F_t/ΣK, cut to μ_s·F_n/K, sticking; F on A, F_t its part in the contact plane
+//! holding F: p = −F_t/ΣK, limited to μ_s·F_n/K, sticking; F on A, F_t its part in the contact plane
 //! ```
 //!
-//! Bodies that a load displaces against each other displace all bristles between them alike, so each holds by its share of
-//! the sum of the stiffnesses.
+//! A load that displaces two bodies against each other deflects all bristles between them equally, so each
+//! carries the load in proportion to its stiffness.
 
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::bristle_share;
@@ -20,40 +20,40 @@ use crate::sealed::Sealed;
 use crate::state::{ContactMemory, ContactRole};
 use pong_geometry::Vec3;
 
-/// What the bristles of a pair of Objects are preloaded with.
+/// State to which the bristles of a pair of Objects are preloaded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FrictionPreload {
-    /// Whatever moves along what it touches has slid for long: its friction is the kinetic one, against its present motion.
-    /// What does not move keeps its bristle.
+    /// Steady sliding: each sliding contact has kinetic friction against its current motion. Contacts without
+    /// slip velocity keep their bristle.
     Sliding,
-    /// Friction holds this force on the first Object of the pair, N, along the common axes: as much of it as lies in the
-    /// contact planes and as sticks.
+    /// Friction holds this force on the first Object of the pair, N, in common axes: the part in the contact
+    /// planes, up to the sticking limit.
     Holding(Vec3),
 }
 
-/// A bristle to be remembered.
+/// New state of one bristle.
 pub(crate) struct Preloaded {
-    /// The contact's place in the order of the frame, and so among the records of its commit.
+    /// Index of the contact in the frame's order, and of its record after the commit.
     place: usize,
     bristle_b: Vec3,
     sticks: bool,
     friction_force_b: Vec3,
-    /// What its energy becomes more by, J.
+    /// Increase of its stored energy, J.
     stored_more: f64,
 }
 
-/// A contact that presses and has a bristle.
+/// A contact with normal force and a bristle.
 struct Held<'f> {
     place: usize,
     contact: &'f FrameContact,
-    /// K, N/m.
+    /// Tangential stiffness K, N/m.
     stiffness: f64,
     kinetic_limit: f64,
     static_limit: f64,
 }
 
 impl EvaluationBuffers {
-    /// The bristles of a pair of Objects after a commit of this frame.
+    /// New bristles of a pair of Objects, after a commit of this frame.
     pub fn preloaded(
         &self,
         scene: &Scene,
@@ -120,7 +120,7 @@ impl EvaluationBuffers {
         all
     }
 
-    /// A force on the first Object of a pair, as a force on A of a contact in the frame of B.
+    /// Force on A of a contact, in B's frame, from a force on the first Object of a pair.
     fn on_a(
         &self,
         scene: &Scene,
@@ -131,7 +131,7 @@ impl EvaluationBuffers {
     ) -> Vec3 {
         let objects = &scene.pairs[pair];
         let (body_a, body_b) = sealed.bodies_of(contact.found.key.direction());
-        // Between the groups of one Object the first is the one of the lower number.
+        // Between two groups of one Object, the first is the group with the lower index.
         let a_is_first =
             if objects.a == objects.b { body_a < body_b } else { scene.bodies[body_a].object == objects.a };
         let on_a = if a_is_first { *force } else { -*force };
@@ -140,7 +140,7 @@ impl EvaluationBuffers {
 }
 
 impl Held<'_> {
-    /// `None` for what does not move along what it touches.
+    /// Bristle of steady sliding; `None` without slip velocity.
     fn sliding(&self) -> Option<(Vec3, bool)> {
         let velocity = &self.contact.slip_velocity_b;
         let speed = velocity.norm();
@@ -157,9 +157,9 @@ impl Held<'_> {
 }
 
 impl ContactMemory {
-    /// Remembers bristles that were preloaded after the commit of their frame. No work was done on the bodies: what the
-    /// bristles store more came into the contacts from nowhere, which a ledger has as less than nothing dissipated, and
-    /// accounts as inserted.
+    /// Writes preloaded bristles into the records after the commit of their frame. No work was done on the
+    /// bodies, so the added energy counts as negative dissipation in the ledger and as inserted in the
+    /// accounts.
     pub(crate) fn preload(&mut self, preloaded: &[Preloaded], keeps_ledger: bool) {
         for one in preloaded {
             let record = &mut self.records[one.place];

@@ -1,7 +1,9 @@
-//! Sums the wrenches of all contacts, in key order, about and along each movable group's own frame.
+//! Sums the wrenches of all contacts in key order, for each movable group in its own frame and about its own
+//! origin.
 //!
-//! What one addition rounds off grows with the sum: after thousands of contacts it would be more than 1e-12 of the largest of
-//! them. So [`PART`] contacts are added to each other, and then the sums over so many (docs/theory.md, 5).
+//! The rounding error of one addition grows with the sum; after thousands of contacts it would exceed 1e-12
+//! of the largest force. Therefore blocks of [`PART`] contacts are summed first, and then the block sums
+//! (docs/theory.md, 5).
 
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::found::FoundContacts;
@@ -12,7 +14,8 @@ use crate::frame::input::relative::Motions;
 use crate::sealed::Sealed;
 use pong_geometry::{Transform, Vec3, Wrench};
 
-/// Adds every contact to both of its movable groups: first those of one direction of a pair together, in B's axes.
+/// Adds every contact to both of its movable groups; contacts of one pair direction are first summed together
+/// in B's axes.
 #[inline]
 pub(crate) fn sum(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationInput { sealed, memory, .. } = *given;
@@ -37,18 +40,18 @@ pub(crate) fn sum(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     }
 }
 
-/// The contacts of so many places, some of which may only be remembered, are added before their sum is.
+/// References per block sum, including contacts that do not push.
 const PART: usize = 64;
 
-/// Sums over contacts of one direction, along B's axes.
+/// Sums over the contacts of one direction, in B's axes.
 struct Sums {
-    /// On A, N.
+    /// Force on A, N.
     force: Vec3,
-    /// On A about A's origin, N·m.
+    /// Moment on A about A's origin, N·m.
     about_a: Vec3,
-    /// On A about B's origin, N·m.
+    /// Moment on A about B's origin, N·m.
     about_b: Vec3,
-    /// Whether the numbers of each contact are well within the range of numbers.
+    /// True if all values are far from overflow.
     in_range: bool,
 }
 
@@ -57,7 +60,7 @@ impl Sums {
         Self { force: Vec3::zeros(), about_a: Vec3::zeros(), about_b: Vec3::zeros(), in_range: true }
     }
 
-    /// Over some contacts, with A's origin in B's frame, m.
+    /// Sums over some contacts; `origin_a` is A's origin in B's frame, m.
     #[inline]
     fn of(found: &FoundContacts<'_>, places: &[Place], origin_a: &Vec3) -> Self {
         let mut sums = Self::of_nothing();
@@ -71,7 +74,7 @@ impl Sums {
         sums
     }
 
-    /// The sums over more contacts.
+    /// Adds the sums of further contacts.
     #[inline]
     fn add(&mut self, more: &Self) {
         self.force += more.force;
@@ -80,36 +83,37 @@ impl Sums {
         self.in_range &= more.in_range;
     }
 
-    /// The wrench on A, about and along A's frame.
+    /// Wrench on A, about A's origin in A's axes.
     fn on_a(&self, x_ba: &Transform) -> Wrench {
         Wrench { force: x_ba.rotation.tr_mul(&self.force), moment: x_ba.rotation.tr_mul(&self.about_a) }
     }
 
-    /// The wrench on B, about and along B's frame.
+    /// Wrench on B, about B's origin in B's axes.
     fn on_b(&self) -> Wrench {
         Wrench { force: -self.force, moment: -self.about_b }
     }
 }
 
-/// What the turn to the axes of another frame must not carry out of the range of numbers.
+/// Bound that leaves room for a rotation into other axes without overflow.
 const LARGEST: f64 = f64::MAX / 16.0;
 
-/// False for what is not a number, too.
+/// Returns true if a sum is within the bound; false for NaN.
 fn holds(sum: f64) -> bool {
     sum <= LARGEST
 }
 
 impl EvaluationBuffers {
-    /// A movable group whose numbers have left the range of numbers, if any: a product or sum of finite ones can.
+    /// A movable group whose wrench or energies have overflowed, if any; sums and products of finite values
+    /// can.
     #[inline]
     pub fn overflows(&self, sealed: &Sealed) -> Option<usize> {
         let of_wrench = |wrench: &Wrench| wrench.force.abs().sum() + wrench.moment.abs().sum();
-        // Those that meet nobody have no wrench.
+        // Groups without pairs have no wrench.
         let mut bodies = sealed.paired_bodies.iter().copied();
         let body = bodies.find(|&body| !holds(of_wrench(&self.wrenches[body])));
         body.or_else(|| {
             let ledger = !holds(self.energy.work.abs() + self.energy.dissipated.abs());
-            // Energies are nobody's: the first group stands for all.
+            // The ledger belongs to no group; report the first.
             self.beyond_range.map(|direction| sealed.bodies_of(direction).0).or(ledger.then_some(0))
         })
     }

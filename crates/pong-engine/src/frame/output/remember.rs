@@ -1,8 +1,9 @@
-//! What a commit remembers of a frame's contacts.
+//! Writes a frame's contacts into the contact state at a commit.
 //!
-//! In a frame that workers share every lane, the caller's first, writes the records of the contacts that it finds. Where those
-//! are all, a commit takes over their tables as they are and only counts the records in the order of their keys: no record is
-//! moved, and most are read in the next frame by the core that has written them. Else it writes all of them anew.
+//! In a frame with workers, each thread also writes the records of the contacts that it finds. If these are
+//! complete, the commit takes the tables over as they are and only indexes the records in key order; no
+//! record moves, and in the next frame most are read by the core that wrote them. Otherwise all records are
+//! written anew.
 
 use crate::energy::contact::ContactEnergyRef;
 use crate::frame::buffers::EvaluationBuffers;
@@ -25,7 +26,7 @@ pub(crate) fn remember(frame: &mut EvaluationBuffers, next: &mut ContactMemory) 
     }
 }
 
-/// Takes over what the lanes have written, if each contact of the frame has its record; whether so.
+/// Takes over the threads' record tables if every contact has its record; returns false otherwise.
 #[inline]
 fn adopt(frame: &mut EvaluationBuffers, next: &mut ContactMemory) -> bool {
     let EvaluationBuffers { caller, workers, order, .. } = frame;
@@ -44,13 +45,13 @@ fn adopt(frame: &mut EvaluationBuffers, next: &mut ContactMemory) -> bool {
     true
 }
 
-/// Numbers of a registered law and energies of a contact. Where there are any, all contacts stand in the caller's buffer.
+/// Friction-law state and energies of a contact. If there are any, all contacts are in the caller's buffer.
 fn beside<'a>(frame: &'a EvaluationBuffers, place: &Place) -> (&'a [f64], Option<ContactEnergyRef<'a>>) {
     let law_state = frame.caller.out.law_state_of(place.slot.index());
     (law_state, frame.energy.contacts.get(place.slot.index()))
 }
 
-/// What a commit would remember of the frame's contacts, in order.
+/// Records that a commit of the frame would write, in order.
 pub(crate) fn fresh(frame: &EvaluationBuffers) -> impl Iterator<Item = Remembered<'_>> + Clone {
     frame.order.iter().map(|place| {
         let (law_state, energy) = beside(frame, place);

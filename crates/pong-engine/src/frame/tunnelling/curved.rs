@@ -1,4 +1,4 @@
-//! Lines through spheres and ellipsoids (of two balls, through the larger, whichever it is) and out of bores.
+//! Paths through spheres (of two spheres, through the larger) and ellipsoids, and out of bores.
 
 use super::line::{Line, Met};
 use crate::frame::input::PairContext;
@@ -7,7 +7,8 @@ use pong_geometry::primitive::{Bore, PrimitiveKind, Ray};
 use pong_geometry::{Mat3, Vec3};
 use pong_model::Item;
 
-/// What a line did to a ball or a bore of B. Planes are half spaces, which nothing goes through; a user's own kinds are not known.
+/// Outcome of a path against a sphere, ellipsoid or bore of B. Planes are half-spaces and cannot be passed;
+/// custom kinds are not checked.
 pub(super) fn meet(context: &PairContext<'_>, item_a: Item, item_b: Item, line: &Line) -> Option<Met> {
     let (body_a, body_b) = (context.body_a, context.body_b);
     let element = item_b.element as usize;
@@ -35,19 +36,19 @@ pub(super) fn meet(context: &PairContext<'_>, item_a: Item, item_b: Item, line: 
     }
 }
 
-/// Whether a line goes from the hole through the wall.
+/// Outcome of a path from the inside of a bore through its wall.
 fn out_of_bore(bore: &Bore, line: &Line) -> Option<Met> {
     let ray = Ray { reach: Some(0.0), ..Ray::between(&line.from_b, &line.to_b)? };
     ray_bore(&ray, bore).map(|hit| Met::Through(hit.normal_b))
 }
 
-/// Where a line with both ends outside the unit ball enters it, if it does.
+/// Entry point into the unit ball of a path with both ends outside it, if any.
 fn through_unit_ball(from: &Vec3, to: &Vec3) -> Option<Vec3> {
     let path = to - from;
     let (square, along, room) = (path.norm_squared(), from.dot(&path), from.norm_squared() - 1.0);
     let root = along * along - square * room;
     let outside = room >= 0.0 && to.norm_squared() >= 1.0;
-    // No line, and what is no number, enters nowhere.
+    // Also rejects a path of length zero, and NaN.
     let enters = root > 0.0 && along < 0.0;
     if !outside || !enters {
         return None;

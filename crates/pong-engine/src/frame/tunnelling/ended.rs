@@ -1,5 +1,5 @@
-//! Contacts that ended: did what they pushed to one side come out on the other? So does what is pressed slowly through
-//! something too soft, which no length of a line tells.
+//! Tunnelling of ended contacts: an element that was pushed to one side is now on the other. Slow motion
+//! through a shell that is too soft ends in the same way; the length of the path cannot reveal it.
 
 use super::events::TunnellingEvents;
 use super::followed::{SAME_SIDE_COSINE_MIN, Seen, pushing};
@@ -21,14 +21,14 @@ use pong_model::Item;
 use pong_model::box_tree::{Child, lanes};
 use std::borrow::Cow;
 
-/// Two faces are the two sides of a wall where the cosine between their normals is less than this (150°). At a wider angle
-/// they are those of a wedge, round the edge of which what is pressed on one face may well come to the other.
+/// Two faces are opposite sides of a wall if the cosine between their normals is less than this (150°). At a
+/// smaller angle they form a wedge, and an element pressed on one face may slide round its edge to the other.
 const BOTH_SIDES_COSINE_MAX: f64 = -0.866;
 
-/// Fewer contacts than this are not waited for together.
+/// Number of contacts from which prefetching pays.
 const WORTH_FETCHING: usize = 4;
 
-/// Looks at every committed contact that no present one continues.
+/// Checks every committed contact that no current contact continues.
 #[inline]
 pub(super) fn look_at_ended(
     given: &EvaluationInput<'_>,
@@ -41,7 +41,8 @@ pub(super) fn look_at_ended(
     }
 }
 
-/// Looks at these records, which stand in the order of their keys. Apart: most frames are not made ready for it.
+/// Checks these records, in key order. Separate from the caller, so that frames without such contacts do not
+/// pay for it.
 #[inline(never)]
 fn look_at(
     ended: &[u32],
@@ -50,7 +51,7 @@ fn look_at(
     events: &mut TunnellingEvents,
 ) {
     let records = &given.memory.records;
-    // Both stand in the order of their keys.
+    // Records and contacts are both in key order.
     let mut present = frame.order.as_slice();
     for of_direction in ended.chunk_by(|&a, &b| direction(records, a) == direction(records, b)) {
         let direction = direction(records, of_direction[0]);
@@ -58,7 +59,7 @@ fn look_at(
         if !given.states.enabled[pair.pair] {
             continue;
         }
-        // The two may be far apart by now, and the pair not among those that the frame has visited.
+        // The pair may be far apart by now, and not among the visited pairs.
         let motion =
             frame.motions(given.sealed, &given.memory.poses).known(&frame.near, &frame.input, direction);
         let seen = Seen::new(given, direction, &motion, frame);
@@ -71,7 +72,7 @@ fn look_at(
             let passed = present.iter().take_while(|place| place.head < head).count();
             present = &present[passed..];
             let same_head = present.iter().take_while(|place| place.head == head);
-            // Most that ended are pushed to the same side from the next facet.
+            // Usual case: the neighbouring facet pushes to the same side.
             let mut normals = pushing(frame, same_head, record.key);
             if !normals.any(|normal| normal.dot(&record.normal_b) > SAME_SIDE_COSINE_MIN)
                 && seen.came_out_behind(record)
@@ -82,7 +83,7 @@ fn look_at(
     }
 }
 
-/// Which committed contacts that pushed no present one continues, in the order of their keys.
+/// Committed contacts with `Active` role that no current contact continues, in key order.
 #[inline]
 fn ended<'a>(given: &EvaluationInput<'_>, frame: &'a EvaluationBuffers) -> List<'a, u32> {
     let (records, scratch, room) =
@@ -95,8 +96,8 @@ fn ended<'a>(given: &EvaluationInput<'_>, frame: &'a EvaluationBuffers) -> List<
     if left == 0 {
         return ended;
     }
-    // Of those that go on, most of which another core has written, nothing is read. The others are asked for one thing, so that
-    // what they are waited for falls together.
+    // Records that continue are not read; most were written by another core. Of the others only the role is
+    // read, so that the cache misses overlap.
     for index in (0..records.len()).filter(|&index| !continued[index]) {
         if records[index].role == ContactRole::Active {
             ended.push(index as u32).expect(room);
@@ -114,8 +115,8 @@ fn are_both_sides(one: &Vec3, other: &Vec3) -> bool {
 }
 
 impl Seen<'_> {
-    /// Reads where the lines of these contacts begin, of all at once: what touches no more is in no cache, and would be waited for
-    /// again and again.
+    /// Loads the start points of these contacts' paths into the cache, with overlapping misses: data of ended
+    /// contacts is rarely cached.
     fn fetch<'r>(&self, records: impl Iterator<Item = &'r ContactRecord> + Clone) {
         let body_a = self.context.body_a;
         let info = |record: &ContactRecord| &body_a.primitives[record.key.primitive_a as usize];
@@ -124,7 +125,7 @@ impl Seen<'_> {
         std::hint::black_box((elements, places.sum::<f64>()));
     }
 
-    /// The place of what carries a contact, in A's frame, m.
+    /// Reference point of a contact in A's frame, m; `None` for custom primitives.
     fn place_of(&self, record: &ContactRecord) -> Option<Cow<'_, Vec3>> {
         let body_a = self.context.body_a;
         let info = &body_a.primitives[record.key.primitive_a as usize];
@@ -132,8 +133,8 @@ impl Seen<'_> {
         is_followed.then(|| reference_point((body_a, info.kind), &record.key, info.elements.start))
     }
 
-    /// Whether what a contact pushed to one side is now on the other side, or is pushed there. What moved
-    /// on as it was pushed is not.
+    /// Returns true if an element that a contact pushed to one side is now on the other, or is pushed there.
+    /// An element that moved on in the direction of the push did not pass.
     fn came_out_behind(&self, record: &ContactRecord) -> bool {
         let (body, key) = (self.context.body_b, &record.key);
         let Some(line) = self.place_of(record).and_then(|place| self.line(&place)) else { return false };
@@ -165,7 +166,8 @@ impl Seen<'_> {
     fn came_out_of_solid(&self, record: &ContactRecord, line: &Line) -> bool {
         let (body, shell, primitive_a) = (self.context.body_b, record.key.shell_b, record.key.primitive_a);
         if solids::holds(body, shell, &line.to_b) {
-            // What the other end of a segment meets, as an edge that it crosses, tells nothing about this one.
+            // A contact at the other end of a segment, such as an edge that it crosses, is no evidence for
+            // this end.
             let mut pushing = self.pushing_at_end(record.key);
             return pushing.any(|normal| are_both_sides(normal, &record.normal_b))
                 && !self.pushes_to(&record.normal_b, primitive_a, shell);
@@ -174,7 +176,7 @@ impl Seen<'_> {
         out.is_some_and(|out| are_both_sides(&out, &record.normal_b))
     }
 
-    /// Inside a round solid before, and out of it on the side opposite to the one to which it was pushed.
+    /// Returns true if the element was inside a round solid and left it on the side opposite to the push.
     fn came_out_of_round(&self, record: &ContactRecord, kind_b: PrimitiveKind) -> bool {
         let info = &self.context.body_a.primitives[record.key.primitive_a as usize];
         let item_a = Item { primitive: record.key.primitive_a, element: info.elements.start };
@@ -183,8 +185,8 @@ impl Seen<'_> {
         out.is_some_and(|out| are_both_sides(&out, &record.normal_b))
     }
 
-    /// Behind its triangle before, and now farther behind, with the sheet still above where it was too deep to be pushed: not
-    /// if it went round the rim.
+    /// Returns true if the element was behind its triangle and is now farther behind, too deep to be pushed,
+    /// with the sheet still between; false if it went round the rim.
     fn came_out_of_sheet(&self, record: &ContactRecord, line: &Line) -> bool {
         let body = self.context.body_b;
         let view = TriangleView::new(&body.triangles, record.element_b);
@@ -201,7 +203,7 @@ impl Seen<'_> {
         self.sheet_between(&above, &place, record.key.shell_b)
     }
 
-    /// The smallest semi-axis of the ball that carries a contact, m.
+    /// Smallest semi-axis of the element that carries a contact, m; 0 for kinds without thickness.
     fn smallest_of(&self, record: &ContactRecord) -> f64 {
         let body = self.context.body_a;
         let info = &body.primitives[record.key.primitive_a as usize];
@@ -214,7 +216,7 @@ impl Seen<'_> {
         }
     }
 
-    /// Whether a line goes from the front through a shell of triangles.
+    /// Returns true if a path goes through a shell of triangles from the front.
     fn sheet_between(&self, from: &Vec3, to: &Vec3, shell: u32) -> bool {
         let body = self.context.body_b;
         let Some(ray) = Ray::between(from, to) else { return false };

@@ -1,15 +1,15 @@
-//! What went through something, as a frame tells it.
+//! Tunnelling events of a frame.
 
-/// What went through.
+/// Tunnelling events of a frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TunnellingEvents {
-    /// How often an element of A did: once per place at most.
+    /// Number of events; at most one per followed point of an element of A and shell of B.
     pub count: u32,
-    /// The first in the order of plans.
+    /// First event, in the order of pairs and directions.
     pub first: Option<TunnellingEvent>,
 }
 
-/// An element of A that went through B.
+/// An element of A that passed through B.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TunnellingEvent {
     pub body_a: usize,
@@ -18,7 +18,7 @@ pub(crate) struct TunnellingEvent {
 }
 
 impl TunnellingEvents {
-    /// One passage more.
+    /// Records one event.
     pub fn note(&mut self, passed: TunnellingEvent) {
         self.count = self.count.saturating_add(1);
         self.first.get_or_insert(passed);

@@ -1,4 +1,4 @@
-//! Elements of A along their lines, and whether contacts push them back.
+//! Follows elements of A along their paths, and checks whether contacts push them back.
 
 use super::events::{TunnellingEvent, TunnellingEvents};
 use super::line::{Line, Met};
@@ -17,10 +17,10 @@ use pong_geometry::simd::Portable;
 use pong_model::box_tree::{Child, lanes};
 use pong_model::{Batch, Item, MovableGroup};
 
-/// A contact pushes to a side where the cosine between its normal and that of the side exceeds this (60°).
+/// A contact pushes to a side if the cosine between its normal and the side's exceeds this (60°).
 pub(super) const SAME_SIDE_COSINE_MIN: f64 = 0.5;
 
-/// One direction of a pair of movable groups, with the contacts that the frame has found.
+/// One direction of a pair of movable groups, with the contacts of the frame.
 pub(super) struct Seen<'a> {
     pub context: PairContext<'a>,
     bodies: (usize, usize),
@@ -39,7 +39,7 @@ impl<'a> Seen<'a> {
         Self { context, bodies, frame }
     }
 
-    /// Follows every place of every element of A that anything of B can touch.
+    /// Follows every point of every element of A that can touch something of B.
     pub fn follow_lines(&self, plan: &Plan, events: &mut TunnellingEvents) {
         let (body_a, body_b) = (self.context.body_a, self.context.body_b);
         let batches_a = body_a.tree.batches.iter().enumerate();
@@ -62,17 +62,17 @@ impl<'a> Seen<'a> {
         }
     }
 
-    /// The line of a place of A, given in its frame.
+    /// Path of a point given in A's frame.
     pub fn line(&self, place: &Vec3) -> Option<Line> {
         let motion = self.context.motion;
         let since = motion.since_commit.as_ref()?;
         Some(Line { from_b: since.x_ba.point(place), to_b: motion.x_ba.point(place) })
     }
 
-    /// Follows one place through one batch of B: a shell that it went through counts once.
+    /// Follows one point through one batch of B; a shell that it passes counts once.
     fn follow(&self, item_a: Item, place: &Vec3, batch: &Batch, events: &mut TunnellingEvents) {
         let Some(line) = self.line(place) else { return };
-        // A ball goes through a smaller one beside its centre.
+        // A sphere also passes through a smaller sphere beside its centre.
         let beside = if batch.kind == PrimitiveKind::Sphere { self.radius(item_a) } else { 0.0 };
         let (low, high) = (line.from_b.inf(&line.to_b), line.from_b.sup(&line.to_b));
         let bounds = (low.add_scalar(-beside), high.add_scalar(beside));
@@ -99,7 +99,7 @@ impl<'a> Seen<'a> {
         }
     }
 
-    /// The axis of an element of A since the last commit.
+    /// Axis of an element of A at the last commit and now.
     pub fn swept(&self, item_a: Item) -> Option<Swept> {
         let (body, motion) = (self.context.body_a, self.context.motion);
         let kind = body.primitives[item_a.primitive as usize].kind;
@@ -117,7 +117,7 @@ impl<'a> Seen<'a> {
         }
     }
 
-    /// Outcome of a line for an element of B.
+    /// Outcome of a path against an element of B.
     fn met(&self, item_a: Item, line: &Line, kind_b: PrimitiveKind, item_b: Item) -> Option<Met> {
         let body = self.context.body_b;
         match kind_b {
@@ -145,8 +145,9 @@ impl<'a> Seen<'a> {
         went && !self.comes_back(&side, item_a.primitive, shell, item_b)
     }
 
-    /// Whether the primitive was on the wrong side of this element of B and pushed back: it comes in by the far side, and
-    /// out where it belongs. The two sides of a sheet are two shells of one primitive.
+    /// Returns true if the primitive was on the wrong side of this element of B and has been pushed back: it
+    /// then enters from the far side and leaves on the correct one. The two sides of a sheet are two shells
+    /// of one primitive.
     fn comes_back(&self, side: &Vec3, primitive_a: u32, shell_b: u32, item_b: Item) -> bool {
         let (records, info) =
             (&self.context.memory.records, self.context.body_b.primitives.get(item_b.primitive as usize));
@@ -172,12 +173,12 @@ impl<'a> Seen<'a> {
         ContactKey { group_pair, flipped, primitive_a, shell_b, end: 0 }
     }
 
-    /// Whether a contact of the primitive with the shell pushes to this side.
+    /// Returns true if a contact of the primitive with the shell pushes to this side.
     pub fn pushes_to(&self, side: &Vec3, primitive_a: u32, shell_b: u32) -> bool {
         self.pushing(primitive_a, shell_b).any(|normal| normal.dot(side) > SAME_SIDE_COSINE_MIN)
     }
 
-    /// Whether contacts push to the opposite side, and none to this.
+    /// Returns true if contacts push to the opposite side, and none to this one.
     fn pushes_away_from(&self, side: &Vec3, primitive_a: u32, shell_b: u32) -> bool {
         self.pushing(primitive_a, shell_b).any(|normal| normal.dot(side) < -SAME_SIDE_COSINE_MIN)
             && !self.pushes_to(side, primitive_a, shell_b)
@@ -189,20 +190,20 @@ impl<'a> Seen<'a> {
         pushing(self.frame, same_head(self.frame, key), key)
     }
 
-    /// The same of one end of a segment.
+    /// Normals of the contacts of one end of a segment with a shell of B.
     pub fn pushing_at_end(&self, key: ContactKey) -> impl Iterator<Item = &'a Vec3> + use<'a> {
         let same_head = same_head(self.frame, key);
         let at_end = found(self.frame, same_head, key).filter(move |found| found.key.end == key.end);
         at_end.map(|found| &found.normal_b)
     }
 
-    /// What the status tells.
+    /// Tunnelling event of a primitive of A through B.
     pub fn passed(&self, primitive_a: u32) -> TunnellingEvent {
         TunnellingEvent { body_a: self.bodies.0, primitive_a, body_b: self.bodies.1 }
     }
 }
 
-/// Whether something holds of an element of a batch whose box meets that between two corners.
+/// Returns true if `holds` is true for any element of a batch whose box overlaps the given box.
 fn any_met(batch: &Batch, (low, high): &(Vec3, Vec3), holds: impl Fn(u32) -> bool) -> bool {
     let query = batch.boxes.narrowed(low, high);
     let mut any = false;
@@ -217,14 +218,15 @@ fn any_met(batch: &Batch, (low, high): &(Vec3, Vec3), holds: impl Fn(u32) -> boo
     any
 }
 
-/// Where the contacts stand whose keys have the head of this one.
+/// References to the contacts whose keys have the same high word.
 fn same_head(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item = &Place> + use<'_> {
     let head = key.head();
     let first = frame.order.partition_point(|place| place.head < head);
     frame.order[first..].iter().take_while(move |place| place.head == head)
 }
 
-/// Normals of the contacts under a key, whatever end of a segment they are at, among those that have its head.
+/// Normals of the contacts of a primitive of A with a shell of B, at any end of a segment, among those with
+/// the key's high word.
 pub(super) fn pushing<'a>(
     frame: &'a EvaluationBuffers,
     same_head: impl Iterator<Item = &'a Place>,
@@ -233,7 +235,7 @@ pub(super) fn pushing<'a>(
     found(frame, same_head, key).map(|found| &found.normal_b)
 }
 
-/// Contacts that push under a key, among those that have its head.
+/// Contacts that push for a primitive of A and a shell of B, among those with the key's high word.
 fn found<'a>(
     frame: &'a EvaluationBuffers,
     same_head: impl Iterator<Item = &'a Place>,
@@ -244,7 +246,7 @@ fn found<'a>(
     found.filter(move |found| found.key.shell_b == key.shell_b)
 }
 
-/// Where an element of A is followed, in A's frame, m.
+/// Points of an element of A that are followed, in A's frame, m.
 fn places(body: &MovableGroup, kind: PrimitiveKind, item: Item) -> [Option<Vec3>; 3] {
     let i = item.element as usize;
     match kind {

@@ -1,17 +1,17 @@
-//! The straight line of a place of A since the last commit, and what it did to something of B.
+//! Straight path of a point of A since the last commit, and its outcome for an element of B.
 
 use pong_geometry::Vec3;
 
-/// A place of an element of A and its line since the last commit, in B's frame, m.
+/// Path of a point of an element of A since the last commit, in B's frame, m.
 pub(super) struct Line {
     pub from_b: Vec3,
     pub to_b: Vec3,
 }
 
-/// What a line did to one shell of B.
+/// Outcome of a path for one shell of B, with the normal of the side of entry.
 pub(super) enum Met {
-    /// Into it and out again, or through it, coming in by a side with this normal.
+    /// It enters and leaves the solid, or passes through the sheet.
     Through(Vec3),
-    /// Into it, where it still is.
+    /// It enters the solid and ends there.
     Into(Vec3),
 }

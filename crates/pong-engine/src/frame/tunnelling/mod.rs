@@ -1,18 +1,19 @@
-//! What went right through something between two commits. A frame knows poses, not what was between them: a fast point
-//! may be in front of a wall in one frame and behind it in the next, and no force ever told it. The forces stay what they
-//! are; the status says it, so that no passage goes unnoticed.
+//! Tunnelling: elements that pass through something between two commits. A frame knows only poses, not the
+//! motion between them; a fast point may be in front of a wall in one frame and behind it in the next without
+//! any force. The forces are not changed, but the status reports every passage.
 //!
-//! An element of A is followed at its *places*: a point, the centre of a ball, the origin of a ray, the ends and the
-//! middle of a segment, a capsule or a cylinder, each along its straight line since the last commit, seen from B. Past a capsule,
-//! a cylinder or a cone its whole axis is followed, with both ends along their lines. It went through where
+//! The *points* of an element of A are followed along straight paths since the last commit, in B's frame: a
+//! point, the centre of a sphere or ellipsoid, the origin of a ray, the ends and the middle of a segment,
+//! capsule or cylinder. Against a capsule, a cylinder or a cone, the whole axis is followed. An element has
+//! tunnelled if
 //!
-//! * the line or the axis goes into a solid of B and out again, or from the front through a sheet, and no contact pushes the element
-//!   back to the side it came from;
-//! * a contact that pushed it to one side ended with the place on the other side, or now pushes it there.
+//! * its path or axis enters a solid of B and leaves it again, or passes a sheet from the front, and no
+//!   contact pushes the element back to the side that it came from;
+//! * a contact that pushed it to one side has ended with the point on the other side, or pushes it there now.
 //!
-//! Lines are followed where the body may have moved farther than half of what is thinnest in B ([`travel::least_travel_m`]): a
-//! shorter line may cut an edge or a corner, it goes through no wall. In all other frames only contacts that ended are
-//! looked at.
+//! Paths are followed only if the body may have moved farther than half of the thinnest element of B
+//! ([`travel::least_travel_m`]). A shorter path may cut an edge or a corner, but passes through no wall. In
+//! all other frames only ended contacts are checked.
 
 mod curved;
 mod ended;
@@ -32,7 +33,7 @@ use crate::report::StatusBits;
 use events::TunnellingEvents;
 use followed::Seen;
 
-/// Tells the status of what went through.
+/// Detects tunnelling and sets the status.
 #[inline]
 pub(crate) fn watch(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     frame.caller.scratch.reset();
@@ -45,7 +46,7 @@ pub(crate) fn watch(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) 
     }
 }
 
-/// Follows the lines of all pairs that are near.
+/// Follows the paths of all near pairs.
 #[inline]
 fn follow(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) -> TunnellingEvents {
     let mut events = TunnellingEvents::default();

@@ -1,4 +1,4 @@
-//! Lines through polyhedra. The pieces of a shell, joined by inner walls, are one solid.
+//! Paths through polyhedra. The pieces of a shell, joined at internal faces, form one solid.
 
 use super::line::{Line, Met};
 use pong_geometry::Vec3;
@@ -6,8 +6,8 @@ use pong_geometry::interference::point_polyhedron::entry_of_line;
 use pong_geometry::primitive::{Polyhedron, PrimitiveKind};
 use pong_model::MovableGroup;
 
-/// What a line did to a piece: by an active face into it, and out of the whole solid or not. A line that began in the
-/// solid belongs to a contact that there was.
+/// Outcome of a path that enters a piece by an active face: it leaves the whole solid again, or ends in it.
+/// Paths that start in the solid are left to the ended contacts.
 pub(super) fn meet(body: &MovableGroup, shell: u32, piece: u32, line: &Line) -> Option<Met> {
     let polyhedron = &body.polyhedra[piece as usize];
     let entry = entry_of_line(&line.from_b, &line.to_b, polyhedron)?;
@@ -19,12 +19,12 @@ pub(super) fn meet(body: &MovableGroup, shell: u32, piece: u32, line: &Line) -> 
     Some(if inside { Met::Into(face.normal) } else { Met::Through(face.normal) })
 }
 
-/// Whether a place is inside a solid.
+/// Returns true if a point is inside a solid.
 pub(super) fn holds(body: &MovableGroup, shell: u32, place: &Vec3) -> bool {
     pieces(body, shell).any(|polyhedron| polyhedron.contains(place))
 }
 
-/// The normal of the face by which a line that began inside has left the solid for good.
+/// Normal of the face by which a path that started inside finally leaves the solid.
 pub(super) fn way_out(body: &MovableGroup, shell: u32, line: &Line) -> Option<Vec3> {
     let backwards = pieces(body, shell).filter_map(|polyhedron| {
         let entry = entry_of_line(&line.to_b, &line.from_b, polyhedron)?;
@@ -40,7 +40,7 @@ fn pieces(body: &MovableGroup, shell: u32) -> impl Iterator<Item = &Polyhedron> 
     pieces.map(|info| &body.polyhedra[info.elements.start as usize])
 }
 
-/// The least extent of a polyhedron along the normal of one of its faces, m.
+/// Least extent of a polyhedron along any of its face normals, m.
 pub(super) fn width_m(polyhedron: &Polyhedron) -> f64 {
     let lowest = |normal: &Vec3| {
         let along = polyhedron.vertices.iter().map(|vertex| normal.dot(&vertex.position));

@@ -1,4 +1,4 @@
-//! Places and axes of A that sweep through the round solids of B (docs/theory.md, 2.9).
+//! Points and axes of A that sweep through the round solids of B (docs/theory.md, 2.9).
 
 use super::line::Met;
 use pong_geometry::Vec3;
@@ -6,18 +6,19 @@ use pong_geometry::interference::round_gap::{Gap, Round};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Item, MovableGroup};
 
-/// Evenly spaced times at which the gap is looked at before it is searched between them.
+/// Evenly spaced samples of the gap before the search between them.
 const TIMES: usize = 16;
 
-/// The axis of an element of A, at the last commit and now, in B's frame, m. Of an element with one place both ends are that.
+/// Axis of an element of A, at the last commit and now, in B's frame, m. For point-like elements both ends
+/// coincide.
 pub(super) struct Swept {
     pub from_b: [Vec3; 2],
     pub to_b: [Vec3; 2],
-    /// Distance of the element's surface from its axis, m.
+    /// Radius of the element about its axis, m.
     pub radius: f64,
 }
 
-/// The axis of an element of A in A's frame, and its radius, m. `None` of kinds that touch no round solid.
+/// Axis of an element of A in A's frame, and its radius, m; `None` for kinds that touch no round solid.
 pub(super) fn axis_of(body: &MovableGroup, kind: PrimitiveKind, item: Item) -> Option<([Vec3; 2], f64)> {
     let i = item.element as usize;
     match kind {
@@ -30,7 +31,7 @@ pub(super) fn axis_of(body: &MovableGroup, kind: PrimitiveKind, item: Item) -> O
     }
 }
 
-/// A round solid of B: `None` of other kinds.
+/// Round solid of B; `None` for other kinds.
 pub(super) fn round(body: &MovableGroup, kind: PrimitiveKind, element: u32) -> Option<Round<'_>> {
     let i = element as usize;
     match kind {
@@ -45,7 +46,7 @@ pub(super) fn is_round(kind: PrimitiveKind) -> bool {
 }
 
 impl Swept {
-    /// The box that the element sweeps over.
+    /// Box around the element's sweep.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let all = [self.from_b, self.to_b].concat();
         let low = all.iter().fold(all[0], |low, place| low.inf(place));
@@ -53,7 +54,8 @@ impl Swept {
         (low.add_scalar(-self.radius), high.add_scalar(self.radius))
     }
 
-    /// Whether the element was beside a solid, is so now, and in between was deeper in it than half of the thinner one of the two.
+    /// Outcome `Through` if the element was outside a solid at both times, and in between was deeper in it
+    /// than half of the thinner of the two.
     pub fn meet(&self, solid: Round<'_>) -> Option<Met> {
         let beside = self.beside(solid);
         let (first, last) = (beside.gap(0.0), beside.gap(1.0));
@@ -65,27 +67,27 @@ impl Swept {
         Some(Met::Through(beside.crossing(0.0, inside).normal_b))
     }
 
-    /// The direction in which an element leaves a solid in which it was at the last commit.
+    /// Exit direction of an element that was in the solid at the last commit and has left it.
     pub fn way_out(&self, solid: Round<'_>) -> Option<Vec3> {
         let beside = self.beside(solid);
         let left = beside.gap(0.0).distance < 0.0 && beside.gap(1.0).distance >= 0.0;
         left.then(|| beside.crossing(1.0, 0.0).normal_b)
     }
 
-    /// Longest way of any place of the axis, m.
+    /// Longest displacement of any point of the axis, m.
     fn farthest(&self) -> f64 {
         let way = |end: usize| (self.to_b[end] - self.from_b[end]).norm();
         way(0).max(way(1))
     }
 
     fn beside<'a>(&'a self, solid: Round<'a>) -> Beside<'a> {
-        // A ball goes through what is smaller where that passes its centre.
+        // A sphere passes a smaller solid when that crosses its centre.
         let skin = (self.radius - 0.5 * solid.width_m()).max(0.0);
         Beside { swept: self, solid, skin }
     }
 }
 
-/// A swept axis beside one solid, whose surface is moved outward by a skin.
+/// A swept axis and one solid whose surface is offset outward by `skin`.
 struct Beside<'a> {
     swept: &'a Swept,
     solid: Round<'a>,
@@ -93,14 +95,15 @@ struct Beside<'a> {
 }
 
 impl Beside<'_> {
-    /// At a time between the last commit (0) and now (1).
+    /// Gap at a time between the last commit (0) and now (1).
     fn gap(&self, time: f64) -> Gap {
         let Swept { from_b, to_b, .. } = self.swept;
         let gap = self.solid.gap(&[0, 1].map(|end| from_b[end] + (to_b[end] - from_b[end]) * time));
         Gap { distance: gap.distance - self.skin, ..gap }
     }
 
-    /// A time at which the axis is inside. For a body that does not turn the gap is convex in time and has one minimum.
+    /// Time at which the axis is inside, if any. Without rotation the gap is convex in time, with one
+    /// minimum.
     fn inside(&self) -> Option<f64> {
         let time = |index: usize| index as f64 / TIMES as f64;
         let gaps: [f64; TIMES + 1] = std::array::from_fn(|index| self.gap(time(index)).distance);
@@ -112,7 +115,7 @@ impl Beside<'_> {
         least.map(|index| [time(index - 1), time(index + 1)]).find_map(|between| self.least(between))
     }
 
-    /// A time between two at which the axis is inside, by golden sections towards the least gap.
+    /// Time in an interval at which the axis is inside, by golden-section search for the least gap.
     fn least(&self, [mut low, mut high]: [f64; 2]) -> Option<f64> {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         const STEPS: usize = 40;
@@ -137,9 +140,9 @@ impl Beside<'_> {
         None
     }
 
-    /// Where the axis crosses the surface, between a time outside and one inside, by halving.
+    /// Gap where the axis crosses the surface, by bisection between an outside and an inside time.
     fn crossing(&self, outside: f64, inside: f64) -> Gap {
-        /// Half the bits of a number: the direction of a side needs no more.
+        /// Half the bits of an `f64`; a normal needs no more.
         const STEPS: usize = 26;
         let (mut outside, mut inside) = (outside, inside);
         for _ in 0..STEPS {

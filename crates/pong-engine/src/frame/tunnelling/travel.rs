@@ -1,4 +1,4 @@
-//! Whether anything may have gone through: how far a body went since the last commit against what is thinnest.
+//! Tunnelling test by distance: the travel of a body since the last commit against the thinnest element.
 
 use super::solids::width_m;
 use super::swept;
@@ -8,8 +8,8 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Transform, Vec3};
 use pong_model::{Batch, MovableGroup};
 
-/// Half of what is thinnest in B, as far as A can go through it, m: a line that is shorter goes through no wall.
-/// Infinite where there is nothing to go through.
+/// Half the thickness of the thinnest element of B that A can pass through, m; a shorter path passes no wall.
+/// Infinite if there is no such element.
 pub(crate) fn least_travel_m(
     a: &MovableGroup,
     b: &MovableGroup,
@@ -48,25 +48,24 @@ pub(crate) fn least_travel_m(
     0.5 * thinnest
 }
 
-/// Whether a place of A's body may have gone that far.
+/// Returns true if a point of A's body may have moved farther than that.
 #[inline]
 pub(super) fn may_go_through(plan: &Plan, motion: &Motion) -> bool {
     let Some(since) = &motion.since_commit else { return false };
-    // There is nothing to go through.
+    // Nothing that can be passed.
     if plan.least_travel_m == f64::INFINITY {
         return false;
     }
     let shift_square = (motion.x_ba.translation - since.x_ba.translation).norm_squared();
-    // The Frobenius norm is no less than how far a rotation carries anything at a distance of 1 m.
+    // The Frobenius norm bounds the displacement of any point at a distance of 1 m.
     let turn_square = (motion.x_ba.rotation - since.x_ba.rotation).norm_squared();
     let (reach, least) = (plan.reach_a_m, plan.least_travel_m);
-    // As a rule both are small, and no root is needed: the square of a sum is no more than twice the sum of the squares. Twice
-    // that is beyond rounding.
+    // Cheap test without roots: (a + b)² ≤ 2·(a² + b²); the factor 4 adds a margin for rounding.
     4.0 * (shift_square + turn_square * (reach * reach)) > least * least
         && shift_square.sqrt() + turn_square.sqrt() * reach > least
 }
 
-/// Greatest distance of anything of A that is followed from the origin of its movable group, m.
+/// Greatest distance of a followed point of A from the origin of its movable group, m.
 pub(crate) fn reach_m(a: &MovableGroup) -> f64 {
     let points = a.points.iter().map(|point| point.position);
     let ends = a.segments.iter().flat_map(|segment| segment.ends);
@@ -79,7 +78,7 @@ pub(crate) fn reach_m(a: &MovableGroup) -> f64 {
     all.map(|place| place.norm()).fold(0.0, f64::max)
 }
 
-/// Whether what a batch of A sweeps over since the last commit may meet a batch of B.
+/// Returns true if the region swept by a batch of A since the last commit may overlap a batch of B.
 pub(super) fn sweeps(motion: &Motion, a: &Batch, b: &Batch) -> bool {
     let Some(since) = &motion.since_commit else { return false };
     let (low, high) = a.boxes.widened(&a.boxes.around);
@@ -91,7 +90,7 @@ pub(super) fn sweeps(motion: &Motion, a: &Batch, b: &Batch) -> bool {
     query.meets(&b.boxes.around)
 }
 
-/// The box in B's frame around a box of A's.
+/// Box in B's frame around a box of A.
 fn carried(low: &Vec3, high: &Vec3, x_ba: &Transform) -> (Vec3, Vec3) {
     let center = x_ba.point(&(0.5 * (low + high)));
     let half = x_ba.rotation.abs() * (0.5 * (high - low));

@@ -1,8 +1,8 @@
-//! The calling thread and its workers on the blocks of a frame.
+//! Runs the blocks of a frame on the calling thread and the workers.
 //!
-//! Workers read a copy of the frame's input and write into contexts of their own, under locks that nobody waits for in
-//! the common case. A worker that does not come back from a block keeps its context and the input it reads; the frame
-//! then goes on without the workers, alone and with the same results, until that worker has let go.
+//! Workers read a copy of the frame's input and write into their own contexts, under locks that are normally
+//! free. A stuck worker keeps its context and the input that it reads. The frame is then computed by the
+//! caller alone, with the same results, until that worker has released them.
 
 #[cfg(test)]
 mod tests;
@@ -22,47 +22,47 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
 use std::time::Duration;
 use trials::{SharingTrials, WORTH_SHARING_NS};
 
-/// Work below this wakes no worker, unless frames follow each other so closely that it will stay awake, ns: to wake one takes
-/// 10 µs and more, and it comes with cold caches.
+/// Cost below which no worker is woken, ns, unless frames follow each other so closely that workers stay
+/// awake. A wake-up takes 10 µs and more, and the worker starts with cold caches.
 const WORTH_WAKING_NS: u64 = 60_000;
 
-/// For each so much work there is to be a worker, ns: one more takes longer to begin and to be asked what it has found than it
-/// takes off the others.
+/// Work per worker, ns: with less, one more worker costs more to start and to collect results from than it
+/// saves.
 const WORTH_A_WORKER_NS: u64 = 4_000;
 
-/// Longer than it takes to lay out the blocks of any round.
+/// Upper bound of the time to lay out the blocks of a round.
 const LONGEST_LAYOUT: Duration = Duration::from_micros(200);
 
-/// What a contact costs beside its tests, ns.
+/// Cost of a contact besides its tests, ns.
 const CONTACT_NS: u64 = 200;
 
-/// Workers and what they share with the caller.
+/// The workers and the data they share with the caller.
 pub(crate) struct WorkerPool {
     pool: Pool,
     shared: Arc<Shared>,
-    /// Rounds that the caller did by itself because a worker had not let go, or did not come back.
+    /// Rounds that the caller ran alone because a worker was stuck or timed out.
     pub timeouts: u64,
-    /// Whether the workers were given a frame's input since it was last taken back.
+    /// True while the workers' input holds a contact state.
     lent: bool,
-    /// Whether the workers were given a round of this frame.
+    /// True if the workers took part in this frame.
     worked: bool,
-    /// What the last round might cost, ns, if it was worth sharing.
+    /// Estimated cost of the last round, ns; 0 if it was not shared.
     last_cost_ns: u64,
     trials: SharingTrials,
-    /// Where the workers' time of this frame's rounds went; zero without a clock.
+    /// Time per kind of work of the workers in this frame; zero without a clock.
     times: Vec<WorkTimes>,
 }
 
 struct Shared {
     scene: Arc<Scene>,
     sealed: Arc<Sealed>,
-    /// Apart from its lock: every claim writes to that.
+    /// Boxed, to keep it off the cache line of the lock, which every claim writes.
     lent: RwLock<Box<Lent>>,
-    /// One per worker.
+    /// One context per worker.
     contexts: Vec<Mutex<Box<WorkerContext>>>,
 }
 
-/// What the caller lends for a round.
+/// Input that the caller lends to the workers for a round.
 struct Lent {
     input: WorkerInput,
     /// Committed contact state.
@@ -74,7 +74,7 @@ impl Job for Shared {
         self.run_neighbors(block..block + 1, context);
     }
 
-    /// On a worker: the caller runs its blocks in its own context.
+    /// Runs on a worker; the caller runs its blocks in its own context.
     fn run_neighbors(&self, blocks: Range<u32>, lane: usize) {
         let lent = self.lent.read().unwrap_or_else(PoisonError::into_inner);
         let Lent { input, memory } = &**lent;
@@ -84,7 +84,7 @@ impl Job for Shared {
             memory.records.fetch();
         }
         self.run_blocks((input, memory), blocks, &mut context);
-        // Here and not by the caller, on whose core nothing of it is.
+        // Finish on the worker: the data is in this core's cache, not in the caller's.
         context.out.finish();
     }
 }
@@ -108,7 +108,8 @@ impl Shared {
     }
 }
 
-/// A context whose owner panicked is still memory: what it holds is thrown away when the next phase begins.
+/// Locks a context. One whose owner panicked stays usable, since its contents are discarded at the next
+/// phase.
 fn locked(context: &Mutex<Box<WorkerContext>>) -> MutexGuard<'_, Box<WorkerContext>> {
     context.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -138,9 +139,9 @@ impl WorkerPool {
         Ok(Self { pool, shared, timeouts: 0, lent: false, worked: false, last_cost_ns: 0, trials, times })
     }
 
-    /// How many workers are worth asking for a round of so many blocks whose tests may cost so much, ns; none if it is sooner
-    /// done by the caller alone. What touched at the last commit, so many `records`, as a rule touches now, and costs as much
-    /// again. Where the cost leaves doubts, trials decide: call [`end_frame`](Self::end_frame) when the frame is done.
+    /// Number of workers worth using for a round with this many blocks and test cost, ns; 0 if the caller
+    /// alone is faster. Each of the `records` of the last commit adds the cost of a contact. In the doubtful
+    /// range, trials decide; call [`end_frame`](Self::end_frame) at the end of the frame.
     pub fn worth_asking(&mut self, records: usize, blocks: usize, cost_ns: u64) -> usize {
         let cost_ns = cost_ns + records as u64 * CONTACT_NS;
         let worth = cost_ns >= WORTH_SHARING_NS
@@ -151,8 +152,8 @@ impl WorkerPool {
         if worth { self.pool.workers().min(1.max((cost_ns / WORTH_A_WORKER_NS) as usize)) } else { 0 }
     }
 
-    /// Runs the blocks of `input` beside the first so many workers; whether all that was found is there: in `context`, or in
-    /// `taken`, a buffer for each worker. If not, the caller does it all again by itself.
+    /// Runs the blocks of `input` on the caller and the first `workers` workers. Returns true if all results
+    /// are in `context` or, per worker, in `taken`; on false, the caller has to repeat everything alone.
     pub fn run_parallel(
         &mut self,
         memory: &Arc<ContactMemory>,
@@ -160,7 +161,8 @@ impl WorkerPool {
         context: &mut WorkerContext,
         taken: &mut [ContactBuffer],
     ) -> bool {
-        // A worker that has claimed blocks of an earlier round and not begun with them would run them in this one.
+        // A worker that has claimed blocks of an earlier round but not started them would run blocks of this
+        // round.
         if !self.pool.is_quiet() {
             self.timeouts += 1;
             return false;
@@ -185,12 +187,13 @@ impl WorkerPool {
         self.gather(input.phase, context, taken)
     }
 
-    /// Takes over what the workers have found in a phase that is complete; whether nothing is missing. As long as the limits are
-    /// far, each buffer as it is: to copy a contact takes longer than all else that the caller does with it.
+    /// Collects the workers' results of a complete phase; returns false if any are missing. If the limits are
+    /// not reached, buffers are swapped, because copying a contact costs more than anything else that the
+    /// caller does with it.
     fn gather(&mut self, phase: u64, context: &mut WorkerContext, taken: &mut [ContactBuffer]) -> bool {
         let out = &mut context.out;
         let (mut found, mut overflowed) = (out.contacts.len(), out.demand.overflowed);
-        // To look at the context of one that has done nothing is to wait for a cache line.
+        // Skip workers without blocks: even to look at their contexts costs a cache miss.
         let at_work = || self.pool.work().skip(1).map(|lane| lane.blocks > 0);
         for (other, _) in self.shared.contexts.iter().zip(at_work()).filter(|(_, at_work)| *at_work) {
             let other = locked(other);
@@ -222,8 +225,9 @@ impl WorkerPool {
         true
     }
 
-    /// No time has been spent yet. Where the last round was worth waking workers for and all sleep, they are woken now: they are
-    /// up when the blocks of this one are laid out. Whom the host has woken is awake for as long as it said.
+    /// Resets the times. If the last round was worth waking workers for and all are asleep, wakes them now,
+    /// so that they are up when the blocks are laid out. Workers that the host has woken stay awake for the
+    /// host's time.
     pub fn begin_frame(&mut self) {
         if self.last_cost_ns >= WORTH_WAKING_NS && !self.pool.has_awake_workers() {
             self.pool.prewake(LONGEST_LAYOUT);
@@ -234,24 +238,24 @@ impl WorkerPool {
         }
     }
 
-    /// All that depends on who did this frame's rounds is done.
+    /// Ends the frame's trial, if one is timed.
     #[inline]
     pub fn end_frame(&mut self) {
         let Self { pool, worked, trials, .. } = self;
         trials.end_round(|| *worked && pool.work().skip(1).any(|lane| lane.blocks > 0));
     }
 
-    /// Whether the workers were given a round of this frame.
+    /// Returns true if the workers took part in this frame.
     pub fn has_worked(&self) -> bool {
         self.worked
     }
 
-    /// Where the workers' time of the rounds that were shared out went.
+    /// Times of the workers in shared rounds, by kind of work.
     pub fn times(&self) -> impl Iterator<Item = &WorkTimes> {
         self.times.iter()
     }
 
-    /// Lets go of the contact state that the workers were given, unless one still reads it.
+    /// Releases the workers' contact state, unless a worker still reads it.
     pub fn release(&mut self, nothing: &Arc<ContactMemory>) {
         if self.lent
             && let Ok(mut lent) = self.shared.lent.try_write()
@@ -261,14 +265,14 @@ impl WorkerPool {
         }
     }
 
-    /// Replaces the values of surfaces that the workers were given, unless one still reads them.
+    /// Replaces the workers' surface tables, unless a worker still reads them.
     pub fn set_tables(&self, tables: &Arc<Vec<SurfaceTable>>) {
         if let Ok(mut lent) = self.shared.lent.try_write() {
             lent.input.tables = Arc::clone(tables);
         }
     }
 
-    /// Most that the workers' arenas and scratch memories were asked for, as far as they are not in use, bytes.
+    /// Peak use of the workers' arenas and scratch memories, bytes; busy contexts are skipped.
     pub fn peaks(&self) -> (usize, usize) {
         let free = self.shared.contexts.iter().filter_map(|context| context.try_lock().ok());
         free.fold((0, 0), |(arena, scratch), context| {
@@ -291,7 +295,7 @@ impl WorkerPool {
         self.pool.end()
     }
 
-    /// The pool, for what it reports.
+    /// The pool, for reports.
     pub fn pool(&self) -> &Pool {
         &self.pool
     }

@@ -1,5 +1,4 @@
-//! What a world with workers cannot be asked from outside: where its records stand, and what becomes of a worker that comes
-//! too late.
+//! Tests of workers that need private access: storage of the records, and a worker that starts too late.
 
 use super::trials::ALWAYS_SHARED_NS;
 use super::*;
@@ -9,8 +8,8 @@ use crate::scene::Config;
 use crate::{InterfaceId, State, World, WorldBuilder};
 use std::time::Duration;
 
-/// A grid of points in a plane on a floor, and some rays down to it where they are asked for; below is a gate, which moves by
-/// itself.
+/// A grid of points in a plane on a floor, with optional rays down to it; below is a gate that moves on its
+/// own.
 fn brush(config: Config, rays: usize) -> Brush {
     let mut builder = WorldBuilder::new(config);
     let at = |i: usize| ((i % 50) as f64, (i / 50) as f64);
@@ -61,7 +60,7 @@ struct Brush {
 }
 
 impl Brush {
-    /// Puts the brush somewhere, tilted about y by a small angle, rad.
+    /// Places the brush, tilted about y by a small angle, rad.
     fn put(&mut self, position: [f64; 3], tilt: f64) {
         let half = 0.5 * tilt;
         let orientation = [(1.0 - half * half).sqrt(), 0.0, half, 0.0];
@@ -74,12 +73,13 @@ fn one_worker() -> Settings {
     Settings { workers: 1, oversubscribe: true, worker_timeout, ..Settings::default() }
 }
 
-/// Lets the worker claim blocks of the last round anew, which is given up before it has begun with them; whether it did.
+/// Lets the worker claim blocks of the last round again and abandons that round before it has started them.
+/// Returns true if it was abandoned.
 fn leave_a_worker_behind(pool: &mut WorkerPool) -> bool {
     let shared = Arc::clone(&pool.shared);
     let held = shared.lent.write().unwrap_or_else(PoisonError::into_inner);
     pool.pool.prewake(Duration::from_millis(100));
-    // It has its time to claim while the caller is at its own.
+    // Give the worker time to claim blocks while the caller waits.
     let wait = &mut |_| std::thread::sleep(Duration::from_micros(200));
     let outcome = pool.pool.run_beside(held.input.blocks.len() as u32, 1, wait);
     drop(held);
@@ -96,7 +96,7 @@ fn blocks_of_a_round_that_was_given_up_are_not_run_in_the_next() {
     }
     let Runtime { pool, frame, memory, .. } = world.runtime_mut();
     let (pool, input, caller) = (pool.as_mut().unwrap(), &mut frame.input, &mut frame.caller);
-    // The round that was shared, once more.
+    // Repeat the shared round.
     input.blocks.clone_from(&pool.shared.lent.read().unwrap().input.blocks);
     let mut behind = 0;
     for round in 0..40 {
@@ -110,7 +110,7 @@ fn blocks_of_a_round_that_was_given_up_are_not_run_in_the_next() {
     assert!(behind > 0, "the worker never came too late");
 }
 
-/// More work than wakes a sleeping worker, and so little that an awake one has to be at hand.
+/// Costs above the threshold for waking workers, and below it, where workers must be awake.
 #[test]
 fn as_many_workers_are_asked_as_there_is_work_for() {
     let mut world = brush(config(Some(Settings { workers: 40, ..one_worker() })), 0).world;
@@ -118,7 +118,7 @@ fn as_many_workers_are_asked_as_there_is_work_for() {
     let much = WORTH_WAKING_NS + WORTH_A_WORKER_NS / 2;
     assert_eq!(pool.worth_asking(0, 100, much), 15);
     assert_eq!(pool.worth_asking(0, 100, 20 * much), 40);
-    // What touched costs, too, and one block has nobody to be shared with.
+    // Existing contacts add to the cost; a single block cannot be shared.
     assert_eq!(pool.worth_asking(100, 100, much), 20);
     assert_eq!(pool.worth_asking(100, 1, much), 0);
     pool.prewake(Duration::from_secs(60));
@@ -130,7 +130,7 @@ fn as_many_workers_are_asked_as_there_is_work_for() {
     assert_eq!(pool.worth_asking(0, 100, WORTH_SHARING_NS - 1), 0);
 }
 
-/// Where trials say that the caller alone is quicker, workers are asked for long rounds only.
+/// If trials favour the caller alone, workers are used only for long rounds.
 #[test]
 fn rounds_that_are_quicker_alone_ask_and_wake_nobody() {
     let mut world = brush(config(Some(one_worker())), 0).world;
@@ -148,7 +148,7 @@ fn rounds_that_are_quicker_alone_ask_and_wake_nobody() {
 #[test]
 fn trials_are_made_while_frames_run() {
     let mut brush = brush(config(Some(one_worker())), 0);
-    // Nothing touches: with contacts these frames would be long.
+    // No contacts, since they would make these frames long.
     brush.put([0.0, 0.0, 1e-3], 0.0);
     for _ in 0..20_000 {
         brush.world.prewake(Duration::from_millis(100));
@@ -160,7 +160,7 @@ fn trials_are_made_while_frames_run() {
     panic!("no trial has ended");
 }
 
-/// Workers that sleep are woken before the blocks are there, if the last round was worth it.
+/// Sleeping workers are woken before the blocks are laid out, if the last round was worth it.
 #[test]
 fn a_long_round_wakes_the_workers_of_the_next_before_it_is_laid_out() {
     let spin = Duration::from_nanos(100);
@@ -170,7 +170,7 @@ fn a_long_round_wakes_the_workers_of_the_next_before_it_is_laid_out() {
         pool.quiesce();
         while pool.pool.has_awake_workers() {}
         pool.worth_asking(0, 100, cost_ns);
-        // It may be up and down again before this thread looks.
+        // The worker may wake up and fall asleep between two looks.
         let woken = (0..200).any(|_| {
             pool.begin_frame();
             (0..20).any(|_| {
@@ -180,7 +180,7 @@ fn a_long_round_wakes_the_workers_of_the_next_before_it_is_laid_out() {
         });
         assert_eq!(woken, wakes, "{cost_ns} ns");
     }
-    // What the host has asked for is not cut short.
+    // The host's wake-up time is not shortened.
     pool.prewake(Duration::from_secs(60));
     while !pool.pool.has_awake_workers() {}
     pool.begin_frame();
@@ -188,12 +188,12 @@ fn a_long_round_wakes_the_workers_of_the_next_before_it_is_laid_out() {
     assert!(pool.pool.has_awake_workers());
 }
 
-/// The brush slides and tilts: contacts end and begin, bristles stretch and slip. Frames in which a worker had a part are
-/// compared with those of one alone.
+/// The brush slides and tilts, so that contacts end and begin, and bristles stretch and slip. Compares frames
+/// in which a worker took part with frames of the caller alone.
 fn compare(change: impl Fn(Config) -> Config, rays: usize) -> SharedFrames {
     let [mut alone, mut shared] =
         [None, Some(one_worker())].map(|workers| brush(change(config(workers)), rays));
-    // Until a worker, which may have to wait for a core, has often enough had a part in it.
+    // Run until a worker has taken part often enough; it may have to wait for a core.
     let (mut frame, mut shared_frames) = (0, SharedFrames::default());
     while shared_frames.by_worker < 50 {
         assert!(frame < 20_000, "a worker had a part in few of {frame} frames: {shared_frames:?}");
@@ -223,14 +223,14 @@ fn compare(change: impl Fn(Config) -> Config, rays: usize) -> SharedFrames {
     shared_frames
 }
 
-/// Of how many frames.
+/// Counts of frames.
 #[derive(Debug, Default)]
 struct SharedFrames {
-    /// A worker did a part of the blocks.
+    /// A worker ran some of the blocks.
     by_worker: u32,
-    /// What it found was taken over as it was: its round was neither given up nor had it too little room.
+    /// The worker's buffers were swapped in: the round was not abandoned, and there was room.
     taken_over: u32,
-    /// The records stand where the lanes have written them.
+    /// The records are in the threads' tables.
     in_lanes: u32,
 }
 
@@ -240,13 +240,13 @@ fn what_lanes_have_written_is_what_one_alone_remembers() {
     assert!(shared.taken_over > 0 && shared.in_lanes == shared.taken_over, "{shared:?}");
 }
 
-/// Of the floor and the gate below, a ray sees what is nearer.
+/// A ray hits the nearer of the floor and the gate below it.
 #[test]
 fn rays_see_the_same_through_the_eyes_of_all() {
     compare(|config| config, 400);
 }
 
-/// There is room for fewer than half of those that touch.
+/// The capacity is less than half of the contacts.
 #[test]
 fn the_same_are_left_out_by_all() {
     let shared = compare(|config| Config { contact_capacity: Some(900), ..config }, 0);

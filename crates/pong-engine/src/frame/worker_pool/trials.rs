@@ -1,54 +1,55 @@
-//! Whether rounds of moderate cost are sooner done with workers or by the caller alone: found out by trying.
+//! Trials that decide whether rounds of moderate cost are faster with workers or on the caller alone.
 //!
-//! What a worker takes off such a round depends on how far apart the cores are, whether they are threads of one core and who
-//! else runs on them; a host of virtual machines changes all of that while Pong runs. So of the two ways one is *usual*, and now
-//! and then some rounds in a row go the other way, are timed, and are compared with the usual rounds right before them. No
-//! answer depends on the way. Rounds that only cost time to compare are rare: as long as the usual way stays the quicker one,
-//! the next trial is twice as far away.
+//! The gain depends on the distance between the cores, on whether they are threads of one core, and on other
+//! load; on a virtual machine all of that changes while Pong runs. One mode is therefore the *usual* one. Now
+//! and then a few rounds in a row use the other mode; they are timed and compared with the usual rounds right
+//! before them. Results do not depend on the mode. While the usual mode stays faster, the interval between
+//! trials doubles, so the rounds spent on comparison are rare.
 
 use std::time::Instant;
 
-/// Work below this is done by the caller alone, ns: waking nobody is quicker.
+/// Cost below which the caller works alone without a trial, ns.
 pub const WORTH_SHARING_NS: u64 = 5_000;
 
-/// Rounds that may cost so much, ns, or more are always shared: alone, one of them would take the caller by surprise. What a round
-/// may cost is a rough estimate, often twice the time that it takes.
+/// Estimated cost from which rounds are always shared, ns: run alone, such a round would be a noticeable
+/// delay. The estimate is rough, often twice the real time.
 pub const ALWAYS_SHARED_NS: u64 = 160_000;
 
-/// Classes of cost, each up to twice as much as the one before: what pays for long rounds need not for short ones.
+/// Cost classes, each up to twice as costly as the one before; sharing may pay for long rounds and not for
+/// short ones.
 const CLASSES: usize = ((ALWAYS_SHARED_NS - 1) / WORTH_SHARING_NS).ilog2() as usize + 1;
 
-/// Usual rounds from one trial to the next: after the usual way has changed, and at most.
+/// Usual rounds between two trials: after a change of mode, and at most.
 const SOON: u32 = 32;
 const LATEST: u32 = 4096;
 
-/// A trial that finds the other way quicker is repeated so soon.
+/// Rounds until a trial that favoured the other mode is repeated.
 const AGAIN: u32 = 16;
 
-/// So many trials in a row must find the other way quicker before it is the usual one.
+/// Consecutive trials that must favour the other mode before it becomes the usual one.
 const AGREEING: u32 = 2;
 
-/// Rounds of a trial that find the caches as the usual way has left them, and those that count.
+/// Rounds of a trial that are not counted, since their caches are from the usual mode, and rounds that are.
 const FIRST: u32 = 2;
 const COUNTED: u32 = 2;
 
-/// A trial in which no worker comes ends after so many rounds.
+/// Rounds after which a trial without any worker ends.
 const LONGEST: u32 = 64;
 
-/// Usual rounds right before a trial that are timed.
+/// Timed usual rounds right before a trial.
 const BEFORE: usize = 2;
 
-/// So much of the usual time, or less, is quicker.
+/// Relative time at or below which a mode counts as faster.
 const QUICKER: f64 = 0.985;
 
-/// Trials of a world, for each class of cost.
+/// Trials of a world, per cost class.
 #[derive(Debug)]
 pub struct SharingTrials {
     classes: [Class; CLASSES],
     present: Option<Present>,
 }
 
-/// The round in hand, if it is timed.
+/// The current round, if it is timed.
 #[derive(Debug)]
 struct Present {
     class: usize,
@@ -57,10 +58,10 @@ struct Present {
 }
 
 impl SharingTrials {
-    /// All rounds are shared until trials say otherwise.
+    /// Initial state: all rounds are shared.
     pub const NONE: Self = Self { classes: [Class::NEW; CLASSES], present: None };
 
-    /// Whether a round that may cost so much, ns, at least [`WORTH_SHARING_NS`], is to be shared.
+    /// Returns true if a round of this estimated cost (ns, at least [`WORTH_SHARING_NS`]) is to be shared.
     pub fn shares(&mut self, cost_ns: u64) -> bool {
         self.present = None;
         if cost_ns >= ALWAYS_SHARED_NS {
@@ -74,7 +75,8 @@ impl SharingTrials {
         next.shares
     }
 
-    /// The round is done, and all that depends on who did it; workers had a part in it, or not.
+    /// Ends a timed round, with everything that depends on the mode; the closure returns true if workers took
+    /// part.
     #[inline]
     pub fn end_round(&mut self, workers_had_a_part: impl FnOnce() -> bool) {
         if let Some(Present { class, cost_ns, began }) = self.present.take() {
@@ -86,37 +88,37 @@ impl SharingTrials {
 
 #[cfg(test)]
 impl SharingTrials {
-    /// After trials that found rounds of any cost quicker alone.
+    /// State after trials that favoured the caller alone in every class.
     pub const ALONE: Self = Self { classes: [Class { shares: false, ..Class::NEW }; CLASSES], present: None };
 
-    /// Whether any trial has come to an end.
+    /// Returns true if any trial has been concluded.
     pub fn any_ended(&self) -> bool {
         self.classes.iter().any(|class| class.interval > SOON || class.agreeing > 0 || !class.shares)
     }
 }
 
-/// Rounds of about one cost.
+/// Rounds of one cost class.
 #[derive(Clone, Copy, Debug)]
 struct Class {
-    /// The usual way: with workers.
+    /// Usual mode: true with workers.
     shares: bool,
-    /// Usual rounds until the next trial, and from one trial to the next.
+    /// Usual rounds left until the next trial, and interval between trials.
     left: u32,
     interval: u32,
-    /// Times of the last usual rounds that were timed, over what they might cost.
+    /// Times of the last timed usual rounds, relative to the estimated cost.
     usual: [f64; BEFORE],
     trial: Option<Trial>,
-    /// Trials in a row that found the other way quicker.
+    /// Consecutive trials that favoured the other mode.
     agreeing: u32,
 }
 
-/// A trial that is under way.
+/// A running trial.
 #[derive(Clone, Copy, Debug)]
 struct Trial {
     rounds: u32,
-    /// Those that went the way that is tried.
+    /// Rounds in the other mode.
     other_way: u32,
-    /// The least time of those that count, over what they might cost.
+    /// Least time of the counted rounds, relative to the estimated cost.
     least: f64,
 }
 
@@ -124,7 +126,7 @@ impl Trial {
     const NEW: Self = Self { rounds: 0, other_way: 0, least: f64::INFINITY };
 }
 
-/// How the next round is done.
+/// Mode of the next round, and whether it is timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Next {
     shares: bool,
@@ -150,7 +152,7 @@ impl Class {
         Next { shares: self.shares, is_timed: (self.left as usize) < BEFORE }
     }
 
-    /// A timed round took so long, over what it might cost.
+    /// Records the time of a timed round, relative to the estimated cost.
     fn note(&mut self, time: f64, workers_had_a_part: bool) {
         let Some(trial) = &mut self.trial else {
             self.usual.rotate_left(1);
@@ -159,7 +161,8 @@ impl Class {
             return;
         };
         trial.rounds += 1;
-        // To be shared is to be asked for: a worker that sleeps or has no core does not come.
+        // In a trial of the shared mode only rounds with a worker count; a worker that sleeps or has no core
+        // may not come.
         if self.shares || workers_had_a_part {
             trial.other_way += 1;
             if trial.other_way > FIRST {
@@ -173,7 +176,7 @@ impl Class {
         }
     }
 
-    /// The trial is over; its least time was so long.
+    /// Concludes a trial with its least relative time.
     fn conclude(&mut self, least: f64) {
         let usual = self.usual.iter().copied().fold(f64::INFINITY, f64::min);
         if least >= usual * QUICKER {
@@ -195,11 +198,11 @@ mod tests {
     use super::*;
     use pong_testkit::Random;
 
-    /// What a round takes each way, alone or shared, over what it might cost; and whether workers come when they are asked.
+    /// Simulated machine: relative times of a round, alone and shared, and whether workers come when asked.
     struct Machine {
         times: [f64; 2],
         workers_come: bool,
-        /// One round in so many takes thrice as long.
+        /// One round in this many takes three times as long.
         disturbed: usize,
         random: Random,
     }
@@ -209,7 +212,7 @@ mod tests {
             Self { times: [alone, shared], workers_come: true, disturbed: 20, random: Random::new(5, 0, 0) }
         }
 
-        /// Runs rounds; the share of them that were shared.
+        /// Runs rounds; returns the fraction that were shared.
         fn run(&mut self, class: &mut Class, rounds: usize) -> f64 {
             let mut shared = 0;
             for _ in 0..rounds {
@@ -265,7 +268,7 @@ mod tests {
         assert!(machine.run(&mut class, 10_000) > 0.98);
     }
 
-    /// Rounds that no worker came to say nothing about rounds that are shared; a trial without workers ends all the same.
+    /// Rounds without a worker are no evidence about shared rounds; a trial without workers still ends.
     #[test]
     fn workers_that_do_not_come_are_not_judged() {
         let (mut machine, mut class) = (Machine::new(1.0, 0.5), Class { shares: false, ..Class::NEW });
@@ -277,7 +280,7 @@ mod tests {
         assert!(class.shares);
     }
 
-    /// A worker that sleeps comes some rounds after it is asked for: these are not counted.
+    /// A sleeping worker comes some rounds after it is asked; these rounds are not counted.
     #[test]
     fn a_trial_waits_for_workers_that_come_late() {
         let mut class = Class { shares: false, ..Class::NEW };
@@ -297,7 +300,7 @@ mod tests {
         let (mut machine, mut class) = (Machine::new(1.0, 0.6), Class::NEW);
         machine.disturbed = usize::MAX;
         machine.run(&mut class, SOON as usize);
-        // What disturbs the usual rounds right before a trial makes the other way look quicker.
+        // A disturbance of the usual rounds right before a trial makes the other mode look faster.
         class.usual = [3.0; BEFORE];
         machine.run(&mut class, (FIRST + COUNTED) as usize);
         assert_eq!((class.shares, class.agreeing), (true, 1), "{class:?}");

@@ -1,12 +1,12 @@
-//! Where the scratch memory is too small for all contacts: as many of the deepest as it can hold are shared exactly,
-//! the others get nothing. The same contacts and the same size of memory always give the same shares.
+//! Fallback if the scratch memory is too small: as many of the deepest contacts as fit are shared exactly,
+//! the others get zero. The result depends only on the contacts and the memory size.
 
 use super::shared_contact::{SharedContact, deepest_of};
 use super::solve::solve;
 use super::uncoupled;
 use pong_arena::{Arena, Full};
 
-/// Fills in the λ of every contact; those that are left out get 0.
+/// Computes λ of every contact; contacts left out get 0.
 pub(super) fn share(contacts: &mut [SharedContact], scratch: &mut Arena) {
     scratch.reset();
     contacts.iter_mut().for_each(|contact| contact.lambda = 0.0);
@@ -17,12 +17,12 @@ pub(super) fn share(contacts: &mut [SharedContact], scratch: &mut Arena) {
     }
 }
 
-/// Scratch memory for the choice and the shares of so many contacts, bytes.
+/// Scratch memory to choose and share this many contacts, bytes.
 fn bytes(count: usize) -> usize {
     uncoupled::tableau(count).and::<u32>(count).and::<SharedContact>(count).bytes()
 }
 
-/// Shares the `count` deepest, in the order that they have among all.
+/// Shares the `count` deepest contacts, in their original order.
 fn share_some(contacts: &mut [SharedContact], count: usize, scratch: &Arena) -> Result<(), Full> {
     let mut chosen = scratch.list::<u32>(count)?;
     let mut last = None;
@@ -42,7 +42,7 @@ fn share_some(contacts: &mut [SharedContact], count: usize, scratch: &Arena) -> 
     Ok(())
 }
 
-/// The deepest of the contacts that come after `last`, by depth and then in their order.
+/// Deepest of the contacts after `last`, by decreasing depth, ties by index.
 fn next_deepest(contacts: &[SharedContact], last: Option<usize>) -> Option<usize> {
     let comes_after = |i: usize, j: usize| {
         contacts[i].depth < contacts[j].depth || (contacts[i].depth == contacts[j].depth && i > j)

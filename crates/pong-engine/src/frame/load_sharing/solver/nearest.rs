@@ -1,33 +1,34 @@
-//! The shortest vector that clears contacts which all couple: from the nearest point of a hull.
+//! Shortest vector that clears contacts which all couple, from the nearest point of a convex hull.
 //!
-//! With q_i = n_i/δ_i the conditions n_i·t ≥ δ_i read q_i·t ≥ 1, and the shortest t is p/|p|² with p the point of the
-//! convex hull of the q_i that is nearest to the origin: p = Σ μ_i·q_i, μ ≥ 0, Σ μ = 1, and q_i·p ≥ |p|² for all i. Then
-//! λ_i = μ_i/(|p|²·δ_i), and Σ w_i = Σ μ_i·|t|²/δ_i²: on a flat plate, where every δ_i is |t|, the weights sum to one
-//! *whatever* the μ_i are. So rounding, which leaves the μ_i of equal normals undetermined, cannot show in the force.
+//! With q_i = n_i/δ_i the conditions n_i·t ≥ δ_i read q_i·t ≥ 1, and the shortest t is p/|p|², where p is the
+//! point of the convex hull of the q_i nearest to the origin: p = Σ μ_i·q_i, μ ≥ 0, Σ μ = 1, and q_i·p ≥ |p|²
+//! for all i. Then λ_i = μ_i/(|p|²·δ_i), and Σ w_i = Σ μ_i·|t|²/δ_i². On a flat plate every δ_i is |t| and
+//! the weights sum to one for *any* μ_i. So the μ_i of equal normals, which rounding leaves undetermined, do
+//! not affect the force.
 //!
-//! In three dimensions at most three points carry p. The deepest contact is the first; while some contact is violated, the
-//! points that carry p and the most violated one are solved by trying the at most seven subsets with the new one. |t| grows
-//! with every exchange, so none repeats.
+//! In three dimensions at most three points carry p. The deepest contact is the first. While some contact is
+//! violated, the points that carry p and the most violated one are solved by trying the at most seven subsets
+//! with the new point. |t| grows with every exchange, so no subset repeats.
 //!
-//! Everything is seen from the deepest contact and measured in its depth: of nearly parallel normals the differences are
-//! exact where products of the normals are not.
+//! All quantities are relative to the deepest contact and in units of its depth: for nearly parallel normals,
+//! differences are exact where products are not.
 
 use super::shared_contact::{Coupling, SharedContact, deepest_of};
 use pong_geometry::Vec3;
 
-/// Relative to the largest depth: how far a contact may be violated. The depths themselves are not rounded better.
+/// Allowed violation of a contact relative to the largest depth; depths are not known more accurately.
 const VIOLATION_MAX: f64 = 1e-15;
-/// By how much |p|² may rise in an exchange: a few roundings of 1.
+/// Allowed increase of |p|² in an exchange: a few roundings of 1.
 const GAIN_SLACK: f64 = 1e-15;
 
-/// The shortest vector that clears all contacts, and the at most three that decide it.
+/// Shortest vector that clears all contacts, and the at most three contacts that determine it.
 #[derive(Clone, Copy)]
 pub(super) struct Shortest {
-    /// The contacts that decide it.
+    /// Contacts that determine the vector.
     pub members: [usize; 3],
     /// Their λ, m.
     pub lambdas: [f64; 3],
-    /// How many they are.
+    /// Number of valid entries in `members` and `lambdas`.
     pub count: usize,
     /// The vector, m.
     pub t_b: Vec3,
@@ -36,12 +37,12 @@ pub(super) struct Shortest {
 }
 
 impl Shortest {
-    /// Of contacts which all couple; there is at least one.
+    /// Shortest vector for a non-empty set of contacts that all couple.
     pub fn new(contacts: &[SharedContact]) -> Self {
         let deepest = deepest_of(contacts);
         let mut best = Self::at(contacts, deepest, HullPoint::of_one(Place::new(contacts, deepest, deepest)));
         let allowed = VIOLATION_MAX * contacts[deepest].depth;
-        // The bound only guards against endless exchange of contacts that differ by rounding.
+        // Iteration limit against endless exchange of contacts that differ by rounding.
         for _ in 0..8 * contacts.len() {
             let Some(worst) = best.most_violated(contacts, allowed) else { break };
             match best.exchange(contacts, worst, allowed) {
@@ -71,7 +72,7 @@ impl Shortest {
         }
     }
 
-    /// By how much a contact is cleared more than it must be: n·t − δ, m; negative if it is violated.
+    /// Excess clearance n·t − δ of a contact, m; negative if it is violated.
     pub fn slack(&self, contacts: &[SharedContact], contact: usize) -> f64 {
         let (base, contact) = (&contacts[self.deepest], &contacts[contact]);
         let coupling = Coupling::new(base, contact);
@@ -96,12 +97,12 @@ impl Shortest {
         worst
     }
 
-    /// The solution for the members and one more contact: of all subsets with that contact the first that clears them,
-    /// or the one that misses by least.
+    /// Solution for the members and one more contact: the first subset with that contact that clears them
+    /// all, or the one with the least violation.
     fn exchange(&self, contacts: &[SharedContact], entering: usize, allowed: f64) -> Option<Self> {
         let entering = Place::new(contacts, self.deepest, entering);
         let mut best: Option<(f64, Self)> = None;
-        // Bit k of the subset stands for member k.
+        // Bit k of the subset is member k.
         for subset in 0..1_usize << self.count {
             if subset.count_ones() > 2 {
                 continue;
@@ -129,13 +130,13 @@ impl Shortest {
     }
 }
 
-/// Where the q of a contact lies, seen from that of the deepest contact d.
+/// Position of a contact's q relative to that of the deepest contact d.
 #[derive(Clone, Copy)]
 struct Place {
     contact: usize,
-    /// a = (q − q_d)·δ_d.
+    /// Offset a = (q − q_d)·δ_d.
     offset: Vec3,
-    /// Its part along n_d: a·n_d = g·δ_d/δ − 1.
+    /// Component along n_d: a·n_d = g·δ_d/δ − 1.
     rise: f64,
 }
 
@@ -148,11 +149,11 @@ impl Place {
     }
 }
 
-/// A point of the hull of at most three places, seen from the deepest contact's.
+/// Point of the convex hull of at most three positions, relative to the deepest contact's.
 #[derive(Clone, Copy)]
 struct HullPoint {
     places: [Place; 3],
-    /// μ, positive, of sum one.
+    /// Convex coefficients μ, positive, with sum one.
     parts: [f64; 3],
     count: usize,
     offset: Vec3,
@@ -164,23 +165,24 @@ impl HullPoint {
         Self { places: [place; 3], parts: [1.0, 0.0, 0.0], count: 1, offset: place.offset, rise: place.rise }
     }
 
-    /// |p|² less that of the deepest contact alone.
+    /// |p|² minus that of the deepest contact alone.
     fn gain(&self) -> f64 {
         2.0 * self.rise + self.offset.norm_squared()
     }
 
-    /// The point nearest to the origin of the line or plane through some places; `None` if it is not between them.
+    /// Point nearest to the origin on the line or plane through some positions; `None` if it is not between
+    /// them.
     fn nearest(places: [Place; 3], count: usize) -> Option<Self> {
         let first = &places[0];
         let edge = |k: usize| places[k].offset - first.offset;
-        // How much nearer the origin comes along an edge: −q·e, q the first place.
+        // Decrease of the distance to the origin along an edge: −q·e with q the first position.
         let gained = |k: usize, edge: &Vec3| first.rise - places[k].rise - first.offset.dot(edge);
         let parts = match count {
             1 => return Some(Self::of_one(*first)),
             2 => {
                 let edge = edge(1);
                 let square = edge.norm_squared();
-                // Equal places decide nothing.
+                // Equal positions determine no line.
                 if square <= 0.0 {
                     return None;
                 }

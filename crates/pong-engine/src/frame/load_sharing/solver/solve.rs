@@ -1,11 +1,11 @@
-//! The shares of contacts, by the least work that their number and their normals allow.
+//! Selects the cheapest solver for the number of contacts and their normals.
 
 use super::nearest::Shortest;
 use super::shared_contact::{Coupling, SharedContact, all_couple};
 use super::{spread, uncoupled};
 use pong_arena::{Arena, Full};
 
-/// Fills in every λ, or none if the scratch memory is too small.
+/// Computes every λ, or none if the scratch memory is too small.
 pub(super) fn solve(contacts: &mut [SharedContact], scratch: &Arena) -> Result<(), Full> {
     match contacts {
         [] => {}
@@ -17,7 +17,8 @@ pub(super) fn solve(contacts: &mut [SharedContact], scratch: &Arena) -> Result<(
     Ok(())
 }
 
-/// For two, in closed form: λ₁ = (δ₁ − g·δ₂)/(1 − g²), or the deeper one alone where that leaves nothing for the other.
+/// Two contacts, in closed form: λ₁ = (δ₁ − g·δ₂)/(1 − g²), or only the deeper one if nothing remains for the
+/// other.
 fn share_two(first: &mut SharedContact, second: &mut SharedContact) {
     let coupling = Coupling::new(first, second);
     let beyond_first = coupling.beyond(second.depth, first.depth);
@@ -32,7 +33,7 @@ fn share_two(first: &mut SharedContact, second: &mut SharedContact) {
     };
 }
 
-/// For more that all couple.
+/// Three or more contacts that all couple.
 fn share_coupled(contacts: &mut [SharedContact]) {
     let shortest = Shortest::new(contacts);
     if spread::share(contacts, &shortest) {

@@ -1,31 +1,32 @@
-//! Where more contacts touch the shortest vector than decide it: the λ of least |λ|.
+//! Least-norm λ if more contacts touch the shortest vector t than determine it.
 //!
-//! Among all λ ≥ 0 with Σ λ_i·n_i = t these are λ_i = max(0, n_i·μ), with a vector μ that is found by solving for the
-//! contacts that carry until these no longer change. The condition holds in any stretched space as well, and with it the λ
-//! are the same: stretched across t, normals that differ by rounding of single precision lie as far apart as any others.
+//! Among all λ ≥ 0 with Σ λ_i·n_i = t, the one of least |λ| is λ_i = max(0, n_i·μ). The vector μ is found by
+//! repeatedly solving for the contacts that carry load until that set no longer changes. The condition is
+//! invariant to a linear stretch of space, and so is λ: with a stretch across t, normals that differ only by
+//! single-precision rounding are as far apart as any others.
 
 use super::nearest::Shortest;
 use super::shared_contact::SharedContact;
 use pong_geometry::{Mat3, Vec3};
 
-/// Relative to |t|: contacts this close to t carry it together.
+/// Slack relative to |t| below which a contact counts as touching t.
 const TIGHT_MAX: f64 = 1e-12;
-/// Relative to |t|: what they carry may differ from it by some roundings.
+/// Allowed residual of Σ λ_i·n_i relative to |t|: some roundings.
 const RESIDUAL_MAX: f64 = 4e-15;
-/// Normals this close to t, of unit length, differ by rounding alone: their contacts carry alike.
+/// Normals this close to the unit vector along t differ only by rounding; their contacts get equal λ.
 const ROUNDING_MAX: f64 = 1e-13;
-/// How often the contacts that carry are chosen anew.
+/// Limit on the number of active-set iterations.
 const CHOICES_MAX: usize = 50;
 
-/// Fills in every λ. Answers whether it could: not where no more contacts touch t than decide it, nor where rounding keeps
-/// the λ from adding up to t.
+/// Computes every λ. Returns false if no more contacts touch t than determine it, or if rounding keeps Σ
+/// λ_i·n_i from reaching t.
 pub(super) fn share(contacts: &mut [SharedContact], shortest: &Shortest) -> bool {
     let length = shortest.t_b.norm();
     let along = shortest.t_b / length;
     let (mut count, mut widest) = (0, 0.0_f64);
     for index in 0..contacts.len() {
         let is_tight = shortest.slack(contacts, index) <= TIGHT_MAX * length;
-        // Until the λ are known they tell which contacts are tight.
+        // Until λ is known, the field marks the contacts that touch t.
         contacts[index].lambda = f64::from(u8::from(is_tight));
         if is_tight {
             count += 1;
@@ -46,12 +47,12 @@ pub(super) fn share(contacts: &mut [SharedContact], shortest: &Shortest) -> bool
     (sum - shortest.t_b).norm() <= RESIDUAL_MAX * length
 }
 
-/// The part of a normal across t.
+/// Component of a normal perpendicular to t.
 fn across(normal: &Vec3, along: &Vec3) -> Vec3 {
     normal - along * normal.dot(along)
 }
 
-/// The μ of the tight contacts.
+/// The vector μ of the touching contacts.
 fn least(contacts: &[SharedContact], t: &Vec3, stretched: impl Fn(&Vec3) -> Vec3) -> Vec3 {
     let mut mu = *t;
     for _ in 0..CHOICES_MAX {
@@ -71,8 +72,8 @@ fn least(contacts: &[SharedContact], t: &Vec3, stretched: impl Fn(&Vec3) -> Vec3
     mu
 }
 
-/// x with G·x = b for a positive semidefinite G, by elimination with diagonal pivots; directions that G does not
-/// reach stay 0.
+/// Solves G·x = b for a positive semidefinite G by elimination with diagonal pivoting; directions in the null
+/// space of G stay 0.
 fn solve_symmetric(gram: &Mat3, b: &Vec3) -> Vec3 {
     const RANK_PIVOT_MIN: f64 = 1e-10;
     let smallest = RANK_PIVOT_MIN * gram.trace();

@@ -1,11 +1,12 @@
-//! Numbers of twice the digits: the sum of two `f64`, the second at most half a unit in the last place of the first.
+//! Double-double numbers: the unevaluated sum of two `f64`, the second at most half a unit in the last place
+//! of the first.
 //!
-//! The classic error-free sums and products of Knuth, Dekker and Veltkamp (T. J. Dekker, "A floating-point technique for
-//! extending the available precision", 1971), in plain operations: the same bits everywhere.
+//! Error-free sums and products of Knuth, Dekker and Veltkamp (T. J. Dekker, "A floating-point technique for
+//! extending the available precision", 1971), from plain operations only: the same bits on every machine.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number of about 31 decimal digits.
+/// A number with about 31 decimal digits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub(super) struct Twofold {
     high: f64,
@@ -13,35 +14,35 @@ pub(super) struct Twofold {
 }
 
 impl Twofold {
-    /// The sum of two numbers, exactly.
+    /// Exact sum of two numbers.
     pub fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let of_b = high - a;
         Self { high, low: (a - (high - of_b)) + (b - of_b) }
     }
 
-    /// The nearest `f64`.
+    /// Nearest `f64`.
     pub fn value(self) -> f64 {
         self.high
     }
 
-    /// The product of two numbers, exactly.
+    /// Exact product of two numbers.
     fn product(a: f64, b: f64) -> Self {
         let high = a * b;
         let ([a1, a2], [b1, b2]) = (halves(a), halves(b));
         Self { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
     }
 
-    /// For |a| ≥ |b|, or a = 0.
+    /// Exact sum for |a| ≥ |b|, or a = 0.
     fn quick_sum(a: f64, b: f64) -> Self {
         let high = a + b;
         Self { high, low: b - (high - a) }
     }
 }
 
-/// A number as the sum of two of half the digits.
+/// Splits a number into two of half the digits.
 fn halves(a: f64) -> [f64; 2] {
-    /// 2^27 + 1.
+    /// The splitting constant 2^27 + 1.
     const SPLITTER: f64 = 134_217_729.0;
     let scaled = SPLITTER * a;
     let upper = scaled - (scaled - a);

@@ -1,33 +1,34 @@
-//! Shares where some normals are more than 90° apart: those pairs do not couple.
+//! Load sharing if some normals are more than 90° apart; such pairs do not couple.
 //!
-//! λ ≥ 0,  G·λ − δ ≥ 0,  λ·(G·λ − δ) = 0  with G_ij = max(0, n_i·n_j), G_ii = 1: a linear complementarity problem.
-//! G has no negative entry and a positive diagonal, so xᵀGx > 0 for every x ≥ 0, x ≠ 0 (strictly copositive), and
-//! Lemke's method ends with a solution (R. W. Cottle, J.-S. Pang, R. E. Stone, "The Linear Complementarity
-//! Problem", theorem 4.4.9). The deepest contact enters first. There need not be a potential, nor continuity, nor a
-//! unique solution; the pivots decide, always the same way.
+//! λ ≥ 0,  G·λ − δ ≥ 0,  λ·(G·λ − δ) = 0  with G_ij = max(0, n_i·n_j), G_ii = 1: a linear complementarity
+//! problem. G has no negative entry and a positive diagonal, so xᵀGx > 0 for every x ≥ 0, x ≠ 0 (strictly
+//! copositive), and Lemke's method ends with a solution (R. W. Cottle, J.-S. Pang, R. E. Stone, "The Linear
+//! Complementarity Problem", theorem 4.4.9). The deepest contact enters first. There need not be a potential,
+//! continuity or a unique solution; the pivot order decides, always in the same way.
 //!
-//! Where two normals agree but for an angle θ, as those of a plate in pieces do, the method divides by 1 − g² = θ². The
-//! tableau is therefore kept in twice the digits ([`Twofold`]): of 1e-15, the rounding of the normals, θ² is still a number.
-//! It has n·(n + 2) of them for n contacts, the columns of the variables that are zero: those of the others are unit vectors.
-//! They come from an arena that was sized beforehand.
+//! For two normals at a small angle θ, as in a plate cut into pieces, the method divides by 1 − g² = θ². The
+//! tableau therefore uses double-double numbers ([`Twofold`]), in which the square of 1e-15, the rounding of
+//! the normals, is still significant. For n contacts it stores n·(n + 2) of them: only the columns of the
+//! nonbasic variables, since those of the basic ones are unit vectors. They come from an arena that was sized
+//! beforehand.
 
 use super::shared_contact::{Coupling, SharedContact, deepest_of};
 use super::twofold::Twofold;
 use pong_arena::{Arena, Demand, Full};
 
-/// What the tableau of so many contacts takes.
+/// Scratch memory of the tableau for this many contacts.
 pub(super) fn tableau(contacts: usize) -> Demand {
     let columns = contacts.saturating_add(2);
     let cells = contacts.saturating_mul(columns);
     Demand::default().and::<u32>(contacts).and::<u32>(contacts.saturating_add(1)).and::<Twofold>(cells)
 }
 
-/// Fills in the λ of every contact.
+/// Computes λ of every contact.
 ///
 /// # Errors
-/// [`Full`] if the tableau does not fit into the scratch memory: nothing is filled in.
+/// [`Full`] if the tableau does not fit into the scratch memory; then no λ is written.
 pub(super) fn share(contacts: &mut [SharedContact], scratch: &Arena) -> Result<(), Full> {
-    // In units of the largest depth no product leaves the range of numbers.
+    // In units of the largest depth no product overflows or underflows.
     let unit = contacts[deepest_of(contacts)].depth;
     let mut tableau = Tableau::new(contacts, unit, scratch)?;
     tableau.solve();
@@ -37,22 +38,22 @@ pub(super) fn share(contacts: &mut [SharedContact], scratch: &Arena) -> Result<(
     Ok(())
 }
 
-/// Lemke's tableau of w − G·λ − 1·z₀ = −δ: each row is solved for one variable, the others are zero. Variables are numbered
-/// w (n), λ (n), z₀. Columns: those of the variables that are zero, and the right side.
+/// Lemke's tableau of w − G·λ − 1·z₀ = −δ: each row is solved for one basic variable, the nonbasic ones are
+/// zero. Variable indices: w (n), λ (n), z₀. Columns: the nonbasic variables, then the right-hand side.
 struct Tableau<'a> {
     n: usize,
-    /// Row after row.
+    /// Cells in row-major order.
     cells: &'a mut [Twofold],
-    /// Which variable each row solves for.
+    /// Basic variable of each row.
     basis: &'a mut [u32],
-    /// Which variable each column belongs to.
+    /// Nonbasic variable of each column.
     zero: &'a mut [u32],
 }
 
 impl<'a> Tableau<'a> {
     fn new(contacts: &[SharedContact], unit: f64, scratch: &'a Arena) -> Result<Self, Full> {
         let n = contacts.len();
-        // All are asked for before any may be refused: the arena's peak then tells the whole need.
+        // Request all slices before checking any, so that the arena's peak shows the total demand.
         let (basis, zero) = (scratch.slice(n, 0), scratch.slice(n + 1, 0));
         let cells = scratch.slice(n * (n + 2), Twofold::default());
         let mut tableau = Self { n, cells: cells?, basis: basis?, zero: zero? };
@@ -88,7 +89,7 @@ impl<'a> Tableau<'a> {
         let n = self.n as u32;
         let artificial = 2 * n;
         let right = self.n + 1;
-        // z₀ enters where the right side is most negative: at the deepest contact.
+        // z₀ enters where the right-hand side is most negative, at the deepest contact.
         let mut row = 0;
         for i in 1..self.n {
             if self.row(i)[right] < self.row(row)[right] {
@@ -96,7 +97,7 @@ impl<'a> Tableau<'a> {
             }
         }
         let mut column = self.n;
-        // The bound only guards against cycling among contacts that differ by rounding.
+        // Iteration limit against cycling among contacts that differ by rounding.
         for _ in 0..64 * (self.n + 1) {
             let leaving = self.basis[row];
             self.pivot(row, column);
@@ -113,9 +114,10 @@ impl<'a> Tableau<'a> {
         }
     }
 
-    /// The row that limits the entering variable, given by its column; z₀ leaves as soon as it may, other ties go to the lower row.
+    /// Row that limits the entering variable of a column. z₀ leaves as soon as it can; other ties go to the
+    /// lower row.
     fn ratio_test(&self, entering: usize) -> Option<usize> {
-        /// The square of the angle by which rounding may turn equal normals.
+        /// Square of the angle by which rounding may rotate equal normals.
         const PIVOT_MIN: f64 = 1e-29;
         let right = self.n + 1;
         let artificial = 2 * self.n as u32;
@@ -134,7 +136,7 @@ impl<'a> Tableau<'a> {
         best.map(|(row, _)| row)
     }
 
-    /// Solves a row for the variable of a column; the one that it was solved for becomes zero.
+    /// Pivots: solves a row for the variable of a column; the row's old variable becomes nonbasic.
     fn pivot(&mut self, row: usize, column: usize) {
         let columns = self.columns();
         let (before, rest) = self.cells.split_at_mut(row * columns);
@@ -156,7 +158,7 @@ impl<'a> Tableau<'a> {
     }
 }
 
-/// How much two contacts couple, in twice the digits: 1 less what it lacks to 1.
+/// Coupling of two contacts in double-double precision.
 fn cosine(a: &SharedContact, b: &SharedContact) -> Twofold {
     let coupling = Coupling::new(a, b);
     if coupling.is_near { Twofold::sum(1.0, -coupling.gap) } else { Twofold::from(coupling.cosine) }

@@ -1,4 +1,5 @@
-//! A point or a sphere in a bore: beside its centre, and opposite where it is too large for the hole. The two share one spring.
+//! A point or a sphere in a bore: a contact at the nearest wall and, if it is too large for the hole, one
+//! opposite. The two share one spring.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
@@ -8,7 +9,7 @@ use pong_geometry::primitive::Sphere;
 
 pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
     let (body_a, element) = (pair.body_a(), pair.item_a.element as usize);
-    // A point is a ball of no size.
+    // A point is a sphere of zero radius.
     let (ball, local) = match a {
         TransformedPrimitive::Sphere(sphere) => (*sphere, body_a.spheres[element].center),
         TransformedPrimitive::Point(point) => {

@@ -13,7 +13,7 @@ pub(crate) fn test_capsule(
     pair.whole(ball_capsule(&ball(a), &pair.body_b().capsules[pair.item_b.element as usize]), found);
 }
 
-/// A cylinder or a cone.
+/// Tests against a cylinder or a cone.
 pub(crate) fn test_frustum(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -22,7 +22,7 @@ pub(crate) fn test_frustum(
     pair.whole(ball_frustum(&ball(a), &pair.body_b().frusta[pair.item_b.element as usize]), found);
 }
 
-/// A point is a ball of no size.
+/// Sphere of the element; a point has zero radius.
 fn ball(a: &TransformedPrimitive) -> Sphere {
     match a {
         TransformedPrimitive::Sphere(sphere) => *sphere,

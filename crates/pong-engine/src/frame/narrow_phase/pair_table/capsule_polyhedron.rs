@@ -1,4 +1,4 @@
-//! A capsule on a piece of a body: the balls at its ends, and the convex edges that its axis crosses between them.
+//! A capsule on a piece of a body: the end spheres, and the convex edges that the axis crosses between them.
 
 use super::sphere_polyhedron::test_ball;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;

@@ -1,4 +1,4 @@
-//! A capsule on a triangle: the balls at its ends, and of the triangle's edges that are convex or free those that its axis crosses.
+//! A capsule on a triangle: the end spheres, and the convex or free edges that the axis crosses.
 
 use super::sphere_triangle::test_ball;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;

@@ -1,4 +1,4 @@
-//! An ellipsoid in a half space.
+//! An ellipsoid in a half-space.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};

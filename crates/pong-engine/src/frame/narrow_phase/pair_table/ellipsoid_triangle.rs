@@ -10,7 +10,7 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
     test_ready(pair, &EllipsoidOnTriangles::new(ellipsoid), found);
 }
 
-/// Of an ellipsoid that was made ready.
+/// Tests with a precomputed ellipsoid.
 pub(crate) fn test_ready(
     pair: &ElementPair<'_>,
     ready: &EllipsoidOnTriangles,

@@ -1,4 +1,4 @@
-//! A line segment in a half space: each end carries half of the spring.
+//! A line segment in a half-space: each end carries half of the spring.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};

@@ -21,7 +21,7 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
     }
 }
 
-/// How an end of a segment in a piece of a body stands among those of the same surface.
+/// Candidate status of a segment's end in a piece of a body.
 fn status_of_end(contact: &Interference, at_wall: AtWall, piece: &Polyhedron) -> CandidateStatus {
     match at_wall {
         AtWall::SharedEdge | AtWall::Exit => CandidateStatus::AtWall,

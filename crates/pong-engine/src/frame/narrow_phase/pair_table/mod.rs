@@ -1,6 +1,6 @@
-//! The one table of pairs of kinds: which kind as A is tested against which as B, by what, and what that costs. Dispatch, the
-//! layout of the work, the default capacity and the seal read it; a new pair is a file beside this one and a row here.
-//! A blank is ignored, as the author may intend.
+//! Table of tested kind pairs: kind of A, kind of B, contact tester and cost. Used by dispatch, block layout,
+//! default capacity and seal. A new pair needs a file beside this one and a row here. Blank pairs are
+//! ignored, since the author may intend them.
 //!
 //! ```text
 //!  A \ B         Sphere  Ellipsoid  Triangle  Polyhedron  Plane  Capsule  Cylinder  Cone  Bore
@@ -46,22 +46,22 @@ use super::element_pair::{ChunkCandidates, ElementPair};
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use pong_geometry::primitive::PrimitiveKind::{self, *};
 
-/// A contact tester: one element of A, carried into B's frame, against one element of B.
+/// Contact tester: one element of A, in B's frame, against one element of B.
 pub(crate) type Test = fn(&ElementPair<'_>, &TransformedPrimitive, &mut ChunkCandidates<'_>);
 
-/// A pair of kinds that is tested.
+/// A tested pair of kinds.
 pub(crate) struct KindPair {
     pub a: PrimitiveKind,
     pub b: PrimitiveKind,
     pub test: Test,
-    /// Time that an element of A takes against a body with elements of B, ns, roughly: for cutting the work into blocks, and for
-    /// the choice to do it on the calling thread alone. It decides nothing else.
+    /// Rough time for an element of A against a body with elements of B, ns. Used only to split the work into
+    /// blocks, and to choose between workers and the calling thread.
     pub cost_ns: u32,
-    /// Contacts of one primitive of A with one shell of B that the default capacity has room for.
+    /// Default capacity in contacts, per primitive of A and shell of B.
     pub contacts: usize,
 }
 
-/// What a test that the host has registered is taken to cost, ns, and how many contacts it is taken to find.
+/// Assumed cost, ns, and number of contacts of a registered test.
 pub(crate) const REGISTERED: (u32, usize) = (200, 1);
 
 #[rustfmt::skip]
@@ -115,7 +115,7 @@ const ROWS: &[KindPair] = &[
 const KINDS: usize = PrimitiveKind::ALL.len();
 const NO_ROW: u8 = u8::MAX;
 
-/// Where the row of a pair stands, by the numbers of the two kinds. No pair has two rows.
+/// Row index of each pair, by kind numbers. No pair has two rows.
 const PLACES: [[u8; KINDS]; KINDS] = {
     let mut places = [[NO_ROW; KINDS]; KINDS];
     let mut row = 0;
@@ -128,13 +128,13 @@ const PLACES: [[u8; KINDS]; KINDS] = {
     places
 };
 
-/// The row of a pair, if it is tested.
+/// Row of a pair, if it is tested.
 #[inline]
 pub(crate) fn kind_pair(a: PrimitiveKind, b: PrimitiveKind) -> Option<&'static KindPair> {
     ROWS.get(PLACES[a as usize][b as usize] as usize)
 }
 
-/// The tests of all pairs, by the numbers of the two kinds: a frame looks here for every two elements that may touch.
+/// Testers of all pairs by kind numbers; a frame looks here for every two elements that may touch.
 const TESTS: [[Option<Test>; KINDS]; KINDS] = {
     let mut tests = [[None; KINDS]; KINDS];
     let mut row = 0;
@@ -145,19 +145,19 @@ const TESTS: [[Option<Test>; KINDS]; KINDS] = {
     tests
 };
 
-/// The contact tester of a pair, if the table has one.
+/// Contact tester of a pair, if any.
 #[inline]
 pub(crate) fn test_of(a: PrimitiveKind, b: PrimitiveKind) -> Option<Test> {
     TESTS[a as usize][b as usize]
 }
 
-/// Most contacts of one primitive of a kind, as A, with one shell.
+/// Maximum contacts of one primitive of kind `a`, as A, with one shell.
 pub(crate) fn most_contacts(a: PrimitiveKind) -> usize {
     let registered = if a == Custom { REGISTERED.1 } else { 0 };
     ROWS.iter().filter(|row| row.a == a).map(|row| row.contacts).fold(registered, usize::max)
 }
 
-/// Whether the engine tests primitives of kind `a` as A against primitives of kind `b` as B.
+/// Returns true if the engine tests primitives of kind `a` as A against primitives of kind `b` as B.
 pub fn has_tester(a: PrimitiveKind, b: PrimitiveKind) -> bool {
     kind_pair(a, b).is_some()
 }
@@ -166,7 +166,7 @@ pub fn has_tester(a: PrimitiveKind, b: PrimitiveKind) -> bool {
 mod tests {
     use super::*;
 
-    /// The table at the head of this file is what the rows say.
+    /// The table in the head comment of this file matches the rows.
     #[test]
     fn the_written_table_shows_the_rows() {
         let text = include_str!("mod.rs").lines().filter_map(|line| line.strip_prefix("//!  "));

@@ -1,4 +1,4 @@
-//! A point in a polyhedron: only points inside, or at an inner wall, get here.
+//! A point in a polyhedron; only points inside or on an internal face get here.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::candidate::CandidateStatus;

@@ -1,4 +1,4 @@
-//! A ray into the wall of a bore, from within the hole.
+//! A ray into the wall of a bore, from inside the hole.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};

@@ -1,4 +1,4 @@
-//! A ray into a half space.
+//! A ray into a half-space.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};

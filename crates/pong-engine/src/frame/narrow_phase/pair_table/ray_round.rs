@@ -1,4 +1,4 @@
-//! A ray into a ball, an ellipsoid, a capsule, a cylinder or a cone.
+//! A ray into a sphere, an ellipsoid, a capsule, a cylinder or a cone.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
@@ -29,7 +29,7 @@ pub(crate) fn test_capsule(
     emit(pair, ray, ray_capsule(ray, &pair.body_b().capsules[pair.item_b.element as usize]), found);
 }
 
-/// A cylinder or a cone.
+/// Tests against a cylinder or a cone.
 pub(crate) fn test_frustum(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,

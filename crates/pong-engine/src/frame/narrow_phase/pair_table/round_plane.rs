@@ -1,4 +1,5 @@
-//! A capsule, a cylinder or a cone in a half space: half a spring at each ball, and at the lowest and highest place of each disc.
+//! A capsule, a cylinder or a cone in a half-space: half a spring at each end sphere, and at the lowest and
+//! highest point of each end disc.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};

@@ -10,7 +10,7 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
     test_ball(pair, &Ball::of(sphere), false, found);
 }
 
-/// `over_face`: whether the face alone may push.
+/// Tests a sphere; with `over_face`, only the face can push.
 pub(crate) fn test_ball(
     pair: &ElementPair<'_>,
     ball: &Ball<'_>,

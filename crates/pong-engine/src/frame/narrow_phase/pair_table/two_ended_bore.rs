@@ -1,4 +1,4 @@
-//! A line segment, a capsule or a cylinder in a bore: half a spring at each end of what is in the hole.
+//! A line segment, a capsule or a cylinder in a bore: half a spring at each end of the part in the hole.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};

@@ -1,5 +1,5 @@
-//! A line segment or a capsule on a capsule, a cylinder or a cone: half a spring at each end of what overlaps, and at the deepest
-//! place what the two ends leave.
+//! A line segment or a capsule on a capsule, a cylinder or a cone: half a spring at each end of the overlap,
+//! and a contact at the deepest point for the remainder.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
@@ -21,7 +21,7 @@ pub(crate) fn test_capsule(
     emit(pair, &contacts, found);
 }
 
-/// A cylinder or a cone.
+/// Tests against a cylinder or a cone.
 pub(crate) fn test_frustum(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,

@@ -1,18 +1,18 @@
-//! The shortest vector in exact arithmetic: every set of at most three contacts is tried, in whole numbers of any length.
+//! Shortest vector in exact arithmetic, by trying every set of at most three contacts with big integers.
 
 use super::super::SharedContact;
 use pong_geometry::Vec3;
 use std::cmp::Ordering;
 
-/// Numbers must be multiples of 2^-`SCALE`.
+/// All input numbers must be multiples of 2^-`SCALE`.
 const SCALE: i32 = 90;
 
-/// Rounds to what is exact here.
+/// Rounds to a multiple of 2^-`SCALE`.
 pub(super) fn rounded(x: f64) -> f64 {
     (x * libm::ldexp(1.0, SCALE)).round() * libm::ldexp(1.0, -SCALE)
 }
 
-/// A whole number: sign and digits to the base 2^32, the lowest first.
+/// A big integer: sign, and digits in base 2^32, lowest first.
 #[derive(Clone, Debug)]
 struct Whole {
     negative: bool,
@@ -20,7 +20,7 @@ struct Whole {
 }
 
 impl Whole {
-    /// x·2^`SCALE`.
+    /// The integer x·2^`SCALE`.
     fn new(x: f64) -> Self {
         let scaled = x.abs() * libm::ldexp(1.0, SCALE);
         assert!(scaled < libm::ldexp(1.0, 120) && scaled.fract() == 0.0, "{x}");
@@ -94,7 +94,7 @@ impl Whole {
         order.then_with(|| self.digits.iter().rev().cmp(other.digits.iter().rev())) == Ordering::Greater
     }
 
-    /// A number and a power of 2^32: together the value, to 53 digits.
+    /// Leading 53 bits and the power of 2^32 that scales them.
     fn leading(&self) -> (f64, i32) {
         let top = self.digits.len().saturating_sub(4);
         let value = self.digits[top..]
@@ -118,7 +118,7 @@ fn dot(a: &[Whole; 3], b: &[Whole; 3]) -> Whole {
     sum((0..3).map(|axis| a[axis].times(&b[axis])))
 }
 
-/// The determinant of a matrix of at most three rows.
+/// Determinant of a matrix of at most three rows.
 fn determinant(rows: &[Vec<Whole>]) -> Whole {
     match rows.len() {
         1 => rows[0][0].clone(),
@@ -133,7 +133,8 @@ fn determinant(rows: &[Vec<Whole>]) -> Whole {
     }
 }
 
-/// The shortest t with n·t ≥ δ for all contacts, rounded at the end; which contacts decide it, and Σ λ/δ of these.
+/// Shortest t with n·t ≥ δ for all contacts, rounded at the end; the bit set of contacts that determine it;
+/// and their Σ λ/δ.
 pub(super) fn shortest(contacts: &[SharedContact]) -> (Vec3, usize, f64) {
     let normals: Vec<[Whole; 3]> =
         contacts.iter().map(|c| std::array::from_fn(|axis| Whole::new(c.normal_b[axis]))).collect();
@@ -148,7 +149,7 @@ pub(super) fn shortest(contacts: &[SharedContact]) -> (Vec3, usize, f64) {
         if whole.sign() == 0 {
             continue;
         }
-        // Cramer's rule; a Gram matrix that is regular has a positive determinant.
+        // Cramer's rule; the determinant of a regular Gram matrix is positive.
         let lambda = |column: usize| {
             let mut rows = rows.clone();
             rows.iter_mut().zip(&members).for_each(|(row, &i)| row[column] = depths[i].clone());

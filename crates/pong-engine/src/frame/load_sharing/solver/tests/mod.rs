@@ -1,4 +1,5 @@
-//! Shares: known answers, independent slow methods, recorded bits, and what happens when memory runs out.
+//! Load sharing: known answers, independent slow methods, recorded bits, and scratch memory that is too
+//! small.
 
 mod exact;
 
@@ -7,7 +8,7 @@ use super::*;
 use pong_geometry::Vec3;
 use pong_testkit::Random;
 
-/// With as much scratch memory as it takes.
+/// Shares with enough scratch memory.
 fn share(contacts: &mut [SharedContact]) {
     let mut scratch = Arena::with_capacity(scratch_bytes(contacts.len()));
     share_within(contacts, &mut scratch).unwrap();
@@ -48,7 +49,8 @@ fn rounding_in_the_normals_of_a_plate_does_not_show() {
     assert!((t - Vec3::z() * 1e-3).norm() < 1e-3 * 5e-8);
 }
 
-/// Known answer: the shortest vector that clears three walls is the corner point where all three are tight.
+/// Known answer: the shortest vector that clears three walls leads to the corner point, where all three are
+/// tight.
 #[test]
 fn three_walls_meet_in_their_corner() {
     let walls =
@@ -91,8 +93,8 @@ fn random_sets_agree_with_slow_descent() {
     }
 }
 
-/// Normals that differ by an angle in a random pose, depths that differ as little as it takes to share; on request with
-/// walls across.
+/// Nearly parallel normals at a given fold angle in a random orientation, with depths that differ little
+/// enough to share; optionally with walls across them.
 fn folded_set(random: &mut Random, count: usize, fold: f64, walls: usize) -> Vec<SharedContact> {
     let direction = |random: &mut Random| Vec3::from_fn(|_, _| random.unit() - 0.5).normalize();
     let base = direction(random);
@@ -114,8 +116,9 @@ fn folded_set(random: &mut Random, count: usize, fold: f64, walls: usize) -> Vec
 
 /// Independent method: exact arithmetic over all sets of at most three contacts.
 ///
-/// Depths and normals are numbers of 16 digits themselves: they decide where between normals θ apart the force points to
-/// 1e-16/θ (worse where three normals lie nearly in a row), and no better than θ. How long it is and what the weights sum to, they decide always.
+/// Depths and normals have 16 digits themselves. Between normals at an angle θ they determine the force
+/// direction to 1e-16/θ (worse for three nearly coplanar normals), and never better than θ. They always
+/// determine its magnitude and the sum of the weights.
 #[test]
 fn folds_of_any_angle_agree_with_exact_arithmetic() {
     let mut random = Random(31);
@@ -137,7 +140,7 @@ fn folds_of_any_angle_agree_with_exact_arithmetic() {
         println!(
             "fold {fold:.0e}: {shared} of 300 shared; length off by {length:.0e}, direction {direction:.0e}, weights {weights:.0e}"
         );
-        // Folds below 1e-7 move depths by less than their rounding.
+        // Folds below 1e-7 change depths by less than their rounding.
         assert!(shared > 100 || fold < 1e-7, "{shared}");
         assert!(length < 1e-14 && weights < 1e-12);
         assert!(direction < (3e-14 / fold).clamp(1e-14, 2.0 * fold), "{direction:e}");
@@ -168,7 +171,8 @@ fn folds_beside_walls_agree_with_exact_arithmetic() {
     }
 }
 
-/// Two plates in pieces that do not couple and one across both that couples with each: the weights of each plate.
+/// Two plates in pieces that do not couple with each other, and a third that couples with both: total weight
+/// of each plate.
 #[test]
 fn plates_in_pieces_share_alike_where_some_normals_do_not_couple() {
     let mut random = Random(13);
@@ -199,8 +203,8 @@ fn plates_in_pieces_share_alike_where_some_normals_do_not_couple() {
     }
 }
 
-/// Two pieces of a plate that lean by so little that the square of the angle is far below the numbers that they are made of, and
-/// equally deep: by symmetry each carries half, whatever else there is that does not couple.
+/// Two equally deep pieces of a plate, tilted by so little that the squared angle is far below the rounding
+/// of the normals. By symmetry each carries half, also beside contacts that do not couple.
 #[test]
 fn pieces_that_lean_a_little_carry_half_each_beside_what_does_not_couple() {
     let turn = pong_geometry::Quat::from_scaled_axis(Vec3::new(0.3, -1.1, 0.7));
@@ -217,7 +221,7 @@ fn pieces_that_lean_a_little_carry_half_each_beside_what_does_not_couple() {
     }
 }
 
-/// Normals more than 90° apart do not couple: the fixed point of the definition itself.
+/// Normals more than 90° apart do not couple: λ satisfies the fixed-point definition itself.
 #[test]
 fn opposed_normals_satisfy_the_definition() {
     let mut random = Random(21);
@@ -242,7 +246,7 @@ fn opposed_normals_satisfy_the_definition() {
     }
 }
 
-/// Sets as they come from awkward places: normals all around, some opposed or equal, some depths equal.
+/// Awkward sets: normals all around, some opposed or equal, some depths equal.
 fn awkward_set(random: &mut Random, count: usize) -> Vec<SharedContact> {
     let mut set: Vec<SharedContact> = Vec::new();
     for i in 0..count {
@@ -259,7 +263,7 @@ fn awkward_set(random: &mut Random, count: usize) -> Vec<SharedContact> {
     set
 }
 
-/// Sets full of ties: normals along few directions, few different depths.
+/// Sets full of ties: few directions, few different depths.
 fn set_full_of_ties(random: &mut Random, count: usize) -> Vec<SharedContact> {
     let directions = [Vec3::x(), Vec3::y(), -Vec3::x(), Vec3::new(0.6, 0.8, 0.0), Vec3::new(-0.6, 0.8, 0.0)];
     let shared_contact = |_| {
@@ -273,7 +277,7 @@ fn lambda_bits(shared_contacts: &[SharedContact]) -> impl Iterator<Item = u64> {
     shared_contacts.iter().map(|shared_contact| shared_contact.lambda.to_bits())
 }
 
-/// Recorded of the code that keeps the tableau in twice the digits.
+/// Recorded from the double-double implementation.
 #[test]
 fn the_pivots_are_the_recorded_ones_to_the_last_bit() {
     let recorded = |set: fn(&mut Random, usize) -> Vec<SharedContact>| {
@@ -293,7 +297,7 @@ fn the_pivots_are_the_recorded_ones_to_the_last_bit() {
     assert_eq!(recorded(set_full_of_ties), 0x67fa_c6b7_0ac9_5003);
 }
 
-/// As many of the deepest as fit, ties in their order.
+/// Indices of the `count` deepest contacts, ties by index.
 fn deepest_first(set: &[SharedContact], count: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..set.len()).collect();
     order.sort_by(|&i, &j| set[j].depth.total_cmp(&set[i].depth));
@@ -315,7 +319,7 @@ fn with_too_little_memory_the_deepest_are_shared_exactly_and_the_rest_get_nothin
         if share_within(&mut shared, &mut scratch).is_ok() {
             continue;
         }
-        // Which ones were shared follows from how many fitted; one of the counts must explain every λ.
+        // Some count of deepest contacts must explain every λ.
         let explained = (1..set.len()).find(|&count| {
             let chosen = deepest_first(&set, count);
             let mut alone: Vec<SharedContact> = chosen.iter().map(|&i| set[i]).collect();
@@ -347,7 +351,7 @@ fn the_fallback_fills_the_memory_that_there_is() {
     let (many, filled) = sharing_at(scratch_bytes(30) - 16);
     assert!(few < many, "{few} {many}");
     assert!(filled > 0.9, "{filled}");
-    // No memory at all: the deepest alone.
+    // No memory at all: only the deepest contact.
     assert_eq!(sharing_at(0).0, 1);
 }
 
@@ -362,7 +366,7 @@ fn the_peak_of_the_scratch_memory_is_the_size_to_give() {
         let full = share_within(&mut set, &mut scratch).unwrap_err();
         assert!(full.asked > full.free);
         assert_eq!(scratch.peak(), scratch_bytes(25));
-        // What is left of a refusal does not show in the next set.
+        // A refused call must not affect the next one.
         let mut two = [SharedContact::new(Vec3::x(), 1.0), SharedContact::new(-Vec3::x(), 2.0)];
         assert!(share_within(&mut two, &mut scratch).is_ok());
         let mut enough = Arena::with_capacity(scratch.peak());
