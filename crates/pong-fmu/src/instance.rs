@@ -69,7 +69,7 @@ pub(crate) struct Flags {
 /// Summary of the contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Summary {
-    /// Number of contacts.
+    /// Number of contacts, without a unit.
     pub count: f64,
     /// Largest depth, m.
     pub largest_depth: f64,

@@ -1,4 +1,4 @@
-// Marks where contacts are and arrows for their forces. Marks and shafts keep their size on the screen; the length of an
+// Marks at contacts and arrows for their forces. Marks and shafts keep their size on the screen; the length of an
 // arrow is the force.
 
 import {
@@ -30,7 +30,7 @@ class Arrows extends Group {
         this.materials.forEach((material) => material.color.set(color));
     }
 
-    /** From these places by these vectors, m. */
+    /** Sets the start points and vectors of the arrows, m. */
     set(arrows) {
         this.arrows = arrows;
         if (arrows.length > this.capacity) this.#grow(arrows.length);
@@ -104,10 +104,10 @@ class Marks extends Points {
     }
 }
 
-/** 1 where the force on A is shown, -1 for the one on B. */
+/** 1 if the force on A is shown, -1 for the one on B. */
 export const signFor = ({ a, b }, body) => (b.body === body && a.body !== body ? -1 : 1);
 
-/** Everything that is drawn of the contacts of a frame. */
+/** Drawn objects of the contacts of a frame. */
 export class ContactMarks extends Group {
     constructor() {
         super();

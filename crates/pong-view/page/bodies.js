@@ -11,16 +11,16 @@ import { niceStep } from "#view/units.js";
 
 const POINT_PIXELS = 7, LINE_PIXELS = 3;
 const XRAY = 0.3;
-/** A body that stands still is shown at the start unless it is larger by this. */
+/** A still body is shown at the start unless it is larger than the moving ones by this factor. */
 const SURROUNDINGS = 4;
-/** A way this many times as long as the bodies on it is not shown as a whole at the start. */
+/** A path longer than this many times the bodies on it is not shown as a whole at the start. */
 const LONG_WAY = 12;
-/** Frames looked at to find out how much room a run takes. */
+/** Number of frames sampled for the extent of a run. */
 const SAMPLES = 200;
-/** Every so many-th of them brings its places into the picture. */
+/** Stride of the sampled frames whose positions are fitted into the picture. */
 const STATIONS = 20;
 
-/** A body with everything that is drawn of it. */
+/** A body and its drawn objects. */
 class BodyView extends Group {
     constructor(index, color, meshes, dot) {
         super();
@@ -113,7 +113,7 @@ export class Bodies extends Group {
         this.#measure();
     }
 
-    /** Puts all bodies where they are at a moment; between two frames on the straight and the shortest way. */
+    /** Sets the poses of all bodies at a moment; between frames interpolated linearly, rotations on the shortest arc. */
     show(frame, fraction) {
         this.views.forEach((view, body) => {
             this.#pose(frame, body, this.from);
@@ -142,7 +142,7 @@ export class Bodies extends Group {
         pose.turn.set(x, y, z, w);
     }
 
-    /** Box around some bodies as they stand. */
+    /** Box around some bodies in their present poses. */
     box(indices = this.views.keys()) {
         const box = new Box3();
         for (const index of indices) {
@@ -159,7 +159,7 @@ export class Bodies extends Group {
         return this.movers.length ? this.movers : [...this.views.keys()];
     }
 
-    /** Places on the outside of some bodies as they stand. */
+    /** Points on the outside of some bodies in their present poses. */
     places(indices = this.views.keys()) {
         return [...indices].flatMap((index) => {
             const view = this.views[index];
@@ -167,7 +167,7 @@ export class Bodies extends Group {
         });
     }
 
-    /** What to look at: the bodies that move, on their way unless that is long, and what else is of their size. */
+    /** Points to fit into the picture: the moving bodies, with their path unless it is long, and other bodies of their size. */
     get subject() {
         const now = this.box(this.moving), limit = SURROUNDINGS * sizeOf(now);
         const still = [...this.views.keys()].filter((body) => sizeOf(this.box([body])) < limit);
@@ -175,7 +175,7 @@ export class Bodies extends Group {
         return this.isWayShort ? [...places, ...this.stations] : places;
     }
 
-    // Room that the run takes, who moves, and planes of a size to suit.
+    // Extent of the run, moving bodies, and planes of a matching size.
     #measure() {
         const { run } = this, room = new Box3(), start = [];
         const steps = Math.max(1, Math.ceil(run.frameCount / SAMPLES));

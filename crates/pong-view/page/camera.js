@@ -2,11 +2,11 @@
 
 import { Box3, OrbitControls, Quaternion, Vector3 } from "three";
 
-/** Views by name: where the camera stands from what it looks at. */
+/** Views by name: direction from the target to the camera. */
 const VIEWS = { oblique: [1, -1.4, 1.1], front: [0, -1, 0], right: [1, 0, 0], top: [0, -1e-4, 1], left: [-1, 0, 0], back: [0, 1, 0] };
-/** Of the picture that what is looked at may fill, across and up; bars lie over its upper and lower edge. */
+/** Share of the picture, in width and height, that the target may fill; bars cover its upper and lower edge. */
 const FILL = [0.9, 0.76];
-/** Of the shown distance, for the keys that turn and zoom. */
+/** Factor of the distance for one press of a zoom key. */
 const KEY_ZOOM = 1.2;
 
 export class CameraControl {
@@ -55,7 +55,7 @@ export class CameraControl {
         this.#remember();
     }
 
-    /** Looks at places from a standard side, or from where it is. */
+    /** Looks at points from a standard direction, or from the present one. */
     frame(places, side) {
         if (!places.length) places = [new Vector3(-0.5, -0.5, -0.5), new Vector3(0.5, 0.5, 0.5)];
         const { camera } = this.stage;
@@ -72,7 +72,7 @@ export class CameraControl {
         this.stage.redraw();
     }
 
-    // What to look at along a direction, and from how far, so that all places fill the picture.
+    // Target along a direction, and distance, for which all points fill the picture.
     #aim(places, direction) {
         const { camera } = this.stage;
         const across = new Vector3().crossVectors(camera.up, direction).normalize();
@@ -81,7 +81,7 @@ export class CameraControl {
         const slopes = [FILL[0] * slope * camera.aspect, FILL[1] * slope];
         const target = new Box3().setFromPoints(places).getCenter(new Vector3());
         let distance = 1;
-        // The middle of what is seen is not the middle of what is there: what is near is larger.
+        // The centre of the picture is not the centre of the points, because near things look larger.
         for (let round = 0; round < 4; round++) {
             const seen = places.map((place) => {
                 const from = place.clone().sub(target);
@@ -96,7 +96,7 @@ export class CameraControl {
         return { target, distance };
     }
 
-    /** Looks at a place from so far away. */
+    /** Looks at a point from a distance. */
     lookAt(place, distance) {
         const { camera } = this.stage;
         const direction = camera.position.clone().sub(this.controls.target).normalize();

@@ -1,6 +1,6 @@
 // Contacts of a frame as things to draw and to list.
 
-/** What a contact is called from frame to frame. */
+/** Key of a contact that stays the same from frame to frame. */
 export const keyOf = (run, row) => {
     const { pair, primitive_a, primitive_b, element_a, element_b, flags } = run.contacts;
     return [pair[row], primitive_a[row], primitive_b[row], element_a[row], element_b[row], flags[row] & 2].join(":");
@@ -41,10 +41,10 @@ export function contactsIn(run, frame) {
     return Array.from({ length: to - from }, (_, index) => contactAt(run, from + index));
 }
 
-/** Most contacts looked at to find out how large forces are. */
+/** Most contacts sampled for the size of forces. */
 const SAMPLES = 20000;
 
-/** A force that nine tenths of the contacts stay below, and the largest one, N. */
+/** The 90th percentile of the contact forces, and the largest, N. */
 export function typicalForces(run) {
     const { normal_force: forces } = run.contacts;
     const step = Math.max(1, Math.ceil(forces.length / SAMPLES));

@@ -38,7 +38,7 @@ export async function load() {
     return new Run(about, bytes);
 }
 
-/** A run. Places are relative to the origin of their frame; `absolute` undoes that. */
+/** A run. Positions are relative to the origin of their frame; `absolute` adds it. */
 export class Run {
     constructor(about, bytes) {
         this.about = about;
@@ -79,7 +79,7 @@ export class Run {
         return this.times[next] - time < time - this.times[frame] ? next : frame;
     }
 
-    /** Whether frames of the log are missing behind a frame, beyond those that thinning left out. */
+    /** True if frames of the log are missing after a frame, beyond those left out by thinning. */
     isGapAfter(frame) {
         const { number } = this.frames;
         return number[frame + 1] - number[frame] > this.about.every;
@@ -106,7 +106,7 @@ export class Run {
         return [this.origin[at], this.origin[at + 1], this.origin[at + 2]];
     }
 
-    /** Place of a body in the common frame, m. */
+    /** Position of a body in the common frame, m. */
     absolute(frame, body) {
         const at = 3 * (frame * this.bodies.length + body);
         return this.originOf(frame).map((origin, axis) => origin + this.frames.position[at + axis]);

@@ -11,7 +11,7 @@ const POINT_PIXELS = 10, LINE_PIXELS = 5;
 const LARGER = 1.004;
 const NEARER = { polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 };
 
-/** What is highlighted of one body. */
+/** Highlighted primitives of one body. */
 class BodyHighlight {
     constructor(view, dot) {
         this.view = view;
@@ -26,7 +26,7 @@ class BodyHighlight {
         this.planes = new Set();
     }
 
-    /** Adds a primitive that is in contact, of a mesh the element. */
+    /** Adds a primitive in contact, or the element of a mesh. */
     add({ kind, first, count }, element) {
         const { triangles, points, segments, rays, balls } = this.parts;
         if (kind === "Triangle") triangles.add(first + (element % Math.max(1, count)));
@@ -38,7 +38,7 @@ class BodyHighlight {
         else balls.add(first);
     }
 
-    /** Draws what was added; nothing is built anew while it stays the same. */
+    /** Draws the added primitives; rebuilds only when they have changed. */
     show() {
         this.view.planes.forEach((plane, index) => {
             const { material } = plane.userData.square;

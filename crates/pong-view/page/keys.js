@@ -1,4 +1,4 @@
-// The keyboard. What is listed here is what the help shows.
+// The keyboard. The help shows this list.
 
 /** Binds keys; `actions` holds what they do by name. Returns rows for the help: keys and what they do. */
 export function bindKeys(actions) {

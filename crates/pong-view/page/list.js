@@ -3,7 +3,7 @@
 import { bodyColors } from "#view/theme.js";
 import { count, digits, fixed, quantity } from "#view/units.js";
 
-/** Rows of contacts in the table; the number of the others is told below it. */
+/** Most rows of contacts in the table; the number of the others is shown below it. */
 const ROWS = 200;
 
 const element = (tag, properties = {}, ...children) => {
@@ -39,7 +39,7 @@ export class BodyList {
             item.classList.toggle("picked", at === index);
             item.firstChild.setAttribute("aria-pressed", String(at === index));
         });
-        // Only the list scrolls, not what it is in.
+        // Only the list scrolls, not its container.
         const { list } = this, { offsetTop, offsetHeight } = this.items[index];
         const top = offsetTop - list.offsetTop;
         list.scrollTop = Math.min(Math.max(list.scrollTop, top + offsetHeight - list.clientHeight), top);

@@ -17,11 +17,11 @@ import { initTheme, toggleTheme } from "#view/theme.js";
 import { Transport } from "#view/transport.js";
 import { count, niceStep, quantity } from "#view/units.js";
 
-/** While a run plays, lists are written anew this often, s. */
+/** Interval of updating the lists while a run plays, s. */
 const LIST_PERIOD = 0.1;
 /** Usual forces, and the largest of the run, are drawn at most as long as these shares of the bodies shown first. */
 const USUAL_SHARE = 0.3, LARGEST_SHARE = 0.9;
-/** Frames whose arrows are brought into the picture at the start. */
+/** Frames whose arrows are fitted into the picture at the start. */
 const ARROW_FRAMES = 40, ARROWS = 4000;
 const PICK_PIXELS = 12;
 
@@ -76,7 +76,7 @@ class Page {
         this.baseScale = largest > 0 ? Math.min((USUAL_SHARE * size) / usual, (LARGEST_SHARE * size) / largest) : 1;
     }
 
-    // What to look at, with the arrows of some frames.
+    // The target of the camera, with the arrows of some frames.
     #subject() {
         const { run, bodies } = this, places = bodies.subject;
         const last = run.frameCount - 1, step = Math.max(1, last / ARROW_FRAMES);
@@ -257,7 +257,7 @@ class Page {
         this.stage.redraw();
     }
 
-    // A round force and how long its arrow is.
+    // A round force and the length of its arrow.
     #showScale() {
         const force = niceStep(0.6 * this.bodies.size / this.metresPerNewton, 4);
         byId("scale-text").textContent = `${quantity(force, "N", 2)} ≙ ${quantity(force * this.metresPerNewton, "m", 3)}`;
@@ -311,7 +311,7 @@ class Page {
         byId("plot-note").textContent = about.every > 1 ? "pale: peaks of all frames" : "";
     }
 
-    /** Where a place is in the picture, px from its top left corner. */
+    /** Position of a point in the picture, px from its top left corner. */
     project(place) {
         const { camera, canvas } = this.stage;
         camera.updateMatrixWorld();
@@ -320,7 +320,7 @@ class Page {
     }
 }
 
-/** What the console and tests may ask of the page. */
+/** Interface of the page for the console and tests. */
 function interfaceOf(page) {
     const { run, player, stage, bodies } = page;
     const index = (name) => {
@@ -339,17 +339,17 @@ function interfaceOf(page) {
         play: () => player.play(),
         pause: () => player.pause(),
         isPlaying: () => player.isPlaying,
-        /** Where a body is drawn, in the common frame, m. */
+        /** Drawn position of a body in the common frame, m. */
         position: (name) => {
             const origin = run.originOf(player.frame), { position } = bodies.views[index(name)];
             return [origin[0] + position.x, origin[1] + position.y, origin[2] + position.z];
         },
-        /** Where a body's origin is in the picture, px. */
+        /** Position of a body's origin in the picture, px. */
         projected: (name) => page.project(bodies.views[index(name)].position.toArray()),
         contacts: () => page.contacts,
         arrows: () => page.marks.arrowCount,
         highlighted: () => page.highlights.count,
-        /** Where a place of the scene is in the picture, px. */
+        /** Position of a point of the scene in the picture, px. */
         project: (place) => page.project(place),
         pick: (name) => page.pick(index(name)),
         select: (key) => page.select(key),

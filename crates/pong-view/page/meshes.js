@@ -6,9 +6,9 @@ import {
 } from "three";
 
 const BALL_NUMBERS = 10;
-/** Places of a kind by which a shape is brought into the picture. */
+/** Most points of one kind used to fit a shape into the picture. */
 const MARKS = 400;
-/** Of the great circles on balls, which show them turn. */
+/** Steps of the great circles on balls, which make their rotation visible. */
 const CIRCLE_STEPS = 48;
 
 let ball;
@@ -29,7 +29,7 @@ export function dotTexture(isRing) {
     return new CanvasTexture(canvas);
 }
 
-/** Everything that can be drawn of a shape. Empty kinds are null. */
+/** Geometries of a shape. Empty kinds are null. */
 export class ShapeMeshes {
     constructor(shape) {
         this.shape = shape;
@@ -62,7 +62,7 @@ export class ShapeMeshes {
         return (this.shared ??= new InstancedBufferAttribute(this.ballMatrices, 16));
     }
 
-    /** Some places on the outside, in the body's frame: enough to tell how much room the shape takes. */
+    /** Points on the outside, in the body's frame, for the extent of the shape. */
     #marks() {
         const { shape } = this, places = [], unit = [-1, 1];
         for (const numbers of [shape.vertices, shape.points, shape.segments, shape.rays]) {

@@ -1,6 +1,6 @@
-// Which moment is shown. A moment is a frame and how far it is to the next one.
+// The moment shown. A moment is a frame and a fraction of the way to the next one.
 
-/** Plays a run; tells its listeners when the moment or the manner changes. */
+/** Plays a run; notifies its listeners when the moment or the playback state changes. */
 export class Player extends EventTarget {
     constructor(run) {
         super();
@@ -19,7 +19,7 @@ export class Player extends EventTarget {
         this.time = Math.min(Math.max(time, run.start), run.end);
         this.frame = run.frameAt(this.time);
         const span = this.frame + 1 < run.frameCount ? run.times[this.frame + 1] - run.times[this.frame] : 0;
-        // Nothing is made up where frames were lost.
+        // No interpolation where frames were lost.
         this.fraction = span > 0 && !run.isGapAfter(this.frame) ? (this.time - run.times[this.frame]) / span : 0;
         this.dispatchEvent(new Event("moment"));
     }
@@ -72,7 +72,7 @@ export class Player extends EventTarget {
         this.dispatchEvent(new Event("manner"));
     }
 
-    /** Lets some seconds of the clock on the wall pass. */
+    /** Advances by some seconds of wall-clock time. */
     advance(seconds) {
         const time = this.time + seconds * this.speed;
         if (time < this.run.end) {

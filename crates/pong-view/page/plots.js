@@ -75,7 +75,7 @@ export class Plots {
         return LEFT + (to > from ? (time - from) / (to - from) : 0) * this.width;
     }
 
-    /** Where on the page a time is, px from the left of the plots. */
+    /** Horizontal position of a time, px from the left of the plots. */
     xOf(time) {
         return this.#x(time);
     }
@@ -85,7 +85,7 @@ export class Plots {
         const { canvas, picture } = this, ratio = Math.min(devicePixelRatio, 2);
         const { clientWidth: width, clientHeight: height } = canvas;
         if (width < LEFT + RIGHT + 1 || height < 40) return;
-        // Of the curves; asking for a size while drawing thousands of points would be slow.
+        // Size of the curves, kept because reading it while drawing thousands of points would be slow.
         this.width = width - LEFT - RIGHT;
         const wide = Math.round(width * ratio), high = Math.round(height * ratio);
         if (canvas.width !== wide || canvas.height !== high) {
@@ -94,7 +94,7 @@ export class Plots {
         }
         if (this.isStale) {
             Object.assign(picture, { width: wide, height: high });
-            // Curves of thousands of points are drawn by the processor in milliseconds, by a graphics card not.
+            // Software rendering draws curves of thousands of points in milliseconds; a graphics card does not.
             const context = picture.getContext("2d", { willReadFrequently: true });
             context.scale(ratio, ratio);
             this.#drawAll(context, width, height);
@@ -154,7 +154,7 @@ export class Plots {
 
     #drawValues(context, scale, low, high, y, height) {
         const span = (high - low) / scale.factor, labels = Math.max(3, height / 15);
-        // Few labels may all but one fall outside: then twice as many are asked for.
+        // Of few labels only one may fall inside: then use twice as many.
         const isSparse = (step) => Math.floor(high / scale.factor / step) + Math.floor(-low / scale.factor / step) < 1;
         const few = niceStep(span, labels);
         const step = (isSparse(few) ? niceStep(span, 2 * labels) : few) * scale.factor;
@@ -242,7 +242,7 @@ function line(context, x0, y0, x1, y1) {
     context.stroke();
 }
 
-// Above a plot, where no curve is.
+// Above the plot area.
 function caption(context, text, x, y, align) {
     context.font = "600 11px system-ui, sans-serif";
     context.textAlign = align;

@@ -1,4 +1,4 @@
-// What is plotted of a body over time.
+// Plotted quantities of a body over time.
 
 /** Force, moment and depth of a body in every frame; computed once. */
 export class Series {
@@ -36,7 +36,7 @@ export class Series {
         return { components, size };
     }
 
-    // Of frames that are not in the page the largest value is known.
+    // For frames left out of the page the largest value is known.
     #peak(body, which) {
         const { peaks } = this.run.frames;
         if (!peaks) return null;

@@ -3,7 +3,7 @@
 import { styleColor } from "#view/theme.js";
 import { count, decimalsFor } from "#view/units.js";
 
-/** Of what the run takes at speed 1, s: shorter runs start slowed down, so that they can be followed. */
+/** Duration at speed 1, s, below which a run starts slowed down. */
 const COMFORTABLE = 8;
 const SPEEDS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];
 

@@ -4,7 +4,7 @@ const PREFIXES = [
     [1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-6, "µ"], [1e-9, "n"],
 ];
 
-/** The prefix in which the largest of some values is read: `{ factor, unit }`. */
+/** SI prefix for the largest of some values: `{ factor, unit }`. */
 export function scaleFor(largest, unit) {
     const size = Math.abs(largest);
     if (!(size > 0) || !Number.isFinite(size)) return { factor: 1, unit };
@@ -22,13 +22,13 @@ export function digits(value, count = 4) {
     return value.toFixed(Math.min(decimals, 6)).replace("-", "−");
 }
 
-/** So many decimals; what rounds to nothing has no sign. */
+/** Number with fixed decimals; a value that rounds to zero has no sign. */
 export function fixed(value, decimals) {
     const text = value.toFixed(decimals);
     return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
 }
 
-/** A value with its unit and a prefix that suits it: `1.250 kN`. */
+/** A value with its unit and a suitable prefix: `1.250 kN`. */
 export function quantity(value, unit, count = 4) {
     if (!Number.isFinite(value)) return "–";
     const scale = scaleFor(value, unit);
