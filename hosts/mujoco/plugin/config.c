@@ -83,10 +83,17 @@ static int read_capacity(contact_config *config, const char *value, message *why
 
 static int read_check_step(contact_config *config, const char *value, message *why)
 {
-    config->checks_step = strcmp(value, "false") != 0;
-    if (*value != '\0' && strcmp(value, "true") != 0 && strcmp(value, "false") != 0)
-        return fail(why, "key `check_step`: `%s` is neither `true` nor `false`", value);
-    return 1;
+    static const char *const words[] = {"false", "true", "notes"};
+    int i;
+    config->checks_step = CHECK_WARNINGS;
+    if (*value == '\0')
+        return 1;
+    for (i = 0; i < 3; i++)
+        if (strcmp(value, words[i]) == 0) {
+            config->checks_step = i;
+            return 1;
+        }
+    return fail(why, "key `check_step`: `%s` is none of `true`, `notes` and `false`", value);
 }
 
 int read_config(contact_config *config, const mjModel *m, int instance, message *why)

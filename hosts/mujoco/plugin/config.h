@@ -23,6 +23,9 @@ enum { TEXT_COUNT = 4 };
 /* The largest contact_capacity. */
 enum { MAX_CAPACITY = 65536 };
 
+/* What is told of the time step, in the order of the words `false`, `true` and `notes`. */
+enum { CHECK_OFF, CHECK_WARNINGS, CHECK_WITH_NOTES };
+
 typedef struct contact_config {
     entry_list objects; /* Object, model */
     entry_list pairs;   /* Object, Object */
@@ -31,7 +34,7 @@ typedef struct contact_config {
     const char *folder, *prefix;
     const char *texts[TEXT_COUNT]; /* models written into the MJCF; "" if there is none */
     uint64_t capacity;
-    int checks_step;
+    int checks_step; /* CHECK_... */
 } contact_config;
 
 extern const char *const contact_attributes[];

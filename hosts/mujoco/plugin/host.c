@@ -60,7 +60,8 @@ int measure_instance(const mjModel *m, int instance, int *state_numbers, int *gr
     memset(&w, 0, sizeof w);
     /* This is called when a model is compiled. */
     forget_origins(m);
-    done = read_config(&config, m, instance, &ignored) && open_world(&w, &config, &ignored) && seal_world(&w, NULL, &ignored);
+    done = read_config(&config, m, instance, &ignored) && open_world(&w, &config, &ignored) && 
+           seal_world(&w, &config, NULL, &ignored);
     *groups = (int)w.group_count;
     *state_numbers = done ? state_length(w.group_count, w.state_size) : 0;
     close_world(&w);

@@ -41,7 +41,8 @@ static int build_world(contact_world *w, const mjModel *m, int instance, message
     contact_config config;
     int done = read_config(&config, m, instance, why) && open_world(w, &config, why) && bind_bodies(w, &config, m, why) &&
                refuse_double_pairs(w, &config, m, instance, why) && refuse_sleep(w, m, why) &&
-               (!config.checks_step || plan_step(w, m, why)) && seal_world(w, mj_id2name(m, mjOBJ_PLUGIN, instance), why);
+               (config.checks_step == CHECK_OFF || plan_step(w, m, why)) &&
+               seal_world(w, &config, mj_id2name(m, mjOBJ_PLUGIN, instance), why);
     close_config(&config);
     return done;
 }
@@ -54,6 +55,22 @@ static void mix(uint64_t *print, const void *bytes, size_t size)
     size_t i;
     for (i = 0; i < size; i++)
         *print = (*print ^ byte[i]) * 0x100000001b3u; /* FNV-1a */
+}
+
+/* Joints, for the check of the step. */
+static void mix_joints(uint64_t *print, const mjModel *m)
+{
+    const size_t bodies = (size_t)m->nbody, joints = (size_t)m->njnt, dofs = (size_t)m->nv;
+    mix(print, m->body_pos, 3 * bodies * sizeof *m->body_pos);
+    mix(print, m->body_quat, 4 * bodies * sizeof *m->body_quat);
+    mix(print, m->jnt_pos, 3 * joints * sizeof *m->jnt_pos);
+    mix(print, m->jnt_axis, 3 * joints * sizeof *m->jnt_axis);
+    mix(print, m->jnt_range, 2 * joints * sizeof *m->jnt_range);
+    mix(print, m->jnt_limited, joints * sizeof *m->jnt_limited);
+    mix(print, m->jnt_stiffness, joints * sizeof *m->jnt_stiffness);
+    mix(print, m->dof_damping, dofs * sizeof *m->dof_damping);
+    mix(print, m->dof_invweight0, dofs * sizeof *m->dof_invweight0);
+    mix(print, &m->opt.disableflags, sizeof m->opt.disableflags);
 }
 
 /* Hosts change an mjModel in place: masses, the step, names. Then the world is built anew, with the checks and warnings that
@@ -74,6 +91,7 @@ static uint64_t print_of(const mjModel *m)
     mix(&print, m->body_inertia, 3 * bodies * sizeof *m->body_inertia);
     mix(&print, m->body_ipos, 3 * bodies * sizeof *m->body_ipos);
     mix(&print, m->body_iquat, 4 * bodies * sizeof *m->body_iquat);
+    mix_joints(&print, m);
     return print;
 }
 

@@ -1,5 +1,7 @@
 #include "setup.h"
 
+#include "joints.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -309,32 +311,24 @@ int refuse_double_pairs(const contact_world *w, const contact_config *config, co
 
 /* ---- step, seal */
 
-/* The mass that a body moves by itself. Bodies welded to it add theirs; then the inertia is left out, and lever arms with it. */
-static pong_mass mass_of(const mjModel *m, int body)
+/* Tells mass and joints of the body of a movable group; the springs of a tree with the first of its groups. */
+static int tell_body(contact_world *w, const mjModel *m, size_t group)
 {
-    pong_mass mass;
-    int other, welded = 0;
-    memset(&mass, 0, sizeof mass);
-    for (other = 1; other < m->nbody; other++)
-        if (m->body_weldid[other] == m->body_weldid[body]) {
-            mass.mass += m->body_mass[other];
-            welded++;
-        }
-    /* The world and what the host prescribes do not yield. */
-    if (m->body_weldid[body] == 0 || m->body_mocapid[m->body_weldid[body]] >= 0) {
-        mass.mass = INFINITY;
-    } else if (welded == 1) {
-        mjtNum axes[9];
-        const mjtNum *principal = m->body_inertia + 3 * body;
-        static const int rows[6] = {0, 1, 2, 0, 0, 1}, columns[6] = {0, 1, 2, 1, 2, 2};
-        int i, k;
-        mju_quat2Mat(axes, m->body_iquat + 4 * body);
-        for (i = 0; i < 6; i++)
-            for (k = 0; k < 3; k++)
-                mass.inertia[i] += axes[3 * rows[i] + k] * principal[k] * axes[3 * columns[i] + k];
-        mju_copy3(mass.mass_center, m->body_ipos + 3 * body);
-    }
-    return mass;
+    const int body = w->bodies[group];
+    pong_mass mass = mass_of(m, body);
+    pong_joints joints;
+    size_t i;
+    int is_first = 1;
+    if (pong_set_mass(w->world, w->interfaces[group], &mass) != PONG_STATUS_OK)
+        return 0;
+    if (!is_on_joints(m, body))
+        return 1;
+    joints = joints_of(m, body);
+    for (i = 0; i < group; i++)
+        is_first = is_first && m->body_treeid[w->bodies[i]] != m->body_treeid[body];
+    if (is_first)
+        add_springs(&joints, m, body);
+    return pong_set_joints(w->world, w->interfaces[group], &joints) == PONG_STATUS_OK;
 }
 
 int plan_step(contact_world *w, const mjModel *m, message *why)
@@ -345,17 +339,15 @@ int plan_step(contact_world *w, const mjModel *m, message *why)
     plan.wrench_coupling = m->opt.integrator == mjINT_RK4 ? PONG_COUPLING_STAGES : PONG_COUPLING_SEMI_IMPLICIT;
     /* Warn of contacts that gain energy alone; accuracy is the business of `pong advise`. */
     plan.depth_within = plan.rebound_within = 0;
-    for (i = 0; i < w->group_count; i++) {
-        pong_mass mass = mass_of(m, w->bodies[i]);
-        if (pong_set_mass(w->world, w->interfaces[i], &mass) != PONG_STATUS_OK)
+    for (i = 0; i < w->group_count; i++)
+        if (!tell_body(w, m, i))
             return fail(why, "%s; or leave the check out: key `check_step`, value `false`", pong_last_message());
-    }
     if (pong_plan_step(w->world, &plan) != PONG_STATUS_OK)
         return fail(why, "%s; or leave the check out: key `check_step`, value `false`", pong_last_message());
     return 1;
 }
 
-int seal_world(contact_world *w, const char *instance_name, message *why)
+int seal_world(contact_world *w, const contact_config *config, const char *instance_name, message *why)
 {
     pong_seal_report report;
     size_t i;
@@ -365,6 +357,11 @@ int seal_world(contact_world *w, const char *instance_name, message *why)
     for (i = 0; i < report.warning_count && instance_name != NULL; i++) {
         const char *text;
         if (pong_seal_warning(w->world, i, &text) == PONG_STATUS_OK)
+            warn_once(instance_name, text);
+    }
+    for (i = 0; i < report.note_count && instance_name != NULL && config->checks_step == CHECK_WITH_NOTES; i++) {
+        const char *text;
+        if (pong_seal_note(w->world, i, &text) == PONG_STATUS_OK)
             warn_once(instance_name, text);
     }
     return 1;

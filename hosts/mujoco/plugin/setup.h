@@ -29,7 +29,7 @@ int refuse_double_pairs(const contact_world *w, const contact_config *config, co
 int plan_step(contact_world *w, const mjModel *m, message *why);
 
 /* Seals the world. The warnings of the seal become MuJoCo's, if `instance_name` is not NULL. */
-int seal_world(contact_world *w, const char *instance_name, message *why);
+int seal_world(contact_world *w, const contact_config *config, const char *instance_name, message *why);
 
 void close_world(contact_world *w);
 

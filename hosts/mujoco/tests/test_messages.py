@@ -108,7 +108,7 @@ class Compiling(unittest.TestCase):
         self.refused(instance("a = text1; b = text1; ground = text2", **rest), "the key `pairs` is missing")
         for value in ("0", "-4", "many", "1e3", "70000"):
             self.refused(instance("ball = text1; ground = text2", contact_capacity=value, **rest), f"`{value}` is no whole number")
-        self.refused(instance("ball = text1; ground = text2", check_step="yes", **rest), "neither `true` nor `false`")
+        self.refused(instance("ball = text1; ground = text2", check_step="yes", **rest), "none of `true`, `notes` and `false`")
 
     def test_a_key_that_there_is_not(self):
         with self.assertRaisesRegex(ValueError, "objekts"):

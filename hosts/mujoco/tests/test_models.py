@@ -66,6 +66,29 @@ class Inserted(unittest.TestCase):
         self.assertAlmostEqual(d.sensordata[5], 9.81, delta=1e-6)
 
 
+class Filters(unittest.TestCase):
+    # A ball with an arm that reaches deeper into the ground than the ball does.
+    LANDER = """(format: "pong-model", version: 1, name: "lander", surfaces: { "rubber": (stiffness: 2e4, normal: Linear(damping: 100.0)) },
+        root: (name: "lander", surface: "rubber", groups: [
+            (name: "body", primitives: [Sphere(name: "shell", center: (0, 0, 0), radius: 0.1)]),
+            (name: "arm", movable: true, primitives: [Point(name: "tip", position: (0, 0, -0.2))])]))"""
+    BODIES = BALL.replace("'ball'", "'lander'").replace("</body>", """<body name='lander/arm'><joint type='slide' axis='1 0 0'
+        range='-0.01 0.01' limited='true'/><inertial mass='0.1' pos='0 0 0' diaginertia='1e-3 1e-3 1e-3'/></body></body>""")
+
+    def rest(self, **keys):
+        inside = instance("lander = text1; ground = text2", bodies="ground = world", text1=self.LANDER, text2=GROUND, **keys)
+        return settled(mujoco.MjModel.from_xml_string(mjcf(self.BODIES, inside, more=SENSOR)), 3000)
+
+    def test_a_group_that_is_kept_apart_touches_nothing(self):
+        self.assertAlmostEqual(self.rest(filters="lander/arm, ground").qpos[2], 0.1 - 1.1 * 9.81 / 2e4, delta=1e-6)
+        self.assertGreater(self.rest().qpos[2], 0.15)
+
+    def test_filters_that_lead_nowhere(self):
+        for filters, words in (("lander/leg, ground", "lander/leg"), ("moon, ground", "moon"), ("ground", "FIRST , SECOND")):
+            with self.assertRaisesRegex(ValueError, f"key `filters`.*{words}"):
+                self.rest(filters=filters)
+
+
 class Bodies(unittest.TestCase):
     def test_a_body_below_another(self):
         # The ball is welded to an arm on a hinge: the moment about the hinge is that of force times lever.

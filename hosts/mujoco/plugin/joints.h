@@ -1,0 +1,32 @@
+/* How a body yields on the joints of its tree: for the check of the time step, at any pose.
+ *
+ * Compliance: 6x6, by rows, acceleration (linear of the body's origin, then angular) per wrench (force, then moment about the
+ * origin), along the body's axes. It is a bound at every pose of the mechanism, in the sense of positive semidefinite matrices:
+ *
+ * - What hangs below a body, and other branches above it, are left out. They can only make it heavier.
+ * - A joint lets the body above turn or slide against this one. Its compliance is replaced by one that is no less at any angle
+ *   or travel and is known at all of them: about a hinge the sum of four quarter turns (their sum is that of all turns, whose
+ *   terms are of first and second order in the angle, and it holds the first), at a ball joint the trace, along a slide the sum
+ *   of both ends of its range (the form is convex in the travel).
+ * - Where no such bound is at hand, the joint is left out: a body that is free yields more. */
+#ifndef PONG_CONTACT_JOINTS_H
+#define PONG_CONTACT_JOINTS_H
+
+#include <mujoco/mujoco.h>
+#include <pong.h>
+
+/* Mass, mass centre and inertia of a body with all that is welded to it, in the body's frame; infinite mass of what does not
+ * yield. */
+pong_mass mass_of(const mjModel *m, int body);
+
+/* Whether a body moves by other joints than a free one of its own. */
+int is_on_joints(const mjModel *m, int body);
+
+/* Compliance and mechanism of such a body, without springs. */
+pong_joints joints_of(const mjModel *m, int body);
+
+/* Adds bounds of the joint springs and dampers of a body's tree that the integrator evaluates explicitly, by the inverse
+ * inertia of joints at the reference pose. */
+void add_springs(pong_joints *joints, const mjModel *m, int body);
+
+#endif
