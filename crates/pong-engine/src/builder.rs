@@ -1,4 +1,4 @@
-//! Set-up: models, Objects and pairs, until they are sealed into a world.
+//! Set-up of models, Objects and pairs, until the scene is sealed into a world.
 
 use crate::error::EngineError;
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId};
@@ -13,9 +13,9 @@ use pong_model::{Model, Surface};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// A world in set-up: it takes models, Objects, pairs and laws, and [`seal`](Self::seal) makes a [`World`] of them, which
-/// computes frames. What belongs to frames is no method of the builder, and set-up is none of the world, so that a call in
-/// the wrong phase does not compile.
+/// A world in set-up: it takes models, Objects, pairs and laws, and [`seal`](Self::seal) makes a [`World`] of
+/// them, which computes frames. The builder has no methods for frames, and the world has none for set-up, so
+/// that a call in the wrong phase does not compile.
 ///
 /// A frame before the seal:
 ///
@@ -65,7 +65,7 @@ pub struct WorldBuilder {
     scene: Scene,
     surfaces: Surfaces,
     states: States,
-    /// The Objects of every pair, the lower index first.
+    /// Objects of every pair, the lower index first.
     paired: BTreeSet<(usize, usize)>,
     clock: Clock,
 }
@@ -76,7 +76,7 @@ impl WorldBuilder {
         Self::with_extensions(config, Extensions::new(), Laws::default())
     }
 
-    /// An empty world that knows the user's own kinds of primitives and bounding volumes, and laws.
+    /// An empty world with the host's own kinds of primitives and bounding volumes, and laws.
     pub fn with_extensions(config: Config, extensions: Extensions, laws: Laws) -> Self {
         Self {
             scene: Scene::empty(config, extensions, laws),
@@ -87,18 +87,18 @@ impl WorldBuilder {
         }
     }
 
-    /// What was set up so far, with names and ids.
+    /// Scene as set up so far, with names and ids.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// Lets models that are loaded with these [`extensions`](Scene::extensions) read the meshes that they name from this
-    /// folder and those below it too; without it what lies outside a model's own folder, through a link, is refused.
+    /// Lets models loaded with these [`extensions`](Scene::extensions) read meshes from this folder and below
+    /// it. By default, files outside the model's own folder are refused, also through a link.
     pub fn allow_files_below(&mut self, folder: impl Into<std::path::PathBuf>) {
         self.scene.extensions.allow_files_below(folder);
     }
 
-    /// The registered force laws, to add more.
+    /// Registered force laws, to add more.
     pub fn laws_mut(&mut self) -> &mut Laws {
         &mut self.scene.laws
     }
@@ -113,8 +113,8 @@ impl WorldBuilder {
     /// Creates an Object from a model. Objects of one model are independent.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::BadValue`] for a name that is empty or holds
-    /// `/`, [`EngineError::Duplicate`] for one that another Object has.
+    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::BadValue`] for a name that is
+    /// empty or contains `/`, [`EngineError::Duplicate`] for a name that another Object has.
     pub fn create_object(&mut self, model: ModelId, name: &str) -> Result<ObjectId, EngineError> {
         let model = self.scene.model_index(model)?;
         if name.is_empty() || name.contains('/') {
@@ -134,12 +134,13 @@ impl WorldBuilder {
         Ok(ObjectId::new(scene.stamp, object))
     }
 
-    /// Declares that two Objects may touch. An Object paired with itself has its movable groups tested against
-    /// each other.
+    /// Declares that two Objects may touch. If an Object is paired with itself, its movable groups are tested
+    /// against each other.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for an Object of another world, [`EngineError::Duplicate`] for a pair that is there already,
-    /// [`EngineError::BadValue`] for an Object of one movable group that is paired with itself.
+    /// [`EngineError::UnknownId`] for an Object of another world, [`EngineError::Duplicate`] for a pair that
+    /// exists already, [`EngineError::BadValue`] for an Object of one movable group that is paired with
+    /// itself.
     pub fn pair(&mut self, a: ObjectId, b: ObjectId) -> Result<PairId, EngineError> {
         let scene = &mut self.scene;
         let (a, b) = (scene.object_index(a)?, scene.object_index(b)?);
@@ -159,14 +160,15 @@ impl WorldBuilder {
         Ok(PairId::new(scene.stamp, scene.pairs.len() - 1))
     }
 
-    /// Keeps two groups apart, each with everything below it: nothing of one ever touches anything of the other, and nothing is
-    /// paid for it in a frame. They may be movable or not, and belong to two Objects or to one. Names are as in
-    /// [`Scene::group_path`](Scene::group_path). The Objects may be paired before or later.
+    /// Keeps two groups apart, with everything below them: nothing of one ever touches anything of the other,
+    /// at no cost in a frame. The groups may be movable or not, and belong to two Objects or to one. Names
+    /// are as in [`Scene::group_path`](Scene::group_path). The Objects may be paired before or later.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for an Object of another world, [`EngineError::UnknownName`] for a name that leads to no group,
-    /// [`EngineError::Duplicate`] for a filter that is there already, [`EngineError::BadValue`] for two parts of one rigid body,
-    /// which never touch, and for more filters between two Objects than there may be.
+    /// [`EngineError::UnknownId`] for an Object of another world, [`EngineError::UnknownName`] for a name
+    /// that leads to no group, [`EngineError::Duplicate`] for a filter that exists already,
+    /// [`EngineError::BadValue`] for two parts of one rigid body, which never touch, and for too many filters
+    /// between two Objects.
     pub fn filter(
         &mut self,
         a: ObjectId,
@@ -174,7 +176,7 @@ impl WorldBuilder {
         b: ObjectId,
         group_b: &str,
     ) -> Result<(), EngineError> {
-        /// Most filters between two Objects.
+        /// Maximum filters between two Objects.
         const MOST: usize = 1024;
         let scene = &mut self.scene;
         let side = |object, name| -> Result<_, EngineError> {
@@ -210,7 +212,7 @@ impl WorldBuilder {
         Ok(())
     }
 
-    /// Switches a pair on, as it begins, or off. See [`World::set_pair_enabled`].
+    /// Sets whether a pair is on at first. See [`World::set_pair_enabled`].
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for a pair of another world.
@@ -220,17 +222,18 @@ impl WorldBuilder {
         Ok(())
     }
 
-    /// Replaces the values of a surface of a model (found by its name), for all its Objects. Laws may not change.
+    /// Replaces the values of a model's surface (found by its name), for all its Objects. Laws cannot change.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if the model has no surface of
-    /// this name, [`EngineError::BadValue`] for another law or a value that no surface may have.
+    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if the model has
+    /// no surface of this name, [`EngineError::BadValue`] for another law or a value that no surface may
+    /// have.
     pub fn set_surface(&mut self, model: ModelId, surface: &Surface) -> Result<(), EngineError> {
         self.surfaces.replace(self.scene.model_index(model)?, surface)?;
         Ok(())
     }
 
-    /// A surface of a model as it is now.
+    /// Surface of a model with its current values.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if it has no such surface.
@@ -238,7 +241,7 @@ impl WorldBuilder {
         self.surfaces.named(self.scene.model_index(model)?, name)
     }
 
-    /// Sets states with which the world begins; they may as well be set once it is sealed ([`World::set_states`]).
+    /// Sets initial states; they may also be set after the seal ([`World::set_states`]).
     ///
     /// # Errors
     /// As [`World::set_states`].
@@ -247,7 +250,7 @@ impl WorldBuilder {
         Ok(())
     }
 
-    /// The state last set for a movable group, as it was set; `None` if never.
+    /// State last set for a movable group, as it was set; `None` if never set.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for an Interface of another world.
@@ -255,24 +258,24 @@ impl WorldBuilder {
         self.states.of(&self.scene, interface)
     }
 
-    /// Has the seal make sure that so much memory (bytes) is left for each pair of movable groups that it lists: for a host
-    /// that asks about every pair right after it, as with `pong_advise::step_report`.
+    /// Makes the seal check that this much memory (bytes) is left for each pair of movable groups: for a host
+    /// that examines every pair right after it, as `pong_advise::step_report` does.
     pub fn leave_room_per_pair(&mut self, bytes: usize) {
         self.scene.room_per_pair = bytes;
     }
 
-    /// Gives the world a clock, in ns, with which it times its workers and the stages of its frames
-    /// ([`World::stage_times`]). Without one it never asks the time.
+    /// Gives the world a clock, in ns, to time its workers and the stages of its frames
+    /// ([`World::stage_times`]). Without one it never reads a clock.
     pub fn set_clock(&mut self, now_ns: fn() -> u64) {
         self.clock = Clock(Some(now_ns));
     }
 
-    /// Ends set-up: checks that everything that may meet can be tested and combined, sizes all memory of the frames
-    /// and takes it, and starts the workers. From here on frames take no memory and give none back.
+    /// Ends set-up: checks that everything that may meet can be tested and combined, allocates all memory of
+    /// the frames, and starts the workers. Frames neither allocate nor free memory.
     ///
     /// # Errors
-    /// A [`SealError`], which holds the builder as it was, and the reason: [`EngineError::Seal`] with every fault of the scene,
-    /// [`EngineError::OutOfMemory`], or [`EngineError::Workers`].
+    /// A [`SealError`], which holds the unchanged builder and the reason: [`EngineError::Seal`] with every
+    /// fault of the scene, [`EngineError::OutOfMemory`], or [`EngineError::Workers`].
     #[expect(clippy::result_large_err, reason = "a refusal for want of memory must not ask for a box")]
     pub fn seal(mut self) -> Result<(World, SealReport), SealError> {
         if let Err(error) = seal::part_groups(&mut self.scene) {
@@ -290,7 +293,7 @@ impl WorldBuilder {
                 Ok((World::new(scene, self.surfaces, self.states, runtime), report))
             }
             Err(error) => {
-                // A worker that the system has not run yet may still hold the scene; then the builder gets a copy.
+                // A worker that has not run yet may still hold the scene; then the builder gets a copy.
                 let builder = Self { scene: Arc::unwrap_or_clone(scene), ..self };
                 Err(SealError { error, builder })
             }
@@ -298,7 +301,7 @@ impl WorldBuilder {
     }
 }
 
-/// Why a world could not be sealed, and the builder as it was: mend it and seal it again.
+/// Failure of a seal, with the unchanged builder, to be corrected and sealed again.
 #[derive(thiserror::Error)]
 #[error("{error}")]
 pub struct SealError {
@@ -307,12 +310,12 @@ pub struct SealError {
 }
 
 impl SealError {
-    /// Why.
+    /// The reason.
     pub fn error(&self) -> &EngineError {
         &self.error
     }
 
-    /// The builder as it was before the seal, and why it was refused.
+    /// The unchanged builder, and the reason.
     pub fn into_parts(self) -> (WorldBuilder, EngineError) {
         (self.builder, self.error)
     }

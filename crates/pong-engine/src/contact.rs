@@ -1,11 +1,11 @@
-//! What a frame reports: contacts and energies. Counts and times are in `report.rs`.
+//! Results of a frame: contacts and energies. Counts and times are in `report.rs`.
 
 use crate::ids::{InterfaceId, ObjectId, PairId};
 use pong_geometry::Vec3;
 
 /// One contact of the last frame.
 ///
-/// Forces are those on A; B receives the opposite at the same place. Vectors are expressed in the common frame.
+/// Forces are those on A; B receives the opposite at the same point. Vectors are in common axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// The pair of Objects.
@@ -16,10 +16,10 @@ pub struct Contact {
     pub b: ContactSide,
     /// Feature of B that pushes: kind in the two highest bits (0 face, 1 edge, 2 vertex), index below.
     pub feature: u32,
-    /// Of a segment or a round part with two ends: 0 and 1 at its ends, 2 between them, and beyond 2 other places of a cylinder's or
-    /// cone's rims (docs/theory.md, 2.8). 0 for all else.
+    /// Location on a segment or a round part with two ends: 0 and 1 at its ends, 2 between them, above 2
+    /// other points of a cylinder's or cone's rims (docs/theory.md, 2.8). 0 for all other kinds.
     pub end: u32,
-    /// Place c where the force acts, m, in the common frame.
+    /// Contact point c, where the force acts, m, in the common frame.
     pub point: Vec3,
     /// Unit normal from B to A.
     pub normal: Vec3,
@@ -35,15 +35,15 @@ pub struct Contact {
     pub friction_force: Vec3,
     /// Total force on A, N.
     pub force: Vec3,
-    /// Tangential velocity of A against B, m/s.
+    /// Tangential velocity of A relative to B, m/s.
     pub slip_velocity: Vec3,
-    /// Whether friction sticks.
+    /// True if friction sticks.
     pub sticks: bool,
-    /// Energy stored in normal spring and bristle, J.
+    /// Energy stored in the normal spring and the bristle, J.
     pub stored: f64,
-    /// Work done on the two bodies since the contact began, J; 0 unless the world keeps the ledger.
+    /// Work done on the two bodies since the contact began, J; 0 without a ledger.
     pub work: f64,
-    /// Energy dissipated since the contact began, J: −work − stored; 0 unless the world keeps the ledger.
+    /// Energy dissipated since the contact began, J: −work − stored; 0 without a ledger.
     pub dissipated: f64,
 }
 
@@ -54,22 +54,23 @@ pub struct ContactSide {
     pub object: ObjectId,
     /// The movable group.
     pub interface: InterfaceId,
-    /// The primitive: index into its movable group's list (see [`Scene::primitive_path`](crate::Scene::primitive_path)).
+    /// Index of the primitive in its movable group's list (see
+    /// [`Scene::primitive_path`](crate::Scene::primitive_path)).
     pub primitive: u32,
-    /// Which element of the primitive: the triangle of a mesh, counted from its first; 0 otherwise.
+    /// Index of the element within the primitive: a mesh's triangle, from 0; 0 for all other kinds.
     pub element: u32,
-    /// Arm from the origin of the movable group to the contact's place, m, along the axes of the common frame.
+    /// Vector from the origin of the movable group to the contact point, m, in common axes.
     pub arm: Vec3,
 }
 
-/// Energies of all contacts. Meaningful if the world keeps the ledger ([`Config::ledger`](crate::Config)).
+/// Energies of all contacts. Valid if the world keeps the ledger ([`Config::ledger`](crate::Config)).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ledger {
-    /// Stored in normal springs and bristles at the last commit, J.
+    /// Energy stored in normal springs and bristles at the last commit, J.
     pub stored: f64,
-    /// Work done on the bodies since the world began, by the trapezoid rule between commits, J.
+    /// Work done on the bodies since the world began, by the trapezoidal rule between commits, J.
     pub work: f64,
-    /// Left the contacts for good since the world began, J: −work − stored. What is forgotten counts as lost; what the host
-    /// put in, by a contact that it set up or by a preload, less than nothing.
+    /// Energy dissipated since the world began, J: −work − stored. Cleared history counts as dissipated;
+    /// energy that the host inserted, by placing bodies in contact or by a preload, counts negative.
     pub dissipated: f64,
 }

@@ -1,4 +1,4 @@
-//! What can go wrong, told as thing, cause and cure.
+//! Errors, each with thing, cause and cure.
 
 use crate::state::StateError;
 use pong_model::printable;
@@ -9,45 +9,45 @@ pub enum EngineError {
     /// An id that this world did not give out, or that names nothing.
     #[error("{what}: the id is zero, stale or of another world; use an id that this world returned")]
     UnknownId {
-        /// What the id should have named.
+        /// Kind of thing that the id should name.
         what: &'static str,
     },
-    /// A name that nothing has.
+    /// A name that does not exist.
     #[error("{what} `{}`: there is none; known: {}", printable(.name), names(.known))]
     UnknownName {
-        /// What was looked for.
+        /// Kind of thing that was looked up.
         what: &'static str,
         /// The name.
         name: String,
-        /// The names there are.
+        /// Existing names.
         known: Vec<String>,
     },
-    /// A name or a pair that is already there.
+    /// A name or a pair that exists already.
     #[error("{}: already there; use another name or leave it out", printable(.what))]
     Duplicate {
-        /// What is there twice.
+        /// The duplicate.
         what: String,
     },
-    /// A call that comes too early, as one for a wrench before the first frame.
+    /// A call that comes too early, such as one for a wrench before the first frame.
     #[error("{call}: not allowed now; {cure}")]
     WrongPhase {
         /// The call.
         call: &'static str,
-        /// What to do first.
+        /// Call that is needed first.
         cure: &'static str,
     },
-    /// The scene cannot be sealed; every reason is listed.
+    /// The scene cannot be sealed; all reasons are listed.
     #[error("the scene cannot be sealed:{}", lines_below(.problems))]
     Seal {
         /// One line each: thing, cause, cure.
         problems: Vec<String>,
     },
-    /// A state that is not finite or whose quaternion is not near unit length.
+    /// A state that is not finite, or whose quaternion is not near unit length.
     #[error("state of `{}`: {cause}; the state set before stays in force", printable(.interface))]
     BadState {
         /// `object/path` of the interface.
         interface: String,
-        /// What is wrong with it.
+        /// Fault of the state.
         cause: String,
     },
     /// A paired movable group has no state yet.
@@ -59,15 +59,15 @@ pub enum EngineError {
         /// `object/path` of the interface.
         interface: String,
     },
-    /// States, surfaces or laws of the host are so large that forces, moments or energies are beyond what a number holds.
-    /// There is no frame until one can be computed.
+    /// Forces, moments or energies overflow, because states, surface values or a host's law are too large.
+    /// There is no valid frame until one can be computed.
     #[error(
         "frame: the contacts of `{}` give forces, moments or energies beyond what a number holds; set smaller states \
          or surface values, or mend the law, and evaluate again",
         printable(.interface)
     )]
     NotFinite {
-        /// `object/path` of an interface whose contacts show it.
+        /// `object/path` of an interface whose contacts overflow.
         interface: String,
     },
     /// A value that a surface or a setting cannot have.
@@ -75,23 +75,23 @@ pub enum EngineError {
     BadValue {
         /// The thing.
         what: String,
-        /// What is wrong and what to give instead.
+        /// Fault, and a valid value.
         cause: String,
     },
-    /// The system has not the memory that set-up would take. Nothing was taken.
+    /// The system does not have the memory that set-up needs. Nothing was allocated.
     #[error("{what}: the system does not give {bytes} bytes of memory; {cure}")]
     OutOfMemory {
-        /// For what.
+        /// Purpose of the memory.
         what: &'static str,
-        /// How much was asked for, bytes.
+        /// Size of the request, bytes.
         bytes: usize,
-        /// What to do.
+        /// Suggested remedy.
         cure: &'static str,
     },
     /// The workers could not be started.
     #[error("workers: {cause}")]
     Workers {
-        /// What the system said and what to do.
+        /// Reply of the system, and a remedy.
         cause: String,
     },
     /// A saved contact state was refused.

@@ -1,8 +1,8 @@
-//! What a tool beside the engine reads of a sealed world: which movable groups can meet, with which combined surface values,
-//! and which contacts of the last frame push. The step adviser (crate `pong-advise`) is made on it.
+//! Read access to a sealed world for tools beside the engine: pairs of movable groups, combined surface
+//! values, and pushing contacts of the last frame. The step adviser (crate `pong-advise`) uses it.
 //!
-//! Movable groups go by the index of their [`InterfaceId`](crate::InterfaceId), tables of combined surface values by the
-//! numbers that a [`GroupPair`] holds.
+//! Movable groups are given by the index of their [`InterfaceId`](crate::InterfaceId), tables of combined
+//! surface values by the indices in a [`GroupPair`].
 
 use crate::error::EngineError;
 use crate::law::PairProps;
@@ -13,14 +13,14 @@ pub use crate::sealed::GroupPair;
 use pong_geometry::{Pose, Transform, Vec3};
 use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 
-/// A view into a sealed world; see [`World::inspect`](crate::World::inspect).
+/// View of a sealed world; see [`World::inspect`](crate::World::inspect).
 #[derive(Clone, Copy)]
 pub struct Inspection<'w> {
     scene: &'w Scene,
     runtime: &'w Runtime,
 }
 
-/// A contact of the last frame that pushes, seen from B.
+/// A contact of the last frame that pushes, in B's frame.
 #[derive(Clone, Copy, Debug)]
 pub struct PushingContact {
     /// Index of its pair in [`Inspection::pairs`].
@@ -35,7 +35,7 @@ pub struct PushingContact {
     pub primitive_a: u32,
     /// Primitive of B.
     pub primitive_b: u32,
-    /// Share of the contact's spring that acts, 0…1; half of it at each end of a line segment.
+    /// Active share of the contact's spring, 0…1; half of it at each end of a line segment.
     pub weight: f64,
     /// Depth, m.
     pub depth: f64,
@@ -43,9 +43,9 @@ pub struct PushingContact {
     pub normal_force: f64,
     /// Unit normal from B to A, in B's frame.
     pub normal_b: Vec3,
-    /// Where the force acts, m, in B's frame.
+    /// Contact point, where the force acts, m, in B's frame.
     pub point_b: Vec3,
-    /// The pose of A seen from B.
+    /// Transform from A's group frame to B's.
     pub x_ba: Transform,
 }
 
@@ -54,7 +54,7 @@ impl<'w> Inspection<'w> {
         Self { scene, runtime }
     }
 
-    /// How many movable groups the world has.
+    /// Number of movable groups of the world.
     pub fn group_count(&self) -> usize {
         self.scene.bodies.len()
     }
@@ -64,17 +64,17 @@ impl<'w> Inspection<'w> {
         self.scene.body_name(group)
     }
 
-    /// What the model holds of a movable group.
+    /// Model data of a movable group.
     pub fn body(&self, group: usize) -> &'w MovableGroup {
         self.scene.body(group)
     }
 
-    /// The pairs of movable groups that are tested.
+    /// Pairs of movable groups that are tested.
     pub fn pairs(&self) -> &'w [GroupPair] {
         &self.runtime.sealed.group_pairs
     }
 
-    /// Whether primitives of two movable groups have a test, the first as A, and no filter keeps them apart.
+    /// Returns true if two primitives have a tester, the first as A, and no filter keeps them apart.
     pub fn can_be_tested(&self, a: (usize, &PrimitiveInfo), b: (usize, &PrimitiveInfo)) -> bool {
         let filters = self.filters(a.0, b.0);
         if filters.is_some_and(|filters| filters.keep_apart(&a.1.path, &b.1.path)) {
@@ -83,8 +83,8 @@ impl<'w> Inspection<'w> {
         can_be_tested(&self.scene.extensions, (self.body(a.0), a.1), (self.body(b.0), b.1))
     }
 
-    /// Numbers of the filters between two movable groups that hold a primitive of the first: alike for primitives that are kept
-    /// from the same others.
+    /// Indices of the filters between two movable groups that contain a primitive of the first; equal for
+    /// primitives that are kept apart from the same others.
     pub fn filters_that_hold(&self, (group, info): (usize, &PrimitiveInfo), other: usize) -> Vec<usize> {
         self.filters(group, other).map_or_else(Vec::new, |filters| filters.that_hold(0, &info.path))
     }
@@ -94,8 +94,8 @@ impl<'w> Inspection<'w> {
         self.runtime.sealed.filters.between(a, b)
     }
 
-    /// The combined values of two surfaces that can meet, by the table of their direction ([`GroupPair::tables`]) and their
-    /// indices in the two models.
+    /// Combined values of two surfaces that can meet, from the table of their direction
+    /// ([`GroupPair::tables`]) by their indices in the two models.
     pub fn surface_values(&self, table: usize, (a, b): (u32, u32)) -> &'w PairProps {
         self.runtime.tables[table].props(a, b)
     }
@@ -110,7 +110,7 @@ impl<'w> Inspection<'w> {
         [full(table.model_a, a), full(table.model_b, b)]
     }
 
-    /// The contacts of the last frame that push, in the order of every sum.
+    /// Contacts of the last frame that push, in summation order.
     ///
     /// # Errors
     /// [`EngineError::WrongPhase`] before the first frame.
@@ -143,7 +143,7 @@ impl<'w> Inspection<'w> {
 }
 
 impl PushingContact {
-    /// The surfaces of A and B: indices in their models.
+    /// Surface indices of A and B in their models.
     pub fn surfaces(&self, scene: &Inspection<'_>) -> (u32, u32) {
         let surface = |group: usize, primitive: u32| scene.body(group).primitives[primitive as usize].surface;
         (surface(self.group_a, self.primitive_a), surface(self.group_b, self.primitive_b))

@@ -1,24 +1,26 @@
 //! State in, wrench out: the contact engine.
 //!
-//! A [`WorldBuilder`] takes models, Objects and pairs; [`WorldBuilder::seal`] makes a [`World`] of them, which is run in frames:
+//! A [`WorldBuilder`] takes models, Objects and pairs; [`WorldBuilder::seal`] makes a [`World`] of them,
+//! which computes frames:
 //!
 //! | stage of a frame | file | from → to |
 //! |---|---|---|
 //! | state in | `frame/input/states.rs` | host's states → checked states of the movable groups |
-//! | relative | `frame/input/motion.rs` | states → relative motion of every pair of movable groups |
+//! | relative | `frame/input/relative.rs` | states → relative motion of every pair of movable groups |
 //! | broad phase | `frame/broad_phase/` | trees of bounding volumes → pairs of leaves that may touch |
-//! | narrow phase | `frame/narrow_phase/` | pairs of primitives → interferences |
-//! | load sharing | `frame/load_sharing/` | interferences of one ball with one surface → weights |
+//! | narrow phase | `frame/narrow_phase/` | pairs of primitives → contact candidates |
+//! | load sharing | `frame/load_sharing/` | candidates of one element with one surface → weights |
 //! | forces | `frame/forces/` | contacts → normal and friction forces, new contact state |
 //! | reduce | `frame/output/reduce.rs` | forces → wrenches, summed in key order |
 //!
-//! *Evaluate* changes nothing that a later call can see; *commit* is the only writer of contact state; *step* is
-//! both. The engine never opens a file and never asks the time.
+//! *Evaluate* has no effect on later calls; *commit* is the only writer of contact state; *step* is both. The
+//! engine never opens a file and never reads a clock.
 //!
-//! No frame does an invalid operation (∞ − ∞, 0·∞, 0/0, the root of a negative number) or divides by zero, in lanes that nobody
-//! looks at included: a host that traps these would see them. Nor does anything overflow, except the wrench that is refused
-//! for it. What underflows or is rounded is no fault. A compiler may divide before the branch that keeps a zero out, so such
-//! a divisor is one that cannot be zero: `x.max(f64::MIN_POSITIVE)`, or `pong_geometry::divisor`.
+//! No frame does an invalid operation (∞ − ∞, 0·∞, 0/0, the root of a negative number) or divides by zero,
+//! not even in unused lanes, because a host may trap these. Nor does anything overflow, except a wrench that
+//! is then refused. Underflow and inexact results are no fault. A compiler may divide before the branch that
+//! excludes a zero, so such a divisor must be one that cannot be zero: `x.max(f64::MIN_POSITIVE)`, or
+//! `pong_geometry::divisor`.
 
 #![forbid(unsafe_code)]
 

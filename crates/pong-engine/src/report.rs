@@ -1,10 +1,10 @@
-//! What a frame reports: what was left out, counts and times.
+//! Status, counts and times of a frame.
 
 use crate::ids::InterfaceId;
 use pong_geometry::bounding::Volume;
 use pong_geometry::primitive::PrimitiveKind;
 
-/// What a frame had to leave out, or missed.
+/// Flags of a frame for contacts that were left out or missed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StatusBits(u32);
 
@@ -12,31 +12,32 @@ impl StatusBits {
     /// More contacts than the world's capacity: the deepest were kept. Raise `Config::contact_capacity`.
     pub const CONTACT_LIMIT: Self = Self(1);
 
-    /// More contacts of one ball with one surface, with normals more than 90° apart, than could be shared exactly: the
-    /// deepest were. Raise `Config::contact_capacity`.
+    /// More contacts of one element with one surface, with normals more than 90° apart, than can be shared
+    /// exactly: only the deepest were. Raise `Config::contact_capacity`.
     pub const LOAD_SHARING_LIMIT: Self = Self(2);
 
-    /// Something went right through something else since the last commit, or came out on the far side of what pushed it
-    /// back: a contact was missed. [`World::tunnelling`](crate::World::tunnelling) names it. Make the frames shorter, the wall
-    /// thicker or the surfaces stiffer; after a jump that is meant, call [`World::clear_contact_history`](crate::World::clear_contact_history) first.
+    /// Something passed through something else since the last commit, or came out on the far side of a
+    /// contact that pushed it back: a contact was missed. [`World::tunnelling`](crate::World::tunnelling)
+    /// names it. Use shorter frames, a thicker wall or stiffer surfaces; before an intended jump, call
+    /// [`World::clear_contact_history`](crate::World::clear_contact_history).
     pub const TUNNELLED: Self = Self(4);
 
-    /// Whether nothing was left out or missed.
+    /// Returns true if nothing was left out or missed.
     pub fn is_complete(self) -> bool {
         self.0 == 0
     }
 
-    /// Whether a bit is set.
+    /// Returns true if a flag is set.
     pub fn contains(self, other: Self) -> bool {
         self.0 & other.0 == other.0
     }
 
-    /// Whether a limit was hit, so that contacts were left out.
+    /// Returns true if a limit was exceeded, so that contacts were left out.
     pub fn leaves_contacts_out(self) -> bool {
         self.contains(Self::CONTACT_LIMIT) || self.contains(Self::LOAD_SHARING_LIMIT)
     }
 
-    /// The bits as a number.
+    /// The flags as a number.
     pub fn bits(self) -> u32 {
         self.0
     }
@@ -46,34 +47,35 @@ impl StatusBits {
     }
 }
 
-/// What went right through something between two commits.
+/// Report of tunnelling between two commits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TunnellingReport {
-    /// The movable group that moved through the other, by which of the two is A.
+    /// Movable group that passed through the other; it is A of the pair.
     pub interface: InterfaceId,
-    /// Its primitive: index into the movable group's list (see
+    /// Index of its primitive in the movable group's list (see
     /// [`Scene::primitive_path`](crate::Scene::primitive_path)).
     pub primitive: u32,
-    /// The movable group it went through.
+    /// Movable group that it passed through.
     pub through: InterfaceId,
-    /// How many events of tunnelling the frame has; this is the first.
+    /// Number of tunnelling events of the frame; this report is the first.
     pub count: u32,
 }
 
-/// The frame in short.
+/// Summary of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameReport {
-    /// What had to be left out.
+    /// Contacts that were left out or missed.
     pub status: StatusBits,
-    /// Contacts listed.
+    /// Contacts that push.
     pub contacts: u32,
-    /// Contacts that would have been listed without [`StatusBits::CONTACT_LIMIT`].
+    /// Contacts that push, without [`StatusBits::CONTACT_LIMIT`].
     pub contacts_wanted: u32,
 }
 
 impl FrameReport {
-    /// The contact capacity to ask for instead of the present one, where contacts were left out; `None` where none were. After
-    /// [`StatusBits::LOAD_SHARING_LIMIT`] alone it is twice the present one, and may have to be doubled again.
+    /// Contact capacity to use instead of `present` if contacts were left out; `None` if none were. After
+    /// [`StatusBits::LOAD_SHARING_LIMIT`] alone it is twice the present one, and may have to be doubled
+    /// again.
     pub fn advised_capacity(&self, present: usize) -> Option<usize> {
         let wanted = self.status.contains(StatusBits::CONTACT_LIMIT).then_some(self.contacts_wanted as usize);
         let twice = self.status.contains(StatusBits::LOAD_SHARING_LIMIT).then_some(present.saturating_mul(2));
@@ -81,12 +83,12 @@ impl FrameReport {
     }
 }
 
-/// How often something was tested, and how often that found something.
+/// Number of tests of some kind, and of hits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Tests.
     pub tested: u32,
-    /// Tests that did not find the two apart. Of contact tests: contacts found, of which a test may find several.
+    /// Tests that did not separate the two. For contact tests: contacts found; one test may find several.
     pub met: u32,
 }
 
@@ -98,13 +100,13 @@ impl Tally {
     }
 }
 
-/// Tallies of the pairs of `KINDS` kinds. Most frames use a few of them, so those in use are marked: to add two tables, or to
-/// clear one, then takes as long as what is in them.
+/// Tallies of the pairs of `KINDS` kinds. Most frames use a few, so the used ones are marked; adding or
+/// clearing a table then costs only those.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct TallyTable<const KINDS: usize> {
-    /// A bit per row in which a tally is not zero, by number of A's kind.
+    /// Bit per row with a non-zero tally, by number of A's kind.
     used: u16,
-    /// Of each row a bit per such tally, by number of B's kind.
+    /// Per row, a bit per non-zero tally, by number of B's kind.
     used_in: [u16; KINDS],
     tallies: [[Tally; KINDS]; KINDS],
 }
@@ -126,7 +128,7 @@ impl<const KINDS: usize> TallyTable<KINDS> {
         }
     }
 
-    /// The tallies of pairs that were tested, in order of A's kind, then B's.
+    /// Tallies of pairs that were tested, in order of A's kind, then B's.
     fn tested(&self) -> impl Iterator<Item = (usize, usize, Tally)> + '_ {
         let pairs = ones(self.used).flat_map(|a| ones(self.used_in[a]).map(move |b| (a, b)));
         pairs.map(|(a, b)| (a, b, self.tallies[a][b])).filter(|(_, _, tally)| tally.tested > 0)
@@ -150,7 +152,7 @@ impl<const KINDS: usize> TallyTable<KINDS> {
     }
 }
 
-/// The places of the bits that are set, from the lowest.
+/// Indices of the bits that are set, lowest first.
 fn ones(mut bits: u16) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let place = (bits != 0).then(|| bits.trailing_zeros() as usize)?;
@@ -161,13 +163,13 @@ fn ones(mut bits: u16) -> impl Iterator<Item = usize> {
 
 /// Kinds of primitives.
 const KINDS: usize = PrimitiveKind::ALL.len();
-/// Kinds of bounding volumes: box, ball, turned box, a user's own, none.
+/// Kinds of bounding volumes: box, sphere, oriented box, custom, unbounded.
 const VOLUME_KINDS: usize = 5;
 
-/// Counts of one frame: the same numbers for any number of workers.
+/// Counts of one frame; equal for any number of workers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameCounts {
-    /// Pairs of leaves whose contents were tested, each direction of A and B for itself.
+    /// Pairs of leaves whose contents were tested, counted per direction of A and B.
     pub leaf_pairs: u64,
     /// Comparisons of a box with the eight boxes of a node below a leaf.
     pub boxes_tested: u64,
@@ -176,35 +178,36 @@ pub struct FrameCounts {
 }
 
 impl FrameCounts {
-    /// Tests of authored bounding volumes: names of the two kinds, A's first, and their tally, if there were any.
+    /// Tests of authored bounding volumes: names of the two kinds, A's first, and their tally; without empty
+    /// ones.
     pub fn volumes(&self) -> impl Iterator<Item = (&'static str, &'static str, Tally)> + '_ {
         const NAMES: [&str; VOLUME_KINDS] = ["Aabb", "Sphere", "Obb", "Custom", "Unbounded"];
         self.volumes.tested().map(|(a, b, tally)| (NAMES[a], NAMES[b], tally))
     }
 
-    /// Contact tests: the two kinds, A's first, and their tally, if there were any.
+    /// Contact tests: the two kinds, A's first, and their tally; without empty ones.
     pub fn testers(&self) -> impl Iterator<Item = (PrimitiveKind, PrimitiveKind, Tally)> + '_ {
         let kinds = PrimitiveKind::ALL;
         self.testers.tested().map(move |(a, b, tally)| (kinds[a], kinds[b], tally))
     }
 
-    /// Pairs of authored bounding volumes tested.
+    /// Number of tested pairs of authored bounding volumes.
     pub fn volumes_tested(&self) -> u64 {
         self.volumes.tested().map(|(_, _, tally)| u64::from(tally.tested)).sum()
     }
 
-    /// Pairs of primitives tested.
+    /// Number of tested pairs of primitives.
     pub fn primitives_tested(&self) -> u64 {
         self.testers.tested().map(|(_, _, tally)| u64::from(tally.tested)).sum()
     }
 
-    /// Notes a test of two bounding volumes, A's first.
+    /// Counts a test of two bounding volumes, A's first.
     #[inline]
     pub(crate) fn note_volumes(&mut self, a: &Volume, b: &Volume, meets: bool) {
         self.volumes_against(a).note(b, meets);
     }
 
-    /// Where tests of a bounding volume of A against several of B's are noted.
+    /// Tallies for tests of one bounding volume of A against several of B.
     #[inline]
     pub(crate) fn volumes_against(&mut self, a: &Volume) -> VolumeTallies<'_> {
         let (row, table) = (place(a), &mut self.volumes);
@@ -236,7 +239,7 @@ impl FrameCounts {
     }
 }
 
-/// The tallies of tests of one bounding volume of A.
+/// Tallies of the tests of one bounding volume of A.
 pub(crate) struct VolumeTallies<'c> {
     used: &'c mut u16,
     used_bit: u16,
@@ -245,7 +248,7 @@ pub(crate) struct VolumeTallies<'c> {
 }
 
 impl VolumeTallies<'_> {
-    /// Notes a test against one of B's.
+    /// Counts a test against one volume of B.
     #[inline]
     pub fn note(&mut self, b: &Volume, meets: bool) {
         let column = place(b);
@@ -265,21 +268,21 @@ fn place(volume: &Volume) -> usize {
     }
 }
 
-/// A part of a frame that is timed.
+/// A timed stage of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
 pub enum Stage {
     /// States in, relative motion.
     Input = 0,
-    /// Bounding volumes, contact testers, load sharing and forces, by all threads.
+    /// Broad phase, narrow phase, load sharing and forces, on all threads.
     Contacts = 1,
-    /// The order of every sum; limits.
+    /// Sorting into summation order; limits.
     Order = 2,
     /// Energies, if they are kept.
     Energy = 3,
     /// Wrenches.
     Output = 4,
-    /// Contact state, when a frame is committed.
+    /// Contact state, in a commit.
     Commit = 5,
 }
 
@@ -301,16 +304,16 @@ impl Stage {
     }
 }
 
-/// A part of the work of [`Stage::Contacts`], which all threads share. The engine asks the clock between groups of 64
-/// elements, not between tests.
+/// A part of [`Stage::Contacts`], which all threads share. The clock is read between groups of 64 elements,
+/// not between tests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
 pub enum Work {
-    /// Laying out the work, bounding volumes, boxes.
+    /// Block layout, bounding volumes, boxes.
     BroadPhase = 0,
     /// Contact tests.
     NarrowPhase = 1,
-    /// Which contacts count, and their weights.
+    /// Selection of contacts, and their weights.
     LoadSharing = 2,
     /// Normal and friction forces.
     Forces = 3,
@@ -331,7 +334,7 @@ impl Work {
     }
 }
 
-/// Time of a lane, or of all lanes together, in the parts of the contacts' work, ns; all zero unless the host has given a
+/// Time of one thread, or of all threads together, per part of the contact stage, ns; all zero without a
 /// clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WorkTimes([u64; Work::ALL.len()]);
@@ -352,27 +355,27 @@ impl WorkTimes {
     }
 }
 
-/// Time per stage of the last frame, ns; all zero unless the host has given a clock.
+/// Time per stage of the last frame, ns; all zero without a clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StageTimes {
     stages: [u64; Stage::ALL.len()],
-    /// Time in each part of the work of [`Stage::Contacts`]: the sum of all lanes. With workers the parts together may
-    /// take longer than the stage; on the calling thread alone hardly anything of the stage is in none of them.
+    /// Time per part of [`Stage::Contacts`], summed over all threads. With workers, the sum may exceed the
+    /// time of the stage; on the calling thread alone it covers nearly all of it.
     pub work: WorkTimes,
 }
 
 impl StageTimes {
-    /// Time of one stage, ns, as the caller waits for it.
+    /// Elapsed time of one stage on the calling thread, ns.
     pub fn of(&self, stage: Stage) -> u64 {
         self.stages[stage as usize]
     }
 }
 
-/// A host's clock in ns, or none: the engine itself never asks the time.
+/// The host's clock in ns, if any; the engine itself never reads a clock.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Clock(pub Option<fn() -> u64>);
 
-/// Measures one stage after another.
+/// Stopwatch for consecutive stages.
 pub(crate) struct Watch {
     clock: Clock,
     last: u64,
@@ -385,7 +388,7 @@ impl Clock {
 }
 
 impl Watch {
-    /// The time since the last lap belongs to a stage.
+    /// Books the time since the last lap to a stage.
     pub fn lap(&mut self, stage: Stage, times: &mut StageTimes) {
         if let Some(now) = self.clock.0 {
             let now = now();
@@ -394,7 +397,7 @@ impl Watch {
         }
     }
 
-    /// The time since the last lap belongs to a part of the work as well.
+    /// Books the time since the last lap to a part of the contact stage.
     pub fn lap_work(&mut self, work: Work, times: &mut WorkTimes) {
         if let Some(now) = self.clock.0 {
             let now = now();
@@ -404,13 +407,13 @@ impl Watch {
     }
 }
 
-/// Measures the parts of a lane's work one after another, or does not.
+/// Stopwatch for the parts of one thread's work.
 pub(crate) trait Laps {
-    /// The time since the last lap belongs to a part.
+    /// Books the time since the last lap to a part.
     fn lap(&mut self, work: Work, times: &mut WorkTimes);
 }
 
-/// No clock was lent.
+/// Stopwatch without a clock.
 pub(crate) struct Untimed;
 
 impl Laps for Untimed {
@@ -418,14 +421,14 @@ impl Laps for Untimed {
     fn lap(&mut self, _: Work, _: &mut WorkTimes) {}
 }
 
-/// By the host's clock.
+/// Stopwatch with the host's clock.
 pub(crate) struct Timed {
     now: fn() -> u64,
     last: u64,
 }
 
 impl Timed {
-    /// Begins now.
+    /// Starts now.
     pub fn start(now: fn() -> u64) -> Self {
         Self { now, last: now() }
     }
@@ -440,19 +443,19 @@ impl Laps for Timed {
     }
 }
 
-/// Memory in use against memory taken at seal; in bytes, or contacts where that is said.
+/// Peak use of memory against its capacity, in bytes or, where stated, in contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MemoryReport {
-    /// Most contacts that a frame found, those only remembered included.
+    /// Peak number of contacts in a frame, including those only remembered.
     pub contacts_peak: usize,
-    /// Contacts that there is room for.
+    /// Capacity in contacts.
     pub contacts_capacity: usize,
-    /// Most that the testers of one block needed.
+    /// Peak arena use of the testers of one block, bytes.
     pub arena_peak: usize,
-    /// What there is for them.
+    /// Arena capacity, bytes.
     pub arena_capacity: usize,
-    /// Most that the solution among contacts of one surface needed.
+    /// Peak scratch use of load sharing for one surface, bytes.
     pub scratch_peak: usize,
-    /// What there is for it.
+    /// Scratch capacity, bytes.
     pub scratch_capacity: usize,
 }

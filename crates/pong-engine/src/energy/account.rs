@@ -1,4 +1,4 @@
-//! Energy accounts: what bodies gave to contacts, what they got back, and where the rest went.
+//! Energy accounts: energy that bodies gave to contacts and got back from them, and the losses.
 //!
 //! ```text
 //! work_in + inserted + hold_error = work_out + stored + damping_loss + friction_loss
@@ -9,29 +9,30 @@
 use crate::ids::{InterfaceId, PairId};
 use std::fmt::Write as _;
 
-/// What the host does with a wrench. The engine cannot see it, and the work that a wrench does depends on it.
+/// Use of a wrench by the host. The engine cannot see it, and the work of a wrench depends on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum WrenchCoupling {
-    /// Evaluated again within every step, as Runge-Kutta methods do. Work by the trapezoid rule, which is of second
-    /// order; what it may be off by is in [`EnergyAccount::resolution`].
+    /// Evaluated again within every step, as in Runge-Kutta methods. Work by the trapezoidal rule, of second
+    /// order; its error bound is in [`EnergyAccount::resolution`].
     #[default]
     Stages,
-    /// Gives the velocity with which the bodies then move, once a step: semi-implicit Euler. The trapezoid rule is exact
-    /// then, for each force acts over half of the displacement before it and half of the one after.
+    /// Applied once a step to get the new velocities: semi-implicit Euler. The trapezoidal rule is then
+    /// exact, because each force acts over half of the displacement before it and half of the one after.
     SemiImplicit,
-    /// Held from one commit to the next, as by a host that steps the world once a frame: the work is that of the held
-    /// wrench over the displacement, which the next commit tells.
+    /// Held from one commit to the next, by a host that steps the world once a frame. The work is that of the
+    /// held wrench over the displacement, known at the next commit.
     ZeroOrderHold {
-        /// How many whole frames the wrench comes late; at most [`DELAY_FRAMES_MAX`](Self::DELAY_FRAMES_MAX).
+        /// Number of whole frames by which the wrench is delayed; at most
+        /// [`DELAY_FRAMES_MAX`](Self::DELAY_FRAMES_MAX).
         delay_frames: u32,
     },
 }
 
 impl WrenchCoupling {
-    /// The latest that a wrench may come, frames.
+    /// Maximum delay, frames.
     pub const DELAY_FRAMES_MAX: u32 = 16;
 
-    /// What the hash of a world says of it: the words of the first version, so that blocks saved since then fit.
+    /// Text for the hash of a world: unchanged since the first version, so that saved blocks stay valid.
     pub(crate) fn hashed(self) -> String {
         match self {
             Self::Stages => "Stages".to_owned(),
@@ -40,7 +41,7 @@ impl WrenchCoupling {
         }
     }
 
-    /// How old the force is on average while it acts, in steps: holding it makes it half a step old.
+    /// Mean age of the force while it acts, in steps; holding it adds half a step.
     pub fn lag(self) -> f64 {
         match self {
             Self::Stages | Self::SemiImplicit => 0.0,
@@ -48,7 +49,7 @@ impl WrenchCoupling {
         }
     }
 
-    /// How many frames late.
+    /// Delay in frames.
     pub(crate) fn delay(self) -> usize {
         match self {
             Self::ZeroOrderHold { delay_frames } => delay_frames as usize,
@@ -68,45 +69,47 @@ impl std::fmt::Display for WrenchCoupling {
     }
 }
 
-/// Whether a contact gave back more energy than it got.
+/// Outcome of an energy account.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It gave back less.
+    /// It returned less energy than it received.
     Dissipated,
-    /// As much, as far as the accounts can tell: see [`EnergyAccount::resolution`].
+    /// The difference is below the accuracy of the accounts; see [`EnergyAccount::resolution`].
     Unresolved,
-    /// It gave back more: it makes energy.
+    /// It returned more energy than it received.
     Gained,
 }
 
 /// Energies of a contact, of a pair of movable groups, or of all, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyAccount {
-    /// What the bodies gave: work of the wrench on them, where it was negative.
+    /// Energy received from the bodies: work of the wrench on them, where negative.
     pub work_in: f64,
-    /// What the bodies got back: work of the wrench on them, where it was positive.
+    /// Energy returned to the bodies: work of the wrench on them, where positive.
     pub work_out: f64,
-    /// Stored without work: where the host put bodies into each other (first frame, after the contact history was
-    /// cleared), less what it let be forgotten. Of a contact that began while the pair touched already: what it may have taken over from another.
+    /// Energy stored without work: where the host placed bodies in contact (first frame, cleared contact
+    /// history), minus stored energy that was dropped. For a contact that began while the pair was already in
+    /// contact: energy that it may have taken over from another.
     pub inserted: f64,
-    /// Made by holding the wrench: its work on the bodies less that of the force as it would have followed their motion.
+    /// Energy created by holding the wrench: its work on the bodies minus that of a force that follows their
+    /// motion.
     pub hold_error: f64,
-    /// Stored in normal springs and bristles now.
+    /// Energy currently stored in normal springs and bristles.
     pub stored: f64,
-    /// Lost in normal damping.
+    /// Energy lost in normal damping.
     pub damping_loss: f64,
-    /// Lost in friction.
+    /// Energy lost in friction.
     pub friction_loss: f64,
-    /// What `work_out − work_in` may be off by, rounding apart: the work in intervals in which contact began or ended, if
-    /// the work is that of the trapezoid rule for [`WrenchCoupling::Stages`]; else 0.
+    /// Uncertainty of `work_out − work_in` besides rounding: the work in intervals in which contact began or
+    /// ended, for [`WrenchCoupling::Stages`] (trapezoidal rule); otherwise 0.
     pub resolution: f64,
 }
 
-/// Rounding of sums of works, relative to all that went in and out.
+/// Rounding error of sums of work, relative to the total in and out.
 const ROUNDING: f64 = 1e-9;
 
 impl EnergyAccount {
-    /// Numbers that are remembered.
+    /// Number of values stored in the contact state.
     pub(crate) const NUMBERS: usize = 7;
 
     pub(crate) fn from_numbers(numbers: &[f64]) -> Self {
@@ -122,7 +125,7 @@ impl EnergyAccount {
         }
     }
 
-    /// All but `stored`, which is found anew.
+    /// All values except `stored`, which each frame recomputes.
     pub(crate) fn numbers(&self) -> [f64; Self::NUMBERS] {
         [
             self.work_in,
@@ -135,7 +138,7 @@ impl EnergyAccount {
         ]
     }
 
-    /// Takes in work on the bodies.
+    /// Books work on the bodies.
     pub(crate) fn work(&mut self, done: f64) {
         *(if done > 0.0 { &mut self.work_out } else { &mut self.work_in }) += done.abs();
     }
@@ -152,17 +155,18 @@ impl EnergyAccount {
         self.resolution += other.resolution;
     }
 
-    /// Work done on the bodies so far, J: over a closed path, whose ends store the same, what it gained them.
+    /// Net work on the bodies so far, J. Over a closed path with equal stored energy at its ends, this is
+    /// their energy gain.
     pub fn net_work(&self) -> f64 {
         self.work_out - self.work_in
     }
 
-    /// What was returned beyond what was taken and put in, J.
+    /// Energy returned beyond the energy received and inserted, J.
     pub fn excess(&self) -> f64 {
         self.work_out - self.work_in - self.inserted
     }
 
-    /// Whether more was returned than taken.
+    /// Compares the energy returned with the energy received.
     pub fn verdict(&self) -> Verdict {
         let doubt = self.resolution + ROUNDING * (self.work_in + self.work_out + self.inserted.abs());
         match self.excess() {
@@ -172,52 +176,54 @@ impl EnergyAccount {
         }
     }
 
-    /// What the accounts fail to close by, J: rounding, if they are right.
+    /// Residual of the energy balance, J; only rounding if the accounts are right.
     pub fn imbalance(&self) -> f64 {
         let went_in = self.work_in + self.inserted + self.hold_error;
         went_in - (self.work_out + self.stored + self.damping_loss + self.friction_loss)
     }
 }
 
-/// Accounts of a pair of movable groups at the last commit.
+/// Energy accounts of a pair of movable groups at the last commit.
 ///
-/// An *episode* lasts from the first contact of the pair until nothing of it touches any more, and no delayed wrench of it is on
-/// its way. Verdicts are those of episodes: energy may go from one contact of a pair to another, a ball from facet to facet.
+/// An *episode* lasts from the first contact of the pair until it has no contact and no delayed wrench any
+/// more. Verdicts apply to episodes, because energy may pass from one contact of a pair to another, as for a
+/// ball that rolls over facets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairEnergyAccount {
     /// The pair of Objects.
     pub pair: PairId,
     /// The two movable groups.
     pub interfaces: [InterfaceId; 2],
-    /// Since the world began.
+    /// Account since the world began.
     pub total: EnergyAccount,
-    /// Of the episode that lasts; all zero if nothing touches.
+    /// Account of the current episode; all zero without contact.
     pub episode: EnergyAccount,
-    /// Whether an episode lasts.
+    /// True during an episode.
     pub in_contact: bool,
-    /// Episodes that have ended.
+    /// Number of completed episodes.
     pub episodes: u64,
-    /// Of those, the ones that gained energy.
+    /// Completed episodes that gained energy.
     pub episodes_gained: u64,
-    /// Of those, the ones of which the accounts cannot tell.
+    /// Completed episodes with an undecided verdict.
     pub episodes_unresolved: u64,
-    /// What episodes gained, all together, J.
+    /// Total energy gained in episodes, J.
     pub excess: f64,
-    /// What one episode gained at most, J.
+    /// Largest energy gained in one episode, J.
     pub worst_excess: f64,
-    /// Stiffness of the stiffest contact of the pair, N/m, and its damping, N·s/m, if it does not depend on the depth.
+    /// Stiffness, N/m, and damping, N·s/m, of the stiffest contact of the pair, if they do not depend on the
+    /// depth.
     pub stiffest: Option<(f64, f64)>,
-    /// What the host does with wrenches.
+    /// Use of wrenches by the host.
     pub coupling: WrenchCoupling,
 }
 
 impl PairEnergyAccount {
-    /// Whether an episode, over or not, has gained energy.
+    /// Returns true if any episode, completed or not, has gained energy.
     pub fn gains_energy(&self) -> bool {
         self.episodes_gained > 0 || self.episode.verdict() == Verdict::Gained
     }
 
-    /// What to do about a pair that makes energy.
+    /// Advice for a pair that gains energy.
     pub fn remedy(&self) -> String {
         let mut text = String::from("shorten the step, or give the surfaces more damping");
         match (self.coupling, self.stiffest) {

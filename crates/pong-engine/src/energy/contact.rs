@@ -1,4 +1,4 @@
-//! What is remembered of the energies of single contacts.
+//! Energies of single contacts, as part of the contact state.
 
 use super::account::{EnergyAccount, WrenchCoupling};
 use pong_arena::{Full, Table};
@@ -7,32 +7,32 @@ use pong_geometry::Wrench;
 /// Energies of one contact since it began.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct ContactEnergy {
-    /// All but what is stored, which every frame finds anew.
+    /// Account without `stored`, which each frame recomputes.
     pub account: EnergyAccount,
-    /// Stored in the bristle, J.
+    /// Energy stored in the bristle, J.
     pub bristle: f64,
 }
 
-/// The energies of one contact among others.
+/// Energies of one contact, borrowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ContactEnergyRef<'a> {
     pub energy: &'a ContactEnergy,
-    /// Wrenches that have not reached the bodies yet, the oldest first: on A about its origin, in the frame of B.
+    /// Delayed wrenches, oldest first: on A about its origin, in the frame of B.
     pub delayed: &'a [Wrench],
 }
 
-/// Energies of contacts, one after another: of all contacts of a list or, where no accounts are kept, of none.
+/// Energies of contacts, consecutive: of all contacts of a list, or empty if no accounts are kept.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ContactEnergies {
     kept: bool,
     energies: Table<ContactEnergy>,
-    /// As many for every contact as the wrench comes frames late.
+    /// Delayed wrenches, `delay` for each contact.
     delayed: Table<Wrench>,
     delay: usize,
 }
 
 impl ContactEnergies {
-    /// Room for so many contacts, if accounts are kept.
+    /// Room for this many contacts, if accounts are kept.
     pub fn with_capacity(coupling: Option<WrenchCoupling>, contacts: usize) -> Self {
         let contacts = if coupling.is_some() { contacts } else { 0 };
         let delay = coupling.map_or(0, WrenchCoupling::delay);
@@ -44,34 +44,34 @@ impl ContactEnergies {
         }
     }
 
-    /// What a contact takes in memory, bytes.
+    /// Memory per contact, bytes.
     pub fn bytes_each(coupling: Option<WrenchCoupling>) -> usize {
         coupling.map_or(0, |coupling| size_of::<ContactEnergy>() + coupling.delay() * size_of::<Wrench>())
     }
 
-    /// What a contact takes in a saved block, numbers.
+    /// Numbers per contact in a saved block.
     pub fn numbers_each(coupling: Option<WrenchCoupling>) -> usize {
         coupling.map_or(0, |coupling| EnergyAccount::NUMBERS + 1 + 6 * coupling.delay())
     }
 
-    /// What a contact takes in a saved block, numbers.
+    /// Numbers per contact in a saved block.
     pub fn numbers(&self) -> usize {
         if self.kept { EnergyAccount::NUMBERS + 1 + 6 * self.delay } else { 0 }
     }
 
-    /// How many frames late the wrench comes.
+    /// Delay of the wrench in frames.
     pub fn delay(&self) -> usize {
         self.delay
     }
 
-    /// The energies of a contact, if they are kept.
+    /// Energies of a contact, if accounts are kept.
     pub fn get(&self, index: usize) -> Option<ContactEnergyRef<'_>> {
         let of_contact = index * self.delay..(index + 1) * self.delay;
         self.kept
             .then(|| ContactEnergyRef { energy: &self.energies[index], delayed: &self.delayed[of_contact] })
     }
 
-    /// One contact more.
+    /// Appends a contact.
     ///
     /// # Errors
     /// [`Full`] if there is no room.
@@ -82,7 +82,7 @@ impl ContactEnergies {
         self.delayed.extend_from_slice(delayed)
     }
 
-    /// Energies of so many contacts, all zero.
+    /// Resets to this many contacts with zero energies.
     pub fn reset(&mut self, contacts: usize) {
         self.clear();
         for _ in 0..if self.kept { contacts } else { 0 } {
@@ -93,7 +93,8 @@ impl ContactEnergies {
         }
     }
 
-    /// Replaces the energies of a contact; `sent` is on its way from now on, in the place of the wrench that has arrived.
+    /// Replaces the energies of a contact. `sent` enters its queue of delayed wrenches, in place of the
+    /// wrench that has arrived.
     pub fn set(&mut self, index: usize, energy: ContactEnergy, delayed: &[Wrench], sent: Option<Wrench>) {
         self.energies[index] = energy;
         let waiting = &mut self.delayed[index * self.delay..(index + 1) * self.delay];
@@ -104,7 +105,7 @@ impl ContactEnergies {
         }
     }
 
-    /// The host put energy into the bristle of a contact, J.
+    /// Books energy that the host inserted into the bristle of a contact, J.
     pub fn insert_into_bristle(&mut self, index: usize, energy: f64) {
         if self.kept {
             let of_contact = &mut self.energies[index];
@@ -118,7 +119,7 @@ impl ContactEnergies {
         self.delayed.clear();
     }
 
-    /// Copies a contact's energies over those of another.
+    /// Copies the energies of one contact over another's.
     pub fn copy_within(&mut self, from: usize, to: usize) {
         if self.kept {
             self.energies[to] = self.energies[from];
@@ -127,13 +128,13 @@ impl ContactEnergies {
         }
     }
 
-    /// Keeps the first so many contacts.
+    /// Keeps the first `contacts` contacts.
     pub fn truncate(&mut self, contacts: usize) {
         self.energies.truncate(contacts);
         self.delayed.truncate(contacts * self.delay);
     }
 
-    /// Becomes equal to energies of the same size.
+    /// Copies another set of energies of the same size.
     pub fn copy_from(&mut self, other: &Self) {
         self.clear();
         let fits = self
@@ -145,7 +146,7 @@ impl ContactEnergies {
 }
 
 impl ContactEnergyRef<'_> {
-    /// In a block.
+    /// Numbers for a saved block.
     pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
         let wrenches = self.delayed.iter().flat_map(|wrench| wrench.force.into_iter().chain(&wrench.moment));
         let of_contact = self.energy.account.numbers().into_iter().chain([self.energy.bristle]);

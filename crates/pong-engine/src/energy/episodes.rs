@@ -1,13 +1,13 @@
-//! Energy accounts of pairs of movable groups and of their contact episodes, and wrenches on their way to the bodies.
+//! Energy accounts of pairs of movable groups and of their contact episodes, and delayed wrenches.
 
 use crate::energy::account::{EnergyAccount, Verdict};
 use pong_geometry::{Vec3, Wrench};
 
-/// From the first contact of a pair of movable groups until nothing of it touches any more, and no delayed wrench of it is
-/// on its way.
+/// Contact episode: from the first contact of a pair of movable groups until it has no contact and no delayed
+/// wrench any more.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct ContactEpisode {
-    /// Of the episode so far; all zero unless it lasts.
+    /// Account of the episode so far; zero outside an episode.
     pub account: EnergyAccount,
     pub lasts: bool,
 }
@@ -15,35 +15,35 @@ pub(crate) struct ContactEpisode {
 /// Energies of one pair of movable groups.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct PairEnergy {
-    /// Since the world began.
+    /// Account since the world began.
     pub total: EnergyAccount,
-    /// The present one.
+    /// Current episode.
     pub episode: ContactEpisode,
-    /// Episodes that have ended; of those the ones that gained energy, and the ones of which the accounts cannot tell.
+    /// Completed episodes; among them those that gained energy, and those with an undecided verdict.
     pub episodes: u64,
     pub episodes_gained: u64,
     pub episodes_unresolved: u64,
-    /// What episodes gained, all together, J.
+    /// Total energy gained in episodes, J.
     pub excess: f64,
-    /// What one episode gained at most, J.
+    /// Largest energy gained in one episode, J.
     pub worst_excess: f64,
 }
 
-/// Energies of all pairs; empty unless the world keeps them.
+/// Energies of all pairs; empty unless accounts are kept.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct PairEnergies {
     pub pairs: Box<[PairEnergy]>,
-    /// Wrenches that have not reached the bodies yet, `delay` for each pair, the oldest first: on the first group about
-    /// its origin, in the frame of the second.
+    /// Delayed wrenches, `delay` for each pair, oldest first: on the first group about its origin, in the
+    /// frame of the second.
     pub delayed: Box<[Wrench]>,
     pub delay: usize,
 }
 
 impl PairEnergy {
-    /// In a block.
+    /// Numbers in a saved block.
     pub const NUMBERS: usize = 2 * EnergyAccount::NUMBERS + 6;
 
-    /// The episode is over: what is to be said of it.
+    /// Ends the episode and counts its verdict.
     pub fn end_episode(&mut self) {
         let excess = self.episode.account.excess();
         match self.episode.account.verdict() {
@@ -82,7 +82,7 @@ impl PairEnergy {
 }
 
 impl PairEnergies {
-    /// Of so many pairs, whose wrenches come so many frames late.
+    /// Zero energies for this many pairs, with wrenches delayed by `delay` frames.
     pub fn new(pairs: usize, delay: usize) -> Self {
         Self {
             pairs: vec![PairEnergy::default(); pairs].into_boxed_slice(),
@@ -91,18 +91,18 @@ impl PairEnergies {
         }
     }
 
-    /// Bytes in a block.
+    /// Length in a saved block, bytes.
     pub fn block_len(pairs: usize, delay: usize) -> usize {
         pairs * 8 * (PairEnergy::NUMBERS + 6 * delay)
     }
 
-    /// Becomes equal to energies of the same size.
+    /// Copies other energies of the same size.
     pub fn copy_from(&mut self, other: &Self) {
         self.pairs.copy_from_slice(&other.pairs);
         self.delayed.copy_from_slice(&other.delayed);
     }
 
-    /// Takes over what is written of one pair.
+    /// Copies the energies of one pair.
     pub fn copy_pair(&mut self, pair: usize, other: &Self) {
         if let Some(energy) = self.pairs.get_mut(pair) {
             *energy = other.pairs[pair];
@@ -111,7 +111,7 @@ impl PairEnergies {
         }
     }
 
-    /// The host put energy into contacts of the pair, J.
+    /// Books energy that the host inserted into contacts of the pair, J.
     pub fn insert(&mut self, pair: usize, energy: f64) {
         if let Some(of_pair) = self.pairs.get_mut(pair) {
             of_pair.total.inserted += energy;
@@ -119,7 +119,7 @@ impl PairEnergies {
         }
     }
 
-    /// The history of the pair is cleared: no episode lasts, nothing is on its way, and what it had stored is gone.
+    /// Clears the history of the pair: ends the episode, drops delayed wrenches and the stored energy.
     pub fn clear_history(&mut self, pair: usize, stored: f64) {
         if let Some(energy) = self.pairs.get_mut(pair) {
             energy.total.inserted -= stored;
@@ -128,7 +128,7 @@ impl PairEnergies {
         }
     }
 
-    /// Sends a wrench on its way and takes out the one that arrives.
+    /// Queues a wrench and returns the one that arrives.
     pub fn exchange(&mut self, pair: usize, sent: Wrench) -> Wrench {
         let delayed = &mut self.delayed[pair * self.delay..(pair + 1) * self.delay];
         let Some(first) = delayed.first_mut() else { return sent };
@@ -137,7 +137,7 @@ impl PairEnergies {
         arrives
     }
 
-    /// Whether a wrench is on its way.
+    /// Returns true if a delayed wrench is not zero.
     pub fn is_delayed(&self, pair: usize) -> bool {
         let nothing = |wrench: &Wrench| wrench.force == Vec3::zeros() && wrench.moment == Vec3::zeros();
         !self.delayed[pair * self.delay..(pair + 1) * self.delay].iter().all(nothing)

@@ -1,11 +1,11 @@
-//! What a frame adds to the totals of work and dissipation.
+//! Contributions of a frame to the totals of work and dissipation.
 
-/// What a frame adds to the ledger.
+/// Contribution of a frame to the ledger.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LedgerEntry {
     /// Work done on the bodies, J.
     pub work: f64,
-    /// Energy that left the contacts for good, J.
+    /// Energy dissipated or dropped, J.
     pub dissipated: f64,
 }
 

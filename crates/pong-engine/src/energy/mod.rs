@@ -1,4 +1,4 @@
-//! Energy accounts: what is remembered and told of the energies of contacts, pairs and the whole world.
+//! Energy accounts of contacts, of pairs and of the whole world.
 
 pub mod account;
 pub(crate) mod contact;

@@ -1,15 +1,15 @@
-//! Two surfaces in series become one set of values for the pair (docs/theory.md, 3).
+//! Combination of two surfaces in series into one set of values for the pair (docs/theory.md, 3).
 //!
 //! ```text
 //! s_A = k_B/(k_A + k_B)     k = k_A·s_A     c = c_A·s_A² + c_B·s_B²     χ = χ_A·s_A + χ_B·s_B
 //! ```
 //!
-//! The power law's c is c_A·s_A^(2+q) + c_B·s_B^(2+q).
-//! With the exponent 3/2 the shares are those of κ_i = k_i^(2/3) and k = (κ_A·κ_B/(κ_A + κ_B))^(3/2).
-//! k_t by the series rule, c_t by squared shares of k_t, each μ by 2·μ_A·μ_B/(μ_A + μ_B). A bristle that gives no damping takes
-//! the damping ratio of the normal law, c·√(k_t/k) (docs/theory.md, 4).
+//! The power law's c is c_A·s_A^(2+q) + c_B·s_B^(2+q). With the exponent 3/2 the shares are those of κ_i =
+//! k_i^(2/3), and k = (κ_A·κ_B/(κ_A + κ_B))^(3/2). Friction: k_t by the series rule, c_t by squared shares of
+//! k_t, each μ by 2·μ_A·μ_B/(μ_A + μ_B). A bristle without given damping takes the damping ratio of the
+//! normal law, c·√(k_t/k) (docs/theory.md, 4).
 //!
-//! A rigid surface has no share: what it does not say of a law is said by the other.
+//! A rigid surface has no share; whatever it leaves out of a law is taken from the other surface.
 
 use super::power_law::series_damping;
 use super::props::{CombineError, FrictionProps, NormalProps, PairProps};
@@ -17,12 +17,12 @@ use super::registry::Laws;
 use pong_model::{Exponent, FrictionLaw, LARGEST, NormalLaw, PairOverride, Surface};
 use std::borrow::Cow;
 
-/// Combines surface `a` (of A) with surface `b` (of B); what `table` gives for the pair goes first.
+/// Combines surface `a` (of A) with surface `b` (of B); values that `table` gives for the pair take
+/// precedence.
 ///
 /// # Errors
-///
-/// Two rigid surfaces, a surface that names no law and is not rigid, laws that differ without an entry for the pair, or
-/// a law that is not registered; the error says the cause and the cure.
+/// Two rigid surfaces, a surface that names no law and is not rigid, different laws without an entry for the
+/// pair, or a law that is not registered. The error states the cause and the cure.
 pub fn combine(
     a: &Surface,
     b: &Surface,
@@ -56,8 +56,9 @@ pub fn combine(
     Ok(PairProps { share_a, stiffness, normal, friction })
 }
 
-/// c_t of a bristle of stiffness `k_t` to which an entry for the pair gives none: `by_normal_law` if the entry names that law, else
-/// by the damping ratio of the two surfaces' bristles in series, if both have one.
+/// Damping c_t of a bristle of stiffness `k_t` for an entry that gives none: `by_normal_law` if the entry
+/// names that law, otherwise from the damping ratio of the two surfaces' bristles in series, if both have
+/// one.
 fn entry_damping(
     (a, b): (&Surface, &Surface),
     entry: &PairOverride,
@@ -81,7 +82,7 @@ fn entry_damping(
     })
 }
 
-/// A surface with what it leaves to the one it meets.
+/// A surface completed with the values that it takes from the other surface.
 fn completed<'s>(own: &'s Surface, other: &Surface) -> Result<Cow<'s, Surface>, CombineError> {
     if own.inherits() && own.stiffness.is_finite() {
         return Err(CombineError {
@@ -95,14 +96,14 @@ fn completed<'s>(own: &'s Surface, other: &Surface) -> Result<Cow<'s, Surface>, 
     }
     if own.friction == FrictionLaw::Inherited {
         full.to_mut().friction = match other.friction.clone() {
-            // The bristle is the other's alone, too: that of a rigid surface does not yield.
+            // The rigid surface's bristle does not yield, so its stiffness is left out.
             FrictionLaw::Bristle { mu, static_excess, damping, .. } => {
                 FrictionLaw::Bristle { mu, static_excess, stiffness: None, damping }
             }
             law => law,
         };
     }
-    // Its damping has no share, so a ramp that it does not give is the other's.
+    // The damping of a rigid surface has no share, so a ramp that it leaves out is the other's.
     if own.stiffness.is_infinite()
         && let (NormalLaw::Linear { damping, ramp: 0.0 }, NormalLaw::Linear { ramp, .. }) =
             (&own.normal, &other.normal)
@@ -121,7 +122,7 @@ fn pair_exponent(a: &Surface, b: &Surface, table: Option<&PairOverride>) -> Expo
     }
 }
 
-/// A's share and the stiffness of two springs in series.
+/// A's share, and the stiffness of two springs in series.
 fn in_series(k_a: f64, k_b: f64, exponent: Exponent) -> (f64, f64) {
     if k_a.is_infinite() {
         return (0.0, k_b);
@@ -137,13 +138,13 @@ fn in_series(k_a: f64, k_b: f64, exponent: Exponent) -> (f64, f64) {
         Exponent::ThreeHalves => {
             let kappa = |k: f64| libm::cbrt(k) * libm::cbrt(k);
             let share_a = kappa(k_b) / (kappa(k_a) + kappa(k_b));
-            // k = k_A·s_A^(3/2), the closed form of the rule in the header.
+            // k = k_A·s_A^(3/2), the closed form of the rule in the head comment.
             (share_a, k_a * share_a * share_a.sqrt())
         }
     }
 }
 
-/// `of` tells a surface's side of the difference.
+/// Error for surfaces that differ without an entry; `of` returns a surface's side of the difference.
 fn needs_entry(a: &Surface, b: &Surface, what: &str, of: impl Fn(&Surface) -> String) -> CombineError {
     CombineError {
         cause: format!("they differ in {what}: {} and {}", of(a), of(b)),
@@ -154,7 +155,7 @@ fn needs_entry(a: &Surface, b: &Surface, what: &str, of: impl Fn(&Surface) -> St
     }
 }
 
-/// The name of a surface's normal law in a model file.
+/// Name of a surface's normal law in a model file.
 fn law_name(surface: &Surface) -> String {
     match &surface.normal {
         NormalLaw::Linear { .. } => "Linear".to_owned(),
@@ -165,7 +166,7 @@ fn law_name(surface: &Surface) -> String {
     }
 }
 
-/// The name of a surface's friction law in a model file.
+/// Name of a surface's friction law in a model file.
 pub(crate) fn friction_name(surface: &Surface) -> String {
     match &surface.friction {
         FrictionLaw::None => "None".to_owned(),
@@ -306,7 +307,7 @@ fn table_friction(
         FrictionLaw::None => FrictionProps::None,
         FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => FrictionProps::Bristle {
             stiffness: stiffness.unwrap_or(default_tangential(pair_stiffness)),
-            // Without one, `combine` finds it.
+            // If not given, `combine` computes it.
             damping: damping.unwrap_or(0.0),
             mu_kinetic: *mu,
             mu_static: (1.0 + static_excess) * mu,
@@ -330,7 +331,7 @@ fn no_law(which: &str) -> CombineError {
     }
 }
 
-/// k_t and c_t of a surface with a bristle.
+/// Bristle stiffness k_t and damping c_t of a surface.
 fn spring_of(surface: &Surface) -> (f64, f64) {
     surface.bristle().expect("it has a bristle")
 }
@@ -340,7 +341,7 @@ fn default_tangential(stiffness: f64) -> f64 {
 }
 
 fn harmonic(mu_a: f64, mu_b: f64) -> f64 {
-    // Of two zeros zero, too.
+    // Zero for two zeros, without a division by zero.
     2.0 * mu_a * mu_b / (mu_a + mu_b).max(f64::MIN_POSITIVE)
 }
 
@@ -369,7 +370,7 @@ mod tests {
         let props = combine(&surface(3e5, 900.0), &surface(1e5, 100.0), None, &Laws::default()).unwrap();
         assert!((props.stiffness - 7.5e4).abs() < 1e-9);
         assert!((props.share_a - 0.25).abs() < 1e-15);
-        // Both dampers carry their own part of the rate: power adds.
+        // Each damper acts on its own part of the rate; the powers add.
         assert!((damping_of(&props) - (900.0 / 16.0 + 100.0 * 9.0 / 16.0)).abs() < 1e-9);
     }
 
@@ -393,12 +394,13 @@ mod tests {
         let NormalProps::HuntCrossley { dissipation, exponent } = props.normal else {
             panic!("not the law of both")
         };
-        // A yields a quarter of the depth.
+        // A takes a quarter of the depth.
         assert!((dissipation - (0.25 * 0.2 + 0.75 * 0.8)).abs() < 1e-15);
         assert_eq!(exponent, Exponent::One);
     }
 
-    /// Power law: what both dampers take of the motion is what that of the pair takes, at any depth; q = 0 is the linear law.
+    /// Power law: the two dampers dissipate what the pair's damper does, at any depth; q = 0 is the linear
+    /// law.
     #[test]
     fn dampers_of_the_power_law_dissipate_what_their_pair_does() {
         for (exponent, q) in [
@@ -464,7 +466,7 @@ mod tests {
         assert!((damping - 4.0 * (0.75 * 0.75 + 0.25 * 0.25)).abs() < 1e-12);
     }
 
-    /// k_t = ⅔·k, of surfaces in series and of an entry for the pair.
+    /// k_t = ⅔·k, for surfaces in series and for an entry of the pair.
     #[test]
     fn what_is_not_said_of_friction_follows_the_normal_spring() {
         let friction =
@@ -504,7 +506,7 @@ mod tests {
         FrictionLaw::Bristle { mu, static_excess: 0.0, stiffness, damping }
     }
 
-    /// Series, as of two of the surfaces with normal dampings in proportion to √k: both springs have one damping ratio.
+    /// Normal dampings in proportion to √k: in series, both springs have the same damping ratio.
     #[test]
     fn bristles_in_series_keep_the_damping_ratio_of_the_normal_law() {
         let rough = |k: f64, c: f64| Surface { friction: bristle(0.3, None, None), ..surface(k, c) };
@@ -523,7 +525,7 @@ mod tests {
         }
     }
 
-    /// A rigid surface that says nothing, or only μ, leaves the other's damping as it is.
+    /// A rigid surface that gives nothing, or only μ, leaves the other's damping unchanged.
     #[test]
     fn a_rigid_surface_changes_no_damping_of_friction() {
         let soft = Surface { friction: bristle(0.3, None, None), ..surface(1e5, 60.0) };
@@ -548,7 +550,7 @@ mod tests {
         }
     }
 
-    /// Values of an entry go first, then the two surfaces' bristles, then the normal law of the pair.
+    /// Precedence: the entry's values, then the two surfaces' bristles, then the normal law of the pair.
     #[test]
     fn an_entry_that_gives_no_damping_keeps_the_damping_ratio() {
         let entry = |stiffness, normal, k_t| PairOverride {
@@ -560,12 +562,12 @@ mod tests {
         let linear = |damping| Some(NormalLaw::Linear { damping, ramp: 0.0 });
         let hunt = Some(NormalLaw::HuntCrossley { dissipation: 0.1, exponent: Exponent::One });
         let rough = |k, c_t| Surface { friction: bristle(0.3, None, c_t), ..surface(k, 60.0) };
-        // In series k_t is 5e4 and c_t is 300·(3/4)² + 90·(1/4)² on ⅔ of 1e5 and of 3e5.
+        // In series, k_t = 5e4 and c_t = 300·(3/4)² + 90·(1/4)², from k_t of ⅔ of 1e5 and of 3e5.
         let (a, b) = (rough(3e5, Some(90.0)), rough(1e5, Some(300.0)));
         let series = 300.0 * 0.5625 + 90.0 * 0.0625;
         let third = 2.0_f64 / 3.0;
         let plain = surface(1e5, 60.0);
-        // Of the plain surface with itself: k 5e4, c 30.
+        // The plain surface with itself: k = 5e4, c = 30.
         for (a, b, entry, expected) in [
             (&a, &b, entry(None, None, None), series),
             (&a, &b, entry(None, None, Some(2e5)), series * 2.0),
@@ -601,7 +603,7 @@ mod tests {
         assert!(matches!(props.friction, FrictionProps::None));
     }
 
-    /// Values that must be alike, one of them different: refused, and the pair is named.
+    /// A difference in values that must be equal is refused, and the error names the pair.
     #[test]
     fn what_must_be_alike_and_is_not_is_refused_by_name() {
         let custom = |name: &str| NormalLaw::Custom { name: name.to_owned(), parameters: vec![] };
@@ -649,7 +651,7 @@ mod tests {
         assert_eq!(damping_of(&props), 3.0);
     }
 
-    /// A rigid surface that names no law behaves as one that names the other's: law, exponent, ramp and friction.
+    /// A rigid surface that names no law behaves like one with the other's law, exponent, ramp and friction.
     #[test]
     fn a_rigid_surface_takes_what_it_does_not_say_from_the_other() {
         let silent = Surface {
@@ -674,7 +676,7 @@ mod tests {
             for friction in &frictions {
                 let soft =
                     Surface { normal: normal.clone(), friction: friction.clone(), ..surface(1e5, 0.0) };
-                // The other's law with numbers of no weight: a rigid surface does not yield.
+                // The other's law; its numbers have no effect, because a rigid surface does not yield.
                 let mut telling = Surface { stiffness: f64::INFINITY, ..soft.clone() };
                 if let FrictionLaw::Bristle { stiffness, .. } = &mut telling.friction {
                     *stiffness = None;
@@ -699,7 +701,8 @@ mod tests {
         }
     }
 
-    /// What a rigid surface does say holds: another law needs an entry, as ever; only a ramp that it leaves out does not.
+    /// Values that a rigid surface does give are used: a different law needs an entry as usual; only a
+    /// missing ramp is taken over.
     #[test]
     fn what_a_rigid_surface_says_holds() {
         let rigid = surface(f64::INFINITY, 0.0);
@@ -714,7 +717,7 @@ mod tests {
         let error =
             combine(&rigid, &Surface { normal: hunt, ..ramped.clone() }, None, &Laws::default()).unwrap_err();
         assert!(error.cause.contains("normal force law: Linear and HuntCrossley"), "{error:?}");
-        // Only what is rigid may be silent.
+        // Only a rigid surface may leave out its laws.
         let soft = Surface { normal: NormalLaw::Inherited, ..surface(1e4, 0.0) };
         assert!(combine(&soft, &ramped, None, &Laws::default()).is_err());
     }

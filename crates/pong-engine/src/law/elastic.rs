@@ -1,4 +1,4 @@
-//! F = k·δ^p, p = 1 or 3/2: the spring of the laws whose stiffness may follow the depth.
+//! F = k·δ^p, p = 1 or 3/2: the spring of laws whose stiffness may depend on the depth.
 
 use pong_model::Exponent;
 
@@ -9,7 +9,7 @@ pub(super) fn force(stiffness: f64, exponent: Exponent, depth: f64) -> f64 {
     }
 }
 
-/// ∂F/∂δ, N/m.
+/// Slope ∂F/∂δ, N/m.
 pub(super) fn slope(stiffness: f64, exponent: Exponent, depth: f64) -> f64 {
     match exponent {
         Exponent::One => stiffness,

@@ -1,7 +1,7 @@
 //! F = k·δ^e·(1 + χ·δ'),  e = 1 or 3/2.
 //!
-//! K. H. Hunt and F. R. E. Crossley, "Coefficient of restitution interpreted as damping in vibroimpact",
-//! J. Appl. Mech. 42 (1975). The damping scales with the load, so the force has no step at touch.
+//! K. H. Hunt and F. R. E. Crossley, "Coefficient of restitution interpreted as damping in vibroimpact", J.
+//! Appl. Mech. 42 (1975). The damping scales with the load, so the force is continuous at touch.
 
 use super::elastic;
 use pong_model::Exponent;
@@ -10,7 +10,7 @@ pub(super) fn force(stiffness: f64, dissipation: f64, exponent: Exponent, depth:
     elastic::force(stiffness, exponent, depth) * (1.0 + dissipation * rate)
 }
 
-/// ∂F/∂δ, N/m, and ∂F/∂δ', N·s/m.
+/// Slopes ∂F/∂δ, N/m, and ∂F/∂δ', N·s/m.
 pub(super) fn tangent(
     stiffness: f64,
     dissipation: f64,

@@ -1,7 +1,7 @@
 //! F = k·δ + c·S(δ/ramp)·δ',  S(x) = 3x² − 2x³ on 0…1.
 //!
-//! The Kelvin-Voigt element, here without pull (the caller cuts at zero). Without a ramp the damping force steps
-//! to c·δ' at touch; with one it grows over the stated depth.
+//! Kelvin-Voigt element; the caller cuts the force at zero, so it never pulls. Without a ramp the damping
+//! force steps to c·δ' at touch; with one it grows over the given depth.
 
 pub(super) fn force(stiffness: f64, damping: f64, ramp: f64, depth: f64, rate: f64) -> f64 {
     stiffness * depth + damping * ramp_factor(depth, ramp) * rate
@@ -11,9 +11,9 @@ pub(super) fn stored(stiffness: f64, depth: f64) -> f64 {
     0.5 * stiffness * depth * depth
 }
 
-/// ∂F/∂δ, N/m, and ∂F/∂δ', N·s/m.
+/// Slopes ∂F/∂δ, N/m, and ∂F/∂δ', N·s/m.
 pub(super) fn tangent(stiffness: f64, damping: f64, ramp: f64, depth: f64, rate: f64) -> (f64, f64) {
-    // Without a ramp there is nothing to divide by.
+    // Avoids a division by a ramp of zero.
     if depth >= ramp {
         return (stiffness, damping);
     }

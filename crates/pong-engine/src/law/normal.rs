@@ -1,8 +1,8 @@
-//! Normal force laws that a user adds.
+//! Normal force laws added by the host.
 
 use std::fmt::Debug;
 
-/// What a registered normal law is given.
+/// Input of a registered normal law.
 #[derive(Clone, Copy, Debug)]
 pub struct NormalInput<'a> {
     /// Depth δ > 0, m.
@@ -15,11 +15,11 @@ pub struct NormalInput<'a> {
     pub parameters: &'a [f64],
 }
 
-/// A normal force law added by the user. It must be pure: the same input gives the same output, from any thread.
+/// A normal force law added by the host. It must be pure: equal inputs give equal outputs, from any thread.
 pub trait NormalForce: Debug + Send + Sync {
-    /// Force of a whole contact (weight 1), N. Negative values are taken as 0: a contact never pulls.
+    /// Force for weight 1, N. Negative values are treated as 0: a contact never pulls.
     fn force(&self, input: &NormalInput<'_>) -> f64;
 
-    /// Energy stored at this depth by a whole contact, J: the integral of the elastic part. Used by the ledger.
+    /// Energy stored at this depth for weight 1, J: the integral of the elastic part. Used by the ledger.
     fn stored(&self, input: &NormalInput<'_>) -> f64;
 }

@@ -1,7 +1,7 @@
 //! F = k·δ^p + c·δ^q·δ',  p = 1 or 3/2, 0 ≤ q ≤ p.
 //!
-//! q = 0 is the linear law's damper, q = p the law of Hunt and Crossley with χ = c/k; between them the restitution
-//! depends on speed and mass (docs/theory.md, 3). The caller cuts at zero.
+//! q = 0 is the linear law's damper, q = p the Hunt-Crossley law with χ = c/k; in between, the restitution
+//! depends on speed and mass (docs/theory.md, 3). The caller cuts the force at zero.
 
 use super::elastic;
 use pong_model::Exponent;
@@ -14,7 +14,7 @@ pub(super) struct Damper {
 }
 
 impl Damper {
-    /// c·δ^q, N·s/m.
+    /// Damping c·δ^q at a depth, N·s/m.
     fn at(self, depth: f64) -> f64 {
         self.damping * power(depth, self.exponent)
     }
@@ -24,7 +24,7 @@ pub(super) fn force(stiffness: f64, exponent: Exponent, damper: Damper, depth: f
     elastic::force(stiffness, exponent, depth) + damper.at(depth) * rate
 }
 
-/// ∂F/∂δ, N/m, and ∂F/∂δ', N·s/m.
+/// Slopes ∂F/∂δ, N/m, and ∂F/∂δ', N·s/m.
 pub(super) fn tangent(
     stiffness: f64,
     exponent: Exponent,
@@ -33,18 +33,18 @@ pub(super) fn tangent(
     rate: f64,
 ) -> (f64, f64) {
     let damping = damper.at(depth);
-    // q·c·δ^(q − 1); at touch without end if q < 1, where the force is zero.
+    // q·c·δ^(q − 1); unbounded at touch for q < 1, where the force is zero.
     let rise = damper.exponent * damping / depth.max(f64::MIN_POSITIVE);
     (elastic::slope(stiffness, exponent, depth) + rise * rate, damping)
 }
 
-/// Damping of two surfaces in series, of which A takes the share `share_a` of depth and depth rate: the powers add.
+/// Damping of two surfaces in series, with A's share `share_a` of depth and depth rate: the powers add.
 pub(super) fn series_damping(c_a: f64, c_b: f64, share_a: f64, exponent: f64) -> f64 {
     let share_b = 1.0 - share_a;
     c_a * share_a * share_a * power(share_a, exponent) + c_b * share_b * share_b * power(share_b, exponent)
 }
 
-/// x^q for x ≥ 0; by roots for the exponents of known laws.
+/// x^q for x ≥ 0; by square roots for the exponents of known laws.
 fn power(x: f64, q: f64) -> f64 {
     match q {
         0.0 => 1.0,

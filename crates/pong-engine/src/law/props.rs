@@ -1,16 +1,16 @@
-//! The values that two surfaces have together.
+//! Combined values of two surfaces.
 
 use super::friction::FrictionForce;
 use super::normal::NormalForce;
 use pong_model::Exponent;
 use std::sync::Arc;
 
-/// The values of an ordered pair of surfaces.
+/// Values of an ordered pair of surfaces.
 #[derive(Clone, Debug)]
 pub struct PairProps {
-    /// s_A: A's share of the yield, 0…1.
+    /// A's share s_A of the yield, 0…1.
     pub share_a: f64,
-    /// k, N/m (N/m^1.5 with the exponent 3/2).
+    /// Stiffness k, N/m (N/m^1.5 with the exponent 3/2).
     pub stiffness: f64,
     /// Normal law with the pair's damping.
     pub normal: NormalProps,
@@ -29,7 +29,7 @@ pub enum NormalProps {
 }
 
 impl NormalProps {
-    /// Exponent of the depth in the spring's force; 1 of a law of the host's.
+    /// Exponent of the depth in the spring's force; 1 for a host's law.
     pub fn exponent(&self) -> Exponent {
         match self {
             Self::HuntCrossley { exponent, .. } | Self::PowerLaw { exponent, .. } => *exponent,
@@ -48,11 +48,11 @@ pub enum FrictionProps {
     Custom { law: Arc<dyn FrictionForce>, stiffness: f64, parameters: Vec<f64> },
 }
 
-/// Why two surfaces cannot be combined.
+/// Reason why two surfaces cannot be combined.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CombineError {
-    /// What is wrong.
+    /// Cause of the failure.
     pub cause: String,
-    /// What would mend it.
+    /// Suggested remedy.
     pub cure: String,
 }

@@ -1,4 +1,4 @@
-//! Force laws added by the user, by name.
+//! Force laws added by the host, by name.
 
 use super::friction::FrictionForce;
 use super::normal::NormalForce;
@@ -32,7 +32,7 @@ impl Laws {
         self.friction.get(name).cloned().ok_or_else(|| missing("friction law", name))
     }
 
-    /// The names of all laws, for the hash of a world.
+    /// Names of all laws, for the hash of a world.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.normal.keys().chain(self.friction.keys()).map(String::as_str)
     }

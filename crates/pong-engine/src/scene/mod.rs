@@ -1,4 +1,4 @@
-//! Everything that set-up decides, and what the host may change between frames: states and values of surfaces.
+//! Scene: everything that set-up defines. States and surface values may change between frames.
 
 mod names;
 mod states;
@@ -18,17 +18,17 @@ pub(crate) use surfaces::Surfaces;
 /// Settings of a world.
 #[derive(Clone, Debug, Default)]
 pub struct Config {
-    /// Most contacts of a frame; `None` takes the worst case of the scene, at least 256 and at most
-    /// 65,536. When a frame has more,
-    /// the deepest are kept and a status bit is set.
+    /// Maximum contacts of a frame; `None` takes the worst case of the scene, at least 256 and at most
+    /// 65,536. If a frame has more, the deepest are kept and a status bit is set.
     pub contact_capacity: Option<usize>,
-    /// Whether energies are kept (docs/theory.md, 6).
+    /// True to keep the energy ledger (docs/theory.md, 6).
     pub ledger: bool,
-    /// Whether accounts of contacts and of pairs are kept too, and what the host does with wrenches, which decides what
-    /// work they do. Keeps the ledger as well. See [`World::pair_accounts`](crate::World::pair_accounts).
+    /// Energy accounts of contacts and pairs, with the host's use of wrenches, on which their work depends;
+    /// `None` for no accounts. Accounts include the ledger. See
+    /// [`World::pair_accounts`](crate::World::pair_accounts).
     pub accounts: Option<WrenchCoupling>,
-    /// Workers that share a frame's work with the calling thread; `None` for the calling thread alone. The results
-    /// are the same bits.
+    /// Workers that share a frame's work with the calling thread; `None` for the calling thread alone. The
+    /// results are bit-identical.
     pub workers: Option<WorkerSettings>,
 }
 
@@ -37,7 +37,7 @@ pub struct Config {
 pub(crate) struct Object {
     pub name: String,
     pub model: usize,
-    /// Its movable groups are consecutive bodies from this one on.
+    /// Index of its first body; its movable groups are consecutive bodies.
     pub first_body: usize,
 }
 
@@ -51,14 +51,14 @@ pub(crate) struct GroupInstance {
     pub body: usize,
 }
 
-/// Two Objects that are tested.
+/// Two Objects that are tested against each other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ObjectPair {
     pub a: usize,
     pub b: usize,
 }
 
-/// Two groups, with everything below them, that never touch: of the Objects by their numbers, the lower first.
+/// Two groups that never touch, with everything below them; the Object of lower index first.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct GroupFilter {
     pub objects: [usize; 2],
@@ -66,11 +66,11 @@ pub(crate) struct GroupFilter {
     pub groups: [String; 2],
 }
 
-/// The scene of a world: its models, Objects, pairs, laws and configuration, with their names and ids. A
+/// The scene of a world: models, Objects, pairs, laws and configuration, with names and ids. A
 /// [`WorldBuilder`](crate::WorldBuilder) makes it; nothing changes it once the world is sealed.
 #[derive(Clone)]
 pub struct Scene {
-    /// In every id of the scene.
+    /// Stamp in every id of the scene.
     pub(crate) stamp: WorldStamp,
     pub(crate) config: Config,
     pub(crate) extensions: Extensions,
@@ -79,14 +79,14 @@ pub struct Scene {
     pub(crate) objects: Vec<Object>,
     pub(crate) bodies: Vec<GroupInstance>,
     pub(crate) pairs: Vec<ObjectPair>,
-    /// Each once.
+    /// Filters, without duplicates.
     pub(crate) filters: Vec<GroupFilter>,
-    /// Memory that the host wants to find left after the seal, for each pair of movable groups, bytes.
+    /// Memory that the host wants to be left after the seal, per pair of movable groups, bytes.
     pub(crate) room_per_pair: usize,
 }
 
 impl Scene {
-    /// A scene of nothing.
+    /// An empty scene.
     pub(crate) fn empty(config: Config, extensions: Extensions, laws: Laws) -> Self {
         Self {
             stamp: WorldStamp::fresh(),
@@ -102,20 +102,20 @@ impl Scene {
         }
     }
 
-    /// The model's body behind a movable group.
+    /// The model's body of a movable group.
     #[inline]
     pub(crate) fn body(&self, instance: usize) -> &MovableGroup {
         let instance = &self.bodies[instance];
         &self.models[instance.model].bodies[instance.body]
     }
 
-    /// The model behind a movable group.
+    /// The model of a movable group.
     #[inline]
     pub(crate) fn model_of_body(&self, instance: usize) -> &Model {
         &self.models[self.bodies[instance].model]
     }
 
-    /// The model of a movable group, and which of the model's it is: alike for all its instances.
+    /// Indices of the model and of its body for a movable group; equal for all instances.
     pub(crate) fn group_of_model(&self, instance: usize) -> (usize, usize) {
         let instance = &self.bodies[instance];
         (instance.model, instance.body)
@@ -128,7 +128,7 @@ impl Scene {
     }
 }
 
-/// The path of a movable group below the root of its model; empty for the root.
+/// Path of a movable group below the root of its model; empty for the root.
 pub(crate) fn below_root<'m>(model: &Model, group: &'m MovableGroup) -> &'m str {
     let below =
         group.path.strip_prefix(model.bodies[0].path.as_str()).expect("every path begins with the root's");

@@ -1,4 +1,4 @@
-//! Names and ids: from one to the other, and to what they stand for.
+//! Look-ups of names and ids.
 
 use super::{GroupFilter, Scene, below_root};
 use crate::energy::account::WrenchCoupling;
@@ -10,7 +10,7 @@ use pong_model::Model;
 use std::sync::Arc;
 
 impl Scene {
-    /// The user's own kinds that this scene knows: load models with them.
+    /// The host's own kinds that this scene knows; models are loaded with them.
     pub fn extensions(&self) -> &Extensions {
         &self.extensions
     }
@@ -20,47 +20,48 @@ impl Scene {
         self.laws.names()
     }
 
-    /// Whether energies are kept.
+    /// Returns true if the energy ledger is kept.
     pub fn keeps_ledger(&self) -> bool {
         self.config.ledger
     }
 
-    /// What the host does with wrenches, if accounts are kept ([`Config::accounts`](crate::Config::accounts)).
+    /// Use of wrenches by the host, if accounts are kept ([`Config::accounts`](crate::Config::accounts)).
     pub fn wrench_coupling(&self) -> Option<WrenchCoupling> {
         self.config.accounts
     }
 
-    /// All models in the order in which they were added.
+    /// All models, in the order in which they were added.
     pub fn models(&self) -> impl ExactSizeIterator<Item = (ModelId, &Arc<Model>)> {
         self.models.iter().enumerate().map(|(index, model)| (ModelId::new(self.stamp, index), model))
     }
 
-    /// All Objects in the order in which they were created. Their Interfaces follow each other in that order too.
+    /// All Objects, in the order in which they were created. Their Interfaces are consecutive in the same
+    /// order.
     pub fn objects(&self) -> impl ExactSizeIterator<Item = ObjectId> + '_ {
         (0..self.objects.len()).map(|index| ObjectId::new(self.stamp, index))
     }
 
-    /// All pairs with their Objects in the order in which they were declared.
+    /// All pairs with their Objects, in the order in which they were declared.
     pub fn pairs(&self) -> impl ExactSizeIterator<Item = (PairId, [ObjectId; 2])> + '_ {
         let object = |index| ObjectId::new(self.stamp, index);
         let pairs = self.pairs.iter().enumerate();
         pairs.map(move |(index, pair)| (PairId::new(self.stamp, index), [object(pair.a), object(pair.b)]))
     }
 
-    /// The filters that the builder was given: two Objects, and the full paths of the groups that never touch. Those of models
-    /// are not among them ([`Model::filters`]).
+    /// Filters declared with the builder: two Objects, and the full paths of the groups that never touch.
+    /// Filters of models are separate ([`Model::filters`]).
     pub fn filters(&self) -> impl ExactSizeIterator<Item = ([ObjectId; 2], [&str; 2])> + '_ {
         self.filters.iter().map(|GroupFilter { objects, groups: [a, b] }| {
             (objects.map(|index| ObjectId::new(self.stamp, index)), [a.as_str(), b.as_str()])
         })
     }
 
-    /// The full path of a group of an Object, movable or not, from its full path (`root/arm/tip`), its path below the root
-    /// (`arm/tip`) or its bare name where only one group has it; of the root for an empty one.
+    /// Full path of a group of an Object, movable or not, given its full path (`root/arm/tip`), its path
+    /// below the root (`arm/tip`), or its bare name if only one group has it; an empty name is the root.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for an Object that this scene did not give out, [`EngineError::UnknownName`] for a name that
-    /// leads to no group.
+    /// [`EngineError::UnknownId`] for an Object of another scene, [`EngineError::UnknownName`] for a name
+    /// that leads to no group.
     pub fn group_path(&self, object: ObjectId, name: &str) -> Result<&str, EngineError> {
         let object = &self.objects[self.object_index(object)?];
         let model = &self.models[object.model];
@@ -71,7 +72,7 @@ impl Scene {
         })
     }
 
-    /// The Object of a name.
+    /// Object with a given name.
     ///
     /// # Errors
     /// [`EngineError::UnknownName`] if no Object has it.
@@ -94,7 +95,7 @@ impl Scene {
         Ok(&self.objects[self.object_index(object)?].name)
     }
 
-    /// The model an Object was made from.
+    /// The model that an Object was made from.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for an id that this scene did not give out.
@@ -102,7 +103,7 @@ impl Scene {
         Ok(&self.models[self.objects[self.object_index(object)?].model])
     }
 
-    /// The id of the model an Object was made from.
+    /// Id of the model that an Object was made from.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for an id that this scene did not give out.
@@ -119,12 +120,12 @@ impl Scene {
         Ok([pair.a, pair.b].map(|index| ObjectId::new(self.stamp, index)))
     }
 
-    /// The Interface of a movable group by its path in the model, `root/arm/latch`, by its path below the root, `arm/latch`,
-    /// or by its bare name where only one movable group has it. An empty path is the root.
+    /// Interface of a movable group, given its path in the model (`root/arm/latch`), its path below the root
+    /// (`arm/latch`), or its bare name if only one movable group has it; an empty path is the root.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for an Object that this scene did not give out, [`EngineError::UnknownName`] for a path that
-    /// leads to no movable group and for a bare name that several have.
+    /// [`EngineError::UnknownId`] for an Object of another scene, [`EngineError::UnknownName`] for a path
+    /// that leads to no movable group, and for a bare name that several groups have.
     pub fn interface(&self, object: ObjectId, path: &str) -> Result<InterfaceId, EngineError> {
         let object = &self.objects[self.object_index(object)?];
         let model = &self.models[object.model];
@@ -156,8 +157,8 @@ impl Scene {
         Ok((0..count).map(|body| InterfaceId::new(self.stamp, object.first_body + body)).collect())
     }
 
-    /// The name of a movable group in scenes and logs: that of its Object for the root, `object/path below the root` for
-    /// others.
+    /// Name of a movable group in scenes and logs: the Object's name for the root, `object/path below the
+    /// root` for others.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for an id that this scene did not give out.
@@ -170,7 +171,7 @@ impl Scene {
         })
     }
 
-    /// `object/path` of a movable group, with the root of its model, as messages name it.
+    /// `object/path` of a movable group, including the root of its model, as used in messages.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for an id that this scene did not give out.
@@ -186,7 +187,7 @@ impl Scene {
         Ok(&self.body(self.body_index(interface)?).path)
     }
 
-    /// Path of a primitive, as a contact names it: by its index in the movable group's list.
+    /// Path of a primitive, given its index in the movable group's list, as used in contacts.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for an Interface that this scene did not give out, or an index beyond the list.
@@ -196,7 +197,8 @@ impl Scene {
         Ok(&info.ok_or_else(|| unknown("primitive"))?.path)
     }
 
-    /// Pose at which the model's author placed a movable group, m, in the frame of the root group; the identity for the root.
+    /// Pose at which the model's author placed a movable group, m, in the frame of the root group; identity
+    /// for the root.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for an id that this scene did not give out.
@@ -227,7 +229,8 @@ impl Scene {
     }
 }
 
-/// Apart and made only when it is needed: an error that is there and not used costs every look-up of a frame its end.
+/// Not inlined and created only when needed: an error value that is built in advance must be dropped on every
+/// look-up.
 #[cold]
 fn unknown(what: &'static str) -> EngineError {
     EngineError::UnknownId { what }

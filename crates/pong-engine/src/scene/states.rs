@@ -1,4 +1,4 @@
-//! The states that the host sets.
+//! States set by the host.
 
 use super::Scene;
 use crate::error::EngineError;
@@ -6,26 +6,26 @@ use crate::ids::InterfaceId;
 use pong_geometry::{Pose, Twist, Vec3};
 use std::ops::RangeInclusive;
 
-/// What the host sets at any time.
+/// States set by the host at any time.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct States {
-    /// One per movable group, if it was set.
+    /// State of each movable group, if set.
     pub bodies: Vec<Option<State>>,
-    /// Their poses, the quaternions normalised.
+    /// Poses of the states, with normalised quaternions.
     pub poses: Vec<Pose>,
-    /// One per pair of Objects: whether it is tested.
+    /// For each pair of Objects: true if it is tested.
     pub enabled: Vec<bool>,
 }
 
 impl States {
-    /// Room for so many movable groups, none of which was set yet beyond those that are there.
+    /// Resizes to this many movable groups; new ones have no state.
     pub fn resize(&mut self, bodies: usize) {
         self.bodies.resize(bodies, None);
         self.poses.resize(bodies, Pose::identity());
     }
 
-    /// Sets the states of movable groups: all of them, or, if any is refused, none. Answers whether any differs from the one
-    /// that was set before.
+    /// Sets the states of movable groups: all of them or, if any is refused, none. Returns true if any state
+    /// differs from the one set before.
     #[inline]
     pub fn set(&mut self, scene: &Scene, states: &[(InterfaceId, State)]) -> Result<bool, EngineError> {
         for (interface, state) in states {
@@ -48,16 +48,16 @@ impl States {
         Ok(changed)
     }
 
-    /// The state last set for a movable group, as it was set; `None` if never.
+    /// State last set for a movable group, as it was set; `None` if never set.
     pub fn of(&self, scene: &Scene, interface: InterfaceId) -> Result<Option<&State>, EngineError> {
         Ok(self.bodies[scene.body_index(interface)?].as_ref())
     }
 }
 
-/// How far a quaternion's norm may be from 1.
+/// Largest deviation of a quaternion's norm from 1.
 const NORM_ERROR_MAX: f64 = 1e-3;
 
-/// Squares of the least and the largest norm.
+/// Range of the squared norm.
 const NORM_SQUARES: RangeInclusive<f64> = {
     let [least, largest] = [1.0 - NORM_ERROR_MAX, 1.0 + NORM_ERROR_MAX];
     least * least..=largest * largest
@@ -68,7 +68,8 @@ const NORM_SQUARES: RangeInclusive<f64> = {
 pub struct State {
     /// Position of the group's origin, m.
     pub position: [f64; 3],
-    /// Quaternion (w, x, y, z), Hamilton, that rotates group components into common components; normalised here.
+    /// Quaternion (w, x, y, z), Hamilton convention, that rotates group components into common components;
+    /// normalised on use.
     pub orientation: [f64; 4],
     /// Velocity of the group's origin, m/s.
     pub linear_velocity: [f64; 3],
@@ -77,10 +78,10 @@ pub struct State {
 }
 
 impl State {
-    /// Largest component that is accepted: products of any two, with any stiffness, stay finite.
+    /// Largest accepted component: products of any two, with any stiffness, stay finite.
     pub const LARGEST: f64 = pong_model::LARGEST;
 
-    /// At rest at the common origin.
+    /// State at rest at the common origin.
     pub fn identity() -> Self {
         Self {
             position: [0.0; 3],
@@ -90,7 +91,7 @@ impl State {
         }
     }
 
-    /// From a pose and a twist.
+    /// State from a pose and a twist.
     pub fn from_motion(pose: &Pose, twist: &Twist) -> Self {
         let q = &pose.orientation;
         Self {
@@ -101,15 +102,16 @@ impl State {
         }
     }
 
-    /// The pose, its quaternion normalised.
+    /// Pose with normalised quaternion.
     pub fn pose(&self) -> Pose {
         Pose::new(Vec3::from(self.position), self.orientation)
     }
 
-    /// Whether a frame can compute with it: [`why_refused`] tells why not.
+    /// Returns true if a frame can be computed from the state; see [`why_refused`].
     fn is_acceptable(&self) -> bool {
-        // Not short of any number: to look at all is quicker than to ask after each. By bits, which grow with the size and
-        // are largest for what is no number: to compare such a value itself is an invalid operation.
+        // Branchless: checking all components is faster than stopping at the first. Compared as bits, which
+        // grow with the magnitude and are largest for NaN, because an ordered comparison with NaN is an
+        // invalid operation.
         const SIZE: u64 = u64::MAX >> 1;
         let is_small = |value: &f64| (value.to_bits() & SIZE) as i64 <= Self::LARGEST.to_bits() as i64;
         let small = |values: &[f64]| values.iter().fold(true, |all, value| all & is_small(value));
@@ -117,7 +119,8 @@ impl State {
         vectors & small(&self.orientation) && NORM_SQUARES.contains(&self.norm_square())
     }
 
-    /// Whether every number is the same to the bit. As [`is_acceptable`](Self::is_acceptable), not short of any number.
+    /// Returns true if all components are bit-identical. Branchless, as in
+    /// [`is_acceptable`](Self::is_acceptable).
     fn has_bits_of(&self, other: &Self) -> bool {
         let differ = |own: &[f64], others: &[f64]| {
             own.iter().zip(others).fold(0, |bits, (own, other)| bits | (own.to_bits() ^ other.to_bits()))
@@ -127,18 +130,18 @@ impl State {
         pose | linear | differ(&self.angular_velocity, &other.angular_velocity) == 0
     }
 
-    /// Of the quaternion.
+    /// Squared norm of the quaternion.
     fn norm_square(&self) -> f64 {
         self.orientation.iter().map(|x| x * x).sum()
     }
 
-    /// The velocities.
+    /// Linear and angular velocity.
     pub fn twist(&self) -> Twist {
         Twist { linear: Vec3::from(self.linear_velocity), angular: Vec3::from(self.angular_velocity) }
     }
 }
 
-/// What is wrong with a state that is not acceptable.
+/// Reason why a state is not acceptable.
 fn why_refused(state: &State) -> String {
     let named: [(&str, &[f64]); 4] = [
         ("position", &state.position),

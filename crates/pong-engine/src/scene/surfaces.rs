@@ -1,27 +1,27 @@
-//! The values of surfaces as they are now.
+//! Current values of surfaces.
 
 use crate::error::EngineError;
 use pong_model::{FrictionLaw, LARGEST, Model, NormalLaw, Surface};
 
-/// The surfaces of every model as they are now: a host may change their values at any time.
+/// Current surfaces of every model; the host may change their values at any time.
 #[derive(Clone, Default)]
 pub(crate) struct Surfaces {
-    /// One list per model, in the model's order.
+    /// Surfaces per model, in the model's order.
     pub of_models: Vec<Vec<Surface>>,
 }
 
 impl Surfaces {
-    /// Adds those of a new model.
+    /// Adds the surfaces of a new model.
     pub fn add(&mut self, model: &Model) {
         self.of_models.push(model.surfaces.clone());
     }
 
-    /// The surface of a model by its name.
+    /// Surface of a model, by name.
     pub fn named(&self, model: usize, name: &str) -> Result<&Surface, EngineError> {
         Ok(&self.of_models[model][self.place(model, name)?])
     }
 
-    /// Replaces the surface of the same name; answers the one before. Laws may not change.
+    /// Replaces the surface of the same name; returns the old one. Laws cannot change.
     pub fn replace(&mut self, model: usize, surface: &Surface) -> Result<Surface, EngineError> {
         let place = self.place(model, &surface.name)?;
         let known = &mut self.of_models[model][place];
@@ -29,7 +29,7 @@ impl Surfaces {
         Ok(std::mem::replace(known, surface.clone()))
     }
 
-    /// Puts back what [`replace`](Self::replace) answered.
+    /// Restores the surface that [`replace`](Self::replace) returned.
     pub fn put_back(&mut self, model: usize, before: Surface) {
         let known = self.of_models[model].iter_mut().find(|surface| surface.name == before.name);
         if let Some(known) = known {

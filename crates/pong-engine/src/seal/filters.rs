@@ -1,4 +1,5 @@
-//! Groups that never touch: leaves that do not mix them with others, and the pairs of movable groups that are left.
+//! Filters between groups: splits leaves that mix filtered groups with others, and drops pairs of movable
+//! groups that cannot touch.
 
 use crate::error::EngineError;
 use crate::scene::{GroupFilter, Scene};
@@ -8,7 +9,7 @@ use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// Gives models whose leaves mix groups that are kept apart from something with others a finer tree.
+/// Gives a finer tree to models whose leaves mix filtered groups with others.
 pub(crate) fn part_groups(scene: &mut Scene) -> Result<(), EngineError> {
     let mut named: BTreeMap<usize, BTreeSet<String>> = BTreeMap::new();
     for GroupFilter { objects, groups } in &scene.filters {
@@ -32,7 +33,7 @@ pub(crate) fn part_groups(scene: &mut Scene) -> Result<(), EngineError> {
     Ok(())
 }
 
-/// Filters of all pairs of Objects, those of the models included.
+/// Filters of all pairs of Objects, including the filters of models.
 pub(super) fn filters_of_objects(scene: &Scene) -> ObjectFilters {
     let mut of_pairs: BTreeMap<(usize, usize), Vec<[String; 2]>> = BTreeMap::new();
     for pair in scene.pairs.iter().filter(|pair| pair.a == pair.b) {
@@ -51,7 +52,7 @@ pub(super) fn filters_of_objects(scene: &Scene) -> ObjectFilters {
     ObjectFilters::new(of_pairs.into_iter().map(|(objects, pairs)| (objects, Filters::new(pairs))))
 }
 
-/// Leaves out the pairs of movable groups of which nothing may touch.
+/// Drops pairs of movable groups that the filters keep apart entirely.
 pub(super) fn drop_kept_apart(scene: &Scene, filters: &ObjectFilters, group_pairs: &mut Vec<GroupPair>) {
     group_pairs.retain(|pair| {
         let bodies = [pair.first, pair.second];
@@ -62,19 +63,21 @@ pub(super) fn drop_kept_apart(scene: &Scene, filters: &ObjectFilters, group_pair
     });
 }
 
-/// How many filters keep groups of paired Objects apart; one of a model counts for each Object that is paired with itself.
+/// Number of filters between paired Objects; a model's filter counts once per Object that is paired with
+/// itself.
 pub(super) fn filter_count(scene: &Scene) -> usize {
     let of_models = scene.pairs.iter().filter(|pair| pair.a == pair.b);
     let of_models = of_models.map(|pair| scene.models[scene.objects[pair.a].model].filters.len());
     of_models.sum::<usize>() + scene.filters.iter().filter(|filter| is_paired(scene, filter)).count()
 }
 
-/// Whether the Objects of a filter are paired.
+/// Returns true if the Objects of a filter are paired.
 pub(super) fn is_paired(scene: &Scene, filter: &GroupFilter) -> bool {
     scene.pairs.iter().any(|pair| [pair.a.min(pair.b), pair.a.max(pair.b)] == filter.objects)
 }
 
-/// One primitive of a movable group for every value of `kind` and, under filters, of every set of entries that hold it.
+/// One primitive of a movable group per value of `kind` and, with filters, per set of entries that contain
+/// it.
 pub(super) fn representatives<'m, K: Ord>(
     filters: Option<&Filters>,
     side: usize,
@@ -88,12 +91,12 @@ pub(super) fn representatives<'m, K: Ord>(
     })
 }
 
-/// Whether filters keep two primitives apart.
+/// Returns true if filters keep two primitives apart.
 pub(super) fn apart(filters: Option<&Filters>, a: &PrimitiveInfo, b: &PrimitiveInfo) -> bool {
     filters.is_some_and(|filters| filters.keep_apart(&a.path, &b.path))
 }
 
-/// The shapes of a movable group without the primitives that are kept from all of another.
+/// Shapes of a movable group without the primitives that are kept apart from all of another.
 pub(super) fn shapes_that_meet(
     filters: &Filters,
     body: &MovableGroup,

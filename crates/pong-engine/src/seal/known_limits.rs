@@ -1,6 +1,7 @@
-//! Limits of the contact model that two paired models may meet, by the kinds of their primitives (docs/theory.md, 6).
+//! Known limits of the contact model that two paired models may meet, by the kinds of their primitives
+//! (docs/theory.md, 6).
 //!
-//! A new limit is a row of [`LIMITS`]: the kinds on both sides, what happens and how much, and the cure.
+//! A new limit is a row of [`LIMITS`]: the kinds on both sides, the effect with its size, and the cure.
 
 use super::warnings::SetupNote;
 use crate::frame::narrow_phase::pair_table::has_tester;
@@ -9,12 +10,12 @@ use pong_geometry::primitive::PrimitiveKind::{self, *};
 use pong_model::MovableGroup;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A way in which the contact of two kinds of primitives departs from section 2 or 6 of docs/theory.md.
+/// Deviation of the contact of two kinds of primitives from section 2 or 6 of docs/theory.md.
 #[derive(Clone, Copy, Debug)]
 struct KnownLimit {
     a: &'static [PrimitiveKind],
     b: &'static [PrimitiveKind],
-    /// Whether the primitives of two movable groups are such that it may show.
+    /// Returns true if the limit may affect the primitives of two movable groups.
     may_show: fn(&MovableGroup, &MovableGroup) -> bool,
     /// Effect, size and cure.
     text: &'static str,
@@ -88,13 +89,13 @@ fn has_short_pin(a: &MovableGroup, _: &MovableGroup) -> bool {
     elements(a, Cylinder).any(|pin| a.frusta[pin].length < 0.5 * a.frusta[pin].radii[0])
 }
 
-/// Solids of which each has corners or edges for the other, as boxes that stack.
+/// Both are solids with corners or edges for the other, such as boxes that stack.
 fn both_are_solids_with_corners(a: &MovableGroup, b: &MovableGroup) -> bool {
     let has_corners = |body: &MovableGroup| !(body.points.is_empty() && body.segments.is_empty());
     [a, b].iter().all(|body| has_corners(body) && !body.polyhedra.is_empty())
 }
 
-/// A radius less than a hundredth of the other end's is a tip.
+/// A tip: a radius below a hundredth of the other end's.
 fn has_tip(a: &MovableGroup, _: &MovableGroup) -> bool {
     elements(a, Cone)
         .map(|cone| a.frusta[cone].radii)
@@ -106,7 +107,7 @@ fn elements(body: &MovableGroup, kind: PrimitiveKind) -> impl Iterator<Item = us
     infos.flat_map(|info| info.elements.clone()).map(|element| element as usize)
 }
 
-/// Limits that a scene may meet: each once for every two models, with the pairs of kinds that have it.
+/// Limits that a scene may meet, once per two models, with the pairs of kinds affected.
 pub(super) fn known_limits(scene: &Scene) -> Vec<SetupNote> {
     let model_of = |object: usize| scene.objects[object].model;
     let paired: BTreeSet<_> =

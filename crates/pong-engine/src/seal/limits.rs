@@ -1,4 +1,4 @@
-//! How much memory the frames of a scene get.
+//! Memory sizes of the frames of a scene.
 
 use crate::energy::contact::ContactEnergies;
 use crate::frame::load_sharing::solver::scratch_bytes;
@@ -10,24 +10,24 @@ use crate::state::{Records, Slot};
 use pong_model::Tree;
 use pong_threads::MAX_WORKERS;
 
-/// The most contacts of a frame where the scene's worst case is larger and the host names no limit.
+/// Maximum default capacity in contacts; the worst case of the scene may be larger.
 const DEFAULT_CAPACITY_MAX: usize = 65_536;
 
-/// The least capacity where the host names no limit: a ball centred in a cone of many facets touches all of them,
-/// more than the worst case counts for it.
+/// Minimum default capacity in contacts: a ball centred in a cone of many facets touches all of them, more
+/// than the worst case assumes.
 const DEFAULT_CAPACITY_MIN: usize = 256;
 
-/// How much memory the frames of a scene get.
+/// Memory sizes of the frames of a scene.
 pub(super) fn limits(
     scene: &Scene,
     paired_bodies: &[usize],
     record_capacity: usize,
     law_state_len: usize,
 ) -> Limits {
-    /// Interferences of one chunk that there is room for at least: what a ball finds on a fine mesh before it is
-    /// settled which of them push.
+    /// Minimum capacity in candidates per chunk: a ball on a fine mesh has many before load sharing selects
+    /// those that push.
     const FOUND_MIN: usize = 1024;
-    /// Contacts of one surface that are shared exactly where their normals are more than 90° apart.
+    /// Contacts of one surface that are shared exactly if some normals are more than 90° apart.
     const SHARED: usize = 128;
     let found = record_capacity.max(FOUND_MIN);
     let lane_contacts = record_capacity + (record_capacity / 8).max(64);
@@ -37,24 +37,24 @@ pub(super) fn limits(
     };
     let (nodes, batches) = (in_tree(|tree| tree.nodes.len()), in_tree(|tree| tree.batches.len()));
     let arena_bytes = arena_bytes(nodes, batches);
-    /// Every piece is rounded up to a grain.
+    /// Allowance for rounding each piece up to the arena's grain.
     const GRAINS: usize = 64;
     let per_contact = size_of::<((usize, u32, usize, usize), f64)>();
     let scratch_bytes = scratch_bytes(SHARED).max(lane_contacts * per_contact) + GRAINS;
-    // Registered laws and the ledger add to what is remembered after the lanes have found their contacts.
+    // Registered laws and the ledger add to the records after the threads have found their contacts.
     let workers = scene.config.workers.as_ref().map_or(0, |settings| settings.workers);
     let lanes_write_records = workers > 0 && law_state_len == 0 && !scene.config.ledger;
     Limits { lane_contacts, lanes_write_records, found, arena_bytes, scratch_bytes }
 }
 
-/// Records of a lane stand in the committed contact state, in the next one, in one that a stuck worker may still read, in the
-/// frame, and where the lane writes them.
+/// Copies of a thread's records: in the committed contact state, in the next one, in one that a stuck worker
+/// may still read, in the frame, and in the thread's own buffer.
 const RECORDS_OF_A_LANE: usize = 5;
 
-/// What a worker has found stands where it has written it and, taken over, in the frame.
+/// Copies of a worker's contacts: in its own buffer and, swapped in, in the frame.
 const BUFFERS_OF_A_WORKER: usize = 2;
 
-/// What a worker's lane takes however small the capacity is, bytes.
+/// Minimum memory of a worker, independent of the capacity, bytes.
 pub(super) fn least_lane_bytes(limits: &Limits, law_state_len: usize) -> usize {
     let contact = size_of::<FrameContact>() + 2 * size_of::<Place>() + law_state_len * size_of::<f64>();
     BUFFERS_OF_A_WORKER * limits.least_worker_contacts() * contact
@@ -63,16 +63,17 @@ pub(super) fn least_lane_bytes(limits: &Limits, law_state_len: usize) -> usize {
         + WorkerContext::table_bytes(limits.found)
 }
 
-/// Most memory that room for contacts may take. Beyond this a slip of the pen is likelier than a scene.
+/// Maximum memory for contacts; a request for more is probably a typing error.
 const ROOM_BYTES_MAX: usize = 8 << 30;
 
-/// A lane holds an eighth more contacts than there are records, each of which takes a contact and two records at least.
+/// A thread's buffer holds an eighth more contacts than there are records, and each record needs at least one
+/// contact and two records.
 const _: () = {
     let records = ROOM_BYTES_MAX / (size_of::<FrameContact>() + 2 * Records::BYTES);
     assert!(records / 8 * 9 < Slot::INDICES);
 };
 
-/// What is wrong with a capacity that asks for more memory than that, if it does.
+/// Cause of the refusal if a capacity needs more memory than that; otherwise `None`.
 pub(super) fn too_large(scene: &Scene, wanted: usize, law_state_len: usize) -> Option<String> {
     let lanes = scene.config.workers.as_ref().map_or(0, |settings| settings.workers.min(MAX_WORKERS) + 1);
     let each = bytes_per_contact(scene, lanes, law_state_len);
@@ -87,10 +88,10 @@ pub(super) fn too_large(scene: &Scene, wanted: usize, law_state_len: usize) -> O
     })
 }
 
-/// Memory that one contact of the capacity takes in all buffers, with so many lanes, the caller's too, or 0 without workers,
-/// bytes.
+/// Memory per contact of the capacity in all buffers, bytes; `lanes` is the number of threads including the
+/// caller, or 0 without workers.
 pub(super) fn bytes_per_contact(scene: &Scene, lanes: usize, law_state_len: usize) -> usize {
-    /// There is room to remember as many contacts as may push.
+    /// Equal capacities for contacts that push and for those only remembered.
     const RECORDS: usize = 2;
     let numbers = law_state_len * size_of::<f64>();
     // The committed contact state, the next one, and one that a stuck worker may still read.
@@ -98,18 +99,19 @@ pub(super) fn bytes_per_contact(scene: &Scene, lanes: usize, law_state_len: usiz
     let energies = ContactEnergies::bytes_each(scene.config.accounts);
     let in_lanes = if lanes > 0 { size_of::<Slot>() } else { 0 };
     let remembered = states * (Records::BYTES + in_lanes + numbers + energies) + energies + energies / 8;
-    // The lane's contacts, an eighth more than records, their places, ranks and order, and what rays and the ledger ask for.
+    // A thread's contacts (an eighth more than records), their references, ranks and order, and the scratch
+    // for rays and ledger.
     let per_contact =
         size_of::<((usize, u32, usize, usize), f64)>() + 2 * size_of::<Place>() + size_of::<u32>();
     let lane = size_of::<FrameContact>() + numbers + per_contact;
     let found = WorkerContext::BYTES_PER_FOUND;
-    // The workers' lanes together hold twice what the caller's does.
+    // The buffers of all workers together hold twice the caller's.
     let shared =
         if lanes > 0 { 2 * BUFFERS_OF_A_WORKER * (lane + lane / 8) + (lanes - 1) * found } else { 0 };
     RECORDS * (remembered + lane + lane / 8 + found + shared)
 }
 
-/// Contacts if everything that can touch did, by the table of pairs.
+/// Number of contacts if everything that can touch did, by the tester table.
 pub(super) fn worst_case(scene: &Scene, group_pairs: &[GroupPair]) -> usize {
     let movers = |body: usize| -> usize {
         scene.body(body).primitives.iter().map(|info| most_contacts(info.kind)).sum()

@@ -1,8 +1,9 @@
-//! How much memory sealing takes, asked for before any of it is taken.
+//! Memory demand of sealing, checked before any of it is allocated.
 //!
-//! What fails in the middle cannot be told: Rust's collections end the process. So the sizes that follow from the scene
-//! are added up first, and one block of the sum is asked for and given back. Two sums: of what grows with the pairs of
-//! movable groups, before they are listed, and of what the frames get, once their limits are known.
+//! Allocation failures in mid-operation cannot be reported, because Rust's collections abort the process. The
+//! sizes that follow from the scene are therefore added up first, and one block of that size is requested and
+//! freed. This is done twice: for data per pair of movable groups, before they are listed, and for the
+//! frames, once their limits are known.
 
 use super::limits::{bytes_per_contact, least_lane_bytes};
 use crate::energy::account::WrenchCoupling;
@@ -16,26 +17,26 @@ use crate::state::CommittedPoses;
 use pong_geometry::{Pose, Twist, Wrench};
 use pong_threads::MAX_WORKERS;
 
-/// What is always left for names, reports and the allocator's own books, bytes.
+/// Reserve for names, reports and the allocator's own data, bytes.
 const SLACK: usize = 1 << 18;
 
-/// Stack of a worker, bytes: what Rust gives a thread that does not ask, its guard page included.
+/// Stack of a worker, bytes: Rust's default size with its guard page.
 const STACK: usize = (2 << 20) + (1 << 16);
 
-/// Asks the system for so many bytes in one piece and gives them back.
+/// Requests this many bytes in one block and frees them.
 ///
 /// # Errors
-/// [`EngineError::OutOfMemory`] with the size, if it has not that much. Telling it takes no memory.
+/// [`EngineError::OutOfMemory`] with the size if the system refuses. Creating the error does not allocate.
 pub fn require_memory(what: &'static str, bytes: usize, cure: &'static str) -> Result<(), EngineError> {
     let mut block = Vec::<u8>::new();
     let outcome = block.try_reserve_exact(bytes);
-    // What nobody looks at need not be asked for.
+    // Keeps the compiler from removing the unused allocation.
     std::hint::black_box(block.as_mut_ptr());
     outcome.map_err(|_| EngineError::OutOfMemory { what, bytes, cure })
 }
 
-/// Has the allocator keep some room for what follows, in small pieces: once threads run, another of their reservations may
-/// have taken what is left of the address space.
+/// Makes the allocator keep some free small blocks. Once threads run, their address-space reservations may
+/// have taken all that is left.
 pub fn leave_room_for_small_things() {
     const PIECES: usize = 64;
     const PIECE: usize = 1 << 10;
@@ -43,16 +44,16 @@ pub fn leave_room_for_small_things() {
     std::hint::black_box(&pieces);
 }
 
-/// What listing and judging the pairs of movable groups takes, and what the frames keep of each, bytes.
+/// Memory to list and check the pairs of movable groups, and to keep their data in the frames, bytes.
 pub(super) fn for_pairs(scene: &Scene, pairs: usize) -> usize {
-    /// A list that grows by doubling has up to twice its room, and the half of it that it grew from, for a moment.
+    /// A list that grows by doubling has up to twice the needed room and, while it is copied, its old half.
     const GROWING: usize = 3;
-    /// Sorting borrows half a list.
+    /// Sorting allocates half a list.
     const SORTING: usize = 2;
-    /// What sets of bodies keep of a pair.
+    /// Sets of bodies per pair, bytes.
     const JUDGING: usize = 64;
     let listed = SORTING * size_of::<GroupPair>();
-    // At most as many plans as pairs of movable groups of the models, in both orders.
+    // There are at most as many plans as pairs of the models' movable groups, in both orders.
     let groups = scene.models.iter().map(|model| model.bodies.len()).sum::<usize>();
     let kinds = pairs.min(groups.saturating_mul(groups));
     let plans = kinds.saturating_mul(4 * GROWING * size_of::<Plan>() + JUDGING);
@@ -69,19 +70,19 @@ pub(super) fn for_pairs(scene: &Scene, pairs: usize) -> usize {
         .saturating_add(tables.sum::<usize>() + names + bodies + SLACK)
 }
 
-/// What frames keep of a pair of movable groups, bytes.
+/// Memory of the frames per pair of movable groups, bytes.
 fn per_pair(scene: &Scene) -> usize {
     let crew = usize::from(scene.config.workers.is_some());
     let delay = scene.config.accounts.map_or(0, WrenchCoupling::delay);
     let energies = scene.config.accounts.map_or(0, |_| size_of::<PairEnergy>() + delay * size_of::<Wrench>());
     let intervals = if scene.config.accounts.is_some() { size_of::<Interval>() } else { 0 };
     let ledger = if scene.config.ledger { size_of::<LedgerEntry>() } else { 0 };
-    // The contact states that take turns, the one that a stuck worker may hold, and the frame's own.
+    // Contact states that are swapped, the one that a stuck worker may hold, and the frame's own.
     let states = 3 + crew;
     states * energies + intervals + ledger + 2 * size_of::<u32>()
 }
 
-/// What the frames get, bytes.
+/// Memory of the frames, bytes.
 pub(super) fn for_frames(
     scene: &Scene,
     pairs: usize,
@@ -104,6 +105,6 @@ pub(super) fn for_frames(
         .saturating_add(contacts)
         .saturating_add(lanes.max(1).saturating_mul(scratch))
         .saturating_add(workers * STACK + blocks + bodies + committed + motions + near + SLACK);
-    // Rounding up of every piece to what the allocator hands out.
+    // The allocator rounds every piece up.
     sum.saturating_add(sum / 16)
 }

@@ -1,4 +1,4 @@
-//! Sealing: which movable groups meet, what their surfaces make together, and how much must be remembered.
+//! Sealing: pairs of movable groups, combined surface values, and memory sizes.
 
 mod filters;
 mod known_limits;
@@ -33,28 +33,27 @@ use surfaces::friction_lost;
 pub(crate) use surfaces::law_state_len;
 use warnings::{idle_filters, warnings};
 
-/// What sealing tells the host.
+/// Result of a seal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SealReport {
     /// Pairs of movable groups that will be tested.
     pub group_pairs: usize,
-    /// Most contacts of a frame.
+    /// Maximum contacts of a frame.
     pub contact_capacity: usize,
     /// Size of the largest contact state block, bytes.
     pub state_size: usize,
-    /// Memory that the system had to have for the seal, bytes: a bound of what it took.
+    /// Memory that was checked to be available for the seal, bytes: an upper bound of its use.
     pub memory: usize,
-    /// How every worker started: its core and priority, or why it has none.
+    /// Start of every worker: its core and priority, or the reason why it has none.
     pub workers: Vec<WorkerStart>,
-    /// Pairs of groups that are kept apart by filters.
+    /// Number of filters that keep groups of paired Objects apart.
     pub filters: usize,
-    /// Pairs of kinds that meet but have no tester: they are ignored, as the author may intend.
+    /// Pairs of kinds that meet but have no tester; they are ignored, as the author may intend.
     pub warnings: Vec<SetupWarning>,
-    /// Names of the Objects of every pair in which nothing of one has a tester with anything of the other: the two pass
-    /// through each other.
+    /// Names of the Objects of every pair without any tester between them: the two pass through each other.
     pub untouchable_pairs: Vec<[String; 2]>,
-    /// Friction that one surface has and the other has not, known limits of the contact model that the scene may meet, and
-    /// filters that keep nothing apart.
+    /// Friction that only one of two surfaces has, known limits of the contact model that the scene may meet,
+    /// and filters without effect.
     pub notes: Vec<SetupNote>,
 }
 
@@ -143,7 +142,7 @@ pub(crate) fn seal(
     Ok((sealed, tables, report))
 }
 
-/// Asks for the memory that the frames of another world of a sealed scene take.
+/// Checks that there is memory for the frames of a clone of a sealed scene.
 pub(crate) fn require_memory_of_clone(scene: &Scene, sealed: &Sealed) -> Result<(), EngineError> {
     let Sealed { limits, contact_capacity, law_state_len, .. } = sealed;
     let pairs = sealed.group_pairs.len();
@@ -154,7 +153,7 @@ pub(crate) fn require_memory_of_clone(scene: &Scene, sealed: &Sealed) -> Result<
     )
 }
 
-/// How many pairs of movable groups [`group_pairs`] lists.
+/// Number of pairs of movable groups that [`group_pairs`] lists.
 fn count_group_pairs(scene: &Scene) -> usize {
     let bodies_of = |object: usize| scene.models[scene.objects[object].model].bodies.len();
     let pairs_of = |pair: &ObjectPair| match (bodies_of(pair.a), bodies_of(pair.b)) {
@@ -189,7 +188,7 @@ fn group_pairs(scene: &Scene, count: usize) -> Vec<GroupPair> {
     found
 }
 
-/// The movable groups of all pairs, each once and in order.
+/// Movable groups of all pairs, each once, in order.
 fn paired_bodies(scene: &Scene, group_pairs: &[GroupPair]) -> Arc<[usize]> {
     let mut is_paired = vec![false; scene.bodies.len()];
     for pair in group_pairs {
@@ -239,7 +238,7 @@ fn untestable_volumes(scene: &Scene, group_pairs: &[GroupPair], tests: &VolumeTe
     problems.into_iter().collect()
 }
 
-/// Hash of everything that decides what a contact state block means.
+/// Hash of everything that determines the meaning of a contact state block.
 fn scene_hash(scene: &Scene, capacity: usize, law_state_len: usize) -> u64 {
     let stride = law_state_len + ContactEnergies::numbers_each(scene.config.accounts);
     let mut text = format!("capacity {capacity} stride {stride} ledger {}\n", scene.config.ledger);

@@ -1,4 +1,4 @@
-//! Which kinds of which movable groups are tested against which.
+//! Test plans: kinds of primitives that are tested between two movable groups.
 
 use super::filters::{apart, representatives, shapes_that_meet};
 use super::testable::{can_be_tested, kind_name};
@@ -10,7 +10,7 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 use std::collections::BTreeMap;
 
-/// What is tested of A against B; `in_order` says that A's Object was named first.
+/// Test plan of A against B; `in_order` is true if A's Object was named first.
 fn plan(
     scene: &Scene,
     (a, b): (&MovableGroup, &MovableGroup),
@@ -42,12 +42,12 @@ fn plan(
     Plan { element_ns, touched, least_travel_m, reach_a_m, filter }
 }
 
-/// What an element of A may cost against a body with elements of B, ns.
+/// Rough cost of an element of A against a body with elements of B, ns.
 fn rough_cost_ns(a: PrimitiveKind, b: PrimitiveKind) -> u32 {
     kind_pair(a, b).map_or(REGISTERED.0, |row| row.cost_ns)
 }
 
-/// What is tested in the directions of all pairs, each plan once. Tells every pair which are its own.
+/// Test plans of both directions of all pairs, each plan once. Stores the plan indices in the pairs.
 pub(super) fn plans(scene: &Scene, group_pairs: &mut [GroupPair], filters: &ObjectFilters) -> Vec<Plan> {
     let mut plans = Vec::new();
     let mut known = BTreeMap::new();

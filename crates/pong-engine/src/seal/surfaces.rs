@@ -1,4 +1,4 @@
-//! What pairs of surfaces make together: combined once, when a scene is sealed or a surface is changed.
+//! Combines pairs of surfaces, once when a scene is sealed or a surface is changed.
 
 use super::filters::{apart, representatives};
 use super::testable::{can_be_tested, kind_name};
@@ -11,7 +11,7 @@ use pong_model::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Combines every pair of surfaces that can meet; all that cannot be combined are reported.
+/// Combines every pair of surfaces that can meet; on failure, reports all that cannot be combined.
 pub(crate) fn surface_tables(
     scene: &Scene,
     surfaces: &[Vec<Surface>],
@@ -25,7 +25,7 @@ pub(crate) fn surface_tables(
         for (a, b) in [(pair.first, pair.second), (pair.second, pair.first)] {
             let groups = [a, b].map(|body| scene.group_of_model(body));
             let apart = filters.between(scene.bodies[a].object, scene.bodies[b].object);
-            // One pair of instances speaks for all.
+            // One pair of instances represents all.
             if !filled.insert((groups, apart)) {
                 continue;
             }
@@ -48,7 +48,7 @@ fn fill_table(
     filters: Option<&Filters>,
     problems: &mut BTreeSet<String>,
 ) {
-    // One representative per kind and surface: meshes of a thousand parts share a handful of them.
+    // One representative per kind and surface: meshes of a thousand parts share a few.
     let distinct = |side: usize, body| {
         let kind = |info: &PrimitiveInfo| (kind_name(body, info).to_owned(), info.surface);
         representatives(filters, side, body, kind).collect::<Vec<_>>()
@@ -73,7 +73,7 @@ fn fill_table(
     }
 }
 
-/// The values of a pair of surfaces of two models, or what is wrong with it.
+/// Combined values of a pair of surfaces of two models, or the reason why there are none.
 fn combined(
     scene: &Scene,
     (model_a, a): (&Model, &Surface),
@@ -82,7 +82,7 @@ fn combined(
     let full = |model: &Model, surface: &Surface| format!("{}/{}", model.name, surface.name);
     let made = table_entry((model_a, a), (model_b, b)).and_then(|entry| {
         combine(a, b, entry, &scene.laws).map_err(|_| {
-            // Once more, for the same words with names that no other model has.
+            // Combine again, for the same message with names that are unique across models.
             let [a, b] = [(model_a, a), (model_b, b)]
                 .map(|(model, surface)| Surface { name: full(model, surface), ..surface.clone() });
             let (a, b) = if a.name <= b.name { (a, b) } else { (b, a) };
@@ -97,7 +97,8 @@ fn combined(
     })
 }
 
-/// Pairs of surfaces of which one has friction and the other none, so that there is none, and no entry says so.
+/// Pairs of surfaces of which only one has friction, so that there is none between them, without an entry in
+/// `pairs`.
 pub(super) fn friction_lost(
     scene: &Scene,
     surfaces: &[Vec<Surface>],
@@ -131,7 +132,7 @@ fn note(rough: String, law: String, smooth: String) -> SetupNote {
     SetupNote::NoFriction { rough, law, smooth }
 }
 
-/// The entry that the two models' tables hold for a pair of surfaces; they must not contradict each other.
+/// Entry for a pair of surfaces in the two models' tables; entries must not contradict each other.
 fn table_entry<'m>(
     a: (&'m Model, &Surface),
     b: (&'m Model, &Surface),
@@ -157,7 +158,7 @@ fn table_entry<'m>(
     })
 }
 
-/// Most numbers that a registered friction law of the tables remembers of a contact.
+/// Largest number of state values per contact of any registered friction law in the tables.
 pub(crate) fn law_state_len(tables: &[SurfaceTable]) -> usize {
     let lens = tables.iter().flat_map(|table| &table.props).flatten().map(|props| match &props.friction {
         FrictionProps::Custom { law, .. } => law.state_len(),

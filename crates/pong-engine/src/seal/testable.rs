@@ -1,11 +1,11 @@
-//! Which primitives can be tested against which: by the table of pairs, or by a test that the host registered.
+//! Testable pairs of primitives: by the tester table, or by a test that the host registered.
 
 use crate::frame::narrow_phase::pair_table::has_tester;
 use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{MovableGroup, PrimitiveInfo};
 
-/// The name of a primitive's kind, a custom kind's own name included.
+/// Name of a primitive's kind; a custom kind has its own name.
 pub(crate) fn kind_name<'a>(body: &'a MovableGroup, info: &PrimitiveInfo) -> &'a str {
     match info.kind {
         PrimitiveKind::Custom => body.customs[info.elements.start as usize].kind_name(),
@@ -13,7 +13,7 @@ pub(crate) fn kind_name<'a>(body: &'a MovableGroup, info: &PrimitiveInfo) -> &'a
     }
 }
 
-/// Whether a primitive can be tested as A against another as B.
+/// Returns true if a primitive can be tested as A against another as B.
 pub(crate) fn can_be_tested(
     extensions: &Extensions,
     a: (&MovableGroup, &PrimitiveInfo),

@@ -1,4 +1,4 @@
-//! What sealing tells the author though the scene is valid.
+//! Warnings and notes about a valid scene.
 
 use super::filters::{apart, is_paired, representatives};
 use super::testable::{can_be_tested, kind_name};
@@ -9,7 +9,7 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Filters, PrimitiveInfo};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Something the author may not have intended.
+/// Aspect of a scene that the author may not have intended.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SetupWarning {
     /// Primitives of two kinds without a tester meet in Objects of two models and are ignored.
@@ -18,16 +18,16 @@ pub enum SetupWarning {
         models: [String; 2],
         /// Names of the two kinds.
         kinds: [String; 2],
-        /// The pairs of Objects in which they meet.
+        /// Pairs of Objects in which they meet.
         met: MetIn,
     },
-    /// Objects of two models are paired in which nothing can touch.
+    /// Paired Objects of two models in which nothing can touch.
     NothingToTest {
         /// Names of the two models.
         models: [String; 2],
-        /// The pairs of Objects.
+        /// Pairs of Objects.
         met: MetIn,
-        /// Each kind of the two models with the built-in kinds that have a tester with it.
+        /// Each kind of the two models, with the built-in kinds that have a tester with it.
         testable: Vec<(String, Vec<String>)>,
     },
 }
@@ -56,12 +56,12 @@ impl std::fmt::Display for SetupWarning {
     }
 }
 
-/// Pairs of Objects of the same two models: one speaks for all.
+/// Pairs of Objects of the same two models; the first represents all.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct MetIn {
     /// Names of the two Objects of the first pair.
     pub objects: [String; 2],
-    /// How many more pairs there are.
+    /// Number of further pairs.
     pub more: usize,
 }
 
@@ -81,20 +81,20 @@ impl std::fmt::Display for MetIn {
     }
 }
 
-/// What may go wrong, and nothing proves that it will: no reason to change a scene that runs well.
+/// Possible problem without proof that it will occur; no reason to change a scene that runs well.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SetupNote {
-    /// One of two surfaces that can meet has friction and the other none, so between them there is none, and no entry of
-    /// `pairs` says so.
+    /// Only one of two surfaces that can meet has friction, so there is none between them, and `pairs` has no
+    /// entry for them.
     NoFriction {
         /// `model/surface` that has friction.
         rough: String,
-        /// Its law.
+        /// Its friction law.
         law: String,
         /// `model/surface` that has none.
         smooth: String,
     },
-    /// Primitives of two models can meet in poses in which the contact model has a known limit.
+    /// Primitives of two models can meet in poses for which the contact model has a known limit.
     KnownLimit {
         /// Names of the two models.
         models: [String; 2],
@@ -105,7 +105,7 @@ pub enum SetupNote {
     },
     /// A filter between Objects that are not paired.
     IdleFilter {
-        /// `object/group` of the two.
+        /// `object/group` of the two groups.
         groups: [String; 2],
     },
 }
@@ -131,7 +131,7 @@ impl std::fmt::Display for SetupNote {
     }
 }
 
-/// Filters of Objects that are not paired.
+/// Filters between Objects that are not paired.
 pub(super) fn idle_filters(scene: &Scene) -> Vec<SetupNote> {
     let idle = scene.filters.iter().filter(|filter| !is_paired(scene, filter));
     let name = |object: usize, group: &String| format!("{}/{group}", scene.objects[object].name);
@@ -141,7 +141,7 @@ pub(super) fn idle_filters(scene: &Scene) -> Vec<SetupNote> {
     .collect()
 }
 
-/// Two models in order, whether an Object meets itself, and the filters between the two Objects.
+/// Two models in order, true if an Object is paired with itself, and the filters between the two Objects.
 type PairedModels<'f> = ([usize; 2], bool, Option<&'f Filters>);
 
 fn paired_models<'f>(
@@ -155,8 +155,8 @@ fn paired_models<'f>(
     ((objects.map(model), pair.a == pair.b, filters.between(objects[0], objects[1])), objects)
 }
 
-/// Everything about a scene that its author may not have intended: what two models do is told once, however many Objects
-/// are made of them. Beside it the pairs of Objects, by name, in which nothing can touch.
+/// Warnings about a scene, once per pair of models however many Objects they have; and, by name, the pairs of
+/// Objects in which nothing can touch.
 pub(super) fn warnings(scene: &Scene, filters: &ObjectFilters) -> (Vec<SetupWarning>, Vec<[String; 2]>) {
     let mut paired: BTreeMap<PairedModels<'_>, MetIn> = BTreeMap::new();
     for pair in &scene.pairs {
@@ -185,7 +185,7 @@ pub(super) fn warnings(scene: &Scene, filters: &ObjectFilters) -> (Vec<SetupWarn
     (found.into_iter().collect(), scene.pairs.iter().filter(is_untouchable).map(names).collect())
 }
 
-/// Every kind of two models with the built-in kinds that it has a tester with.
+/// Every kind of two models, with the built-in kinds that it has a tester with.
 fn testable(scene: &Scene, models: [usize; 2]) -> Vec<(String, Vec<String>)> {
     let bodies = models.iter().flat_map(|model| &scene.models[*model].bodies);
     let kinds: BTreeMap<&str, PrimitiveKind> = bodies
@@ -201,7 +201,7 @@ fn testable(scene: &Scene, models: [usize; 2]) -> Vec<(String, Vec<String>)> {
     kinds.into_iter().map(|(name, kind)| (name.to_owned(), partners(kind))).collect()
 }
 
-/// Pairs of kinds without a tester in the movable groups of two models, and whether any two have one.
+/// Pairs of kinds without a tester in the movable groups of two models; true if any pair has a tester.
 fn kinds_that_meet(
     scene: &Scene,
     models: [usize; 2],

@@ -1,14 +1,14 @@
-//! Groups that never touch, as frames look them up.
+//! Filters between groups, in the form that frames use.
 
 use pong_model::{Filters, MovableGroup};
 use std::collections::BTreeMap;
 
-/// Filters of the pairs of Objects that have any, by the two Objects in both orders.
+/// Filters of the pairs of Objects that have any, keyed by the two Objects in both orders.
 #[derive(Default)]
 pub(crate) struct ObjectFilters(BTreeMap<(usize, usize), Filters>);
 
 impl ObjectFilters {
-    /// Filters of the pairs of Objects; those without entries are left out.
+    /// Filters of the pairs of Objects, without the empty ones.
     pub fn new(of_pairs: impl IntoIterator<Item = ((usize, usize), Filters)>) -> Self {
         let mut all = BTreeMap::new();
         for ((a, b), filters) in of_pairs.into_iter().filter(|(_, filters)| !filters.is_empty()) {
@@ -18,32 +18,33 @@ impl ObjectFilters {
         Self(all)
     }
 
-    /// Filters between two Objects, the first Object's groups first; `None` if there are none.
+    /// Filters between two Objects, with the first Object's groups first; `None` if there are none.
     #[inline]
     pub fn between(&self, a: usize, b: usize) -> Option<&Filters> {
-        // As a rule there are none at all.
+        // Usual case: no filters at all.
         if self.0.is_empty() { None } else { self.0.get(&(a, b)) }
     }
 }
 
-/// Leaves of A's tree that are not tested against leaves of B's.
+/// Leaves of A's tree that are not tested against leaves of B's tree.
 #[derive(Clone, Debug)]
 pub(crate) struct LeafFilter {
     /// Classes of the nodes of A's and B's trees; [`MIXED`] above leaves of several classes.
     nodes: [Vec<u16>; 2],
-    /// Classes of their batches.
+    /// Classes of the batches.
     batches: [Vec<u16>; 2],
-    /// By the class of A and of B, row after row: whether they are kept apart.
+    /// True where two classes are kept apart; row-major by class of A, then of B.
     apart: Vec<bool>,
-    /// Classes of B.
+    /// Number of classes of B.
     columns: usize,
 }
 
-/// In place of a class: leaves of several classes are below.
+/// Class value of a node with leaves of several classes below.
 const MIXED: u16 = u16::MAX;
 
 impl LeafFilter {
-    /// The filter between two movable groups whose leaves lie as a whole inside or outside each group that is named.
+    /// Filter between two movable groups. Each leaf lies entirely inside or outside of every group that a
+    /// filter names.
     pub fn new(filters: &Filters, bodies: [&MovableGroup; 2]) -> Self {
         let classes = [0, 1].map(|side| Classes::new(filters, side, bodies[side]));
         let [a, b] = &classes;
@@ -66,23 +67,23 @@ impl LeafFilter {
         Self { nodes: classes.map(|classes| classes.nodes), batches, apart, columns }
     }
 
-    /// Whether everything of A below a node is kept from everything of B below another.
+    /// Returns true if everything of A below one node is kept apart from everything of B below another.
     pub fn keeps_apart(&self, node_a: u32, node_b: u32) -> bool {
         self.of_classes(self.nodes[0][node_a as usize], self.nodes[1][node_b as usize])
     }
 
-    /// Whether two batches are kept apart.
+    /// Returns true if two batches are kept apart.
     pub fn keeps_batches_apart(&self, batch_a: usize, batch_b: usize) -> bool {
         self.of_classes(self.batches[0][batch_a], self.batches[1][batch_b])
     }
 
-    /// Whether everything of A below a node is kept from all of B.
+    /// Returns true if everything of A below a node is kept apart from all of B.
     pub fn keeps_from_all(&self, node_a: u32) -> bool {
         let row = usize::from(self.nodes[0][node_a as usize]) * self.columns;
         self.apart.get(row..row + self.columns).is_some_and(|row| !row.contains(&false))
     }
 
-    /// Whether nothing of A may touch anything of B.
+    /// Returns true if all of A is kept apart from all of B.
     pub fn keeps_all_apart(&self) -> bool {
         !self.apart.contains(&false)
     }
@@ -92,7 +93,7 @@ impl LeafFilter {
     }
 }
 
-/// Leaves by the entries of the filters that hold them.
+/// Classes of leaves, by the set of filter entries that contain them.
 struct Classes {
     known: BTreeMap<Vec<usize>, u16>,
     nodes: Vec<u16>,
@@ -105,19 +106,20 @@ impl Classes {
         classes
     }
 
-    /// The class of a node and all below it.
+    /// Classifies a node and everything below it.
     fn visit(&mut self, filters: &Filters, side: usize, body: &MovableGroup, node: u32) -> u16 {
         let of = &body.tree.nodes[node as usize];
         let class = if of.children.is_empty() {
             let first = body.tree.items[of.items.start as usize..of.items.end as usize].first();
             let path = first.map_or("", |item| &body.primitives[item.primitive as usize].path);
-            // Groups lie in each other or apart, so there are no more classes than entries, of which few are allowed.
+            // Groups are nested or disjoint, so there are no more classes than filter entries, which are
+            // limited.
             let next = self.known.len() as u16;
             *self.known.entry(filters.that_hold(side, path)).or_insert(next)
         } else {
             let mut below = of.children.clone().map(|child| self.visit(filters, side, body, child));
             let first = below.next().unwrap_or(MIXED);
-            // All are visited.
+            // `fold` visits all children.
             below.fold(first, |class, other| if class == other { class } else { MIXED })
         };
         self.nodes[node as usize] = class;

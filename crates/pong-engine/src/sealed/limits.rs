@@ -1,38 +1,39 @@
-//! How much memory the frames get.
+//! Memory sizes of the frames.
 
-/// Contacts that a worker's lane can hold at least, or as many as the caller's; and so many records it can write by itself.
+/// Minimum capacity in contacts of a worker's buffer (unless the caller's is smaller), and in records per
+/// thread.
 const LEAST_WORKER_CONTACTS: usize = 4096;
 
-/// How much memory the frames get.
+/// Memory sizes of the frames.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
-    /// Contacts that the calling thread can hold: all that a frame may keep, and room to find more before it has to
-    /// choose.
+    /// Capacity in contacts of the calling thread: all that a frame may keep, plus a reserve from which the
+    /// deepest are selected.
     pub lane_contacts: usize,
-    /// Whether each lane writes the records of what it finds, and not the commit those of all.
+    /// True if each thread writes the records of its contacts, instead of the commit writing all.
     pub lanes_write_records: bool,
-    /// Interferences of one chunk of A before any is left out.
+    /// Capacity in candidates of one chunk of A.
     pub found: usize,
-    /// For the testers of a block, bytes.
+    /// Arena of the testers of a block, bytes.
     pub arena_bytes: usize,
-    /// For solutions among contacts, the ledger and rays, bytes.
+    /// Scratch memory for load sharing, ledger and rays, bytes.
     pub scratch_bytes: usize,
 }
 
 impl Limits {
-    /// Contacts that one of several lanes can hold. A lane that finds more than this leaves the frame to the caller
-    /// alone: an uneven share of the work must be rare, not impossible.
+    /// Capacity in contacts of one of several threads. A thread that exceeds it leaves the frame to the
+    /// caller alone, so an uneven split of the work must be rare but is allowed.
     pub fn worker_contacts(&self, lanes: usize) -> usize {
         self.lane_contacts.min((2 * self.lane_contacts / lanes).max(LEAST_WORKER_CONTACTS))
     }
 
-    /// Contacts that a worker's lane can hold at least, or as many as the caller's.
+    /// Minimum capacity in contacts of a worker.
     pub fn least_worker_contacts(&self) -> usize {
         self.lane_contacts.min(LEAST_WORKER_CONTACTS)
     }
 
-    /// Records that each lane, the caller's too, writes by itself. Where it finds more, the commit takes more than the way of a
-    /// few lines from core to core.
+    /// Records that each thread, including the caller, writes itself. With more records, the copy in the
+    /// commit is cheap compared with the rest of the frame.
     pub fn lane_records(&self) -> usize {
         if self.lanes_write_records { self.least_worker_contacts() } else { 0 }
     }

@@ -1,26 +1,26 @@
-//! What the surfaces of two models make together.
+//! Combined surface values of two models.
 
 use crate::law::{NormalProps, PairProps};
 use pong_model::{Exponent, Surface};
 
-/// Values of all pairs of surfaces of two models, A's model first.
+/// Combined values of all pairs of surfaces of two models, A's model first.
 pub(crate) struct SurfaceTable {
     pub model_a: usize,
     pub model_b: usize,
-    /// Surfaces of B's model.
+    /// Number of surfaces of B's model.
     pub columns: usize,
-    /// Row after row, a row for every surface of A's model.
+    /// Combined values in row-major order, one row per surface of A's model.
     pub props: Vec<Option<PairProps>>,
 }
 
 impl SurfaceTable {
-    /// A table of no values yet, for models of so many surfaces.
+    /// Empty table for two models.
     pub fn empty(model_a: usize, model_b: usize, surfaces: &[Vec<Surface>]) -> Self {
         let columns = surfaces[model_b].len();
         Self { model_a, model_b, columns, props: vec![None; surfaces[model_a].len() * columns] }
     }
 
-    /// The values of a pair of surfaces that can meet.
+    /// Values of a pair of surfaces that can meet.
     pub fn props(&self, surface_a: u32, surface_b: u32) -> &PairProps {
         let entry = &self.props[surface_a as usize * self.columns + surface_b as usize];
         entry.as_ref().expect("sealing combined every pair of surfaces that can meet")
@@ -32,7 +32,7 @@ impl SurfaceTable {
             NormalProps::Linear { damping, .. } => Some((props.stiffness, *damping)),
             NormalProps::HuntCrossley { exponent: Exponent::One, .. } => Some((props.stiffness, 0.0)),
             NormalProps::PowerLaw { damping, exponent: Exponent::One, damping_exponent } => {
-                // At touch.
+                // Damping at touch.
                 Some((props.stiffness, if *damping_exponent == 0.0 { *damping } else { 0.0 }))
             }
             NormalProps::HuntCrossley { .. } | NormalProps::PowerLaw { .. } | NormalProps::Custom { .. } => {

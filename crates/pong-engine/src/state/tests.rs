@@ -1,4 +1,4 @@
-//! The memory against slow models of it, and blocks that must be refused.
+//! Contact memory against slow reference models, and blocks that must be refused.
 
 use super::block::{StateError, largest_len, needed_len, write_block};
 use super::lookup::RecordsOfKey;
@@ -15,10 +15,10 @@ use pong_geometry::{Pose, Quat, Vec3, Wrench};
 use pong_model::Fnv;
 use pong_testkit::Random;
 
-/// How many frames late the wrench comes where energies are kept.
+/// Delay of the wrench in frames, if energies are kept.
 const DELAY: u32 = 2;
 const GROUP_PAIRS: usize = 5;
-/// Each of a pair of Objects of its own.
+/// Movable groups in pairs; group 2 has none.
 const BODIES: [usize; 3] = [0, 1, 3];
 const ALL_BODIES: usize = 4;
 const MOMENTS: u8 = 3;
@@ -52,7 +52,7 @@ fn poses_of(random: &mut Random) -> CommittedPoses {
 fn record_of(random: &mut Random) -> ContactRecord {
     let role = [ContactRole::Active, ContactRole::Active, ContactRole::WrongSide, ContactRole::Tracked]
         [random.below(4)];
-    // Few different forces: ties.
+    // Few different forces, so that there are ties.
     let force = if role == ContactRole::Active { Vec3::x() * random.below(4) as f64 } else { Vec3::zeros() };
     let key = ContactKey {
         group_pair: random.below(GROUP_PAIRS) as u32,
@@ -78,12 +78,12 @@ fn record_of(random: &mut Random) -> ContactRecord {
     }
 }
 
-/// A memory with so many records and no energies.
+/// A memory with this many records and no energies.
 fn memory_of(random: &mut Random, records: usize, stride: usize) -> ContactMemory {
     memory_with(random, records, stride, None)
 }
 
-/// A memory with so many records; energies are kept where a friction law's numbers are odd in number.
+/// A memory with this many records; energies are kept if `stride` is odd.
 fn memory_with_energies(random: &mut Random, records: usize, stride: usize) -> ContactMemory {
     let held = WrenchCoupling::ZeroOrderHold { delay_frames: DELAY };
     memory_with(random, records, stride, (stride % 2 == 1).then_some(held))
@@ -120,7 +120,7 @@ fn memory_with(
     }
     memory
 }
-/// A list of records as a slow model holds them.
+/// Records as the slow reference model stores them.
 fn listed(memory: &ContactMemory) -> Vec<(ContactRecord, Vec<f64>)> {
     let numbers = |remembered: &Remembered<'_>| {
         let energy = remembered.energy.iter().flat_map(ContactEnergyRef::numbers);
@@ -133,7 +133,7 @@ fn fresh_of(memory: &ContactMemory) -> impl Iterator<Item = Remembered<'_>> + Cl
     memory.iter()
 }
 
-/// Two memories, of which the first ones fit together into one and the later ones do not always.
+/// Two memories: in early rounds they fit together into one, in later rounds not always.
 fn two_memories(random: &mut Random, round: u32) -> (ContactMemory, ContactMemory) {
     let stride = round as usize % 4;
     let (least, most) = if round < 200 { (0, CAPACITY / 2) } else { (CAPACITY - 3, CAPACITY) };
@@ -168,13 +168,13 @@ fn forgetting_keeps_all_else_in_order_with_its_numbers() {
     }
 }
 
-/// The poses at a pair's last commit, as a slow model holds them.
+/// Poses at a pair's last commit, as the slow reference model stores them.
 fn past_of(poses: &CommittedPoses, pair: usize) -> Option<Vec<Pose>> {
     let moment = poses.moment_of(pair);
     (moment != NEVER).then(|| BODIES.iter().map(|&body| *poses.pose(moment, body)).collect())
 }
 
-/// Two states of a world take turns, as they do in frames, against a model that holds the poses of every pair.
+/// Two states of a world are swapped as in frames, against a model that stores the poses of every pair.
 #[test]
 fn the_past_of_every_pair_is_that_of_its_last_commit() {
     let mut random = Random(10);
@@ -222,7 +222,7 @@ fn the_past_of_every_pair_is_that_of_its_last_commit() {
     }
 }
 
-/// A large world has room for few moments; when all are taken, pairs that are committed together make room.
+/// A large world has room for few epochs; if all are in use, committing their pairs together frees some.
 #[test]
 fn a_large_world_tells_a_few_moments_apart() {
     let bodies: Vec<usize> = (0..4096).collect();
@@ -261,7 +261,7 @@ fn a_commit_of_some_pairs_replaces_theirs_and_keeps_the_rest() {
         expected.sort_by_key(|(record, _)| record.key);
         assert_eq!(left_out, expected.len().saturating_sub(CAPACITY));
         if left_out > 0 {
-            // The strongest stay, ties in key order.
+            // The strongest records are kept, ties in key order.
             overflows += 1;
             let mut by_force: Vec<usize> = (0..expected.len()).collect();
             by_force.sort_by(|&i, &j| expected[j].0.force_b.norm().total_cmp(&expected[i].0.force_b.norm()));
@@ -310,7 +310,7 @@ fn records_of_one_key_are_found_together_whatever_was_done_before() {
                 assert!((range.first()..range.first() + records.len()).contains(&index));
                 assert!(records.iter().all(|other| other.key == record.key));
                 assert_eq!(memory.law_state_of(index), law_state);
-                // Most often one record has the head, and that is another end's.
+                // Usually one record has the high word; this key has another end.
                 let elsewhere = ContactKey { end: record.key.end + 1000, ..record.key };
                 assert!(memory.under(&elsewhere).records.is_empty());
             }
@@ -322,11 +322,11 @@ fn records_of_one_key_are_found_together_whatever_was_done_before() {
 
 #[test]
 fn the_first_record_of_a_head_is_found_whatever_was_hinted_before() {
-    /// Primitives so far apart have one hint, however many there are.
+    /// Primitives this far apart have the same hint, for any number of hints.
     const APART: u32 = 1 << 13;
     let mut random = Random(21);
     let model = record_of(&mut random);
-    // One list for all: its hints are those of lists before.
+    // One list for all rounds, so that hints of earlier contents remain.
     let mut records = Records::with_capacity(5000);
     for _ in 0..2000 {
         let some = |random: &mut Random| ContactKey {
@@ -379,7 +379,7 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
         Some(index)
     };
     assert_eq!(found(Vec3::x(), ContactRole::Active), Some(0));
-    // Two alike: the lower feature.
+    // Two equal normals: the lower feature.
     assert_eq!(found(Vec3::z(), ContactRole::Active), Some(2));
     assert_eq!(found(Vec3::z(), ContactRole::Tracked), Some(3));
     assert_eq!(found(Vec3::z(), ContactRole::WrongSide), None);
@@ -390,8 +390,8 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
     assert_eq!(memory.under(&elsewhere).matching(&Vec3::z(), ContactRole::Tracked), None);
 }
 
-/// Lanes write the contacts of some heads each, in any order of the heads; some lanes write none, and some of what they write
-/// is left out.
+/// Each thread writes the contacts of some high words, in any order; some threads write none, and some
+/// records are left out.
 #[test]
 fn records_that_lanes_have_written_are_those_that_stand_in_order() {
     const LANES: usize = 3;
@@ -433,12 +433,12 @@ fn records_that_lanes_have_written_are_those_that_stand_in_order() {
             assert!(memory.records.of_group_pair(pair).eq(expected.records.of_group_pair(pair)));
         }
         assert_eq!(memory.records.place_of_head(u64::MAX), in_order.len());
-        // Any other way to remember begins with a copy, which stands in order.
+        // Every other change starts with a copy, which is in key order.
         let mut copy = memory_of(&mut random, 3, 0);
         copy.copy_from(&memory);
         assert!(copy.records == expected.records && block_of(&copy) == block_of(&memory));
 
-        // Of one head, the second not behind the first: they cannot stay.
+        // Records of one high word that are not contiguous cannot stay in place.
         if let Some(second) = written.windows(2).position(|two| two[0].0.head() == two[1].0.head()) {
             written[second + 1].1 = Slot::new(LANES - 1, 2 * CAPACITY - 1);
             assert!(!memory.records.adopt(written.iter().map(|(key, place)| (key.head(), *place))));
@@ -447,21 +447,21 @@ fn records_that_lanes_have_written_are_those_that_stand_in_order() {
     }
 }
 
-/// In a buffer that has room for the largest block.
+/// A block in a buffer for the largest block.
 fn block_of(memory: &ContactMemory) -> Vec<u8> {
     let mut block = vec![0xee; largest_len(memory)];
     write_block(memory, WORLD, &mut block).unwrap();
     block
 }
 
-/// And nothing behind it.
+/// A block in a buffer of just its length.
 fn tight_block_of(memory: &ContactMemory) -> Vec<u8> {
     let mut block = vec![0xee; needed_len(memory)];
     write_block(memory, WORLD, &mut block).unwrap();
     block
 }
 
-/// What a block of version 3 is, written down byte by byte.
+/// A block of format version 3, byte by byte.
 #[test]
 fn the_block_is_laid_out_as_version_3_says() {
     let mut random = Random(5);
@@ -530,7 +530,7 @@ fn a_damaged_byte_anywhere_is_refused_and_changes_nothing() {
     assert!(memory == before);
 }
 
-/// A block is as long as what is remembered; with zeros behind it, up to the room that the largest has, it is the same block.
+/// A block is as long as its contents; followed by zeros up to the largest block, it is the same block.
 #[test]
 fn a_block_has_no_room_for_contacts_that_there_are_not() {
     let mut random = Random(9);
@@ -540,7 +540,7 @@ fn a_block_has_no_room_for_contacts_that_there_are_not() {
         let numbers = memory.records.len() * (RECORD_BYTES + 8 * memory.numbers_each());
         assert_eq!(tight.len(), first_record(&memory) + numbers + 8);
         assert!(whole[..tight.len()] == tight && whole[tight.len()..].iter().all(|byte| *byte == 0));
-        // Beyond the room for the largest block a buffer is left alone.
+        // A buffer is not written beyond the largest block.
         let mut larger = vec![0xee; whole.len() + 100];
         write_block(&memory, WORLD, &mut larger).unwrap();
         assert!(larger[..whole.len()] == whole && larger[whole.len()..] == [0xee; 100]);
@@ -570,27 +570,27 @@ fn a_block_has_no_room_for_contacts_that_there_are_not() {
     assert!(read_block(&mut memory, WORLD, &[&tight[..], &[1]].concat()).is_err() && memory == before);
 }
 
-/// Where the poses begin in the block, with how many moments there are.
+/// Offset of the poses in the block, which begin with the number of epochs.
 const POSES: usize = 40;
-/// A moment for each pair of Objects, with room up to a multiple of eight bytes.
+/// One epoch per pair of Objects, padded to a multiple of eight bytes.
 const PAIRS_BYTES: usize = 8;
 
-/// Where the moments of the pairs begin in the block.
+/// Offset of the pairs' epochs in the block.
 fn first_moment(memory: &ContactMemory) -> usize {
     let (_, moments) = memory.poses.numbered();
     POSES + 8 + usize::from(moments) * BODIES.len() * 56
 }
 
-/// Where the records begin in the block.
+/// Offset of the records in the block.
 fn first_record(memory: &ContactMemory) -> usize {
     first_moment(memory) + PAIRS_BYTES
 }
 
-/// The words of a record in the block.
+/// Index of the role among the words of a record in the block.
 const ROLE_WORD: usize = 9;
 const RECORD_BYTES: usize = 160;
 
-/// The block with some of its words replaced, and a checksum that fits.
+/// The block with one word replaced and a matching checksum.
 fn forged(block: &[u8], at: usize, word: u32) -> Vec<u8> {
     let mut forged = block.to_vec();
     forged[at..at + 4].copy_from_slice(&word.to_le_bytes());
@@ -629,7 +629,7 @@ fn a_block_that_holds_nonsense_under_a_good_checksum_is_refused_and_changes_noth
         assert_eq!(read_block(&mut memory, WORLD, &forged), Err(StateError::Damaged), "{count} records");
         assert!(memory == before);
     }
-    // The forgery itself is sound: the same with a word that may stand there is accepted.
+    // The forgery itself is valid: a permitted word is accepted.
     read_block(&mut memory, WORLD, &forged(&block, last + 4 * ROLE_WORD, 1)).unwrap();
     assert_eq!(memory.records[8].role, ContactRole::WrongSide);
 }

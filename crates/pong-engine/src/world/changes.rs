@@ -1,4 +1,4 @@
-//! What may change between frames: pairs on and off, values of surfaces, the contacts' past.
+//! Changes between frames: pairs on and off, surface values, contact history.
 
 use super::World;
 use crate::error::EngineError;
@@ -7,8 +7,8 @@ use crate::seal;
 use pong_model::Surface;
 
 impl World {
-    /// Switches a pair on or off. A pair that is off has no contacts, and when it is switched on again it has no
-    /// past.
+    /// Switches a pair on or off. A pair that is off has no contacts, and it has no history when it is
+    /// switched on again.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for a pair of another world.
@@ -21,7 +21,7 @@ impl World {
         Ok(())
     }
 
-    /// Whether a pair is tested.
+    /// Returns true if a pair is switched on.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for a pair of another world.
@@ -29,7 +29,7 @@ impl World {
         Ok(self.states.enabled[self.scene.pair_index(pair)?])
     }
 
-    /// Drops an Object's contact state: after a teleport or a reset nothing of its past counts.
+    /// Drops an Object's contact state, for use after a teleport or a reset.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for an Object of another world.
@@ -40,12 +40,13 @@ impl World {
         Ok(())
     }
 
-    /// Replaces the values of a surface of a model (found by its name), for all its Objects. Laws may not change.
+    /// Replaces the values of a model's surface (found by its name), for all its Objects. Laws cannot change.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if the model has no surface of
-    /// this name, [`EngineError::BadValue`] for another law or a value that no surface may have, [`EngineError::Seal`] if it
-    /// cannot be combined with a surface that it may meet. The surface is as it was then.
+    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if the model has
+    /// no surface of this name, [`EngineError::BadValue`] for another law or a value that no surface may
+    /// have, [`EngineError::Seal`] if it cannot be combined with a surface that it may meet. The surface is
+    /// unchanged then.
     pub fn set_surface(&mut self, model: ModelId, surface: &Surface) -> Result<(), EngineError> {
         let model = self.scene.model_index(model)?;
         let before = self.surfaces.replace(model, surface)?;
@@ -67,7 +68,7 @@ impl World {
         }
     }
 
-    /// A surface of a model as it is now.
+    /// Surface of a model with its current values.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if it has no such surface.
@@ -75,7 +76,7 @@ impl World {
         self.surfaces.named(self.scene.model_index(model)?, name)
     }
 
-    /// All surfaces of a model as they are now.
+    /// All surfaces of a model with their current values.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for a model of another world.

@@ -1,4 +1,4 @@
-//! Another world of the same sealed scene.
+//! Clones of a world.
 
 use super::World;
 use crate::error::EngineError;
@@ -9,26 +9,26 @@ use crate::sealed::SurfaceTable;
 use std::sync::Arc;
 
 impl World {
-    /// Another world of the same sealed scene, as it stands: with the states, pairs, values of surfaces and contact state that
-    /// this one has now, and the same ids. From here on both are independent; given the same calls, they give the same bits.
+    /// Clones this world: the same sealed scene and ids, with the current states, pairs, surface values and
+    /// contact state. Afterwards both are independent; given the same calls, they give bit-identical results.
     ///
-    /// Both share what nothing changes: models, laws and what the seal has found. The clone has memory of its own for frames,
-    /// and workers of its own, as many as the configuration asks for ([`worker_starts`](Self::worker_starts)). It has computed
-    /// no frame yet: there are no wrenches and contacts before its first one.
+    /// Both share everything immutable: models, laws and the results of the seal. The clone has its own
+    /// memory for frames, and its own workers, as many as the configuration asks for
+    /// ([`worker_starts`](Self::worker_starts)). It has no wrenches and contacts before its first frame.
     ///
     /// # Errors
-    /// [`EngineError::OutOfMemory`] if the system has not the memory that frames take, [`EngineError::Workers`] if the workers
-    /// cannot be started. This world is as it was.
+    /// [`EngineError::OutOfMemory`] if the system does not have the memory for the frames,
+    /// [`EngineError::Workers`] if the workers cannot be started. This world is unchanged.
     pub fn try_clone(&self) -> Result<Self, EngineError> {
         self.clone_of(Arc::clone(&self.scene), Arc::clone(&self.runtime.tables))
     }
 
-    /// As [`try_clone`](Self::try_clone), with other instances of the registered laws under the same names: for laws that keep
-    /// something of their world.
+    /// Clones this world with other instances of the registered laws under the same names, for laws that
+    /// store data of their world; otherwise as [`try_clone`](Self::try_clone).
     ///
     /// # Errors
-    /// As [`try_clone`](Self::try_clone); [`EngineError::BadValue`] for laws of other names, or that remember another count of
-    /// numbers of a contact.
+    /// As [`try_clone`](Self::try_clone); [`EngineError::BadValue`] for laws with other names or another
+    /// number of state values per contact.
     pub fn try_clone_with_laws(&self, laws: Laws) -> Result<Self, EngineError> {
         let refused = |cause: &str| {
             Err(EngineError::BadValue { what: "laws of a clone".to_owned(), cause: cause.to_owned() })

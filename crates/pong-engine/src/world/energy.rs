@@ -1,4 +1,4 @@
-//! Energies and accounts of the last commit.
+//! Energies and energy accounts of the last commit.
 
 use super::World;
 use crate::contact::Ledger;
@@ -9,19 +9,19 @@ impl World {
     /// Energies at the last commit, J. Work and dissipation are zero unless [`Config::ledger`](crate::Config::ledger) is set.
     pub fn ledger(&self) -> Ledger {
         let memory = &self.runtime.memory;
-        // An empty sum is −0.
+        // Adding 0 turns the −0 of an empty sum into +0.
         let stored = memory.records.iter().map(|record| record.stored).sum::<f64>() + 0.0;
         Ledger { stored, work: memory.work, dissipated: memory.dissipated }
     }
 
-    /// Accounts of the contacts of the last frame, one for each of [`contacts`](Self::contacts) and in their order; empty
-    /// unless [`Config::accounts`](crate::Config::accounts) is set.
+    /// Energy accounts of the contacts of the last frame, one for each of [`contacts`](Self::contacts) in the
+    /// same order; empty unless [`Config::accounts`](crate::Config::accounts) is set.
     pub fn contact_accounts(&self) -> impl Iterator<Item = EnergyAccount> + '_ {
         let kept = self.scene.config.accounts.map(|_| self.runtime.frame.list_accounts());
         kept.into_iter().flatten()
     }
 
-    /// Accounts of all pairs of movable groups at the last commit; empty unless
+    /// Energy accounts of all pairs of movable groups at the last commit; empty unless
     /// [`Config::accounts`](crate::Config::accounts) is set.
     pub fn pair_accounts(&self) -> impl Iterator<Item = PairEnergyAccount> + '_ {
         let stamp = self.scene.stamp;
@@ -41,7 +41,7 @@ impl World {
         })
     }
 
-    /// The accounts of all pairs of movable groups together, at the last commit.
+    /// Sum of the energy accounts of all pairs of movable groups at the last commit.
     pub fn account(&self) -> EnergyAccount {
         let mut all = EnergyAccount::default();
         self.pair_accounts().for_each(|pair| all.add(&pair.total));

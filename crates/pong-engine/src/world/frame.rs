@@ -18,23 +18,23 @@ impl World {
         self.set_states(&[(interface, *state)])
     }
 
-    /// Sets the states of movable groups, relative to and expressed in the common frame, in m, m/s and rad/s: all of them, or,
-    /// if any is refused, none.
+    /// Sets the states of movable groups, relative to and expressed in the common frame, in m, m/s and rad/s:
+    /// all of them or, if any is refused, none.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for an Interface of another world; [`EngineError::BadState`] for a value that is not finite
-    /// or beyond [`State::LARGEST`], or a quaternion whose norm is off by more than 1e-3.
+    /// [`EngineError::UnknownId`] for an Interface of another world; [`EngineError::BadState`] for a value
+    /// that is not finite or beyond [`State::LARGEST`], or a quaternion whose norm is off by more than 1e-3.
     #[inline]
     pub fn set_states(&mut self, states: &[(InterfaceId, State)]) -> Result<(), EngineError> {
-        // A host that sets the same states again, for a commit, must not pay for a second evaluation.
+        // A host that sets the same states again for a commit does not pay for a second evaluation.
         if self.states.set(&self.scene, states)? {
             self.runtime.changed();
         }
         Ok(())
     }
 
-    /// Pose (m) and twist (m/s, rad/s) last set for a movable group, relative to and expressed in the common frame; `None` if
-    /// never set.
+    /// Pose (m) and twist (m/s, rad/s) last set for a movable group, relative to and expressed in the common
+    /// frame; `None` if never set.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for an Interface of another world.
@@ -42,7 +42,7 @@ impl World {
         Ok(self.state_as_set(interface)?.map(|state| (state.pose(), state.twist())))
     }
 
-    /// The state last set for a movable group, as it was set; `None` if never. [`state`](Self::state) has the
+    /// State last set for a movable group, as it was set; `None` if never set. [`state`](Self::state) has the
     /// quaternion normalised.
     ///
     /// # Errors
@@ -51,29 +51,30 @@ impl World {
         self.states.of(&self.scene, interface)
     }
 
-    /// Computes wrenches from the states and the committed contact state. Changes nothing that a later evaluate
-    /// or commit can see.
+    /// Computes wrenches from the states and the committed contact state. Has no effect on later calls of
+    /// evaluate or commit.
     ///
     /// # Errors
-    /// [`EngineError::UnsetState`] while a movable group of an enabled pair has no state; [`EngineError::NotFinite`] if forces,
-    /// moments or energies are beyond what a number holds.
+    /// [`EngineError::UnsetState`] if a movable group of an enabled pair has no state;
+    /// [`EngineError::NotFinite`] if forces, moments or energies overflow.
     #[inline]
     pub fn evaluate(&mut self) -> Result<FrameReport, EngineError> {
         self.runtime.evaluate(&self.scene, &self.states)
     }
 
-    /// Whether the last frame belongs to the states presently set: a commit would accept it as it is.
+    /// Returns true if the last frame was computed from the current states, so that a commit would accept it
+    /// as it is.
     pub fn is_evaluated(&self) -> bool {
         self.runtime.evaluated
     }
 
-    /// Whether wrenches and contacts are those of the states, pairs and surfaces as they are set now. A commit does not
-    /// change that.
+    /// Returns true if wrenches and contacts belong to the current states, pairs and surfaces. A commit does
+    /// not change that.
     pub fn frame_is_current(&self) -> bool {
         self.runtime.current
     }
 
-    /// Accepts the states presently set, evaluating them first if they are not the ones last evaluated.
+    /// Commits the current states; evaluates them first, unless they were evaluated last.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate); nothing is committed then.
@@ -84,15 +85,17 @@ impl World {
         Ok(())
     }
 
-    /// As [`commit`](Self::commit), for some pairs only: the others keep their last committed state.
+    /// Commits some pairs only; the others keep their last committed state. Otherwise as
+    /// [`commit`](Self::commit).
     ///
-    /// The world remembers the poses of every moment at which pairs were last committed. There is room for as many moments
-    /// as there are pairs, but for no more than 255, and for 16,384 poses or 8 moments, whichever is more.
+    /// The world stores the poses of every epoch, that is, of every commit at which some pair was last
+    /// committed. There is room for as many epochs as there are pairs, up to 255, and up to 16,384 poses or 8
+    /// epochs, whichever is more.
     ///
     /// # Errors
-    /// As [`evaluate`](Self::evaluate); [`EngineError::UnknownId`] for a pair of another world; [`EngineError::BadValue`] if the
-    /// pairs that are not committed were last committed at so many moments that there is no room for another. Nothing is
-    /// committed then.
+    /// As [`evaluate`](Self::evaluate); [`EngineError::UnknownId`] for a pair of another world;
+    /// [`EngineError::BadValue`] if the pairs that are not committed use all epochs. Nothing is committed
+    /// then.
     pub fn commit_pairs(&mut self, pairs: &[PairId]) -> Result<(), EngineError> {
         for pair in pairs {
             self.scene.pair_index(*pair)?;
@@ -102,7 +105,7 @@ impl World {
         self.runtime.commit_pairs(&self.states, pairs.iter().filter_map(|pair| pair.index_in(stamp)))
     }
 
-    /// Evaluate and commit, for hosts that call once a frame.
+    /// Evaluates and commits, for hosts that call once per frame.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate); nothing is committed then.
@@ -113,15 +116,16 @@ impl World {
         Ok(report)
     }
 
-    /// Accepts the states presently set, as [`commit`](Self::commit), and then preloads the bristles between two paired
-    /// Objects: a contact that is there when a run begins is not a new one, and its friction needs no way to build up.
-    /// For the first frame, and after [`clear_contact_history`](Self::clear_contact_history). Answers how many bristles were
-    /// set; contacts without a bristle or without load have none. What the bristles store then, the host has put in.
-    /// Allocates.
+    /// Commits the current states as [`commit`](Self::commit) does, and then preloads the bristles between
+    /// two paired Objects: a contact present at the start of a run is not new, and its friction needs no
+    /// displacement to build up. For the first frame, and after
+    /// [`clear_contact_history`](Self::clear_contact_history). Returns the number of bristles set; contacts
+    /// without a bristle or without load have none. The energy stored in the bristles counts as inserted by
+    /// the host. Allocates.
     ///
     /// # Errors
-    /// As [`evaluate`](Self::evaluate); [`EngineError::UnknownId`] for a pair of another world, [`EngineError::BadValue`] for a
-    /// force that is not finite or too large. Nothing is committed then.
+    /// As [`evaluate`](Self::evaluate); [`EngineError::UnknownId`] for a pair of another world,
+    /// [`EngineError::BadValue`] for a force that is not finite or too large. Nothing is committed then.
     pub fn preload_friction(
         &mut self,
         pair: PairId,

@@ -1,15 +1,15 @@
-//! The sealed world: what computes frames. The files follow its methods:
+//! The sealed world, which computes frames. Methods by file:
 //!
 //! | file | methods |
 //! |---|---|
 //! | `frame.rs` | states in; evaluate, commit, step |
-//! | `changes.rs` | what may change between frames: pairs on and off, values of surfaces, the contacts' past |
+//! | `changes.rs` | changes between frames: pairs on and off, surface values, contact history |
 //! | `results.rs` | wrenches, contacts and reports of the last frame |
 //! | `energy.rs` | energies of the last commit |
 //! | `contact_state.rs` | the contact state as a block of bytes |
 //! | `standing.rs` | poses that contradict velocities |
 //! | `workers.rs` | workers, and the times of a frame |
-//! | `clone.rs` | another world of the same sealed scene |
+//! | `clone.rs` | clones of a world |
 
 mod changes;
 mod clone;
@@ -25,10 +25,11 @@ use crate::runtime::Runtime;
 use crate::scene::{Scene, States, Surfaces};
 use std::sync::Arc;
 
-/// A contact world that [`WorldBuilder::seal`](crate::WorldBuilder::seal) made: it takes states, computes frames, and
-/// remembers contacts from one commit to the next.
+/// A contact world made by [`WorldBuilder::seal`](crate::WorldBuilder::seal): it takes states, computes
+/// frames, and remembers contacts from one commit to the next.
 ///
-/// A frame takes no memory and gives none back. The world may be sent to another thread; one thread at a time calls it.
+/// Frames neither allocate nor free memory. The world may be sent to another thread; one thread at a time may
+/// call it.
 pub struct World {
     /// Shared with the workers.
     scene: Arc<Scene>,
@@ -42,7 +43,7 @@ impl World {
         Self { scene, surfaces, states, runtime }
     }
 
-    /// What was set up: models, Objects, pairs and laws, with their names and ids.
+    /// The scene: models, Objects, pairs and laws, with their names and ids.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
@@ -52,18 +53,18 @@ impl World {
         self.runtime.sealed.hash
     }
 
-    /// Most contacts of a frame.
+    /// Maximum contacts of a frame.
     pub fn contact_capacity(&self) -> usize {
         self.runtime.sealed.contact_capacity
     }
 
-    /// What the tests of single parts look into.
+    /// Runtime, for unit tests.
     #[cfg(test)]
     pub(crate) fn runtime_mut(&mut self) -> &mut crate::runtime::Runtime {
         &mut self.runtime
     }
 
-    /// What a tool beside the engine reads of the world.
+    /// View of the world for tools beside the engine.
     pub fn inspect(&self) -> Inspection<'_> {
         Inspection::new(&self.scene, &self.runtime)
     }

@@ -1,4 +1,4 @@
-//! What the last frame found.
+//! Results of the last frame.
 
 use super::World;
 use crate::contact::Contact;
@@ -32,22 +32,24 @@ impl World {
         Ok(Wrench { force: orientation * wrench.force, moment: orientation * wrench.moment })
     }
 
-    /// The contacts of the last frame, in the order of every sum. Allocates; [`contacts_iter`](Self::contacts_iter) does not.
+    /// Contacts of the last frame, in summation order. Allocates; [`contacts_iter`](Self::contacts_iter) does
+    /// not.
     pub fn contacts(&self) -> Vec<Contact> {
         self.contacts_iter().collect()
     }
 
-    /// As [`contacts`](Self::contacts), one by one and without a list of their own.
+    /// Contacts of the last frame one by one, without allocating.
     pub fn contacts_iter(&self) -> impl Iterator<Item = Contact> + '_ {
         self.runtime.frame.list_contacts(&self.scene, &self.runtime.sealed)
     }
 
-    /// How the normal force of each contact of the last frame changes with its depth and the rate of that, in the order of
-    /// [`contacts_iter`](Self::contacts_iter): what a host needs that chooses its step by them or treats damping implicitly.
-    /// It has the weight of the contact, and is zero where the force is cut off at zero. `None` of a normal law of the host's.
+    /// Derivatives of the normal force of each contact of the last frame with respect to its depth and depth
+    /// rate, in the order of [`contacts_iter`](Self::contacts_iter), for a host that chooses its step by them
+    /// or treats damping implicitly. They include the contact's weight, and are zero where the force is cut
+    /// at zero. `None` for a host's normal law.
     ///
-    /// Together with a lever r about the mass centre, a contact adds stiffness·(n, r × n)(n, r × n)ᵀ to the stiffness of a
-    /// body; friction is not in it. See docs/theory.md, 3.
+    /// With r the vector from the mass centre to the contact point, a contact adds stiffness·(n, r × n)(n, r
+    /// × n)ᵀ to the stiffness of a body; friction is not included. See docs/theory.md, 3.
     pub fn normal_tangents(&self) -> impl Iterator<Item = Option<NormalTangent>> + '_ {
         let Runtime { frame, sealed, tables, .. } = &self.runtime;
         frame.list_tangents(&self.scene, sealed, tables)
@@ -58,15 +60,15 @@ impl World {
         self.report().contacts as usize
     }
 
-    /// The last frame in short.
+    /// Summary of the last frame.
     pub fn report(&self) -> FrameReport {
         self.runtime.frame.report
     }
 
-    /// What went right through something else between the last commit and the last frame, if anything did
-    /// ([`StatusBits::TUNNELLED`](crate::StatusBits)). A point, the centre of a ball, the origin of a ray, the ends and
-    /// the middle of a segment are followed along straight lines; what is shorter than half of the thinnest part of the
-    /// other movable group is taken to have gone through none.
+    /// Tunnelling between the last commit and the last frame, if any
+    /// ([`StatusBits::TUNNELLED`](crate::StatusBits)). A point, the centre of a sphere or ellipsoid, the
+    /// origin of a ray, and the ends and the middle of a segment are followed along straight paths. A path
+    /// shorter than half of the thinnest part of the other movable group counts as passing through nothing.
     pub fn tunnelling(&self) -> Option<TunnellingReport> {
         let events = &self.runtime.frame.tunnelling;
         let TunnellingEvent { body_a, primitive_a, body_b } = events.first?;
@@ -79,12 +81,12 @@ impl World {
         })
     }
 
-    /// How often what was tested in the last frame, and what that found.
+    /// Test counts and hits of the last frame.
     pub fn counts(&self) -> FrameCounts {
         self.runtime.frame.caller.out.counts
     }
 
-    /// What runs, if a frame has been computed.
+    /// The runtime, if a frame has been computed.
     fn framed(&self) -> Result<&Runtime, EngineError> {
         if self.runtime.frame.computed {
             return Ok(&self.runtime);

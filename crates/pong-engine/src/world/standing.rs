@@ -1,21 +1,23 @@
-//! Movable groups whose pose stands still while they say that they move.
+//! Movable groups whose pose stands still although their velocity is not zero.
 
 use super::World;
 use crate::error::EngineError;
 use crate::ids::InterfaceId;
 use pong_geometry::Pose;
 
-/// Rounding of a coordinate and of a quaternion, relative, with room to spare: a motion below it changes no pose.
+/// Relative rounding of a coordinate or quaternion, with a margin; a smaller motion changes no pose.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl World {
-    /// Movable groups in contact that stood still from one commit to the next, bit for bit, though their velocity would have
-    /// moved them within `step`, the time between the two, s. For use right after a commit of all pairs; empty otherwise.
+    /// Movable groups in contact whose pose is bit-identical at the last two commits, although their velocity
+    /// would have moved them within `step`, the time between the two, s. For use right after a commit of all
+    /// pairs; empty otherwise.
     ///
-    /// Friction by bristles follows poses and is damped by velocities (docs/theory.md, 4). A host that leaves a pose where it
-    /// is and gives it a velocity, as for a conveyor belt, gets neither the friction of a moving body nor that of one at rest.
-    /// It moves the pose, or chooses `Coulomb` friction, which looks at velocities alone. A frame that is committed twice
-    /// without a motion in between, as in a pause, is listed too. Allocates.
+    /// Bristle friction follows poses and is damped by velocities (docs/theory.md, 4). A host that keeps a
+    /// pose and gives it a velocity, as for a conveyor belt, gets neither the friction of a moving body nor
+    /// that of one at rest. It should move the pose, or choose `Coulomb` friction, which uses only
+    /// velocities. A frame that is committed twice without motion in between, as in a pause, is listed too.
+    /// Allocates.
     ///
     /// # Errors
     /// [`EngineError::BadValue`] for a step that is not finite and above zero.

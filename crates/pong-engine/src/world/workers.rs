@@ -1,54 +1,54 @@
-//! The workers, the clock, and what a frame cost.
+//! Workers, clock, and costs of a frame.
 
 use super::World;
 use crate::report::{Clock, MemoryReport, StageTimes, WorkTimes};
 use pong_threads::{LaneWork, WorkerStart};
 
 impl World {
-    /// Gives the world another clock, in ns, for the stages of its frames ([`stage_times`](Self::stage_times)); the workers
-    /// keep the one that they were started with
+    /// Gives the world another clock, in ns, for the stages of its frames
+    /// ([`stage_times`](Self::stage_times)); the workers keep the one they were started with
     /// ([`WorldBuilder::set_clock`](crate::WorldBuilder::set_clock)).
     pub fn set_clock(&mut self, now_ns: fn() -> u64) {
         self.runtime.clock = Clock(Some(now_ns));
     }
 
-    /// How every worker started: its core and priority, or why it has none. Empty without workers.
+    /// Start of every worker: its core and priority, or the reason why it has none. Empty without workers.
     pub fn worker_starts(&self) -> &[WorkerStart] {
         self.runtime.worker_starts()
     }
 
-    /// Wakes the workers shortly before a frame: they look for its work until it comes or `at_most` has passed. For
-    /// hosts whose frames are further apart than the workers spin. Does nothing without workers.
+    /// Wakes the workers shortly before a frame; they wait for its work until it comes or `at_most` has
+    /// passed. For hosts whose frames are further apart than the workers spin. Does nothing without workers.
     pub fn prewake(&mut self, at_most: std::time::Duration) {
         self.runtime.prewake(at_most);
     }
 
-    /// Lets the workers sleep at once, as in a freeze. The next frame wakes them. Does nothing without workers.
+    /// Lets the workers sleep at once, as for a pause. The next frame wakes them. Does nothing without
+    /// workers.
     pub fn quiesce(&mut self) {
         self.runtime.quiesce();
     }
 
-    /// Ends the workers, as dropping the world does, and tells how many the system did not run within a second, or as
-    /// long as the worker timeout if one is stuck in a block: they end by themselves and keep what they read until then.
-    /// Frames are computed by the caller alone from then on.
+    /// Ends the workers, as dropping the world does, and returns the number that did not end in time: within
+    /// a second, or within the worker timeout if one is stuck in a block. Those end by themselves later and
+    /// keep the data that they read until then. From then on the caller computes frames alone.
     pub fn end_workers(&mut self) -> usize {
         self.runtime.end()
     }
 
-    /// What the calling thread (first) and each worker did in the last round of work that they shared. Empty without
-    /// workers.
+    /// Work of the calling thread (first) and of each worker in the last shared round. Empty without workers.
     pub fn lane_work(&self) -> impl Iterator<Item = LaneWork> + '_ {
         self.runtime.lane_work()
     }
 
-    /// Where the time of the last frame's contacts went on the calling thread (first) and on each worker. Zero without a
-    /// clock. Rounds that the calling thread did again by itself count for it alone.
+    /// Times of the last frame's contact stage on the calling thread (first) and on each worker, by part.
+    /// Zero without a clock. Rounds that the calling thread repeated alone count only for it.
     pub fn lane_times(&self) -> impl Iterator<Item = WorkTimes> + '_ {
         self.runtime.lane_times()
     }
 
-    /// Rounds of work since the world was sealed that the calling thread did by itself because a worker did not come
-    /// back in time, or had not come back from an earlier round. The results are the same; the time is not.
+    /// Number of rounds since the seal that the calling thread ran alone because a worker timed out, or was
+    /// still stuck from an earlier round. The results are the same; only the time differs.
     pub fn worker_timeouts(&self) -> u64 {
         self.runtime.worker_timeouts()
     }
@@ -58,7 +58,7 @@ impl World {
         self.runtime.frame.times
     }
 
-    /// Memory that frames have needed against what there is.
+    /// Peak use and capacity of memory.
     pub fn memory(&self) -> MemoryReport {
         self.runtime.memory_report()
     }

@@ -1,62 +1,64 @@
-//! The reset-integrator bristle in two dimensions, under a varying load: of eight contacts at a time.
+//! Reset-integrator bristle in two dimensions, under a varying load, for eight contacts at a time.
 //!
 //! ```text
 //! p_s = μ_s·F_n/K      p_k = μ_k·F_n/K      p* = carried p + u
 //! sticking:  |p*| ≤ p_s keeps sticking, p = p*;              else breaks away, p on the circle p_k
 //! slipping:  |p*| ≤ p_k, p = p*;                             else p on the circle p_k
-//!            sticks again where p*·v_t < 0 or |p*| < p_k, as soon as |K·p + c·v_t| ≤ μ_k·F_n
+//! sticks again where p*·v_t < 0 or |p*| < p_k, as soon as |K·p + c·v_t| ≤ μ_k·F_n
 //! F_t = −cut(K·p + c·v_t), its length cut to μ_s·F_n while sticking, to μ_k·F_n in every other step
 //! ```
 //!
-//! D. A. Haessig and B. Friedland, "On the modeling and simulation of friction", J. Dyn. Sys. Meas. Control 113
-//! (1991), extended to the plane. Where the bristle stands on the circle p_k is told by `slip_path.rs`.
+//! D. A. Haessig and B. Friedland, "On the modeling and simulation of friction", J. Dyn. Sys. Meas. Control
+//! 113 (1991), extended to the plane. `slip_path.rs` computes the point on the circle p_k.
 //!
-//! Only the limits follow the load, never K: a bristle whose stiffness followed it would make energy. One force law
-//! serves sticking and slipping, and what sticks again is held by the kinetic limit until its force has come inside it.
-//! So the force is a continuous function of p, v_t and F_n, and steps at break-away alone: a contact that stands on its
-//! limit has the same force whichever side of it rounding takes (theory manual, section 4).
+//! Only the limits follow the load, never K: a bristle whose stiffness followed the load would create energy.
+//! Sticking and slipping use the same force law, and a contact that sticks again keeps the kinetic limit
+//! until its force is below it. The force is therefore a continuous function of p, v_t and F_n, and steps
+//! only at break-away: at its limit, a contact has the same force on whichever side rounding puts it (theory
+//! manual, section 4).
 //!
-//! Products with K stand for the lengths p_s and p_k, so that K = 0 needs no case of its own.
+//! Products with K replace the lengths p_s and p_k, so that K = 0 needs no special case.
 
 use super::slip_path::SlipPath;
 use pong_geometry::Vec3;
 use pong_geometry::simd::{LaneBits, Numbers, Simd, Vectors};
 
-/// What rounding may do to a force that stands on its limit, as a part of the limit: a carried bristle and the product
-/// with K are off by a few times 1e-16. Friction may exceed its limit by no more than this.
+/// Allowance for rounding of a force at its limit, relative to the limit: the carried bristle and its product
+/// with K have errors of a few times 1e-16. Friction exceeds its limit by no more than this.
 const LIMIT_ROUNDING: f64 = 1e-13;
 
-/// The bristles of eight contacts, and what has happened to them. A lane of zeros that sticks is one without friction.
+/// Bristles of eight contacts, and their motion since the last commit. A sticking lane of zeros has no
+/// friction.
 pub(crate) struct Bristles<S: Simd> {
-    /// K, N/m.
+    /// Tangential stiffness K, N/m.
     pub stiffness: Numbers<S>,
-    /// c, N·s/m.
+    /// Tangential damping c, N·s/m.
     pub damping: Numbers<S>,
-    /// μ_k·F_n, N.
+    /// Kinetic limit μ_k·F_n, N.
     pub kinetic_limit: Numbers<S>,
-    /// μ_s·F_n, N.
+    /// Static limit μ_s·F_n, N.
     pub static_limit: Numbers<S>,
-    /// Unit normals; these and the vectors below are in the frame of B's movable group.
+    /// Unit normals. All vectors are in the frame of B's movable group.
     pub normal: Vectors<S>,
-    /// Deflections carried into the present contact planes, m.
+    /// Deflections p, rotated into the current contact planes, m.
     pub carried: Vectors<S>,
-    /// u, m.
+    /// Slip u since the last commit, m.
     pub slip: Vectors<S>,
-    /// v_t, m/s.
+    /// Slip velocities v_t, m/s.
     pub slip_velocity: Vectors<S>,
-    /// Which of them stuck at the last commit.
+    /// Lanes that stuck at the last commit.
     pub stuck: LaneBits,
 }
 
-/// What they do.
+/// Forces and new state of eight bristles.
 pub(crate) struct BristleForces<S: Simd> {
-    /// On A, N.
+    /// Friction forces on A, N.
     pub force: Vectors<S>,
-    /// p, m.
+    /// New deflections p, m.
     pub bristle: Vectors<S>,
-    /// In the bristles, J.
+    /// Energies stored in the bristles, J.
     pub stored: Numbers<S>,
-    /// Which of them stick.
+    /// Lanes that stick.
     pub sticks: LaneBits,
 }
 
@@ -78,8 +80,8 @@ impl<S: Simd> Bristles<S> {
         let limit = Numbers::select(is_held, static_limit, kinetic_limit);
         let pushed = bristle * stiffness + slip_velocity * self.damping;
         let length = pushed.norm();
-        // What slipped sticks again: its motion has turned back or no longer fills the circle, and the static limit would
-        // leave its force as it is.
+        // A slipping contact sticks again if its motion has reversed or the deflection is inside the circle,
+        // and if the static limit would not change its force.
         let turned_back = simd.bits(trial.dot(slip_velocity).below(Numbers::splat(simd, 0.0)));
         let within = simd.bits(pull.below(kinetic_limit * Numbers::splat(simd, 1.0 - LIMIT_ROUNDING)));
         let again = (turned_back | within) & simd.bits((kinetic_limit * slack).at_least(length));
@@ -91,7 +93,7 @@ impl<S: Simd> Bristles<S> {
         }
     }
 
-    /// The paths of those that have come over their limits; of the others, something that can be worked out.
+    /// Paths of the bristles that exceeded their limits; harmless values in the other lanes.
     #[inline(always)]
     fn path(&self, simd: S) -> SlipPath<S> {
         let left_at = Numbers::select(simd.mask(self.stuck), self.static_limit, self.kinetic_limit);
@@ -105,26 +107,26 @@ impl<S: Simd> Bristles<S> {
         }
     }
 
-    /// The deflection at which the bristle pulls so much, m.
+    /// Deflection at which the bristle has this force, m.
     #[inline(always)]
     fn deflection_at(&self, pull: Numbers<S>) -> Numbers<S> {
-        /// Far more than any that has come over its limit, whose square is still a number.
+        /// Far beyond any deflection at a limit, with a finite square.
         const FARTHEST_M: f64 = 1e120;
         pull.over(self.stiffness.larger(pull * pull.all(1.0 / FARTHEST_M)))
     }
 }
 
-/// A vector of the given length, shortened to at most `limit`.
+/// Vector of the given length, shortened to at most `limit`.
 ///
-/// The quotient is 1, exactly, where nothing is cut, and is computed in any case: behind a branch a compiler may compute it
-/// before the branch, and then nothing over nothing would be an invalid operation.
+/// The quotient is exactly 1 if nothing is cut, and is always computed: a compiler may hoist a division out
+/// of a branch, and 0/0 is an invalid operation.
 #[inline(always)]
 pub(crate) fn shortened(vector: Vec3, length: f64, limit: f64) -> Vec3 {
     let longer = if length > limit { length } else { limit };
     vector * (limit / longer.max(f64::MIN_POSITIVE))
 }
 
-/// The same of eight.
+/// Shortens eight vectors.
 #[inline(always)]
 fn shortened_each<S: Simd>(vectors: Vectors<S>, length: Numbers<S>, limit: Numbers<S>) -> Vectors<S> {
     vectors * limit.over(length.larger(limit))
@@ -136,7 +138,7 @@ mod tests {
     use pong_geometry::simd::{LANES, Portable};
     use pong_testkit::Random;
 
-    /// Eight vectors in the plane across z, of lengths up to `size`.
+    /// Eight vectors in the plane normal to z, of lengths up to `size`.
     fn in_plane(random: &mut Random, size: f64) -> Vectors<Portable> {
         let mut coordinates = [[0.0; LANES]; 3];
         for axis in &mut coordinates[..2] {
@@ -145,8 +147,8 @@ mod tests {
         Vectors::load(Portable, &coordinates)
     }
 
-    /// It is asked for once more where it then is: what sticks again is held by the static limit from then on, and that may
-    /// not change its force.
+    /// Bristles that stick again are evaluated once more without motion: they are then held by the static
+    /// limit, which must not change their force.
     #[test]
     fn what_sticks_again_has_the_same_force_as_what_sticks() {
         let mut random = Random::new(3, 0, 0);

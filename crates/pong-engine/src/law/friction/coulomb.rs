@@ -1,4 +1,4 @@
-//! F_t = −μ·F_n·v_t/max(|v_t|, v_ε): Coulomb friction made continuous.
+//! F_t = −μ·F_n·v_t/max(|v_t|, v_ε): regularised Coulomb friction.
 //!
 //! It has no memory and creeps under any load: below v_ε it is a damper.
 

@@ -1,5 +1,5 @@
-//! Friction laws (theory manual, section 4): the force in the contact plane. The bristle is worked out for eight contacts at a
-//! time; the others for one.
+//! Friction laws (theory manual, section 4): the force in the contact plane. Bristles are evaluated for eight
+//! contacts at a time, the other laws one by one.
 
 mod bristle;
 mod coulomb;
@@ -11,8 +11,8 @@ pub use force::{FrictionForce, FrictionInput, FrictionOutput};
 
 use super::props::FrictionProps;
 
-/// Friction force of one contact with `input.normal_force > 0` by a law that is worked out for one contact alone. A bristle is
-/// not, and gives none here.
+/// Friction of one contact with `input.normal_force > 0`, for laws that are evaluated one by one. Returns no
+/// friction for a bristle.
 pub(crate) fn friction_alone(
     props: &FrictionProps,
     input: &FrictionInput<'_>,

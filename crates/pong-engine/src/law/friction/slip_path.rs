@@ -1,52 +1,55 @@
-//! Where bristles stand on the circles of their limits after a displacement, eight at a time.
+//! Positions of slipping bristles on the circles of their limits after a displacement, eight at a time.
 //!
-//! A slipping bristle is dragged by its tip at a constant length p_k: its direction turns towards that of the motion.
-//! With ψ the angle between p and a straight displacement u,
+//! The tip drags a slipping bristle at a constant length p_k, and its direction turns towards that of the
+//! motion. With ψ the angle between p and a straight displacement u,
 //!
 //! ```text
 //! dψ/ds = −sin ψ/p_k      hence      tan(ψ/2) = tan(ψ₀/2)·exp(−z),      z = |u|/p_k
 //! ```
 //!
-//! Where the path is curved, u is its chord, and the direction of motion turns from −γ to γ of it, γ the angle from u to
-//! v_t. The linear part of the lag against that turn is
+//! For a curved path, u is the chord, and the direction of motion turns from −γ to γ relative to it, with γ
+//! the angle from u to v_t. The linear part of the lag behind that turn is
 //!
 //! ```text
 //! 2γz·∫₀¹ (s − ½)·exp(−z(1 − s)) ds = γ·(1 − 2(1 − exp(−z))/z + exp(−z))
 //! ```
 //!
-//! (own; theory manual, section 4). A radial return p_k·p*/|p*| lags behind by one order of the step.
+//! (own derivation; theory manual, section 4). A radial return p_k·p*/|p*| is one order less accurate in the
+//! step.
 
 use pong_geometry::simd::{Numbers, Simd, Vectors};
 
-/// Below this z the lag is summed as a series: its closed form cancels, and loses 2·10⁻¹⁶/z of a radian.
+/// Value of z below which the lag is summed as a series; the closed form cancels and loses 2·10⁻¹⁶/z of a
+/// radian.
 const SERIES_MAX: f64 = 0.25;
 
 /// Displacements that took eight bristles over a circle. Vectors are in one frame, in the contact planes.
 pub(super) struct SlipPath<S: Simd> {
     /// Unit normals of the contacts.
     pub normal: Vectors<S>,
-    /// Deflections before, m.
+    /// Deflections before the step, m.
     pub carried: Vectors<S>,
-    /// u, m.
+    /// Displacement u, m.
     pub slip: Vectors<S>,
-    /// v_t, m/s.
+    /// Slip velocity v_t, m/s.
     pub slip_velocity: Vectors<S>,
-    /// Radius of the circle that they left, m: larger than that of the other where one stuck until then.
+    /// Radius of the circle that they left, m; larger than `radius` for a bristle that stuck until then.
     pub left_at: Numbers<S>,
-    /// Radius of the circle that they stand on, p_k, m.
+    /// Radius p_k of the circle that they move on, m.
     pub radius: Numbers<S>,
 }
 
-/// Where the circles were left on straight ways.
+/// Points where straight paths leave the circles.
 struct Traversal<S: Simd> {
-    /// Unit vectors of the bristles there. They point along the way or across it, never back, where any of the way is left.
+    /// Unit directions of the bristles there. They point along the path or across it, never backwards, if any
+    /// of the path is left.
     direction: Vectors<S>,
-    /// The part of the way that was left, m.
+    /// Remaining length of the path, m.
     left: Numbers<S>,
 }
 
 impl<S: Simd> SlipPath<S> {
-    /// The bristles on the circles of `radius`, m. One without a way stays on its circle.
+    /// Bristles on the circles of `radius`, m. A bristle without displacement stays on its circle.
     #[inline(always)]
     pub fn end(&self, simd: S) -> Vectors<S> {
         let zero = Numbers::splat(simd, 0.0);
@@ -54,12 +57,14 @@ impl<S: Simd> SlipPath<S> {
         let along = self.slip.along(length);
         let way = Traversal::after_leaving(self.carried, along, length, self.left_at);
         let moves = zero.below(way.left);
-        // Far beyond where anything is left of the first direction: a load that has all but gone leaves all but no radius.
+        // Far beyond the ratio at which the first direction is forgotten. A nearly vanished load leaves a
+        // nearly vanished radius.
         const LARGEST_RATIO: f64 = 1e300;
         let ratio = way.left.over(self.radius.larger(way.left * zero.all(1.0 / LARGEST_RATIO)));
         let decay = ratio.exp_of_minus();
         let turned = turned_towards(way.direction, along, decay);
-        // A velocity that points back along the path is not the end of a smooth one; so mirrored, the angle has no jump there.
+        // A velocity that points back along the path does not end a smooth path. Mirrored, the angle is
+        // continuous there.
         let velocity = self.slip_velocity;
         let angle = self.normal.dot(along.cross(velocity)).angle_above(along.dot(velocity).abs());
         let turned = turned_by(turned, self.normal, angle * lag_of_turn(ratio, decay));
@@ -68,11 +73,12 @@ impl<S: Simd> SlipPath<S> {
 }
 
 impl<S: Simd> Traversal<S> {
-    /// From `start` along a unit vector to an end outside of the circle of radius `circle`: where it leaves that circle for
-    /// the last time, or comes nearest to it. The load may have fallen, so that all of the way lies outside.
+    /// Traverses a path from `start` along a unit vector to an end outside the circle of radius `circle`: the
+    /// point where it leaves the circle for the last time, or comes nearest to it. If the load has fallen,
+    /// the whole path may lie outside.
     ///
-    /// The place is built from the point of the line that is nearest to the middle. Summed up from the start it would be
-    /// rounding alone where the circle is far smaller than the bristle was: under a load that has all but gone.
+    /// The point is constructed from the point of the line nearest to the centre. Summed from the start, it
+    /// would be pure rounding for a circle far smaller than the bristle was, under a nearly vanished load.
     #[inline(always)]
     fn after_leaving(start: Vectors<S>, along: Vectors<S>, length: Numbers<S>, circle: Numbers<S>) -> Self {
         let zero = length.all(0.0);
@@ -89,26 +95,27 @@ impl<S: Simd> Traversal<S> {
     }
 }
 
-/// `direction` after ψ has become 2·atan(tan(ψ/2)·decay), ψ its angle to `along`, at most 90°; all unit vectors.
+/// `direction` after its angle ψ to `along`, at most 90°, has become 2·atan(tan(ψ/2)·decay); all unit
+/// vectors.
 #[inline(always)]
 fn turned_towards<S: Simd>(direction: Vectors<S>, along: Vectors<S>, decay: Numbers<S>) -> Vectors<S> {
     let (one, two) = (decay.all(1.0), decay.all(2.0));
     let cosine = direction.dot(along);
     let across = direction - along * cosine;
-    // Where nothing of the way is left the angle may be more; nobody asks for that.
+    // The angle may exceed 90° if no path is left; that result is not used.
     let factor = decay.over((one + cosine).larger(decay.all(0.5)));
     let tangent_squared = across.norm_squared() * factor * factor;
     (along * (one - tangent_squared) + across * (two * factor)) * one.over(one + tangent_squared)
 }
 
-/// Vectors across `normal`, turned about it by angles, rad.
+/// Vectors in the plane normal to `normal`, rotated about it by angles, rad.
 #[inline(always)]
 fn turned_by<S: Simd>(vectors: Vectors<S>, normal: Vectors<S>, angle: Numbers<S>) -> Vectors<S> {
     let (sine, cosine) = angle.sin_cos();
     vectors * cosine + normal.cross(vectors) * sine
 }
 
-/// 1 − 2(1 − e⁻ᶻ)/z + e⁻ᶻ, which is Σ (k − 1)·(−z)ᵏ/(k + 1)! over k from 2.
+/// 1 − 2(1 − e⁻ᶻ)/z + e⁻ᶻ, equal to Σ (k − 1)·(−z)ᵏ/(k + 1)! over k from 2.
 #[inline(always)]
 fn lag_of_turn<S: Simd>(z: Numbers<S>, decay: Numbers<S>) -> Numbers<S> {
     let (one, two) = (z.all(1.0), z.all(2.0));
@@ -118,7 +125,7 @@ fn lag_of_turn<S: Simd>(z: Numbers<S>, decay: Numbers<S>) -> Numbers<S> {
     Numbers::select(z.at_least(z.all(SERIES_MAX)), closed, series)
 }
 
-/// (k − 1)·(−1)ᵏ/(k + 1)!, for k from 2.
+/// Coefficients (k − 1)·(−1)ᵏ/(k + 1)!, for k from 2.
 const LAG: [f64; 10] = {
     let mut coefficients = [0.0; 10];
     let mut factorial = 2.0;
@@ -141,7 +148,7 @@ mod tests {
 
     const RADIUS: f64 = 3e-5;
 
-    /// Where one bristle ends, in every lane.
+    /// Final position of one bristle, computed in every lane.
     fn on_circle([carried, slip, slip_velocity]: [Vec3; 3], left_at: f64, radius: f64) -> Vec3 {
         let all = |v: Vec3| Vectors::splat(Portable, &v);
         let path = SlipPath {
@@ -167,8 +174,8 @@ mod tests {
         Vec3::new(libm::cos(angle), libm::sin(angle), 0.0)
     }
 
-    /// The tip is moved in many small steps, and the bristle pulled back to its length after each: first order in their
-    /// length, so two lengths are extrapolated.
+    /// Reference: moves the tip in many small steps and pulls the bristle back to its length after each.
+    /// First order in the step, so two step sizes are extrapolated.
     fn dragged(start: Vec3, path: impl Fn(f64) -> Vec3) -> Vec3 {
         let run = |steps: i32| {
             let mut bristle = start;
@@ -193,7 +200,7 @@ mod tests {
         }
     }
 
-    /// From inside its circle, over it, and on; and straight through it from the other side.
+    /// Paths from inside the circle to its outside, and straight through it from the other side.
     #[test]
     fn a_bristle_first_fills_its_circle() {
         for start in [Vec3::new(0.2, 0.7, 0.0), Vec3::zeros(), Vec3::new(-0.8, 0.6, 0.0)] {
@@ -204,7 +211,7 @@ mod tests {
         }
     }
 
-    /// Along an arc that turns by 2γ, from a bristle that lags by as much, the error falls with the cube of γ; without the
+    /// On an arc that turns by 2γ, for a bristle that lags by as much, the error falls with γ³; without the
     /// lag of the turn it falls with γ.
     #[test]
     fn a_curved_way_is_followed_to_third_order() {
@@ -236,7 +243,8 @@ mod tests {
         assert!((lag(1e-6) / (1e-12 / 6.0) - 1.0).abs() < 1e-6);
     }
 
-    /// A load that has all but gone leaves a circle far smaller than the bristle, which the way crosses through its middle.
+    /// A nearly vanished load leaves a circle far smaller than the bristle; the path crosses it through its
+    /// centre.
     #[test]
     fn a_way_through_the_middle_of_a_tiny_circle_ends_along_it() {
         for exponent in 0..60 {
@@ -250,8 +258,8 @@ mod tests {
         }
     }
 
-    /// What ends outside under a fallen load, whether its way meets the circle or passes beside it, changes little with its
-    /// way: no step where the way begins to meet the circle.
+    /// Ends outside the circle under a fallen load vary continuously with the path, also where the path
+    /// begins to meet the circle.
     #[test]
     fn the_place_on_the_circle_has_no_step() {
         let mut last: Option<Vec3> = None;
@@ -260,7 +268,7 @@ mod tests {
             let start = Vec3::new(-1.2, height, 0.0) * RADIUS;
             let got = on_circle([start, Vec3::x() * 2.0 * RADIUS, Vec3::y()], RADIUS, RADIUS);
             if let Some(last) = last {
-                // Where the way touches the circle the chord grows as a root: 2·√(2·1e-6).
+                // Where the path becomes a chord, its length grows as a square root: 2·√(2·1e-6).
                 assert!((got - last).norm() < 4e-3 * RADIUS, "{height}");
             }
             last = Some(got);
