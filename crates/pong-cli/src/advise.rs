@@ -1,4 +1,4 @@
-//! `pong advise`: what a step can hold, and which stiffness and damping give a wanted depth and rebound.
+//! `pong advise`: limits of a step, and the stiffness and damping that give a desired depth and rebound.
 
 mod arguments;
 mod contact;
@@ -25,12 +25,13 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Whether a file says that it is a scene; what cannot be read is told by the reader of models.
+/// True if a file has the format mark of a scene; a file that cannot be read is reported by the reader of
+/// models.
 fn is_scene(path: &Path) -> bool {
     pong_model::files::read_text(path).is_ok_and(|text| text.contains("\"pong-scene\""))
 }
 
-/// Any coupling that is not named: the most forgiving must not be assumed.
+/// Default coupling: a host that names none must not get the most forgiving one.
 const UNNAMED: WrenchCoupling = WrenchCoupling::ZeroOrderHold { delay_frames: 0 };
 
 fn wish_alone(arguments: &Arguments) -> Result<String, String> {
@@ -108,7 +109,7 @@ fn model(arguments: &Arguments, path: &Path) -> Result<String, String> {
     Ok(text)
 }
 
-/// Every surface of a model against a rigid partner.
+/// Report of every surface of a model against a rigid partner.
 fn surfaces(model: &Model, mass: f64, plan: &StepPlan, friction_share: f64) -> String {
     let mut report = pong_advise::StepReport::default();
     for surface in &model.surfaces {
@@ -126,7 +127,7 @@ fn surfaces(model: &Model, mass: f64, plan: &StepPlan, friction_share: f64) -> S
     limits::told(&report, plan, friction_share)
 }
 
-/// What leaves all to a surface: its yield, its laws.
+/// A partner surface that takes its compliance and laws from the other one.
 fn rigid() -> Surface {
     Surface {
         name: "rigid".to_owned(),

@@ -33,13 +33,13 @@ pub(crate) struct Arguments {
     /// Voxels along the longest side [default: 100]; with CoACD samples on the surface [default: 2000].
     #[arg(long, value_name = "COUNT")]
     resolution: Option<u32>,
-    /// What finds the cuts: VHACD is built in, CoACD is a Python package.
+    /// Method of finding the cuts: VHACD is built in, CoACD is a Python package.
     #[arg(long, value_enum, default_value = "vhacd")]
     method: Finder,
     /// The Python interpreter that has CoACD.
     #[arg(long, value_name = "PROGRAM", default_value = "python3")]
     python: String,
-    /// Places measured on each surface, and in the volume.
+    /// Number of points measured on each surface, and in the volume.
     #[arg(long, value_name = "COUNT", default_value_t = 30_000, value_parser = at_least_one)]
     samples: usize,
 }

@@ -1,4 +1,4 @@
-//! `pong doctor`: what the machine grants a real-time program.
+//! `pong doctor`: real-time properties of the machine.
 
 use crate::terminal::{Outcome, failure, print};
 use crate::text::number;
@@ -8,17 +8,18 @@ use std::fmt::Write as _;
 use std::process::ExitCode;
 use std::time::Duration;
 
-/// Says what this machine grants a real-time program: cores, clocks, limits, priorities, and how late threads wake up.
+/// Reports what this machine grants a real-time program: cores, clocks, limits, priorities, and how late
+/// threads wake up.
 ///
-/// Each line has what was found, what it means and, where something can be better, the cure. Exit status: 0 if the
-/// machine could be examined, whatever was found; with --strict 1 if a line has a cure. Measured times are never
-/// judged. docs/realtime.md explains the lines.
+/// Each line has the finding, its meaning and, where something can be better, the cure. Exit status: 0 if the
+/// machine could be examined, whatever was found; with --strict 1 if a line has a cure. Measured times are
+/// never judged. docs/realtime.md explains the lines.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// One JSON object instead of text.
     #[arg(long)]
     json: bool,
-    /// How long each kind of waking up is measured, in s; 0 measures nothing.
+    /// Duration of measuring each kind of waking up, in s; 0 measures nothing.
     #[arg(long, value_name = "S", default_value_t = 1.0, value_parser = seconds)]
     seconds: f64,
     /// Exit status 1 if the machine does not grant something; measured times do not count.
@@ -26,7 +27,7 @@ pub(crate) struct Arguments {
     strict: bool,
 }
 
-/// Longer than anyone waits for a histogram: an hour.
+/// Longest measurement, s: an hour.
 const SECONDS_MAX: f64 = 3600.0;
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -36,7 +37,7 @@ fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// What `--json` writes.
+/// Output of `--json`.
 #[derive(Serialize)]
 struct Report {
     format: &'static str,

@@ -65,7 +65,7 @@ fn package(arguments: &Arguments) -> Result<Package, String> {
     pong_fmu::package(&arguments.scene, &library, fmi, &options)
 }
 
-/// The shared library: the one that was named, or that beside the program as cargo builds it or as it is installed.
+/// The shared library: the named one, or else the one beside the program, as cargo builds or installs it.
 fn library(named: Option<&Path>) -> Result<(PathBuf, Vec<u8>), String> {
     let unreadable = |path: &Path, reason: std::io::Error| {
         format!("{}: cannot be read: {reason}; name {LIBRARY_FILE} with --library", path.display())
@@ -94,7 +94,7 @@ fn library(named: Option<&Path>) -> Result<(PathBuf, Vec<u8>), String> {
     Ok((path.clone(), bytes))
 }
 
-/// Where the library lies as cargo builds it (`deps`: as a part of this program), and as it is installed.
+/// Places of the library as cargo builds it (`deps`: as a part of this program), and as it is installed.
 fn places(folder: &Path) -> Vec<PathBuf> {
     let relative = ["", "deps", "../lib/pong", "../lib/x86_64-linux-gnu/pong", "../lib64/pong"];
     relative.iter().map(|place| folder.join(place).join(LIBRARY_FILE)).collect()

@@ -1,9 +1,10 @@
-//! Where models may read files: an option of every command that reads models. Where changed models of a log go.
+//! Folders from which models may read files, an option of every command that reads models; and the output
+//! folder for models of a log.
 
 use pong_geometry::extension::Extensions;
 use std::path::{Path, PathBuf};
 
-/// The folders that files may be read from beside the one that names them.
+/// Additional folders from which files may be read.
 #[derive(clap::Args)]
 pub(crate) struct AllowedFolders {
     /// Lets files that a model or mesh file names (meshes, buffers of glTF) be read from this folder too, through links;
@@ -13,7 +14,7 @@ pub(crate) struct AllowedFolders {
 }
 
 impl AllowedFolders {
-    /// For what loads models.
+    /// Extensions that allow these folders.
     pub(crate) fn extensions(&self) -> Extensions {
         let mut extensions = Extensions::new();
         self.folders.iter().for_each(|folder| extensions.allow_files_below(folder));
@@ -21,7 +22,8 @@ impl AllowedFolders {
     }
 }
 
-/// For what is made of the models of a log, which keeps copies of them for itself: `<log>_<what>` in the working folder.
+/// Output folder for files made from the models of a log, `<log>_<what>` in the working folder, because a
+/// log's own folder is left alone. `None` for a scene.
 pub(crate) fn beside_a_log(run: &Path, what: &str) -> Option<PathBuf> {
     let name = run.file_name().unwrap_or_default().to_string_lossy();
     run.is_dir().then(|| PathBuf::from(format!("{name}_{what}")))

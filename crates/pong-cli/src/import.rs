@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     round: Option<f64>,
 }
 
-/// The mesh file, the model file, and how the one becomes the other.
+/// The mesh file, the model file, and the options of the conversion.
 #[derive(clap::Args)]
 pub(crate) struct Mesh {
     #[command(flatten)]
@@ -48,7 +48,7 @@ pub(crate) struct Mesh {
     pub(crate) surface: Surface,
 }
 
-/// A mesh file and how it is read.
+/// A mesh file and the options of reading it.
 #[derive(clap::Args)]
 pub(crate) struct MeshFile {
     /// The mesh file.
@@ -79,7 +79,7 @@ pub(crate) struct MeshFile {
     pub(crate) allowed: AllowedFolders,
 }
 
-/// The surface of whatever the file gives none.
+/// The default surface.
 #[derive(clap::Args)]
 pub(crate) struct Surface {
     /// Name of the surface for whatever names none.
@@ -135,7 +135,7 @@ const LENGTHS: [(&str, f64); 8] = [
     ("m", 1.0),
 ];
 
-/// A length above zero, in metres unless a unit follows.
+/// Parses a length above zero, in metres unless a unit follows.
 pub(crate) fn length_m(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let unit = LENGTHS.iter().find(|(unit, _)| text.ends_with(unit));
@@ -144,7 +144,7 @@ pub(crate) fn length_m(text: &str) -> Result<f64, String> {
         "" => 1.0,
         digits => digits.parse().map_err(|_| format!("`{text}` is no length: write 0.005, 5mm or 0.2in"))?,
     };
-    // Decimal units by division: 5 mm is the number nearest to 0.005.
+    // Divides for decimal units, so that 5 mm is the number nearest to 0.005.
     let length = if metres < 0.02 { value / (1.0 / metres).round() } else { value * metres };
     if length > 0.0 && length.is_finite() { Ok(length) } else { Err("it must be above zero".to_owned()) }
 }
@@ -160,14 +160,14 @@ fn not_negative(text: &str) -> Result<f64, String> {
 }
 
 impl Mesh {
-    /// What every command that makes a model of a mesh is told.
+    /// Options of every command that makes a model of a mesh.
     pub(crate) fn options(&self) -> Options {
         Options { name: self.name.clone(), surface: self.surface.chosen(), ..self.file.options() }
     }
 }
 
 impl MeshFile {
-    /// What every command that reads a mesh is told.
+    /// Options of every command that reads a mesh.
     pub(crate) fn options(&self) -> Options {
         Options {
             up: self.up.map(Up::from),
@@ -204,7 +204,7 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Why a mesh was refused.
+/// Error of a refused mesh.
 pub(crate) fn nothing_written(findings: &Findings) -> Failure {
     let faults = count(findings.faults.len(), "fault", "faults");
     format!("{findings}\n{faults}; nothing was written").into()

@@ -1,4 +1,4 @@
-//! `pong log`: what is in a response log, and the log as CSV.
+//! `pong log`: description of a response log, and the log as CSV.
 
 use crate::terminal::{Outcome, print};
 use crate::text::{count, number};

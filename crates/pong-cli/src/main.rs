@@ -1,10 +1,10 @@
 //! `pong`: the command line of the contact engine.
 //!
-//! Exit codes: 0 all is well, 1 something is wrong with what was named, or the answer could not be written (told on
-//! standard error), 2 wrong usage, 3 a run in which paired objects could not touch.
+//! Exit codes: 0 success, 1 a fault of a named file, or an answer that could not be written (with a message
+//! on standard error), 2 wrong usage, 3 a run in which paired objects could not touch.
 
 #![forbid(unsafe_code)]
-// `print!` and its kin end the program where they cannot write: all writing goes through `terminal`.
+// `print!` and its kin panic where they cannot write: all writing goes through `terminal`.
 #![deny(clippy::print_stdout, clippy::print_stderr)]
 
 mod advise;
@@ -84,7 +84,7 @@ fn main() -> ExitCode {
     terminal::exit_code_of(outcome)
 }
 
-/// Help and version are answers; wrong usage is told.
+/// Prints help and version as answers, wrong usage as an error.
 fn usage(asked: &clap::Error) -> ExitCode {
     let text = asked.render().to_string();
     if asked.use_stderr() {

@@ -1,4 +1,5 @@
-//! `pong man-pages`: the manual pages of the program, from the same definitions as `--help`. Installing calls it.
+//! `pong man-pages`: the manual pages of the program, from the definitions of `--help`. Installation calls
+//! it.
 
 use crate::terminal::{Outcome, failure};
 use clap_mangen::Man;
@@ -16,7 +17,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn main(arguments: &Arguments, program: clap::Command) -> Outcome {
-    // `pong help` is `pong --help` again.
+    // `pong help` repeats `pong --help`.
     let mut program = program.disable_help_subcommand(true);
     program.build();
     write_pages(&program, &arguments.folder).map_err(|(path, reason)| {
@@ -37,7 +38,7 @@ fn write_pages(program: &clap::Command, folder: &Path) -> Result<(), (PathBuf, i
     Ok(())
 }
 
-/// `pong`, `pong-check`.
+/// Name of a page: `pong`, `pong-check`.
 fn page_name(command: &clap::Command) -> String {
     command.get_display_name().unwrap_or_else(|| command.get_name()).to_owned()
 }
@@ -59,7 +60,7 @@ fn page(command: &clap::Command, version: &str, names: &[String]) -> io::Result<
     Ok(text)
 }
 
-/// What no definition of an option tells.
+/// Sections that are not in the definitions of options.
 fn ending(own: &str, names: &[String]) -> Roff {
     let mut roff = Roff::default();
     roff.control("SH", ["EXIT STATUS"]);

@@ -37,7 +37,7 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Products of inertia below this share of the trace are rounding.
+/// Products of inertia below this share of the trace are rounding errors.
 const NO_PRODUCT: f64 = 1e-12;
 
 fn told(found: &MassProperties) -> String {
@@ -57,7 +57,7 @@ fn told(found: &MassProperties) -> String {
     )
 }
 
-/// The fields of a body.
+/// The fields for a body of a scene.
 fn scene_line(found: &MassProperties) -> String {
     let inertia = &found.inertia;
     let size = |values: &[f64]| values.iter().fold(0.0, |size: f64, x| size.max(x.abs()));

@@ -1,4 +1,4 @@
-//! `pong replay`: a response log goes through the engine again.
+//! `pong replay`: replay of a response log in the engine.
 
 use crate::folders::AllowedFolders;
 use crate::terminal::{Outcome, print, progress, tell};
@@ -9,20 +9,21 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Runs the recorded states of a response log through the engine again and compares wrenches and contacts bit for bit.
+/// Runs the recorded states of a response log through the engine again and compares wrenches and contacts bit
+/// for bit.
 ///
-/// Ends with 0 if every frame of the log came out the same, with 1 otherwise; the first frame that differs is told with
-/// body or contact, quantity and both values.
+/// Ends with 0 if every frame of the log came out the same, with 1 otherwise; the first frame that differs is
+/// reported with body or contact, quantity and both values.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The folder of the log.
     #[arg(value_name = "LOG")]
     log: PathBuf,
-    /// Lets numbers be apart by this, relative to the largest of their kind in the frame: for other versions of the
-    /// engine, and for logs that do not have every commit.
+    /// Tolerance relative to the largest number of a kind in the frame: for other versions of the engine, and
+    /// for logs that do not have every commit.
     #[arg(long, value_name = "RELATIVE", value_parser = tolerance)]
     tolerance: Option<f64>,
-    /// Threads that help; the results are the same bits.
+    /// Additional threads; the results are the same bits.
     #[arg(long, value_name = "N", default_value_t = 0)]
     workers: usize,
     /// No progress bar and no summary; differences and errors stay.

@@ -1,8 +1,9 @@
-//! The one place from which the program writes to a terminal, or to whatever stands for it.
+//! All writing to a terminal or its replacement.
 //!
-//! Names of a model, a scene, a log or a mesh reach nothing that they could steer: characters that steer a display are
-//! written as escapes. Messages that cannot be written never end the work. If it is the answer on standard output that is
-//! lost, the program says so and its exit code tells; only a reader that has seen enough (`pong … | head`) is no error.
+//! Names in a model, a scene, a log or a mesh cannot control the terminal: control characters are escaped. A
+//! message that cannot be written does not end the work. If the answer on standard output is lost, the
+//! program reports it and its exit code says so; only a reader that has closed the pipe (`pong … | head`) is
+//! no error.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use pong_model::{printable, printable_lines};
@@ -14,18 +15,18 @@ use std::process::ExitCode;
 use std::sync::Mutex;
 use std::time::Duration;
 
-/// Why a command failed: a text for standard error, of several lines, in which names are [`printable`].
+/// Error of a command: text for standard error, of several lines, in which names are [`printable`].
 pub(crate) type Failure = Box<dyn Error>;
 
-/// How a command ended: with an exit code of its own, or with what is to be told.
+/// Result of a command: its exit code, or an error to report.
 pub(crate) type Outcome = Result<ExitCode, Failure>;
 
-/// A failure told in one line, whatever line ends the names in it hold.
+/// A failure in one line, with line ends in names escaped.
 pub(crate) fn failure(line: impl Display) -> Failure {
     printable(&line.to_string()).into_owned().into()
 }
 
-/// Why the answer could not be written; the first reason.
+/// First reason why the answer could not be written.
 static LOST: Mutex<Option<String>> = Mutex::new(None);
 
 /// Writes to standard output: a text of several lines, in which names are [`printable`].
@@ -44,7 +45,7 @@ pub(crate) fn print(text: &str) {
     }
 }
 
-/// Writes one line to standard error, whatever line ends the names in it hold.
+/// Writes one line to standard error, with line ends in names escaped.
 pub(crate) fn tell(line: impl Display) {
     write_to_standard_error(&printable(&line.to_string()));
 }
@@ -54,18 +55,18 @@ pub(crate) fn tell_lines(text: impl Display) {
     write_to_standard_error(&printable_lines(&text.to_string()));
 }
 
-/// If standard error cannot be written there is nobody left to tell: the exit code still does.
+/// Ignores errors: if standard error cannot be written, only the exit code is left.
 fn write_to_standard_error(text: &str) {
     let line = format!("{text}\n");
     let _ = std::io::stderr().lock().write_all(line.as_bytes());
 }
 
-/// That a file of a command's output could not be written.
+/// Error of an output file that could not be written.
 pub(crate) fn unwritable(path: &Path, reason: &std::io::Error) -> Failure {
     failure(format!("{}: cannot be written: {reason}; name a file in a folder with room", path.display()))
 }
 
-/// How far the work is, or a spinner if nobody knows how much there is, on standard error, if that is a terminal.
+/// Progress bar, or a spinner if the total is unknown, on standard error, if that is a terminal.
 pub(crate) fn progress(of: Option<u64>, template: &str, quiet: bool) -> ProgressBar {
     if quiet {
         return ProgressBar::hidden();
@@ -81,12 +82,13 @@ pub(crate) fn progress(of: Option<u64>, template: &str, quiet: bool) -> Progress
 /// The template of a spinner.
 pub(crate) const SPINNER: &str = "{spinner} {elapsed} {msg}";
 
-/// Shows what is being done beside a bar.
+/// Shows the present activity beside a bar.
 pub(crate) fn show(bar: &ProgressBar, doing: &str) {
     bar.set_message(printable(doing).into_owned());
 }
 
-/// The exit code of a command, after what it failed of is told: success only if the answer could be written.
+/// Reports the error of a command, if there is one, and returns its exit code: success only if the answer
+/// could be written.
 pub(crate) fn exit_code_of(outcome: Outcome) -> ExitCode {
     let code = outcome.unwrap_or_else(|failure| {
         tell_lines(failure);

@@ -27,7 +27,7 @@ pub(crate) fn numbers(values: &[f64]) -> String {
     values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(" ")
 }
 
-/// `1 point`, `2 points`.
+/// A number with its noun: `1 point`, `2 points`.
 pub(crate) fn count(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }

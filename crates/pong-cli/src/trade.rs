@@ -1,4 +1,4 @@
-//! `pong trade`: what speed costs in accuracy, measured on the user's scene.
+//! `pong trade`: accuracy against speed, measured on the user's scene.
 
 use crate::folders::AllowedFolders;
 use crate::terminal::{Outcome, print, progress, show, tell};
@@ -10,11 +10,11 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Runs a scene, or the motions of a log, over the levers that buy speed, and tells frame time against error to a
-/// reference (docs/trade.md).
+/// Runs a scene, or the motions of a log, with the options that buy speed, and reports frame time against
+/// error to a reference (docs/trade.md).
 ///
-/// Writes trade.md, trade.csv, errors.csv and trade.svg. What is finished is kept beside them: a study that was stopped
-/// goes on where it was.
+/// Writes trade.md, trade.csv, errors.csv and trade.svg. Finished runs are kept beside them: a study that was
+/// stopped goes on where it was.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The scene file, or the folder of a response log.
@@ -23,16 +23,16 @@ pub(crate) struct Arguments {
     /// Folder for the results; `<scene>_trade` or `<log>_trade` unless given.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// The error that is allowed: names the cheapest level within it.
+    /// The allowed error: names the cheapest level within it.
     #[arg(long, value_name = "ERROR", default_value = "2%", value_parser = share)]
     within: f64,
-    /// What must be within: any of wrench, impulse, peak, energy, pose.
+    /// Quantities that must be within: any of wrench, impulse, peak, energy, pose.
     #[arg(long, value_name = "QUANTITIES", value_delimiter = ',', value_parser = quantity)]
     of: Vec<Quantity>,
     /// Length of a frame, s: the longest step. 16 steps of the scene unless given, fewer if that leaves less than 64 frames.
     #[arg(long, value_name = "SECONDS")]
     frame: Option<f64>,
-    /// How often the frame is halved for the shortest step; down to half the scene's step unless given.
+    /// Number of halvings of the frame for the shortest step; down to half the scene's step unless given.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=16))]
     halvings: Option<u32>,
     /// Another duration than the scene's, s.
@@ -41,23 +41,23 @@ pub(crate) struct Arguments {
     /// Only these levers: any of step, integrator, friction, alternatives, bounds, leaves, workers.
     #[arg(long, value_name = "LEVERS", value_delimiter = ',', value_parser = lever)]
     levers: Vec<Lever>,
-    /// Of a log: other files for some of its models, as NAME:MODEL=FILE,MODEL=FILE; may be given several times. A scene names
-    /// its own.
+    /// Other files for some of a log's models, as NAME:MODEL=FILE,MODEL=FILE; may be given several times. A
+    /// scene names its own.
     #[arg(long, value_name = "NAME:MODEL=FILE", value_parser = alternative)]
     alternative: Vec<LogAlternative>,
-    /// Elements of a leaf to try.
+    /// Leaf sizes to try, in elements.
     #[arg(long, value_name = "NUMBERS", value_delimiter = ',', default_value = "8,32,128")]
     leaves: Vec<usize>,
-    /// Workers to try.
+    /// Numbers of workers to try.
     #[arg(long, value_name = "NUMBERS", value_delimiter = ',', default_value = "1")]
     workers: Vec<usize>,
-    /// How often every level is timed.
+    /// Number of timings of every level.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
-    /// How often the step of the reference may be halved again until it has converged.
+    /// Most halvings of the step of the reference until it has converged.
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(0..=8))]
     refinements: u32,
-    /// Begins anew, whatever was kept.
+    /// Begins anew, without the kept results.
     #[arg(long)]
     fresh: bool,
     /// No progress bar and no page; errors stay.
@@ -181,7 +181,7 @@ fn settings(arguments: &Arguments) -> Settings {
     }
 }
 
-/// The numbers of workers that this machine has cores for; the others are told.
+/// The numbers of workers for which this machine has cores; the others are reported.
 fn granted(wanted: &[usize]) -> Vec<usize> {
     let has = |workers: &usize| {
         let settings = WorkerSettings { workers: *workers, ..WorkerSettings::default() };

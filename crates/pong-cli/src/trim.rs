@@ -1,4 +1,4 @@
-//! `pong trim`: models without what runs never came near, for the same wrenches.
+//! `pong trim`: models without primitives that runs never came near, with the same wrenches.
 
 use crate::folders::AllowedFolders;
 use crate::terminal::{Outcome, SPINNER, print, progress, show};
@@ -15,7 +15,8 @@ pub(crate) struct Arguments {
     /// The scene file, or the folder of a response log.
     #[arg(value_name = "SCENE.ron|LOG")]
     subject: PathBuf,
-    /// Another run that the models are to serve as well; may be given several times. What any of them came near stays.
+    /// Another run that the models must serve too; may be given several times. Primitives that any of them
+    /// came near stay.
     #[arg(long, value_name = "SCENE.ron|LOG")]
     also: Vec<PathBuf>,
     /// A primitive that came no nearer than this to any partner goes, m.
@@ -31,7 +32,7 @@ pub(crate) struct Arguments {
     /// Another duration than the run's, s.
     #[arg(long, value_name = "SECONDS")]
     duration: Option<f64>,
-    /// How often the frames before and after are timed, in turn.
+    /// Number of timings of the frames before and after, in turn.
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
     /// Frames of each run that are timed, spread over it.
@@ -68,7 +69,7 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::SUCCESS)
 }
 
-/// A log keeps copies of its models for itself: what is trimmed goes elsewhere.
+/// Output folder; for a log not its own folder, which keeps copies of the models.
 fn folder(arguments: &Arguments) -> Option<PathBuf> {
     arguments.output.clone().or_else(|| crate::folders::beside_a_log(&arguments.subject, "trimmed"))
 }

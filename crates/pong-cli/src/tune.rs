@@ -1,4 +1,4 @@
-//! `pong tune`: bounds and leaves that lower the frame time of a run, for the same bits.
+//! `pong tune`: bounds and leaves that lower the frame time of a run, with the same bits.
 
 use crate::folders::AllowedFolders;
 use crate::terminal::{Outcome, SPINNER, print, progress, show, tell};
@@ -8,17 +8,17 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Looks for bounding volumes and leaves with which the frames of a run take less time, and writes new model files
-/// (docs/tune.md).
+/// Searches for bounding volumes and leaves with which the frames of a run take less time, and writes new
+/// model files (docs/tune.md).
 ///
-/// Every frame of the run must come out the same, bit for bit; what is not faster by more than noise is not taken. Files
-/// are called `<model>_tuned.ron`; nothing is replaced.
+/// Every frame of the run must come out the same, bit for bit; a change that is not faster by more than noise
+/// is not taken. Files are called `<model>_tuned.ron`; nothing is replaced.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The scene file, or the folder of a response log.
     #[arg(value_name = "SCENE.ron|LOG")]
     subject: PathBuf,
-    /// Another run that the models are to serve as well; may be given several times. All count the same.
+    /// Another run that the models must serve too; may be given several times. All count the same.
     #[arg(long, value_name = "SCENE.ron|LOG")]
     also: Vec<PathBuf>,
     /// Folder for the tuned models, with the meshes that they need; beside each model unless given, for a log
@@ -31,10 +31,10 @@ pub(crate) struct Arguments {
     /// Another duration than the run's, s.
     #[arg(long, value_name = "SECONDS")]
     duration: Option<f64>,
-    /// How often every proposal is timed; before and after three times as often.
+    /// Number of timings of every proposal; before and after three times as many.
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(2..=1000))]
     rounds: u32,
-    /// Frames of each run that are timed in the end, spread over it; the search has a quarter of them.
+    /// Frames of each run that are timed in the end, spread over it; the search uses a quarter of them.
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u64).range(16..=1_000_000))]
     frames: u64,
     /// No progress and no page; warnings and errors stay.
@@ -78,7 +78,7 @@ fn run(arguments: &Arguments) -> Result<Tuned, StudyError> {
     tuned
 }
 
-/// A log keeps copies of its models for itself: what is tuned goes elsewhere.
+/// Output folder; for a log not its own folder, which keeps copies of the models.
 fn folder(arguments: &Arguments) -> Option<PathBuf> {
     arguments.output.clone().or_else(|| crate::folders::beside_a_log(&arguments.subject, "tuned"))
 }

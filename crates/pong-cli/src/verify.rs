@@ -1,4 +1,4 @@
-//! `pong verify`: the cases with known answers and the extremes, and their reports; the invariances.
+//! `pong verify`: cases with known answers, extremes and their reports; invariances.
 
 use crate::terminal::{Outcome, failure, print, tell};
 use pong_invariance::{Order, Survey, invariances};
@@ -9,28 +9,30 @@ use std::process::ExitCode;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Runs cases with known answers through engine and executive and prints what came out.
+/// Runs cases with known answers through engine and executive and prints the results.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Instead of the cases the extremes of the range, each with its margin.
+    /// Runs the extremes of the range instead of the cases, each with its margin.
     #[arg(long)]
     extremes: bool,
-    /// Instead of the cases random scenes against their turned, moved, cut, reordered twins, which must answer alike.
+    /// Runs random scenes instead of the cases, each against its turned, moved, cut or reordered variants,
+    /// which must give the same answer.
     #[arg(long, conflicts_with_all = ["extremes", "output"])]
     invariances: bool,
-    /// With --invariances: how many scenes.
+    /// With --invariances: number of scenes.
     #[arg(long, requires = "invariances", default_value_t = 20_000)]
     scenes: u64,
     /// With --invariances: only scenes of this family (plate, valley, junction, …; a wrong name lists them).
     #[arg(long, requires = "invariances")]
     family: Option<String>,
-    /// With --invariances: which scenes; the same seed makes the same.
+    /// With --invariances: seed of the scenes; the same seed makes the same scenes.
     #[arg(long, requires = "invariances", default_value_t = 1)]
     seed: u64,
-    /// With --invariances: the first scene of the seed, to see one again.
+    /// With --invariances: number of the first scene of the seed, to run one again.
     #[arg(long, requires = "invariances", default_value_t = 0)]
     first: u64,
-    /// With --invariances: one line for each scene that differs, with the command that shows it, and no scene made small.
+    /// With --invariances: one line for each scene that differs, with the command that shows it; scenes are
+    /// not made smaller.
     #[arg(long, requires = "invariances")]
     list_findings: bool,
     /// With --extremes: also the soaks, which take minutes.
@@ -76,18 +78,18 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
     finish(arguments, &report::markdown(&verdicts), failed)
 }
 
-/// Writes the picture that the report shows into the folder `figures` beside it; why not, if it cannot.
+/// Writes the figure of the report into the folder `figures` beside it; returns the reason if it cannot.
 fn write_picture(arguments: &Arguments) -> Option<String> {
     let folder = arguments.output.as_ref()?.parent()?.join("figures");
     let path = folder.join("orders.svg");
-    // A motion that cannot be run is told by its case.
+    // A motion that cannot be run is reported by its case.
     let curves = orders::curves().ok()?;
     let written = std::fs::create_dir_all(&folder)
         .and_then(|()| pong_model::files::replace(&path, orders::svg(curves).as_bytes()));
     written.err().map(|reason| format!("{}: {reason}", path.display()))
 }
 
-/// Writes the report, if one is wanted.
+/// Writes the report, if requested.
 fn finish(arguments: &Arguments, report: &str, failed: usize) -> Outcome {
     if let Some(path) = &arguments.output {
         let written = pong_model::files::replace(path, report.as_bytes());
@@ -174,7 +176,7 @@ fn main_of_invariances(arguments: &Arguments) -> Outcome {
     Ok(if survey.holds() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// The cases of these ids, all if there are none, or the first id that no case has.
+/// The cases with these ids, or all if there are none; an id without a case is returned as the error.
 fn choose(ids: &[String]) -> Result<Vec<Case>, &String> {
     if ids.is_empty() {
         return Ok(cases());
@@ -182,8 +184,8 @@ fn choose(ids: &[String]) -> Result<Vec<Case>, &String> {
     ids.iter().map(|id| pong_verify::find(id).ok_or(id)).collect()
 }
 
-/// Runs all, as many at a time as there are cores, and says which one is done and whether it holds. What came out, in
-/// the order of the items.
+/// Runs all items, as many at a time as there are cores, and reports each with its outcome. Returns the
+/// results in the order of the items.
 fn on_all_cores<T: Sync, R: Send + Sync>(
     items: &[T],
     run: impl Fn(&T) -> (String, bool, R) + Sync,

@@ -17,10 +17,10 @@ pub(crate) struct Arguments {
     /// The page; `<log>.html` unless given.
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
-    /// Keeps every so many-th frame and the last; without it as many as --budget holds.
+    /// Keeps only every N-th frame and the last; without it as many as --budget holds.
     #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u64).range(1..))]
     every: Option<u64>,
-    /// What the frames may take before they are packed, MB.
+    /// Most megabytes of the frames before they are packed.
     #[arg(long, value_name = "MB", default_value_t = 64, conflicts_with = "every",
           value_parser = clap::value_parser!(u64).range(1..=4000))]
     budget: u64,
@@ -51,7 +51,7 @@ fn page(arguments: &Arguments) -> Result<Page, ViewError> {
     pong_view::page(&mut log, &options, &arguments.allowed.extensions())
 }
 
-/// `runs/drop` and `runs/drop/` are shown by `runs/drop.html`.
+/// The page beside a log: `runs/drop.html` for `runs/drop` and `runs/drop/`.
 fn beside(log: &Path) -> PathBuf {
     match log.file_name() {
         Some(name) => log.with_file_name(format!("{}.html", name.to_string_lossy())),
@@ -77,7 +77,7 @@ fn summary(output: &Path, page: &Page) -> String {
     )
 }
 
-/// Three decimals are enough.
+/// Megabytes with three decimals.
 fn megabytes(bytes: u64) -> f64 {
     (bytes as f64 / 1e3).round() / 1e3
 }

@@ -1,54 +1,55 @@
-//! The words of `pong advise`.
+//! Arguments of `pong advise`.
 
 use crate::folders::AllowedFolders;
 use crate::text::number;
 use pong_advise::{Accuracy, WrenchCoupling};
 use std::path::PathBuf;
 
-/// Tells which stiffness, damping and friction follow from a wanted depth and rebound, how long a step may be, and what
-/// goes wrong first (docs/advise.md). Asked for a scene, its masses, step and integrator are taken from there.
+/// Tells which stiffness, damping and friction give a desired depth and rebound, how long a step may be, and
+/// what goes wrong first (docs/advise.md). For a scene, masses, step and integrator are taken from it.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// A scene, or a model whose surfaces are judged against a rigid partner; none for a wish alone.
+    /// A scene, or a model whose surfaces are judged against a rigid partner; none for a desired contact
+    /// alone.
     #[arg(value_name = "SCENE.ron|MODEL.ron", required_unless_present_all = ["depth", "mass"])]
     pub(super) file: Option<PathBuf>,
-    /// Mass, kg; given twice, of the two bodies. One alone meets what does not yield.
+    /// Mass, kg; give it twice for two bodies. One alone meets a partner that does not yield.
     #[arg(long, value_name = "KG", action = clap::ArgAction::Append)]
     pub(super) mass: Vec<f64>,
-    /// Frames a second in which the host calls the engine, Hz.
+    /// Rate at which the host calls the engine, Hz.
     #[arg(long, value_name = "HZ", conflicts_with = "step")]
     pub(super) rate: Option<f64>,
-    /// The step or frame instead, s.
+    /// The step or frame, s, in place of --rate.
     #[arg(long, value_name = "S")]
     pub(super) step: Option<f64>,
     /// How the wrench is used.
     #[arg(long, value_enum)]
     pub(super) coupling: Option<CouplingName>,
-    /// Of a wrench that is held: how many whole frames it comes late. 0 if it is left out; for a scene that holds its wrench
-    /// what the scene says.
+    /// Whole frames by which a held wrench is delayed. Without it 0, or for a scene that holds its wrench the
+    /// delay of the scene.
     #[arg(long, value_name = "FRAMES")]
     pub(super) late: Option<u32>,
-    /// Closing speed, m/s. Needed for a wish and for contacts as stiff as they are deep; of a scene the largest at its
-    /// start, if it is left out.
+    /// Closing speed, m/s. Needed for a desired contact and for contacts whose stiffness follows the depth;
+    /// for a scene by default the largest at its start.
     #[arg(long, value_name = "M/S")]
     pub(super) speed: Option<f64>,
-    /// The greatest depth wanted at that speed, m.
+    /// The greatest depth desired at that speed, m.
     #[arg(long, value_name = "M", requires = "restitution")]
     pub(super) depth: Option<f64>,
-    /// The rebound speed wanted, over the closing speed.
+    /// The desired rebound speed, over the closing speed.
     #[arg(long, value_name = "E", requires = "depth")]
     pub(super) restitution: Option<f64>,
-    /// How many contacts carry the body together; each gets its share.
+    /// Number of contacts that carry the body together; each gets its share.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) contacts: u32,
-    /// Mass that friction feels along the surface, kg, if it is another than the effective mass: of a body that rolls
-    /// 1/(1/m + r²/I), of a ball 2/7 of its mass. Of a model alone.
+    /// Mass that friction feels along the surface, kg, if it differs from the effective mass: for a rolling
+    /// body 1/(1/m + r²/I), for a ball 2/7 of its mass. For a model only.
     #[arg(long, value_name = "KG", conflicts_with = "depth")]
     pub(super) friction_mass: Option<f64>,
-    /// How near the depth must come, %.
+    /// Largest error of the depth, %.
     #[arg(long, value_name = "%", default_value_t = 5.0)]
     pub(super) depth_within: f64,
-    /// How near the rebound must come, %.
+    /// Largest error of the rebound, %.
     #[arg(long, value_name = "%", default_value_t = 2.0)]
     pub(super) rebound_within: f64,
     #[command(flatten)]
@@ -90,7 +91,7 @@ impl Arguments {
         Accuracy { depth: 0.01 * self.depth_within, rebound: 0.01 * self.rebound_within }
     }
 
-    /// 1/(1/m₁ + 1/m₂).
+    /// Effective mass 1/(1/m₁ + 1/m₂), kg.
     pub(super) fn effective_mass(&self) -> Result<f64, String> {
         if self.mass.is_empty() || self.mass.len() > 2 {
             return Err(format!("--mass: {} are given; give that of one body, or of both", self.mass.len()));
@@ -101,7 +102,7 @@ impl Arguments {
         Ok(1.0 / self.mass.iter().map(|mass| 1.0 / mass).sum::<f64>())
     }
 
-    /// What one contact feels along the surface, over the effective mass.
+    /// Mass that one contact feels along the surface, over the effective mass.
     pub(super) fn friction_share(&self, mass: f64) -> Result<f64, String> {
         match self.friction_mass {
             Some(wrong) if wrong.is_nan() || wrong <= 0.0 => {
@@ -112,7 +113,7 @@ impl Arguments {
         }
     }
 
-    /// How masses, frame and coupling are stated above every answer.
+    /// Statement of step and coupling above every answer.
     pub(super) fn stated(&self, step: Option<f64>, coupling: WrenchCoupling) -> String {
         let step = step.map_or("step of the adviser's choice".to_owned(), |step| {
             format!("step {} s ({} Hz)", number(step), number(1.0 / step))

@@ -1,10 +1,10 @@
-//! Values of a contact from what is wanted of it.
+//! Values of a contact with a desired depth and restitution.
 
 use super::arguments::Arguments;
 use crate::text::number;
 use pong_advise::{ContactAdvice, ContactWish, WrenchCoupling, advise_contact};
 
-/// The advice for the depth and restitution that were asked for.
+/// The advice for the desired depth and restitution.
 pub(super) fn advice(
     arguments: &Arguments,
     mass: f64,
@@ -47,7 +47,7 @@ fn told(arguments: &Arguments, wish: &ContactWish, advice: &ContactAdvice) -> St
     text
 }
 
-/// The values as a model's author writes them.
+/// The values in the notation of model files.
 fn surface(advice: &ContactAdvice, share: f64, contacts: u32) -> String {
     let of = match contacts {
         1 => String::new(),

@@ -1,4 +1,4 @@
-//! What a step can hold: a table of contacts, and what goes wrong first.
+//! Limits of a step: a table of contacts, and the first failure.
 
 use crate::text::{count, number};
 use pong_advise::{
@@ -40,7 +40,7 @@ pub(super) fn told(report: &StepReport, plan: &StepPlan, friction_share: f64) ->
     text
 }
 
-/// What is sticking, as a spring with its damper: how it rings, and which damping would stop it.
+/// Sticking friction as a spring with its damper: its frequency, and the damping that would stop the ringing.
 fn friction(report: &StepReport, plan: &StepPlan, share: f64) -> String {
     let springs: Vec<(&PairLimits, SpringLimit)> = report
         .pairs
@@ -62,7 +62,7 @@ fn friction(report: &StepReport, plan: &StepPlan, share: f64) -> String {
     let row = |(pair, limit): &(&PairLimits, SpringLimit)| {
         let (mass, k, c) = (share * pair.mass, limit.spring.stiffness, limit.spring.damping);
         let critical = critical_damping(k, mass, plan.coupling, plan.step);
-        // Of a damped oscillation; one that is damped enough does not ring.
+        // Frequency of a damped oscillation; with enough damping there is none.
         let ringing = k / mass - 0.25 * (c / mass) * (c / mass);
         vec![
             format!("{} · {}", pair.surfaces[1][0], pair.surfaces[1][1]),
@@ -79,7 +79,7 @@ fn friction(report: &StepReport, plan: &StepPlan, share: f64) -> String {
         + &table::aligned(&heading, &rows)
 }
 
-/// What can act on one movable group at once.
+/// Contacts that can act on one movable group at once.
 fn together(report: &StepReport) -> String {
     if report.groups.is_empty() {
         return String::new();
@@ -125,7 +125,7 @@ fn accurate_step(pair: &PairLimits, plan: &StepPlan) -> Option<f64> {
     Some(bounce.accurate_step(plan.coupling, &accuracy))
 }
 
-/// Of everything that limits the step, what limits it most.
+/// The lowest of all limits of the step.
 fn first_to_fail(report: &StepReport, plan: &StepPlan) -> String {
     let mut limits: Vec<(f64, String)> = Vec::new();
     for pair in &report.pairs {
@@ -149,7 +149,7 @@ fn first_to_fail(report: &StepReport, plan: &StepPlan) -> String {
     format!("First to go wrong: {} {when}\n", printable(&what)) + &may_go_wrong(report, step)
 }
 
-/// What may go wrong before that, and need not.
+/// A limit below that one from a bound of all contacts together, which may but need not fail.
 fn may_go_wrong(report: &StepReport, first: f64) -> String {
     let worst = report.groups.iter().min_by(|x, y| x.stable_step.total_cmp(&y.stable_step));
     match worst {

@@ -1,4 +1,4 @@
-//! The springs and dampers of bristles, with what the model leaves out, and bristles that nothing damps.
+//! Springs and dampers of bristles, including defaults, and undamped bristles.
 
 use super::named::Named;
 use crate::text::number;
@@ -8,7 +8,7 @@ use pong_model::{
 };
 use std::collections::BTreeSet;
 
-/// k_t and c_t of a surface; nothing of a rigid one, whose bristle does not yield.
+/// k_t and c_t of a surface; empty for a rigid one, whose bristle does not yield.
 pub(super) fn springs(surface: &Surface) -> String {
     let Some((k_t, c_t)) = surface.bristle().filter(|(k_t, _)| k_t.is_finite()) else { return String::new() };
     let left_out = matches!(surface.friction, FrictionLaw::Bristle { damping: None, .. });
@@ -32,7 +32,8 @@ pub(super) fn notes(model: &Model) -> Vec<String> {
     of_surfaces.chain(of_pairs).collect()
 }
 
-/// Springs of the bristles to which an entry of `pairs` gives no damping, for two models that meet; a note where nothing does.
+/// Springs of the bristles for which an entry of `pairs` gives no damping, for two models that meet; a note
+/// if they are undamped.
 pub(super) fn of_pairs((a, b): (&Named, &Named), group_pairs: &[(&MovableGroup, &MovableGroup)]) -> String {
     let mut meeting: BTreeSet<(u32, u32)> = BTreeSet::new();
     for (body_a, body_b) in group_pairs {
@@ -71,7 +72,7 @@ fn pair([a, b]: &[String; 2]) -> String {
     format!("the pair `{a}` and `{b}`")
 }
 
-/// Why an undamped bristle is undamped, its effect and the cure; `None` if it holds nothing.
+/// Cause, effect and cure of an undamped bristle; `None` if it holds nothing.
 fn note(named: &str, friction: &FrictionLaw, normal: &NormalLaw) -> Option<String> {
     let FrictionLaw::Bristle { mu, damping, .. } = friction else { return None };
     if *mu == 0.0 {

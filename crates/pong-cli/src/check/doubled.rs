@@ -1,4 +1,4 @@
-//! Geometry that is there twice and pushes twice: points on ends of segments, primitives in one place, flat faces in one plane.
+//! Duplicate geometry that pushes twice: points on ends of segments, primitives in one place, coplanar faces.
 
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Pose, Vec3};
@@ -6,12 +6,12 @@ use pong_model::flush::{FlushPair, PlacedGroup, flush_pairs};
 use pong_model::{Model, MovableGroup};
 use std::collections::HashMap;
 
-/// A point this near a segment's end, by the segment's length, sits on it.
+/// A point is at a segment's end if it is nearer than this share of the segment's length.
 const NEAR: f64 = 1e-6;
-/// How many are told one by one.
+/// Number of duplicates listed one by one.
 const LISTED: usize = 20;
 
-/// A line for each thing that is there twice in a movable group.
+/// Warnings, one for each duplicate in a movable group.
 pub(super) fn warnings(model: &Model) -> Vec<String> {
     let mut lines: Vec<String> =
         model.bodies.iter().flat_map(|body| points_on_segments(body, model)).collect();
@@ -32,7 +32,7 @@ fn cut(lines: &mut Vec<String>, what: &str) {
     }
 }
 
-/// Points, spheres, ellipsoids, segments and round parts of one body with the same numbers.
+/// Points, spheres, ellipsoids, segments and round parts of one body with equal numbers.
 fn in_one_place(body: &MovableGroup) -> Vec<String> {
     let mut seen: HashMap<(PrimitiveKind, Vec<u64>), &str> = HashMap::new();
     let mut lines = Vec::new();
@@ -51,7 +51,7 @@ fn in_one_place(body: &MovableGroup) -> Vec<String> {
     lines
 }
 
-/// Everything that makes one primitive differ from another of its kind; the order of two ends does not.
+/// All numbers in which primitives of one kind can differ, independent of the order of two ends.
 fn numbers(body: &MovableGroup, kind: PrimitiveKind, index: usize) -> Option<Vec<f64>> {
     let ends = |ends: &[Vec3; 2], radii: [f64; 2]| {
         let mut ends = [(ends[0], radii[0]), (ends[1], radii[1])];

@@ -1,4 +1,4 @@
-//! `pong check`: what the engine makes of models, alone and together.
+//! `pong check`: check of models, alone and together.
 
 mod bristles;
 mod doubled;
@@ -52,7 +52,7 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
         for (a, b) in meetings(&named) {
             match pairs::description(a, b) {
                 Ok(meeting) => text += &meeting,
-                // Nobody has said that the two, or groups of the one, are to meet: a scene that pairs them is refused.
+                // Only a note: a scene need not pair the two, and one that does is refused.
                 Err(problems) => {
                     text += &match Arc::ptr_eq(&a.model, &b.model) {
                         true => format!("`{}` cannot be paired with itself:\n", a.name),
@@ -70,7 +70,7 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
     }
 }
 
-/// Every two models, and each model of several movable groups with itself.
+/// Every two models, and each model with several movable groups with itself.
 fn meetings(named: &[Named]) -> Vec<(&Named, &Named)> {
     let mut meetings = Vec::new();
     for (index, a) in named.iter().enumerate() {

@@ -1,17 +1,17 @@
-//! Models and what they are called here.
+//! Models and their names in the output.
 
 use pong_model::{Model, printable};
 use std::sync::Arc;
 
-/// A model and what it is called here.
+/// A model and its name in the output.
 pub(super) struct Named {
     pub(super) name: String,
     pub(super) model: Arc<Model>,
 }
 
-/// Two models of one name are told apart by a number.
+/// Names a model; models with the same name get a number.
 pub(super) fn name(earlier: &[Named], model: Model) -> Named {
-    // Only shown: the engine is given this name too, which nothing else sees.
+    // Escaped for display. The engine gets this name too, but does not show it anywhere else.
     let own = printable(&model.name).into_owned();
     let taken = |name: &str| earlier.iter().any(|other| other.name == name);
     let numbered = (2..).map(|number| format!("{own}#{number}"));

@@ -1,4 +1,4 @@
-//! How two models would meet: the testers that run, the pairs of kinds that ignore each other.
+//! Contact between two models: the testers that run, the pairs of kinds that ignore each other.
 
 use super::bristles;
 use super::named::Named;
@@ -10,7 +10,7 @@ use pong_model::{Filters, MovableGroup, printable};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What runs between two models (or the movable groups of one), or every reason why they cannot meet.
+/// Testers that run between two models (or the movable groups of one), or every reason why they cannot meet.
 pub(super) fn description(a: &Named, b: &Named) -> Result<String, Vec<String>> {
     let report = sealed(a, b).map_err(|error| match error {
         EngineError::Seal { problems } => problems,
@@ -82,7 +82,7 @@ fn group_pairs<'m>(a: &'m Named, b: &'m Named, itself: bool) -> Vec<(&'m Movable
     pairs
 }
 
-/// Pairs of elements by pair of kinds, A's kind first, without those that filters keep apart.
+/// Pairs of elements by pair of kinds, A's kind first, without those excluded by filters.
 fn testers(
     group_pairs: &[(&MovableGroup, &MovableGroup)],
     filters: &Filters,

@@ -1,4 +1,4 @@
-//! What one face would feel if everything that can press on it did: springs in parallel add.
+//! Stiffness of one face under every primitive that can press on it: springs in parallel add.
 
 use super::named::Named;
 use crate::text::{count, number};
@@ -7,10 +7,10 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Exponent, Model, MovableGroup, PrimitiveInfo, Surface, pair_entries, printable};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How many are told; the softer ones are only counted.
+/// Number of faces listed; the softer ones are only counted.
 const LISTED: usize = 10;
 
-/// What lies on a face with whole springs, as it is called.
+/// Kinds that press with their whole spring, with their names.
 const PRESSING: [(PrimitiveKind, &str, &str); 5] = [
     (PrimitiveKind::Point, "point", "points"),
     (PrimitiveKind::LineSegment, "segment", "segments"),
@@ -19,7 +19,7 @@ const PRESSING: [(PrimitiveKind, &str, &str); 5] = [
     (PrimitiveKind::Cone, "cone", "cones"),
 ];
 
-/// On which that lies: a face, or the wall of a round part or a hole.
+/// Kinds pressed on: faces, and the walls of round parts or holes.
 const PRESSED: [PrimitiveKind; 6] = [
     PrimitiveKind::Plane,
     PrimitiveKind::Polyhedron,
@@ -29,14 +29,14 @@ const PRESSED: [PrimitiveKind; 6] = [
     PrimitiveKind::Bore,
 ];
 
-/// How many primitives of each kind that presses have one surface.
+/// Number of primitives of each pressing kind with one surface.
 struct Group {
     surface: u32,
     counts: [usize; PRESSING.len()],
 }
 
 impl Group {
-    /// Those that can touch a kind of face, by kind.
+    /// Numbers of primitives that can touch a kind of face, by kind.
     fn on(&self, face: PrimitiveKind) -> [usize; PRESSING.len()] {
         std::array::from_fn(|i| if has_tester(PRESSING[i].0, face) { self.counts[i] } else { 0 })
     }
@@ -46,11 +46,11 @@ impl Group {
 pub(super) struct FacePressed {
     stiffness: f64,
     unit: &'static str,
-    /// Who presses on what.
+    /// Description of the pressing primitives and the face.
     told: String,
 }
 
-/// The stiffest faces first.
+/// Lines of text, the stiffest faces first.
 pub(super) fn lines(mut faces: Vec<FacePressed>) -> String {
     faces.sort_by(|a, b| b.stiffness.total_cmp(&a.stiffness));
     let line = |face: &FacePressed| {
@@ -66,7 +66,7 @@ pub(super) fn lines(mut faces: Vec<FacePressed>) -> String {
     text
 }
 
-/// What of body A presses on the faces of body B: one entry for each surface of faces.
+/// Primitives of body A that press on the faces of body B: one entry for each surface of faces.
 pub(super) fn faces_pressed(
     (a, body_a): (&Named, &MovableGroup),
     (b, body_b): (&Named, &MovableGroup),
@@ -108,7 +108,7 @@ fn sum(
     for group in pressing {
         let surface = &model_a.surfaces[group.surface as usize];
         let Some((stiffness, hertz)) = pair_stiffness(model_a, surface, model_b, face) else { continue };
-        // Lying flat, both halves of a segment press, and all of a round part.
+        // Lying flat, both halves of a segment press, and the whole of a round part.
         sum += stiffness * group.on(kind).iter().sum::<usize>() as f64;
         unit = if hertz { "N/m^1.5" } else { unit };
     }
@@ -133,13 +133,14 @@ fn pressing(body: &MovableGroup) -> Vec<Group> {
     by_surface.into_values().collect()
 }
 
-/// Kinds and surfaces of what can be lain on, each once.
+/// Kinds and surfaces of the faces of a body, each once.
 fn faces(body: &MovableGroup) -> BTreeSet<(PrimitiveKind, u32)> {
     let of_primitive = |info: &PrimitiveInfo| (info.kind, info.surface);
     body.primitives.iter().filter(|info| PRESSED.contains(&info.kind)).map(of_primitive).collect()
 }
 
-/// Stiffness of a pair, and whether it goes with the power 3/2. `None` cannot be combined, which sealing tells.
+/// Stiffness of a pair, and whether its exponent is 3/2. `None` if the two cannot be combined, which sealing
+/// reports.
 fn pair_stiffness(model_a: &Model, a: &Surface, model_b: &Model, b: &Surface) -> Option<(f64, bool)> {
     let entry = pair_entries((model_a, a), (model_b, b)).first().map(|(_, entry)| *entry);
     let props = combine_surfaces(a, b, entry, &Laws::default()).ok()?;

@@ -1,4 +1,4 @@
-//! What one model holds: groups, primitives, extent, surfaces.
+//! Contents of one model: groups, primitives, extent, surfaces.
 
 use super::bristles;
 use crate::text::{count, number, numbers};
@@ -12,7 +12,7 @@ struct Group {
     path: String,
     movable: bool,
     bound: String,
-    /// Primitives that hang from this very group, by kind.
+    /// Primitives directly in this group, by kind: their number, and the number of their elements.
     holds: BTreeMap<PrimitiveKind, (usize, usize)>,
 }
 
@@ -47,8 +47,8 @@ pub(super) fn description(name: &str, model: &Model) -> String {
     text
 }
 
-/// The authored groups of a body in the order of the file, with and without volumes of their own; the loader's own
-/// subdivisions keep the path of their leaf and are one with it.
+/// The authored groups of a body in the order of the file, with and without volumes of their own. The
+/// loader's subdivisions have the path of their leaf and are merged with it.
 fn groups_of(body: &MovableGroup) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut numbers: HashMap<&str, usize> = HashMap::new();
@@ -78,12 +78,12 @@ fn groups_of(body: &MovableGroup) -> Vec<Group> {
     groups
 }
 
-/// The path of the group above.
+/// The path of the parent group.
 fn above(path: &str) -> Option<&str> {
     path.rsplit_once('/').map(|(above, _)| above)
 }
 
-/// The nodes of a body's tree by the group that they are of.
+/// The nodes of a body's tree, by their group.
 fn nodes_of(body: &MovableGroup) -> HashMap<&str, Vec<&Node>> {
     let mut nodes: HashMap<&str, Vec<&Node>> = HashMap::new();
     body.tree.nodes.iter().for_each(|node| nodes.entry(&*node.group).or_default().push(node));

@@ -1,13 +1,13 @@
-//! The contacts that really acted together, against the step.
+//! Check of the step against the contacts that act together in the run.
 
 use crate::text::{count, number};
 use pong_advise::{ActingReport, StepPlan};
 use pong_executive::Simulation;
 
-/// The worst of a run so far.
+/// The worst instant of a run so far.
 pub(super) struct Acting {
     plan: StepPlan,
-    /// When, s, and what.
+    /// Time, s, and report of the worst instant.
     worst: Option<(f64, ActingReport)>,
     most: usize,
     not_judged: usize,
@@ -18,9 +18,9 @@ impl Acting {
         Self { plan, worst: None, most: 0, not_judged: 0 }
     }
 
-    /// Takes in an instant.
+    /// Checks an instant.
     pub fn observe(&mut self, simulation: &Simulation) {
-        // Refused only without a frame, and then there is nothing to see.
+        // Fails only without a frame, and then there is nothing to check.
         let Ok(report) = simulation.acting_report(&self.plan) else { return };
         self.most = self.most.max(report.contacts);
         self.not_judged = self.not_judged.max(report.not_judged);
@@ -30,7 +30,7 @@ impl Acting {
         }
     }
 
-    /// What came of it.
+    /// The result in words.
     pub fn told(&self) -> String {
         let mut text = "Contacts that acted together: ".to_owned();
         text += &match &self.worst {

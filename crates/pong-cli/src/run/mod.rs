@@ -1,4 +1,4 @@
-//! `pong run`: runs a scene, records it, sums it up.
+//! `pong run`: runs a scene, records it, summarises it.
 //!
 //! Exit code 3: the run ended, but paired objects could not touch each other.
 
@@ -53,7 +53,7 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
     Ok(ExitCode::from(PASSING_THROUGH))
 }
 
-/// Exit code of a run in which paired objects could not touch: whatever came out, contact had no part in it.
+/// Exit code of a run in which paired objects could not touch, so that contact had no part in its results.
 const PASSING_THROUGH: u8 = 3;
 
 fn passing_through(arguments: &Arguments, built: &BuiltScene) -> String {
@@ -76,7 +76,7 @@ fn run(
 ) -> Result<(), Failure> {
     let mut outputs = Outputs::create(arguments, built)?;
     let ended = advance(arguments, built, (statistics, watch), &mut outputs);
-    // What was recorded before a failure is what its cause is sought in.
+    // After a failure the records are completed too: its cause is looked for in them.
     let written = outputs.finish().map_err(Failure::from);
     ended.and(written)
 }

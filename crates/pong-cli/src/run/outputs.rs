@@ -1,4 +1,4 @@
-//! What a run leaves behind: CSV files, a response log, or both, of the same rows.
+//! Output files of a run: CSV files, a response log, or both, with the same rows.
 
 use super::arguments::Arguments;
 use pong_engine::World;
@@ -14,7 +14,7 @@ pub(super) struct Outputs {
     csv: Option<Csv>,
     log: Option<Recorder>,
     energies: bool,
-    /// Every how many steps there is a line in the CSV files.
+    /// Number of steps from one line of the CSV files to the next.
     csv_every: u64,
     log_every: u64,
 }
@@ -27,7 +27,7 @@ struct Csv {
 }
 
 impl Outputs {
-    /// Begins the files. Nothing may have been evaluated yet: a log begins with the first commit.
+    /// Begins the files. Must precede the first evaluation, because a log begins with the first commit.
     pub fn create(arguments: &Arguments, built: &BuiltScene) -> Result<Self, String> {
         let log_every = if arguments.every_step { 1 } else { built.record_every };
         let mut outputs =
@@ -44,8 +44,8 @@ impl Outputs {
         Ok(outputs)
     }
 
-    /// Takes in the instant after so many steps, at which the world has committed. The last one of a run is in the CSV files
-    /// whether or not it falls on a record.
+    /// Records the instant after `done` steps, which the world has committed. The last one of a run is in the
+    /// CSV files even if it is not a multiple of the interval.
     pub fn observe(&mut self, simulation: &Simulation, done: u64, last: bool) -> Result<(), String> {
         let energies = self.energies.then(|| energies(simulation));
         let (world, time) = (simulation.world(), simulation.time());
@@ -63,7 +63,7 @@ impl Outputs {
         Ok(())
     }
 
-    /// Writes out what is still in memory.
+    /// Writes the buffered rest.
     pub fn finish(self) -> Result<(), String> {
         let csv = self.csv.map_or(Ok(()), |csv| csv.finish().map_err(of_csv));
         let log = self.log.map_or(Ok(()), |log| log.finish().map(|_| ()).map_err(|error| of_log(&error)));

@@ -1,25 +1,26 @@
-//! What a run is summed up from: what the executive gathers, how long the steps took, what acts together.
+//! Statistics for the summary of a run: those of the executive, step times, contacts that act together.
 
 use super::acting::Acting;
 use pong_executive::scene::BuiltScene;
 use pong_executive::{RunStatistics, Simulation};
 use std::time::Duration;
 
-/// Most step times that are kept; of longer runs every second, third … is.
+/// Most step times that are kept; of longer runs every second, third … is kept.
 const TIMES_KEPT: u64 = 1_000_000;
 
-/// The run itself and what it took.
+/// Statistics of a run and its duration.
 pub(super) struct Statistics {
     pub run: RunStatistics,
     times_ns: Vec<u64>,
     every: u64,
     steps: u64,
-    /// If it is asked for.
+    /// Contacts that act together, on request.
     pub acting: Option<Acting>,
 }
 
 impl Statistics {
-    /// Of a scene before its first instant. `acting`: whether what acts together is held against the step.
+    /// Statistics of a scene before its first instant. With `acting`, the step is checked against contacts
+    /// that act together.
     pub fn new(built: &BuiltScene, acting: bool) -> Self {
         Self {
             run: RunStatistics::new(&built.simulation),
@@ -30,13 +31,13 @@ impl Statistics {
         }
     }
 
-    /// Takes in the first instant.
+    /// Records the first instant.
     pub fn start(&mut self, simulation: &Simulation) {
         self.run = RunStatistics::new(simulation);
         self.acting.iter_mut().for_each(|acting| acting.observe(simulation));
     }
 
-    /// Takes in the time of a step.
+    /// Records the time of a step.
     pub fn took(&mut self, time: Duration) {
         if self.steps.is_multiple_of(self.every) {
             self.times_ns.push(time.as_nanos() as u64);
@@ -44,7 +45,7 @@ impl Statistics {
         self.steps += 1;
     }
 
-    /// Takes in an instant.
+    /// Records an instant.
     pub fn observe(&mut self, simulation: &Simulation) {
         self.run.observe(simulation);
         self.acting.iter_mut().for_each(|acting| acting.observe(simulation));

@@ -1,4 +1,4 @@
-//! What a run comes to, as text.
+//! Summary of a run as text.
 
 use super::acting::Acting;
 use super::statistics::Statistics;
@@ -111,7 +111,7 @@ fn energies(built: &BuiltScene, statistics: &Statistics) -> String {
     text
 }
 
-/// What each pair of bodies gave to its contacts and where it went; nothing if none touched.
+/// Energy that each pair of bodies gave to its contacts, and where it went; empty if none touched.
 fn accounts(simulation: &Simulation) -> String {
     let touched = simulation.world().pair_accounts().filter(|pair| pair.in_contact || pair.episodes > 0);
     let names = |interface| {
@@ -154,7 +154,7 @@ fn accounts(simulation: &Simulation) -> String {
     table::aligned(&heading, &rows)
 }
 
-/// How many touches of a pair have a verdict, the one that lasts too.
+/// Number of contact episodes of a pair with a verdict, including the one in progress.
 fn touches_with(pair: &PairEnergyAccount, verdict: Verdict) -> String {
     let ended = if verdict == Verdict::Gained { pair.episodes_gained } else { pair.episodes_unresolved };
     let lasts = pair.in_contact && pair.episode.verdict() == verdict;
