@@ -1,4 +1,5 @@
-//! How near the axis of a two-ended body comes to a round solid, and which way it leaves it soonest (docs/theory.md, 2.8).
+//! Distance between the axis of a two-ended body and a round solid, or their minimum translation if they
+//! overlap (docs/theory.md, 2.8).
 
 use super::Feature;
 use super::circles::Circle;
@@ -6,31 +7,32 @@ use super::round_surface::{Nearest, ROUNDING, nearest_on_segment, of_capsule, of
 use crate::primitive::{Capsule, Frustum};
 use crate::{Vec3, any_perpendicular, divisor};
 
-/// Where a segment is nearest to a solid, or how it leaves it.
+/// Separation of a segment and a solid: nearest points, or minimum translation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Approach {
-    /// Distance of the two, m; negative: the least translation that takes the segment out.
+    /// Distance, m; if negative, minus the length of the minimum translation that takes the segment out.
     pub distance: f64,
-    /// Unit vector from the solid to the segment, or the way out.
+    /// Unit vector from the solid to the segment; in overlap, the direction of the minimum translation.
     pub normal_b: Vec3,
-    /// The place of the segment that is nearest, or deepest, m.
+    /// Nearest, or in overlap deepest, point of the segment, m.
     pub place_b: Vec3,
-    /// What of the solid is touched.
+    /// Feature of the solid that is touched.
     pub feature: Feature,
 }
 
-/// A round convex solid, as B of a two-ended body.
+/// Round convex solid, as B of a two-ended body.
 pub(crate) trait RoundSolid {
-    /// Where an end of a segment is nearest to the surface.
+    /// Nearest point of the surface to an end of a segment.
     fn nearest(&self, end: usize, segment: &[Vec3; 2]) -> Nearest;
 
-    /// Where a segment is nearest, or how it leaves the solid.
+    /// Separation of a segment and the solid.
     fn approach(&self, segment: &[Vec3; 2]) -> Approach;
 
-    /// The same of what the solid ends in: a ball or a disc. `None` if that is certainly farther away than `reach` (m).
+    /// Separation of a segment and an end of the solid: a ball or a disc. `None` if their distance certainly
+    /// exceeds `reach` (m).
     fn approach_end(&self, end: usize, segment: &[Vec3; 2], reach: f64) -> Option<Approach>;
 
-    /// From end 0 to end 1, of any length.
+    /// Vector from end 0 to end 1, of any length.
     fn axis(&self) -> Vec3;
 }
 
@@ -69,7 +71,8 @@ impl RoundSolid for Capsule {
 }
 
 impl Capsule {
-    /// Nearest to a place of a segment. Two axes that cross, or of which one ends in the other, leave each other across both.
+    /// Nearest point of the surface to a point of a segment. If the axes cross, or one ends in the other, the
+    /// normal is perpendicular to both.
     fn nearest_of(&self, place: &Vec3, segment: &[Vec3; 2]) -> Nearest {
         let nearest = of_capsule(place, self);
         let crosses = self.is_in_axis(nearest.distance + self.radius, place);
@@ -77,12 +80,13 @@ impl Capsule {
         Nearest { normal_b: across.unwrap_or(nearest.normal_b), ..nearest }
     }
 
-    /// Whether a place so far from the axis is in it: then the way to it is noise.
+    /// Returns `true` if a point at this distance from the axis is on it up to rounding: the direction from
+    /// the axis is then noise.
     fn is_in_axis(&self, distance: f64, place: &Vec3) -> bool {
         distance <= 64.0 * f64::EPSILON * place.amax().max(self.ends[0].amax()).max(self.ends[1].amax())
     }
 
-    /// The unit vector across both axes, if they are not parallel. It turns with the bodies.
+    /// Unit vector perpendicular to both axes, if they are not parallel. It rotates with the bodies.
     fn across(&self, segment: &[Vec3; 2]) -> Option<Vec3> {
         let along = [segment[1] - segment[0], self.axis()];
         let across = along[0].cross(&along[1]);
@@ -91,7 +95,7 @@ impl Capsule {
     }
 }
 
-/// The place of a segment nearest to another one. Of parallel segments any of those that are as near.
+/// Point of a segment nearest to another segment. For parallel segments, any of the nearest points.
 fn nearest_to_segment(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Vec3 {
     let mut best = (f64::INFINITY, segment[0]);
     let mut offer = |place: Vec3, on_other: &Vec3| {
@@ -108,7 +112,7 @@ fn nearest_to_segment(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Vec3 {
     best.1
 }
 
-/// The feet of the common perpendicular of two segments, where both lie between the ends.
+/// End points of the common perpendicular of two segments, if both lie between the ends.
 fn common_perpendicular(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Option<(Vec3, Vec3)> {
     let (u, v, between) = (segment[1] - segment[0], other[1] - other[0], other[0] - segment[0]);
     let across = u.cross(&v);
@@ -128,7 +132,7 @@ impl RoundSolid for Frustum {
     }
 
     fn approach(&self, segment: &[Vec3; 2]) -> Approach {
-        /// Relative: a segment this close is taken to be inside; a disc has no inside that a distance could tell.
+        /// Relative distance below which a segment counts as inside; for a disc no distance can be negative.
         const INSIDE: f64 = 1e-13;
         let inside = INSIDE * self.length.max(self.radii[0]).max(self.radii[1]);
         let (place, nearest) = least_on_segment(segment, inside, |place| of_frustum(place, self));
@@ -140,7 +144,7 @@ impl RoundSolid for Frustum {
     }
 
     fn approach_end(&self, end: usize, segment: &[Vec3; 2], reach: f64) -> Option<Approach> {
-        /// Of the size of the numbers: far beyond rounding.
+        /// Relative to the coordinates: far above rounding.
         const SLACK: f64 = 1e-9;
         let (center, disc) = (self.ends[end], self.disc(end));
         let [one, other] = segment.map(|place| self.axis.dot(&(place - center)));
@@ -149,7 +153,7 @@ impl RoundSolid for Frustum {
             return None;
         }
         if one * other < 0.0 {
-            // Where a segment goes through a disc a search along it would crawl.
+            // A search along a segment that passes through a disc would converge slowly.
             let through = segment[0] + (segment[1] - segment[0]) * (one / divisor(one - other));
             if (through - center).norm() < disc.radii[0] - slack {
                 return Some(WayOut::new(segment, &disc).shortest());
@@ -163,10 +167,10 @@ impl RoundSolid for Frustum {
     }
 }
 
-/// The place of a segment that is nearest to a convex solid: the distance is convex along the segment, and its slope is the part of
-/// the normal along it. Any place that is no farther than `enough` (m) will do.
+/// Point of a segment nearest to a convex solid. The distance is convex along the segment, and its slope is
+/// the component of the normal along it. The search stops at any point no farther than `enough` (m).
 fn least_on_segment(segment: &[Vec3; 2], enough: f64, nearest: impl Fn(&Vec3) -> Nearest) -> (Vec3, Nearest) {
-    /// Relative to the segment: a slope this small is none.
+    /// Relative to the segment: slopes up to this count as zero.
     const FLAT: f64 = 4.0 * f64::EPSILON;
     let along = segment[1] - segment[0];
     let flat = FLAT * along.norm();
@@ -190,10 +194,10 @@ fn least_on_segment(segment: &[Vec3; 2], enough: f64, nearest: impl Fn(&Vec3) ->
     }))
 }
 
-/// Where between 0 and 1 something changes from not positive to positive, or is zero: by secants. The end that stays for a second
-/// time counts half from then on (the Illinois rule).
+/// Zero between 0 and 1 of a function that changes from non-positive to positive, by the secant method with
+/// the Illinois rule: the value at an end that is kept for a second time is halved.
 fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
-    // Three for each bit of a number.
+    // Three steps per bit of precision.
     const STEPS: usize = 160;
     let (mut from, mut to) = ((0.0, first), (1.0, last));
     let (mut before, mut was_above, mut widths) = (f64::INFINITY, None, [f64::INFINITY; 2]);
@@ -202,7 +206,7 @@ fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
         if width <= 2.0 * f64::EPSILON {
             break;
         }
-        // Where it bends sharply secants crawl.
+        // Bisects where the function bends sharply and secants converge slowly.
         let crawls = width > 0.5 * std::mem::replace(&mut widths[step % 2], width);
         let secant = if crawls { 0.5 } else { -from.1 / divisor(to.1 - from.1) };
         let share = (from.0 + width * secant).clamp(from.0 + f64::EPSILON, to.0 - f64::EPSILON);
@@ -222,10 +226,11 @@ fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
     0.5 * (from.0 + to.0)
 }
 
-/// How a segment that is in a frustum leaves it by the least translation.
+/// Search for the minimum translation of a segment out of a frustum.
 ///
-/// Along a unit vector n that translation is the greatest of h(n) − n·p over the ends p, with h the support function. Where it
-/// is least, either one end alone is last out, by the wall or an end face that is nearest to it, or both are, across the segment.
+/// Along a unit vector n the translation is max over the ends p of h(n) − n·p, where h is the support
+/// function of the frustum. At the minimum either one end alone is last out, through the nearest lateral
+/// surface or end face, or both ends are, and then n is perpendicular to the segment.
 struct WayOut<'a> {
     segment: &'a [Vec3; 2],
     frustum: &'a Frustum,
@@ -250,10 +255,11 @@ impl<'a> WayOut<'a> {
         for end in self.segment {
             let arm = end - self.frustum.ends[0];
             let across = arm - axis * axis.dot(&arm);
-            // Once more: what rounding leaves along the axis is much of a short way from it.
+            // Orthogonalised twice: for a short vector, the rounding error along the axis is relatively
+            // large.
             let across = across - axis * axis.dot(&across);
             let aside = across.norm();
-            // From the axis itself all ways out through the wall are as long.
+            // From a point on the axis all directions through the lateral surface are equivalent.
             let [wall_along, wall_aside] = self.frustum.wall;
             let away = if aside > 0.0 {
                 across * (wall_aside / aside.max(f64::MIN_POSITIVE))
@@ -266,7 +272,7 @@ impl<'a> WayOut<'a> {
         self.best
     }
 
-    /// Out along a unit vector.
+    /// Considers the translation along a unit vector.
     fn offer(&mut self, normal: &Vec3, feature: Feature) {
         let [one, other] = self.segment;
         let place = if normal.dot(&(other - one)) < 0.0 { other } else { one };
@@ -276,8 +282,9 @@ impl<'a> WayOut<'a> {
         }
     }
 
-    /// Out across the segment: seen along it the solid is the hull of two ellipses and the segment a place in it. The shortest way is
-    /// the shortest out of one of the two ellipses, or one in which both are as far out.
+    /// Considers translations perpendicular to the segment. Seen along the segment, the solid is the convex
+    /// hull of two ellipses and the segment is a point. The minimum leads out of one of the ellipses, or is
+    /// where both are equally far out.
     fn offer_across(&mut self) {
         let along = (self.segment[1] - self.segment[0]).normalize();
         let first = self.first_across(&along);
@@ -293,15 +300,16 @@ impl<'a> WayOut<'a> {
         }
     }
 
-    /// The direction across the segment, within 90° of the way of an ellipse's short axis, in which the way out of the ellipse is
-    /// least.
+    /// Direction perpendicular to the segment, within 90° of the short axis of an end's ellipse, that
+    /// minimises the translation out of the ellipse.
     ///
-    /// With t the tangent of the angle from the short axis, ρ and p the semi-axes and (x, y) the centre seen from the segment, the
-    /// way changes as y − x·t + (ρ² − p²)·t/√(p² + ρ²t²). Less y that is odd and concave for t > 0: from 0 Newton's steps never pass
-    /// the first place where it is |y|.
+    /// With t the tangent of the angle from the short axis, ρ and p the semi-axes and (x, y) the centre
+    /// relative to the segment, the derivative of the translation has the sign of
+    /// y − x·t + (ρ² − p²)·t/√(p² + ρ²t²). Without y it is odd in t and concave for t > 0, so Newton's method
+    /// started at 0 never passes the first point where it equals |y|.
     fn least_of_end(&self, end: usize, along: &Vec3, toward: &Vec3) -> Option<Vec3> {
         const STEPS: usize = 60;
-        /// The tangent of a right angle but for rounding.
+        /// Tangent of a right angle, within rounding.
         const FAR: f64 = 1.0 / f64::EPSILON;
         let (axis, radius) = (self.frustum.axis, self.frustum.radii[end]);
         let sideways = along.cross(toward);
@@ -335,31 +343,33 @@ impl<'a> WayOut<'a> {
         Some(unit(toward - sideways * (tangent * y.signum())))
     }
 
-    /// The way across the segment along the short axis of the ellipses, which all directions are reckoned from. Where the ellipses are
-    /// circles, one that turns with the two bodies, so that no answer depends on their pose.
+    /// Direction perpendicular to the segment along the short axis of the ellipses: the reference for angles.
+    /// For circles, a direction that rotates with the two bodies, so that no result depends on their pose.
     fn first_across(&self, along: &Vec3) -> Vec3 {
         let across = |v: &Vec3| v - along * along.dot(v);
         let arm = self.segment[0] - self.frustum.ends[0];
         for (v, least) in [(self.frustum.axis, 1e-9), (arm, 1e-9 * arm.norm())] {
             let part = across(&v);
             if part.norm() > least {
-                // Once more: what rounding leaves along the segment is much of a short part.
+                // Orthogonalised twice: for a short vector, the rounding error along the segment is
+                // relatively large.
                 return unit(across(&unit(part)));
             }
         }
         any_perpendicular(along)
     }
 
-    /// Across the segment the directions in which both ends of the solid are as far out.
+    /// Directions perpendicular to the segment in which both ends of the solid are equally far out.
     fn jumps(&self, along: &Vec3) -> Option<[Vec3; 2]> {
         let across = self.frustum.axis - along * along.dot(&self.frustum.axis);
-        // No less than what is refused, and no root of less than nothing: a compiler may compute ahead of both questions.
+        // The lower bounds do not change any accepted result: a compiler may move the division and the root
+        // before the checks.
         let length = across.norm().max(ROUNDING);
-        // Of a solid along the segment both ends are as far out everywhere, or nowhere.
+        // For a solid parallel to the segment, both ends are equally far out in all directions or in none.
         if length <= ROUNDING {
             return None;
         }
-        // Once more: what rounding leaves along the segment is much of a short part.
+        // Orthogonalised twice: for a short vector, the rounding error along the segment is relatively large.
         let toward = across / length;
         let toward = unit(toward - along * along.dot(&toward));
         let share = self.frustum.wall[0] / length;
@@ -371,7 +381,7 @@ impl<'a> WayOut<'a> {
         Some([1.0, -1.0].map(|sign| unit(toward * share + sideways * sign)))
     }
 
-    /// The place of each end of the solid that is farthest along a unit vector.
+    /// Farthest point of each end circle along a unit vector.
     fn farthest(&self, normal: &Vec3) -> [Vec3; 2] {
         let across = normal - self.frustum.axis * self.frustum.axis.dot(normal);
         let aside = across.norm();
@@ -379,9 +389,10 @@ impl<'a> WayOut<'a> {
         [0, 1].map(|end| self.frustum.ends[end] + way * self.frustum.radii[end])
     }
 
-    /// How far along the segment the solid is touched on the shortest way out across it. The end of the solid that is farther out
-    /// is. Where both are as far, that is on the wall between them, where the way out does not tend to turn; of a segment along the
-    /// wall in the middle of what overlaps, and so of one along an end face.
+    /// Distance along the segment at which the minimum perpendicular translation touches the solid: at the
+    /// end of the solid that is farther out. If both are equally far, it is the point of the lateral surface
+    /// between them at which the translation has no tendency to rotate; for a segment along the lateral
+    /// surface or an end face, the middle of the overlap.
     fn travelled(&self, along: &Vec3, normal: &Vec3, rounding: f64) -> f64 {
         if let Some(middle) = self.middle_over_face(along, normal) {
             return middle;
@@ -402,8 +413,8 @@ impl<'a> WayOut<'a> {
         (at + (other - at) * share).clamp(0.0, length)
     }
 
-    /// How far along the segment the middle of what is over an end face lies, if the face is square to a unit vector, and the segment
-    /// so along it: all places of the face are as far out.
+    /// Distance along the segment to the middle of its part over an end face, if the face is perpendicular to
+    /// `normal` and the segment parallel to it: then all points of the face are equally far out.
     fn middle_over_face(&self, along: &Vec3, normal: &Vec3) -> Option<f64> {
         let [one, other] = self.segment;
         let end = usize::from(self.frustum.axis.dot(normal) > 0.0);
@@ -416,19 +427,21 @@ impl<'a> WayOut<'a> {
         Some(0.5 * (first + last))
     }
 
-    /// Of a segment along the wall both ends are last out, though rounding may say that one of them alone is.
+    /// Considers a direction in which both ends of the segment are last out, as along the lateral surface,
+    /// though rounding may name one.
     fn offer_at(&mut self, along: &Vec3, normal: &Vec3) {
-        /// One less the cosine between two directions that only rounding, and the root of it, keeps apart.
+        /// One minus the cosine between directions that differ only by rounding, or by the square root of it.
         const SAME: f64 = 1e-14;
         let [one, other] = self.segment;
         let distance = normal.dot(one) - self.frustum.support(normal);
-        // Of the coordinates, and of directions, found by halving, over the lengths of both.
+        // Error of the coordinates, and of directions found by bisection multiplied by both lengths.
         let lengths = (other - one).norm() + self.frustum.length + self.frustum.radii[0];
         let rounding =
             4.0 * ROUNDING * (one.amax().max(other.amax()).max(self.frustum.ends[0].amax()) + lengths);
         if distance > self.best.distance - rounding {
             let place = one + along * self.travelled(along, normal, rounding);
-            // Along the wall the two directions in which both ends are as far out are one but for rounding, and its root.
+            // Along the lateral surface the two directions in which both ends are equally far out coincide up
+            // to rounding.
             let is_known =
                 normal.dot(&self.best.normal_b) > 1.0 - SAME && distance <= self.best.distance + rounding;
             let normal_b = if is_known { self.best.normal_b } else { *normal };
@@ -437,8 +450,8 @@ impl<'a> WayOut<'a> {
     }
 }
 
-/// Of what is known to have a length. A compiler may ask for the direction before that is known: where nothing in a loop changes
-/// it, in front of the loop.
+/// Normalises a vector that is known to be non-zero. The clamp is for compilers that move the division before
+/// the check for zero.
 fn unit(v: Vec3) -> Vec3 {
     v / v.norm().max(f64::MIN_POSITIVE)
 }

@@ -1,15 +1,16 @@
-//! Point and sphere (A) – bore (B): the wall beside the centre, and for a ball too large for the hole the wall opposite as well
-//! (docs/theory.md, 2.8).
+//! Point and sphere (A) – bore (B): contact with the wall nearest to the centre and, for a sphere too large
+//! for the hole, with the opposite wall as well (docs/theory.md, 2.8).
 
 use super::round_surface::{Meridian, ROUNDING};
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Bore, Frustum, Sphere};
 
-/// Of a ball in a hole: beside its centre, and opposite.
+/// Contacts of a sphere in a hole: on the side of its centre, and on the opposite side.
 pub type BallContacts = [Option<Interference>; 2];
 
-/// A ball, or with radius 0 a point, in a bore. The two contacts share one spring where they push the same way.
+/// Tests a sphere, or with radius 0 a point, against a bore. The two contacts share one spring if they push
+/// the same way.
 pub fn ball_bore(ball: &Sphere, bore: &Bore) -> BallContacts {
     let at = Meridian::new(&ball.center, &bore.hole);
     let beside = Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b };
@@ -17,26 +18,28 @@ pub fn ball_bore(ball: &Sphere, bore: &Bore) -> BallContacts {
     [beside.touched(ball), opposite.touched(ball)]
 }
 
-/// A ball against the circle of one mouth, wherever along the axis it is.
+/// Tests a sphere against the circle of one mouth, regardless of its position along the axis.
 pub(super) fn ball_mouth(ball: &Sphere, bore: &Bore, mouth: usize) -> Option<Interference> {
     let at = Meridian::new(&ball.center, &bore.hole);
     Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b }.touched_at_mouth(ball, mouth)
 }
 
-/// Whether a place is behind the wall of a bore, between its ends, m: what comes from there is not pushed into the hole.
+/// Returns `true` if a point (m) is behind the wall of a bore, between its ends: a shape that comes from
+/// there is not pushed into the hole.
 pub fn is_behind_wall(place: &Vec3, bore: &Bore) -> bool {
     let at = Meridian::new(place, &bore.hole);
     let beside = Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b };
     beside.height() > ROUNDING * place.amax().max(bore.hole.ends[0].amax()) && beside.past_end().is_none()
 }
 
-/// A centre seen from one side of the wall: in the half plane through the axis on that side, or opposite to it.
+/// Centre in the coordinates of one side of the wall: the half plane through the axis on the centre's side,
+/// or the opposite one.
 #[derive(Clone, Copy)]
 struct Beside<'a> {
     bore: &'a Bore,
-    /// From end 0 along the axis, m.
+    /// Distance from end 0 along the axis, m.
     along: f64,
-    /// From the axis to this side, m.
+    /// Distance from the axis towards this side, m.
     aside: f64,
     /// Unit vector from the axis to this side.
     away_b: Vec3,
@@ -47,13 +50,13 @@ impl Beside<'_> {
         &self.bore.hole
     }
 
-    /// How far the centre is behind the wall, m; negative in the hole.
+    /// Distance of the centre behind the wall, m; negative in the hole.
     fn height(&self) -> f64 {
         let [wall_along, wall_aside] = self.hole().wall;
         self.along * wall_along + (self.aside - self.hole().radii[0]) * wall_aside
     }
 
-    /// The end past which the foot of the centre on the wall lies.
+    /// End beyond which the centre's foot point on the wall lies, if any.
     fn past_end(&self) -> Option<usize> {
         let [first, last] = self.hole().radii;
         let (length, widening) = (self.hole().length, last - first);
@@ -78,7 +81,8 @@ impl Beside<'_> {
             .flatten()
     }
 
-    /// A convex mouth pushes inside its normal cone. What is over the face around the hole is that face's.
+    /// A convex mouth pushes within its normal cone. A sphere over the face around the hole is in contact
+    /// with that face instead.
     fn touched_at_mouth(&self, ball: &Sphere, end: usize) -> Option<Interference> {
         let radius = self.hole().radii[end];
         let mouth_along = if end == 0 { 0.0 } else { self.hole().length };

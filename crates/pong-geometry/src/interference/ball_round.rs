@@ -1,22 +1,22 @@
-//! Point and sphere (A) – capsule, cylinder and cone (B): the nearest place of the surface; inside, the least deep side
-//! (docs/theory.md, 2.8).
+//! Point and sphere (A) – capsule, cylinder and cone (B): nearest point of the surface; inside, the side of
+//! least depth (docs/theory.md, 2.8).
 
 use super::Interference;
 use super::round_surface::{Nearest, of_capsule, of_frustum};
 use crate::Vec3;
 use crate::primitive::{Capsule, Frustum, Sphere};
 
-/// A ball, or with radius 0 a point, on a capsule.
+/// Tests a sphere, or with radius 0 a point, against a capsule.
 pub fn ball_capsule(ball: &Sphere, capsule: &Capsule) -> Option<Interference> {
     pressed(&ball.center, ball.radius, &of_capsule(&ball.center, capsule))
 }
 
-/// A ball, or with radius 0 a point, on a cylinder or a cone.
+/// Tests a sphere, or with radius 0 a point, against a cylinder or a cone.
 pub fn ball_frustum(ball: &Sphere, frustum: &Frustum) -> Option<Interference> {
     pressed(&ball.center, ball.radius, &of_frustum(&ball.center, frustum))
 }
 
-/// A ball about a place that is so far from a surface.
+/// Contact of a sphere whose centre has the given nearest surface point.
 pub(crate) fn pressed(center: &Vec3, radius: f64, nearest: &Nearest) -> Option<Interference> {
     let depth = radius - nearest.distance;
     (depth > 0.0).then(|| Interference {

@@ -1,22 +1,25 @@
-//! Which points behind a triangle belong to it, where the prisms below the faces of a surface leave space between them
+//! Assignment of points behind a surface to its triangles, where the prisms behind the faces leave gaps
 //! (docs/theory.md, 2.2).
 
 use super::nearest_on_triangle::{Place, nearest_on_triangle};
 use super::triangle_features::{EdgeClass, TriangleEdges, TriangleView, walk_fan_while};
 use crate::Vec3;
 
-/// Whether a point behind the triangle, and beyond some of its edges, still belongs to it. The place of the triangle that
-/// is nearest to the point decides:
+/// Returns `true` if a point behind the triangle, and beyond some of its edges, still belongs to it. The
+/// nearest point of the triangle decides:
 ///
-/// * on a silent edge, it does in the wedge behind and beyond both faces, which belongs to both: which is the lower must
-///   not decide which way the point is pushed;
-/// * at a vertex, it does behind all faces that meet there, if the vertex is the nearest place of each.
 ///
-/// In either case it does so as far as `thickness` (m) from that place. How the faces are cut does not matter: of the
-/// triangles of a face the one that has the place nearest to the point also has the point. What is no more than `slack`
-/// (m) beyond an edge or behind a face is not.
+/// * on a silent edge: the point belongs to the triangle in the wedge behind and beyond both faces. It
+///   belongs to both of them, so that the direction of the push does not depend on which face is lower;
+/// * at a vertex: the point belongs to the triangle if it is behind all faces around the vertex, and the
+///   vertex is the nearest point of each.
+///
+/// In both cases it must be within `thickness` (m) of the nearest point. The triangulation of a face does not
+/// matter: the triangle that holds the nearest point also has the point. Within `slack` (m) of an edge or a
+/// face the point does not count as beyond or behind it.
 pub(super) fn has_behind(edges: &TriangleEdges<'_>, p: &Vec3, thickness: f64, slack: f64) -> bool {
-    /// Cosine below which rounding alone tells whether a vertex or an edge that ends in it is nearer: both have the point.
+    /// Cosine below which only rounding decides between a vertex and an edge that ends in it: both then have
+    /// the point.
     const ALONG_COSINE: f64 = 1e-12;
     let (set, view) = (edges.set, edges.view);
     let (square, place) = nearest_on_triangle(p, &view.corners);

@@ -1,39 +1,44 @@
-//! Capsule (A) – a convex edge of a polyhedron or of a surface of triangles (B), crossed between the capsule's ends (docs/theory.md,
-//! 2.8). What the balls at the ends touch is not asked here.
+//! Capsule (A) – convex edge of a polyhedron or triangle surface (B), crossed between the capsule's ends
+//! (docs/theory.md, 2.8). Contacts of the end spheres are not tested here.
 //!
-//! Degenerate cases: of an axis along the edge the balls are as near as what is between them, and there is no crossing.
+//! Degenerate case: an axis parallel to the edge has no crossing, because its end spheres are as near as the
+//! part between them.
 
 use super::round_surface::ROUNDING;
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::Capsule;
 
-/// An edge as what crosses it sees it.
+/// Convex edge, as the capsule test needs it.
 #[derive(Clone, Copy, Debug)]
 pub struct ConvexEdge {
-    /// Where it begins and ends, m.
+    /// End points, m.
     pub ends_b: [Vec3; 2],
-    /// Unit normals of the faces that meet there; of a free edge twice that of its face.
+    /// Unit normals of the two faces at the edge; for a free edge, its face's normal twice.
     pub normals_b: [Vec3; 2],
-    /// Unit vectors across the edge, in the plane of each face and out of it; `None` if only what is in front is pushed.
+    /// Unit vectors perpendicular to the edge, in the plane of each face, pointing out of it; `None` if the
+    /// edge pushes only shapes in front of it.
     pub outwards_b: Option<[Vec3; 2]>,
-    /// Of a free edge the unit vector across it, in the plane of its face and out of it. An axis that stands upright on the face is
-    /// pushed that way, though it is as much in front of the face as behind it.
+    /// For a free edge, the unit vector perpendicular to it, in the plane of its face, pointing out of it. An
+    /// axis perpendicular to the face is pushed that way, because it is as much in front of the face as
+    /// behind it.
     pub free_outward_b: Option<Vec3>,
-    /// Which edge it is.
+    /// Feature of B that the edge is.
     pub feature: Feature,
 }
 
-/// The depth of an edge in a capsule where the axis is nearest to it, if that is between the ends of the axis. The normal is from the
-/// edge to the axis. The depth of an axis that has sunk below the edge is more than the radius; it is told as long as the way out
-/// is between the normals of the two faces.
+/// Tests the edge against the capsule where the axis is nearest to it, if that point is between the ends of
+/// the axis. The normal points from the edge to the axis. If the axis has sunk below the edge, the depth
+/// exceeds the radius; such a contact is returned as long as the direction of separation is between the
+/// normals of the two faces.
 pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference> {
     let axis = Segment::new(&capsule.ends);
     let of_edge = Segment::new(&edge.ends_b);
     if let Some((at, on_edge)) = axis.crossing(&of_edge) {
         return over(capsule, edge, &axis, &of_edge, at, on_edge);
     }
-    // Else an end of one of the two is nearest to the other: only an end of the edge counts.
+    // Otherwise the nearest point is an end of the axis or of the edge. Only an end of the edge is a contact
+    // of this test.
     let tips =
         capsule.ends.map(|tip| (tip - of_edge.at(of_edge.nearest(&tip).clamp(0.0, 1.0))).norm_squared());
     let [one, other] = edge.ends_b.map(|corner| {
@@ -47,7 +52,7 @@ pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference
     let distance = square.sqrt();
     let is_in_axis = distance <= rounding(&axis, &of_edge);
     if is_between && is_in_axis && axis.across(&of_edge).is_some() {
-        // The way to it is noise: it counts as a place of the edge.
+        // The direction from the edge to the axis is noise, so the end counts as a point of the edge.
         return over(capsule, edge, &axis, &of_edge, at, if corner == edge.ends_b[0] { 0.0 } else { 1.0 });
     }
     if !(is_between && is_outside && distance < capsule.radius) {
@@ -56,7 +61,7 @@ pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference
     Some(touched(capsule, edge, (arm / distance).normalize(), distance, &axis.at(at)))
 }
 
-/// A crossing with the common perpendicular between the ends of both.
+/// Contact of a crossing whose common perpendicular ends between the ends of both segments.
 fn over(
     capsule: &Capsule,
     edge: &ConvexEdge,
@@ -69,10 +74,11 @@ fn over(
     let outside = outside(edge, &across);
     let normal = if outside < 0.0 { -across } else { across };
     let height = normal.dot(&(axis.at(at) - of_edge.at(on_edge)));
-    // Of an axis along a face rounding decides whether the way out is beside that face's normal: it counts as if it were not.
+    // The tolerance keeps a normal that coincides with a face normal: for an axis along a face rounding puts
+    // it on either side.
     let is_between = |outward: &Vec3| outward.dot(&normal) > -ROUNDING;
     let leaves_there = || edge.outwards_b.is_some_and(|outwards| outwards.iter().all(is_between));
-    // An axis in the edge has not passed it.
+    // Tolerance for an axis that lies in the edge: it has not passed it.
     let lowest = if edge.outwards_b.is_some() { 0.0 } else { -rounding(axis, of_edge) };
     if height >= capsule.radius || (height <= lowest && !leaves_there()) {
         return None;
@@ -80,20 +86,21 @@ fn over(
     Some(touched(capsule, edge, normal, height, &axis.at(at)))
 }
 
-/// How much a unit vector across the edge points out of what the edge bounds: of two opposite ones the positive one pushes.
+/// Signed amount by which a unit vector perpendicular to the edge points out of the solid: of two opposite
+/// ones the positive one pushes.
 fn outside(edge: &ConvexEdge, across: &Vec3) -> f64 {
     let in_front = edge.normals_b.iter().sum::<Vec3>().dot(across);
-    // Of an axis that stands upright on a face rounding decides what is in front.
+    // For an axis perpendicular to a face only rounding tells what is in front.
     edge.free_outward_b.filter(|_| in_front.abs() <= ROUNDING).map_or(in_front, |outward| outward.dot(across))
 }
 
-/// What rounding makes of a distance between the two, m.
+/// Rounding error of a distance between the two, m.
 fn rounding(axis: &Segment, of_edge: &Segment) -> f64 {
     let reach = |segment: &Segment| segment.start.amax() + segment.along.amax();
     ROUNDING * reach(axis).max(reach(of_edge))
 }
 
-/// The edge lies so far below a place of the axis, against the normal.
+/// Contact whose edge lies `height` below `place`, a point of the axis, measured along the normal.
 fn touched(capsule: &Capsule, edge: &ConvexEdge, normal: Vec3, height: f64, place: &Vec3) -> Interference {
     Interference {
         depth: capsule.radius - height,
@@ -117,19 +124,19 @@ impl Segment {
         self.start + self.along * share
     }
 
-    /// Where along the line a place has its foot.
+    /// Parameter of a point's projection onto the line.
     fn nearest(&self, place: &Vec3) -> f64 {
         (place - self.start).dot(&self.along) / self.along.norm_squared()
     }
 
-    /// Across both, of any length, if they are not parallel.
+    /// Vector perpendicular to both, of any length, if they are not parallel.
     fn across(&self, other: &Self) -> Option<Vec3> {
         let across = self.along.cross(&other.along);
         let least = f64::EPSILON * f64::EPSILON * self.along.norm_squared() * other.along.norm_squared();
         (across.norm_squared() > least).then_some(across)
     }
 
-    /// The feet of the common perpendicular, if both lie between the ends.
+    /// Parameters of the end points of the common perpendicular, if both lie between the ends.
     fn crossing(&self, other: &Self) -> Option<(f64, f64)> {
         let (u, v, between) = (self.along, other.along, other.start - self.start);
         let across = self.across(other)?;

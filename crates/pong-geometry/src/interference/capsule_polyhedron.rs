@@ -1,9 +1,10 @@
-//! Capsule (A) – a piece of a body (B): the convex edges that the axis crosses between the capsule's ends, and that push it
-//! (docs/theory.md, 2.8). What the balls at the ends touch is a matter of spheres.
+//! Capsule (A) – a piece of a body (B): convex edges that the axis crosses between the capsule's ends, and
+//! that push it (docs/theory.md, 2.8). Contacts of the end spheres belong to the sphere test.
 //!
-//! An edge above which the axis passes pushes if it is less deep than the radius. One below which the axis has sunk is a way out
-//! if that is the shortest: no face and no other edge is nearer. So no edge farther from the axis than the radius, or than the
-//! nearest face, has any part in the answer. These are told eight edges at a time; the rest are worked out one by one.
+//! An edge below the axis pushes if its distance is less than the radius. An edge that the axis has sunk
+//! below pushes if it gives the minimum translation: no face and no other edge is nearer. So edges farther
+//! from the axis than the radius, and than the nearest face, cannot matter. They are rejected eight at a
+//! time; the rest are tested one by one.
 
 use super::capsule_edge::{ConvexEdge, capsule_edge};
 use super::round_surface::ROUNDING;
@@ -12,24 +13,24 @@ use crate::Vec3;
 use crate::primitive::{Capsule, EdgeBlock, FacePlanes, Polyhedron};
 use crate::simd::{LANES, LaneBits, Numbers, Simd, Splat, Vectors, run_at_level};
 
-/// A capsule that no face keeps away from a piece.
+/// Capsule that no face separates from a piece.
 #[derive(Clone, Copy, Debug)]
 pub struct CapsuleAtPiece<'a> {
     capsule: &'a Capsule,
     polyhedron: &'a Polyhedron,
-    /// How high above the highest face the lower end of the axis is, m; negative below it.
+    /// Height of the lower end of the axis above the face that it is highest above, m; negative below it.
     top: f64,
 }
 
 impl<'a> CapsuleAtPiece<'a> {
-    /// `None` if the capsule is in front of a face, or no more than touches it: then it touches nothing.
+    /// Returns `None` if a face separates the capsule from the piece, or it only touches a face.
     #[inline]
     pub fn new(capsule: &'a Capsule, polyhedron: &'a Polyhedron) -> Option<Self> {
         let top = run_at_level!(highest_of_lower_end(capsule: Capsule, polyhedron: Polyhedron) -> f64);
         (top < capsule.radius).then_some(Self { capsule, polyhedron, top })
     }
 
-    /// Hands over what each edge that pushes measures, in the order of the edges.
+    /// Passes the contact of each edge that pushes to `visit`, in edge order.
     pub fn each_crossing(&self, mut visit: impl FnMut(&Interference)) {
         let mut shortest = None;
         self.each_near(&mut |crossing| {
@@ -40,12 +41,13 @@ impl<'a> CapsuleAtPiece<'a> {
         });
     }
 
-    /// What rounding makes of a depth, m.
+    /// Rounding error of a depth, m.
     fn rounding(&self) -> f64 {
         ROUNDING * self.capsule.ends[0].amax().max(self.capsule.ends[1].amax())
     }
 
-    /// Of the ways that take an axis out of the piece the shortest, past a face or over an edge, m.
+    /// Length of the minimum translation that takes the axis out of the piece, past a face or over an edge,
+    /// m.
     #[cold]
     fn shortest_way_out(&self) -> f64 {
         let mut shortest = self.capsule.radius - self.top;
@@ -57,8 +59,8 @@ impl<'a> CapsuleAtPiece<'a> {
         shortest
     }
 
-    /// Whether an axis that has sunk below an edge is in the piece there, and nothing is a shorter way out, but for rounding: of an
-    /// axis along a face that face and the edges around it are as short.
+    /// Returns `true` if an axis that has sunk below an edge is in the piece there and no translation is
+    /// shorter. The tolerance covers an axis along a face: that face and its edges are equally near.
     fn leaves_by(&self, crossing: &Interference, shortest: f64) -> bool {
         let place = crossing.deepest_b + crossing.normal_b * self.capsule.radius;
         let rounding = self.rounding();
@@ -66,7 +68,7 @@ impl<'a> CapsuleAtPiece<'a> {
             && self.polyhedron.faces.iter().all(|face| face.height(&place) <= rounding)
     }
 
-    /// What the edges measure that are near enough to have a part in the answer, in their order.
+    /// Passes the contacts of all edges that are near enough to matter to `visit`, in edge order.
     fn each_near(&self, visit: &mut dyn FnMut(&Interference)) {
         for first in (0..self.polyhedron.edges.len()).step_by(SomeEdges::COUNT) {
             SomeEdges::near(self, first).each(|index| {
@@ -77,7 +79,7 @@ impl<'a> CapsuleAtPiece<'a> {
         }
     }
 
-    /// What an edge measures; `None` if it does not push, or there is none of this number.
+    /// Contact of an edge; `None` if it does not push or the index is out of range.
     fn crossing(&self, index: usize) -> Option<Interference> {
         let edge = self.polyhedron.edges.get(index)?;
         let push = edge.push.as_ref()?;
@@ -92,7 +94,7 @@ impl<'a> CapsuleAtPiece<'a> {
     }
 }
 
-/// The height of the lower end of the axis above the face that it is highest above, m.
+/// Height of the lower end of the axis above the face that it is highest above, m.
 #[inline(always)]
 fn highest_of_lower_end<S: Simd>(simd: S, capsule: &Capsule, polyhedron: &Polyhedron) -> f64 {
     let ends = [Splat::new(simd, &capsule.ends[0]), Splat::new(simd, &capsule.ends[1])];
@@ -105,9 +107,9 @@ fn highest_of_lower_end<S: Simd>(simd: S, capsule: &Capsule, polyhedron: &Polyhe
     simd.largest(top)
 }
 
-/// Some of the edges of a piece.
+/// Subset of the edges of a piece: a bit for each of [`COUNT`](Self::COUNT) consecutive edges.
 struct SomeEdges {
-    /// Those from here on.
+    /// Index of the first edge.
     first: usize,
     bits: [u64; Self::WORDS],
 }
@@ -116,7 +118,7 @@ impl SomeEdges {
     const WORDS: usize = 8;
     const COUNT: usize = Self::WORDS * u64::BITS as usize;
 
-    /// Of so many edges from `first` on those near enough to have a part in the answer, and perhaps some more.
+    /// Selects the edges from `first` on that are near enough to matter, and perhaps some others.
     fn near(at: &CapsuleAtPiece<'_>, first: usize) -> Self {
         let (query, polyhedron, first) = (&Query::new(at), at.polyhedron, &first);
         run_at_level!(near_in(query: Query, polyhedron: Polyhedron, first: usize) -> SomeEdges)
@@ -130,7 +132,7 @@ impl SomeEdges {
         }
     }
 
-    /// In their order.
+    /// Visits the selected edges in order.
     fn each(self, mut visit: impl FnMut(usize)) {
         for (word, mut bits) in self.bits.into_iter().enumerate() {
             while bits != 0 {
@@ -141,18 +143,18 @@ impl SomeEdges {
     }
 }
 
-/// What edges are asked.
+/// Query for near edges.
 struct Query {
-    /// The axis, m.
+    /// Ends of the axis, m.
     ends: [Vec3; 2],
-    /// Edges that the axis crosses farther away have no part in the answer, m.
+    /// Edges farther than this from the axis cannot matter, m.
     reach: f64,
-    /// Nor have those beside an end of which it passes farther away, m.
+    /// Ends of edges farther than this from the axis cannot matter, m.
     beside: f64,
 }
 
 impl Query {
-    /// Far beyond rounding, as a share of the size of the numbers.
+    /// Relative margin far above rounding.
     const SLACK: f64 = 1e-9;
 
     fn new(at: &CapsuleAtPiece<'_>) -> Self {
@@ -164,7 +166,7 @@ impl Query {
     }
 }
 
-/// Of the edges in boxes that a box about the axis meets, as wide as the reach, those near enough.
+/// Selects the near edges, among those in boxes that overlap the box around the axis widened by the reach.
 #[inline(always)]
 fn near_in<S: Simd>(simd: S, query: &Query, polyhedron: &Polyhedron, first: &usize) -> SomeEdges {
     let mut near = SomeEdges { first: *first, bits: [0; SomeEdges::WORDS] };
@@ -176,7 +178,7 @@ fn near_in<S: Simd>(simd: S, query: &Query, polyhedron: &Polyhedron, first: &usi
     for (boxes, blocks) in edges.boxes.iter().zip(edges.blocks.chunks(LANES)) {
         let mut met = boxes.meet(simd, &around);
         while met != 0 {
-            // Boxes beyond the last repeat it; so do edges in a block, which are marked twice.
+            // Unused lanes repeat the last box; unused lanes of a block mark their edge twice.
             let Some(block) = blocks.get(met.trailing_zeros() as usize) else { break };
             let mut marked = axis.near(block);
             while marked != 0 {
@@ -189,14 +191,14 @@ fn near_in<S: Simd>(simd: S, query: &Query, polyhedron: &Polyhedron, first: &usi
     near
 }
 
-/// The axis of a capsule, eight times.
+/// Axis of a capsule, broadcast to eight lanes.
 struct Axis<S: Simd> {
     simd: S,
     start: Vectors<S>,
     along: Vectors<S>,
-    /// The square of its length, m².
+    /// Squared length of the axis, m².
     length_square: Numbers<S>,
-    /// Squares of the query's, m².
+    /// Squared distances of the query, m².
     reach_square: Numbers<S>,
     beside_square: Numbers<S>,
 }
@@ -216,24 +218,25 @@ impl<S: Simd> Axis<S> {
         }
     }
 
-    /// Which edges of a block are near enough.
+    /// Returns the edges of a block that are near enough to matter.
     #[inline(always)]
     fn near(&self, block: &EdgeBlock) -> LaneBits {
         self.crosses(block) | self.passes_beside(&block.first) | self.passes_beside(&block.second)
     }
 
-    /// Whether a share of something is between its ends.
+    /// Returns the lanes whose parameter is strictly between 0 and 1.
     #[inline(always)]
     fn is_inside(&self, share: Numbers<S>) -> S::Mask {
         self.simd.and(share.all(0.0).below(share), share.below(share.all(1.0)))
     }
 
-    /// Which edges it crosses between the ends of both, in the numbers of [`capsule_edge`]: of nearly parallel ones the places
-    /// are noise, and it must be the same.
+    /// Returns the edges that the axis crosses between the ends of both, computed as in [`capsule_edge`]: for
+    /// nearly parallel edges the crossing is noise, and both must find the same.
     #[inline(always)]
     fn crosses(&self, block: &EdgeBlock) -> LaneBits {
-        /// Far beyond rounding, both as shares of squares: of that of the distance from place to place, whatever of it is along
-        /// the edge, and of that of the reach, so that the two together are more than their sum was.
+        /// Margins far above rounding, relative to squares: to the squared distance between the two points
+        /// (its component along the edge included) and to the squared reach. The factor covers the sum of the
+        /// two.
         const NOISE: f64 = 1e-18;
         const WIDER: f64 = 1.0 + 1e-6;
         let simd = self.simd;
@@ -247,13 +250,13 @@ impl<S: Simd> Axis<S> {
         let height = across.dot(apart);
         let reach = self.reach_square * square.all(WIDER) + apart.norm_squared() * square.all(NOISE);
         let inside = simd.and(self.is_inside(at), self.is_inside(on_edge));
-        // So short that the quotients are none: not told here.
+        // Vectors so short that the quotients are invalid: the edge counts as near.
         let least = square.all(f64::MIN_POSITIVE);
         let untold = simd.and(square.all(0.0).below(square), square.below(least));
         simd.bits(simd.and(inside, (reach * square).at_least(height * height))) | simd.bits(untold)
     }
 
-    /// Which places it passes near enough, between its ends.
+    /// Returns the points that the axis passes near enough between its ends.
     #[inline(always)]
     fn passes_beside(&self, places: &[[f64; LANES]; 3]) -> LaneBits {
         let simd = self.simd;

@@ -1,32 +1,35 @@
-//! Circles against each other: in which direction across an axis one reaches farthest past the other (docs/theory.md, 2.8).
+//! Circles against each other: directions perpendicular to an axis in which one extends farthest beyond the
+//! other (docs/theory.md, 2.8).
 
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Bore, Frustum};
 
-/// A circle in space, with its disc.
+/// Circle in space, with its disc.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Circle {
-    /// Its centre, m.
+    /// Centre, m.
     pub center_b: Vec3,
-    /// Unit vector.
+    /// Unit normal of its plane.
     pub axis_b: Vec3,
-    /// m; a point has none.
+    /// Radius, m; 0 for a point.
     pub radius: f64,
 }
 
 impl Circle {
-    /// The place that is farthest along a unit vector. Along the axis all are: the centre stands for them.
+    /// Point farthest along a unit vector. Along the axis all points are equally far, and the centre is
+    /// returned.
     pub fn farthest(&self, direction: &Vec3) -> Vec3 {
-        /// What is left across is rounding: it has no direction, and may even lie along the axis.
+        /// Perpendicular components up to this are rounding: they have no direction and may even lie along
+        /// the axis.
         const LEAST: f64 = 1e-12;
         self.rim_toward(direction, LEAST).unwrap_or(self.center_b)
     }
 
-    /// The same for a line along a unit vector that lies in the plane of the circle, or beside it, and passes the centre at
-    /// `beside`: both ends of the chord are as far. `None` where they are not.
+    /// Ends of the chord on a line along a unit vector parallel to the plane, which passes the centre at
+    /// `beside`, if all points of the disc are equally far along `direction`; else `None`.
     pub fn chord(&self, direction: &Vec3, line: &Vec3, beside: &Vec3) -> Option<[Vec3; 2]> {
-        /// Wider than the directions between which a search for the axis stops.
+        /// Larger than the tolerance at which a search for the axis direction stops.
         const LEAST: f64 = 1e-10;
         if self.rim_toward(direction, LEAST).is_some() {
             return None;
@@ -43,36 +46,37 @@ impl Circle {
     }
 }
 
-/// How far something reaches along a direction, m, and how that grows as the direction turns.
+/// Extent of a shape along a direction, m, and its derivative with the rotation of the direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     pub depth: f64,
     pub slope: f64,
 }
 
-/// The plane of directions across a unit vector.
+/// Plane of directions perpendicular to a unit vector.
 pub(super) struct Across {
     pub about_b: Vec3,
-    /// In the plane: where the search starts. It turns with the bodies, so that no answer depends on their pose.
+    /// Direction in the plane from which the search starts. It rotates with the bodies, so that no result
+    /// depends on their pose.
     pub first_b: Vec3,
 }
 
 const C: f64 = 0.923_879_532_511_286_8;
 const D: f64 = std::f64::consts::FRAC_1_SQRT_2;
 const E: f64 = 0.382_683_432_365_089_8;
-/// A quarter of sixteen directions in a plane, every 22.5°.
+/// First quarter of sixteen directions in a plane, every 22.5°.
 const QUARTER: [(f64, f64); 4] = [(1.0, 0.0), (C, E), (D, D), (E, C)];
 const COUNT: usize = 16;
 
 impl Across {
-    /// Starts along the first of some vectors that has a part across.
+    /// Starts at the first of the preferred vectors that has a perpendicular component.
     pub fn new(about: &Vec3, preferred: &[Vec3]) -> Self {
-        /// Relative: a part this small is rounding.
+        /// Relative size below which a component is rounding.
         const LEAST: f64 = 1e-9;
         let parts = preferred.iter().map(|v| (v - about * about.dot(v), v.norm()));
         let part = parts.into_iter().find(|(part, whole)| part.norm() > LEAST * whole);
         let first = part.map_or_else(|| crate::any_perpendicular(about), |(part, _)| part.normalize());
-        // What is across but for rounding is so once more.
+        // Orthogonalised twice to remove rounding.
         Self { about_b: *about, first_b: (first - about * about.dot(&first)).normalize() }
     }
 
@@ -88,7 +92,7 @@ impl Across {
         self.first_b * x + second * y
     }
 
-    /// The directions in which the reach is greater than beside them, the greatest first; at most two, as circles have them.
+    /// Directions of local maxima of the reach, the greatest first; at most two, which is enough for circles.
     pub fn greatest(&self, reach: impl Fn(&Vec3) -> Reach) -> [Option<Vec3>; 2] {
         let directions: [Vec3; COUNT] = std::array::from_fn(|index| self.direction(index));
         let depths = directions.map(|direction| reach(&direction).depth);
@@ -108,11 +112,11 @@ impl Across {
             }
         }
         let ways = best.map(|found| found.map(|(_, way)| way));
-        // All around alike.
+        // Without a maximum all directions are equivalent.
         [ways[0].or(Some(self.first_b)), ways[1]]
     }
 
-    /// The line of directions along which something is pinched most between both sides.
+    /// Direction of the line along which both sides together are compressed most.
     pub fn most_pinched(&self, cosine: f64, reach: impl Fn(&Vec3) -> Reach) -> Vec3 {
         let pinched = |direction: &Vec3| {
             let (one, two) = (reach(direction), reach(&-direction));
@@ -128,7 +132,8 @@ impl Across {
     }
 }
 
-/// The shares λ of two depths that have one spring in common, m (docs/theory.md, 2.2), of the cosine between their normals.
+/// Shares λ (m) of two depths that act on one spring (docs/theory.md, 2.2), for the cosine between their
+/// normals.
 pub(super) fn shares(depths: [f64; 2], cosine: f64) -> [f64; 2] {
     let [one, two] = depths.map(|depth| depth.max(0.0));
     let g = cosine.max(0.0);
@@ -142,9 +147,9 @@ pub(super) fn shares(depths: [f64; 2], cosine: f64) -> [f64; 2] {
     }
 }
 
-/// The direction between three that follow each other in which the slope is zero.
+/// Direction of zero slope between three consecutive directions.
 fn turned(reach: &impl Fn(&Vec3) -> Reach, [before, middle, after]: [Vec3; 3]) -> Vec3 {
-    /// Two of them halve what is left.
+    /// Two steps halve the remaining interval.
     const STEPS: usize = 110;
     let at_middle = reach(&middle).slope;
     let (mut low, mut high) = if at_middle > 0.0 {
@@ -159,7 +164,8 @@ fn turned(reach: &impl Fn(&Vec3) -> Reach, [before, middle, after]: [Vec3; 3]) -
         if !(rises > 0.0 && falls < 0.0) || is_wide <= f64::EPSILON * f64::EPSILON {
             break;
         }
-        // A secant that stays at one side crawls, as where the slope steps: then the next step halves.
+        // A secant that stays on one side converges slowly, as at a step of the slope: then the next step
+        // bisects.
         let crawls = is_wide > 0.25 * was_wide;
         was_wide = if crawls { f64::INFINITY } else { is_wide };
         let share = if crawls { 0.5 } else { (rises / (rises - falls)).clamp(1e-3, 1.0 - 1e-3) };
@@ -170,7 +176,7 @@ fn turned(reach: &impl Fn(&Vec3) -> Reach, [before, middle, after]: [Vec3; 3]) -
     if low.1.abs() <= high.1.abs() { low.0 } else { high.0 }
 }
 
-/// A direction of the wall's normal and what reaches beyond the wall along it.
+/// Wall of a bore, as a surface that shapes extend beyond.
 pub(super) struct Wall<'a>(pub &'a Bore);
 
 impl Wall<'_> {
@@ -178,35 +184,35 @@ impl Wall<'_> {
         &self.0.hole
     }
 
-    /// The outward normal on the side of a unit vector across the axis.
+    /// Outward normal on the side given by a unit vector perpendicular to the axis.
     pub fn outward(&self, side: &Vec3) -> Vec3 {
         let [along, aside] = self.hole().wall;
         self.hole().axis * along + side * aside
     }
 
-    /// The cosine between the normals on opposite sides.
+    /// Cosine between the normals of opposite sides.
     pub fn cosine_opposite(&self) -> f64 {
         let [along, aside] = self.hole().wall;
         (along - aside) * (along + aside)
     }
 
-    /// How far a place is beyond the straight line of the wall on one side, m.
+    /// Height of a point beyond the straight wall line on one side, m.
     pub fn height(&self, side: &Vec3, place: &Vec3) -> f64 {
         let [_, aside] = self.hole().wall;
         self.outward(side).dot(&(place - self.hole().ends[0])) - self.hole().radii[0] * aside
     }
 
-    /// How far the foot of a place on that line is from an end, m along the wall, positive inside.
+    /// Distance along the wall line from an end to a point's projection, m, positive inside.
     pub fn inside(&self, side: &Vec3, place: &Vec3, end: usize) -> f64 {
         let [along, aside] = self.hole().wall;
-        // Along the wall from end 0 to end 1.
+        // Unit vector along the wall from end 0 to end 1.
         let forward = self.hole().axis * aside - side * along;
         let rim = self.hole().ends[end] + side * self.hole().radii[end];
         let travelled = forward.dot(&(place - rim));
         if end == 0 { travelled } else { -travelled }
     }
 
-    /// How a circle reaches beyond the wall.
+    /// Reach of a circle beyond the wall.
     pub fn reach(&self, circle: &Circle, side: &Vec3) -> Reach {
         let [_, aside] = self.hole().wall;
         let place = circle.farthest(&self.outward(side));
@@ -214,7 +220,7 @@ impl Wall<'_> {
         Reach { depth: self.height(side, &place), slope: turning.dot(&(place - self.hole().ends[0])) }
     }
 
-    /// What a place beyond the wall feels, grown by a skin.
+    /// Contact of a point beyond the wall, with a skin of thickness `skin` (m) around it.
     pub fn pushed(&self, side: &Vec3, place: &Vec3, skin: f64) -> Option<Interference> {
         let height = self.height(side, place);
         let outward = self.outward(side).normalize();

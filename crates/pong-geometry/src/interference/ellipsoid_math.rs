@@ -34,40 +34,42 @@
 
 use crate::{Vec3, divisor};
 
-/// Far more than the quadratic phase needs; the slowest approach, a point within rounding of the focal curve, grows
-/// by half per iteration from 1e-8 to 1.
+/// Far more than the quadratic phase needs. The slowest convergence is for a point within rounding of the
+/// focal curve: σ grows by half per iteration, from 1e-8 to 1.
 const MOST_ITERATIONS: usize = 100;
 
-/// The foot of a normal from a point to an ellipse (`N` = 2) or ellipsoid (`N` = 3), in its principal frame.
+/// Foot point of a normal from a point to an ellipse (`N` = 2) or ellipsoid (`N` = 3), in its principal
+/// frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormalFoot<const N: usize> {
-    /// The surface point, m.
+    /// Surface point, m.
     pub point: [f64; N],
-    /// Outward unit normal there.
+    /// Outward unit normal at that point.
     pub normal: [f64; N],
     /// Height of the tangent plane above the given point, m: positive if the point is inside.
     pub depth: f64,
 }
 
-/// The surface point nearest to `y`, inside or outside, in the principal frame.
+/// Surface point nearest to `y`, inside or outside, in the principal frame.
 ///
-/// Where it is not unique the choice is fixed: towards positive coordinates, along the first of the smallest axes.
+/// Where it is not unique the choice is fixed: towards positive coordinates, along the first of the smallest
+/// axes.
 pub fn nearest_on_ellipsoid(semi_axes: &Vec3, y: &Vec3) -> NormalFoot<3> {
     nearest([semi_axes.x, semi_axes.y, semi_axes.z], [y.x, y.y, y.z])
 }
 
-/// The other local minimum of the distance from `y` to the surface, on the far side of the plane across the shortest
-/// axis, if there is one.
+/// Other local minimum of the distance from `y` to the surface, on the far side of the plane across the
+/// shortest axis, if it exists.
 pub fn second_nearest_on_ellipsoid(semi_axes: &Vec3, y: &Vec3) -> Option<NormalFoot<3>> {
     second_nearest([semi_axes.x, semi_axes.y, semi_axes.z], [y.x, y.y, y.z])
 }
 
-/// As [`nearest_on_ellipsoid`], for an ellipse.
+/// [`nearest_on_ellipsoid`] for an ellipse.
 pub fn nearest_on_ellipse(semi_axes: [f64; 2], y: [f64; 2]) -> NormalFoot<2> {
     nearest(semi_axes, y)
 }
 
-/// As [`second_nearest_on_ellipsoid`], for an ellipse.
+/// [`second_nearest_on_ellipsoid`] for an ellipse.
 pub fn second_nearest_on_ellipse(semi_axes: [f64; 2], y: [f64; 2]) -> Option<NormalFoot<2>> {
     second_nearest(semi_axes, y)
 }
@@ -87,7 +89,7 @@ fn second_nearest<const N: usize>(a: [f64; N], y: [f64; N]) -> Option<NormalFoot
     Some(foot(&a, &y, q))
 }
 
-/// The secular equation without units (see the head of this file).
+/// Secular equation in dimensionless form (see the module documentation).
 struct Secular<const N: usize> {
     w: [f64; N],
     d: [f64; N],
@@ -113,7 +115,7 @@ impl<const N: usize> Secular<N> {
         secular
     }
 
-    /// The unit vector `q` of the nearest point, up to its length.
+    /// Vector `q` of the nearest point, not normalised.
     #[inline]
     fn main_root(&self) -> [f64; N] {
         let mut sigma = 0.0_f64;
@@ -121,7 +123,7 @@ impl<const N: usize> Secular<N> {
             sigma = sigma.max(self.w[i].abs() - self.d[i]);
         }
         if sigma == 0.0 {
-            // The point lies in the plane across the shortest axis, with every pole at 0 lifted.
+            // The point lies in the plane across the shortest axis, and the terms with a pole at 0 vanish.
             if let Some(q) = self.on_medial_plane(1.0) {
                 return q;
             }
@@ -143,7 +145,7 @@ impl<const N: usize> Secular<N> {
         std::array::from_fn(|i| self.w[i] * self.reciprocal(sigma, i))
     }
 
-    /// The unit vector `q` of the second local minimum, up to its length.
+    /// Vector `q` of the second local minimum, not normalised.
     #[inline]
     fn second_root(&self) -> Option<[f64; N]> {
         let lifted = self.on_medial_plane(-1.0)?;
@@ -176,8 +178,9 @@ impl<const N: usize> Secular<N> {
         Some(std::array::from_fn(|i| self.w[i] / (self.d[i] - tau)))
     }
 
-    /// `q` at `t = −a_min²` with the component along the shortest axis filled up to unit length with the given
-    /// sign; none if the others are longer than that, as along an axis that is as short as the shortest.
+    /// Vector `q` at `t = −a_min²`: its component along the shortest axis has the given sign and completes
+    /// the unit length. `None` if the others exceed unit length, as along a second axis that is also
+    /// shortest.
     #[inline]
     fn on_medial_plane(&self, sign: f64) -> Option<[f64; N]> {
         let mut q = [0.0; N];
@@ -198,16 +201,16 @@ impl<const N: usize> Secular<N> {
         Some(q)
     }
 
-    /// Whether the shortest axis is the only one of its length.
+    /// Returns `true` if the shortest axis is the only one of its length.
     fn has_gap(&self) -> bool {
         (0..N).all(|i| i == self.shortest || self.d[i] > 0.0)
     }
 
-    /// `1/(σ + dᵢ)`; 0 for the lifted pole of a vanishing component.
+    /// `1/(σ + dᵢ)`; 0 at the pole, where the component vanishes.
     #[inline]
     fn reciprocal(&self, sigma: f64, i: usize) -> f64 {
         let sum = sigma + self.d[i];
-        // What is not wanted may be computed all the same: it must not be infinite.
+        // Clamped because a compiler may divide before the branch: the quotient must not be infinite.
         if sum > 0.0 { 1.0 / sum.max(f64::MIN_POSITIVE) } else { 0.0 }
     }
 }
@@ -221,8 +224,8 @@ fn normalize<const N: usize>(v: &mut [f64; N]) -> f64 {
     length
 }
 
-/// The depth is taken as `h(n) − n·y` from the normal at hand: at a stationary normal an error of the root enters it
-/// at second order only, and it never falls below the true minimum by more than rounding.
+/// Computes the depth as `h(n) − n·y` from the normal: at a stationary normal an error of the root enters it
+/// only at second order, and it never falls below the true minimum by more than rounding.
 #[inline]
 fn foot<const N: usize>(a: &[f64; N], y: &[f64; N], q: [f64; N]) -> NormalFoot<N> {
     let mut normal: [f64; N] = std::array::from_fn(|i| q[i] / a[i]);

@@ -13,33 +13,34 @@
 //! the true minimum is one of them: no sampling. The smallest candidate that may push is the contact (ties: the lower
 //! feature).
 //!
-//! # How most candidates are spared
+//! # Rejecting most candidates
 //!
-//! `a`, the ellipsoid's deepest point below a face of overlap δ, lies δ below that face. For every n, `D(n)` is at
-//! least the depth of `a` along n. If `a` lies no less deep below any other face, then it does so along every n: that
-//! face is the minimum, and nothing else is looked at. Otherwise a smaller minimum can only belong to an edge or
-//! vertex of a face that `a` lies less deep below, a *suspect*: n is a sum of the feature's face normals with
-//! coefficients whose sum is at least 1. The face to start from is that of least overlap, which is worked out for eight
-//! faces at a time; faces that the centre is far below are not asked.
+//! Let `a` be the ellipsoid's deepest point below a face of overlap δ: it lies δ below that face. For every
+//! n, `D(n)` is at least the depth of `a` along n. If `a` is at least δ below every other face, it is so
+//! along every n: that face is the minimum, and nothing else is tested. Otherwise a smaller minimum can only
+//! belong to an edge or vertex of a face that `a` is less deep below, a *suspect*: n is a sum of the
+//! feature's face normals with coefficients whose sum is at least 1. The start is the face of least overlap
+//! (the *lead*), computed for eight faces at a time; faces that the centre is far below are skipped.
 //!
 //! # Rounding
 //!
-//! A foot may lie outside its face or edge, and a normal outside its cone, by a margin of rounding. A face's and an
-//! edge's overlap is `D` wherever its foot lies; a normal outside its cone is charged the whole polyhedron's `D`. So
-//! every candidate is at least the minimum, and one that belongs to two features is found from at least one side.
-//! If still none is found while every face is active, the least face, or the direction from the polyhedron's nearest
-//! point to the centre (nearest where the ellipsoid is a ball), stands in, again with the whole `D`: a body that
-//! overlaps never loses its contact.
+//! A foot point may lie outside its face or edge, and a normal outside its cone, within a tolerance for
+//! rounding. The overlap of a face or an edge is `D` wherever its foot point lies; for a normal outside its
+//! cone, `D` is computed with the whole polyhedron. So every candidate is at least the minimum, and one that
+//! belongs to two features is found for at least one of them. If no candidate is found although every face is
+//! active, the fallback is the lead face, or the direction from the polyhedron's nearest point to the centre
+//! (nearest in the metric in which the ellipsoid is a ball), again with the `D` of the whole polyhedron: an
+//! overlapping body never loses its contact.
 //!
-//! # Inner walls
+//! # Internal faces
 //!
-//! Only active features push, and a piece knows nothing of its neighbours. Of the body that all pieces make up it finds
-//! the minimum among its own features, by the same tests: each feature of the body belongs to one piece, so the body's
-//! minimum is found by the piece that has it. What other pieces find besides are other local minima, not less deep:
-//! which of them count is for the body to say, which sees them all. Two rules belong to a piece: a minimum deeper than
-//! the least overlap of one of its active faces is left out, since the body's is not deeper; and where none of its
-//! features holds a foot, its least active face is told as a [stand-in](PieceContact::stands_in), which counts only if
-//! no piece of the body has found more.
+//! Only active features push, and a piece does not know its neighbours. It finds the minimum among its own
+//! features, by the same tests. Each feature of the body belongs to one piece, so the piece that has the
+//! minimising feature finds the body's minimum. Other pieces find other local minima, which are not less
+//! deep; the body, which sees all of them, decides which count. A piece applies two rules: it drops minima
+//! deeper than the least overlap of one of its active faces, since the body's minimum is not deeper; and if
+//! none of its features holds a foot point, it returns its least active face as a
+//! [fallback](PieceContact::stands_in), which counts only if no piece of the body finds anything else.
 
 use super::ellipsoid_math::{
     NormalFoot, nearest_on_ellipse, nearest_on_ellipsoid, second_nearest_on_ellipse,
@@ -52,28 +53,30 @@ use crate::Vec3;
 use crate::primitive::{EdgePush, Ellipsoid, FacePlanes, Polyhedron};
 use crate::simd::{Finder, First, LANES, LaneBits, Simd, Splat, Vectors, run_at_level};
 
-/// How far outside its feature a foot may lie, as a share of the sizes involved.
+/// Distance by which a foot point may lie outside its feature, relative to the sizes involved.
 const FOOT_SLACK: f64 = 1e-12;
-/// How far outside its cone a normal may lie (sine).
+/// Sine by which a normal may lie outside its cone.
 const CONE_SLACK: f64 = 1e-9;
-/// A bound within this share of the best is not taken to exclude anything.
+/// A lower bound must exceed the best depth by this relative amount to exclude a candidate.
 const BOUND_SLACK: f64 = 1e-9;
-/// Only a point this near to the surface of the unit ball may turn out to be outside (share of the square).
+/// Relative squared distance from the surface of the unit ball below which a point inside may turn out to be
+/// outside.
 const HARDLY_INSIDE: f64 = 1e-6;
-/// Overlap that is no more than the rounding of a depth, as a share of the largest length.
+/// Overlap up to the rounding error of a depth, relative to the largest length.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// What an ellipsoid has with one convex piece of a body.
+/// Contact of an ellipsoid with one convex piece of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PieceContact {
-    /// Depth, normal, point, feature.
+    /// Depth, normal, point and feature.
     pub interference: Interference,
-    /// No feature of the piece holds a foot: this is the least overlap of an active face, whose foot lies beside the
-    /// piece. It counts only if no other piece of the body has a contact of its own.
+    /// True for a fallback: no feature of the piece holds a foot point, and this is the least overlap of an
+    /// active face, whose foot point lies outside the piece. It counts only if no other piece of the body has
+    /// a regular contact.
     pub stands_in: bool,
 }
 
-/// Tests an ellipsoid (A) against one convex solid (B), or one piece of a body for the contacts of its own features.
+/// Tests an ellipsoid (A) against one convex solid (B); for a piece of a body, against its own features only.
 #[inline]
 pub fn ellipsoid_polyhedron(e: &Ellipsoid, p: &Polyhedron) -> Option<Interference> {
     ellipsoid_piece(e, p).filter(|contact| !contact.stands_in).map(|contact| contact.interference)
@@ -93,7 +96,7 @@ fn ellipsoid_piece_in<S: Simd>(simd: S, e: &Ellipsoid, p: &Polyhedron) -> Option
     choose(e, &prepared, p, lead, &suspects)
 }
 
-/// The contact, of the lead or of a feature of a suspect.
+/// Selects the contact: the lead face or a feature of a suspect.
 fn choose(
     e: &Ellipsoid,
     prepared: &PreparedEllipsoid,
@@ -116,32 +119,32 @@ fn choose(
     })
 }
 
-/// The active face of least overlap.
+/// Active face of least overlap.
 #[derive(Clone, Copy)]
 struct Lead {
     face: usize,
     depth: f64,
-    /// The ellipsoid's deepest point below it.
+    /// The ellipsoid's deepest point below the face.
     deepest: Vec3,
 }
 
-/// The other faces below which the lead's deepest point lies less deep than below the lead.
+/// Faces other than the lead that the lead's deepest point is less deep below.
 struct Suspects {
     faces: [u32; Self::CAPACITY],
-    /// May exceed the capacity: then every face is suspected.
+    /// Number of suspects; above the capacity every face is a suspect.
     count: usize,
-    /// Whether the deepest point is inside the polyhedron, so that the two overlap.
+    /// True if the deepest point is inside the polyhedron, which proves the overlap.
     pierces: bool,
 }
 
 impl Lead {
-    /// `None` if a face's plane separates the two, or no face is active.
+    /// Returns `None` if a face's plane separates the two, or no face is active.
     #[inline(always)]
     fn find<S: Simd>(simd: S, e: &PreparedEllipsoid, p: &Polyhedron) -> Option<(Self, Suspects)> {
         let planes = p.planes();
         let highest = highest_of_many(simd, &e.center, planes, Whereabouts::Below(e.largest))?;
-        // Below the highest face the overlap is at most so much; it is no less below a face that the centre is not higher above
-        // than this.
+        // Upper bound of the overlap from the highest face. Faces that the centre is not higher above than
+        // this cannot have less.
         let least_height = (e.smallest - e.largest) + highest.height - BOUND_SLACK * e.largest;
         let face = least_overlap(simd, e, planes, least_height)?;
         let lead = Self::at(e, p, face);
@@ -177,8 +180,9 @@ impl Lead {
     }
 }
 
-/// The active face of least overlap among those that the centre is higher above than `least_height`, of equal ones the first;
-/// `None` if one of them, active or not, has none, or there is none.
+/// Active face of least overlap among the faces that the centre is more than `least_height` above (ties:
+/// lowest index). `None` if one of these faces, active or not, separates the two, or if there is no such
+/// face.
 #[inline(always)]
 fn least_overlap<S: Simd>(
     simd: S,
@@ -219,7 +223,7 @@ impl Suspects {
         self.count += 1;
     }
 
-    /// `None` if there were too many to list.
+    /// Suspects, or `None` if there were too many to list.
     fn listed(&self) -> Option<&[u32]> {
         self.faces.get(..self.count)
     }
@@ -232,7 +236,7 @@ struct Candidate {
     feature: Feature,
 }
 
-/// The search among the features of suspects.
+/// Search among the features of suspects.
 struct Search<'a> {
     ellipsoid: &'a Ellipsoid,
     prepared: &'a PreparedEllipsoid,
@@ -240,9 +244,9 @@ struct Search<'a> {
     lead: Lead,
     lead_face: Candidate,
     all_active: bool,
-    /// The least overlap of an active face, an upper bound of the depth.
+    /// Least overlap of an active face: an upper bound of the depth.
     bound: f64,
-    /// The largest length involved, which rounding is relative to, m.
+    /// Largest length involved, the reference for rounding, m.
     size: f64,
     foot_slack: f64,
     best: Option<Candidate>,
@@ -272,7 +276,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The least candidate, and whether it only stands in for the piece.
+    /// Returns the least candidate, and `true` if it is only a fallback.
     fn least(mut self, suspects: &Suspects) -> Option<(Candidate, bool)> {
         let mut witness = None;
         if !suspects.pierces {
@@ -283,7 +287,8 @@ impl<'a> Search<'a> {
             witness = Some(found);
         }
         self.try_lead_face();
-        // A wall's edges may belong to the faces of other pieces, which no suspect of this one answers for.
+        // Edges of an internal face may belong to faces of other pieces, which no suspect of this piece
+        // covers.
         match suspects.listed().filter(|_| self.all_active) {
             Some(faces) => self.try_features_of(faces),
             None => self.try_all_features(),
@@ -294,10 +299,12 @@ impl<'a> Search<'a> {
         self.best.map(|best| (best, false)).or(Some((self.lead_face, true)))
     }
 
-    /// A point of the polyhedron in the ellipsoid, from the centre, where the ellipsoid is the unit ball.
+    /// Point of the polyhedron inside the ellipsoid, relative to the centre, in the metric in which the
+    /// ellipsoid is the unit ball.
     ///
-    /// If the centre is outside, the polyhedron's point nearest to it there lies on a face whose plane the centre is
-    /// in front of: at the foot on the plane, or else on one of the edges that the foot is beyond.
+    /// If the centre is outside, the polyhedron's nearest point in that metric lies on a face whose plane the
+    /// centre is in front of: at the projection on the plane, or on one of the edges that the projection is
+    /// beyond.
     fn overlap_witness(&self) -> Option<Vec3> {
         let mut inside = true;
         let all = 0..self.polyhedron.faces.len();
@@ -331,13 +338,14 @@ impl<'a> Search<'a> {
         in_outline.then(|| widened * -share)
     }
 
-    /// Whether the overlap found is nothing but rounding, told from the direction of a point hardly inside.
+    /// Returns `true` if the overlap is only rounding, judged along the direction from a point barely inside.
     fn only_touches(&self, witness: &Vec3) -> bool {
         witness.norm_squared() > 1.0 - HARDLY_INSIDE
             && self.whole_depth(&self.direction_from(witness)) <= ROUNDING * self.size
     }
 
-    /// The unit normal along which a point of the ellipsoid's inside is pushed, from where it is the unit ball.
+    /// Unit normal along which a point inside the ellipsoid is pushed out, from its position in the unit-ball
+    /// metric.
     fn direction_from(&self, witness: &Vec3) -> Vec3 {
         self.prepared.direction_of(&-witness).normalize()
     }
@@ -359,7 +367,8 @@ impl<'a> Search<'a> {
 
     fn try_features_of(&mut self, suspects: &[u32]) {
         let polyhedron = self.polyhedron;
-        // Each vertex is met once per suspect around it; those beyond the capacity are simply tried again.
+        // Skips repeated vertices: each is met once per suspect around it. Beyond the capacity they are
+        // tested again.
         let mut tried = [u32::MAX; Suspects::CAPACITY];
         let mut count = 0;
         for &face in suspects {
@@ -432,7 +441,7 @@ impl<'a> Search<'a> {
         let semi_axes = &self.ellipsoid.semi_axes;
         let radius_square = self.prepared.shrunk(&from_vertex).norm_squared();
         let limit = self.limit();
-        // A point at that radius of the unit ball lies at least so deep.
+        // A point at this radius of the unit ball is at least this deep.
         let near = radius_square < 1.0 && self.prepared.smallest * (1.0 - radius_square.sqrt()) <= limit;
         let second = self.prepared.allows_second(limit);
         if near || second {
@@ -458,7 +467,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The contact where every feature's foot was lost to rounding (see the head of this file).
+    /// Fallback if every feature lost its foot point to rounding (see the module documentation).
     fn stand_in(&mut self, witness: Option<Vec3>) {
         self.offer(self.lead_face);
         if let Some(witness) = witness.filter(|w| *w != Vec3::zeros()) {
@@ -476,12 +485,12 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Candidates above this cannot win.
+    /// Depth above which a candidate cannot win.
     fn limit(&self) -> f64 {
         self.best.map_or(self.bound, |best| best.depth.min(self.bound))
     }
 
-    /// `D(n)` with the support of all vertices.
+    /// `D(n)` with the support over all vertices.
     fn whole_depth(&self, normal: &Vec3) -> f64 {
         let vertex = self.support_vertex(normal);
         let from_vertex = self.ellipsoid.center - self.polyhedron.vertices[vertex].position;

@@ -1,16 +1,16 @@
-//! An ellipsoid made ready for many directions and points, and its outline seen along a direction.
+//! Ellipsoid prepared for many directions and points, and its outline along a direction.
 
 use crate::Vec3;
 use crate::primitive::Ellipsoid;
 
-/// An ellipsoid made ready for many directions and points.
+/// Ellipsoid prepared for many directions and points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PreparedEllipsoid {
     /// Centre, m.
     pub(crate) center: Vec3,
-    /// Rows: principal axes times semi-axes; takes a normal to its scaled one.
+    /// Rows: principal axes times semi-axes; maps a normal to the scaled normal.
     pub(crate) widen: [Vec3; 3],
-    /// Rows: principal axes over semi-axes; takes the ellipsoid to the unit ball.
+    /// Rows: principal axes over semi-axes; maps the ellipsoid to the unit ball.
     shrink: [Vec3; 3],
     /// Smallest semi-axis, m.
     pub(crate) smallest: f64,
@@ -30,55 +30,56 @@ impl PreparedEllipsoid {
         }
     }
 
-    /// The scaled normal, whose length is the half width along `n`.
+    /// Scaled normal; its length is the half width along `n`.
     #[inline]
     pub(crate) fn widened(&self, n: &Vec3) -> Vec3 {
         Vec3::new(self.widen[0].dot(n), self.widen[1].dot(n), self.widen[2].dot(n))
     }
 
-    /// The surface point along a scaled normal as seen from the centre, times the half width.
+    /// Surface point for a scaled normal, relative to the centre, times the half width.
     #[inline]
     pub(crate) fn reach(&self, widened: &Vec3) -> Vec3 {
         self.widen[0] * widened.x + self.widen[1] * widened.y + self.widen[2] * widened.z
     }
 
-    /// A vector as seen where the ellipsoid is the unit ball.
+    /// Vector in the metric in which the ellipsoid is the unit ball.
     #[inline]
     pub(crate) fn shrunk(&self, v: &Vec3) -> Vec3 {
         Vec3::new(self.shrink[0].dot(v), self.shrink[1].dot(v), self.shrink[2].dot(v))
     }
 
-    /// The direction whose scaled normal is along `widened`, not of unit length.
+    /// Direction whose scaled normal is parallel to `widened`, not of unit length.
     #[inline]
     pub(crate) fn direction_of(&self, widened: &Vec3) -> Vec3 {
         self.shrink[0] * widened.x + self.shrink[1] * widened.y + self.shrink[2] * widened.z
     }
 
-    /// The point of the ellipsoid deepest along −n.
+    /// Deepest point of the ellipsoid along −n.
     #[inline]
     pub(crate) fn deepest(&self, n: &Vec3) -> Vec3 {
         let widened = self.widened(n);
         self.center - self.reach(&widened) / widened.norm()
     }
 
-    /// Whether a second local minimum can be as small as `depth`: it lies beyond `t = −a_min²`, so its depth `−t/h` is
-    /// at least the smallest radius of curvature.
+    /// Returns `true` if a second local minimum can be as small as `depth`: it lies beyond `t = −a_min²`, so
+    /// its depth `−t/h` is at least the smallest radius of curvature.
     #[inline]
     pub(crate) fn allows_second(&self, depth: f64) -> bool {
         depth * self.largest >= self.smallest * self.smallest
     }
 
-    /// A lower bound of the overlap over the normals between two faces that the centre is `heights` above.
+    /// Lower bound of the overlap over the normals between two faces that the centre is `heights` above.
     ///
-    /// `D` extended to all lengths of n is convex, so between the two normals it lies above its two tangents at the
-    /// ends. Along the arc a tangent is a sine wave, concave where it is positive: the larger of the two is least at an
-    /// end or where they cross. The crossing is found on the chord and divided by its distance from the origin.
+    /// `D` extended to all lengths of n is convex, so between the two normals it lies above its tangents at
+    /// the ends. Along the arc a tangent is a sine wave, concave where positive, so the larger of the two is
+    /// least at an end or at their crossing. The crossing is found on the chord and divided by its distance
+    /// from the origin.
     pub(crate) fn arc_bound(&self, normals: &[Vec3; 2], heights: &[f64; 2]) -> f64 {
         let widened = normals.map(|n| self.widened(&n));
         let half_widths = widened.map(|w| w.norm());
         let product = widened[0].dot(&widened[1]);
         let depths = [half_widths[0] - heights[0], half_widths[1] - heights[1]];
-        // Tangent at one end, where it meets the other end.
+        // Tangent of one end, evaluated at the other.
         let across = [product / half_widths[0] - heights[1], product / half_widths[1] - heights[0]];
         let (fall_0, fall_1) = (depths[0] - across[1], depths[1] - across[0]);
         let sum = fall_0 + fall_1;
@@ -94,7 +95,7 @@ impl PreparedEllipsoid {
     }
 }
 
-/// The outline of an ellipsoid seen along a direction: an ellipse in the plane across it.
+/// Outline of an ellipsoid along a direction: an ellipse in the perpendicular plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shadow {
     /// Principal axes, unit.
@@ -104,15 +105,15 @@ pub(crate) struct Shadow {
 }
 
 impl Shadow {
-    /// `u` and `v` are orthonormal and span the plane.
+    /// Computes the outline in the plane spanned by the orthonormal vectors `u` and `v`.
     ///
-    /// The half width along a direction of the plane is the length of its scaled normal: the principal axes are
-    /// those whose scaled normals are orthogonal, found by one rotation of Jacobi's, which keeps the small axis exact
-    /// to rounding of the large one.
+    /// The half width along a direction of the plane is the length of its scaled normal. So the principal
+    /// axes are those whose scaled normals are orthogonal, found by one Jacobi rotation, which keeps the
+    /// small axis exact to the rounding of the large one.
     #[inline]
     pub(crate) fn new(e: &PreparedEllipsoid, u: &Vec3, v: &Vec3) -> Self {
         let (wide_u, wide_v) = (e.widened(u), e.widened(v));
-        /// 2⁵¹²: the square of a larger cotangent is no number any more, and its tangent turns nothing.
+        /// 2⁵¹²: the square of a larger cotangent overflows, and the rotation would be zero within rounding.
         const LARGEST_COTANGENT: f64 = f64::from_bits((1023 + 512) << 52);
         let (uu, vv, uv) = (wide_u.norm_squared(), wide_v.norm_squared(), wide_u.dot(&wide_v));
         if 2.0 * uv.abs() * LARGEST_COTANGENT <= (vv - uu).abs() || uv == 0.0 {
@@ -126,8 +127,8 @@ impl Shadow {
         Self { axes: turned(u, v), semi_axes: turned(&wide_u, &wide_v).map(|w| w.norm()) }
     }
 
-    /// Whether a point at `components` may be inside and no deeper than `depth`; the depth is at least the share of
-    /// the smaller semi-axis that is left of the radius.
+    /// Returns `true` if a point at `components` may be inside and no deeper than `depth`. The depth is at
+    /// least the smaller semi-axis times the remaining fraction of the radius.
     #[inline]
     pub(crate) fn may_hold(&self, components: &[f64; 2], depth: f64) -> bool {
         let [x, y] = [components[0] / self.semi_axes[0], components[1] / self.semi_axes[1]];
@@ -135,20 +136,20 @@ impl Shadow {
         square < 1.0 && self.semi_axes[0].min(self.semi_axes[1]) * (1.0 - square.sqrt()) <= depth
     }
 
-    /// As [`PreparedEllipsoid::allows_second`].
+    /// [`PreparedEllipsoid::allows_second`] for the outline.
     #[inline]
     pub(crate) fn allows_second(&self, depth: f64) -> bool {
         let [a, b] = self.semi_axes;
         depth * a.max(b) >= a.min(b) * a.min(b)
     }
 
-    /// A vector's components along the principal axes.
+    /// Components of a vector along the principal axes.
     #[inline]
     pub(crate) fn components(&self, v: &Vec3) -> [f64; 2] {
         [self.axes[0].dot(v), self.axes[1].dot(v)]
     }
 
-    /// A vector of the plane from its components.
+    /// Vector of the plane from its components.
     #[inline]
     pub(crate) fn vector(&self, components: &[f64; 2]) -> Vec3 {
         self.axes[0] * components[0] + self.axes[1] * components[1]

@@ -1,26 +1,27 @@
 //! Ellipsoid (A) – triangle (B), one-sided (docs/theory.md, 2.2).
 //!
-//! Each feature has the candidates of [`ellipsoid_polyhedron`](super::ellipsoid_polyhedron): a face its normal, an edge
-//! and a vertex the at most two local minima of the overlap of a line or a point with the ellipsoid. An ellipsoid has
-//! no single nearest point: what decides between features is where the deepest point's foot lies and between which
-//! normals a minimum lies. While the depth is less than the smallest radius of curvature, as for a sphere, exactly one
-//! of the features that meet convexly claims a place. Deeper, several may; then only the less deep pushes, as in a
-//! polyhedron, and so does with the centre behind. Which of them count is for the sharing to say, which sees them all and
-//! knows which of them push: what yielded to an edge that is barred would leave nothing, and what yields to its own edges
-//! alone would depend on how the surface is cut.
+//! Each feature has the candidates of [`ellipsoid_polyhedron`](super::ellipsoid_polyhedron): a face its
+//! normal, an edge or a vertex the at most two local minima of the overlap of a line or a point with the
+//! ellipsoid. An ellipsoid has no single nearest point; the feature follows from where the deepest point's
+//! foot lies and between which normals a minimum lies. As long as the depth is less than the smallest radius
+//! of curvature, exactly one of the features that meet convexly claims a contact, as for a sphere. Deeper,
+//! several may; then only the least deep pushes, as in a polyhedron, and likewise with the centre behind.
+//! Load sharing decides which of them count, because it sees all of them and knows which push. Deciding here
+//! would lose contacts to a barred edge, or depend on the triangulation.
 //!
-//! "In front" is measured at the centre: above the face, or above the plane through the edge or vertex across the
-//! normal at hand. What only rounding keeps from pushing is emitted as spare.
+//! "In front" is measured at the centre: above the face, or above the plane through the edge or vertex
+//! perpendicular to the candidate's normal. Candidates that only rounding keeps from pushing are emitted as
+//! fallbacks (spare).
 //!
-//! An ellipsoid may sink into a valley so deep that the foot on either of two faces lies beyond their concave edge, and
-//! neither face holds it. The feet say nothing then: each lies in the plane of its own face, and neither is over the
-//! other. The centre decides instead, by heights and distances that are zero only where it lies in a plane that bounds
-//! the regions. The face stands in, and counts only where nothing else is as deep: in front of it if the centre is not
-//! beyond the edge, behind it if it would push a ball.
+//! An ellipsoid may sink so deep into a valley that the foot points on both faces lie beyond their concave
+//! edge, and neither face holds its foot. The feet are then no help: each lies in the plane of its own face,
+//! and neither is over the other face. The centre decides instead, by heights and distances that are zero
+//! only in a plane that bounds the regions. The face stands in, and counts only if nothing else is as deep:
+//! in front if the centre is not beyond the edge, behind if a ball there would be pushed.
 //!
-//! Degenerate cases: centre in the plane, on an edge or a vertex counts as in front; there the nearest surface point's
-//! normal decides. A centre on an edge that may push is taken as a hair's breadth away from it, along the mean of the normals
-//! there: which side of the edge rounding puts it on says nothing.
+//! Degenerate cases: a centre in the plane, on an edge or at a vertex counts as in front; the normal of the
+//! nearest surface point decides there. A centre on an edge that may push is displaced slightly along the
+//! mean of the normals there, because the side of the edge is then only rounding.
 
 use super::behind_triangle::has_behind;
 use super::ellipsoid_math::{
@@ -35,19 +36,20 @@ use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Ellipsoid, TriangleSet};
 
-/// How far outside its feature a foot may lie, as a share of the sizes involved, and still be emitted as spare.
+/// Distance by which a foot point may lie outside its feature, relative to the sizes involved, and still give
+/// a fallback.
 const FOOT_SLACK: f64 = 1e-12;
-/// How far outside the normals of its edge a normal may lie (sine) and still be emitted as spare.
+/// Sine by which a normal may lie outside those of its edge and still give a fallback.
 const CONE_SLACK: f64 = 1e-9;
-/// Two depths within this share count as equal.
+/// Relative difference up to which two depths count as equal.
 const DEPTH_SLACK: f64 = 1e-9;
-/// By how large a share the depth of a second minimum may lie below what it is at least; far beyond rounding.
+/// Relative margin, far above rounding, below the lower bound of the depth of a second minimum.
 const SECOND_SLACK: f64 = 1e-6;
 
 /// Tests an ellipsoid against one triangle and emits a contact for each of its features that pushes.
 ///
-/// `thickness` (m): how far behind the centre may be and still be pushed to the front. Edges and vertices are emitted
-/// by their owner alone, so that over a whole surface each feature counts once.
+/// `thickness` (m): distance up to which a centre behind the triangle is still pushed to the front. Edges and
+/// vertices are emitted only by their owner, so that each feature of a surface counts once.
 pub fn ellipsoid_triangle(
     ellipsoid: &Ellipsoid,
     set: &TriangleSet,
@@ -58,7 +60,7 @@ pub fn ellipsoid_triangle(
     EllipsoidOnTriangles::new(ellipsoid).test(set, triangle, thickness, emit);
 }
 
-/// An ellipsoid made ready for many triangles.
+/// Ellipsoid prepared for many triangles.
 #[derive(Clone, Copy, Debug)]
 pub struct EllipsoidOnTriangles {
     ellipsoid: Ellipsoid,
@@ -66,18 +68,19 @@ pub struct EllipsoidOnTriangles {
 }
 
 impl EllipsoidOnTriangles {
-    /// Makes an ellipsoid ready.
+    /// Prepares an ellipsoid.
     pub fn new(ellipsoid: &Ellipsoid) -> Self {
         Self { ellipsoid: *ellipsoid, prepared: PreparedEllipsoid::new(ellipsoid) }
     }
 
-    /// As it was.
+    /// The original ellipsoid.
     pub fn ellipsoid(&self) -> &Ellipsoid {
         &self.ellipsoid
     }
 
-    /// As [`ellipsoid_triangle`]. Of many triangles near an ellipsoid, most touch nothing:
-    /// [`EllipsoidTrianglePairs`](super::ellipsoid_triangle_pairs::EllipsoidTrianglePairs) tells sooner.
+    /// [`ellipsoid_triangle`] for a prepared ellipsoid. Most triangles near an ellipsoid touch nothing; use
+    /// [`EllipsoidTrianglePairs`](super::ellipsoid_triangle_pairs::EllipsoidTrianglePairs) to reject them
+    /// eight at a time.
     pub fn test(
         &self,
         set: &TriangleSet,
@@ -110,7 +113,8 @@ impl EllipsoidOnTriangles {
     }
 }
 
-/// Whether the ellipsoid lies wholly beyond a plane through an edge, across the triangle.
+/// Returns `true` if the ellipsoid lies entirely beyond the plane through an edge perpendicular to the
+/// triangle.
 fn passes_beside(e: &PreparedEllipsoid, view: &TriangleView) -> bool {
     (0..3).any(|k| {
         let from = view.corners[k];
@@ -120,7 +124,7 @@ fn passes_beside(e: &PreparedEllipsoid, view: &TriangleView) -> bool {
     })
 }
 
-/// Whether a face holds the foot of its deepest point inside its outline.
+/// Returns `true` if the foot of the face's deepest point lies inside the outline.
 fn holds_foot(edges: &TriangleEdges<'_>, foot: &Vec3) -> bool {
     !(0..3).any(|k| edges.is_beyond(k, foot))
 }
@@ -131,14 +135,14 @@ struct Tester<'a> {
     set: &'a TriangleSet,
     view: &'a TriangleView,
     edges: TriangleEdges<'a>,
-    /// Of the centre above the face, m.
+    /// Height of the centre above the face, m.
     height: f64,
     half_width: f64,
     thickness: f64,
     foot_slack: f64,
 }
 
-/// A local minimum over the normals between those of an edge's faces.
+/// Local minimum over the normals between those of an edge's faces.
 #[derive(Clone, Copy)]
 struct EdgeMinimum {
     depth: f64,
@@ -169,8 +173,8 @@ impl Tester<'_> {
         self.push(depth, &self.view.normal, Feature::face(self.view.index as usize), standing, emit);
     }
 
-    /// Whether the foot lies within rounding of concave edges and nowhere else outside: on the line of a valley the face
-    /// still holds it, on whichever side rounding puts it.
+    /// Returns `true` if the foot point is outside only beyond concave edges, and there only by rounding: the
+    /// face still holds a foot point on the line of a valley.
     fn holds_in_a_crease(&self, foot: &Vec3) -> bool {
         (0..3).filter(|&k| self.edges.is_beyond(k, foot)).all(|k| {
             let is_concave = || match self.edges.class(k) {
@@ -181,15 +185,16 @@ impl Tester<'_> {
         })
     }
 
-    /// Whether the centre lies on the line of edge `k`, which may push, within rounding.
+    /// Returns `true` if the centre is on the line of edge `k`, up to rounding, and the edge may push.
     fn is_on_rim(&self, k: usize) -> bool {
         self.height.abs() <= self.foot_slack
             && self.edges.beyond(k, &self.ellipsoid.center).abs() <= self.foot_slack
             && !matches!(self.edges.class(k), EdgeClass::Silent { .. })
     }
 
-    /// Whether the face stands in for a foot that it does not hold: beyond an edge by rounding, or where concave and flat
-    /// edges have lost it and the centre says so (see the head of this file).
+    /// Returns `true` if the face is a fallback although it does not hold the foot point: the foot is beyond
+    /// an edge by rounding, or lost across concave and flat edges and the centre confirms the contact (see
+    /// the module documentation).
     fn stands_in(&self, foot: &Vec3) -> bool {
         let lost = |k: &usize| self.is_lost(*k, foot);
         if !self.is_behind(self.height) {
@@ -201,22 +206,23 @@ impl Tester<'_> {
                 || has_behind(&self.edges, &self.ellipsoid.center, self.thickness, self.foot_slack))
     }
 
-    /// Whether the foot lies beyond edge `k` by more than rounding.
+    /// Returns `true` if the foot point lies beyond edge `k` by more than rounding.
     fn is_lost(&self, k: usize, foot: &Vec3) -> bool {
         self.edges.beyond(k, foot) > self.foot_slack
     }
 
-    /// Whether edge `k`, beyond which the foot lies, is concave or flat, and the other face does not hold its own foot
-    /// there either.
+    /// Returns `true` if edge `k`, beyond which the foot point lies, is concave or flat, and the face across
+    /// it does not hold its own foot point either.
     fn is_lost_beyond(&self, k: usize) -> bool {
         let EdgeClass::Silent { neighbor, outward } = self.edges.class(k) else { return false };
         self.is_lost_to(neighbor, &outward, &self.view.edge_ends(k)[0])
     }
 
-    /// Whether the foot lies beyond concave edges, and none of the faces there holds its own foot either. How the plane is cut
-    /// does not matter: across a flat edge the next triangle tells where the foot is.
+    /// Returns `true` if the foot point lies beyond concave edges, and no face across them holds its own foot
+    /// point. The triangulation does not matter: across flat edges the search continues in the next triangle.
     fn is_lost_in_folds(&self, foot: &Vec3) -> bool {
-        /// Triangles of one plane between the centre and the foot, at most; a foot that is farther is not looked for.
+        /// Maximum number of coplanar triangles between the centre and the foot point; beyond that the search
+        /// gives up.
         const TRIANGLES_MAX: usize = 32;
         let mut triangles = [self.view.index; TRIANGLES_MAX];
         let mut count = 1;
@@ -248,25 +254,26 @@ impl Tester<'_> {
         true
     }
 
-    /// Whether the foot on a face beyond a concave edge lies beyond this edge as well; `outward` points out of the face, and
-    /// `end` is an end of the edge.
+    /// Returns `true` if the foot point on a face across a concave edge lies beyond this edge as well.
+    /// `outward` points out of that face; `end` is an end of the edge.
     fn is_lost_to(&self, face: u32, outward: &Vec3, end: &Vec3) -> bool {
         let other = TriangleView::new(self.set, face);
         let depth = self.prepared.widened(&other.normal).norm() - other.height(&self.ellipsoid.center);
         depth <= 0.0 || outward.dot(&(self.foot_on(&other.normal, depth) - end)) > self.foot_slack
     }
 
-    /// Whether the centre lies beyond edge `k`; what only rounding puts there does not.
+    /// Returns `true` if the centre lies beyond edge `k` by more than rounding.
     fn center_is_beyond(&self, k: usize) -> bool {
         self.edges.beyond(k, &self.ellipsoid.center) > self.foot_slack
     }
 
-    /// Whether a centre of this height is behind; what only rounding puts there is in the plane, and so in front.
+    /// Returns `true` if a centre of this height is behind the face by more than rounding; in the plane it
+    /// counts as in front.
     fn is_behind(&self, height: f64) -> bool {
         height < -self.foot_slack
     }
 
-    /// Where the deepest point comes to lie once the ellipsoid is pushed out.
+    /// Position of the deepest point after the ellipsoid is pushed out.
     fn foot_on(&self, normal: &Vec3, depth: f64) -> Vec3 {
         self.prepared.deepest(normal) + normal * depth
     }
@@ -281,7 +288,7 @@ impl Tester<'_> {
         }
     }
 
-    /// The minima over the normals that edge `k` may push along.
+    /// Minima over the normals along which edge `k` may push.
     fn edge_minima(&self, k: usize) -> [Option<EdgeMinimum>; 2] {
         if self.misses_edge(k) {
             return [None, None];
@@ -311,7 +318,7 @@ impl Tester<'_> {
             if on_rim.is_some_and(|mean| mean.dot(&normal) <= 0.0) {
                 return None;
             }
-            // Where the two faces are flat but for rounding, the normals within the slack are those of the back as well.
+            // For nearly coplanar faces the tolerance would admit normals of the back side.
             if neighbor.is_some_and(|(other, _)| (self.view.normal + other).dot(&normal) <= 0.0) {
                 return None;
             }
@@ -325,7 +332,7 @@ impl Tester<'_> {
         let own = self.half_width - self.height;
         let may_have_second = shadow.allows_second(own * (1.0 + SECOND_SLACK));
         let second = may_have_second.then(|| second_nearest_on_ellipse(shadow.semi_axes, y)).flatten();
-        // The nearest point is never deeper than the faces; the second may be, and then they push.
+        // The first minimum is never deeper than the faces. The second may be; then a face pushes instead.
         let limit = || {
             let other = |(n, _): (Vec3, Vec3)| self.prepared.widened(&n).norm() - n.dot(&from_edge);
             own.min(neighbor.map_or(f64::INFINITY, other)) * (1.0 + DEPTH_SLACK)
@@ -336,12 +343,13 @@ impl Tester<'_> {
         ]
     }
 
-    /// Whether edge `k` certainly has no minimum, because it does not reach into the ellipsoid.
+    /// Returns `true` if edge `k` certainly has no minimum, because it does not reach into the ellipsoid.
     ///
-    /// While the overlap is less than the smallest radius of curvature, what a minimum pushes out, the deepest point's
-    /// foot on the edge, lies inside: a ball of that radius, which touches from within at the deepest point, holds it.
+    /// As long as the overlap is less than the smallest radius of curvature, the deepest point's foot on the
+    /// edge lies inside: it is in the ball of that radius that touches the ellipsoid from within at the
+    /// deepest point.
     fn misses_edge(&self, k: usize) -> bool {
-        /// Far beyond rounding, where the ellipsoid is the unit ball.
+        /// Far above rounding, in the unit-ball metric.
         const SLACK: f64 = 1e-6;
         if self.allows_second() {
             return false;
@@ -354,12 +362,13 @@ impl Tester<'_> {
         (start + along * share).norm_squared() > 1.0 + SLACK + 10.0 * ends_slack
     }
 
-    /// Whether a second minimum, of an edge or a vertex, may be less deep than this face.
+    /// Returns `true` if a second minimum, of an edge or a vertex, may be less deep than this face.
     fn allows_second(&self) -> bool {
         self.prepared.allows_second((self.half_width - self.height) * (1.0 + SECOND_SLACK))
     }
 
-    /// Whether the deepest point's foot lies between the ends of edge `k`: `Some(strictly)` within rounding.
+    /// Reports whether the deepest point's foot lies between the ends of edge `k`: `None` if not,
+    /// `Some(false)` if only within rounding.
     fn on_edge(&self, k: usize, normal: &Vec3) -> Option<bool> {
         let deepest = self.prepared.deepest(normal);
         let [first, second] = self.view.edge_ends(k);
@@ -378,7 +387,7 @@ impl Tester<'_> {
         if y.component_div(semi_axes).norm_squared() < 1.0 {
             self.try_vertex(corner, &nearest_on_ellipsoid(semi_axes, &y), emit);
         }
-        // The fan's least depth is at most that of this face.
+        // The least depth among the faces around the vertex is at most that of this face.
         let second = self.allows_second().then(|| second_nearest_on_ellipsoid(semi_axes, &y)).flatten();
         if let Some(foot) = second.filter(|foot| self.no_deeper_than_the_fan(corner, foot.depth)) {
             self.try_vertex(corner, &foot, emit);
@@ -391,7 +400,7 @@ impl Tester<'_> {
         }
         let normal = self.ellipsoid.axes * Vec3::from(foot.normal);
         let apex = self.view.corners[corner];
-        // Most vertices fail at the two edges of their own triangle: no need to walk around them.
+        // Quick test: most vertices fail at the two edges of their own triangle.
         for other in [self.view.corners[(corner + 1) % 3], self.view.corners[(corner + 2) % 3]] {
             let edge = other - apex;
             if normal.dot(&edge) > CONE_SLACK * edge.norm() {
@@ -417,7 +426,8 @@ impl Tester<'_> {
         depth <= least * (1.0 + DEPTH_SLACK)
     }
 
-    /// `None` if the centre is too far behind the plane through `p` across the normal.
+    /// Standing of a candidate; `None` if the centre is too far behind the plane through `p` perpendicular to
+    /// the normal.
     fn standing(&self, normal: &Vec3, p: &Vec3, strictly: bool) -> Option<Standing> {
         let height = normal.dot(&(self.ellipsoid.center - p));
         if self.is_behind(height) {

@@ -1,15 +1,18 @@
-//! Pairs of an ellipsoid and a triangle, eight at a time: which of them may touch at all.
+//! Rejection of ellipsoid-triangle pairs, eight at a time.
 //!
-//! An ellipsoid near a surface meets the boxes of many triangles and touches few. Most of the others are told by products
-//! and three roots: wholly beyond the plane of the face or a plane through an edge across it; or with nothing that may
-//! push:
+//! An ellipsoid near a surface overlaps the boxes of many triangles and touches few. Dot products and three
+//! roots reject most of the others: the ellipsoid is entirely beyond the plane of the face or a perpendicular
+//! plane through an edge, or no feature can push:
 //!
-//! * the face does not where the foot of the deepest point lies beyond an edge that the centre, in front, lies beyond too;
-//! * an edge does not that lies outside the ellipsoid, nor a vertex, as long as the face is too shallow for a second minimum.
 //!
-//! What is left goes through [`EllipsoidOnTriangles`](super::ellipsoid_triangle::EllipsoidOnTriangles) one by one. Nothing
-//! here decides an answer: every comparison asks what is asked there, with more room for rounding, and a number that is none
-//! tells nothing.
+//! * the face cannot if the foot of the deepest point and the centre, in front, both lie beyond the same
+//!   edge;
+//! * an edge or a vertex outside the ellipsoid cannot, as long as the overlap of the face is too small for a
+//!   second minimum.
+//!
+//! The remaining pairs go through [`EllipsoidOnTriangles`](super::ellipsoid_triangle::EllipsoidOnTriangles)
+//! one by one. This filter changes no result: it makes the same comparisons with a larger margin, and NaN
+//! never rejects.
 
 use super::triangle_lanes::{
     EightVectors, NOTHING, TriangleLanes, bit_of_each, fill_in, fill_vectors_in, put,
@@ -18,14 +21,14 @@ use crate::Vec3;
 use crate::primitive::{Ellipsoid, TriangleSet};
 use crate::simd::{LANES, LaneBits, Numbers, Simd, Vectors, run_at_level};
 
-/// Up to eight pairs.
+/// Batch of up to eight pairs.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub struct EllipsoidTrianglePairs {
     lanes: TriangleLanes,
-    /// Principal axes times semi-axes.
+    /// Principal axes times semi-axes, m.
     widen: [EightVectors; 3],
-    /// One over the squares of the semi-axes, 1/m².
+    /// Reciprocal squares of the semi-axes, 1/m².
     shrink: EightVectors,
     /// Smallest and largest semi-axes, m.
     smallest: [f64; LANES],
@@ -45,19 +48,19 @@ impl Default for EllipsoidTrianglePairs {
 }
 
 impl EllipsoidTrianglePairs {
-    /// How many pairs there are.
+    /// Number of pairs.
     #[inline]
     pub fn count(&self) -> usize {
         self.lanes.count
     }
 
-    /// Forgets all pairs.
+    /// Removes all pairs.
     #[inline]
     pub fn clear(&mut self) {
         self.lanes.count = 0;
     }
 
-    /// Adds a pair, of which there may be eight; answers its place. `thickness` as in
+    /// Adds a pair (at most eight) and returns its lane. `thickness` as in
     /// [`ellipsoid_triangle`](super::ellipsoid_triangle::ellipsoid_triangle).
     #[inline]
     pub fn add(&mut self, ellipsoid: &Ellipsoid, triangle: u32, thickness: f64) -> usize {
@@ -72,8 +75,8 @@ impl EllipsoidTrianglePairs {
         lane
     }
 
-    /// Makes the pairs that are pushed from here on those of an ellipsoid; `thickness` as in [`add`](Self::add). Where several
-    /// triangles in a row meet one ellipsoid, that is quicker.
+    /// Sets the ellipsoid of the pairs that are pushed from here on; `thickness` as in [`add`](Self::add).
+    /// Faster than `add` if several consecutive pairs have the same ellipsoid.
     #[inline(always)]
     pub fn begin_in<S: Simd>(&mut self, simd: S, ellipsoid: &Ellipsoid, thickness: f64) {
         let (lane, semi_axes) = (self.count(), &ellipsoid.semi_axes);
@@ -87,13 +90,13 @@ impl EllipsoidTrianglePairs {
         self.lanes.begin_in(simd, &ellipsoid.center, thickness);
     }
 
-    /// Adds a pair of what was begun with last, of which there may be eight; answers its place.
+    /// Adds a pair of the current ellipsoid with a triangle (at most eight) and returns its lane.
     #[inline(always)]
     pub fn push(&mut self, triangle: u32) -> usize {
         self.lanes.push(triangle)
     }
 
-    /// Tells which pairs may touch, a bit for each in their order, whose triangles are of a set; then there are none.
+    /// Returns the pairs that may touch, a bit per lane, for triangles of `set`, and clears the batch.
     #[inline]
     pub fn take(&mut self, set: &TriangleSet) -> LaneBits {
         if self.lanes.count == 0 {
@@ -106,7 +109,8 @@ impl EllipsoidTrianglePairs {
     }
 }
 
-/// What is kept of a principal axis: it times its semi-axis, m, and one over the square of that, 1/m².
+/// Data of a principal axis: the axis times its semi-axis, m, and the reciprocal square of the semi-axis,
+/// 1/m².
 #[inline(always)]
 fn along(ellipsoid: &Ellipsoid, axis: usize) -> (Vec3, f64) {
     let semi_axis = ellipsoid.semi_axes[axis];
@@ -117,36 +121,37 @@ fn may_touch(pairs: &EllipsoidTrianglePairs) -> LaneBits {
     run_at_level!(may_touch_in(pairs: EllipsoidTrianglePairs) -> LaneBits)
 }
 
-/// What is called beyond, as a share of the lengths involved: far more than rounding, and than the slack of a foot.
+/// Distance that counts as beyond an edge, relative to the lengths involved: far above rounding and the foot
+/// tolerance.
 const FAR_SLACK: f64 = 1e-9;
-/// By how much a square of a distance exceeds that of the unit ball before it is outside: ten times what one edge takes.
+/// Margin of a squared distance outside the unit ball: ten times that of the test of one edge.
 const OUTSIDE_SLACK: f64 = 1e-5;
-/// The same as a share of the squares of what is measured from: rounding in far corners.
+/// Same margin relative to the squared distances it is computed from: covers rounding at distant corners.
 const OUTSIDE_SHARE: f64 = 1e-12;
 
-/// Ellipsoids.
+/// Ellipsoids, one per lane.
 struct Ellipsoids<S: Simd> {
     widen: [Vectors<S>; 3],
     shrink: Vectors<S>,
-    /// Squares of the largest semi-axes.
+    /// Squared largest semi-axes.
     largest_square: Numbers<S>,
 }
 
 impl<S: Simd> Ellipsoids<S> {
-    /// Scaled normals, whose lengths are the half widths times those of the normals.
+    /// Scaled normals; their lengths are the half widths times the lengths of the normals.
     #[inline(always)]
     fn widened(&self, normal: Vectors<S>) -> Vectors<S> {
         normal.dot_rows(self.widen)
     }
 
-    /// Vectors as seen where the ellipsoids are unit balls.
+    /// Vectors in the unit-ball metric.
     #[inline(always)]
     fn shrunk(&self, vector: Vectors<S>) -> Vectors<S> {
         let (wide, shrink) = (self.widened(vector), self.shrink);
         Vectors { x: wide.x * shrink.x, y: wide.y * shrink.y, z: wide.z * shrink.z }
     }
 
-    /// Where a product of a normal with an arm certainly exceeds a reach, whatever rounding does to either.
+    /// Returns the lanes where the product of normal and arm certainly exceeds a reach in spite of rounding.
     #[inline(always)]
     fn exceeds(
         &self,
@@ -155,7 +160,8 @@ impl<S: Simd> Ellipsoids<S> {
         normal: Vectors<S>,
         arm: Vectors<S>,
     ) -> S::Mask {
-        /// Both far beyond rounding: for products and reaches that are as large as the vectors allow, and for the rest.
+        /// Margins far above rounding: relative to the reach, and to the largest product that the vectors
+        /// allow.
         const SLACK: f64 = 1e-9;
         const SMALL_SLACK: f64 = 1e-18;
         let most = normal.norm_squared() * (arm.norm_squared() + self.largest_square);
@@ -169,7 +175,7 @@ fn load_three<S: Simd>(simd: S, [first, second, third]: &[EightVectors; 3]) -> [
     [Vectors::load(simd, first), Vectors::load(simd, second), Vectors::load(simd, third)]
 }
 
-/// Sums of the sizes of the components.
+/// Sums of the absolute components.
 #[inline(always)]
 fn taxicab<S: Simd>(v: Vectors<S>) -> Numbers<S> {
     v.x.abs() + v.y.abs() + v.z.abs()
@@ -190,19 +196,20 @@ fn may_touch_in<S: Simd>(simd: S, pairs: &EllipsoidTrianglePairs) -> LaneBits {
     let height = normal.dot(arms[0]);
     let zero = Numbers::splat(simd, 0.0);
 
-    // Behind, an ellipsoid is pushed to the front from as deep as the surface is thick.
+    // Behind the face, an ellipsoid is pushed to the front up to the thickness of the surface.
     let thickness = Numbers::load(simd, &lanes.thicknesses);
     let behind = Numbers::select(height.below(zero), thickness * thickness * normal_square, zero);
     let widened = ellipsoids.widened(normal);
     let widened_square = widened.norm_squared();
     let mut apart = simd.bits(ellipsoids.exceeds(height, widened_square.larger(behind), normal, arms[0]));
 
-    // At least as long as anything that is measured.
+    // Upper bound of all lengths involved.
     let size = taxicab(arms[0]) + taxicab(edges[0]) + taxicab(edges[1]) + taxicab(center) + largest;
     let slack = size * size.all(FAR_SLACK);
     let (length, half_width) = (normal_square.sqrt(), widened_square.sqrt());
     let in_front = simd.bits((slack * length).below(height));
-    // The overlap of the face, and of what a second minimum is at least, both times the length of the normal.
+    // Overlap of the face, and lower bound of the depth of a second minimum, both times the length of the
+    // normal.
     let overlap = (half_width - height + slack * length) * size.all(1.0 + OUTSIDE_SLACK);
     let one_minimum = simd.bits((overlap * largest).below(smallest * smallest * length));
 
@@ -216,12 +223,12 @@ fn may_touch_in<S: Simd>(simd: S, pairs: &EllipsoidTrianglePairs) -> LaneBits {
         let wide = ellipsoids.widened(outward);
         let is_apart = simd.bits(ellipsoids.exceeds(beyond, wide.norm_squared(), outward, arm));
         apart |= simd.bits(zero.below(beyond)) & is_apart;
-        // How far the centre, and the foot of the deepest point, lie beyond the edge.
+        // Distances of the centre and of the foot point beyond the edge.
         let room = slack * taxicab(outward);
         let foot_beyond = beyond * half_width - wide.dot(widened);
         let lost = simd.bits((room * half_width).below(foot_beyond)) & simd.bits(room.below(beyond));
         face &= !(in_front & lost);
-        // Towards the centre of the unit ball.
+        // Vector from the corner to the centre of the unit ball.
         let (start, along) = (starts[k], starts[k] - starts[(k + 1) % 3]);
         let share = start.dot(along).over(along.norm_squared()).larger(zero).smaller(zero.all(1.0));
         let start_square = start.norm_squared();

@@ -1,30 +1,32 @@
-//! The active face that a point is highest above, or least deep below, in one pass over the planes of a polyhedron.
+//! Active face that a point is highest above, or least deep below, in one pass over the planes of a
+//! polyhedron.
 
 use crate::Vec3;
 use crate::primitive::{FacePlanes, PlaneBlock};
 use crate::simd::{Finder, First, Found, LANES, LaneBits, Simd, Splat};
 
-/// Blocks whose heights are kept in registers at a time, if there are that many.
+/// Number of blocks whose heights are kept in registers at a time.
 const MANY: usize = 4;
 
-/// The active face that a point is highest above.
+/// Active face that a point is highest above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Highest {
-    /// The face; of faces of equal height the first.
+    /// Face index; among faces of equal height the lowest.
     pub face: usize,
-    /// The height, m; of two zeros either.
+    /// Height, m; the sign of a zero is arbitrary.
     pub height: f64,
 }
 
-/// Which points are asked for.
+/// Condition on the point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Whereabouts {
     Anywhere,
-    /// Less than so high above every plane, m.
+    /// Less than this height above every plane, m.
     Below(f64),
 }
 
-/// `None` if the point is not where it is asked for, if no face is active, or no height is a number above −∞.
+/// Returns `None` if the point does not meet the condition, no face is active, or no height is a number above
+/// −∞.
 #[inline(always)]
 pub(super) fn highest_of_many<S: Simd>(
     simd: S,
@@ -53,7 +55,8 @@ struct Search<'a, S: Simd> {
 }
 
 impl<S: Simd> Search<'_, S> {
-    /// Heights above the planes of some blocks, −∞ for those of inactive faces. Blocks beyond the last repeat it.
+    /// Heights above the planes of `N` blocks, −∞ for inactive faces. Indices past the last block repeat it.
+    /// `None` if the point does not meet the condition.
     #[inline(always)]
     fn heights<const N: usize>(&self, start: usize) -> Option<[S::Eight; N]> {
         let blocks = self.planes.blocks.as_slice();
@@ -68,7 +71,7 @@ impl<S: Simd> Search<'_, S> {
         if passes == LaneBits::MAX { Some(heights) } else { None }
     }
 
-    /// For which planes the point is where it is asked for.
+    /// Returns the planes for which the point meets the condition.
     #[inline(always)]
     fn passes(&self, heights: S::Eight) -> LaneBits {
         let simd = self.simd;
@@ -92,7 +95,7 @@ impl<S: Simd> Search<'_, S> {
         top
     }
 
-    /// The first face of a height among those of some blocks.
+    /// First face with the given height among `N` blocks.
     #[inline(always)]
     fn first_at<const N: usize>(
         &self,

@@ -2,21 +2,25 @@
 //!
 //! The part of the segment inside the solid has two ends. For each active face f, each end carries half a spring:
 //!
-//! * a *tip* of the segment, inside the solid or straight below the face, has its depth below f and pushes along
-//!   the face's normal;
-//! * where the segment leaves the solid through another face h, the *crossing* is the distance of the segment's line
-//!   below the line in which the planes of f and h meet, and pushes along the common normal of both lines;
-//! * where it leaves through f itself the end carries nothing.
+//! * a *tip* of the segment, inside the solid or straight below the face: its depth is measured below f, and
+//! it pushes along the face's normal;
+//! * a *crossing*, where the segment leaves the solid through another face h: its depth is the distance of
+//!   the segment's line below the line in which the planes of f and h intersect, and it pushes along the
+//!   common normal of both lines;
+//! * where the segment leaves through f itself, that end carries no force.
 //!
-//! The face that stores the least energy pushes. A segment that enters by f and leaves by h crosses their edge once, for
-//! either face: the end whose endpoint reaches farther out carries that crossing, whichever of the two faces is asked.
+//! The face that stores the least energy pushes. A segment that enters by f and leaves by h crosses their
+//! common edge once, for both faces: the end whose endpoint is farther out carries that crossing, whichever
+//! of the two faces is evaluated.
 //!
-//! An obvious rule asks instead where the segment leaves the *polygon* of f. It was tried: on a box the two agree, except for a segment whose far endpoint
-//! has risen above the top, which a side face then claims with half the force, so that closed paths gain energy; beside
-//! obtuse edges it halves the force of a segment that lies flat (docs/decisions/0001).
+//! An alternative rule tests where the segment leaves the *polygon* of f. On a box the two rules agree,
+//! except for a segment whose far endpoint has risen above the top: a side face then claims it with half the
+//! force, so that closed paths gain energy. Beside obtuse edges it also halves the force of a segment that
+//! lies flat (docs/decisions/0001).
 //!
-//! Degenerate cases: a segment parallel to a face crosses at its depth; two parallel planes meet nowhere and that
-//! face takes no part; a segment that only touches has no contact; ties go to the lower face.
+//! Degenerate cases: a segment parallel to a face crosses at its depth; two parallel planes have no
+//! intersection, and that face takes no part; a segment that only touches has no contact; ties go to the
+//! lower face.
 
 use super::Interference;
 use super::segment_at_walls::{end_that_crosses, inside_of_wide_walls, leaves_at_wall};
@@ -25,32 +29,35 @@ use super::segment_ends::{AtEnd, InsideEnd, Measured, Wedge};
 use crate::primitive::{Containment, FacePlanes, LineSegment, Polyhedron};
 use crate::simd::{Finder, First, FirstOf, LANES, Simd, is_moderate, run_at_level};
 
-/// The contact at each end: 0 towards the segment's first end, 1 towards its second.
+/// Contact at each end: 0 towards the segment's first end, 1 towards its second.
 pub type EndContacts = [Option<Interference>; 2];
 
-/// The same for one piece of a body, with what the pieces beside it have to do with each contact.
+/// Contact at each end for one piece of a body, with the role of the neighbouring pieces.
 pub type PieceContacts = [Option<(Interference, AtWall)>; 2];
 
-/// What the pieces beside a piece have to do with a contact of it.
+/// Role of the neighbouring pieces in a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AtWall {
-    /// Nothing, but for a tip that is exactly at a wall.
+    /// None, except for a tip exactly on an internal face.
     No,
-    /// The crossing of an edge in which a wall ends: the piece behind the wall may find it as well.
+    /// Crossing of an edge at which an internal face ends: the piece behind that face may find it as well.
     SharedEdge,
-    /// Of a tip beyond a wall by no more than rounding: counts if the tip is in no piece at all.
+    /// Fallback for a tip beyond an internal face by no more than rounding: counts if the tip is in no piece
+    /// at all.
     StandsIn,
-    /// The segment leaves by an active face where a wall ends: the piece behind the wall may have this end as well.
+    /// Exit through an active face where an internal face ends: the piece behind the internal face may have
+    /// this end as well.
     Exit,
-    /// The same where rounding tells the wall: counts if no other piece has the end, and none holds what lies beyond.
+    /// Fallback exit, where only rounding names the internal face: counts if no other piece has the end or
+    /// holds the segment beyond it.
     ExitStandsIn,
 }
 
-/// Energies this close are a tie, so that rounding does not choose between equal faces.
+/// Energies within this factor are a tie, so that rounding does not choose between equal faces.
 const TIE: f64 = 1.0 - 1e-12;
 
-/// Tests a segment against one convex solid, or one piece alone: of an edge in which a wall ends the lowest piece has the
-/// crossing. Each contact carries half of the pair's stiffness and damping.
+/// Tests a segment against one convex solid, or one piece alone: a crossing of an edge at which an internal
+/// face ends belongs to the lowest piece. Each contact carries half of the pair's stiffness and damping.
 #[inline]
 pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
     let counts = |(contact, at_wall): &(Interference, AtWall)| match at_wall {
@@ -72,7 +79,7 @@ pub fn line_segment_piece(segment: &LineSegment, polyhedron: &Polyhedron) -> Pie
     }
 }
 
-/// For how many blocks of faces bounds of the energy are kept.
+/// Numbers of face blocks for which energy bounds are kept.
 const FEW: usize = 2;
 const SOME: usize = FacePlanes::IN_REGISTERS;
 const MANY: usize = 16;
@@ -118,7 +125,7 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
         search.visit_all();
         return search.contacts();
     }
-    // Of many faces a tip is near to few.
+    // With many faces, a tip is near only a few of them.
     let nearest = if N > FacePlanes::IN_REGISTERS { planes.nearest_face::<N>(&inside) } else { None };
     let at_nearest = match &nearest {
         Some(nearest) => search.stored(nearest.face),
@@ -136,8 +143,8 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
     search.contacts()
 }
 
-/// A segment along the line where inner walls meet may lie in none of the pieces there, as each works out its own walls.
-/// Then each of them answers for its endpoints as if it held them; which one counts is decided for the whole body.
+/// Fallback for a segment along the line where internal faces meet. Rounding may leave it in none of the
+/// pieces there, so each piece reports its endpoints as if it held them; the body decides which one counts.
 #[cold]
 fn along_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts {
     let Some(mut inside) = inside_of_wide_walls(segment, polyhedron) else { return [None, None] };
@@ -155,7 +162,8 @@ fn along_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts 
     })
 }
 
-/// Which ends leave where an inner wall ends; these leave by the active face there, whichever of the two rounding tells.
+/// Finds the ends that leave where an internal face ends, and lets them leave by the active face there even
+/// if rounding named the internal one.
 fn told_by_faces(segment: &LineSegment, polyhedron: &Polyhedron, inside: &mut [InsideEnd; 2]) -> [AtWall; 2] {
     [0, 1].map(|end: usize| match leaves_at_wall(segment, polyhedron, &inside[end], end) {
         None => AtWall::No,
@@ -167,25 +175,25 @@ fn told_by_faces(segment: &LineSegment, polyhedron: &Polyhedron, inside: &mut [I
     })
 }
 
-/// A face whose bound is so many times what another stores never decides. Far beyond rounding of the bounds, and beyond
-/// any number of ties, each the next one's.
+/// Factor above the stored energy of another face beyond which a bound excludes a face. Far above rounding of
+/// the bounds and any chain of ties.
 const BEYOND_ROUNDING: f64 = 1.0 + 1e-6;
 
-/// The search for the face that stores the least energy.
+/// Search for the face that stores the least energy.
 struct Search<'a> {
     segment: &'a LineSegment,
     polyhedron: &'a Polyhedron,
     inside: [InsideEnd; 2],
-    /// Whether each end leaves where an inner wall ends.
+    /// Role of the neighbouring pieces in each exit.
     exits: [AtWall; 2],
     best: Option<Stored>,
 }
 
-/// What a face stores.
+/// Energy stored by one face.
 #[derive(Clone, Copy)]
 struct Stored {
     face: usize,
-    /// The sum of the squares of what its ends measure, m².
+    /// Sum of the squared depths at its ends, m².
     energy: f64,
     ends: [Measured; 2],
 }
@@ -199,8 +207,8 @@ impl Search<'_> {
         }
     }
 
-    /// Visits the faces, in their order, whose bounds let them store as little as the likeliest one, or the one that a tip is
-    /// nearest to.
+    /// Visits, in order, the faces whose bounds admit an energy as low as that of the likeliest face or of
+    /// the face nearest to a tip.
     #[inline(always)]
     fn visit_likely<S: Simd, const N: usize>(&mut self, bounds: &Bounds<S, N>, at_nearest: Option<Stored>) {
         let likeliest = bounds.least();
@@ -226,16 +234,16 @@ impl Search<'_> {
     fn visit(&mut self, stored: Option<Stored>) {
         let Some(stored) = stored else { return };
         let least = self.best.map_or(f64::INFINITY, |best| best.energy);
-        // Nothing stored is the least as well: the segment lies in the face, or touches an edge of it.
+        // Zero energy wins too: the segment lies in the face or touches an edge of it.
         if stored.energy < least * TIE {
             self.best = Some(stored);
         }
     }
 
-    /// What a face stores; `None` if it takes no part.
+    /// Energy stored by a face; `None` if it takes no part.
     ///
-    /// An end at an inner wall counts, though the piece behind the wall carries it: without it the face would not be
-    /// found where its other end does not touch.
+    /// An end at an internal face counts, though the piece behind that face carries it: otherwise the face
+    /// would not be found if its other end does not touch.
     fn stored(&self, face: usize) -> Option<Stored> {
         let ends = [self.at_end(face, 0).measured()?, self.at_end(face, 1).measured()?];
         let square = |end: usize| ends[end].depth() * ends[end].depth();
@@ -248,14 +256,15 @@ impl Search<'_> {
         AtEnd { segment: self.segment, polyhedron: self.polyhedron, face, inside: &self.inside[end], tip_b }
     }
 
-    /// What the best face carries.
+    /// Contacts of the best face.
     fn contacts(&self) -> PieceContacts {
         let Some(best) = &self.best else { return [None, None] };
         let at_ends = [self.carried(best, 0), self.carried(best, 1)];
         let is_lone = at_ends[0].is_some() != at_ends[1].is_some();
         let mut contacts = [None, None];
         for (found_at, found) in at_ends.into_iter().enumerate() {
-            // What belongs to an end that has a contact already is found by the piece behind the wall, at that end.
+            // An end that already has a contact keeps it; the piece behind the internal face finds the other
+            // one at that end.
             if let Some((found, end)) = found
                 && (is_lone || end == found_at)
             {
@@ -265,7 +274,7 @@ impl Search<'_> {
         contacts
     }
 
-    /// What is carried where the segment leaves at an end, and which end has it if there is nothing else.
+    /// Contact where the segment leaves at `end`, and the end that carries it if there is no other contact.
     #[inline(always)]
     fn carried(&self, best: &Stored, end: usize) -> Option<((Interference, AtWall), usize)> {
         let contact = self.at_end(best.face, end).contact(&best.ends[end]);
@@ -283,14 +292,16 @@ impl Search<'_> {
         Some(((contact, at_wall), end))
     }
 
-    /// Whether the segment enters by the best face and leaves by another at an end, and both measure the one crossing.
+    /// Returns `true` if the segment enters by the best face and leaves by another at `end`, and both faces
+    /// measure the same crossing.
     #[inline(always)]
     fn is_claimed_by_both(&self, best: &Stored, end: usize, exit: usize) -> bool {
         let of_exit = || self.at_end(exit, 1 - end).measured();
         matches!(best.ends[1 - end], Measured::Leaves) && matches!(of_exit(), Some(Measured::Crossing(_)))
     }
 
-    /// The piece behind the wall carries the end, unless the wall ends in an edge that pushes or there is no such piece.
+    /// Contact of an end that leaves through an internal face: the piece behind it carries the end, unless
+    /// the internal face ends in an edge that pushes or there is no such piece.
     #[cold]
     fn carried_at_wall(
         &self,
@@ -304,8 +315,8 @@ impl Search<'_> {
         };
         match crossing.and_then(|crossing| Some((crossing, carrier(&crossing)?))) {
             Some((crossing, carrier)) => Some(((crossing, AtWall::SharedEdge), carrier)),
-            // A tip that is at walls within rounding is asked for among all faces: along a wall, what is inside by rounding
-            // alone says nothing.
+            // A tip on internal faces within rounding is tested against all faces: inside or outside is
+            // undecidable there.
             None if self.polyhedron.containment(&self.segment.ends[end]) != Containment::Outside => {
                 let stood_in = along_walls(self.segment, self.polyhedron)[end];
                 stood_in.filter(|(_, at_wall)| *at_wall == AtWall::StandsIn).map(|found| (found, end))
@@ -315,7 +326,7 @@ impl Search<'_> {
     }
 }
 
-/// Above this no face decides, when one stores so much.
+/// Energy above which no face can decide, given the energy stored by one face.
 #[inline(always)]
 fn limit_of(stored: Option<&Stored>) -> f64 {
     match stored {

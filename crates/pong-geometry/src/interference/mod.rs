@@ -1,7 +1,7 @@
-//! The interference tests: one file per pair of primitives (the listing is the capability table).
+//! Interference tests: one file per pair of primitives (the list of modules is the capability table).
 //!
-//! Every test takes A already carried into the frame of B's movable group and hands out [`Interference`]s in
-//! that frame. A test never allocates; where a pair can touch at several places it calls `emit` for each.
+//! Every test takes A already transformed to the frame of B's movable group and returns [`Interference`]s in
+//! that frame. A test never allocates; where a pair can touch at several points it calls `emit` for each.
 
 mod axis_approach;
 pub mod ball_bore;
@@ -50,56 +50,56 @@ pub mod two_ended_round;
 use crate::Vec3;
 use crate::primitive::Sphere;
 
-/// A place where B is pierced by A.
+/// Overlap of A and B at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interference {
     /// Depth δ > 0, m.
     pub depth: f64,
     /// Unit normal from B to A, in B's frame.
     pub normal_b: Vec3,
-    /// The point `a` of A deepest along −normal, in B's frame, m.
+    /// Deepest point of A along −normal, in B's frame, m.
     pub deepest_b: Vec3,
-    /// Which feature of B pushes.
+    /// Feature of B that pushes.
     pub feature: Feature,
 }
 
-/// A feature of B: what kind it is and its index. Orders by kind, then index.
+/// Feature of B: its kind and index. Ordered by kind, then index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Feature(pub u32);
 
-/// What a feature is.
+/// Kind of a feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FeatureKind {
-    /// A face, a triangle, or the primitive as a whole.
+    /// Face, triangle, or the whole primitive.
     Face,
-    /// An edge.
+    /// Edge.
     Edge,
-    /// A vertex.
+    /// Vertex.
     Vertex,
 }
 
 impl Feature {
-    /// The primitive as a whole: planes, spheres, ellipsoids.
+    /// The whole primitive: planes, spheres, ellipsoids.
     pub const WHOLE: Self = Self(0);
     const KIND_SHIFT: u32 = 30;
     const INDEX_MASK: u32 = (1 << Self::KIND_SHIFT) - 1;
 
-    /// A face (or the triangle itself).
+    /// Face with this index (or the triangle itself).
     pub fn face(index: usize) -> Self {
         Self(index as u32)
     }
 
-    /// An edge.
+    /// Edge with this index.
     pub fn edge(index: usize) -> Self {
         Self(1 << Self::KIND_SHIFT | index as u32)
     }
 
-    /// A vertex.
+    /// Vertex with this index.
     pub fn vertex(index: usize) -> Self {
         Self(2 << Self::KIND_SHIFT | index as u32)
     }
 
-    /// What it is.
+    /// Kind of the feature.
     pub fn kind(self) -> FeatureKind {
         match self.0 >> Self::KIND_SHIFT {
             0 => FeatureKind::Face,
@@ -108,21 +108,22 @@ impl Feature {
         }
     }
 
-    /// Whether this is a face.
+    /// Returns `true` for a face.
     pub fn is_face(self) -> bool {
         self.kind() == FeatureKind::Face
     }
 
-    /// The index within its kind.
+    /// Index within its kind.
     pub fn index(self) -> usize {
         (self.0 & Self::INDEX_MASK) as usize
     }
 }
 
-/// Sphere pushed away from a point of B: an edge's or a vertex's foot, or the centre of another ball.
+/// Sphere against a point of B: the foot point on an edge, a vertex, or the centre of another sphere.
 ///
-/// `mean_normal` decides the direction when the sphere's centre coincides with the point, or only rounding keeps the two
-/// apart: the direction between them is then noise, and may point along an edge or into the solid. Any length but zero.
+/// `mean_normal` gives the direction if the centre coincides with the point up to rounding: the direction
+/// between them is then noise, and may point along an edge or into the solid. It may have any length but
+/// zero.
 #[inline]
 pub(crate) fn ball_over_point(
     sphere: &Sphere,
@@ -130,7 +131,7 @@ pub(crate) fn ball_over_point(
     feature: Feature,
     mean_normal: impl FnOnce() -> Vec3,
 ) -> Option<Interference> {
-    /// Relative to the coordinates: what the last few roundings of the two points come to.
+    /// Relative to the coordinates: accumulated rounding of the two points.
     const ROUNDING: f64 = 16.0 * f64::EPSILON;
     let arm = sphere.center - foot;
     let distance = arm.norm();
@@ -140,7 +141,7 @@ pub(crate) fn ball_over_point(
     }
     let has_direction = distance > ROUNDING * sphere.center.amax();
     let normal = if has_direction {
-        // A compiler may divide before it asks.
+        // Clamped because a compiler may divide before the branch.
         (arm / distance.max(f64::MIN_POSITIVE)).normalize()
     } else {
         mean_normal().normalize()

@@ -1,25 +1,26 @@
-//! The point of a triangle nearest to a given point, and on which side of the surface that point lies there.
+//! Point of a triangle nearest to a given point, and the side of the surface on which the given point lies.
 
 use super::triangle_features::{TriangleView, lexicographically_before, vertex_is_seen_from_front};
 use crate::Vec3;
 use crate::primitive::{NO_NEIGHBOR, TriangleSet};
 
-/// Where in a triangle a point lies.
+/// Part of a triangle that holds a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// Within the outline.
+    /// Inside the outline.
     Face,
-    /// On edge `k`, from corner `k` to the next.
+    /// On edge `k`, from corner `k` to the next corner.
     Edge(usize),
     /// At corner `k`.
     Corner(usize),
 }
 
-/// The square of the distance (m²) between a point and a triangle, and where in the triangle the nearest point lies.
+/// Squared distance (m²) between a point and a triangle, and the part of the triangle that holds the nearest
+/// point.
 ///
-/// A point that lies beyond an edge, and between its ends, has its nearest point on it. Where an edge ends is worked out in
-/// one direction, whichever of its two triangles asks: so they never disagree on whether a point belongs to the edge or to
-/// its corner.
+/// A point beyond an edge, between its ends, is nearest to that edge. The ends of an edge are evaluated in
+/// the same direction by both of its triangles, so they always agree on whether a point belongs to the edge
+/// or to a corner.
 pub fn nearest_on_triangle(p: &Vec3, corners: &[Vec3; 3]) -> (f64, Place) {
     let edges = [0, 1, 2].map(|k| corners[(k + 1) % 3] - corners[k]);
     let arms = corners.map(|corner| p - corner);
@@ -39,7 +40,7 @@ pub fn nearest_on_triangle(p: &Vec3, corners: &[Vec3; 3]) -> (f64, Place) {
             return ((arm - along * share).norm_squared(), Place::Edge(k));
         }
     }
-    // A corner is measured by itself, so that all triangles around it come to the same number.
+    // The distance to a corner depends on the corner only, so all triangles around it get the same number.
     let mut nearest = (f64::INFINITY, Place::Face);
     for (k, arm) in arms.iter().enumerate() {
         let square = arm.norm_squared();
@@ -50,7 +51,7 @@ pub fn nearest_on_triangle(p: &Vec3, corners: &[Vec3; 3]) -> (f64, Place) {
     nearest
 }
 
-/// The point of a triangle nearest to a given point of its plane.
+/// Point of a triangle nearest to a given point of its plane.
 pub fn nearest_in_plane(p: &Vec3, corners: &[Vec3; 3]) -> Vec3 {
     match nearest_on_triangle(p, corners).1 {
         Place::Face => *p,
@@ -62,10 +63,11 @@ pub fn nearest_in_plane(p: &Vec3, corners: &[Vec3; 3]) -> Vec3 {
     }
 }
 
-/// Whether a point is in front of a surface whose nearest point lies at `place` of a triangle; a point on the surface is.
+/// Returns `true` if a point is in front of a surface, or on it, given the part `place` of a triangle that
+/// holds the nearest surface point.
 ///
-/// On an edge the sum of the normals that meet there decides, at a vertex the sense in which the surface runs around it,
-/// seen from the point; at a free edge the one face.
+/// On an edge the sum of the adjacent normals decides; at a vertex the orientation of the surface around it,
+/// seen from the point; at a free edge the single face.
 pub fn is_in_front_at(p: &Vec3, set: &TriangleSet, triangle: u32, place: Place) -> bool {
     let view = TriangleView::new(set, triangle);
     match place {

@@ -1,11 +1,11 @@
-//! Point against ellipsoid: depth and normal of the nearest surface point.
+//! Point against ellipsoid: depth and normal at the nearest surface point.
 
 use super::ellipsoid_math::nearest_on_ellipsoid;
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::Ellipsoid;
 
-/// Tests a point (A) against an ellipsoid (B); none unless the point is inside.
+/// Tests a point (A) against an ellipsoid (B); `None` unless the point is inside.
 ///
 /// At the centre the normal is the direction of the first of the smallest axes. See
 /// [`ellipsoid_math`](super::ellipsoid_math) for the equation.

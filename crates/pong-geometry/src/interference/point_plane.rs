@@ -3,7 +3,7 @@
 use super::{Feature, Interference};
 use crate::primitive::{Plane, Point};
 
-/// Depth of a point below a plane.
+/// Contact of a point below a plane.
 pub fn point_plane(point: &Point, plane: &Plane) -> Option<Interference> {
     let depth = -plane.height(&point.position);
     (depth > 0.0).then_some(Interference {

@@ -1,10 +1,11 @@
 //! Point (A) – polyhedron (B): the side of entry (docs/theory.md, 2.4).
 //!
-//! A point inside is pushed out through the face that it came in by, or through a neighbour of that face when
-//! this is nearer. Which face that is, is remembered by the engine; here are the questions it asks of one piece.
+//! A point inside is pushed out through the face by which it entered, or through a neighbour of that face if
+//! the neighbour is nearer. The engine remembers the face of entry; this file has the queries it makes of one
+//! piece.
 //!
-//! Degenerate cases: a point on an active face is outside; one on an inner wall belongs to the piece whose face
-//! is `closed`. Ties go to the lower index.
+//! Degenerate cases: a point on an active face is outside; a point on an internal face belongs to the piece
+//! whose face is `closed`. Ties go to the lower index.
 
 use super::highest_face::{Whereabouts, highest_of_many};
 use super::{Feature, Interference};
@@ -14,12 +15,12 @@ use crate::primitive::{PlaneBlock, Polyhedron};
 use crate::simd::{LaneBits, Simd, Splat, run_at_level};
 use crate::{Vec3, divisor};
 
-/// Memory follows a faceted curve across an edge only where the cosine between the two normals exceeds this;
-/// across anything sharper it stays (docs/theory.md, 2.4).
+/// Cosine between two face normals above which the remembered face may move across their edge; it stays at
+/// sharper edges (docs/theory.md, 2.4).
 const FOLLOWED_COSINE_MIN: f64 = 0.3;
 
-/// The active face under which the point lies least deep; `None` if no face is active. Heights above the faces must be
-/// finite, as those of numbers within 1e100 are.
+/// Active face of least depth at a point; `None` if no face is active. The heights above the faces must be
+/// finite, as for coordinates up to 1e100.
 #[inline]
 pub fn shallowest_face(p: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
     run_at_level!(shallowest_face_in(p: Vec3, polyhedron: Polyhedron) -> Option<usize>)
@@ -30,11 +31,13 @@ fn shallowest_face_in<S: Simd>(simd: S, p: &Vec3, polyhedron: &Polyhedron) -> Op
     highest_of_many(simd, p, polyhedron.planes(), Whereabouts::Anywhere).map(|highest| highest.face)
 }
 
-/// Cosines this close to the largest are equal: single precision leaves two normals of one direction so far apart.
+/// Difference below which cosines count as equal to the largest: normals rounded to single precision differ
+/// by this much.
 const SAME_COSINE: f64 = 1e-6;
 
-/// The active face whose normal is nearest to a direction, of equal ones that below which the point is least deep: it is
-/// of faces all across the direction, as the sides of a piece that is entered through its floor. `None` if no face is active.
+/// Active face whose normal is nearest to a direction; among equals, the one below which the point is least
+/// deep. `None` if no face is active. (Equal faces occur when all are perpendicular to the direction, as the
+/// sides of a piece entered through its base.)
 pub fn face_most_along(direction: &Vec3, p: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
     let active = || polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active);
     let most = active().map(|(_, face)| face.normal.dot(direction)).fold(f64::NEG_INFINITY, f64::max);
@@ -49,19 +52,19 @@ pub fn face_most_along(direction: &Vec3, p: &Vec3, polyhedron: &Polyhedron) -> O
     best.map(|(index, _)| index)
 }
 
-/// Where the straight line from `from` (outside) to `to` (inside) enters.
+/// Entry of the straight line from `from` (outside) to `to` (inside).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
-    /// The face, active or not.
+    /// Face of entry, active or not.
     pub face: usize,
-    /// How far along the line, 0…1.
+    /// Parameter along the line, 0…1.
     pub at: f64,
 }
 
-/// The face through which a straight line enters; `None` if it starts inside or misses.
+/// Face through which a straight line enters; `None` if it starts inside or misses.
 ///
-/// Inner walls count as if they stood out by what is within rounding of them ([`FacePlanes::WALL_TOLERANCE`]): a line that
-/// runs along a wall enters by the active face, and lines between abutting pieces miss neither.
+/// Internal faces are raised by their tolerance ([`FacePlanes::WALL_TOLERANCE`]): a line along an internal
+/// face enters by the active face, and a line between abutting pieces does not miss both.
 pub fn entry_of_line(from: &Vec3, to: &Vec3, polyhedron: &Polyhedron) -> Option<Entry> {
     let mut entry: Option<Entry> = None;
     let mut leave = f64::INFINITY;
@@ -84,27 +87,28 @@ pub fn entry_of_line(from: &Vec3, to: &Vec3, polyhedron: &Polyhedron) -> Option<
     entry.filter(|entry| entry.at < leave)
 }
 
-/// What memory reaches from a remembered face.
+/// Result of moving the remembered face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reached {
-    /// The face that is remembered next.
+    /// Face to remember next.
     pub face: usize,
-    /// The face that pushes: of the reached face and its active neighbours, the one of least depth.
+    /// Face that pushes: the one of least depth among the remembered face and its active neighbours.
     pub pushes: usize,
-    /// Its depth, m.
+    /// Depth below that face, m.
     pub depth: f64,
 }
 
-/// From a remembered face memory walks to the neighbour of least depth while that lowers the depth, never round a sharp
-/// rim, and never to where the face that pushes is deeper: a face reached may lack a sharp neighbour that pushed before.
+/// Moves the remembered face to the neighbour of least depth while that lowers the depth. It never moves
+/// across a sharp edge, nor to where the pushing face is deeper (the new face may lack a sharp neighbour that
+/// pushed before).
 ///
-/// So the depth that comes out is at most that of the face that pushes without the walk, and between two commits it grows
-/// by no more than the point has moved. Heights above the faces must be finite, as for [`shallowest_face`].
+/// So the resulting depth is at most the depth without the move, and between two commits it grows by no more
+/// than the point has moved. The heights above the faces must be finite, as for [`shallowest_face`].
 #[inline]
 pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> Reached {
     let mut here = Reached::at(p, polyhedron, remembered);
-    // Every step lowers the depth below the face reached, so no face is met twice. Where that face pushes itself, no
-    // neighbour is less deep, and most contacts end here.
+    // Every step lowers the depth below the remembered face, so the loop ends. If that face itself pushes, no
+    // neighbour is less deep; this is the usual case.
     while here.pushes != here.face
         && let Some(next) = less_deep_neighbor(p, polyhedron, here.face)
     {
@@ -143,7 +147,7 @@ impl Reached {
     }
 }
 
-/// The same where all faces are in one block.
+/// [`Reached::at`] if all faces are in one block.
 #[inline(always)]
 fn reached_in_block<S: Simd>(simd: S, p: &Vec3, block: &PlaneBlock, &face: &usize) -> Reached {
     let asked: LaneBits = block.beside[face] | 1 << face;
@@ -154,7 +158,8 @@ fn reached_in_block<S: Simd>(simd: S, p: &Vec3, block: &PlaneBlock, &face: &usiz
     Reached { face, pushes, depth: -top }
 }
 
-/// The active neighbour across a blunt edge below which the point is least deep, if that is less than below the face.
+/// Active neighbour across a blunt edge below which the point is least deep, if less deep than below the
+/// face.
 fn less_deep_neighbor(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> Option<usize> {
     let mut next = None;
     let mut depth = -polyhedron.height(face, p);
@@ -172,7 +177,7 @@ fn less_deep_neighbor(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> Option<
     next
 }
 
-/// The contact of a point inside with the face that pushes; `None` if the point lies on it.
+/// Contact of a point inside with the face that pushes; `None` if the point lies on the face.
 pub fn point_below_face(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> Option<Interference> {
     let depth = -polyhedron.height(face, p);
     (depth > 0.0).then(|| Interference {

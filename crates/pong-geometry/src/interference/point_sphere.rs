@@ -6,7 +6,7 @@ use super::{Feature, Interference, ball_over_point};
 use crate::Vec3;
 use crate::primitive::{Point, Sphere};
 
-/// Depth of a point below a sphere's surface.
+/// Contact of a point below a sphere's surface.
 pub fn point_sphere(point: &Point, sphere: &Sphere) -> Option<Interference> {
     let as_ball = Sphere { center: point.position, radius: sphere.radius };
     let contact = ball_over_point(&as_ball, &sphere.center, Feature::WHOLE, Vec3::x)?;

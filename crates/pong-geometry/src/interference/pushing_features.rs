@@ -1,11 +1,12 @@
-//! Which edges and vertices of a triangle surface may push at all, and how far aside. Known once for a surface, it spares most
-//! pairs of a ball and a triangle their test; it decides no answer.
+//! Edges and vertices of a triangle surface that may push, and the range of their normals. Computed once per
+//! surface, this saves the test of most sphere-triangle pairs; it changes no result.
 
 use super::triangle_features::{EdgeClass, TriangleView, walk_fan_while};
 use crate::primitive::{Lean, MayPush, TriangleSet};
 
-/// Tells every triangle of a set which of its edges and vertices may push, and how far aside: the edges that it owns and that
-/// are not silent, and the vertices whose fans it is the lowest of. All others are tested for nothing.
+/// Stores in every triangle of a set which of its edges and vertices may push, and how far from its normal:
+/// the edges it owns that are not silent, and the vertices for which it is the lowest triangle of the fan.
+/// All others never push.
 pub fn mark_pushing(set: &mut TriangleSet) {
     for triangle in 0..set.triangles.len() as u32 {
         let marks = Marks::of(set, triangle);
@@ -16,7 +17,7 @@ pub fn mark_pushing(set: &mut TriangleSet) {
 }
 
 struct Marks {
-    /// As in [`MayPush`].
+    /// Bits as in [`MayPush`].
     bits: u8,
     edge_lean: Lean,
     vertex_lean: Lean,
@@ -40,7 +41,8 @@ impl Marks {
     }
 }
 
-/// How far aside edge `k` of a triangle may push: up to the normal of the other face. `None` if it is not its own, or silent.
+/// Bound for edge `k` of a triangle: it pushes along normals up to that of the other face. `None` if the
+/// triangle does not own the edge, or the edge is silent.
 fn lean_of_edge(set: &TriangleSet, view: &TriangleView, k: usize) -> Option<Lean> {
     if !view.owns_edge(set, k) {
         return None;
@@ -55,14 +57,16 @@ fn lean_of_edge(set: &TriangleSet, view: &TriangleView, k: usize) -> Option<Lean
     }
 }
 
-/// How far aside a vertex may push at most; `None` if another triangle of its fan is lower.
+/// Bound for a vertex; `None` if another triangle of its fan is lower.
 ///
-/// It pushes along n + w tan φ, with n the normal of this triangle and w a unit vector in its plane, only if no edge u of the
-/// fan has a part along that. Seen along n, let an edge fall by the slope s and run along the unit vector u: then
-/// tan φ (w·u) ≤ s. If the edges go round the vertex, each to the left of the one before, w lies between two of them, and
-/// w·u of one is at least the cosine of half the angle between these two.
+/// Let n be the normal of this triangle and w a unit vector in its plane. The vertex pushes along n + w tan φ
+/// only if no edge of the fan has a positive component along it. Seen along n, let an edge descend with slope
+/// s in the direction of the unit vector u: then tan φ (w·u) ≤ s. If the edges go round the vertex
+/// counter-clockwise, w lies between two consecutive edges, and w·u of one of them is at least the cosine of
+/// half the angle between them.
 fn lean_of_vertex(set: &TriangleSet, view: &TriangleView, corner: usize) -> Option<Lean> {
-    /// A triangle wider than that, seen along the normal, tells nothing.
+    /// Cosine of half the angle between two edges, seen along the normal, below which there is no useful
+    /// bound.
     const HALF_ANGLE_COSINE_MIN: f64 = 0.1;
     if !view.may_own_vertex(set, corner) {
         return None;
@@ -78,7 +82,7 @@ fn lean_of_vertex(set: &TriangleSet, view: &TriangleView, corner: usize) -> Opti
         let lengths = flat.map(|edge| edge.norm());
         goes_round &= normal.dot(&flat[0].cross(&flat[1])) > 0.0;
         if goes_round {
-            // The other edge is that of the next triangle.
+            // The other edge is handled with the next triangle.
             slope = slope.max(-normal.dot(&edges[0]) / lengths[0]);
             square = square.min(0.5 + 0.5 * flat[0].dot(&flat[1]) / (lengths[0] * lengths[1]));
         }

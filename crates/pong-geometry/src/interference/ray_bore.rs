@@ -1,14 +1,14 @@
-//! Ray (A) – bore (B): where it goes from the hole into the wall (docs/theory.md, 2.5 and 2.8).
+//! Ray (A) – bore (B): exit of the ray from the hole into the wall (docs/theory.md, 2.5 and 2.8).
 //!
-//! Degenerate case: a ray along the wall, or from behind it, does not hit it.
+//! Degenerate case: a ray along the wall, or from behind it, has no hit.
 
 use super::Feature;
 use super::ray_plane::RayHit;
 use crate::Vec3;
 use crate::primitive::{Bore, Ray};
 
-/// Where a ray hits the wall from within the hole, if at −reach < distance < length. Without a reach of its own the ray is given
-/// the thickness of the wall.
+/// Hit of a ray on the wall from within the hole, if −reach < distance < length. Without its own reach the
+/// ray uses the thickness of the wall.
 pub fn ray_bore(ray: &Ray, bore: &Bore) -> Option<RayHit> {
     let distance = way_out(&ray.origin, &ray.direction, bore)?;
     let reach = ray.reach.unwrap_or(bore.thickness);
@@ -28,8 +28,8 @@ pub fn ray_bore(ray: &Ray, bore: &Bore) -> Option<RayHit> {
     Some(RayHit { distance, normal_b: -outward.normalize(), feature: Feature::face(0) })
 }
 
-/// Where a line goes out through the wall's cone, in units of the direction: of the two places at which it meets the cone the
-/// one at which the distance from the axis grows past the cone's radius.
+/// Exit of a line through the cone of the wall, in units of the direction: of the two intersections with the
+/// cone, the one where the distance from the axis grows past the cone's radius.
 pub(crate) fn way_out(origin: &Vec3, direction: &Vec3, bore: &Bore) -> Option<f64> {
     let hole = &bore.hole;
     let widening = (hole.radii[1] - hole.radii[0]) / hole.length;
@@ -48,7 +48,7 @@ pub(crate) fn way_out(origin: &Vec3, direction: &Vec3, bore: &Bore) -> Option<f6
     } else if square != 0.0 {
         (slope - half) / square
     } else {
-        // Along a straight line of the cone: in, and never out again.
+        // Parallel to a generator of the cone: the line enters and never leaves.
         return None;
     };
     (distance.is_finite() && radius + growth * distance > 0.0).then_some(distance)

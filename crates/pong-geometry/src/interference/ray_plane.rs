@@ -1,40 +1,40 @@
-//! Ray (A) – plane (B), and what every ray does with the surface it hits (docs/theory.md, 2.5).
+//! Ray (A) – plane (B), and the contact of any ray with the surface it hits (docs/theory.md, 2.5).
 //!
-//! Degenerate case: a ray along the surface or from behind does not hit it.
+//! Degenerate case: a ray along the surface, or from behind it, has no hit.
 
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Plane, Ray, RayResponse};
 
-/// Where a ray hits a surface from its front.
+/// Hit of a ray on the front of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
     /// Distance from the ray's origin along its direction, m; negative behind the origin.
     pub distance: f64,
     /// Unit normal of the surface.
     pub normal_b: Vec3,
-    /// Which feature is hit.
+    /// Feature that is hit.
     pub feature: Feature,
 }
 
-/// Where a ray hits a plane, if from the front at −reach < distance < length.
+/// Hit of a ray on a plane, if from the front and −reach < distance < length.
 pub fn ray_plane(ray: &Ray, plane: &Plane) -> Option<RayHit> {
     hit_plane(ray, &plane.normal, -plane.height(&ray.origin), ray.reach.unwrap_or(0.0), Feature::WHOLE)
 }
 
-/// The hit on a plane that lies `rise` (m) from the ray's origin along `normal`.
+/// Hit on a plane that lies `rise` (m) from the ray's origin along `normal`.
 #[inline]
 pub(super) fn hit_plane(ray: &Ray, normal: &Vec3, rise: f64, reach: f64, feature: Feature) -> Option<RayHit> {
     let closing = ray.direction.dot(normal);
     if closing >= 0.0 {
         return None;
     }
-    // A compiler may divide before the branch.
+    // Clamped because a compiler may divide before the branch.
     let distance = rise / closing.min(-f64::MIN_POSITIVE);
     (-reach < distance && distance < ray.length).then_some(RayHit { distance, normal_b: *normal, feature })
 }
 
-/// The contact of a ray with the nearest surface it hits.
+/// Contact of a ray with the nearest surface it hits.
 #[inline]
 pub fn ray_contact(ray: &Ray, hit: &RayHit) -> Interference {
     let shortening = ray.length - hit.distance;

@@ -1,22 +1,24 @@
 //! Ray (A) – polyhedron (B) (docs/theory.md, 2.5): the face through which the ray enters the solid.
 //!
-//! Degenerate cases: a ray along an active face is outside. One through an edge takes the lower of the two faces. Beside
-//! an inner wall rounding may put the entry behind the wall for this piece and before it for the next, and a ray along the
-//! line where several walls meet into none of the pieces. So walls count as if they stood out by what is within rounding
-//! of them: no piece misses such a ray, and of several that take it the engine keeps the nearest hit.
+//! Degenerate cases: a ray along an active face is outside. A ray through an edge takes the lower of the two
+//! faces. At an internal face rounding may put the entry behind the face for this piece and before it for the
+//! next, and a ray along the line where several internal faces meet may enter none of the pieces. So internal
+//! faces are raised by their tolerance: no piece misses such a ray, and if several hit it the engine keeps
+//! the nearest hit.
 
 use super::Feature;
 use super::ray_plane::RayHit;
 use crate::primitive::{FacePlanes, PlaneBlock, Polyhedron, Ray};
 use crate::simd::{Finder, First, FirstOf, LaneBits, Simd, Splat, run_at_level};
 
-/// For how many blocks of faces distances are kept in registers.
+/// Numbers of face blocks whose distances are kept in registers.
 const FEW: usize = 2;
 const SOME: usize = FacePlanes::IN_REGISTERS;
 const MANY: usize = usize::MAX;
 
-/// Where a ray enters a polyhedron through an active face. The origin may lie inside, up to the reach behind
-/// the face, but not beyond the far side. Heights above the faces must be finite, as those of numbers within 1e100 are.
+/// Hit of a ray that enters a polyhedron through an active face. The origin may lie inside, up to the reach
+/// behind the face, but not beyond the far side. The heights above the faces must be finite, as for
+/// coordinates up to 1e100.
 #[inline]
 pub fn ray_polyhedron(ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
     if polyhedron.planes().blocks.len() <= FEW {
@@ -51,19 +53,19 @@ fn hit<S: Simd, F: Finder<S>, const N: usize>(simd: S, ray: &Ray, polyhedron: &P
         }
     }
     let entry = passage.entry.found()?;
-    // Of two zeros the lanes may find either: never the negative one.
+    // Adding 0 turns a negative zero, which the lanes may return, into a positive one.
     let distance = entry.number + 0.0;
     hit_at(ray, polyhedron, distance, entry.place(), passage.leaves_after(distance))
 }
 
-/// Where a line is inside the solid, as distances from the ray's origin.
+/// Interval of a line inside the solid, as distances from the ray's origin.
 struct Passage<S: Simd, F: Finder<S>> {
     simd: S,
-    /// By which face it enters last.
+    /// Face of the last entry.
     entry: F,
-    /// Minus the distance at which it first leaves, lane by lane.
+    /// Minus the distance of the first exit, lane by lane.
     leave: S::Eight,
-    /// How far inner walls stand out, m.
+    /// Tolerance by which internal faces are raised, m.
     wall_slack: f64,
 }
 
@@ -74,7 +76,7 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
         Self { simd, entry: F::above(simd, nowhere), leave: simd.splat(nowhere), wall_slack }
     }
 
-    /// Whether the line leaves beyond a distance, and in front of the origin.
+    /// Returns `true` if the line leaves after `distance`, and in front of the origin.
     #[inline(always)]
     fn leaves_after(&self, distance: f64) -> bool {
         let simd = self.simd;
@@ -82,8 +84,8 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
         simd.bits(simd.and(beyond, simd.below(self.leave, simd.splat(0.0)))) == LaneBits::MAX
     }
 
-    /// Clips to eight planes which the origin is so high above, and along which the line climbs so steeply; `false` if
-    /// it runs outside along one of them.
+    /// Clips the line to eight planes. `heights`: heights of the origin above the planes; `climbs`: their
+    /// rates along the line. Returns `false` if the line is parallel to one of them and outside.
     #[inline(always)]
     fn clip(&mut self, index: usize, block: &PlaneBlock, heights: S::Eight, climbs: S::Eight) -> bool {
         let simd = self.simd;
@@ -95,7 +97,7 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
                 simd.select(simd.mask(block.active), heights, simd.sub(heights, room))
             }
         };
-        // Minus the distances.
+        // Distances with the sign reversed.
         let before = simd.ratio(heights, climbs);
         let entered = simd.select(simd.below(climbs, zero), simd.sub(zero, before), nowhere);
         self.entry.offer(index, entered);
@@ -114,7 +116,7 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
     }
 }
 
-/// The hit on the face by which the line enters the solid, if it leaves after that and the ray ends there.
+/// Hit on the face by which the line enters the solid, if it leaves after that and within the ray's range.
 #[inline(always)]
 fn hit_at(
     ray: &Ray,

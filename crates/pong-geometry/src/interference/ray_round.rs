@@ -1,7 +1,9 @@
-//! Ray (A) – sphere, ellipsoid, capsule, cylinder and cone (B) (docs/theory.md, 2.5 and 2.8): where the ray's line enters the solid.
+//! Ray (A) – sphere, ellipsoid, capsule, cylinder and cone (B): entry of the ray's line into the solid
+//! (docs/theory.md, 2.5 and 2.8).
 //!
-//! Degenerate cases: a line that only grazes does not enter. One through a rim of a cylinder or a cone enters by the wall. As in
-//! a polyhedron the origin may lie inside, up to the reach behind the surface, but not beyond the far side.
+//! Degenerate cases: a tangent line does not enter. A line through the rim of a cylinder or a cone enters by
+//! the lateral surface. As in a polyhedron the origin may lie inside, up to the reach behind the surface, but
+//! not beyond the far side.
 
 use super::Feature;
 use super::ray_plane::RayHit;
@@ -9,14 +11,14 @@ use super::round_surface::nearest_on_segment;
 use crate::primitive::{Capsule, Ellipsoid, Frustum, Ray, Sphere};
 use crate::{Vec3, any_perpendicular};
 
-/// Where a ray enters a ball.
+/// Hit of a ray on a sphere.
 pub fn ray_sphere(ray: &Ray, sphere: &Sphere) -> Option<RayHit> {
     let line = Line::near(ray, &sphere.center);
     let inside = line.in_ball(&sphere.center, sphere.radius)?;
     line.hit(ray, &inside, (line.at(inside.from) - sphere.center).normalize(), Feature::WHOLE)
 }
 
-/// Where a ray enters an ellipsoid: with every principal axis in units of its semi-axis that is a ball of radius 1.
+/// Hit of a ray on an ellipsoid. In units of the semi-axes the ellipsoid is a sphere of radius 1.
 pub fn ray_ellipsoid(ray: &Ray, ellipsoid: &Ellipsoid) -> Option<RayHit> {
     let Ellipsoid { center, axes, semi_axes } = ellipsoid;
     let line = Line::near(ray, center);
@@ -30,7 +32,7 @@ pub fn ray_ellipsoid(ray: &Ray, ellipsoid: &Ellipsoid) -> Option<RayHit> {
     line.hit(ray, &inside, normal, Feature::WHOLE)
 }
 
-/// Where a ray enters a capsule: of its wall and its two balls the first.
+/// Hit of a ray on a capsule: the first of its lateral surface and its two end spheres.
 pub fn ray_capsule(ray: &Ray, capsule: &Capsule) -> Option<RayHit> {
     let [one, other] = capsule.ends;
     let line = Line::near(ray, &(0.5 * (one + other)));
@@ -46,7 +48,7 @@ pub fn ray_capsule(ray: &Ray, capsule: &Capsule) -> Option<RayHit> {
     line.hit(ray, &inside, normal, Feature::WHOLE)
 }
 
-/// Where a ray enters a cylinder or a cone: face 0 is the wall, faces 1 and 2 the ends.
+/// Hit of a ray on a cylinder or a cone: face 0 is the lateral surface, faces 1 and 2 the ends.
 pub fn ray_frustum(ray: &Ray, frustum: &Frustum) -> Option<RayHit> {
     let line = Line::near(ray, &(0.5 * (frustum.ends[0] + frustum.ends[1])));
     let (round, between) = (line.in_round(frustum)?, line.between_ends(frustum));
@@ -60,7 +62,7 @@ pub fn ray_frustum(ray: &Ray, frustum: &Frustum) -> Option<RayHit> {
     line.hit(ray, &inside, normal, Feature::face(face))
 }
 
-/// Outward at a place of the wall.
+/// Outward normal at a point of the lateral surface.
 fn wall_normal(place: &Vec3, frustum: &Frustum) -> Vec3 {
     let arm = place - frustum.ends[0];
     let across = arm - frustum.axis * frustum.axis.dot(&arm);
@@ -71,7 +73,7 @@ fn wall_normal(place: &Vec3, frustum: &Frustum) -> Vec3 {
     (frustum.axis * wall_along + away * wall_aside).normalize()
 }
 
-/// The part of a line that is inside something, m along it.
+/// Interval of a line inside a solid, m along the line.
 #[derive(Clone, Copy)]
 struct Inside {
     from: f64,
@@ -79,23 +81,24 @@ struct Inside {
 }
 
 impl Inside {
-    /// What two have in common, if that is more than a place.
+    /// Intersection of two intervals, if it has a positive length.
     fn cut(&self, other: &Self) -> Option<Self> {
         let (from, to) = (self.from.max(other.from), self.to.min(other.to));
         (from < to).then_some(Self { from, to })
     }
 
-    /// Two parts of one convex solid.
+    /// Union of two intervals of one convex solid.
     fn with(&self, other: &Self) -> Self {
         Self { from: self.from.min(other.from), to: self.to.max(other.to) }
     }
 }
 
-/// The line of a ray, measured from its place nearest to the middle of a solid: far away, squares would lose their digits.
+/// Line of a ray, parametrised from its point nearest to the middle of a solid: at large distances squares
+/// would lose precision.
 struct Line {
     start: Vec3,
     direction: Vec3,
-    /// Of the start from the ray's origin, m.
+    /// Distance of the start from the ray's origin, m.
     ahead: f64,
 }
 
@@ -125,7 +128,7 @@ impl Line {
         Some(Inside { from: -along - half, to: half - along })
     }
 
-    /// Between the planes of the two ends.
+    /// Interval between the planes of the two ends.
     fn between_ends(&self, frustum: &Frustum) -> Inside {
         let (climb, height) =
             (self.direction.dot(&frustum.axis), (self.start - frustum.ends[0]).dot(&frustum.axis));
@@ -138,8 +141,8 @@ impl Line {
         Inside { from: one.min(other), to: one.max(other) }
     }
 
-    /// Inside the wall, which goes on beyond the ends as far as it has a radius: where the square of the distance from the axis is
-    /// less than that of the radius, a·t² + 2b·t + c < 0.
+    /// Interval inside the lateral surface, extended beyond the ends up to the apex: where the squared
+    /// distance from the axis is less than the squared radius, a·t² + 2b·t + c < 0.
     fn in_round(&self, frustum: &Frustum) -> Option<Inside> {
         let [first, last] = frustum.radii;
         let widening = (last - first) / frustum.length;
@@ -154,7 +157,8 @@ impl Line {
         if a > 0.0 {
             return if root > 0.0 { Some(roots(a, b, c, root)) } else { None };
         }
-        // Steeper than the wall: inside from where it has come in for ever, on the side to which the wall opens.
+        // Steeper than the lateral surface: once inside, the line stays inside, on the side to which the cone
+        // opens.
         if opening == 0.0 {
             return (c < 0.0).then_some(Inside { from: f64::NEG_INFINITY, to: f64::INFINITY });
         }
@@ -168,10 +172,10 @@ impl Line {
     }
 }
 
-/// The two roots of a·t² + 2b·t + c, with b² − a·c given: neither as a difference of equal numbers.
+/// Roots of a·t² + 2b·t + c, given b² − a·c, without cancellation.
 fn roots(a: f64, b: f64, c: f64, square: f64) -> Inside {
     let sum = -(b + square.sqrt().copysign(b));
-    // A compiler may divide before it asks.
+    // Clamped because a compiler may divide before the branch.
     let divisor = sum.abs().max(f64::MIN_POSITIVE).copysign(sum);
     let (one, other) = (sum / a, if sum == 0.0 { 0.0 } else { c / divisor });
     Inside { from: one.min(other), to: one.max(other) }

@@ -1,13 +1,13 @@
 //! Ray (A) – triangle (B), from the front (docs/theory.md, 2.5).
 //!
-//! Whether the ray passes inside is decided seen along it: every corner gets two coordinates across the ray, the
-//! same bits for every triangle that shares it, and the sense in which an edge passes the ray is the comparison of
-//! two products. Rounding is monotonic, so that comparison may come out even but never the wrong way round: with
-//! "even" counted as inside, what encloses the ray in the plane of those coordinates is hit, at edges and at
+//! The inside test works in projection along the ray: every corner gets two coordinates perpendicular to the
+//! ray, bit-identical in all triangles that share it, and the side on which an edge passes the ray is a
+//! comparison of two products. Rounding is monotonic, so the comparison may become equal but never reversed.
+//! As "equal" counts as inside, a closed ring of triangles around the ray is always hit, at edges and
 //! vertices too (after Woop, Benthin and Wald 2013, Watertight ray/triangle intersection).
 //!
-//! Degenerate cases: a ray through a shared edge or vertex hits one or more triangles there (the engine keeps the
-//! lowest); a ray in the triangle's plane hits nothing.
+//! Degenerate cases: a ray through a shared edge or vertex hits one or more triangles there (the engine keeps
+//! the lowest); a ray in the triangle's plane has no hit.
 
 use super::Feature;
 use super::ray_plane::{RayHit, hit_plane};
@@ -15,13 +15,14 @@ use super::triangle_features::TriangleView;
 use crate::Vec3;
 use crate::primitive::{Ray, TriangleSet};
 
-/// Where a ray hits a triangle. `reach` (m) is how far behind the ray's origin the triangle may lie.
+/// Hit of a ray on the front of a triangle. `reach` (m): distance behind the ray's origin up to which the
+/// triangle may lie.
 #[inline(always)]
 pub fn ray_triangle(ray: &Ray, set: &TriangleSet, triangle: u32, reach: f64) -> Option<RayHit> {
     hit_corners(ray, set.corners(triangle), triangle, reach)
 }
 
-/// Where a ray hits the back of a triangle. It does exactly where it would hit the triangle turned over.
+/// Hit of a ray on the back of a triangle; exactly the hit on the front of the reversed triangle.
 #[inline]
 pub fn ray_back_of_triangle(ray: &Ray, set: &TriangleSet, triangle: u32, reach: f64) -> Option<RayHit> {
     let [first, second, third] = set.corners(triangle);
@@ -38,15 +39,15 @@ fn hit_corners(ray: &Ray, corners: [Vec3; 3], triangle: u32, reach: f64) -> Opti
     hit_plane(ray, &view.normal, -view.height(&ray.origin), reach, Feature::face(triangle as usize))
 }
 
-/// Whether the corners turn about the ray counter-clockwise, seen along it.
+/// Returns `true` if the corners run counter-clockwise around the ray, seen along it.
 ///
-/// Two coordinates across the ray, distances from two planes through it (not normalised), are the components of
-/// `arm × direction` beside the direction's main one.
+/// The two coordinates perpendicular to the ray are distances from two planes through it (not normalised):
+/// the components of `arm × direction` other than along the direction's dominant axis.
 #[inline(always)]
 fn passes_inside(ray: &Ray, corners: &[Vec3; 3]) -> bool {
     let direction = &ray.direction;
     let size = direction.abs();
-    // Without branches, as directions follow no pattern. Of equal ones the first is the main one.
+    // Branch-free, because directions are unpredictable. Among equal components the first is dominant.
     let y_before_x = size.y > size.x;
     let is_z = size.z > if y_before_x { size.y } else { size.x };
     let main = |x: f64, y: f64, z: f64| {

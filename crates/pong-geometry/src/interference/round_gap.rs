@@ -1,30 +1,31 @@
-//! Gap between a place or the axis of a two-ended body and a round solid (docs/theory.md, 2.9).
+//! Gap between a point or the axis of a two-ended body and a round solid (docs/theory.md, 2.9).
 
 use super::axis_approach::{Approach, RoundSolid};
 use super::round_surface::{Nearest, of_capsule, of_frustum};
 use crate::Vec3;
 use crate::primitive::{Capsule, Frustum};
 
-/// A capsule, a cylinder or a cone.
+/// Capsule, cylinder or cone.
 #[derive(Clone, Copy, Debug)]
 pub enum Round<'a> {
-    /// A capsule.
+    /// Capsule.
     Capsule(&'a Capsule),
-    /// A cylinder or a cone.
+    /// Cylinder or cone.
     Frustum(&'a Frustum),
 }
 
 /// Distance between two bodies and its direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Gap {
-    /// m; where they overlap, minus the least translation that separates them.
+    /// Distance, m; in overlap, minus the length of the minimum translation.
     pub distance: f64,
-    /// Unit vector from the round solid to the other body, or the way out.
+    /// Unit vector from the round solid to the other body; in overlap, the direction of the minimum
+    /// translation.
     pub normal_b: Vec3,
 }
 
 impl Round<'_> {
-    /// Gap to the axis between two places, which may coincide.
+    /// Gap to the axis between two points, which may coincide.
     pub fn gap(&self, axis: &[Vec3; 2]) -> Gap {
         let of_place = |Nearest { distance, normal_b, .. }| Gap { distance, normal_b };
         let of_axis = |Approach { distance, normal_b, .. }| Gap { distance, normal_b };
@@ -37,7 +38,7 @@ impl Round<'_> {
         }
     }
 
-    /// Least distance between two parallel planes that hold the solid between them, m.
+    /// Least distance between two parallel planes that enclose the solid, m.
     pub fn width_m(&self) -> f64 {
         match self {
             Self::Capsule(capsule) => 2.0 * capsule.radius,
@@ -46,7 +47,8 @@ impl Round<'_> {
     }
 }
 
-/// The planes of least distance lie on an end face or along the wall: between these directions the width is concave.
+/// Width of a frustum. The planes of least distance lie on an end face or along the lateral surface: between
+/// these directions the width is concave.
 fn width_of_frustum(frustum: &Frustum) -> f64 {
     let [along, aside] = frustum.wall;
     let normal = frustum.axis * along + crate::any_perpendicular(&frustum.axis) * aside;

@@ -1,24 +1,26 @@
-//! How far a place is from the surface of a round solid (docs/theory.md, 2.8).
+//! Distance of a point from the surface of a round solid (docs/theory.md, 2.8).
 
 use super::Feature;
 use crate::primitive::{Capsule, Frustum};
 use crate::{Vec3, any_perpendicular};
 
-/// The place of a surface that is nearest to a place.
+/// Nearest surface point of a solid.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
-    /// Distance of the place from the surface, m; negative inside.
+    /// Distance of the point from the surface, m; negative inside.
     pub distance: f64,
-    /// Unit vector from the solid to the place, or the way out of it.
+    /// Unit vector from the solid to the point; inside, the direction of the shortest way out.
     pub normal_b: Vec3,
-    /// What of the solid is nearest: of a frustum face 0 is the wall, faces 1 and 2 the ends, edges 0 and 1 the rims.
+    /// Nearest feature of the solid. For a frustum, face 0 is the lateral surface, faces 1 and 2 are the
+    /// ends, edges 0 and 1 the rims.
     pub feature: Feature,
 }
 
-/// Relative to the coordinates: what the last few roundings of two places come to.
+/// Relative to the coordinates: accumulated rounding of two points.
 pub(crate) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Nearest to a ball around the nearest place of the axis. On the axis every way across it is as good: the same one is taken.
+/// Nearest surface point of a capsule: that of a sphere around the nearest point of the axis. For a point on
+/// the axis, where all perpendicular directions are equivalent, the direction is fixed.
 pub(crate) fn of_capsule(place: &Vec3, capsule: &Capsule) -> Nearest {
     let foot = nearest_on_segment(place, &capsule.ends);
     let arm = place - foot;
@@ -31,7 +33,7 @@ pub(crate) fn of_capsule(place: &Vec3, capsule: &Capsule) -> Nearest {
     Nearest { distance: distance - capsule.radius, normal_b: normal, feature: Feature::WHOLE }
 }
 
-/// The place of a segment nearest to a place.
+/// Point of a segment nearest to a given point.
 pub(crate) fn nearest_on_segment(place: &Vec3, [one, other]: &[Vec3; 2]) -> Vec3 {
     let along = other - one;
     let share = (place - one).dot(&along) / along.norm_squared();
@@ -44,13 +46,13 @@ pub(crate) fn nearest_on_segment(place: &Vec3, [one, other]: &[Vec3; 2]) -> Vec3
     }
 }
 
-/// A place in the half plane through the axis of a frustum in which it lies.
+/// Coordinates of a point in the half plane through it and the axis of a frustum.
 pub(crate) struct Meridian {
-    /// From end 0 along the axis, m.
+    /// Distance from end 0 along the axis, m.
     pub along: f64,
-    /// Away from the axis, m, not negative.
+    /// Distance from the axis, m, not negative.
     pub aside: f64,
-    /// Unit vector from the axis towards the place.
+    /// Unit vector from the axis towards the point.
     pub away_b: Vec3,
 }
 
@@ -66,7 +68,8 @@ impl Meridian {
     }
 }
 
-/// In the half plane the solid is a trapezoid: outside, its nearest place; inside, its least deep side.
+/// Nearest surface point of a frustum. In the half plane the solid is a trapezoid: outside, its nearest
+/// point; inside, the side of least depth.
 pub(crate) fn of_frustum(place: &Vec3, frustum: &Frustum) -> Nearest {
     let at = Meridian::new(place, frustum);
     let [wall_along, wall_aside] = frustum.wall;
@@ -106,7 +109,7 @@ pub(crate) fn of_frustum(place: &Vec3, frustum: &Frustum) -> Nearest {
     Nearest { distance, normal_b: in_space(along, aside).normalize(), feature }
 }
 
-/// The place of the wall's line nearest to a place of the half plane.
+/// Nearest point of the generator of the lateral surface, in half-plane coordinates.
 fn on_wall(at: &Meridian, frustum: &Frustum) -> (f64, f64) {
     let [first, last] = frustum.radii;
     let (length, widening) = (frustum.length, last - first);

@@ -1,23 +1,24 @@
-//! What an end of a line segment at an inner wall of a piece carries (see
-//! [`line_segment_polyhedron`](super::line_segment_polyhedron)). The piece behind the wall carries the end, with two
-//! exceptions: a convex edge of the body in which the wall ends pushes, once for all pieces that have it, and a tip where
-//! several walls meet may lie in none of the pieces there.
+//! Ends of a line segment at an internal face of a piece (see
+//! [`line_segment_polyhedron`](super::line_segment_polyhedron)). The piece behind the internal face carries
+//! the end, with two exceptions: a convex edge of the body at which the internal face ends pushes, once for
+//! all pieces that have it; and a tip where several internal faces meet may lie in none of the pieces there.
 //!
-//! Where a segment leaves the body through the edge of an active face in which a wall ends, rounding decides by which of the
-//! two planes it leaves a piece, and whether the piece behind the wall holds anything of it. So it leaves by the active face
-//! of each piece that it leaves there, and the body says which of these pieces carries the end ([`exit_at_wall`]).
+//! Where a segment leaves the body through the edge of an active face at which an internal face ends, only
+//! rounding decides by which of the two planes it leaves a piece, and whether the piece behind the internal
+//! face holds any of it. So each such piece lets it leave by its active face, and the body decides which
+//! piece carries the end ([`exit_at_wall`]).
 
 use super::Interference;
 use super::segment_ends::{InsideEnd, Wedge};
 use crate::primitive::{LineSegment, Polyhedron};
 use crate::{Vec3, divisor};
 
-/// The part of a segment inside a piece whose inner walls stand out by what is within rounding of them.
+/// Part of a segment inside a piece whose internal faces are raised by their tolerance.
 pub(super) fn inside_of_wide_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[InsideEnd; 2]> {
     inside_of(segment, polyhedron, polyhedron.planes().wall_slack)
 }
 
-/// The part of a segment inside a piece whose inner walls stand out by `room` (m).
+/// Part of a segment inside a piece whose internal faces are raised by `room` (m).
 fn inside_of(segment: &LineSegment, polyhedron: &Polyhedron, room: f64) -> Option<[InsideEnd; 2]> {
     let mut ends = [0.0, 1.0].map(|at| InsideEnd { at, leaves_by: None });
     for (index, face) in polyhedron.faces.iter().enumerate() {
@@ -39,10 +40,12 @@ fn inside_of(segment: &LineSegment, polyhedron: &Polyhedron, room: f64) -> Optio
     (ends[0].at < ends[1].at).then_some(ends)
 }
 
-/// Which end carries the crossing of a convex edge in which an inner wall ends, as the whole body has it: where the segment
-/// leaves the body beyond that edge, and the face that it is measured for stores the less. `None` if neither does.
+/// End that carries the crossing of a convex edge at which an internal face ends, in terms of the whole body:
+/// the end at which the segment leaves the body beyond that edge, if the face for which the crossing is
+/// measured stores less energy than the other. `None` if neither end does.
 ///
-/// With both tips below both faces each piece carries its own; the edge between them would be a third.
+/// If both tips are below both faces, each piece carries its own tip, and a crossing would be a third
+/// contact.
 pub(super) fn end_that_crosses(
     segment: &LineSegment,
     polyhedron: &Polyhedron,
@@ -70,19 +73,20 @@ pub(super) fn end_that_crosses(
     }
 }
 
-/// Where a segment leaves the body through the edge of an active face in which an inner wall of a piece ends, or ends at one.
+/// Exit of a segment from the body through the edge of an active face at which an internal face ends, or a
+/// tip at an internal face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExitAtWall {
-    /// Whether the segment ends there.
+    /// True if the segment ends there.
     pub is_tip: bool,
-    /// From where to where the segment is inside the piece, as parameters along the segment (no unit).
+    /// Interval of the segment inside the piece, as parameters along the segment (no unit).
     pub inside: [f64; 2],
-    /// Parameters along the segment that are no further apart than this are one place (no unit).
+    /// Difference up to which parameters along the segment count as equal (no unit).
     pub slack: f64,
 }
 
-/// How a segment leaves a piece at one of its ends, if that is where an inner wall ends; or where it ends itself, if that is at a
-/// wall.
+/// Exit of a segment from a piece at one of its ends, if an internal face ends there, or its tip, if that is
+/// at an internal face.
 pub fn exit_at_wall(segment: &LineSegment, polyhedron: &Polyhedron, end: usize) -> Option<ExitAtWall> {
     let inside = inside_of(segment, polyhedron, 0.0).or_else(|| inside_of_wide_walls(segment, polyhedron))?;
     let is_tip = inside[end].leaves_by.is_none();
@@ -99,13 +103,13 @@ pub fn exit_at_wall(segment: &LineSegment, polyhedron: &Polyhedron, end: usize) 
     })
 }
 
-/// From where to where a segment is inside a piece, as parameters along the segment.
+/// Interval of a segment inside a piece, as parameters along the segment.
 pub fn part_inside(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[f64; 2]> {
     inside_of(segment, polyhedron, 0.0).map(|ends| ends.map(|end| end.at))
 }
 
-/// Whether a segment leaves by an edge of an active face in which an inner wall ends, whichever of the two planes rounding
-/// tells; then the end as the active face has it.
+/// End by the active face, if the segment leaves by an edge of an active face at which an internal face ends,
+/// whichever of the two planes rounding names.
 pub(super) fn leaves_at_wall(
     segment: &LineSegment,
     polyhedron: &Polyhedron,
@@ -118,7 +122,8 @@ pub(super) fn leaves_at_wall(
     if polyhedron.faces[leaves_by].active {
         return polyhedron.walls_at(&place).next().is_some().then_some(*inside);
     }
-    // Beyond the wall it leaves by the active face as well, no farther than the slack along its way.
+    // If rounding names the internal face, the segment also leaves by the active face, within the tolerance
+    // along its path.
     let (length, slack) = ((to - from).norm(), polyhedron.planes().wall_slack);
     let exit = |other: usize| {
         let [before, beyond] = [from, to].map(|tip| polyhedron.height(other, tip));
@@ -131,7 +136,7 @@ pub(super) fn leaves_at_wall(
         })
     };
     let nearer = |a: &InsideEnd, b: &InsideEnd| if end == 1 { a.at <= b.at } else { a.at >= b.at };
-    // Of walls in one plane rounding may tell another.
+    // All internal faces at the exit are searched: among coplanar ones rounding may name another.
     let rims = polyhedron.walls_at(&place).flat_map(|wall| polyhedron.rims_of(wall));
     let beside = rims.map(|rim| rim.neighbor as usize).filter(|&other| polyhedron.faces[other].active);
     beside.filter_map(exit).reduce(|a, b| if nearer(&a, &b) { a } else { b })

@@ -1,12 +1,12 @@
-//! For a line segment that is partly inside a polyhedron: from where to where, and how little energy each face can
-//! store, eight faces at a time.
+//! Part of a line segment inside a polyhedron, and lower bounds of the energy that each face can store, eight
+//! faces at a time.
 
 use super::segment_ends::InsideEnd;
 use crate::Vec3;
 use crate::primitive::{FacePlanes, LineSegment, PlaneBlock, Polyhedron};
 use crate::simd::{Finder, LANES, LaneBits, Simd, Splat};
 
-/// A segment against the planes of a polyhedron.
+/// Segment against the planes of a polyhedron.
 #[derive(Clone, Copy)]
 pub(super) struct SegmentPlanes<'a, S: Simd> {
     simd: S,
@@ -15,44 +15,44 @@ pub(super) struct SegmentPlanes<'a, S: Simd> {
     ends: [Splat<S>; 2],
 }
 
-/// The part of a segment inside a polyhedron.
+/// Part of a segment inside a polyhedron.
 #[derive(Clone, Copy)]
 pub(super) struct InsidePart {
     pub ends: [InsideEnd; 2],
-    /// How high above the highest plane each end of the segment is, m.
+    /// Height of each end of the segment above the plane it is highest above, m.
     tops: [f64; 2],
 }
 
-/// The face that a tip inside is nearest to.
+/// Face nearest to a tip inside.
 #[derive(Clone, Copy)]
 pub(super) struct Nearest {
-    /// Which end of the segment is inside.
+    /// End of the segment that is inside.
     pub end: usize,
     pub face: usize,
 }
 
-/// Where the face may be that decides.
+/// Blocks that may hold the deciding face.
 #[derive(Clone, Copy)]
 pub(super) struct Likely {
-    /// A bit for each block of planes that has such a face.
+    /// Bit mask of these blocks.
     pub blocks: u64,
-    /// How many such faces there are.
+    /// Number of candidate faces.
     pub faces: u32,
 }
 
 impl Likely {
-    /// Anywhere among so many blocks.
+    /// All of the given number of blocks.
     pub fn anywhere(blocks: usize) -> Self {
         Self { blocks: u64::MAX >> (u64::BITS as usize - blocks), faces: u32::MAX }
     }
 }
 
-/// How a segment misses a polyhedron.
+/// Reason why a segment misses a polyhedron.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Missed {
-    /// One plane keeps all of it out: that of an inner wall by more than the slack of walls.
+    /// Entirely outside one plane; for an internal face, by more than its tolerance.
     ByFar,
-    /// It may be within the slack of inner walls.
+    /// Possibly within the tolerance of internal faces.
     Perhaps,
 }
 
@@ -66,7 +66,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
     /// Clips the segment to the solid.
     ///
     /// # Errors
-    /// How it misses, if no point of it lies inside.
+    /// [`Missed`] if no point of it lies inside.
     #[inline(always)]
     pub fn inside_part<F: Finder<S>, const N: usize>(&self) -> Result<InsidePart, Missed> {
         let simd = self.simd;
@@ -87,7 +87,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
                 crossed |= u64::from(self.is_crossed(heights)) << index;
             }
         }
-        // Blocks that the segment is wholly below need no division.
+        // Only blocks with a plane that an end is above need the division.
         while crossed != 0 {
             let index = crossed.trailing_zeros() as usize;
             let block = self.polyhedron.planes().block(index);
@@ -106,7 +106,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         }
     }
 
-    /// The active face below which a tip that is inside lies least deep, if no inner wall is nearer.
+    /// Active face below which a tip inside is least deep, unless an internal face is nearer.
     #[inline(always)]
     pub fn nearest_face<const N: usize>(&self, inside: &InsidePart) -> Option<Nearest> {
         let end = if inside.ends[0].leaves_by.is_none() { 0 } else { 1 };
@@ -124,7 +124,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         None
     }
 
-    /// Where a face may decide if one stores `limit`, m²: below the others the tip alone measures more.
+    /// Faces that may decide if one stores `limit`, m²: below all others the tip alone stores more.
     #[inline(always)]
     pub fn likely<const N: usize>(&self, nearest: &Nearest, limit: f64) -> Likely {
         let (simd, limit) = (self.simd, self.simd.splat(limit));
@@ -139,14 +139,14 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         likely
     }
 
-    /// Whether an end is above one of the planes.
+    /// Returns `true` if an end is above one of the planes.
     #[inline(always)]
     fn is_crossed(&self, [first, second]: [S::Eight; 2]) -> bool {
         let simd = self.simd;
         simd.bits(simd.below(simd.splat(0.0), simd.larger(first, second))) != 0
     }
 
-    /// The planes that both ends are above, or run along where they are not closed.
+    /// Planes that both ends are above, or that the segment lies in and that are not closed.
     #[inline(always)]
     fn outside(&self, block: &PlaneBlock, [first, second]: [S::Eight; 2]) -> LaneBits {
         let (simd, zero) = (self.simd, self.simd.splat(0.0));
@@ -158,8 +158,8 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         outside & !along_closed
     }
 
-    /// How the segment misses a polyhedron that some planes of a block keep it out of. Most segments that miss do so by far,
-    /// and need no look at what is within the slack of walls.
+    /// Reason for the miss, given the planes of a block that the segment is outside. Most misses are by far
+    /// and need no look at the tolerance of internal faces.
     #[inline(always)]
     fn missed_by(&self, block: &PlaneBlock, [first, second]: [S::Eight; 2], outside: LaneBits) -> Missed {
         if outside & block.active != 0 {
@@ -170,14 +170,14 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         if beyond != 0 { Missed::ByFar } else { Missed::Perhaps }
     }
 
-    /// Whether no point of the segment would lie inside if the inner walls stood out by their slack: in the bits of
-    /// [`inside_of_wide_walls`](super::segment_at_walls::inside_of_wide_walls).
+    /// Returns `true` if no point of the segment would be inside even with the internal faces raised by their
+    /// tolerance; bit-identical to [`inside_of_wide_walls`](super::segment_at_walls::inside_of_wide_walls).
     #[inline(always)]
     pub fn misses_wide_walls<const N: usize>(&self) -> bool {
         let (simd, zero) = (self.simd, self.simd.splat(0.0));
         let slack = simd.splat(self.polyhedron.planes().wall_slack);
         let nowhere = simd.splat(f64::NEG_INFINITY);
-        // Where it enters, and of where it leaves the opposite number: the largest of each counts.
+        // Parameter of entry, and minus the parameter of exit: the largest of each counts.
         let (mut entering, mut leaving) = (zero, simd.splat(-1.0));
         for index in 0..self.polyhedron.planes().count::<N>() {
             let block = self.polyhedron.planes().block(index);
@@ -195,8 +195,8 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         simd.largest(entering) >= -simd.largest(leaving)
     }
 
-    /// Bounds for the faces of a polyhedron of no more than `N` blocks, which where they are not kept in registers are asked only
-    /// in some.
+    /// Lower bounds of the stored energy per face, for at most `N` blocks; beyond the register budget only
+    /// for `blocks`.
     #[inline(always)]
     pub fn bounds<const N: usize>(&self, inside: &InsidePart, mut blocks: u64) -> Bounds<S, N> {
         let simd = self.simd;
@@ -217,7 +217,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         bounds
     }
 
-    // A closure would not be compiled for the level.
+    // A method, because a closure would not be compiled for the level.
     #[allow(clippy::manual_map)]
     #[inline(always)]
     fn end(&self, inside: &InsidePart, end: usize) -> End<S> {
@@ -243,11 +243,11 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
     }
 }
 
-/// From where to where the segment is inside.
+/// Interval of the segment inside the solid.
 struct InsideEnds<S: Simd, F: Finder<S>> {
     simd: S,
     entering: F,
-    /// Of minus the parameter, so that the smallest is found.
+    /// Searches minus the parameter, so that the smallest is found.
     leaving: F,
 }
 
@@ -257,7 +257,7 @@ impl<S: Simd, F: Finder<S>> InsideEnds<S, F> {
         Self { simd, entering: F::above(simd, 0.0), leaving: F::above(simd, -1.0) }
     }
 
-    /// Clips to the planes of a block that the two ends are so high above.
+    /// Clips to the planes of a block, given the heights of the two ends above them.
     #[inline(always)]
     fn clip(&mut self, index: usize, [first, second]: [S::Eight; 2]) {
         let simd = self.simd;
@@ -281,12 +281,12 @@ impl<S: Simd, F: Finder<S>> InsideEnds<S, F> {
     }
 }
 
-/// Lower bounds of what faces store, as the sum of the squares of what the two ends measure, m². Not a number for a
-/// face that takes no part, or stores more than the limit.
+/// Lower bounds of the energy that faces store, as sums of the squared depths of the two ends, m². NaN for a
+/// face that takes no part or exceeds the limit.
 pub(super) struct Bounds<S: Simd, const N: usize> {
     simd: S,
     of_block: [S::Eight; N],
-    /// Minus the least of each lane.
+    /// Minus the minimum of each lane.
     top: S::Eight,
 }
 
@@ -296,11 +296,11 @@ impl<S: Simd, const N: usize> Bounds<S, N> {
         let simd = self.simd;
         let nowhere = simd.splat(f64::NEG_INFINITY);
         self.of_block[block] = simd.select(own, bounds, simd.splat(f64::NAN));
-        // The larger of a NaN and a number would be an invalid operation.
+        // A comparison with NaN raises the invalid-operation exception, so NaN is replaced first.
         self.top = simd.larger(simd.select(own, simd.sub(simd.splat(0.0), bounds), nowhere), self.top);
     }
 
-    /// The first face of the least bound.
+    /// First face with the least bound.
     #[inline(always)]
     pub fn least(&self) -> Option<usize> {
         let least = -self.simd.largest(self.top);
@@ -313,7 +313,7 @@ impl<S: Simd, const N: usize> Bounds<S, N> {
         None
     }
 
-    /// Which faces of a block may store no more than that.
+    /// Faces of a block whose bound is at most `energy`.
     #[inline(always)]
     pub fn up_to(&self, energy: f64, block: usize) -> LaneBits {
         let simd = self.simd;
@@ -329,7 +329,7 @@ struct End<S: Simd> {
     leaves: Option<Leaving<S>>,
 }
 
-/// Where the segment leaves through a face.
+/// Exit of the segment through a face.
 #[derive(Clone, Copy)]
 struct Leaving<S: Simd> {
     face: usize,
@@ -337,20 +337,19 @@ struct Leaving<S: Simd> {
     along: Splat<S>,
     normal: Vec3,
     slope: f64,
-    /// The tip is over no face that it is less high above, m.
+    /// Least height above a face at which the tip may be over its outline, m.
     lowest: S::Eight,
 }
 
 impl<S: Simd> End<S> {
-    /// The least that the square of what the end measures below each face can be, m²; not a number where the face
-    /// takes no part.
+    /// Lower bound of the squared depth of this end below each face, m²; NaN if the face takes no part.
     #[inline(always)]
     fn least_square(&self, index: usize, block: &PlaneBlock) -> S::Eight {
         let (simd, zero) = (self.simd, self.simd.splat(0.0));
         let height = block.heights(simd, &self.tip);
         let Some(leaving) = &self.leaves else { return self.square_below(height) };
         let crossing = leaving.crossing_square(simd, block);
-        // Over the face the depth of the tip counts: that is nothing if the tip is above it.
+        // Over the face the tip's depth counts; it is 0 if the tip is above the face.
         let over = self.square_below(height);
         let least = simd.select(simd.below(crossing, over), crossing, over);
         let is_beside = simd.and(simd.at_least(height, zero), simd.below(height, leaving.lowest));
@@ -361,7 +360,7 @@ impl<S: Simd> End<S> {
         simd.select(simd.mask(1 << (leaving.face % LANES)), zero, least)
     }
 
-    /// The square of a depth, nothing above the plane.
+    /// Squared depth; 0 above the plane.
     #[inline(always)]
     fn square_below(&self, height: S::Eight) -> S::Eight {
         let (simd, zero) = (self.simd, self.simd.splat(0.0));
@@ -370,8 +369,8 @@ impl<S: Simd> End<S> {
 }
 
 impl<S: Simd> Leaving<S> {
-    /// The square of the crossing with each face, m²; nothing if the place is above it, infinite where the two planes do
-    /// not meet.
+    /// Squared depth of the crossing with each face, m²; 0 if the exit point is above it, infinite if the two
+    /// planes do not intersect.
     #[inline(always)]
     fn crossing_square(&self, simd: S, block: &PlaneBlock) -> S::Eight {
         let zero = simd.splat(0.0);
@@ -386,7 +385,8 @@ impl<S: Simd> Leaving<S> {
         }
         let numerator = simd.mul(height, exit_slope);
         let square = simd.ratio(simd.mul(numerator, numerator), length_square);
-        // Not chosen in place of the quotient: a compiler would then leave out what keeps that from being 0/0.
+        // Applied by `larger`, not selected instead of the quotient: a compiler could then drop the guard
+        // against 0/0.
         let least = simd.select(simd.equal(length_square, zero), simd.splat(f64::INFINITY), zero);
         let square = simd.larger(square, least);
         simd.select(simd.below(zero, height), zero, square)

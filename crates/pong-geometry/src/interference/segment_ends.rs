@@ -1,5 +1,5 @@
-//! What one end of a line segment that is partly inside a polyhedron measures below one face
-//! (see [`line_segment_polyhedron`](super::line_segment_polyhedron)).
+//! Depth of one end of a line segment, partly inside a polyhedron, below one face (see
+//! [`line_segment_polyhedron`](super::line_segment_polyhedron)).
 
 use super::{Feature, Interference};
 use crate::primitive::{LineSegment, Polyhedron, PolyhedronFace, RimEdge};
@@ -10,11 +10,11 @@ use crate::{Vec3, divisor};
 pub(super) struct InsideEnd {
     /// Parameter along the segment, 0…1.
     pub at: f64,
-    /// The face through which the segment leaves; `None` if its tip is inside.
+    /// Face through which the segment leaves; `None` if its tip is inside.
     pub leaves_by: Option<usize>,
 }
 
-/// One end as one face sees it.
+/// One end, evaluated for one face.
 pub(super) struct AtEnd<'a> {
     pub segment: &'a LineSegment,
     pub polyhedron: &'a Polyhedron,
@@ -23,49 +23,52 @@ pub(super) struct AtEnd<'a> {
     pub tip_b: &'a Vec3,
 }
 
-/// What an end measures.
+/// Depth measured at an end.
 #[derive(Clone, Copy)]
 pub(super) enum Measured {
-    /// The segment leaves through the face itself: nothing.
+    /// None: the segment leaves through the face itself.
     Leaves,
-    /// The depth of the tip, inside or straight below the face (negative above it), m.
+    /// Depth of the tip, inside or straight below the face (negative above it), m.
     Tip(f64),
-    /// Where the segment leaves through another face.
+    /// Crossing: the segment leaves through another face.
     Crossing(Crossing),
 }
 
-/// The segment's line and the line in which two faces' planes meet, with the segment leaving through the second face.
+/// Crossing of the segment's line and the intersection line of two face planes, where the segment leaves
+/// through the second face.
 ///
-/// With s along the segment and q where it leaves, the common normal of the two lines is u ∝ n_f·(n_h·s) − n_h·(n_f·s);
-/// a point of the edge less q has no part along n_h, so the distance is the depth of q below f times (n_h·s)/|…|.
+/// Let s be the direction of the segment and q its exit point. The common normal of the two lines is u ∝
+/// n_f·(n_h·s) − n_h·(n_f·s). A vector from q to the edge has no component along n_h, so the distance is the
+/// depth of q below f times (n_h·s)/|…|.
 #[derive(Clone, Copy)]
 pub(super) struct Crossing {
     leaves_by: usize,
-    /// Distance of the segment's line below the other, m.
+    /// Distance of the segment's line below the intersection line, m.
     depth: f64,
-    /// The common normal, not of unit length, and its length.
+    /// Common normal, not normalised, and its length.
     across: Vec3,
     length: f64,
 }
 
-/// Two planes of a body that meet in an edge, above which a segment may reach on both sides.
+/// Two planes of a body that meet in an edge, beyond which a segment may extend on both sides.
 #[derive(Clone, Copy)]
 pub(super) struct Wedge {
-    /// Outward unit normals and distances from the origin along them, m: of the face that pushes and of the other.
+    /// Outward unit normals and offsets, m: of the face that pushes, then of the other face.
     pub planes: [(Vec3, f64); 2],
 }
 
 impl Wedge {
-    /// Parameters along a segment this close are one, so that rounding does not choose between two tips that reach out
-    /// alike.
+    /// Difference up to which parameters along a segment count as equal, so that rounding does not choose
+    /// between tips that extend equally far.
     const TIE: f64 = 1e-9;
 
-    /// Of two faces of a piece.
+    /// Wedge of two faces of a piece.
     pub fn of_faces(polyhedron: &Polyhedron, face: usize, other: usize) -> Self {
         Self { planes: [face, other].map(|f| (polyhedron.faces[f].normal, polyhedron.faces[f].offset)) }
     }
 
-    /// Of a face and the one behind an inner wall that ends in an edge of it; `None` if the two do not meet convexly.
+    /// Wedge of a face and the face behind an internal face that ends at the edge; `None` if the two do not
+    /// meet convexly.
     pub fn of_edge(polyhedron: &Polyhedron, face: usize, edge: usize) -> Option<Self> {
         let edge = &polyhedron.edges[edge];
         let push = edge.convex.as_ref()?;
@@ -83,10 +86,12 @@ impl Wedge {
         normal.dot(p) - offset
     }
 
-    /// Which end carries the crossing of the edge by a segment that enters below one plane and leaves above the other: the
-    /// end whose tip reaches farther out, the first if both reach out alike. `end` if it does not come in and go out.
+    /// End that carries the crossing of the edge by a segment that enters below one plane and leaves above
+    /// the other: the end whose tip is farther out, or the first if both are equal. Returns `end` if the
+    /// segment does not enter and leave.
     ///
-    /// While a tip is inside, the crossing belongs to the other end; so nothing changes where a tip passes out.
+    /// While a tip is inside, the crossing belongs to the other end, so nothing changes when a tip passes
+    /// out.
     pub fn farther_out(&self, segment: &LineSegment, end: usize) -> usize {
         let heights = |plane| (self.height(plane, &segment.ends[0]), self.height(plane, &segment.ends[1]));
         let ((first, second), (other_first, other_second)) = (heights(0), heights(1));
@@ -94,13 +99,14 @@ impl Wedge {
             return end;
         }
         let at = first / divisor(first - second) + other_first / divisor(other_first - other_second);
-        // Before the one and behind the other lies as much as the two parameters are apart from 0 and from 1.
+        // The parts of the segment before the first and behind the second parameter are equal if the
+        // parameters sum to 1.
         usize::from(at < 1.0 - Self::TIE)
     }
 }
 
 impl Measured {
-    /// The depth, 0 if the end does not touch, m.
+    /// Depth, m; 0 if the end does not touch.
     #[inline(always)]
     pub fn depth(&self) -> f64 {
         let depth = match self {
@@ -118,7 +124,7 @@ impl AtEnd<'_> {
         &self.polyhedron.faces[self.face]
     }
 
-    /// What the end measures; `None` if the face takes no part.
+    /// Depth of the end; `None` if the face takes no part.
     #[inline(always)]
     pub fn measured(&self) -> Option<Measured> {
         match self.inside.leaves_by {
@@ -130,7 +136,7 @@ impl AtEnd<'_> {
         }
     }
 
-    /// The contact, if the end touches.
+    /// Contact of the end, if it touches.
     #[inline(always)]
     pub fn contact(&self, measured: &Measured) -> Option<Interference> {
         match measured {
@@ -156,7 +162,8 @@ impl AtEnd<'_> {
         self.segment.ends[0] + self.along() * self.inside.at
     }
 
-    /// The outline's edge in which the wall ends that the segment leaves by. Of walls in one plane rounding may tell another.
+    /// Edge of the outline at which the internal face ends that the segment leaves by. Among coplanar
+    /// internal faces rounding may name another.
     #[cold]
     fn rim_at_wall(&self) -> Option<&RimEdge> {
         let (place, slack) = (self.leaving(), self.polyhedron.planes().wall_slack);
@@ -167,7 +174,7 @@ impl AtEnd<'_> {
         self.polyhedron.rim(self.face).iter().find(is_there)
     }
 
-    /// `None` if the planes do not meet.
+    /// Crossing with another face; `None` if the planes do not intersect.
     #[inline(always)]
     fn crossing(&self, leaves_by: usize) -> Option<Crossing> {
         let (face, exit, along) = (self.face(), &self.polyhedron.faces[leaves_by], self.along());
@@ -183,7 +190,8 @@ impl AtEnd<'_> {
     fn contact_at(&self, crossing: &Crossing) -> Interference {
         let (exit, along) = (&self.polyhedron.faces[crossing.leaves_by], self.along());
         let normal = (crossing.across / crossing.length).normalize();
-        // The nearest point lies where the edge's line, δ·u above it, is in the plane of the exit face.
+        // The nearest point is where the point δ·u above it lies in the plane of the exit face, and so on the
+        // edge's line.
         let back = crossing.depth * exit.normal.dot(&normal) / exit.normal.dot(&along);
         let nearest = self.leaving() - along * back;
         let rims = self.polyhedron.rim(self.face);
@@ -194,10 +202,10 @@ impl AtEnd<'_> {
     }
 }
 
-/// Whether a point lies over (or under) a face's polygon, seen along the face's normal.
+/// Returns `true` if a point projects onto a face's polygon along the face's normal.
 #[inline(always)]
 fn is_over_face(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bool {
-    // Most outlines are decided at once, without a guess of where.
+    // Branch-free in groups of four: most outlines are decided in the first group.
     polyhedron
         .rim(face)
         .chunks(4)

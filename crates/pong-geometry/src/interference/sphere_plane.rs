@@ -3,7 +3,7 @@
 use super::{Feature, Interference};
 use crate::primitive::{Plane, Sphere};
 
-/// Depth of a sphere's lowest point below a plane.
+/// Contact of a sphere that reaches below a plane.
 pub fn sphere_plane(sphere: &Sphere, plane: &Plane) -> Option<Interference> {
     let depth = sphere.radius - plane.height(&sphere.center);
     (depth > 0.0).then(|| Interference {

@@ -1,8 +1,8 @@
-//! Sphere (A) – polyhedron (B): centre outside, the nearest point of the surface; centre inside, as a point plus
-//! the radius (docs/theory.md, 2.2 and 2.4).
+//! Sphere (A) – polyhedron (B): with the centre outside, the nearest surface point; with the centre inside, a
+//! point contact plus the radius (docs/theory.md, 2.2 and 2.4).
 //!
 //! Degenerate cases: a centre on a face counts as outside; on an edge or vertex the lowest active face there
-//! pushes. Straight above the line where two pieces abut both may push: their springs are shared.
+//! pushes. Straight above the line where two pieces abut both may push: they share one spring.
 
 use super::point_polyhedron::{point_below_face, shallowest_face};
 use super::{Feature, Interference, ball_over_point};
@@ -10,8 +10,8 @@ use crate::Vec3;
 use crate::primitive::{EdgeBlock, Polyhedron, Sphere};
 use crate::simd::{LANES, LaneBits, Simd, Splat, run_at_level};
 
-/// The contact of a sphere that remembers no side: outside with the nearest feature, inside below the active face under
-/// which the centre lies least deep.
+/// Contact of a sphere without a remembered side: outside, with the nearest feature; inside, with the active
+/// face below which the centre is least deep.
 #[inline]
 pub fn sphere_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
     run_at_level!(sphere_polyhedron_in(sphere: Sphere, polyhedron: Polyhedron) -> Option<Interference>)
@@ -28,7 +28,8 @@ fn sphere_polyhedron_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedr
     Some(sphere_inside_polyhedron(sphere, polyhedron, face))
 }
 
-/// The contact of a sphere whose centre is outside: with the feature nearest to the centre, if that may push.
+/// Contact of a sphere whose centre is outside: with the feature nearest to the centre, if that feature may
+/// push.
 #[inline]
 pub fn sphere_outside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
     run_at_level!(outside_in(sphere: Sphere, polyhedron: Polyhedron) -> Option<Interference>)
@@ -40,7 +41,7 @@ fn outside_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedron) -> Opt
     near.contact(&near.survey()?)
 }
 
-/// The contact of a sphere whose centre is inside, under the face that pushes.
+/// Contact of a sphere whose centre is inside, below the face that pushes.
 #[inline]
 pub fn sphere_inside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron, face: usize) -> Interference {
     let normal = polyhedron.faces[face].normal;
@@ -53,7 +54,7 @@ pub fn sphere_inside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron, face: 
     }
 }
 
-/// A sphere near a polyhedron.
+/// Sphere near a polyhedron.
 struct Near<'a, S: Simd> {
     simd: S,
     sphere: &'a Sphere,
@@ -61,7 +62,7 @@ struct Near<'a, S: Simd> {
     center: Splat<S>,
 }
 
-/// What all planes say of a sphere that none of them separates.
+/// Result of testing all planes, if none separates the sphere.
 struct Survey {
     is_inside: bool,
     /// Height of the centre above the highest plane, m.
@@ -74,7 +75,7 @@ impl<'a, S: Simd> Near<'a, S> {
         Self { simd, sphere, polyhedron, center: Splat::new(simd, &sphere.center) }
     }
 
-    /// `None` if a plane separates the two.
+    /// Tests all planes; `None` if one separates the sphere.
     #[inline(always)]
     fn survey(&self) -> Option<Survey> {
         let simd = self.simd;
@@ -92,7 +93,7 @@ impl<'a, S: Simd> Near<'a, S> {
         Some(Survey { is_inside: held == LaneBits::MAX, top: simd.largest(top) })
     }
 
-    /// The contact with the nearest feature.
+    /// Contact with the nearest feature.
     #[inline(always)]
     fn contact(&self, survey: &Survey) -> Option<Interference> {
         if let Some(face) = self.face_below(survey) {
@@ -104,11 +105,11 @@ impl<'a, S: Simd> Near<'a, S> {
         }
     }
 
-    /// The face that holds the centre's foot.
+    /// Face that holds the centre's foot point.
     #[inline(always)]
     fn face_below(&self, survey: &Survey) -> Option<usize> {
         let (simd, planes) = (self.simd, self.polyhedron.planes());
-        // Beside inner walls outlines are wider.
+        // At internal faces the outlines are widened, so the bound does not apply.
         let lowest = match planes.simple {
             true => self.polyhedron.least_height_over_face(&self.sphere.center, survey.top).max(0.0),
             false => 0.0,
@@ -119,7 +120,8 @@ impl<'a, S: Simd> Near<'a, S> {
             let mut faces = simd.bits(simd.at_least(heights, simd.splat(lowest))) & block.own;
             while faces != 0 {
                 let face = index * LANES + faces.trailing_zeros() as usize;
-                // Beside an inner wall both the wall and the face may seem to hold the foot: the face counts.
+                // Both an internal face and an active face may seem to hold the foot point: the active face
+                // wins.
                 let counts = match found {
                     None => true,
                     Some(best) => self.polyhedron.faces[face].active && !self.polyhedron.faces[best].active,
@@ -176,10 +178,10 @@ impl<'a, S: Simd> Near<'a, S> {
         best
     }
 
-    /// No feature farther than this can be reached, m.
+    /// Distance beyond which no feature can be touched, m.
     #[inline(always)]
     fn reach(&self) -> f64 {
-        /// Far beyond rounding of a distance.
+        /// Far above the rounding of a distance.
         const SLACK: f64 = 1e-9;
         self.sphere.radius + SLACK * (self.sphere.radius + self.sphere.center.amax())
     }
@@ -199,14 +201,15 @@ impl<'a, S: Simd> Near<'a, S> {
     }
 }
 
-/// Whether the foot of `p` lies in a face. Where the face goes on in the next piece its outline is widened by
-/// rounding: the two pieces work it out from their own normals, and a centre straight above could miss both.
+/// Returns `true` if the foot point of `p` lies in a face. Where the face continues in the next piece its
+/// outline is widened by a tolerance: the two pieces compute it from their own normals, and both could miss a
+/// centre straight above the seam.
 #[inline(always)]
 fn holds_foot(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bool {
     if !polyhedron.planes().all_active {
         return holds_foot_beside_walls(p, polyhedron, face);
     }
-    // Most outlines are decided at once, without a guess of where.
+    // Branch-free in groups of four: most outlines are decided in the first group.
     polyhedron
         .rim(face)
         .chunks(4)
@@ -223,7 +226,7 @@ fn holds_foot_beside_walls(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bo
     })
 }
 
-/// The contact with an edge between whose faces and ends the centre lies.
+/// Contact with an edge, for a centre between its ends and between its faces' outward planes.
 fn edge_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Option<Interference> {
     let edge = &polyhedron.edges[index];
     let [first, second] = edge.vertices.map(|v| polyhedron.vertices[v as usize].position);
@@ -233,10 +236,10 @@ fn edge_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Optio
     ball_over_point(sphere, &foot, Feature::edge(index), || normals[0] + normals[1])
 }
 
-/// The contact with a vertex within the radius, if the centre lies in its cone.
+/// Contact with a vertex within the radius, if the centre lies in its normal cone.
 fn vertex_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Option<Interference> {
-    // Rounding in a product of a unit direction and a unit edge: a centre straight above a vertex in the middle
-    // of a straight edge would otherwise fall between the two halves of that edge.
+    // Tolerance for the product of a unit direction and a unit edge: without it, a centre straight above a
+    // vertex in the middle of a straight edge could fall between the two halves of that edge.
     const CONE_COSINE_SLACK: f64 = 1e-12;
     let vertex = &polyhedron.vertices[index];
     let direction = sphere.center - vertex.position;
@@ -249,7 +252,7 @@ fn vertex_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Opt
     ball_over_point(sphere, &vertex.position, Feature::vertex(index), || -cone.iter().sum::<Vec3>())
 }
 
-/// The deeper of two; of equal ones the lower feature.
+/// Deeper of two contacts; at equal depth the lower feature.
 fn deeper(best: Option<Interference>, candidate: Option<Interference>) -> Option<Interference> {
     let (Some(a), Some(b)) = (best, candidate) else { return best.or(candidate) };
     let replaces = b.depth > a.depth || (b.depth == a.depth && b.feature < a.feature);

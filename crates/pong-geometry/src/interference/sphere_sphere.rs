@@ -6,7 +6,7 @@ use super::{Feature, Interference, ball_over_point};
 use crate::Vec3;
 use crate::primitive::Sphere;
 
-/// Depth of the overlap of two spheres.
+/// Contact of two overlapping spheres.
 pub fn sphere_sphere(a: &Sphere, b: &Sphere) -> Option<Interference> {
     let as_ball = Sphere { center: a.center, radius: a.radius + b.radius };
     let contact = ball_over_point(&as_ball, &b.center, Feature::WHOLE, Vec3::x)?;

@@ -1,7 +1,7 @@
 //! Sphere (A) – triangle (B), one-sided (docs/theory.md, 2.2).
 //!
-//! Degenerate cases: centre in the plane counts as in front; centre on a convex edge or vertex pushes along the
-//! mean of the normals that meet there.
+//! Degenerate cases: a centre in the plane counts as in front; a centre on a convex edge or vertex pushes
+//! along the mean of the normals there.
 
 use super::behind_triangle::has_behind;
 use super::triangle_features::{
@@ -13,14 +13,14 @@ use super::{Feature, Interference, ball_over_point};
 use crate::Vec3;
 use crate::primitive::{Sphere, TriangleSet};
 
-/// How far beyond an edge a centre behind the face may lie, as a share of the coordinates, and still be emitted as spare:
-/// some thousand roundings.
+/// Distance beyond an edge up to which a centre behind the face still gives a fallback contact (spare),
+/// relative to the coordinates: some thousand roundings.
 const FOOT_SLACK: f64 = 1e-12;
 
 /// Tests a sphere against one triangle and emits a contact for each of its features that pushes.
 ///
-/// `thickness` (m): how far behind the face the centre is still pushed to the front. Edges and vertices are
-/// emitted by their owner alone, so that over a whole surface each feature counts once.
+/// `thickness` (m): distance up to which a centre behind the face is still pushed to the front. Edges and
+/// vertices are emitted only by their owner, so that each feature of a surface counts once.
 #[inline(always)]
 pub fn sphere_triangle(
     sphere: &Sphere,
@@ -34,7 +34,7 @@ pub fn sphere_triangle(
     }
 }
 
-/// The contact of a sphere with a triangle of which the face alone may push, the centre in front.
+/// Contact of a sphere with a triangle of which only the face may push, with the centre in front.
 #[inline]
 pub fn sphere_over_face(sphere: &Sphere, set: &TriangleSet, triangle: u32) -> Option<TriangleContact> {
     let view = TriangleView::new(set, triangle);
@@ -65,7 +65,7 @@ fn emit_features(
         Some(Rim::Vertex(corner)) => return emit_on_vertex(sphere, &edges, corner, emit),
         None => {}
     }
-    // In front nobody owns what is clearly beyond an edge.
+    // In front, a centre clearly beyond an edge belongs to another feature.
     let nobodys = near.in_front && near.beyond.contains(&true);
     let has_beyond = || match height > 0.0 {
         true => (0..3).all(|k| !beyond[k] || edges.has_on_seam(k, &sphere.center)),
@@ -85,19 +85,19 @@ fn emit_features(
     }
 }
 
-/// By how much rounding may misplace a centre against the triangle, m.
+/// Rounding error of a centre relative to the triangle, m.
 fn foot_slack(center: &Vec3, edges: &TriangleEdges) -> f64 {
     FOOT_SLACK * ((center - edges.view.corners[0]).amax() + center.amax())
 }
 
-/// What of a triangle a centre may lie on, whose faces meet convexly there.
+/// Convex feature of a triangle on which a centre may lie.
 enum Rim {
     Edge(usize),
     Vertex(usize),
 }
 
-/// The convex edge or vertex of the triangle that the centre lies on, within rounding: there each of its faces holds the
-/// centre in its plane, and the edge or the vertex alone pushes.
+/// Convex edge or vertex of the triangle on which the centre lies, within rounding. Both faces there have the
+/// centre in their plane; only the edge or vertex pushes.
 fn on_convex_rim(sphere: &Sphere, edges: &TriangleEdges, height: f64) -> Option<Rim> {
     let (center, corners) = (&sphere.center, &edges.view.corners);
     let slack = foot_slack(center, edges);
@@ -122,7 +122,7 @@ fn on_convex_rim(sphere: &Sphere, edges: &TriangleEdges, height: f64) -> Option<
     (0..3).find(|&k| is_on(k)).map(Rim::Edge)
 }
 
-/// Whether the faces around a vertex meet in convex edges, and otherwise flat.
+/// Returns `true` if the fan around a vertex has a convex edge and no concave one.
 fn is_convex_at(edges: &TriangleEdges, corner: usize) -> bool {
     let mut has_convex = false;
     let all = walk_fan_while(edges.set, edges.view.index, corner, |t, at| {
@@ -139,7 +139,7 @@ fn is_convex_at(edges: &TriangleEdges, corner: usize) -> bool {
     all.is_some() && has_convex
 }
 
-/// The contact of a centre on convex edge `k`, along the mean of the two normals.
+/// Contact of a centre on convex edge `k`, along the mean of the two normals.
 fn emit_on_edge(sphere: &Sphere, edges: &TriangleEdges, k: usize, emit: &mut dyn FnMut(TriangleContact)) {
     let EdgeClass::Convex { normal, .. } = edges.class(k) else { return };
     let view = edges.view;
@@ -148,7 +148,7 @@ fn emit_on_edge(sphere: &Sphere, edges: &TriangleEdges, k: usize, emit: &mut dyn
     }
 }
 
-/// The contact of a centre on a convex vertex, along the mean of the normals there.
+/// Contact of a centre on a convex vertex, along the mean of the normals there.
 fn emit_on_vertex(
     sphere: &Sphere,
     edges: &TriangleEdges,
@@ -173,8 +173,9 @@ fn emit_on_rim(sphere: &Sphere, mean: &Vec3, feature: Feature, emit: &mut dyn Fn
     emit(TriangleContact { interference, standing: Standing::Front });
 }
 
-/// Whether rounding alone puts a centre behind a triangle beyond some of its edges, all of them silent: behind a vertex of a
-/// flat surface each triangle may say that another has the centre. In front the vertex pushes there.
+/// Returns `true` if a centre behind a triangle is beyond some of its edges only by rounding, and these edges
+/// are silent: behind a vertex of a flat surface each triangle may assign the centre to another one. In front
+/// the vertex pushes there.
 fn hardly_beyond(sphere: &Sphere, edges: &TriangleEdges, beyond: [bool; 3]) -> bool {
     let slack = foot_slack(&sphere.center, edges);
     let is_silent = |k: usize| matches!(edges.class(k), EdgeClass::Silent { .. });

@@ -1,30 +1,30 @@
-//! Pairs of a sphere and a triangle, eight at a time: which of them may touch at all.
+//! Rejection of sphere-triangle pairs, eight at a time.
 //!
-//! A ball near a surface meets the boxes of many triangles and touches few. Most of the others are told by products
-//! alone: too far from the plane, too far beyond an edge, or near features of which none may push; or that only the face
-//! may push, which most of the rest do. What is left goes through
-//! [`sphere_triangle`](super::sphere_triangle::sphere_triangle) one by one. Nothing here decides an answer: every
-//! comparison leaves room for rounding, or is made of the same bits as the one there, and a number that is none tells
-//! nothing.
+//! A sphere near a surface overlaps the boxes of many triangles and touches few. Dot products alone classify
+//! most of them: too far from the plane, too far beyond an edge, near features of which none may push, or
+//! (most of the rest) only the face may push. The remaining pairs go through
+//! [`sphere_triangle`](super::sphere_triangle::sphere_triangle) one by one. This filter changes no result:
+//! every comparison has a margin for rounding or uses the same bits as the single test, and NaN never
+//! rejects.
 
 use super::triangle_lanes::{EightVectors, TriangleLanes, bit_of_each, fill_in};
 use super::triangle_reach::{REACH_SLACK, SIDE_SLACK};
 use crate::primitive::{Lean, Sphere, TriangleSet};
 use crate::simd::{LANES, LaneBits, Simd, run_at_level};
 
-/// By how much a product of two vectors exceeds zero, as a share of their lengths, before it points along for certain:
-/// twice what the test of one pair takes, so that rounding of the roots there does not matter.
+/// Amount, relative to the lengths, by which a product of two vectors must exceed zero to count as positive:
+/// twice the tolerance of the test of one pair, so that the rounding of the roots there does not matter.
 const ALONG_SLACK: f64 = 2e-9;
 
-/// Up to eight pairs.
+/// Batch of up to eight pairs.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub struct SphereTrianglePairs {
     lanes: TriangleLanes,
     radii: [f64; LANES],
-    /// Tangents of [`Lean`], without a unit.
+    /// Tangents of [`Lean`] of the edges, without a unit.
     edge_leans: [f64; LANES],
-    /// Likewise, without a unit.
+    /// Tangents of [`Lean`] of the vertices, without a unit.
     vertex_leans: [f64; LANES],
 }
 
@@ -36,19 +36,19 @@ impl Default for SphereTrianglePairs {
 }
 
 impl SphereTrianglePairs {
-    /// How many pairs there are.
+    /// Number of pairs.
     #[inline]
     pub fn count(&self) -> usize {
         self.lanes.count
     }
 
-    /// Forgets all pairs.
+    /// Removes all pairs.
     #[inline]
     pub fn clear(&mut self) {
         self.lanes.count = 0;
     }
 
-    /// Adds a pair, of which there may be eight; answers its place. `thickness` as in
+    /// Adds a pair (at most eight) and returns its lane. `thickness` as in
     /// [`sphere_triangle`](super::sphere_triangle::sphere_triangle).
     #[inline(always)]
     pub fn add(&mut self, sphere: &Sphere, triangle: u32, thickness: f64) -> usize {
@@ -57,21 +57,21 @@ impl SphereTrianglePairs {
         lane
     }
 
-    /// Makes the pairs that are pushed from here on those of a sphere; `thickness` as in [`add`](Self::add). Where several
-    /// triangles in a row meet one sphere, that is quicker.
+    /// Sets the sphere of the pairs that are pushed from here on; `thickness` as in [`add`](Self::add).
+    /// Faster than `add` if several consecutive pairs have the same sphere.
     #[inline(always)]
     pub fn begin_in<S: Simd>(&mut self, simd: S, sphere: &Sphere, thickness: f64) {
         fill_in(simd, &mut self.radii, self.lanes.count, sphere.radius);
         self.lanes.begin_in(simd, &sphere.center, thickness);
     }
 
-    /// Adds a pair of what was begun with last, of which there may be eight; answers its place.
+    /// Adds a pair of the current sphere with a triangle (at most eight) and returns its lane.
     #[inline(always)]
     pub fn push(&mut self, triangle: u32) -> usize {
         self.lanes.push(triangle)
     }
 
-    /// Tells the pairs apart, whose triangles are of a set; then there are none.
+    /// Classifies the pairs, for triangles of `set`, and clears the batch.
     #[inline]
     pub fn take(&mut self, set: &TriangleSet) -> PairsTold {
         if self.count() == 0 {
@@ -105,12 +105,12 @@ impl SphereTrianglePairs {
     }
 }
 
-/// What is told of pairs, a bit for each in their order.
+/// Classification of pairs, a bit per lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PairsTold {
-    /// Those that may touch.
+    /// Pairs that may touch.
     pub near: LaneBits,
-    /// Those of them in which the face alone may push, to the front:
+    /// Pairs of these in which only the face may push, to the front:
     /// [`sphere_over_face`](super::sphere_triangle::sphere_over_face) is enough.
     pub over_face: LaneBits,
 }
@@ -119,7 +119,7 @@ fn tell(pairs: &SphereTrianglePairs) -> PairsTold {
     run_at_level!(tell_in(pairs: SphereTrianglePairs) -> PairsTold)
 }
 
-/// A vector in every lane.
+/// One vector per lane.
 #[derive(Clone, Copy)]
 struct Vector<S: Simd> {
     simd: S,
@@ -145,7 +145,7 @@ impl<S: Simd> Vector<S> {
         }
     }
 
-    /// In the bits of `Vec3::dot`.
+    /// Dot products, bit-identical to `Vec3::dot`.
     #[inline(always)]
     fn dot(&self, other: &Self) -> S::Eight {
         let simd = self.simd;
@@ -164,7 +164,7 @@ impl<S: Simd> Vector<S> {
         }
     }
 
-    /// Sum of the sizes of the components.
+    /// Sums of the absolute components.
     #[inline(always)]
     fn taxicab(&self) -> S::Eight {
         let simd = self.simd;
@@ -178,7 +178,8 @@ fn size<S: Simd>(simd: S, x: S::Eight) -> S::Eight {
     simd.larger(x, simd.sub(simd.splat(0.0), x))
 }
 
-/// Names as in [`InReach`](super::triangle_reach::InReach), whose comparisons come first.
+/// Classifies the pairs. The comparisons, and the names, are those of
+/// [`InReach`](super::triangle_reach::InReach), followed by more.
 #[inline(always)]
 fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
     let (edge_lean, vertex_lean) = (simd.load(&pairs.edge_leans), simd.load(&pairs.vertex_leans));
@@ -195,7 +196,7 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
     let arms = [center.less(&corners[0]), center.less(&corners[1]), center.less(&corners[2])];
     let normal = edges[0].cross(&corners[2].less(&corners[0]));
     let height = normal.dot(&arms[0]);
-    // At least as large as the size of any arm or edge.
+    // Upper bound of all arms and edges.
     let span = simd.add(arms[0].taxicab(), simd.add(edges[0].taxicab(), edges[1].taxicab()));
     let normal_size = normal.taxicab();
     let room = simd.add(radius, simd.add(span, center.taxicab()));
@@ -218,7 +219,8 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
     let any_lean = simd.splat(Lean::ANY.tangent());
     let edges_lean_little = in_front & simd.bits(simd.below(edge_lean, any_lean));
     let vertices_lean_little = in_front & simd.bits(simd.below(vertex_lean, any_lean));
-    // Squares of how far from an edge, and from a vertex, a centre can be that it pushes, times that of the normal.
+    // Squared largest distances from an edge, and from a vertex, at which it can push the centre, times the
+    // squared length of the normal.
     let edge_reach = simd.mul(height_square, simd.mul(edge_lean, edge_lean));
     let vertex_reach = simd.add(height_square, simd.mul(height_square, simd.mul(vertex_lean, vertex_lean)));
     for k in 0..3 {
@@ -231,15 +233,15 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
         far |= in_front & surely_beyond & simd.bits(simd.below(simd.mul(reach_square, edge_square), square));
         face &= !surely_beyond;
         within &= surely_within;
-        // The foot on the edge's line lies before its start or after its end.
+        // The foot point on the edge's line lies before its start or after its end.
         let (from_start, from_end) = (arm.dot(edge), next_arm.dot(edge));
         let beside = simd.bits(simd.below(from_start, zero)) | simd.bits(simd.below(zero, from_end));
-        // Over the other face: beyond all normals along which the edge pushes.
+        // Beyond all normals along which the edge pushes: over the other face.
         let aside = simd.sub(beyond, side_slack);
         let leans_more = simd.below(simd.mul(edge_reach, edge_square), simd.mul(aside, aside));
         let over_other = edges_lean_little & surely_beyond & simd.bits(leans_more);
         features |= bit_of_each(&pairs.may_push, k) & !surely_within & !beside & !over_other;
-        // Vertex `k`, at the start of edge `k` and the end of the one before.
+        // Vertex `k`, at the start of edge `k` and the end of the previous edge.
         let before = &edges[(k + 2) % 3];
         let arm_square = arm.dot(arm);
         let past = arm.dot(before);

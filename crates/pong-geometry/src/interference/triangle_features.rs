@@ -1,98 +1,87 @@
-//! What the features of a triangle surface may push: faces, edges, vertices (docs/theory.md, 2.2).
-//!
-//! A triangle surface is a set of one-sided facets joined at edges. For a support point *p*:
-//!
-//! * a face pushes along its normal when *p* lies over it;
-//! * a convex edge pushes only along normals strictly between those of its two faces;
-//! * a convex vertex pushes only inside its normal cone;
-//! * concave and flat edges are silent;
-//! * a free edge (one face only) pushes from the edge towards the centre, while the centre is in front.
-//!
-//! The three kinds of regions partition the space in front. Each bounding plane is computed once, from the same
-//! numbers, for the features on both its sides, so that rounding opens no gap between them; where an edge is
-//! silent there is no third region, and a point that rounding puts outside both faces belongs to the lower one. Behind two
-//! faces that meet concavely there is a wedge beyond both: it belongs to both, as the space in front of their line does.
+//! Features of a triangle surface and the normals along which they push: faces, edges, vertices
+//! (docs/theory.md, 2.2).
 
 use super::{Feature, FeatureKind, Interference};
 use crate::Vec3;
 use crate::primitive::{NO_NEIGHBOR, TriangleSet};
 use std::cell::OnceCell;
 
-/// Two faces count as convex only if the sine of the angle between them exceeds this: rounding in a unit normal
-/// computed from f64 vertices stays below it for every triangle that the loader accepts as flat.
+/// Sine of the angle between two faces above which they count as convex. Rounding in a unit normal computed
+/// from f64 vertices stays below it for every triangle that the loader accepts.
 const CONVEX_SINE_MIN: f64 = 1e-12;
 
-/// How a contact of a triangle surface stands among its neighbours.
+/// Standing of a contact of a triangle surface among its neighbours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
-    /// The centre is in front.
+    /// Centre in front.
     Front,
-    /// The centre is behind the face, within its thickness.
+    /// Centre behind the face, within its thickness.
     Behind,
-    /// It pushes within rounding alone: beside what it belongs to lies another feature, and rounding decides which of the
-    /// two, or neither, has the place. It counts where no other contact has it.
+    /// Fallback: it pushes only within rounding. Another feature lies beside it, and rounding may assign the
+    /// centre to either or to neither. It counts if no other contact covers the centre.
     Spare,
-    /// A spare face with the centre behind it.
+    /// Fallback face with the centre behind it.
     SpareBehind,
-    /// A face that has lost its foot beyond a concave edge and stands in for it: counts where nothing else is as deep.
+    /// Fallback face whose foot point lies beyond a concave edge: counts if no other contact is as deep.
     StandIn,
 }
 
-/// A contact of a sphere or an ellipsoid with one triangle.
+/// Contact of a sphere or an ellipsoid with one triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TriangleContact {
-    /// Depth, normal, point, feature.
+    /// Depth, normal, point and feature.
     pub interference: Interference,
-    /// How it stands.
+    /// Standing among its neighbours.
     pub standing: Standing,
 }
 
-/// A triangle with the planes that bound its regions.
+/// Triangle with its plane, from which the planes that bound its regions are derived.
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleView {
-    /// Its index in the set.
+    /// Index in the set.
     pub index: u32,
     /// Corners, counter-clockwise seen from the front, m.
     pub corners: [Vec3; 3],
-    /// Unit normal to the front.
+    /// Unit normal towards the front.
     pub normal: Vec3,
 }
 
-/// What an edge may do.
+/// Type of an edge.
 #[derive(Clone, Copy, Debug)]
 pub enum EdgeClass {
-    /// One face only.
+    /// Boundary edge of one face.
     Free,
-    /// Two faces that meet convexly.
+    /// Edge of two faces that meet convexly.
     Convex {
-        /// The triangle on the other side.
+        /// Triangle on the other side.
         neighbor: u32,
         /// Its unit normal.
         normal: Vec3,
-        /// Unit vector in its plane, across the edge, out of it.
+        /// Unit vector in its plane, perpendicular to the edge, pointing out of it.
         outward: Vec3,
     },
-    /// Two faces that meet flat or concavely: the edge never pushes.
+    /// Edge of two faces that meet flat or concavely: it never pushes.
     Silent {
-        /// The triangle on the other side.
+        /// Triangle on the other side.
         neighbor: u32,
-        /// Unit vector in its plane, across the edge, out of it.
+        /// Unit vector in its plane, perpendicular to the edge, pointing out of it.
         outward: Vec3,
     },
 }
 
-/// Two faces count as meeting concavely, and not flat, only if the sine of the angle between them exceeds this: on a seam
-/// of a flat plate one face holds the foot, and the other is spare.
+/// Sine of the angle between two faces above which they count as concave rather than flat: on a seam of a
+/// flat plate one face holds the foot point, and the other is a fallback.
 const CONCAVE_SINE_MIN: f64 = 1e-9;
 
 impl TriangleView {
-    /// Whether the face beyond a silent edge, whose direction out of that face is `outward`, meets this one concavely.
+    /// Returns `true` if the face across a silent edge meets this one concavely; `outward` points out of that
+    /// face.
     #[inline]
     pub fn meets_concavely(&self, outward: &Vec3) -> bool {
         self.normal.dot(outward) < -CONCAVE_SINE_MIN
     }
 
-    /// The view of one triangle of a set.
+    /// View of one triangle of a set.
     #[inline]
     pub fn new(set: &TriangleSet, index: u32) -> Self {
         let corners = set.corners(index);
@@ -106,20 +95,20 @@ impl TriangleView {
         self.normal.dot(&(p - self.corners[0]))
     }
 
-    /// The two ends of edge `k` in (x, y, z) order.
+    /// Ends of edge `k` in (x, y, z) order.
     #[inline]
     pub fn edge_ends(&self, k: usize) -> [Vec3; 2] {
         let (a, b) = (self.corners[k], self.corners[(k + 1) % 3]);
         if lexicographically_before(&b, &a) { [b, a] } else { [a, b] }
     }
 
-    /// Unit vector in the plane, across edge `k`, out of the triangle.
+    /// Unit vector in the plane, perpendicular to edge `k`, pointing out of the triangle.
     #[inline]
     pub fn outward(&self, k: usize) -> Vec3 {
         (self.corners[(k + 1) % 3] - self.corners[k]).cross(&self.normal).normalize()
     }
 
-    /// What edge `k` may do.
+    /// Type of edge `k`.
     pub fn classify_edge(&self, set: &TriangleSet, k: usize) -> EdgeClass {
         let neighbor = set.triangles[self.index as usize].neighbors[k];
         if neighbor == NO_NEIGHBOR {
@@ -135,21 +124,21 @@ impl TriangleView {
         }
     }
 
-    /// Whether this triangle owns edge `k`, which may push.
+    /// Returns `true` if edge `k` may push and this triangle owns it.
     #[inline]
     pub(super) fn pushes_with_edge(&self, set: &TriangleSet, k: usize) -> bool {
         set.triangles[self.index as usize].may_push.edge(k) && self.owns_edge(set, k)
     }
 
-    /// Whether this triangle can be the lowest of the fan around a corner, by the two that it shares edges with there,
-    /// and the vertex may push.
+    /// Returns `true` if the vertex may push and this triangle may be the lowest of its fan, judged by its
+    /// two neighbours there.
     #[inline]
     pub(super) fn may_own_vertex(&self, set: &TriangleSet, corner: usize) -> bool {
         let may_push = set.triangles[self.index as usize].may_push.vertex(corner);
         may_push && self.owns_edge(set, corner) && self.owns_edge(set, (corner + 2) % 3)
     }
 
-    /// Whether this triangle is the owner of edge `k`: the lower of the two that share it.
+    /// Returns `true` if this triangle owns edge `k`: it is the lower of the two that share it.
     #[inline]
     pub fn owns_edge(&self, set: &TriangleSet, k: usize) -> bool {
         let neighbor = set.triangles[self.index as usize].neighbors[k];
@@ -157,7 +146,7 @@ impl TriangleView {
     }
 }
 
-/// The edges of a triangle, each worked out when it is first asked for.
+/// Edges of a triangle, each computed on first use.
 pub(super) struct TriangleEdges<'a> {
     pub set: &'a TriangleSet,
     pub view: &'a TriangleView,
@@ -170,13 +159,13 @@ impl<'a> TriangleEdges<'a> {
         Self { set, view, outwards: Default::default(), classes: Default::default() }
     }
 
-    /// As [`TriangleView::outward`].
+    /// [`TriangleView::outward`], cached.
     #[inline]
     pub fn outward(&self, k: usize) -> Vec3 {
         *self.outwards[k].get_or_init(|| self.view.outward(k))
     }
 
-    /// As [`TriangleView::classify_edge`].
+    /// [`TriangleView::classify_edge`], cached.
     #[inline]
     pub fn class(&self, k: usize) -> EdgeClass {
         *self.classes[k].get_or_init(|| self.view.classify_edge(self.set, k))
@@ -188,16 +177,17 @@ impl<'a> TriangleEdges<'a> {
         self.outward(k).dot(&(p - self.view.edge_ends(k)[0]))
     }
 
-    /// Whether a point lies beyond edge `k`; a NaN does.
+    /// Returns `true` if a point lies beyond edge `k`, or if the distance is NaN.
     #[inline]
     pub fn is_beyond(&self, k: usize, p: &Vec3) -> bool {
         let beyond = self.beyond(k, p);
         beyond > 0.0 || beyond.is_nan()
     }
 
-    /// Whether a point in front of the triangle and beyond edge `k` still belongs to it: on the seam that rounding leaves at a
-    /// silent edge, beyond both of its faces, the lower has it. But two faces folded to less than a right angle have such
-    /// points outside the fold, where neither pushes.
+    /// Returns `true` if a point in front of the triangle and beyond edge `k` still belongs to it: on the
+    /// seam that rounding leaves at a silent edge, beyond both faces, the lower face has it. Faces folded to
+    /// less than a right angle are excluded: there such points are outside the fold, where neither face
+    /// pushes.
     pub fn has_on_seam(&self, k: usize, p: &Vec3) -> bool {
         let EdgeClass::Silent { neighbor, outward } = self.class(k) else { return false };
         outward.dot(&(p - self.view.edge_ends(k)[0])) > 0.0
@@ -206,17 +196,17 @@ impl<'a> TriangleEdges<'a> {
     }
 }
 
-/// The triangles around one vertex, reached from one of them across shared edges.
+/// Triangles around one vertex, reached from one of them across shared edges.
 #[derive(Clone, Copy, Debug)]
 pub struct Fan {
-    /// The lowest triangle of the fan: the vertex's owner.
+    /// Lowest triangle of the fan, which owns the vertex.
     pub lowest: u32,
-    /// Whether the fan ends at free edges instead of closing.
+    /// True if the fan ends at free edges, false if it closes.
     pub open: bool,
 }
 
-/// Walks the fan around corner `corner` of `triangle` and calls `visit` with every triangle of it and that
-/// triangle's index of the corner, each once.
+/// Walks the fan around corner `corner` of `triangle`, and calls `visit` once per triangle with its index and
+/// the corner's index in it.
 pub fn walk_fan(set: &TriangleSet, triangle: u32, corner: usize, visit: &mut dyn FnMut(u32, usize)) -> Fan {
     let all = walk_fan_while(set, triangle, corner, |t, at| {
         visit(t, at);
@@ -225,7 +215,7 @@ pub fn walk_fan(set: &TriangleSet, triangle: u32, corner: usize, visit: &mut dyn
     all.expect("nothing ends the walk")
 }
 
-/// As [`walk_fan`], as long as `visit` says so; `None` if it ended the walk.
+/// [`walk_fan`] that stops when `visit` returns `false`; the result is then `None`.
 #[inline]
 pub(super) fn walk_fan_while(
     set: &TriangleSet,
@@ -238,7 +228,8 @@ pub(super) fn walk_fan_while(
     if !visit(triangle, corner) {
         return None;
     }
-    // Across the edge that ends in the corner, then, if the fan is open, across the edge that starts there.
+    // Walks across the edge that ends in the corner; if the fan is open, then across the edge that starts
+    // there.
     for side in [2, 0] {
         let (mut current, mut at) = (triangle, corner);
         loop {
@@ -261,16 +252,18 @@ pub(super) fn walk_fan_while(
     Some(fan)
 }
 
-/// Whether a normal lies in the cone of a vertex, `Some(strictly)`; `None` if it is outside by more than
-/// rounding, if the vertex belongs to a lower triangle, if an open fan has its centre behind all its faces, or a
-/// closed fan is seen from its back (the bottom of a pit, from within the solid).
+/// Tests whether a normal lies in the cone of a vertex: `Some(true)` if strictly, `Some(false)` if within
+/// rounding. `None` if it lies outside, if the vertex belongs to a lower triangle, if the centre is behind
+/// all faces of an open fan, or if a closed fan is seen from its back (the bottom of a pit, from within the
+/// solid).
 ///
-/// `direction` points from the vertex to the centre (any length), `center_in_front` answers for one triangle of
-/// an open fan.
+/// `direction` points from the vertex to the centre (any length); `center_in_front` is called per triangle of
+/// the fan.
 ///
-/// All edges of a fan around its cone lie in the half space below `direction`. Seen along it from the vertex
-/// they pierce a plane in the corners of a polygon without crossings, which runs counter-clockwise if the front
-/// is seen and clockwise if the back is. The sum of its triangles with the vertex' own foot gives the sense.
+/// If the normal is in the cone, all edges of the fan lie below the plane across `direction`. In perspective
+/// from the vertex they meet a plane below it in the corners of a simple polygon, which runs
+/// counter-clockwise if the front is seen and clockwise if the back is. The sum of its triangles with the
+/// vertex's projection gives the orientation.
 pub fn vertex_pushes(
     set: &TriangleSet,
     triangle: u32,
@@ -278,11 +271,11 @@ pub fn vertex_pushes(
     direction: &Vec3,
     center_in_front: &mut dyn FnMut(&TriangleView) -> bool,
 ) -> Option<bool> {
-    /// Rounding in a product of a unit direction and a unit edge.
+    /// Rounding of the product of a unit direction and a unit edge.
     const CONE_COSINE_SLACK: f64 = 1e-12;
     let apex = set.corners(triangle)[corner];
     let length = direction.norm();
-    // In the vertex itself there is no direction, and nothing is divided by its length.
+    // At the vertex itself there is no direction, and the scale avoids a division by zero.
     let scale = if length > 0.0 { length } else { 1.0 };
     let (mut strictly, mut in_front) = (true, false);
     let mut turn = 0.0;
@@ -309,13 +302,14 @@ pub fn vertex_pushes(
     seen_from_front.then_some(strictly)
 }
 
-/// Whether the surface around a vertex is seen from its front, for a point of which the vertex is the nearest place;
-/// `direction` points from the vertex to the point (any length). A point in the vertex counts as in front.
+/// Returns `true` if the surface around a vertex is seen from its front, for a point whose nearest surface
+/// point is the vertex; `direction` points from the vertex to the point (any length). A point at the vertex
+/// counts as in front.
 ///
-/// As in [`vertex_pushes`], the sum of the triangles that the edges make in a plane across `direction` has the sense in
-/// which the surface runs around the vertex, whether the fan is closed or open.
+/// As in [`vertex_pushes`], the orientation of the polygon that the edges make in a plane across `direction`
+/// decides, for closed and open fans.
 pub fn vertex_is_seen_from_front(set: &TriangleSet, triangle: u32, corner: usize, direction: &Vec3) -> bool {
-    /// An edge across the direction would reach infinitely far in that plane.
+    /// Lower limit of the cosine: an edge perpendicular to the direction would meet that plane at infinity.
     const COSINE_MIN: f64 = 1e-12;
     let apex = set.corners(triangle)[corner];
     let length = direction.norm();
@@ -332,8 +326,8 @@ pub fn vertex_is_seen_from_front(set: &TriangleSet, triangle: u32, corner: usize
     turn >= 0.0
 }
 
-/// Whether a point is in front of one of the faces that meet at a feature of a triangle, or behind it by no more than
-/// `rounding` (m).
+/// Returns `true` if a point is in front of one of the faces at a feature of a triangle, or behind it by at
+/// most `rounding` (m).
 pub fn is_in_front_of_a_face(
     p: &Vec3,
     set: &TriangleSet,
@@ -356,7 +350,7 @@ pub fn is_in_front_of_a_face(
     }
 }
 
-/// A place on a feature of a triangle surface, m; `None` if the set has no such feature.
+/// A point on a feature of a triangle surface, m; `None` if the set has no such feature.
 pub fn place_on_feature(set: &TriangleSet, feature: Feature) -> Option<Vec3> {
     let index = feature.index();
     let corner = |triangle: usize, k: usize| Some(set.triangles.get(triangle)?.vertices[k] as usize);
@@ -385,7 +379,7 @@ fn edge_towards(set: &TriangleSet, triangle: u32, neighbor: u32) -> usize {
         .expect("neighbours share an edge")
 }
 
-/// The order in which both faces of an edge see its ends.
+/// Order of the ends of an edge that both of its faces use.
 #[inline]
 pub(super) fn lexicographically_before(a: &Vec3, b: &Vec3) -> bool {
     (a.x, a.y, a.z) < (b.x, b.y, b.z)

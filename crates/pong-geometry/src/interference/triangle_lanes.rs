@@ -1,29 +1,29 @@
-//! Eight triangles side by side, coordinate by coordinate.
+//! Eight triangles as coordinate arrays.
 
 use crate::Vec3;
 use crate::primitive::TriangleSet;
 use crate::simd::{LANES, LaneBits, Simd};
 
-/// Vectors, coordinate by coordinate.
+/// Eight vectors as coordinate arrays.
 pub(super) type EightVectors = [[f64; LANES]; 3];
 
-/// Something to fill memory with.
+/// Initial value of unused lanes.
 pub(super) const NOTHING: EightVectors = [[0.0; LANES]; 3];
 
-/// Writes one vector.
+/// Writes a vector to one lane.
 #[inline(always)]
 pub(super) fn put(vectors: &mut EightVectors, lane: usize, v: &Vec3) {
     (vectors[0][lane], vectors[1][lane], vectors[2][lane]) = (v.x, v.y, v.z);
 }
 
-/// Writes a number into the lanes from one on.
+/// Writes a number to all lanes from `lane` on.
 #[inline(always)]
 pub(super) fn fill_in<S: Simd>(simd: S, numbers: &mut [f64; LANES], lane: usize, value: f64) {
     let from_there = simd.mask(LaneBits::MAX.checked_shl(lane as u32).unwrap_or(0));
     *numbers = simd.store(simd.select(from_there, simd.splat(value), simd.load(numbers)));
 }
 
-/// Writes a vector into the lanes from one on.
+/// Writes a vector to all lanes from `lane` on.
 #[inline(always)]
 pub(super) fn fill_vectors_in<S: Simd>(simd: S, vectors: &mut EightVectors, lane: usize, v: &Vec3) {
     fill_in(simd, &mut vectors[0], lane, v.x);
@@ -31,13 +31,13 @@ pub(super) fn fill_vectors_in<S: Simd>(simd: S, vectors: &mut EightVectors, lane
     fill_in(simd, &mut vectors[2], lane, v.z);
 }
 
-/// Up to eight triangles of a set, each with the centre of what may touch it.
+/// Up to eight triangles of a set, each with the centre of the shape that may touch it.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(super) struct TriangleLanes {
     pub corners: [EightVectors; 3],
     pub centers: EightVectors,
-    /// How far behind a triangle its centre may be and still be pushed to the front, m.
+    /// Distance behind a triangle up to which its centre is still pushed to the front, m.
     pub thicknesses: [f64; LANES],
     pub may_push: [u8; LANES],
     pub triangles: [u32; LANES],
@@ -54,7 +54,7 @@ impl TriangleLanes {
         count: 0,
     };
 
-    /// One more, of which there may be eight; answers its lane. Nothing is read of the triangle yet.
+    /// Adds a triangle (at most eight) and returns its lane. The triangle's data is not read yet.
     #[inline(always)]
     pub fn add(&mut self, center: &Vec3, triangle: u32, thickness: f64) -> usize {
         let lane = self.push(triangle);
@@ -63,14 +63,14 @@ impl TriangleLanes {
         lane
     }
 
-    /// Gives what is pushed from here on a centre and a thickness.
+    /// Sets the centre and thickness of the triangles that are pushed from here on.
     #[inline(always)]
     pub fn begin_in<S: Simd>(&mut self, simd: S, center: &Vec3, thickness: f64) {
         fill_vectors_in(simd, &mut self.centers, self.count, center);
         fill_in(simd, &mut self.thicknesses, self.count, thickness);
     }
 
-    /// One more; answers its lane.
+    /// Adds a triangle and returns its lane.
     #[inline(always)]
     pub fn push(&mut self, triangle: u32) -> usize {
         let lane = self.count;
@@ -80,11 +80,11 @@ impl TriangleLanes {
         lane
     }
 
-    /// Reads the triangles: all records, then all corners. Each is likely to come from a slow memory, and a record says where
-    /// its corners are: side by side they wait once.
+    /// Reads the triangles: first all records, then all corners. Each read may miss the cache, and a corner's
+    /// address depends on the record; in this order the misses overlap.
     #[inline(always)]
     pub fn fetch(&mut self, set: &TriangleSet) {
-        // Lanes without a triangle get one that is read anyway: a loop over all lanes takes no decisions.
+        // Unused lanes repeat a triangle that is read anyway, so that the loops have a fixed length.
         for lane in self.count..LANES {
             self.triangles[lane] = self.triangles[0];
         }
@@ -103,17 +103,17 @@ impl TriangleLanes {
         }
     }
 
-    /// The lanes that hold one.
+    /// Lanes in use.
     #[inline(always)]
     pub fn used(&self) -> LaneBits {
         !(LaneBits::MAX.checked_shl(self.count as u32).unwrap_or(0))
     }
 }
 
-/// Bit `k` of each of eight bytes.
+/// Gathers bit `k` of each of eight bytes.
 #[inline(always)]
 pub(super) fn bit_of_each(bytes: &[u8; LANES], k: usize) -> LaneBits {
-    // The product brings the bits, one in each byte, side by side into the highest byte.
+    // The product moves the lowest bit of each byte to the highest byte, side by side.
     let bits = u64::from_le_bytes(*bytes) >> k & 0x0101_0101_0101_0101;
     (bits.wrapping_mul(0x0102_0408_1020_4080) >> 56) as LaneBits
 }

@@ -1,7 +1,9 @@
-//! Line segment, capsule and cylinder (A) – bore (B): half a spring at each end of what is in the hole (docs/theory.md, 2.8).
+//! Line segment, capsule and cylinder (A) – bore (B): half a spring at each end of the part in the hole
+//! (docs/theory.md, 2.8).
 //!
-//! An end in the hole measures its tip or rim against the wall. An end beyond a mouth measures the side against the circle of
-//! the mouth. All three are rods: a segment is one without radius, a capsule a segment with a skin.
+//! At an end in the hole the tip or rim contacts the wall. At an end beyond a mouth the side contacts the
+//! circle of the mouth. All three shapes are treated as rods: a segment has radius 0, a capsule is a segment
+//! with a skin.
 
 use super::ball_bore::{BallContacts, ball_bore, ball_mouth};
 use super::circles::{Across, Circle, Reach, Wall, shares};
@@ -9,21 +11,21 @@ use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Bore, Capsule, Frustum, LineSegment, Sphere};
 
-/// Of a rod in a hole: at its end 0 and at its end 1, beside the wall and opposite to it. The two of an end share one spring where
-/// they push the same way; each end has half a spring.
+/// Contacts of a rod in a hole at its end 0 and its end 1, each at the wall and opposite to it. The two
+/// contacts of an end share one spring if they push the same way; each end has half a spring.
 pub type EndsInBore = [BallContacts; 2];
 
-/// A segment in a bore.
+/// Tests a segment against a bore.
 pub fn segment_bore(segment: &LineSegment, bore: &Bore) -> EndsInBore {
     Rod::new(segment.ends, 0.0, 0.0).ends_in(bore)
 }
 
-/// A capsule in a bore.
+/// Tests a capsule against a bore.
 pub fn capsule_bore(capsule: &Capsule, bore: &Bore) -> EndsInBore {
     Rod::new(capsule.ends, 0.0, capsule.radius).ends_in(bore)
 }
 
-/// A cylinder in a bore: a pin in a hole.
+/// Tests a cylinder against a bore: a pin in a hole.
 pub fn cylinder_bore(cylinder: &Frustum, bore: &Bore) -> EndsInBore {
     Rod::new(cylinder.ends, cylinder.radii[0], 0.0).ends_in(bore)
 }
@@ -36,7 +38,7 @@ struct Rod {
     length: f64,
     /// Radius of the flat ends, m.
     rim: f64,
-    /// What is around everything, m.
+    /// Thickness of the skin around the rod, m.
     skin: f64,
 }
 
@@ -73,14 +75,14 @@ struct RodEnd<'a> {
     mouth: usize,
 }
 
-/// Where a tip or a rim reaches farthest beyond the wall, as if the wall went on past the mouths.
+/// Point at which a tip or a rim extends farthest beyond the wall, which is extended past the mouths.
 struct AtWall {
     contacts: BallContacts,
-    /// Depth there, or how much is missing (negative), without the skin, m.
+    /// Depth at that point without the skin, m; negative before contact.
     depth: f64,
-    /// How far that is from the own mouth, m, positive in the hole, and from the other one.
+    /// Distance of that point from the own mouth and from the other mouth, m, positive in the hole.
     inside: [f64; 2],
-    /// Whether the rod comes nearer to the wall, or goes farther behind it, towards its end.
+    /// True if the rod approaches the wall, or goes deeper behind it, towards this end.
     outward: bool,
 }
 
@@ -101,9 +103,9 @@ impl RodEnd<'_> {
         self.limited(self.with_corner(&wall))
     }
 
-    /// Where the axis, or a rim, is behind the wall: past the mouth the side is measured at its circle. Beside the mouth, no
-    /// farther than it is deep, an end has the one of the two that does not step there: leaning outward the less deep, else the
-    /// deeper.
+    /// Combines the contacts at the wall and at the mouth. Past the mouth, the side contacts the circle of
+    /// the mouth. Within the depth before the mouth, the end takes the one that is continuous there: leaning
+    /// outward the less deep, otherwise the deeper.
     fn with_corner(&self, wall: &AtWall) -> BallContacts {
         let [own, other] = wall.inside;
         if self.bore.is_past(1 - self.mouth, other) {
@@ -137,7 +139,7 @@ impl RodEnd<'_> {
         let sides = self.sides(&across, &circle, reach);
         let pushed =
             |side: Vec3| self.wall.pushed(&side, &circle.farthest(&self.wall.outward(&side)), rod.skin);
-        // What is too deep to be pushed is not held on the opposite side either.
+        // If the deepest point is too deep to be pushed, the opposite side has no contact either.
         let deepest_contact = sides[0].and_then(pushed);
         let contacts = [deepest_contact, sides[1].filter(|_| deepest_contact.is_some()).and_then(pushed)];
         let deepest = sides[0].unwrap_or(across.first_b);
@@ -150,10 +152,11 @@ impl RodEnd<'_> {
         }
     }
 
-    /// The sides of the wall that a tip or rim is held against: where it is deepest, and opposite if it is too large for the hole.
+    /// Sides of the wall that a tip or rim contacts: the deepest, and the opposite one if it is too large for
+    /// the hole.
     fn sides(&self, across: &Across, circle: &Circle, reach: impl Fn(&Vec3) -> Reach) -> [Option<Vec3>; 2] {
         let axis = self.bore.hole.axis;
-        // The place of the axis beside the circle, which is as far from the wall on all sides.
+        // Point of the axis beside the circle, equally far from the wall on all sides.
         let beside = self.bore.hole.ends[0] + axis * axis.dot(&(circle.center_b - self.bore.hole.ends[0]));
         let room = -self.wall.height(&across.first_b, &beside);
         let size = circle.radius + self.rod.skin;
@@ -178,7 +181,8 @@ impl RodEnd<'_> {
         Circle { center_b: ends[self.mouth], axis_b: axis, radius: radii[self.mouth] }
     }
 
-    /// The side, as long as the rod goes, against the mouth; the tips of a capsule as well.
+    /// Contacts of the rod's side with the mouth, over the length of the rod; for a capsule also of its end
+    /// spheres.
     fn side_at_mouth(&self) -> BallContacts {
         if !self.is_convex() {
             return NOTHING;
@@ -192,7 +196,8 @@ impl RodEnd<'_> {
         tips.into_iter().fold(side, |one, other| self.deeper(one, other))
     }
 
-    /// The line of the side against the mouth, past its own end as well, as far as the wall is thick.
+    /// Contacts of the line of the side with the mouth, extended past its own end by the thickness of the
+    /// wall.
     fn line_at_mouth(&self) -> BallContacts {
         if !self.is_convex() {
             return NOTHING;
@@ -206,7 +211,8 @@ impl RodEnd<'_> {
         self.bore.mouths[self.mouth] && self.bore.hole.radii[self.mouth] > 0.0
     }
 
-    /// Seen along the rod the mouth is an ellipse, and the axis a place in it.
+    /// Contacts of the side with the circle of the mouth. Seen along the rod the mouth is an ellipse and the
+    /// axis a point.
     fn at_circle(&self, counts: impl Fn(f64) -> bool) -> BallContacts {
         let (rod, circle) = (self.rod, self.mouth_circle());
         let arm = rod.ends[0] - circle.center_b;
@@ -221,7 +227,8 @@ impl RodEnd<'_> {
             return NOTHING;
         }
         let is_on = |place: &Vec3| counts(rod.axis_b.dot(&(place - rod.ends[0])));
-        // A rod that lies flat over the mouth touches it in two places; what they share acts in the middle.
+        // A rod that lies flat across the mouth touches it at two points; one contact acts midway between
+        // them.
         let place_on = |side: &Vec3| match circle.chord(side, &rod.axis_b, &beside) {
             None => Some(circle.farthest(side)).filter(is_on),
             Some([one, other]) => match (is_on(&one), is_on(&other)) {
@@ -252,10 +259,10 @@ impl RodEnd<'_> {
         across.greatest(reach).map(touched)
     }
 
-    /// Whether the axis itself goes through the wall around the mouth. What counts past an end of the rod does so as long as that
-    /// end is no farther from the mouth than the wall is thick.
+    /// Returns `true` if the axis itself passes through the wall around the mouth. A crossing past an end of
+    /// the rod counts as long as that end is within the thickness of the wall from the mouth.
     fn is_crossed_behind(&self, counts: impl Fn(f64) -> bool) -> bool {
-        /// A rod so square to the hole, as a cosine, goes through no mouth.
+        /// Cosine below which a rod counts as perpendicular to the hole and crosses no mouth.
         const SQUARE: f64 = 1e-9;
         let (rod, circle) = (self.rod, self.mouth_circle());
         let rate = rod.axis_b.dot(&circle.axis_b);
@@ -269,7 +276,7 @@ impl RodEnd<'_> {
         counts(along) && (above * above + off * off).sqrt() < self.bore.thickness
     }
 
-    /// How far a rod must go to be out of the hole by a mouth, m.
+    /// Distance a rod must move to leave the hole by a mouth, m.
     fn way_out(&self, mouth: usize) -> f64 {
         let outward = self.outward(mouth);
         let depth = |end: usize| {
@@ -282,7 +289,7 @@ impl RodEnd<'_> {
         self.bore.hole.axis * if mouth == 0 { -1.0 } else { 1.0 }
     }
 
-    /// What is hardly in the hole leaves it by the mouth.
+    /// Limits the contacts of a rod that is barely in the hole: it may leave by the mouth.
     fn limited(&self, contacts: BallContacts) -> BallContacts {
         if self.rod.skin > 0.0 || contacts == NOTHING {
             return contacts;
@@ -303,19 +310,20 @@ impl RodEnd<'_> {
         [0, 1].into_iter().filter_map(leaves).fold(contacts, |one, other| self.shallower(one, other))
     }
 
-    /// The deeper of two; the first unless the second is so by more than rounding. A rod along the wall is as deep in both.
+    /// Deeper of two; the first, unless the second is deeper by more than rounding. For a rod along the wall
+    /// both are equal.
     fn deeper(&self, one: BallContacts, other: BallContacts) -> BallContacts {
         if energy(&other) > energy(&one) + self.rounding_of(&one) { other } else { one }
     }
 
-    /// The less deep of two, likewise.
+    /// Less deep of two, with the same tolerance.
     fn shallower(&self, one: BallContacts, other: BallContacts) -> BallContacts {
         if energy(&other) < energy(&one) - self.rounding_of(&one) { other } else { one }
     }
 
-    /// What rounding makes of an energy, m².
+    /// Rounding error of an energy, m².
     fn rounding_of(&self, contacts: &BallContacts) -> f64 {
-        /// How far off a direction may be at which the slope steps.
+        /// Error of a direction at which the slope steps.
         const DIRECTION: f64 = 4e-12;
         let places = [&self.rod.ends, &self.bore.hole.ends].into_iter().flatten().map(|place| place.amax());
         let reach = places.fold(self.rod.length, f64::max);
@@ -324,7 +332,7 @@ impl RodEnd<'_> {
     }
 }
 
-/// With a stiffness of 2 N/m.
+/// Stored energy with a stiffness of 2 N/m.
 fn energy(contacts: &BallContacts) -> f64 {
     let [one, two] = contacts;
     let depths = [one, two].map(|contact| contact.map_or(0.0, |contact| contact.depth));

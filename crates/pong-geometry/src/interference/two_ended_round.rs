@@ -1,8 +1,10 @@
-//! Line segment and capsule (A) – capsule, cylinder and cone (B): half a spring at each end of what overlaps (docs/theory.md, 2.8).
+//! Line segment and capsule (A) – capsule, cylinder and cone (B): half a spring at each end of the overlap
+//! (docs/theory.md, 2.8).
 //!
-//! With δ the depth of the pair and δ₀, δ₁ those of the two ends of the overlap the stored energy is ¼k(δ² + δ₀²δ₁²/δ²). An
-//! end of the overlap is an end of A in B or an end of B in A, whichever is deeper. Its derivatives are the weights: of
-//! the deepest place ½(1 − δ₀²δ₁²/δ⁴), of the ends ½δ₁²/δ² and ½δ₀²/δ².
+//! Let δ be the depth of the pair and δ₀, δ₁ those of the two ends of the overlap. The stored energy is ¼k(δ²
+//! + δ₀²δ₁²/δ²). An end of the overlap is an end of A in B or an end of B in A, whichever is deeper. The
+//! derivatives of the energy are the weights: ½(1 − δ₀²δ₁²/δ⁴) of the deepest point, ½δ₁²/δ² and ½δ₀²/δ² of
+//! the ends.
 
 use super::Interference;
 use super::axis_approach::{Approach, RoundSolid};
@@ -10,34 +12,34 @@ use super::ball_round::pressed;
 use crate::Vec3;
 use crate::primitive::{Capsule, Frustum, LineSegment};
 
-/// A contact of a two-ended body: an end of the overlap, or the place between them that is deepest.
+/// Contact of a two-ended body: at an end of the overlap, or at the deepest point between them.
 #[derive(Clone, Copy, Debug)]
 pub struct EndContact {
-    /// Where and how deep.
+    /// Point, normal and depth.
     pub interference: Interference,
-    /// Of half a spring, how much acts: 0…1.
+    /// Fraction of half a spring that acts: 0…1.
     pub share: f64,
 }
 
-/// Of a two-ended body: at its end 0, at its end 1, at the deepest place.
+/// Contacts of a two-ended body: at its end 0, at its end 1, at the deepest point.
 pub type EndContacts = [Option<EndContact>; 3];
 
-/// A segment on a capsule.
+/// Tests a segment against a capsule.
 pub fn segment_capsule(segment: &LineSegment, capsule: &Capsule) -> EndContacts {
     two_ended(&segment.ends, 0.0, capsule)
 }
 
-/// A segment on a cylinder or a cone.
+/// Tests a segment against a cylinder or a cone.
 pub fn segment_frustum(segment: &LineSegment, frustum: &Frustum) -> EndContacts {
     two_ended(&segment.ends, 0.0, frustum)
 }
 
-/// A capsule on a capsule.
+/// Tests a capsule against a capsule.
 pub fn capsule_capsule(a: &Capsule, b: &Capsule) -> EndContacts {
     two_ended(&a.ends, a.radius, b)
 }
 
-/// A capsule on a cylinder or a cone.
+/// Tests a capsule against a cylinder or a cone.
 pub fn capsule_frustum(capsule: &Capsule, frustum: &Frustum) -> EndContacts {
     two_ended(&capsule.ends, capsule.radius, frustum)
 }
@@ -55,7 +57,7 @@ fn two_ended(ends: &[Vec3; 2], radius: f64, solid: &impl RoundSolid) -> EndConta
             (None, other) => other,
             (own, _) => own,
         };
-        // No part of a body is deeper than the whole, but for rounding.
+        // Limits the depth of an end to that of the pair, which rounding might exceed.
         deeper.map(|contact| Interference { depth: contact.depth.min(deepest.depth), ..contact })
     };
     shared([at_end(0), at_end(1)], &deepest)
