@@ -1,6 +1,5 @@
 //! Atomic words shared by the caller and its workers, each on a cache line of its own.
 //!
-//!
 //! | word | written by | holds |
 //! |---|---|---|
 //! | `claim` | caller opens, all threads claim | epoch, workers that take part, blocks left, end flag |

@@ -8,7 +8,6 @@ use crate::Vec3;
 /// Returns `true` if a point behind the triangle, and beyond some of its edges, still belongs to it. The
 /// nearest point of the triangle decides:
 ///
-///
 /// * on a silent edge: the point belongs to the triangle in the wedge behind and beyond both faces. It
 ///   belongs to both of them, so that the direction of the push does not depend on which face is lower;
 /// * at a vertex: the point belongs to the triangle if it is behind all faces around the vertex, and the

@@ -4,7 +4,6 @@
 //! roots reject most of the others: the ellipsoid is entirely beyond the plane of the face or a perpendicular
 //! plane through an edge, or no feature can push:
 //!
-//!
 //! * the face cannot if the foot of the deepest point and the centre, in front, both lie beyond the same
 //!   edge;
 //! * an edge or a vertex outside the ellipsoid cannot, as long as the overlap of the face is too small for a

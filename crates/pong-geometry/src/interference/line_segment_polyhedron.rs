@@ -3,7 +3,7 @@
 //! The part of the segment inside the solid has two ends. For each active face f, each end carries half a spring:
 //!
 //! * a *tip* of the segment, inside the solid or straight below the face: its depth is measured below f, and
-//! it pushes along the face's normal;
+//!   it pushes along the face's normal;
 //! * a *crossing*, where the segment leaves the solid through another face h: its depth is the distance of
 //!   the segment's line below the line in which the planes of f and h intersect, and it pushes along the
 //!   common normal of both lines;
