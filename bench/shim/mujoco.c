@@ -1,4 +1,5 @@
-/* MuJoCo as the benchmarks use it. Its library has no function for some of this, its structs no stable layout. */
+/* MuJoCo for the benchmarks. Its library has no function for some of this, and its structs have no stable
+ * layout. */
 #include <mujoco/mujoco.h>
 #include <stdlib.h>
 
@@ -35,7 +36,7 @@ scene *pong_mujoco_load(const char *xml, char *message, int size)
     return s;
 }
 
-/* Fills the height field; the numbers are shares of its greatest height. */
+/* Fills the height field with heights relative to its greatest height. */
 void pong_mujoco_heights(scene *s, const float *heights, int count)
 {
     int i;
@@ -44,7 +45,7 @@ void pong_mujoco_heights(scene *s, const float *heights, int count)
     }
 }
 
-/* Poses of the bodies (position, quaternion) in, number of contacts out. */
+/* Sets the poses of the bodies (position, quaternion) and returns the number of contacts. */
 int pong_mujoco_frame(scene *s, const double *poses, int bodies)
 {
     int i, contacts = 0;
@@ -68,7 +69,7 @@ double pong_mujoco_deepest(const scene *s)
     return deepest;
 }
 
-/* What a query answers: depth (0: none), normal from target to mover, point. */
+/* Result of a query: depth (0: none), normal from target to mover, point. */
 typedef struct {
     double depth, normal[3], point[3];
 } answer;
@@ -90,8 +91,8 @@ static answer narrow(scene *s, mjfCollision collide)
     return out;
 }
 
-/* Carries a geom with its body's pose: position, then quaternion (w, x, y, z). MuJoCo moves a mesh into its own centre
- * and principal axes, so that even here a geom has a pose in its body. */
+/* Places a geom by its body's pose: position, then quaternion (w, x, y, z). MuJoCo moves a mesh to its own
+ * centre and principal axes, so even here a geom has a pose in its body. */
 static void place(scene *s, int geom, const double *pose)
 {
     double orientation[4], *position = s->data->geom_xpos + 3 * geom;
@@ -101,7 +102,7 @@ static void place(scene *s, int geom, const double *pose)
     mju_quat2Mat(s->data->geom_xmat + 9 * geom, orientation);
 }
 
-/* One query per pair of poses, the mover's and the target's. By the function that MuJoCo's own dispatch would call. */
+/* One query per pair of poses of mover and target, by the function that MuJoCo's own dispatch would call. */
 void pong_mujoco_pairs(scene *s, const double *poses, int count, answer *answers)
 {
     mjfCollision collide = mjCOLLISIONFUNC[s->model->geom_type[MOVER]][s->model->geom_type[TARGET]];
@@ -113,7 +114,7 @@ void pong_mujoco_pairs(scene *s, const double *poses, int count, answer *answers
     }
 }
 
-/* Distance along a ray to the target, by the function that mj_ray calls for its type; negative: none. */
+/* Distance along a ray to the target, by the function that mj_ray calls for its type; negative for none. */
 static double cast(scene *s, const double *origin, const double *direction, double *normal)
 {
     const mjModel *m = s->model;
@@ -124,7 +125,7 @@ static double cast(scene *s, const double *origin, const double *direction, doub
                        origin, direction, m->geom_type[TARGET], normal);
 }
 
-/* A ray along z that starts at `start` of the mover's frame, no longer than `length`. */
+/* A ray along z that starts at `start` in the mover's frame, no longer than `length`. */
 void pong_mujoco_rays(scene *s, const double *poses, int count, double start, double length, answer *answers)
 {
     const double z[3] = {0, 0, 1};

@@ -1,4 +1,4 @@
-/* ODE as the benchmarks use it: its collision detection, without its dynamics. */
+/* ODE for the benchmarks: its collision detection, without its dynamics. */
 #include <ode/ode.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,8 @@ typedef struct {
 
 enum { QUADTREE, SWEEP_AND_PRUNE };
 
-/* Two bodies, the geoms of each in a space of its own: of a kind, around `center`, `extents` large along each axis. */
+/* Two bodies, each with a separate space for its geoms: its kind, its centre, and its extents along each
+ * axis. */
 scene *pong_ode_new(int space, const double *center, const double *extents)
 {
     const int quadtree_depth = 6;
@@ -71,7 +72,7 @@ static void near(void *data, dGeomID first, dGeomID second)
     ((scene *)data)->contacts += dCollide(first, second, 1, &contact, sizeof contact);
 }
 
-/* Poses of both bodies (position, quaternion) in, number of contacts out. */
+/* Sets the poses of both bodies (position, quaternion) and returns the number of contacts. */
 int pong_ode_frame(scene *s, const double *poses)
 {
     int i;
@@ -102,13 +103,13 @@ void pong_ode_target_mesh(scene *s, const double *vertices, int vertex_count, co
     s->target = dCreateTriMesh(0, s->mesh, 0, 0, 0);
 }
 
-/* A capsule or a cylinder along z; the length of a capsule is that between the centres of its ends. */
+/* A capsule or a cylinder along z; a capsule's length is between the centres of its ends. */
 void pong_ode_target_round(scene *s, int kind, double radius, double length)
 {
     s->target = kind == CAPSULE ? dCreateCapsule(0, radius, length) : dCreateCylinder(0, radius, length);
 }
 
-/* Radius and length; rays have no radius. */
+/* Radius and length of the mover; rays have no radius. */
 void pong_ode_mover(scene *s, int kind, double radius, double length)
 {
     switch (kind) {
@@ -118,7 +119,7 @@ void pong_ode_mover(scene *s, int kind, double radius, double length)
     }
 }
 
-/* Poses of wheels, one after the other: the mover stands for each. Number of contacts out. */
+/* Places the mover at each wheel's pose in turn and returns the number of contacts. */
 int pong_ode_wheels(scene *s, const double *poses, int count)
 {
     dContactGeom found[MOST_CONTACTS];
@@ -140,7 +141,7 @@ int pong_ode_wheels(scene *s, const double *poses, int count)
 /* Depth of the deepest contact of the wheels of the last frame. */
 double pong_ode_deepest(const scene *s) { return s->deepest; }
 
-/* What a query answers: depth (0: none), normal from target to mover, point. */
+/* Result of a query: depth (0: none), normal from target to mover, point. */
 typedef struct {
     double depth, normal[3], point[3];
 } answer;
@@ -168,7 +169,7 @@ static void place(dGeomID geom, const double *pose)
     dGeomSetQuaternion(geom, pose + 3);
 }
 
-/* One query per pair of poses, the mover's and the target's. */
+/* One query per pair of poses of mover and target. */
 void pong_ode_pairs(scene *s, const double *poses, int count, answer *answers)
 {
     int i;
@@ -179,7 +180,7 @@ void pong_ode_pairs(scene *s, const double *poses, int count, answer *answers)
     }
 }
 
-/* A ray along z that starts at `start` of the mover's frame. */
+/* A ray along z that starts at `start` in the mover's frame. */
 void pong_ode_rays(scene *s, const double *poses, int count, double start, answer *answers)
 {
     int i;

@@ -85,7 +85,7 @@ def docking():
     ring = held_body("chaser/ring", bodies["ring"], springs["chaser/ring"], ring)
     world = free_body("chaser", bodies[""], geoms["chaser"] + ring)
     world += free_body("target", target["bodies"][0], target_geoms["target"])
-    # All bodies of the chaser move along as one: the joints are at rest.
+    # All bodies of the chaser move together: the joints are at rest.
     assert all(body["linear_velocity"] == bodies[""]["linear_velocity"] for body in bodies.values())
     velocity = [*bodies[""]["linear_velocity"], *[0.0] * (3 + 4 * 6 + 6)]
     pose = [v for body in (bodies[""],) for v in (*body["position"], *body["orientation"])]

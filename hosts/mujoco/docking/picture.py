@@ -15,7 +15,7 @@ WIDTH, HEIGHT = 960, 540
 
 
 def write_png(path, pixels):
-    """Eight bits, red, green and blue."""
+    """Colour as eight-bit red, green and blue."""
 
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))

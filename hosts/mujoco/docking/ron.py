@@ -1,4 +1,4 @@
-"""Reads the RON of model and scene files into dictionaries and lists: what is needed here of it, without its error messages."""
+"""Parser of RON model and scene files to dictionaries and lists: only the syntax needed here, without error messages."""
 
 import re
 
@@ -20,7 +20,7 @@ def _value(tokens, at):
         return _items(tokens, at)
     if token[0].isdigit() or token[0] in "+-.":
         return float(token), at + 1
-    # A word alone, or with what it holds: Sphere(…).
+    # A bare word, or one with its content: Sphere(…).
     if at + 1 < len(tokens) and tokens[at + 1] == "(":
         inside, end = _items(tokens, at + 1)
         return {"is": token, **(inside if isinstance(inside, dict) else {"of": inside})}, end
@@ -28,7 +28,7 @@ def _value(tokens, at):
 
 
 def _items(tokens, at):
-    """What stands between brackets: a dictionary if its items have names, else a list."""
+    """Content of brackets: a dictionary if its items have names, else a list."""
     closing = {"(": ")", "[": "]", "{": "}"}[tokens[at]]
     at += 1
     named, plain = {}, []

@@ -8,8 +8,8 @@ const char *const contact_attributes[] = {"objects", "pairs", "bodies", "dir",  
                                           "text2",   "text3", "text4",  "check_step", "contact_capacity", "filters"};
 const int contact_attribute_count = sizeof contact_attributes / sizeof contact_attributes[0];
 
-/* Most contacts of a frame if the MJCF does not say: the state of a contact takes 160 bytes in every mjData and every copy of
- * its state, and the worst case of a scene may be thousands. */
+/* Contact capacity of a frame if the MJCF gives none: the state of a contact takes 160 bytes in every mjData
+ * and every copy of its state, and the worst case of a scene may be thousands. */
 #define DEFAULT_CAPACITY 64
 
 static char *trim(char *text)

@@ -1,4 +1,4 @@
-/* The configuration of an instance, as its <config> elements give it. docs/mujoco.md describes every key. */
+/* Configuration of an instance, from its <config> elements. docs/mujoco.md describes every key. */
 #ifndef PONG_CONTACT_CONFIG_H
 #define PONG_CONTACT_CONFIG_H
 
@@ -20,7 +20,7 @@ typedef struct entry_list {
 
 enum { TEXT_COUNT = 4 };
 
-/* The largest contact_capacity. */
+/* Largest contact_capacity. */
 enum { MAX_CAPACITY = 65536 };
 
 /* What is told of the time step, in the order of the words `false`, `true` and `notes`. */
@@ -40,13 +40,13 @@ typedef struct contact_config {
 extern const char *const contact_attributes[];
 extern const int contact_attribute_count;
 
-/* Reads the configuration of an instance. The texts that are not entries stay the model's. Answers 1, or 0 with a message;
- * call close_config() in either case. */
+/* Reads the configuration of an instance. Texts that are not entries remain owned by the model. Returns 1, or
+ * 0 with a message; call close_config() in either case. */
 int read_config(contact_config *config, const mjModel *m, int instance, message *why);
 
 void close_config(contact_config *config);
 
-/* The model text that `model` names (text1 to text4), or NULL if it names a file. */
+/* Model text named by `model` (text1 to text4), or NULL if it names a file. */
 const char *inline_text(const contact_config *config, const char *model);
 
 #endif

@@ -18,7 +18,7 @@ static void close_host(contact_host *host)
     free(host);
 }
 
-/* The memory that steps need, and the contact state without a past. */
+/* Allocates the memory for steps, and the contact state without history. */
 static int take_memory(contact_host *host, message *why)
 {
     const size_t groups = host->at.group_count, room = host->at.state_size + sizeof(uint32_t);
@@ -39,7 +39,8 @@ static int take_memory(contact_host *host, message *why)
 
 int count_sensor_numbers(size_t groups) { return 3 + 6 * (int)groups; }
 
-/* MuJoCo sized its arrays when the model was compiled, perhaps long ago and into a binary file. */
+/* Refuses changed files: MuJoCo sized its arrays when the model was compiled, perhaps long ago and into a
+ * binary file. */
 static int refuse_changed_files(const contact_host *host, const mjModel *m, int instance, message *why)
 {
     int sensor, fits = m->plugin_statenum[instance] == state_length(host->at.group_count, host->at.state_size);
@@ -58,7 +59,7 @@ int measure_instance(const mjModel *m, int instance, int *state_numbers, int *gr
     message ignored;
     int done;
     memset(&w, 0, sizeof w);
-    /* This is called when a model is compiled. */
+    /* This function is called when a model is compiled. */
     forget_origins(m);
     done = read_config(&config, m, instance, &ignored) && open_world(&w, &config, &ignored) && 
            seal_world(&w, &config, NULL, &ignored);

@@ -22,7 +22,7 @@ typedef struct contact_host {
     int has_key;                  /* 0 while nobody knows what the world holds */
     uint64_t key;                 /* of the contact state that the world holds now */
 
-    /* What was computed last: for this key and these states. */
+    /* Key and states of the last result. */
     int has_result;
     uint64_t result_key, result_seen;
     pong_wrench *wrenches;
@@ -32,19 +32,22 @@ typedef struct contact_host {
     int warned_limit, warned_tunnelling, warned_failure; /* in this run */
 } contact_host;
 
-/* Builds the world of an instance for an mjData, in place of one that is there. Answers NULL after a warning. */
+/* Builds the world of an instance for an mjData, replacing an existing one. Returns NULL after a warning. */
 contact_host *make_host(const mjModel *m, const mjData *d, int instance);
 
-/* The world of an instance for an mjData; made if there is none yet. It is looked up by the address of the mjData, never by
- * mjData.plugin_data: unpickling overwrites that with a pointer of another mjData or of another process. */
+/* World of an instance for an mjData, created on first use. It is looked up by the address of the mjData,
+ * never by mjData.plugin_data: unpickling overwrites that with a pointer of another mjData or of another
+ * process. */
 contact_host *find_host(const mjModel *m, const mjData *d, int instance);
 
 void delete_host(const mjData *d, int instance);
 
-/* Numbers of a sensor: count of contacts, PONG_FLAG_..., PONG_STATUS_...; then force and moment on each movable group. */
+/* Size of the sensor: number of contacts, PONG_FLAG_..., PONG_STATUS_...; then force and moment on each
+ * movable group. */
 int count_sensor_numbers(size_t groups);
 
-/* Numbers of the state and movable groups of an instance. Answers 0 if it cannot be built; making the mjData tells why. */
+/* Sizes of the state and number of movable groups of an instance. Returns 0 if it cannot be built; creating
+ * the mjData reports the reason. */
 int measure_instance(const mjModel *m, int instance, int *state_numbers, int *groups);
 
 #endif

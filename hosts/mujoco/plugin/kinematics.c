@@ -9,7 +9,7 @@ typedef struct array {
 
 enum { ARRAY_COUNT = 19 };
 
-/* All that mj_kinematics(), mj_comPos() and mj_comVel() write. */
+/* Lists all arrays that mj_kinematics(), mj_comPos() and mj_comVel() write. */
 static void list_arrays(array arrays[ARRAY_COUNT], const mjModel *m, mjData *d)
 {
     const size_t bodies = (size_t)m->nbody, joints = (size_t)m->njnt, geoms = (size_t)m->ngeom;

@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A failed compilation reports at most 500 characters to its caller (mj_loadXML, ValueError in Python), "engine error:
- * plugin->init failed for plugin id 0" among them. */
+/* A failed compilation reports at most 500 characters to its caller (mj_loadXML, ValueError in Python),
+ * including "engine error: plugin->init failed for plugin id 0". */
 #define MOST_CHARACTERS 400
 
 int fail(message *m, const char *format, ...)
@@ -26,7 +26,7 @@ int fail_by_library(message *m, const char *doing)
     return fail(m, "%s: %s", doing, pong_last_message());
 }
 
-/* Cuts a long text at the end of a line and says how many more lines there are. */
+/* Cuts a long text at the end of a line and gives the number of remaining lines. */
 static void shorten(char *text)
 {
     size_t lines = 0, end = MOST_CHARACTERS;

@@ -19,7 +19,7 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
 /* ---- building */
 
-/* Sleeping bodies are neither moved nor woken by forces of a plugin. */
+/* Refuses sleep: sleeping bodies are neither moved nor woken by forces of a plugin. */
 static int refuse_sleep(const contact_world *w, const mjModel *m, message *why)
 {
     size_t i;
@@ -47,7 +47,7 @@ static int build_world(contact_world *w, const mjModel *m, int instance, message
     return done;
 }
 
-/* ---- what it was built from */
+/* ---- fingerprint of the source */
 
 static void mix(uint64_t *print, const void *bytes, size_t size)
 {
@@ -57,7 +57,7 @@ static void mix(uint64_t *print, const void *bytes, size_t size)
         *print = (*print ^ byte[i]) * 0x100000001b3u; /* FNV-1a */
 }
 
-/* Joints, for the check of the step. */
+/* Hashes the joints, for the check of the step. */
 static void mix_joints(uint64_t *print, const mjModel *m)
 {
     const size_t bodies = (size_t)m->nbody, joints = (size_t)m->njnt, dofs = (size_t)m->nv;
@@ -73,8 +73,8 @@ static void mix_joints(uint64_t *print, const mjModel *m)
     mix(print, &m->opt.disableflags, sizeof m->opt.disableflags);
 }
 
-/* Hosts change an mjModel in place: masses, the step, names. Then the world is built anew, with the checks and warnings that
- * belong to it. */
+/* Hosts change an mjModel in place: masses, the step, names. Then the world is built again, with its checks
+ * and warnings. */
 static uint64_t print_of(const mjModel *m)
 {
     const size_t bodies = (size_t)m->nbody;
@@ -95,7 +95,7 @@ static uint64_t print_of(const mjModel *m)
     return print;
 }
 
-/* ---- taking and giving back */
+/* ---- reference counting */
 
 static contact_origin *find_or_build(const mjModel *m, int instance, message *why)
 {

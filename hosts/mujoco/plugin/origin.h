@@ -1,4 +1,4 @@
-/* One sealed world for all mjData of an mjModel and instance: theirs are its clones. */
+/* One sealed world for an mjModel and instance, cloned for each mjData. */
 #ifndef PONG_CONTACT_ORIGIN_H
 #define PONG_CONTACT_ORIGIN_H
 
@@ -6,18 +6,18 @@
 
 typedef struct contact_origin contact_origin;
 
-/* The world of an instance of an mjModel: models, bodies and what the seal found. Nobody evaluates it. Built if there is none for
- * this mjModel as it is now. Answers NULL with a message. */
+/* World of an instance of an mjModel: models, bodies and the report of the seal. It is never evaluated. Built
+ * if there is none for the present state of this mjModel. Returns NULL with a message. */
 contact_origin *take_origin(const mjModel *m, int instance, message *why);
 
-/* A clone, which is the caller's, and what it shares with its origin; answers 1, or 0 with a message. Destroy the clone with
- * pong_destroy_world() before the origin is given back. */
+/* Creates a clone, owned by the caller, which shares data with its origin; returns 1, or 0 with a message.
+ * Destroy the clone with pong_destroy_world() before the origin is given back. */
 int clone_origin(contact_origin *origin, contact_world *w, message *why);
 
-/* The last one that gives it back destroys it. */
+/* Releases a reference; the last one destroys the origin. */
 void give_back_origin(contact_origin *origin);
 
-/* An mjModel is being compiled at this address: what was built for another that was there is no longer taken. */
+/* Marks origins at this address as outdated: another mjModel is being compiled there. */
 void forget_origins(const mjModel *m);
 
 #endif

@@ -22,7 +22,7 @@ static void connect(mjvScene *scene, int type, double width, const double from[3
         mjv_connector(geom, type, width, from, to);
 }
 
-/* The end of a line from a point along a vector. */
+/* End of a line from a point along a vector. */
 static void end_of(double end[3], const double point[3], const double along[3], double scale)
 {
     int i;

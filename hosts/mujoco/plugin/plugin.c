@@ -1,4 +1,5 @@
-/* The MuJoCo engine plugin `pong.contact`: passive forces, a sensor and pictures of the contacts. docs/mujoco.md. */
+/* The MuJoCo engine plugin `pong.contact`: passive forces, a sensor and visualization of the contacts.
+ * docs/mujoco.md. */
 #include "picture.h"
 #include "step.h"
 
@@ -23,7 +24,7 @@ static int init(const mjModel *m, mjData *d, int instance) { return make_host(m,
 
 static void destroy(mjData *d, int instance) { delete_host(d, instance); }
 
-/* The past is in plugin_state and has been copied. */
+/* Creates the host only: the contact memory is in plugin_state and has been copied. */
 static void copy(mjData *target, const mjModel *m, const mjData *source, int instance)
 {
     (void)source;

@@ -29,7 +29,7 @@ static int load_file(contact_world *w, const contact_config *config, const char 
         return fail(why, "the path of the model `%s` is longer than %u characters", file, (unsigned)sizeof path);
     if (pong_load_model(w->world, path, id) == PONG_STATUS_OK)
         return 1;
-    /* The plugin cannot know where the MJCF file is, so this is the mistake to expect. */
+    /* The plugin cannot know the folder of the MJCF file, so this mistake is likely. */
     if (*path != '/' && access(path, F_OK) != 0 && getcwd(working_folder, sizeof working_folder) != NULL)
         return fail(why, "%s (seen from the working folder `%s`; give the key `dir` as an absolute path)", pong_last_message(),
                     working_folder);
@@ -81,7 +81,7 @@ static int add_objects(contact_world *w, const contact_config *config, message *
     for (i = 0; i < config->objects.count && done; i++) {
         const entry *object = &config->objects.entries[i];
         pong_object_id id;
-        /* A model that several Objects have is loaded once. */
+        /* A model of several Objects is loaded once. */
         for (earlier = 0; earlier < i; earlier++)
             if (strcmp(config->objects.entries[earlier].second, object->second) == 0)
                 break;
@@ -97,7 +97,7 @@ static int add_objects(contact_world *w, const contact_config *config, message *
     return done;
 }
 
-/* The pairs that are given; of two Objects alone, those two. */
+/* Number of pairs in the configuration; two Objects without any form one pair. */
 static size_t pair_count(const contact_config *config) { return config->pairs.count > 0 ? config->pairs.count : 1; }
 
 static entry pair_at(const contact_config *config, size_t index)
@@ -110,7 +110,7 @@ static entry pair_at(const contact_config *config, size_t index)
     return both;
 }
 
-/* The Object and the path below it of a text `Object` or `Object/path`. */
+/* Splits a text `Object` or `Object/path` into the Object and the path below it. */
 static int find_group(contact_world *w, const char *text, pong_object_id *object, const char **path)
 {
     const char *slash = strchr(text, '/');
@@ -127,7 +127,7 @@ static int find_group(contact_world *w, const char *text, pong_object_id *object
     return found == PONG_STATUS_OK;
 }
 
-/* Keeps two groups apart. */
+/* Disables contact between two groups. */
 static int add_filter(contact_world *w, const entry *groups, message *why)
 {
     const char *paths[2];
@@ -166,7 +166,7 @@ int open_world(contact_world *w, const contact_config *config, message *why)
 
 /* ---- bodies */
 
-/* The MuJoCo body of a name of this plugin, or -1. `full` gets the name that was looked for. */
+/* MuJoCo body with a name from the configuration, or -1. `full` receives the full name searched. */
 static int find_body(const contact_config *config, const mjModel *m, const char *name, char *full, size_t size)
 {
     if (strcmp(name, "world") == 0) {
@@ -223,7 +223,7 @@ int bind_bodies(contact_world *w, const contact_config *config, const mjModel *m
     return 1;
 }
 
-/* A pair as it must not be there twice: Objects, bodies of their roots, models. */
+/* Identity of a pair for the check of duplicates: Objects, bodies of their roots, models. */
 typedef struct pair_signature {
     const contact_config *config;
     const char *names[2];
@@ -250,7 +250,8 @@ static void sign_pair(pair_signature *signature, const contact_config *config, c
     }
 }
 
-/* Whether an Object of the world `w` (a side of `p`) and an Object of the same model (a side of `q`) move with the same bodies. */
+/* True if an Object of the world `w` (a side of `p`) and an Object of the same model (a side of `q`) move
+ * with the same bodies. */
 static int same_bodies(const contact_world *w, const mjModel *m, const pair_signature *p, int side, const pair_signature *q, int other)
 {
     char group[512], full[512];
@@ -311,7 +312,7 @@ int refuse_double_pairs(const contact_world *w, const contact_config *config, co
 
 /* ---- step, seal */
 
-/* Tells mass and joints of the body of a movable group; the springs of a tree with the first of its groups. */
+/* Sets mass and joints of the body of a movable group; the springs of a tree with the first of its groups. */
 static int tell_body(contact_world *w, const mjModel *m, size_t group)
 {
     const int body = w->bodies[group];
@@ -337,7 +338,7 @@ int plan_step(contact_world *w, const mjModel *m, message *why)
     size_t i;
     plan.step = m->opt.timestep;
     plan.wrench_coupling = m->opt.integrator == mjINT_RK4 ? PONG_COUPLING_STAGES : PONG_COUPLING_SEMI_IMPLICIT;
-    /* Warn of contacts that gain energy alone; accuracy is the business of `pong advise`. */
+    /* Warn only of contacts that gain energy; accuracy is the task of `pong advise`. */
     plan.depth_within = plan.rebound_within = 0;
     for (i = 0; i < w->group_count; i++)
         if (!tell_body(w, m, i))

@@ -1,4 +1,4 @@
-/* From a configuration to a sealed world whose movable groups are MuJoCo bodies. */
+/* Set-up of a sealed world, whose movable groups are MuJoCo bodies, from a configuration. */
 #ifndef PONG_CONTACT_SETUP_H
 #define PONG_CONTACT_SETUP_H
 
@@ -15,20 +15,22 @@ typedef struct contact_world {
     size_t state_size;             /* largest contact state, bytes; 0 before the seal */
 } contact_world;
 
-/* Creates the world with its models, Objects and pairs. Answers 1, or 0 with a message; call close_world() in either case. */
+/* Creates the world with its models, Objects and pairs. Returns 1, or 0 with a message; call close_world() in
+ * either case. */
 int open_world(contact_world *w, const contact_config *config, message *why);
 
 /* Finds the MuJoCo body of each movable group. */
 int bind_bodies(contact_world *w, const contact_config *config, const mjModel *m, message *why);
 
-/* Refuses a pair of Objects whose models and bodies are those of another pair, of this instance or of one before it: its force
- * would act twice. */
+/* Refuses a pair of Objects whose models and bodies equal those of another pair, of this instance or of one
+ * before it: its force would act twice. */
 int refuse_double_pairs(const contact_world *w, const contact_config *config, const mjModel *m, int instance, message *why);
 
-/* Tells the world the masses of the bodies and the step, so that its seal warns of contacts for which the step is too long. */
+/* Gives the world the masses of the bodies and the step, so that its seal warns of contacts for which the
+ * step is too long. */
 int plan_step(contact_world *w, const mjModel *m, message *why);
 
-/* Seals the world. The warnings of the seal become MuJoCo's, if `instance_name` is not NULL. */
+/* Seals the world. Reports the warnings of the seal through MuJoCo if `instance_name` is not NULL. */
 int seal_world(contact_world *w, const contact_config *config, const char *instance_name, message *why);
 
 void close_world(contact_world *w);

@@ -11,7 +11,7 @@ static size_t bytes_at(size_t groups) { return WRENCHES + WRENCH_NUMBERS * group
 
 int state_length(size_t groups, size_t state_size) { return (int)(bytes_at(groups) + words(state_size)); }
 
-/* A word of 32 bits, if the number is one. */
+/* A word of 32 bits, if the number is an integer in range. */
 static int read_word(uint32_t *word, mjtNum number)
 {
     if (!(number >= 0 && number <= 4294967295.0) || number != (mjtNum)(uint32_t)number)
@@ -64,7 +64,7 @@ static uint64_t checksum(const mjtNum *state, size_t groups)
 int read_past(contact_past *past, const mjtNum *state, size_t groups, size_t state_size)
 {
     uint64_t sum;
-    /* Data that were reset are zero throughout. */
+    /* Reset data are all zero. */
     return read_two(&sum, state + CHECKSUM) && (sum == 0 || sum == checksum(state, groups)) &&
            read_two(&past->key, state + KEY) && read_two(&past->seen, state + SEEN) && read_word(&past->used, state[USED]) &&
            read_word(&past->contacts, state[CONTACTS]) && read_word(&past->flags, state[FLAGS]) && past->used <= state_size &&
@@ -99,7 +99,7 @@ void write_state(mjtNum *state, const contact_past *past, const pong_wrench *wre
     mjtNum *numbers = state + bytes_at(groups);
     uint32_t before;
     size_t i, count = words(past->used), most = words(state_size);
-    /* What was used before and is not any more becomes zero; if the number is odd, everything does. */
+    /* Words used before and unused now become zero; if their number is invalid, all words do. */
     size_t dirty = read_word(&before, state[USED]) && words(before) <= most ? words(before) : most;
 
     state[USED] = past->used;

@@ -1,12 +1,13 @@
-/* What an instance keeps in mjData.plugin_state: everything that the engine remembers between steps, so that whoever saves and
- * restores the state of MuJoCo saves and restores the contacts.
+/* Layout of an instance's mjData.plugin_state: the complete contact memory between steps, so that saving and
+ * restoring the state of MuJoCo includes the contacts.
  *
  *     used | key 2 | seen 2 | contacts | flags | checksum 2 | wrenches 6 per movable group | contact state
  *
- * Bit patterns are kept as whole numbers of 32 bits, one in each mjtNum: raw bytes would be denormal numbers or NaNs, which do
- * not survive every host that copies, prints or compares a state. Wrenches are what they are. What is not used is zero.
+ * Bit patterns are stored as integers of 32 bits, one per mjtNum: raw bytes would be denormal numbers or
+ * NaNs, which not every host preserves when it copies, prints or compares a state. Wrenches are stored as
+ * numbers. Unused words are zero.
  *
- * The checksum is of all before the contact state; the contact state has one of its own. */
+ * The checksum covers everything before the contact state, which has its own. */
 #ifndef PONG_CONTACT_STATE_H
 #define PONG_CONTACT_STATE_H
 
@@ -28,25 +29,26 @@ typedef struct contact_past {
     uint32_t flags;    /* PONG_FLAG_... of the last commit */
 } contact_past;
 
-/* How many mjtNum an instance needs. */
+/* Number of mjtNum of an instance. */
 int state_length(size_t groups, size_t state_size);
 
-/* Answers 1, or 0 if the numbers are no state of an instance with such sizes, or not as they were written. */
+/* Reads the part before the contact state. Returns 1, or 0 if the numbers are no valid state of an instance
+ * with such sizes. */
 int read_past(contact_past *past, const mjtNum *state, size_t groups, size_t state_size);
 
 void read_wrenches(pong_wrench *wrenches, const mjtNum *state, size_t groups);
 
-/* Answers 1, or 0 if the numbers are no bytes. */
+/* Reads the contact state. Returns 1, or 0 if the numbers are no bytes. */
 int read_contact_state(unsigned char *bytes, const contact_past *past, const mjtNum *state, size_t groups);
 
-/* Writes all of it; `bytes` has room for `past->used` rounded up to four. */
+/* Writes the whole state; `bytes` has room for `past->used` rounded up to four. */
 void write_state(mjtNum *state, const contact_past *past, const pong_wrench *wrenches, size_t groups,
                  const unsigned char *bytes, size_t state_size);
 
 /* Hash of the states of all movable groups; never 0. */
 uint64_t hash_states(const pong_state *states, size_t groups);
 
-/* The key of what comes after a commit of such states; never 0. */
+/* Key after a commit of such states; never 0. */
 uint64_t next_key(uint64_t key, uint64_t seen);
 
 #endif

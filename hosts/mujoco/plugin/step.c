@@ -14,7 +14,7 @@ static mjtNum *state_of(const mjModel *m, const mjData *d, const contact_host *h
 
 static const char *name_of(const mjModel *m, const contact_host *host) { return mj_id2name(m, mjOBJ_PLUGIN, host->instance); }
 
-/* ---- failures and limits, told once in a run */
+/* ---- failures and limits, reported once per run */
 
 static int fail_step(contact_host *host, const mjModel *m, int status, const char *text)
 {
@@ -82,7 +82,7 @@ static void read_states(contact_host *host, const mjModel *m, const mjData *d)
     }
 }
 
-/* Brings the world to the past that the state tells. Most often it is there already. */
+/* Restores the world to the memory in the state, if it differs; mostly it does not. */
 static int restore_past(contact_host *host, const mjModel *m, const contact_past *past, const mjtNum *state)
 {
     const unsigned char *bytes = host->no_past;
@@ -135,7 +135,7 @@ static int refuse_late_sleep(contact_host *host, const mjModel *m)
 
 /* ---- evaluate and commit */
 
-/* Takes over what the world has just computed for host->states. */
+/* Stores the result of the world's evaluation of host->states. */
 static int take_result(contact_host *host, const mjModel *m, pong_report *report)
 {
     pong_status status = pong_get_wrenches(host->at.world, host->at.interfaces, PONG_REFERENCE_FRAME_COMMON, host->wrenches,
@@ -183,8 +183,8 @@ int evaluate(contact_host *host, const mjModel *m, const mjData *d)
     if (host->has_result && host->result_key == past.key && host->result_seen == seen)
         return 1;
     if (past.key != 0 && past.seen == seen) {
-        /* The states are those of the last commit: its wrenches hold. They are also the better ones where friction has just
-         * slipped, and what `pong run` takes. */
+        /* The states are those of the last commit, so its wrenches apply. They are also more accurate where
+         * friction has just slipped, and those of `pong run`. */
         read_wrenches(host->wrenches, state, host->at.group_count);
         host->contact_count = past.contacts;
         host->flags = past.flags;
@@ -196,7 +196,7 @@ int evaluate(contact_host *host, const mjModel *m, const mjData *d)
     return 1;
 }
 
-/* Commits host->states and writes what the world now remembers. */
+/* Commits host->states and writes the new contact memory to the state. */
 static void commit_states(contact_host *host, const mjModel *m, mjtNum *state)
 {
     contact_past past;
@@ -243,7 +243,7 @@ void commit(contact_host *host, const mjModel *m, mjData *d)
     restore_kinematics(m, d, saved);
 }
 
-/* Makes room for contacts of a picture. */
+/* Grows the contact list for a picture. */
 static int make_room(contact_host *host, size_t count)
 {
     void *contacts;
@@ -266,8 +266,8 @@ size_t list_contacts(contact_host *host, const mjModel *m, mjData *d)
     host->has_result = 0;
     if (!refuse_late_sleep(host, m) || !read_known_past(&past, host, m, state))
         return 0;
-    /* After a step the past is that of its end, and so must be the places: seen from the end, those of the beginning would look
-     * as if all bristles had just been relieved. */
+    /* After a step the memory is that of its end, so the positions must be too: with those of the beginning,
+     * all bristles would appear relieved. */
     saved = update_kinematics(m, d);
     read_states(host, m, d);
     restore_kinematics(m, d, saved);

@@ -1,5 +1,6 @@
-/* The berthing at 1 kHz: the arm brings the module, four latches pull it onto the stops, hold it, open, and the standoffs push
- * it off. The sequencer is that of mechanisms/berthing/sequencer.py; its numbers come from its folder (mechanisms/from_c.py).
+/* The berthing at 1 kHz: the arm brings the module, four latches pull it onto the stops, hold it and open,
+ * and the standoffs push it off. The sequencer is that of mechanisms/berthing/sequencer.py; its numbers come
+ * from its folder (mechanisms/from_c.py).
  *
  *     berthing FOLDER [--fast] [--seconds S] [--lock] [--fifo PRIORITY] [--core N] [--end FILE]
  *
@@ -16,7 +17,7 @@ enum { LATCHES = 4, ARM = 6 };
 enum phase { APPROACH, CAPTURE, LIMP, PULL, HOLD, BOLT, OPEN, AWAY, PHASES };
 static const char *const NAMES[PHASES] = { "approach", "capture", "limp", "pull", "hold", "bolt", "open", "away" };
 
-/* The numbers of the sequence; rows of the folder's numbers have the same names. */
+/* Parameters of the sequence; rows of the folder's numbers.txt have the same names. */
 typedef struct {
     double start_gap, pushed_gap, approach_speed, ready_stroke, ready_turn, ready_for, caught, caught_for, capture_most;
     double limp_for, ramp, stands, stands_for, pull_most, held_for, bolted_for, stowed, stowed_within, open_most, away_for;
@@ -81,7 +82,7 @@ static void open_sequencer(sequencer *s, const machine *m)
     s->arm_group = 1 << (int)number(&m->numbers, "arm_group");
 }
 
-/* --- what it senses ------------------------------------------------------------------------------------------------- */
+/* --- sensors ---------------------------------------------------------------------------------------------------------- */
 
 static double least(const double *values, const int *at)
 {
@@ -103,7 +104,7 @@ static double fastest(const sequencer *s, const machine *m)
     return found;
 }
 
-/* How far the crank farthest from its stowed place is from it, rad. */
+/* Largest distance of a crank from its stowed angle, rad. */
 static double farthest(const sequencer *s, const machine *m)
 {
     double found = 0.0;
@@ -133,7 +134,7 @@ static int all_stowed(const sequencer *s, const machine *m)
 
 /* --- the phases ----------------------------------------------------------------------------------------------------- */
 
-/* Whether something has been so for a time. */
+/* True if a condition has held for a time. */
 static int lasting(sequencer *s, int holds, double seconds, double time)
 {
     if (!holds) {
@@ -179,7 +180,7 @@ static void next(sequencer *s, const machine *m)
     s->since = s->quiet_since = m->data->time;
 }
 
-/* The voltage at which a motor that turns acts as one with this share of the stall torque, and the same free speed. */
+/* Voltage at which a turning motor acts as one with this share of the stall torque, and the same free speed. */
 static double driven(const sequencer *s, double share, double speed)
 {
     return fmin(1.0, fmax(-1.0, share + (1.0 - share) * speed / s->l.free_speed));

@@ -16,8 +16,8 @@
 enum phase { APPROACH, SNARE, RETRACT, RIGIDIZE, HOLD, RELEASE, OPEN, PUSH, DONE, PHASES };
 static const char *const NAMES[PHASES] = { "approach", "snare", "retract", "rigidize", "hold", "release", "open", "push", "done" };
 
-/* A row `phase` of the folder's numbers: how long at most; voltages of ring, screw and plungers, and the ring's brake; the
- * joint whose rest ends it, if any. */
+/* A row `phase` of the folder's numbers: longest duration; voltages of ring, screw and plungers, and the
+ * ring's brake; the joint whose rest ends the phase, if any. */
 typedef struct {
     double limit, ring, brake, screw, plungers;
     int rests; /* address of its speed, or -1 */
@@ -87,9 +87,9 @@ static void open_sequencer(sequencer *s, const machine *m)
     s->payload = id_of(m, mjOBJ_BODY, "payload");
 }
 
-/* --- what it senses ------------------------------------------------------------------------------------------------- */
+/* --- sensors ---------------------------------------------------------------------------------------------------------- */
 
-/* Force (N) and moment (N m) on a movable group; NULL where the machine has none of the name. */
+/* Force (N) and moment (N m) on a movable group; NULL if the machine has no group of this name. */
 static const double *on(const machine *m, const char *group)
 {
     char **words;
@@ -114,14 +114,14 @@ static int touched(const machine *m, const char *group, int numbers)
     return 0;
 }
 
-/* Along the shell's axis, N: positive where a group is pushed inwards. */
+/* Force along the shell's axis, N: positive where a group is pushed inwards. */
 static double axial(const sequencer *s, const machine *m, const char *group)
 {
     const double *axes = m->data->xmat + 9 * s->shell, *force = on(m, group);
     return force == NULL ? 0.0 : -(axes[2] * force[0] + axes[5] * force[1] + axes[8] * force[2]);
 }
 
-/* Of the plate's centre above the plane of the open snare, m. */
+/* Height of the plate's centre above the plane of the open snare, m. */
 static double height(const sequencer *s, const machine *m)
 {
     const double *axes = m->data->xmat + 9 * s->shell;
@@ -178,7 +178,7 @@ static int finished(sequencer *s, const machine *m)
     }
 }
 
-/* Nothing came into the mouth; the closed snare touches nothing; nothing presses the pads. */
+/* True if the phase failed: nothing entered the mouth, the closed snare touches nothing, or nothing presses the pads. */
 static int failed(const sequencer *s, const machine *m)
 {
     switch (s->phase) {
@@ -206,7 +206,7 @@ static void next(sequencer *s, const machine *m)
     s->carriage = m->data->qpos[s->retract];
 }
 
-/* The ring's motor has a limited current. */
+/* Voltage of the ring's motor, whose current is limited. */
 static double ring_voltage(const sequencer *s, const machine *m, double wanted)
 {
     double limit = number(&m->numbers, "snare_torque") / number(&m->numbers, "stall_torque");

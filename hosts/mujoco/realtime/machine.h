@@ -1,4 +1,5 @@
-/* A mechanism in MuJoCo with Pong's contact, stepped by the clock or as fast as it goes, and what its deadlines came to. */
+/* A mechanism in MuJoCo with Pong's contact, stepped in real time or as fast as possible, with statistics of
+ * its deadlines. */
 #ifndef MACHINE_H
 #define MACHINE_H
 
@@ -25,24 +26,24 @@ typedef struct {
     int flags;
 } machine;
 
-/* Reads the arguments of a program; ends it if they are wrong. */
+/* Reads the arguments of a program; exits if they are wrong. */
 void read_options(run_options *o, int argc, char **argv);
 
-/* FOLDER/machine.xml and FOLDER/numbers.txt, at rest but for the velocities in `qvel`. Goes into the folder: the plugin
- * seeks the models from there. */
+/* Opens FOLDER/machine.xml and FOLDER/numbers.txt, at rest except for the velocities in `qvel`. Changes to
+ * the folder, because the plugin searches the models from there. */
 void open_machine(machine *m, const run_options *o);
 void close_machine(machine *m);
 
-/* Addresses of a joint in qpos and qvel, and numbers of other things; they end the program if there is none of the name. */
+/* Addresses of a joint in qpos and qvel, and indices of other elements; exits if there is none of the name. */
 int place_of(const machine *m, const char *joint);
 int speed_of(const machine *m, const char *joint);
 int id_of(const machine *m, mjtObj kind, const char *name);
 
-/* Sets the controls of a step; 0 when the run is over. */
+/* Sets the controls of a step; returns 0 when the run is over. */
 typedef int (*sequence)(machine *m, void *state);
 
-/* Steps until the sequence is over (1) or the seconds of the options have passed (0). Prints what the deadlines came to, and
- * writes qpos and qvel as they lie in memory into the file of the option --end. */
+/* Steps until the sequence is over (returns 1) or the seconds of the options have passed (returns 0). Prints
+ * the statistics of the deadlines, and writes qpos and qvel in binary into the file of the option --end. */
 int run_machine(machine *m, const run_options *o, sequence control, void *state);
 
 #endif

@@ -1,5 +1,5 @@
-/* What a mechanism's folder tells of its sequence: `numbers.txt`, written by mechanisms/from_c.py, has rows of words. The first
- * word of a row is its name; several rows may have the same. */
+/* Parameters of a sequence: `numbers.txt`, written by mechanisms/from_c.py, has rows of words. The first word
+ * of a row is its name; several rows may have the same name. */
 #ifndef NUMBERS_H
 #define NUMBERS_H
 
@@ -12,13 +12,13 @@ typedef struct {
     int sizes[MOST_ROWS], count;
 } numbers;
 
-/* These end the program, with 2, if something is missing. */
+/* Reads a file; these functions exit with 2 if something is missing. */
 void read_numbers(numbers *n, const char *file);
 
-/* The row of a name, the `which`-th from 0; NULL if there are fewer. */
+/* Row of a name, the `which`-th from 0; NULL if there are fewer. */
 char **row_of(const numbers *n, const char *name, int which);
 
-/* A number of the only row of a name: the first behind the name is number 0. */
+/* A number of the only row of a name; number 0 follows the name. */
 double number_at(const numbers *n, const char *name, int index);
 double number(const numbers *n, const char *name);
 

@@ -1,4 +1,4 @@
-"""What the tests share: the plugin, small models, small MJCFs.
+"""Shared parts of the tests: the plugin, small models, small MJCFs.
 
 PLUGIN is the built plugin, PONG the program `pong` (ci/mujoco sets both).
 """
@@ -31,7 +31,7 @@ def ball_model(stiffness=2e4, damping=0.0, mu=0.0, tangential=None, tangential_d
 
 
 def instance(objects, name="c", **keys):
-    """An <instance>: `objects` and further keys of the configuration."""
+    """An <instance>: `objects` and other keys of the configuration."""
     keys = {"objects": objects, **keys}
     lines = "".join(f"<config key='{key}' value='{value}'/>" for key, value in keys.items())
     return f"<instance name='{name}'>{lines}</instance>"
@@ -74,7 +74,7 @@ def several_balls(count=6, integrator="Euler", timestep=1e-3):
 
 
 def docking():
-    """The docking, wherever the tests run."""
+    """Path of the docking scene, independent of the working directory."""
     text = (ROOT / "hosts/mujoco/docking/docking.xml").read_text()
     folder = 'value="models/idss_docking"'
     assert text.count(folder) == 1
@@ -91,7 +91,7 @@ def full_state(m, d, kind=FULL):
 
 
 def run(m, d, steps):
-    """Steps; answers the bits of every state on the way."""
+    """Steps the simulation and returns the bits of every state on the way."""
     bits = []
     for _ in range(steps):
         mujoco.mj_step(m, d)
@@ -100,7 +100,7 @@ def run(m, d, steps):
 
 
 def assert_same_bits(test, bits, expected):
-    """Two runs are the same. The states themselves would fill pages, and comparing them for a report would take minutes."""
+    """Asserts that two runs are equal, without printing the states: a report on them would take minutes."""
     test.assertEqual(len(bits), len(expected))
     differing = [step for step, (a, b) in enumerate(zip(bits, expected)) if a != b]
     test.assertFalse(differing, f"the runs differ from step {differing[:1]} on")

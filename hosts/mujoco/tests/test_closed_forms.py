@@ -1,4 +1,4 @@
-"""Motions whose answer is known in closed form, under every integrator of MuJoCo."""
+"""Motions with closed-form solutions, under every integrator of MuJoCo."""
 
 import math
 import unittest
@@ -22,8 +22,8 @@ class ClosedForms(unittest.TestCase):
         return depth, d.qvel[2]
 
     def test_undamped_bounce(self):
-        # Half a period of m·x'' = −k·x: depth v·√(m/k), speed as before. The step divides neither touch nor half period, so
-        # what a step cuts off at both ends remains: of first order in h·ω = 0.014.
+        # Half a period of m·x'' = −k·x: depth v·√(m/k), speed as before. The step divides neither contact onset nor
+        # half period, so the truncation at both ends remains: first order in h·ω = 0.014.
         omega = math.sqrt(2e4)
         for integrator in INTEGRATORS:
             with self.subTest(integrator=integrator):
@@ -49,7 +49,7 @@ class ClosedForms(unittest.TestCase):
                 self.assertLess(abs(speed - rebound), 2e-3)
 
     def test_rest(self):
-        # The weight is held: depth m·g/k, force m·g on the ball and −m·g on the ground.
+        # The weight is supported: depth m·g/k, force m·g on the ball and −m·g on the ground.
         for integrator in INTEGRATORS:
             with self.subTest(integrator=integrator):
                 m = ball_on_ground("0 0 0.0995", integrator=integrator, damping=100.0)
@@ -60,7 +60,7 @@ class ClosedForms(unittest.TestCase):
                 np.testing.assert_allclose(d.sensordata[3:], [0, 0, 9.81, 0, 0, 0, 0, 0, -9.81, 0, 0, 0], atol=1e-7)
 
     def settles(self, integrator, damping_number, stiffness_number):
-        """Whether a ball at rest comes to rest again when it is pushed a little: h·c/m and h·√(k/m) as given."""
+        """True if a ball at rest returns to rest after a small push: h·c/m and h·√(k/m) as given."""
         h = 1e-3
         m = ball_on_ground("0 0 0.09", integrator=integrator, timestep=h, stiffness=(stiffness_number / h) ** 2,
                            damping=damping_number / h, gravity=f"0 0 {-0.01 * (stiffness_number / h) ** 2}", check="false")
@@ -85,8 +85,8 @@ class ClosedForms(unittest.TestCase):
                     self.assertEqual(self.settles(integrator, c, k), expected)
 
     def test_bristle_holds_on_a_slope(self):
-        # Gravity leans by atan 0.2, friction 0.5 holds: the bristle is deflected by m·g_x/k_t. Without a commit in each step
-        # it would have no memory, and the ball would slide away.
+        # Gravity is tilted by atan 0.2, and friction 0.5 holds: the bristle is deflected by m·g_x/k_t. Without a commit
+        # in each step it would have no memory, and the ball would slide away.
         slides = "<joint type='slide' axis='1 0 0'/><joint type='slide' axis='0 0 1'/>"
         for integrator in INTEGRATORS:
             with self.subTest(integrator=integrator):
@@ -100,7 +100,7 @@ class ClosedForms(unittest.TestCase):
                 self.assertAlmostEqual(d.sensordata[3], -1.962, delta=1e-6)
 
     def test_sliding_stops_where_friction_has_taken_the_energy(self):
-        # v²/(2·μ·g), less what the bristle keeps: μ·m·g/k_t at most.
+        # v²/(2·μ·g), less the energy kept by the bristle: μ·m·g/k_t at most.
         slides = "<joint type='slide' axis='1 0 0'/><joint type='slide' axis='0 0 1'/>"
         for integrator in INTEGRATORS:
             with self.subTest(integrator=integrator):

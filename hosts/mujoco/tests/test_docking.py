@@ -17,7 +17,7 @@ COLUMNS = ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz", "vx_m_per_s", "vy_m_per_
 
 
 def run_scene(text, folder, models):
-    """The states that `pong run` writes: {step: {body: numbers}}, with the step of the scene."""
+    """States written by `pong run`: {step: {body: numbers}}, with the step of the scene."""
     scene = pathlib.Path(folder) / "scene.ron"
     scene.write_text(re.sub(r'": "(idss_\w+\.ron)"', lambda found: f'": "{models}/{found[1]}"', text))
     subprocess.run([PONG, "run", "--quiet", "--csv", "-o", folder, scene], check=True, stderr=subprocess.DEVNULL)
@@ -43,7 +43,7 @@ def states_of(m, d, names):
 
 
 def deviations(m, d, rows):
-    """(step, greatest difference of places and quaternions, of velocities) for the steps that the executive recorded."""
+    """(step, largest difference of positions and quaternions, of velocities) for the steps that the executive recorded."""
     for step in range(max(rows) + 1):
         if step in rows:
             worst = np.zeros(len(COLUMNS))
@@ -61,8 +61,9 @@ class Docking(unittest.TestCase):
         subprocess.run([sys.executable, DOCKING / "build.py", "--check"], check=True)
 
     def test_as_the_executive_does(self):
-        # To rounding in free flight and while the petals align the ring. When the first latch slips over its striker, 1.17 s, the two
-        # part by 1e-5 m: so does each from itself at half the step, because an event of that kind lies within a step.
+        # Equal to rounding in free flight and while the petals align the ring. When the first latch slips over its
+        # striker, at 1.17 s, the two diverge by 1e-5 m, as does each from itself at half the step, because the event
+        # lies within a step.
         text = (ROOT / "models/idss_docking/scene_soft_capture.ron").read_text()
         text = text.replace("duration: 8.0", "duration: 2.4")
         with tempfile.TemporaryDirectory() as folder:
@@ -86,8 +87,8 @@ class Docking(unittest.TestCase):
 
 class Ball(unittest.TestCase):
     def test_a_bouncing_and_spinning_ball_as_in_the_executive(self):
-        # Through touch, slip and stick. The Euler steps of the two are the same but for rounding; their Runge-Kutta steps differ
-        # in what they cut off of the rotation.
+        # Contact, slip and stick. The Euler steps of the two are equal up to rounding; their Runge-Kutta steps differ
+        # in the truncation error of the rotation.
         scene = """(format: "pong-scene", version: 1, name: "ball", models: { "ball": "ball.ron", "ground": "ground.ron" },
             objects: [(name: "ball", model: "ball", bodies: [(motion: Free, mass: 1.0, inertia: Diagonal(0.004, 0.004, 0.004),
                 position: (0.0, 0.0, 0.15), linear_velocity: (1.0, 0.3, 0.0), angular_velocity: (3.0, -2.0, 5.0))]),

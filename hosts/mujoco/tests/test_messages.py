@@ -1,4 +1,4 @@
-"""What is refused says the thing, the cause and the cure, through MuJoCo's own channel; nothing is left half done."""
+"""Refusals give the thing, the cause and the cure through MuJoCo's own channel, and leave nothing half done."""
 
 import os
 import pathlib
@@ -55,7 +55,7 @@ class Compiling(unittest.TestCase):
         self.refused(inside, "`b, ground` is the pair `ball, ground`")
 
     def test_two_objects_of_one_model_whose_groups_are_other_bodies(self):
-        """Both roots are the world: what moves tells them apart, and makes them one."""
+        """Both roots are attached to the world; the movable groups decide whether they are the same."""
         arm = """(format: "pong-model", version: 1, name: "arm", surfaces: { "rubber": (stiffness: 1e4) }, root: (name: "arm",
             surface: "rubber", groups: [(name: "tip", movable: true, primitives: [Sphere(name: "s", center: (0, 0, 0), radius: 0.1)])]))"""
         bodies = "".join(BALL.replace('ball', name) for name in ("a/tip", "b/tip"))
@@ -129,7 +129,7 @@ class Compiling(unittest.TestCase):
 
 
 class Running(unittest.TestCase):
-    """Warnings of a run go to MuJoCo's log; they are read from the file that MuJoCo writes them to."""
+    """Warnings of a run go to MuJoCo's log; the test reads the file."""
 
     def warnings_of(self, program, plugin=PLUGIN, expect=0):
         prologue = "import mujoco, numpy as np; from support import *\n"
@@ -195,7 +195,7 @@ assert d.qpos[2] < -1
         said = self.warnings_of("m = ball_on_ground(timestep=0.02, stiffness=1e5); [mujoco.MjData(m) for _ in range(3)]")
         self.assertIn("pong.contact, instance `c`", said)
         self.assertEqual(said.count("instance `c`"), 1, "once for all mjData")
-        # 2·√(m/k) is 6.3 ms; the stages of RK4 bear 2.8·√(m/k).
+        # 2·√(m/k) is 6.3 ms; the limit of the stages of RK4 is 2.8·√(m/k).
         for made in ("timestep=0.001", "timestep=0.008, integrator='RK4'", "timestep=0.008, check='false'"):
             said = self.warnings_of(f"ball_on_ground({made}, stiffness=1e5)")
             self.assertNotIn("pong.contact", said)
@@ -245,7 +245,7 @@ except mujoco.FatalError:
         self.assertIn("refused", said)
 
     def test_sleep(self):
-        # MuJoCo compiles as if sleep were disabled; making an mjData is what fails.
+        # MuJoCo compiles as if sleep were disabled; creating an mjData fails.
         program = """
 awake = FREE.format(place="0 0 .3", mass=1, i=.004).replace("<body ", "<body sleep='never' ")
 inside = instance("ball = text1; ground = text2", bodies="ground = world", text1=ball_model(), text2=GROUND)

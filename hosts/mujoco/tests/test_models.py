@@ -1,4 +1,4 @@
-"""Ways in which a model comes to have contacts: inserted models, instances without a name, bodies that are welded or prescribed."""
+"""Ways for a model to have contacts: inserted models, instances without a name, bodies that are welded or prescribed."""
 
 import pathlib
 import tempfile
@@ -21,7 +21,7 @@ def settled(m, steps=500):
 
 class Inserted(unittest.TestCase):
     def test_two_copies_of_a_model(self):
-        # MuJoCo puts the prefix before names, not into configurations: the key `prefix` follows it.
+        # MuJoCo adds the prefix to names, not to configurations: the key `prefix` does that.
         parent = mujoco.MjSpec()
         for prefix, place in (("left_", [-1, 0, 0]), ("right_", [1, 0, 0])):
             child = mujoco.MjSpec.from_string(mjcf(BALL, instance(OBJECTS, prefix=prefix, **KEYS), more=SENSOR, timestep=2e-3))
@@ -91,13 +91,13 @@ class Filters(unittest.TestCase):
 
 class Bodies(unittest.TestCase):
     def test_a_body_below_another(self):
-        # The ball is welded to an arm on a hinge: the moment about the hinge is that of force times lever.
+        # The ball is welded to an arm on a hinge: the moment about the hinge is force times lever.
         body = """<body name='arm' pos='-1 0 0.1'><joint type='hinge' axis='0 1 0' damping='5'/>
             <inertial mass='0.5' pos='0.5 0 0' diaginertia='.01 .01 .01'/>
             <body name='ball' pos='1 0 0'><inertial mass='1' pos='0 0 0' diaginertia='.004 .004 .004'/></body></body>"""
         keys = {**KEYS, "text1": ball_model(damping=100.0)}
         d = settled(mujoco.MjModel.from_xml_string(mjcf(body, instance(OBJECTS, **keys), more=SENSOR)), 3000)
-        # Weight of 1 kg at 1 m and 0.5 kg at 0.5 m, carried at 1 m.
+        # Weight of 1 kg at 1 m and 0.5 kg at 0.5 m, supported at 1 m.
         self.assertAlmostEqual(d.sensordata[5], 1.25 * 9.81, delta=1e-3)
         self.assertAlmostEqual(d.qfrc_passive[0], -1.25 * 9.81, delta=1e-2)
 

@@ -1,4 +1,4 @@
-"""What docs/mujoco.md shows does what the page says."""
+"""The examples of docs/mujoco.md behave as the page says."""
 
 import pathlib
 import re

@@ -1,4 +1,4 @@
-"""What the plugin adds to MuJoCo's pictures, without a screen."""
+"""Visualization added by the plugin to MuJoCo's scenes, tested without a display."""
 
 import unittest
 

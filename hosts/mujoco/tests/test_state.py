@@ -1,4 +1,4 @@
-"""Everything that continues from a saved state of MuJoCo continues to the same bits."""
+"""Continuation from a saved state of MuJoCo gives the same bits."""
 
 import concurrent.futures
 import os
@@ -20,7 +20,7 @@ FULLPHYSICS = mujoco.mjtState.mjSTATE_FULLPHYSICS
 
 
 class SameBits(unittest.TestCase):
-    """A run is left in the middle, in contact, and taken up again in many ways."""
+    """A run is interrupted in contact and continued in many ways."""
 
     @classmethod
     def setUpClass(cls):
@@ -73,7 +73,7 @@ class SameBits(unittest.TestCase):
         d = pickle.loads(self.copy)
         assert_same_bits(self, run(self.m, d, AFTER), self.whole)
         del d
-        # The world of the first is not that of the second.
+        # The world of the first differs from that of the second.
         assert_same_bits(self, run(self.m, pickle.loads(self.copy), AFTER), self.whole)
 
     def test_pickled_into_another_process(self):
@@ -111,7 +111,7 @@ class SameBits(unittest.TestCase):
             self.assertTrue(full_state(self.m, d).tobytes() + d.sensordata.tobytes() == expected, f"step {step}")
 
     def test_evaluations_between_steps_leave_no_trace(self):
-        # Forward and inverse dynamics, at the state and elsewhere; the warm start of the solver is MuJoCo's own trace.
+        # Forward and inverse dynamics, at the state and elsewhere; only MuJoCo's warm start of the solver remains.
         d = self.at_middle()
         for step, expected in enumerate(self.whole):
             state = full_state(self.m, d)
@@ -124,7 +124,7 @@ class SameBits(unittest.TestCase):
             self.assertTrue(full_state(self.m, d).tobytes() + d.sensordata.tobytes() == expected, f"step {step}")
 
     def test_the_same_states_with_another_past(self):
-        # Without their bristles the same places give other forces: those of data that never had a past.
+        # Without their bristles the same positions give other forces: those of data without a history.
         fresh = mujoco.MjData(self.m)
         d = self.at_middle()
         mujoco.mj_forward(self.m, d)
@@ -153,7 +153,7 @@ class SameBits(unittest.TestCase):
         np.testing.assert_array_equal(state[2, -1], full_state(self.m, alone, FULLPHYSICS))
 
     def test_batch_in_threads(self):
-        # An mjData serves many simulations in turn: what each remembers comes from its own state.
+        # An mjData serves many simulations in turn; the memory of each comes from its own state.
         results = []
         for threads, persistent in ((1, False), (2, False), (4, False), (2, True)):
             batch = mujoco.batch.Batch(self.m, 6, threads, persistent=persistent)
@@ -168,7 +168,7 @@ class SameBits(unittest.TestCase):
         self.assertTrue((numbers == np.hstack([alone.qpos, alone.qvel, alone.plugin_state])).all())
 
     def test_data_made_and_deleted_in_threads(self):
-        # Worlds come and go while others step; each mjData finds its own.
+        # Worlds are created and destroyed while others step; each mjData finds its own.
         def work(_):
             return [hash(b"".join(run(self.m, self.at_middle(), 60))) for _ in range(5)]
 
@@ -210,7 +210,7 @@ class Numbers(unittest.TestCase):
             self.assertFalse(((numbers > 0) & (numbers < np.finfo(float).tiny)).any(), "a denormal number")
 
     def test_the_rest_of_the_state_is_zero(self):
-        # Contacts come and go: what they used is given back.
+        # Contacts begin and end; their memory is released.
         m = ball_on_ground("0 0 0.12", mu=0.3)
         d = mujoco.MjData(m)
         used = []
@@ -223,7 +223,7 @@ class Numbers(unittest.TestCase):
 
 
     def test_numbers_that_were_changed_are_refused(self):
-        # A wrench that nobody computed would act, one that is no number would reset MuJoCo.
+        # A stale wrench would act, and a wrench that is not finite would reset MuJoCo.
         m = ball_on_ground("0 0 0.0995", mu=0.3)
         d = mujoco.MjData(m)
         mujoco.mj_step(m, d, 50)
@@ -246,8 +246,8 @@ class Numbers(unittest.TestCase):
 
 class RestOfData(unittest.TestCase):
     def test_a_step_leaves_mujocos_own_arrays_as_they_are(self):
-        # The commit needs kinematics of the new state; what MuJoCo left behind of the old one comes back. Compared with the same
-        # body without the plugin, apart from everything.
+        # The commit needs kinematics of the new state; MuJoCo's values for the old one are restored afterwards.
+        # Compared with the same body without the plugin, far from everything.
         arm = "<body name='arm' pos='3 0 0'><joint type='hinge' axis='0 1 0'/><geom size='.1 .2' type='capsule' pos='.3 0 0'/>" \
                "<site name='tip' pos='.5 0 0'/><camera pos='.5 0 1'/><light pos='.5 0 2'/><body pos='.4 0 0'><joint type='ball' pos='0 .1 0'/><geom size='.05' pos='0 0 .3'/></body></body>"
         inside = instance("ball = text1; ground = text2", bodies="ground = world", text1=ball_model(), text2=GROUND)

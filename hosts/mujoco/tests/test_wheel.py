@@ -1,4 +1,4 @@
-"""The wheel: what pip makes of it, and that importing it is enough. Skipped where ci/mujoco has not built one."""
+"""The wheel as installed by pip; importing it is enough. Skipped where ci/mujoco has not built one."""
 
 import os
 import pathlib

@@ -1,4 +1,5 @@
-/* Nanoseconds of a frame through the C interface: states of two Objects in, step, wrenches out. Beside frame.py. */
+/* Nanoseconds of a frame through the C interface: set states of two Objects, step, read wrenches. Compared
+ * with frame.py. */
 #include "pong.h"
 
 #include <stdio.h>
@@ -19,7 +20,7 @@ static double now(void) {
     return 1e9 * (double)time.tv_sec + (double)time.tv_nsec;
 }
 
-/* MODEL_A MODEL_B HEIGHT FRAMES: the best of ten times so many frames, A above B. */
+/* MODEL_A MODEL_B HEIGHT FRAMES: best of ten runs of FRAMES frames, A above B. */
 int main(int count, char **arguments) {
     if (count != 5)
         return 2;
@@ -44,7 +45,7 @@ int main(int count, char **arguments) {
     for (int repeat = 0; repeat < 10; repeat++) {
         double begin = now();
         for (int frame = 0; frame < frames; frame++) {
-            /* Another state each frame: one that is set again costs nothing. */
+            /* A different state in each frame: setting the same one again costs nothing. */
             states[0].position[2] = atof(arguments[3]) + 1e-9 * (frame % 1000);
             CHECK(pong_set_states(world, roots, states, 2));
             CHECK(pong_step(world));

@@ -1,4 +1,4 @@
-"""The capture envelope of the docking interfaces: from which offsets do the latches hold?
+"""Capture envelope of the docking interfaces: offsets from which the latches hold.
 
     python hosts/python/examples/docking_envelope.py OUT [--runs 10000] [--workers 2] [--scheduler ADDRESS] [--reference]
 
@@ -18,7 +18,7 @@ from pong.campaign import plots
 SCENE = pathlib.Path(__file__).resolve().parents[3] / "models/idss_docking/scene_soft_capture.ron"
 DEGREE = math.radians(1.0)
 
-# Where the scene itself starts: 50 mm aside, pitched by 1° and rolled by 2°.
+# Start of the scene itself: 50 mm aside, pitched by 1° and rolled by 2°.
 ASIDE, PITCHED, ROLLED = 0.05, 1.0, 2.0
 LATERAL, TILT = 0.20, 8.0
 
@@ -28,11 +28,11 @@ def plan(runs, duration=16.0, reference=False):
     4° on each axis), so that the border of the envelope is inside.
 
     The first `n` approaches are the same for every number of runs: the study of the step compares them one by one."""
-    # Six times as fast as the scene's integrator and step; what that changes is measured in docs/campaigns.md.
+    # Six times as fast as the scene's integrator and step; the effect is measured in docs/campaigns.md.
     training = {"integrator": "SemiImplicitEuler", "step": 1e-3}
     stops = [
         campaign.Held("held", "captured", 1.0),
-        # At the start the ring is at most 0.5 m away: beyond that, and growing, it has bounced off or passed by.
+        # At the start the ring is at most 0.5 m away: farther away and receding, it has bounced off or passed by.
         campaign.Beyond("parted", "chaser/ring", "target", 0.55),
     ]
     return campaign.Plan(
@@ -43,7 +43,7 @@ def plan(runs, duration=16.0, reference=False):
         dispersions=[
             campaign.Uniform("chaser.position.x", -ASIDE - LATERAL, -ASIDE + LATERAL),
             campaign.Uniform("chaser.position.y", -LATERAL, LATERAL),
-            # So far back that no approach begins in contact; four of the 128 corners would.
+            # Far enough back that no approach begins in contact; four of the 128 corners would.
             campaign.Uniform("chaser.position.z", -0.26, -0.24),
             campaign.Uniform("chaser.rotation.x", (-PITCHED - TILT) * DEGREE, (-PITCHED + TILT) * DEGREE),
             campaign.Uniform("chaser.rotation.y", -TILT * DEGREE, TILT * DEGREE),
@@ -65,7 +65,7 @@ def plan(runs, duration=16.0, reference=False):
 
 
 def offsets(table):
-    """Of each approach: lateral offset from the axis (m), tilt and roll of the ring (°)."""
+    """Lateral offset from the axis (m), tilt and roll of the ring (°) of each approach."""
     column = {name: table[name].to_numpy() for name in table.column_names if name.startswith("chaser.")}
     lateral = np.hypot(column["chaser.position.x"] + ASIDE, column["chaser.position.y"])
     tilt = np.hypot(column["chaser.rotation.x"] / DEGREE + PITCHED, column["chaser.rotation.y"] / DEGREE)

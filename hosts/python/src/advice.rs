@@ -6,7 +6,7 @@ use pong_advise::{Accuracy, ContactWish};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
-/// The values of a pair of surfaces that give a wanted depth and rebound, by name.
+/// Values of a pair of surfaces, by name, that give a wanted depth and rebound.
 #[pyfunction]
 #[pyo3(name = "advise_contact")]
 #[pyo3(signature = (

@@ -15,13 +15,13 @@ pub(crate) const STATE: usize = 13;
 /// Numbers of a wrench: force, moment.
 pub(crate) const WRENCH: usize = 6;
 
-/// An argument of numbers: an array of float64 is read where it lies, anything else is converted by NumPy.
+/// An argument of numbers: an array of float64 is used in place, anything else is converted by NumPy.
 pub(crate) type Rows<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 
-/// An array of rows, of the caller or given to it.
+/// An array of rows, from or for the caller.
 pub(crate) type Matrix<'py> = Bound<'py, PyArray2<f64>>;
 
-/// An argument of numbers, `rows` × `columns`.
+/// Reads an argument of numbers, `rows` × `columns`.
 pub(crate) fn rows<'py>(
     thing: &str,
     given: &Bound<'py, PyAny>,
@@ -36,7 +36,7 @@ pub(crate) fn rows<'py>(
     if array.shape() == [rows, columns] { Ok(array) } else { Err(refused()) }
 }
 
-/// Some numbers in a row: an array or a sequence of whatever NumPy takes for numbers.
+/// Reads a vector of numbers: an array or a sequence of anything that NumPy accepts as numbers.
 pub(crate) fn vector<const N: usize>(thing: &str, given: &Bound<'_, PyAny>) -> PyResult<[f64; N]> {
     let refused = || refused(thing, given, &format!("give {N} numbers"));
     if is_complex(given) {
@@ -47,18 +47,18 @@ pub(crate) fn vector<const N: usize>(thing: &str, given: &Bound<'_, PyAny>) -> P
     if view.len() == N { Ok(std::array::from_fn(|index| view[index])) } else { Err(refused()) }
 }
 
-/// NumPy would leave the imaginary parts out.
+/// True for complex numbers, whose imaginary parts NumPy would drop.
 fn is_complex(given: &Bound<'_, PyAny>) -> bool {
     let kind = given.getattr("dtype").and_then(|dtype| dtype.getattr("kind")?.extract::<char>());
     kind.is_ok_and(|kind| kind == 'c')
 }
 
-/// An argument that is no array of such numbers.
+/// Error for an argument that is no array of such numbers.
 pub(crate) fn refused(thing: &str, given: &Bound<'_, PyAny>, cure: &str) -> PyErr {
     bad_value(thing, format!("got {}", described(given)), cure)
 }
 
-/// Given value in words: type and shape of an array, the beginning of anything else.
+/// Text of a given value: type and shape of an array, the beginning of anything else.
 pub(crate) fn described(given: &Bound<'_, PyAny>) -> String {
     let attribute = |name: &str| Some(given.getattr(name).ok()?.str().ok()?.to_string());
     if let (Some(dtype), Some(shape)) = (attribute("dtype"), attribute("shape")) {
@@ -85,7 +85,7 @@ pub(crate) fn states(view: &ArrayView2<'_, f64>, ids: &[InterfaceId], out: &mut 
     }
 }
 
-/// One of the four parts of states that are given apart.
+/// One of the four parts of states that are given separately.
 pub(crate) fn part<const N: usize>(
     thing: &str,
     given: Option<&Bound<'_, PyAny>>,

@@ -1,4 +1,4 @@
-//! Model files as they are written: values of Python for the values of a file.
+//! Model files as written: Python values for the values of a file.
 
 use crate::errors::of_model;
 use numpy::ndarray::Array2;
@@ -9,14 +9,14 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use std::path::PathBuf;
 
-/// Reads a model file as it is written. Mesh files that it names are not read.
+/// Reads a model file as written. The mesh files it names are not read.
 #[pyfunction]
 pub(crate) fn read_authored(py: Python<'_>, path: PathBuf) -> PyResult<Py<PyAny>> {
     let read = py.detach(|| authored::load(&path));
     value(py, &read.map_err(of_model)?)
 }
 
-/// Reads a model from text as it is written. `name` is what errors call it.
+/// Reads a model from text as written. `name` stands for the file in errors.
 #[pyfunction]
 #[pyo3(signature = (text, *, name = "model"))]
 pub(crate) fn parse_authored(py: Python<'_>, text: &str, name: &str) -> PyResult<Py<PyAny>> {
@@ -24,7 +24,8 @@ pub(crate) fn parse_authored(py: Python<'_>, text: &str, name: &str) -> PyResult
     value(py, &read.map_err(of_model)?)
 }
 
-/// `None` is None, another name its text, `Name(…)` a dictionary {"Name": …}, `Some(x)` is x.
+/// Python value of a node: `None` is None, another name its text, `Name(…)` a dictionary {"Name": …},
+/// `Some(x)` is x.
 fn value(py: Python<'_>, node: &Node) -> PyResult<Py<PyAny>> {
     match &node.value {
         Value::Bool(value) => value.into_py_any(py),
@@ -68,7 +69,7 @@ fn named(py: Python<'_>, name: Option<&str>, content: Py<PyAny>) -> PyResult<Py<
     tagged.into_py_any(py)
 }
 
-/// Fields under their names. The lists of meshes are arrays.
+/// Fields by name. The lists of meshes are arrays.
 fn fields<'py>(py: Python<'py>, fields: &[Field]) -> PyResult<Bound<'py, PyDict>> {
     let all = PyDict::new(py);
     for Field { name, value: node, .. } in fields {
@@ -88,13 +89,13 @@ fn fields<'py>(py: Python<'py>, fields: &[Field]) -> PyResult<Bound<'py, PyDict>
     Ok(all)
 }
 
-/// A number that is to be whole, as an int; what is none stays as it is, for the loader to refuse.
+/// An integer field as an int; other numbers stay as they are and are refused by the loader.
 fn whole(py: Python<'_>, number: f64) -> PyResult<Py<PyAny>> {
     let int = number as i64;
     if int as f64 == number { int.into_py_any(py) } else { number.into_py_any(py) }
 }
 
-/// Rows of numbers, whatever way the list was read. All of it has been checked to be numbers.
+/// Rows of numbers from any form of list. All values have been checked to be numbers.
 fn rows(value: &Value) -> Rows {
     let mut rows = match value {
         Value::Rows(rows) => return (**rows).clone(),
@@ -127,7 +128,7 @@ fn vertices(py: Python<'_>, rows: &Rows) -> PyResult<Py<PyAny>> {
     array.into_pyarray(py).into_py_any(py)
 }
 
-/// An array of a row for each face if all have as many corners, else a list of arrays.
+/// An array with a row for each face if all have the same number of corners, else a list of arrays.
 fn faces(py: Python<'_>, rows: &Rows) -> PyResult<Py<PyAny>> {
     let indices: Vec<i64> = rows.numbers.iter().map(|&number| number as i64).collect();
     let width = if rows.len() == 0 { 3 } else { rows.row(0).len() };

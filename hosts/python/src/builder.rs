@@ -11,10 +11,10 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
-/// Sets a world up: models, Objects, pairs. `seal` makes the world of it.
+/// Sets up a world: models, Objects, pairs. `seal` creates the world.
 #[pyclass(frozen, module = "pong")]
 pub(crate) struct WorldBuilder {
-    /// `None` once it was sealed.
+    /// `None` once sealed.
     setup: Mutex<Option<Setup>>,
 }
 
@@ -24,7 +24,7 @@ struct Setup {
     folders: Vec<PathBuf>,
 }
 
-/// A model by itself or by its file.
+/// A model, or its file.
 #[derive(FromPyObject)]
 enum ModelRef<'py> {
     Model(PyRef<'py, Model>),
@@ -32,7 +32,7 @@ enum ModelRef<'py> {
     Other(Bound<'py, PyAny>),
 }
 
-/// What is given where a model that was added is wanted.
+/// An argument for an added model.
 #[derive(FromPyObject)]
 enum AddedRef<'py> {
     Added(PyRef<'py, AddedModel>),
@@ -52,7 +52,7 @@ impl<'py> AddedRef<'py> {
     }
 }
 
-/// So many threads that share the work of a frame with the calling thread; 0 for none.
+/// Settings for this number of worker threads, in addition to the calling thread; `None` for 0.
 pub(crate) fn worker_settings(workers: i64) -> PyResult<Option<WorkerSettings>> {
     let cure = "give the number of threads that help the calling thread, or 0";
     let workers = usize::try_from(workers)
@@ -122,7 +122,7 @@ impl WorldBuilder {
         })
     }
 
-    /// Declares that two Objects, given themselves or by name, may touch.
+    /// Declares that two Objects, given directly or by name, may touch.
     fn pair(&self, a: ObjectRef<'_>, b: ObjectRef<'_>) -> PyResult<Pair> {
         self.with(|setup| {
             let (a, b) = (a.resolve(setup.builder.scene())?, b.resolve(setup.builder.scene())?);
@@ -132,8 +132,8 @@ impl WorldBuilder {
         })
     }
 
-    /// Keeps two groups of Objects apart, each with everything below it. They go by path or name; an empty one is the whole
-    /// Object.
+    /// Disables contact between two groups of Objects, each with everything below it, given by path or name;
+    /// an empty one is the whole Object.
     fn filter(&self, a: ObjectRef<'_>, group_a: &str, b: ObjectRef<'_>, group_b: &str) -> PyResult<()> {
         self.with(|setup| {
             let (a, b) = (a.resolve(setup.builder.scene())?, b.resolve(setup.builder.scene())?);
@@ -151,7 +151,7 @@ impl WorldBuilder {
         })
     }
 
-    /// Ends set-up. The builder is used up; if the seal is refused, it can be mended and sealed again.
+    /// Ends set-up. The builder is used up; if the seal is refused, it can be corrected and sealed again.
     fn seal(&self, py: Python<'_>) -> PyResult<World> {
         let mut place = self.lock()?;
         let Setup { builder, sources, folders } = place.take().ok_or_else(sealed)?;
@@ -180,7 +180,7 @@ fn sealed() -> PyErr {
     PhaseError::new_err("world builder: its world was sealed; make another builder for another world")
 }
 
-/// What a host does with wrenches, by name.
+/// Coupling of the wrenches to the host's integrator, by name.
 pub(crate) fn coupling(thing: &str, name: &str, delay_frames: u32) -> PyResult<WrenchCoupling> {
     if delay_frames > 0 && ["stages", "semi_implicit"].contains(&name) {
         let cause = format!("it is {delay_frames}, and {thing} is \"{name}\", which never comes late");

@@ -1,4 +1,4 @@
-//! Contacts as a structured NumPy array: one row a contact, written once, into the memory that NumPy then shows.
+//! Contacts as a structured NumPy array: one row per contact, written once, into the memory that NumPy shows.
 
 use crate::arrays::{self, Matrix};
 use pong_engine::{Contact, NormalTangent, World};
@@ -7,11 +7,11 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyByteArray, PyDict, PyList};
 
-/// A field of a row: its name, NumPy's name of its type, its bytes.
+/// A field of a row: name, NumPy type, bytes.
 type Field = (&'static str, &'static str, usize);
 
-/// The fields in the order in which [`write`] writes them: whole numbers first, and as many of them that what follows is
-/// aligned.
+/// Fields in the order in which [`write`] writes them: integers first, in a number that keeps the following
+/// fields aligned.
 const FIELDS: [Field; 26] = [
     ("pair", "u4", 4),
     ("interface_a", "u4", 4),
@@ -85,7 +85,7 @@ pub(crate) fn array<'py>(py: Python<'py>, world: &World) -> PyResult<Bound<'py, 
     from_buffer.call1((bytes, dtype(py)?))
 }
 
-/// What a row is written by, from its first byte on.
+/// Cursor over the bytes of a row.
 struct Writer<'a>(&'a mut [u8]);
 
 impl Writer<'_> {
@@ -113,7 +113,7 @@ fn write(index: usize, contact: &Contact, row: &mut [u8]) {
     let mut to = Writer(row);
     to.counts(&[contact.pair.index() as u32, a.interface.index() as u32, b.interface.index() as u32]);
     to.counts(&[a.primitive, b.primitive, a.element, b.element]);
-    // The kind of the feature stands in the two highest bits.
+    // The two highest bits hold the kind of the feature.
     to.counts(&[contact.feature >> 30, contact.feature & 0x3fff_ffff, contact.end]);
     to.counts(&[u32::from(contact.sticks), index as u32]);
     to.vector(&contact.point);
@@ -125,7 +125,7 @@ fn write(index: usize, contact: &Contact, row: &mut [u8]) {
     to.numbers(&[contact.stored, contact.work, contact.dissipated]);
 }
 
-/// Stiffness (N/m) and damping (N·s/m) of each contact along its normal; not a number for a normal law of the host's.
+/// Stiffness (N/m) and damping (N·s/m) of each contact along its normal; NaN for a normal law of the host.
 pub(crate) fn stiffness<'py>(py: Python<'py>, world: &World) -> PyResult<Matrix<'py>> {
     let row = |tangent: Option<NormalTangent>| tangent.map_or([f64::NAN; 2], |t| [t.stiffness, t.damping]);
     let rows: Vec<[f64; 2]> = world.normal_tangents().map(row).collect();

@@ -84,7 +84,7 @@ pub(crate) fn set_spring(
     simulation.set_spring(number, spring).map_err(of_executive)
 }
 
-/// Refuses a dictionary with a key too few or too many: what is misspelt must not stay as it was without a word.
+/// Refuses a dictionary with missing or unknown keys, so that a misspelt key is not ignored.
 pub(crate) fn whole(thing: &str, values: &Bound<'_, PyDict>, names: &[&str]) -> PyResult<()> {
     for key in values.keys() {
         let key = key.str()?.to_string();
@@ -106,7 +106,7 @@ pub(crate) fn whole(thing: &str, values: &Bound<'_, PyDict>, names: &[&str]) -> 
     Ok(())
 }
 
-/// A value of a dictionary that is [whole].
+/// A value of a dictionary checked by [`whole`].
 fn value<'py>(values: &Bound<'py, PyDict>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     values.as_any().get_item(name)
 }

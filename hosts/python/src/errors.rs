@@ -33,7 +33,7 @@ create_exception!(pong, RunError, PongError, "A run of a scene that cannot go on
 create_exception!(pong, LogError, PongError, "A response log that cannot be read or written.");
 create_exception!(pong, StudyError, PongError, "A study of a run that cannot be made.");
 
-/// Puts the exceptions into the module.
+/// Adds the exceptions to the module.
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     module.add("EngineError", py.get_type::<EngineError>())?;
@@ -63,7 +63,7 @@ pub(crate) fn of_engine(error: Refused) -> PyErr {
         Refused::WrongPhase { .. } => PhaseError::new_err(text),
         Refused::Seal { problems } => {
             let raised = SealError::new_err(text);
-            // An attribute that cannot be set leaves the message, which says the same.
+            // If the attribute cannot be set, the message says the same.
             let _ = Python::attach(|py| raised.value(py).setattr("problems", problems));
             raised
         }
@@ -116,7 +116,8 @@ pub(crate) fn of_scene(errors: SceneErrors) -> PyErr {
     })
 }
 
-/// The exception with `errors`: a dictionary for each fault. Without them if they cannot be made: the message says the same.
+/// Adds the attribute `errors`, a dictionary for each fault; leaves it out if that fails, since the message
+/// says the same.
 fn with_list<T>(raised: PyErr, errors: &[T], fill: impl Fn(&T, &Bound<'_, PyDict>) -> PyResult<()>) -> PyErr {
     let _ = Python::attach(|py| -> PyResult<()> {
         let list = PyList::empty(py);
@@ -130,16 +131,16 @@ fn with_list<T>(raised: PyErr, errors: &[T], fill: impl Fn(&T, &Bound<'_, PyDict
     raised
 }
 
-/// An argument that cannot be used, in the form of all messages.
+/// Error for an invalid argument, in the form of all messages.
 pub(crate) fn bad_value(thing: &str, cause: impl std::fmt::Display, cure: &str) -> PyErr {
     BadValueError::new_err(format!("{thing}: {cause}; {cure}"))
 }
 
-/// What a lock guards, for the call of one thread; `cure` is for another that calls meanwhile.
+/// Locks for the call of one thread; `cure` is for a concurrent call by another.
 pub(crate) fn lock<'a, T>(thing: &str, guarded: &'a Mutex<T>, cure: &str) -> PyResult<MutexGuard<'a, T>> {
     match guarded.try_lock() {
         Ok(inner) => Ok(inner),
-        // A call that panicked leaves what it was made of usable.
+        // A call that panicked leaves its data usable.
         Err(TryLockError::Poisoned(inner)) => Ok(inner.into_inner()),
         Err(TryLockError::WouldBlock) => {
             Err(PhaseError::new_err(format!("{thing}: another thread is in a call of it; {cure}")))
@@ -147,7 +148,7 @@ pub(crate) fn lock<'a, T>(thing: &str, guarded: &'a Mutex<T>, cure: &str) -> PyR
     }
 }
 
-/// Refuses a number that is not in a range.
+/// Refuses a number outside of a range.
 pub(crate) fn in_range<T: PartialOrd + std::fmt::Display>(
     argument: &str,
     value: T,

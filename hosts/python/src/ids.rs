@@ -1,4 +1,4 @@
-//! Models, Objects, pairs and Interfaces of a world, and how a call names them.
+//! Models, Objects, pairs and Interfaces of a world, and their forms as arguments.
 
 use crate::arrays::refused;
 use crate::errors::of_engine;
@@ -12,14 +12,14 @@ macro_rules! handle {
         #[derive(Clone, PartialEq, Eq, Hash)]
         pub(crate) struct $name {
             pub id: $id,
-            /// Its name.
+            /// Name.
             #[pyo3(get)]
             pub name: String,
         }
 
         #[pymethods]
         impl $name {
-            /// Its place among those of its kind in its world, from 0.
+            /// Index among those of its kind in its world, from 0.
             #[getter]
             fn index(&self) -> usize {
                 self.id.index()
@@ -33,7 +33,7 @@ macro_rules! handle {
 }
 
 handle!(
-    /// A model that was added to a world.
+    /// A model added to a world.
     AddedModel,
     ModelId
 );
@@ -53,7 +53,7 @@ handle!(
     InterfaceId
 );
 
-/// An Object by itself or by its name.
+/// An Object, or its name.
 #[derive(FromPyObject)]
 pub(crate) enum ObjectRef<'py> {
     Id(PyRef<'py, Object>),
@@ -78,7 +78,7 @@ pub(crate) fn interface(scene: &Scene, id: InterfaceId) -> PyResult<Interface> {
     Ok(Interface { id, name })
 }
 
-/// All Interfaces of a world, in the order in which arrays have them.
+/// All Interfaces of a world, in the order of the rows of arrays.
 pub(crate) fn interfaces(scene: &Scene) -> PyResult<Vec<Interface>> {
     let mut all = Vec::new();
     for object in scene.objects() {

@@ -5,13 +5,13 @@
 //! | `errors.rs` | the exceptions: one for each family of errors, each with the library's message |
 //! | `arrays.rs` | states and wrenches as NumPy arrays |
 //! | `contacts.rs` | contacts as a structured NumPy array |
-//! | `ids.rs` | models, Objects, pairs and Interfaces of a world, and how a call names them |
+//! | `ids.rs` | models, Objects, pairs and Interfaces of a world, and their forms as arguments |
 //! | `model.rs` | models |
-//! | `authored.rs`, `shapes.rs` | model files as they are written, checks of single shapes: python/pong/model.py |
+//! | `authored.rs`, `shapes.rs` | model files as written, checks of single shapes: python/pong/model.py |
 //! | `builder.rs`, `world.rs`, `recording.rs` | set-up, frames, logs of frames |
 //! | `scene.rs`, `simulation.rs`, `run.rs` | scenes in the built-in executive |
-//! | `log.rs` | what of a log is checked before NumPy maps its tables |
-//! | `replay.rs`, `trade.rs`, `tune.rs` | runs made again: a log compared, speed against accuracy, bounds and leaves |
+//! | `log.rs` | check of a log before NumPy maps its tables |
+//! | `replay.rs`, `trade.rs`, `tune.rs` | logs compared, speed against accuracy, bounds and leaves |
 //! | `advice.rs`, `verify.rs` | stiffness and damping for a wanted bounce; cases with known answers |
 
 mod advice;
@@ -38,8 +38,8 @@ mod world;
 use pyo3::PyClass;
 use pyo3::prelude::*;
 
-/// Adds a class. Python gives an object memory that is aligned to 16 bytes, and PyO3 puts the value there without asking:
-/// what is aligned more strictly (a world is, to lines of the cache) must be boxed.
+/// Adds a class. Python aligns the memory of objects to 16 bytes, and PyO3 places the value there unchecked:
+/// values of stricter alignment (a world is aligned to cache lines) must be boxed.
 fn add_class<T: PyClass>(module: &Bound<'_, PyModule>) -> PyResult<()> {
     const { assert!(align_of::<T>() <= 16, "the class must box what it holds") };
     module.add_class::<T>()

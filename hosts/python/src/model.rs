@@ -10,14 +10,14 @@ use pyo3::types::{PyBool, PyDict, PyFloat, PyList, PyString};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A validated model. It never changes; worlds share it.
+/// A validated, immutable model. Worlds share it.
 #[pyclass(frozen, module = "pong")]
 pub(crate) struct Model {
     pub model: Arc<pong_model::Model>,
     pub source: ModelSource,
 }
 
-/// What models may read: their own folder, and these.
+/// Extensions that allow models to read files from their own folder and from these.
 pub(crate) fn extensions(allow_files_below: Vec<PathBuf>) -> Extensions {
     let mut extensions = Extensions::new();
     allow_files_below.into_iter().for_each(|folder| extensions.allow_files_below(folder));
@@ -26,7 +26,7 @@ pub(crate) fn extensions(allow_files_below: Vec<PathBuf>) -> Extensions {
 
 #[pymethods]
 impl Model {
-    /// Reads a model file. Meshes are looked for beside it, and in the folders allowed.
+    /// Reads a model file. Meshes are searched beside it, and in the allowed folders.
     #[staticmethod]
     #[pyo3(signature = (path, *, allow_files_below = Vec::new()))]
     pub fn load(py: Python<'_>, path: PathBuf, allow_files_below: Vec<PathBuf>) -> PyResult<Self> {
@@ -36,7 +36,7 @@ impl Model {
         Ok(Self { model: Arc::new(model), source: ModelSource::File(path) })
     }
 
-    /// Reads a model from text. `name` is what errors call it; meshes are looked for in `folder`.
+    /// Reads a model from text. `name` stands for the file in errors; meshes are searched in `folder`.
     #[staticmethod]
     #[pyo3(signature = (text, *, name = "model", folder = None, allow_files_below = Vec::new()))]
     fn parse(
@@ -58,13 +58,13 @@ impl Model {
         &self.model.name
     }
 
-    /// Hash of everything that decides the numbers.
+    /// Hash of all data that affects results.
     #[getter]
     fn hash(&self) -> u64 {
         self.model.hash
     }
 
-    /// What the author should know though the model is valid.
+    /// Warnings for the author of a valid model.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.model.warnings.clone()
@@ -76,7 +76,7 @@ impl Model {
         self.model.bodies.iter().map(|group| group.path.clone()).collect()
     }
 
-    /// Primitives of a movable group, by its place: path, kind and surface of each.
+    /// Primitives of a movable group, given by index: path, kind and surface of each.
     #[pyo3(signature = (group = 0))]
     fn primitives(&self, group: usize) -> PyResult<Vec<(String, String, String)>> {
         let Some(group) = self.model.bodies.get(group) else {
@@ -91,7 +91,7 @@ impl Model {
         Ok(group.primitives.iter().map(row).collect())
     }
 
-    /// The surfaces by name, as `World.surface` gives them.
+    /// Surfaces by name, as `World.surface` gives them.
     #[getter]
     fn surfaces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = PyDict::new(py);
@@ -101,7 +101,7 @@ impl Model {
         Ok(all)
     }
 
-    /// The bounding volume of every group that has one, in the frame of its movable group.
+    /// Bounding volume of every group that has one, in the frame of its movable group.
     fn bounds<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         crate::shapes::bounds(py, &self.model)
     }
@@ -111,7 +111,7 @@ impl Model {
     }
 }
 
-/// The values of a surface as logs write them (docs/response_logs.md, events), with numbers for rigid stiffness too.
+/// Values of a surface as in logs (docs/response_logs.md, events), with numbers for rigid stiffness too.
 pub(crate) fn surface_values<'py>(
     py: Python<'py>,
     surface: &pong_model::Surface,
@@ -123,7 +123,7 @@ pub(crate) fn surface_values<'py>(
     Ok(values)
 }
 
-/// A surface from values that [`surface_values`] gave of a known one, changed or not.
+/// A surface from the values of [`surface_values`] for a known one, possibly changed.
 pub(crate) fn surface_from(
     py: Python<'_>,
     known: &pong_model::Surface,
@@ -138,7 +138,7 @@ pub(crate) fn surface_from(
     Ok(read.map_err(|error| bad_value(&thing, error, cure))?.surface(&known.name))
 }
 
-/// The values as JSON has them, if they have the fields and kinds of the known ones.
+/// Values as JSON, if they have the fields and kinds of the known ones.
 fn plain_values<'py>(
     thing: &str,
     values: &Bound<'py, PyDict>,
@@ -146,7 +146,7 @@ fn plain_values<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let plain = PyDict::new(values.py());
     let law = |of: &Bound<'py, PyDict>| of.get_item("law").map(|law| law.map(|law| law.to_string()));
-    // Another law has other fields; that laws cannot change is the engine's to say.
+    // Another law has other fields; the engine then refuses the change of law.
     if law(values)? == law(known)? {
         let names: Vec<String> = known.keys().iter().map(|key| key.to_string()).collect();
         whole(thing, values, &names.iter().map(String::as_str).collect::<Vec<_>>())?;
@@ -199,7 +199,7 @@ fn plain_value<'py>(
     Ok(PyFloat::new(py, finite(thing, value)?).into_any())
 }
 
-/// Any finite number: Python's, NumPy's, an array of one.
+/// Any finite number: of Python, of NumPy, or an array of one.
 fn finite(thing: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let number = value.extract::<f64>().ok().filter(|number| number.is_finite());
     number.ok_or_else(|| refused(thing, value, "give a finite number"))

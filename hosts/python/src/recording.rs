@@ -17,7 +17,7 @@ pub(crate) fn start(inner: &Inner, folder: PathBuf, options: RecordOptions) -> P
 }
 
 pub(crate) fn record(py: Python<'_>, recorder: &mut Recorder, world: &mut World, time: f64) -> PyResult<()> {
-    // A world may go to another thread but not be seen by two: the closure has it to itself.
+    // A world may move to another thread but not be shared by two: the closure has exclusive access.
     let record = move || {
         let world: &mut World = world;
         recorder.record(world, time, 0, None)
@@ -25,7 +25,7 @@ pub(crate) fn record(py: Python<'_>, recorder: &mut Recorder, world: &mut World,
     py.detach(record).map_err(of_log)
 }
 
-/// Closes the files and tells how many frames they hold.
+/// Closes the files and returns their number of frames.
 pub(crate) fn finish(py: Python<'_>, recorder: Recorder) -> PyResult<u64> {
     let status = py.detach(|| recorder.finish()).map_err(of_log)?;
     match status.error {

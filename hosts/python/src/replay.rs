@@ -1,4 +1,4 @@
-//! Logs through the engine again (docs/response_logs.md, Replay).
+//! Replay of logs through the engine (docs/response_logs.md, Replay).
 
 use crate::builder::worker_settings;
 use crate::errors::{in_range, of_log};
@@ -9,20 +9,20 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// What a replay found.
+/// Result of a replay.
 #[pyclass(frozen, module = "pong", get_all)]
 pub(crate) struct Replay {
-    /// Whether every frame of the log was compared and none differs.
+    /// True if every frame of the log was compared and none differs.
     agrees: bool,
     /// Frames of the log.
     frames: u64,
-    /// Frames that were compared, the one that differs included.
+    /// Frames compared, including the one that differs.
     compared: u64,
     /// Contacts of these frames.
     contacts: u64,
-    /// What differs in the first frame that does, in words.
+    /// Differences in the first frame that differs, as text.
     differences: Vec<String>,
-    /// Why the log cannot be replayed exactly from some frame on; `None` if it can.
+    /// Reason why the log cannot be replayed exactly from some frame on; `None` if it can.
     obstacle: Option<String>,
 }
 
@@ -34,7 +34,7 @@ impl Replay {
     }
 }
 
-/// Asks now and then whether the caller's program is to be interrupted, by Ctrl-C; keeps its exception.
+/// Polls for an interruption of the caller's program by Ctrl-C; keeps its exception.
 #[derive(Default)]
 pub(crate) struct Interrupt {
     asked: Option<Instant>,
@@ -42,10 +42,10 @@ pub(crate) struct Interrupt {
 }
 
 impl Interrupt {
-    /// How often a long run asks: taking the GIL costs more than a frame.
+    /// Polling interval of a long run: taking the GIL costs more than a frame.
     const ASK_EVERY: Duration = Duration::from_millis(100);
 
-    /// Whether to go on.
+    /// `Break` after an interruption.
     pub fn flow(&mut self) -> ControlFlow<()> {
         if self.asked.is_none_or(|asked| asked.elapsed() > Self::ASK_EVERY) {
             self.raised = Python::attach(|py| py.check_signals()).err();
@@ -54,7 +54,7 @@ impl Interrupt {
         if self.raised.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    /// The exception of the interruption, if there was one; else what was found.
+    /// The exception of the interruption, if any, else `found`.
     pub fn or<T>(self, found: PyResult<T>) -> PyResult<T> {
         self.raised.map_or(found, Err)
     }

@@ -12,10 +12,10 @@ use pyo3::types::PyDict;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// How often a long run looks whether it is to be interrupted.
+/// Polling interval of a long run for interruptions.
 const LOOK_EVERY: Duration = Duration::from_millis(100);
 
-/// What a run came to.
+/// Result of a run.
 #[pyclass(frozen, module = "pong", get_all)]
 pub(crate) struct Run {
     /// Names of the bodies.
@@ -40,20 +40,20 @@ pub(crate) struct Run {
     most_contacts: usize,
     /// Energies at the end, J, by name.
     energy: Py<PyDict>,
-    /// Largest distance of the balance of energies from its first value, J; what the ledger knows.
+    /// Largest deviation of the energy balance from its first value, J, by the ledger.
     worst_balance: f64,
-    /// Steps in which something went right through something else.
+    /// Steps in which a primitive tunnelled through another.
     tunnelled: u64,
-    /// What `pong run` warns of after a run.
+    /// Warnings of `pong run` after a run.
     warnings: Vec<String>,
-    /// Whether `stop` ended it.
+    /// True if `stop` ended it.
     stopped: bool,
 }
 
-/// What is asked of a run.
+/// Options of a run.
 pub(crate) struct Wanted {
     pub steps: u64,
-    /// Every how many-th instant is kept.
+    /// Interval of the kept instants, in steps.
     pub every: u64,
     pub log: Option<RunLog>,
     pub stop: Option<Stop>,
@@ -61,19 +61,19 @@ pub(crate) struct Wanted {
 
 /// A condition of the caller that ends a run.
 pub(crate) struct Stop {
-    /// Called with the time and the states; true ends the run.
+    /// Callable of the time and the states; true ends the run.
     pub asked: Py<PyAny>,
-    /// After every how many-th step it is asked.
+    /// Interval of its calls, in steps.
     pub every: u64,
 }
 
-/// A log to be written.
+/// Options of a log.
 pub(crate) struct RunLog {
     pub folder: PathBuf,
     pub overwrite: bool,
 }
 
-/// The instants that are kept.
+/// Kept instants.
 #[derive(Default)]
 struct Kept {
     time: Vec<f64>,
@@ -100,7 +100,7 @@ fn state_rows(simulation: &Simulation) -> impl Iterator<Item = f64> {
 }
 
 impl Stop {
-    /// Whether the run ends here.
+    /// Tests whether the run ends here.
     fn ends(&self, simulation: &Simulation) -> PyResult<bool> {
         Python::attach(|py| {
             let bodies = simulation.bodies().len();
@@ -117,7 +117,7 @@ impl Run {
             let log = wanted.log.as_ref();
             let mut recorder = log.map(|log| start_log(built, log, wanted.every)).transpose()?;
             let done = advance(built, wanted, recorder.as_mut());
-            // What was recorded before a failure is what its cause is sought in.
+            // The records before a failure help to find its cause.
             let closed = recorder.map_or(Ok(()), |log| log.finish().map(|_| ()).map_err(of_log));
             let done = done?;
             closed.map(|()| done)

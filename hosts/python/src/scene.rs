@@ -9,7 +9,7 @@ use pong_executive::scene::Variation;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 
-/// A scene file as read. `build` loads its models and sets everything up.
+/// A parsed scene file. `build` loads its models and sets everything up.
 #[pyclass(frozen, module = "pong")]
 pub(crate) struct Scene {
     scene: pong_executive::scene::Scene,
@@ -17,7 +17,7 @@ pub(crate) struct Scene {
 
 #[pymethods]
 impl Scene {
-    /// Reads a scene file; models are looked for beside it.
+    /// Reads a scene file; models are searched beside it.
     #[staticmethod]
     #[pyo3(signature = (path, *, allow_files_below = Vec::new()))]
     fn load(path: PathBuf, allow_files_below: Vec<PathBuf>) -> PyResult<Self> {
@@ -26,7 +26,7 @@ impl Scene {
         Ok(Self { scene: scene.with_extensions(extensions(allow_files_below)) })
     }
 
-    /// Reads a scene from text. `name` is what errors call it; models are looked for in `folder`.
+    /// Reads a scene from text. `name` stands for the file in errors; models are searched in `folder`.
     #[staticmethod]
     #[pyo3(signature = (text, *, name = "scene", folder = PathBuf::new(), allow_files_below = Vec::new()))]
     fn parse(text: &str, name: &str, folder: PathBuf, allow_files_below: Vec<PathBuf>) -> PyResult<Self> {
@@ -41,19 +41,19 @@ impl Scene {
         self.scene.name()
     }
 
-    /// The step, s.
+    /// Step, s.
     #[getter]
     fn step(&self) -> f64 {
         self.scene.step()
     }
 
-    /// The duration, s.
+    /// Duration, s.
     #[getter]
     fn duration(&self) -> f64 {
         self.scene.duration()
     }
 
-    /// The integrator, as the scene format spells it.
+    /// Integrator, as the scene format spells it.
     #[getter]
     fn integrator(&self) -> String {
         self.scene.integrator().to_string()
@@ -65,13 +65,13 @@ impl Scene {
         self.scene.alternatives().collect()
     }
 
-    /// Every model file that the scene names, those of its alternatives included.
+    /// Every model file that the scene names, including those of its alternatives.
     #[getter]
     fn model_files(&self) -> Vec<PathBuf> {
         self.scene.model_files()
     }
 
-    /// Loads the models and sets everything up, or tells everything that is wrong.
+    /// Loads the models and sets everything up, or reports every fault.
     ///
     /// `integrator` is "RungeKutta4", "SemiImplicitEuler" or "ZeroOrderHold" (with `substeps` and `delay_frames`).
     #[pyo3(signature = (*, step = None, integrator = None, substeps = 1, delay_frames = 0, workers = 0, alternative = None))]

@@ -1,4 +1,4 @@
-//! What keeps shapes from being taken, and the bounding volumes of those that are.
+//! Checks of single shapes, and bounding volumes of valid models.
 
 use crate::arrays::{refused, rows};
 use crate::errors::bad_value;
@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::collections::HashSet;
 
-/// Lists all that keeps a polyhedron from being taken at the first stage that finds anything: nothing if it is taken.
+/// Lists the faults of a polyhedron found by the first check that fails; empty if it is valid.
 #[pyfunction]
 #[pyo3(signature = (vertices, faces, inactive = Vec::new()))]
 pub(crate) fn check_polyhedron<'py>(
@@ -44,7 +44,7 @@ pub(crate) fn check_polyhedron<'py>(
     faults.into_iter().map(told).collect()
 }
 
-/// Lists what is wrong, or odd, about the triangles of one body, given as an array (n, 3, 3) of corners.
+/// Lists faults and oddities of the triangles of one body, given as an array (n, 3, 3) of corners.
 #[pyfunction]
 #[pyo3(signature = (corners))]
 pub(crate) fn check_triangles<'py>(
@@ -79,11 +79,12 @@ pub(crate) fn check_triangles<'py>(
     faults.into_iter().map(told).collect()
 }
 
-/// The bounding volume of every group that has one, the groups of each movable group together, outer ones first.
+/// Bounding volume of every group that has one, with the groups of each movable group together, outer ones
+/// first.
 pub(crate) fn bounds<'py>(py: Python<'py>, model: &pong_model::Model) -> PyResult<Vec<Bound<'py, PyDict>>> {
     let mut found = Vec::new();
     for body in model.bodies.iter().filter(|body| !body.primitives.is_empty()) {
-        // Leaves that were cut off a group have its path and come after it.
+        // Leaves split off a group have its path and come after it.
         let mut told = HashSet::new();
         for node in body.tree.nodes.iter().filter(|node| told.insert(&*node.group)) {
             let entry = PyDict::new(py);
@@ -107,7 +108,8 @@ fn numbers<'py>(py: Python<'py>, v: &Vec3) -> Bound<'py, PyArray1<f64>> {
     PyArray1::from_slice(py, v.as_slice())
 }
 
-/// Centre, half extents and axes; a ball's half extents are its radius. `None` for what has no size, or is the host's own.
+/// Centre, half extents and axes; a sphere's half extents are its radius. `None` for unbounded or
+/// host-defined volumes.
 fn box_of(volume: &Volume) -> Option<(Vec3, Vec3, Mat3)> {
     match volume {
         Volume::Aabb { center, half } => Some((*center, *half, Mat3::identity())),

@@ -16,7 +16,7 @@ use std::collections::HashSet;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard};
 
-/// A scene that runs: its bodies, integrator and world.
+/// A running scene: its bodies, integrator and world.
 ///
 /// One thread at a time may call it. `step` and `run` release the GIL.
 #[pyclass(frozen, module = "pong")]
@@ -65,37 +65,37 @@ impl Simulation {
         Ok(self.lock()?.simulation.time())
     }
 
-    /// The step, s.
+    /// Step, s.
     #[getter]
     fn step_length(&self) -> PyResult<f64> {
         Ok(self.lock()?.simulation.step_length())
     }
 
-    /// Steps that make up the duration of the scene.
+    /// Steps in the duration of the scene.
     #[getter]
     fn steps(&self) -> PyResult<u64> {
         Ok(self.lock()?.steps)
     }
 
-    /// Every how many steps the scene wants a record.
+    /// Interval of the scene's records, in steps.
     #[getter]
     fn record_every(&self) -> PyResult<u64> {
         Ok(self.lock()?.record_every)
     }
 
-    /// The integrator, as the scene format spells it.
+    /// Integrator, as the scene format spells it.
     #[getter]
     fn integrator(&self) -> PyResult<String> {
         Ok(self.lock()?.simulation.integrator().to_string())
     }
 
-    /// Two simulations with equal hashes have the same world.
+    /// Hash of the world: simulations with equal hashes have the same world.
     #[getter]
     fn scene_hash(&self) -> PyResult<u64> {
         Ok(self.lock()?.simulation.world().scene_hash())
     }
 
-    /// What `pong run` warns of: models, seal, contacts that gain energy at the step.
+    /// Warnings of `pong run`: models, seal, contacts that gain energy at the step.
     #[getter]
     fn warnings(&self) -> PyResult<Vec<String>> {
         let built = self.lock()?;
@@ -139,7 +139,7 @@ impl Simulation {
         contacts::stiffness(py, self.lock()?.simulation.world())
     }
 
-    /// The last frame in short.
+    /// Report of the last frame.
     fn report(&self) -> PyResult<FrameReport> {
         Ok(self.lock()?.simulation.world().report().into())
     }
@@ -149,7 +149,7 @@ impl Simulation {
         energies(py, &self.lock()?.simulation.energy())
     }
 
-    /// Puts free or fixed bodies elsewhere: a row of 13 numbers for each body named. The contacts' past stays.
+    /// Moves free or fixed bodies: a row of 13 numbers for each named body. The contact history stays.
     fn set_states(&self, states: Bound<'_, PyAny>, bodies: Vec<String>) -> PyResult<()> {
         let rows = arrays::rows("states", &states, bodies.len(), STATE)?;
         let rows = rows.as_array();
@@ -166,7 +166,7 @@ impl Simulation {
             let vector = |from: usize| Vec3::new(row[from], row[from + 1], row[from + 2]);
             let orientation: [f64; 4] = std::array::from_fn(|i| row[3 + i]);
             let norm = orientation.iter().map(|x| x * x).sum::<f64>().sqrt();
-            // As the engine allows for states of a host.
+            // The tolerance of the engine for a host's states.
             if (norm - 1.0).abs() > 1e-3 {
                 let cause = format!("the quaternion of `{name}` has norm {norm}");
                 return Err(bad_value("states", cause, "give unit quaternions (w, x, y, z)"));
@@ -207,7 +207,7 @@ impl Simulation {
         dynamics::set_mass(&mut self.lock()?.simulation, id, values)
     }
 
-    /// Number of springs; they are counted from 0 in the order of the scene.
+    /// Number of springs; they are numbered from 0 in the order of the scene.
     #[getter]
     fn springs(&self) -> PyResult<usize> {
         Ok(self.lock()?.simulation.springs().len())
@@ -218,7 +218,7 @@ impl Simulation {
         dynamics::spring(py, &self.lock()?.simulation, number)
     }
 
-    /// Replaces stiffness, damping and preload of a spring. Its ends and its pose at rest stay.
+    /// Replaces stiffness, damping and preload of a spring. Its ends and its rest pose stay.
     fn set_spring(&self, number: usize, values: &Bound<'_, PyDict>) -> PyResult<()> {
         dynamics::set_spring(&mut self.lock()?.simulation, number, values)
     }
@@ -229,7 +229,7 @@ impl Simulation {
         Ok(self.lock()?.simulation.world().scene().models().map(|(_, model)| model.name.clone()).collect())
     }
 
-    /// The values of a surface of a model, by their names, as they are now.
+    /// Present values of a surface of a model, by name.
     fn surface<'py>(&self, py: Python<'py>, model: &str, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let built = self.lock()?;
         let world = built.simulation.world();
@@ -261,8 +261,9 @@ impl Simulation {
         py.detach(|| (0..count).try_for_each(|_| simulation.step())).map_err(of_executive)
     }
 
-    /// Runs, by default to the end of the scene's duration, and keeps every `every`-th instant, by default as the scene
-    /// says; the first and the last always. `log` is a folder for a response log of the same instants.
+    /// Runs, by default to the end of the scene's duration, and keeps every `every`-th instant, by default as
+    /// in the scene, and always the first and the last. `log` is a folder for a response log of the same
+    /// instants.
     ///
     /// `stop(time, states)` is called at the start and after every `stop_every`-th step; true ends the run there.
     #[pyo3(signature = (steps = None, *, every = None, log = None, overwrite = false, stop = None, stop_every = 1))]

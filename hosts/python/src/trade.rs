@@ -1,4 +1,4 @@
-//! Speed against accuracy, measured on a scene or a log (docs/trade.md).
+//! Study of speed against accuracy, measured on a scene or a log (docs/trade.md).
 
 use crate::errors::{StudyError, bad_value, in_range};
 use crate::model::extensions;
@@ -13,39 +13,41 @@ use std::collections::BTreeMap;
 use std::ffi::CString;
 use std::path::PathBuf;
 
-/// What a study found. The files of `pong trade` are in the folder that was given.
+/// Result of a study. The files of `pong trade` are in the given folder.
 #[pyclass(frozen, module = "pong", get_all)]
 pub(crate) struct Trade {
     /// Name of the scene or log.
     name: String,
-    /// The page that `pong trade` prints, in Markdown.
+    /// Page that `pong trade` prints, in Markdown.
     page: String,
-    /// The levels: step and integrator, then those with one lever more.
+    /// Levels: step and integrator, then those with one lever more.
     levels: Vec<Py<Level>>,
-    /// The level of least median time within the tolerance; `None` if there is none or the reference has not converged.
+    /// Level of least median time within the tolerance; `None` if there is none or the reference has not
+    /// converged.
     cheapest: Option<Py<Level>>,
-    /// Whether the reference is good enough to judge by.
+    /// True if the reference is accurate enough to judge by.
     converged: bool,
-    /// What the reference may be off itself, relative, in the quantities that count.
+    /// Relative uncertainty of the reference itself, in the quantities that count.
     uncertainty: f64,
 }
 
-/// One setting of every lever, and what came of it.
+/// One setting of every lever, with its result.
 #[pyclass(frozen, module = "pong", get_all)]
 pub(crate) struct Level {
-    /// Its name, as in the tables.
+    /// Name, as in the tables.
     name: String,
     /// Relative errors by quantity; `None` if the run did not reach its end.
     errors: Option<BTreeMap<&'static str, f64>>,
-    /// The largest of those that count.
+    /// Largest error of the quantities that count.
     error: Option<f64>,
-    /// The frame than which half are shorter, s; `None` if the run did not reach its end.
+    /// Median frame time, s; `None` if the run did not reach its end.
     median_time: Option<f64>,
-    /// The frame than which 99 of 100 are shorter, s.
+    /// 99th percentile of the frame time, s.
     tail_time: Option<f64>,
-    /// Whether no other level is as fast and as accurate.
+    /// True if no other level is as fast and as accurate.
     on_front: bool,
-    /// Of a lever that must not change the answer: whether the bits are those without it. `False` is a fault of the engine.
+    /// For a lever that must not change the answer: true if the bits equal those without it. `False` is a
+    /// fault of the engine.
     same_bits: Option<bool>,
 }
 
@@ -82,7 +84,7 @@ impl Level {
     }
 }
 
-/// The members of a list that go by these names; all without names.
+/// Members of a list with these names; all if no names are given.
 fn named<T: Copy>(
     argument: &str,
     names: Option<Vec<String>>,
@@ -100,7 +102,7 @@ fn named<T: Copy>(
     names.iter().map(find).collect()
 }
 
-/// The numbers of workers that this machine has cores for; the caller is warned of the others.
+/// Numbers of workers for which this machine has cores; warns of the others.
 fn granted(py: Python<'_>, wanted: Vec<usize>) -> PyResult<Vec<usize>> {
     let has =
         |workers: usize| WorkerSettings { workers, ..WorkerSettings::default() }.workers_granted() >= workers;
@@ -113,7 +115,8 @@ fn granted(py: Python<'_>, wanted: Vec<usize>) -> PyResult<Vec<usize>> {
     Ok(granted)
 }
 
-/// Runs a scene, or the motions of a log, over the levers that buy speed, and tells frame time and error of each.
+/// Runs a scene, or the motions of a log, over the levers for speed, and reports frame time and error of
+/// each.
 #[pyfunction]
 #[pyo3(signature = (
     subject, output, *, within = 0.02, of = None, frame = None, halvings = None, duration = None, levers = None,

@@ -1,4 +1,4 @@
-//! Bounding volumes and leaves that cost least, for the same bits (docs/tune.md).
+//! Search for the fastest bounding volumes and leaves, with the same bits (docs/tune.md).
 
 use crate::arrays::refused;
 use crate::errors::{StudyError, in_range};
@@ -9,20 +9,20 @@ use pyo3::prelude::*;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// What came of a tuning.
+/// Result of a tuning.
 #[pyclass(frozen, module = "pong", get_all)]
 pub(crate) struct Tuned {
-    /// The page that `pong tune` prints, in Markdown.
+    /// Page that `pong tune` prints, in Markdown.
     page: String,
-    /// The model files that were written, by the names of the models; empty if nothing is faster by more than noise.
+    /// Written model files by model name; empty if nothing is faster by more than noise.
     written: BTreeMap<String, PathBuf>,
-    /// What is other in each model that was written, group by group.
+    /// Changes in each written model, group by group.
     changes: BTreeMap<String, Vec<String>>,
-    /// The fraction by which the time is shorter.
+    /// Relative reduction of the time.
     gain: f64,
-    /// The fraction by which the same thing timed twice differs.
+    /// Relative difference of repeated timings.
     noise: f64,
-    /// Proposals that were thrown away because they would have changed an answer, or could not be made.
+    /// Proposals discarded because they would have changed an answer, or could not be built.
     refused: Vec<String>,
 }
 
@@ -41,7 +41,7 @@ pub(crate) enum Runs {
     Other(Py<PyAny>),
 }
 
-/// Looks for bounding volumes and leaves with which the frames of runs take less time, and writes new model files.
+/// Searches for bounding volumes and leaves that reduce the frame time of runs, and writes new model files.
 #[pyfunction]
 #[pyo3(signature = (
     runs, *, output = None, force = false, duration = None, rounds = 5, frames = 4096, allow_files_below = Vec::new(),

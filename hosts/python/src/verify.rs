@@ -3,37 +3,37 @@
 use crate::errors::bad_value;
 use pyo3::prelude::*;
 
-/// A case with a known answer, and what became of it.
+/// A case with a known answer, and its verdict.
 #[pyclass(frozen, module = "pong", get_all)]
 pub(crate) struct Case {
-    /// Its name.
+    /// Name.
     id: String,
-    /// What it is about.
+    /// Subject.
     title: String,
-    /// Where the expected values come from.
+    /// Source of the expected values.
     source: String,
-    /// What is compared.
+    /// Rows of the case.
     rows: Vec<Py<Row>>,
-    /// Why it could not be run; `None` if it could.
+    /// Reason why it could not be run; `None` if it could.
     failure: Option<String>,
-    /// Whether every row is within its tolerance.
+    /// True if every row is within its tolerance.
     passes: bool,
 }
 
-/// A quantity, the value that theory expects, and the one that came out.
+/// A quantity with its expected and its measured value.
 #[pyclass(frozen, module = "pong", get_all)]
 pub(crate) struct Row {
-    /// What is compared.
+    /// Name of the quantity.
     quantity: String,
-    /// Its unit.
+    /// Unit.
     unit: String,
-    /// Value by the closed form.
+    /// Closed-form value.
     expected: f64,
-    /// Value measured.
+    /// Measured value.
     got: f64,
-    /// The largest error allowed, in the unit.
+    /// Largest allowed error, in the unit.
     allowed: f64,
-    /// Whether the error is allowed.
+    /// True if the error is within the tolerance.
     passes: bool,
 }
 

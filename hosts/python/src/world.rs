@@ -14,7 +14,7 @@ use std::collections::HashSet;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard};
 
-/// A sealed world: states go in, wrenches come out.
+/// A sealed world: states in, wrenches out.
 ///
 /// One thread at a time may call it. `evaluate`, `commit` and `step` release the GIL.
 #[pyclass(frozen, module = "pong")]
@@ -31,15 +31,15 @@ pub(crate) struct Inner {
     pub world: pong_engine::World,
     pub sources: Vec<ModelSource>,
     pub recorder: Option<Recorder>,
-    /// States on their way from an array into the world: its memory is used again.
+    /// Buffer for states from an array on their way into the world.
     states: Vec<(InterfaceId, State)>,
 }
 
-/// A frame in short.
+/// Report of a frame.
 #[pyclass(frozen, eq, module = "pong", get_all)]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct FrameReport {
-    /// What had to be left out or was missed, as the bits of `pong.Status`.
+    /// Incomplete or missed parts, as the bits of `pong.Status`.
     status: u32,
     /// Contacts listed.
     contacts: u32,
@@ -56,7 +56,7 @@ impl From<pong_engine::FrameReport> for FrameReport {
 
 #[pymethods]
 impl FrameReport {
-    /// Whether nothing was left out or missed.
+    /// True if nothing was left out or missed.
     #[getter]
     fn is_complete(&self) -> bool {
         self.status == 0
@@ -88,7 +88,7 @@ impl World {
         lock("world", &self.inner, "give each thread a world of its own, or wait for the other call")
     }
 
-    /// The Interfaces that a call means: all, in their order, unless it names some.
+    /// Interfaces of a call: all, in their order, or those it names.
     fn chosen(&self, interfaces: Option<Vec<PyRef<'_, Interface>>>) -> PyResult<Option<Vec<InterfaceId>>> {
         let Some(chosen) = interfaces else { return Ok(None) };
         let mut seen = HashSet::new();
@@ -151,13 +151,13 @@ impl World {
         Ok(self.lock()?.world.contact_capacity())
     }
 
-    /// Two worlds with equal hashes can exchange contact state.
+    /// Hash of the scene: worlds with equal hashes can exchange contact state.
     #[getter]
     fn scene_hash(&self) -> PyResult<u64> {
         Ok(self.lock()?.world.scene_hash())
     }
 
-    /// The Interface of a movable group by its path or name. An empty path is the root.
+    /// The Interface of a movable group, by path or name. An empty path is the root.
     #[pyo3(signature = (object, path = ""))]
     fn interface(&self, object: ObjectRef<'_>, path: &str) -> PyResult<Interface> {
         let inner = self.lock()?;
@@ -178,7 +178,7 @@ impl World {
         Ok(format!("{object}/{path}"))
     }
 
-    /// Sets states: an array of 13 columns, or the four parts apart. All are set, or, if any is refused, none.
+    /// Sets states: an array of 13 columns, or the four parts separately. If any is refused, none is set.
     #[pyo3(signature = (
         states = None,
         *,
@@ -239,7 +239,7 @@ impl World {
         world.set_states(room).map_err(of_engine)
     }
 
-    /// The states as they were set, a row for each Interface; a row of NaN where none was.
+    /// States as set, a row for each Interface; NaN for those not set.
     #[pyo3(signature = (out = None))]
     fn states<'py>(&self, py: Python<'py>, out: Option<Bound<'py, PyAny>>) -> PyResult<Matrix<'py>> {
         let inner = self.lock()?;
@@ -265,7 +265,7 @@ impl World {
         Ok(report.into())
     }
 
-    /// Accepts the states presently set, for all pairs or for some.
+    /// Commits the states presently set, for all pairs or for some.
     #[pyo3(signature = (pairs = None))]
     fn commit(&self, py: Python<'_>, pairs: Option<Vec<PyRef<'_, Pair>>>) -> PyResult<()> {
         let pairs: Option<Vec<_>> = pairs.map(|pairs| pairs.iter().map(|pair| pair.id).collect());
@@ -283,7 +283,7 @@ impl World {
         Ok(())
     }
 
-    /// Evaluate and commit, for hosts that call once a frame.
+    /// Evaluates and commits, for hosts that call once a frame.
     fn step(&self, py: Python<'_>) -> PyResult<FrameReport> {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
@@ -327,18 +327,18 @@ impl World {
         contacts::array(py, &self.lock()?.world)
     }
 
-    /// How the normal force of each contact changes with its depth (N/m) and with the rate of that (N·s/m): a row for each, in
-    /// the order of `contacts`; not a number for a normal law of the host's.
+    /// Derivatives of each contact's normal force by its depth (N/m) and by its depth rate (N·s/m): a row for
+    /// each, in the order of `contacts`; NaN for a normal law of the host.
     fn contact_stiffness<'py>(&self, py: Python<'py>) -> PyResult<Matrix<'py>> {
         contacts::stiffness(py, &self.lock()?.world)
     }
 
-    /// The last frame in short.
+    /// Report of the last frame.
     fn report(&self) -> PyResult<FrameReport> {
         Ok(self.lock()?.world.report().into())
     }
 
-    /// What went right through something else since the last commit, in words; `None` if nothing did.
+    /// Description of a tunnelling event since the last commit; `None` if there was none.
     fn tunnelling(&self) -> PyResult<Option<String>> {
         let inner = self.lock()?;
         let Some(event) = inner.world.tunnelling() else { return Ok(None) };
@@ -350,7 +350,7 @@ impl World {
         told().map(Some).map_err(of_engine)
     }
 
-    /// The committed contact state.
+    /// Returns the committed contact state.
     fn save_state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let inner = self.lock()?;
         PyBytes::new_with(py, inner.world.state_used(), |room| {
@@ -358,7 +358,7 @@ impl World {
         })
     }
 
-    /// Restores a contact state that a world built by the same calls saved.
+    /// Restores a contact state saved by a world built by the same calls.
     fn restore_state(&self, block: &[u8]) -> PyResult<()> {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
@@ -377,7 +377,7 @@ impl World {
         Ok(())
     }
 
-    /// Switches a pair on or off.
+    /// Enables or disables a pair.
     fn set_pair_enabled(&self, pair: &Pair, enabled: bool) -> PyResult<()> {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
@@ -386,7 +386,7 @@ impl World {
         Ok(())
     }
 
-    /// The values of a surface of a model as they are now.
+    /// Present values of a surface of a model.
     fn surface<'py>(&self, py: Python<'py>, model: &AddedModel, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let inner = self.lock()?;
         surface_values(py, inner.world.surface(model.id, name).map_err(of_engine)?)
@@ -409,8 +409,8 @@ impl World {
         Ok(())
     }
 
-    /// Commits, and preloads the bristles of a pair: `holding` is the force on its first Object, N; without it, what
-    /// moves is taken to slide. Answers how many bristles were set.
+    /// Commits, and preloads the bristles of a pair: `holding` is the force on its first Object, N; without
+    /// it, moving contacts are assumed to slide. Returns the number of preloaded bristles.
     #[pyo3(signature = (pair, holding = None))]
     fn preload_friction(&self, pair: &Pair, holding: Option<Bound<'_, PyAny>>) -> PyResult<usize> {
         let preload = match holding {
@@ -420,7 +420,7 @@ impl World {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
         let set = world.preload_friction(pair.id, &preload).map_err(of_engine)?;
-        // For the log it is what a restored contact state is.
+        // Logged like a restored contact state.
         if let Some(recorder) = recorder {
             let mut block = Vec::new();
             world.save_state_packed(&mut block);
@@ -466,7 +466,7 @@ impl World {
         recording::record(py, recorder.as_mut().ok_or_else(no_log)?, world, time)
     }
 
-    /// Writes what is left and closes the log. Answers how many frames it has.
+    /// Writes the remaining data and closes the log. Returns its number of frames.
     fn stop_log(&self, py: Python<'_>) -> PyResult<u64> {
         let recorder = self.lock()?.recorder.take().ok_or_else(no_log)?;
         recording::finish(py, recorder)

@@ -1,4 +1,4 @@
-"""What the tests share: two models, a world of them, states."""
+"""Shared parts of the tests: two models, a world of them, states."""
 
 import numpy as np
 
@@ -51,7 +51,7 @@ def world(**config):
 
 
 def states(*rows):
-    """A row (position, velocity, angular velocity) for each Interface, unturned."""
+    """A row (position, velocity, angular velocity) for each Interface, without rotation."""
     array = np.zeros((len(rows), 13))
     array[:, 3] = 1.0
     for row, (position, velocity, spin) in zip(array, rows):
@@ -60,12 +60,12 @@ def states(*rows):
 
 
 def touching(depth, velocity=(0.0, 0.0, 0.0), spin=(0.0, 0.0, 0.0)):
-    """The ball so deep in the ground."""
+    """States with the ball at this depth in the ground."""
     return states(((0.0, 0.0, RADIUS - depth), velocity, spin), ((0.0,) * 3, (0.0,) * 3, (0.0,) * 3))
 
 
 def turned(array, rotation, about):
-    """All states turned by a unit quaternion (w, x, y, z) and moved, as one."""
+    """All states rotated by a unit quaternion (w, x, y, z) and translated together."""
     w, v = rotation[0], np.array(rotation[1:])
 
     def turn(vector):

@@ -1,4 +1,4 @@
-"""Campaigns: values of runs, workers that differ in number and die, what is kept, what is refused, what is concluded."""
+"""Campaigns: values of runs, changing and failing workers, stored results, refusals, statistics."""
 
 import itertools
 import json
@@ -20,7 +20,7 @@ import pong
 from pong import campaign
 from pong.campaign import _addresses, _criteria, _dispersions, _rigid, _run, plots
 
-# A short drop: 100 steps, at the end of which some balls have touched.
+# A short drop: 100 steps, after which some balls have touched.
 SHORT = SCENE.replace("duration: 0.3", "duration: 0.02").replace("step: 1e-4", "step: 2e-4").replace("0.0, 0.2)", "0.0, 0.101)")
 
 
@@ -49,7 +49,7 @@ def run(plan, folder, cluster, **options):
     return campaign.run(plan, folder, scheduler=cluster.scheduler_address, progress=False, **options)
 
 
-# --- the values of runs
+# --- values of runs
 
 
 def test_values_depend_on_seed_and_run_alone(tmp_path):
@@ -104,20 +104,20 @@ def test_an_object_is_displaced_as_one_rigid_body():
     change = {motion: rng.normal(size=3) for motion in _addresses.MOTIONS}
     pivot = rng.normal(size=3)
     out = _rigid.displaced(states, pivot, change)
-    # Poses of the other groups seen from the root stay; the pivot goes where only the displacement takes it.
+    # Poses of the other groups relative to the root stay; the pivot moves by the displacement alone.
     for i in (1, 2):
         before, after = (_rigid.in_frame_of(array[0], array[i, :3] - array[0, :3]) for array in (states, out))
         np.testing.assert_allclose(after, before, atol=1e-12)
     at = states[0, :3] + _rigid.in_common(states[0], pivot)
     np.testing.assert_allclose(out[0, :3] + _rigid.in_common(out[0], pivot), at + change["position"], atol=1e-12)
-    # A rotation vector of a quarter turn about z takes x to y.
+    # A rotation vector of a quarter turn about z maps x to y.
     quarter = {**{motion: np.zeros(3) for motion in _addresses.MOTIONS}, "rotation": np.array([0, 0, math.pi / 2])}
     unit = np.zeros((1, 13))
     unit[0, 0], unit[0, 3] = 1.0, 1.0
     turned = _rigid.displaced(unit, np.array([-1.0, 0, 0]), quarter)[0]
     np.testing.assert_allclose(turned[:3], [0, 1, 0], atol=1e-15)
     np.testing.assert_allclose(_rigid.in_common(turned, np.array([1.0, 0, 0])), [0, 1, 0], atol=1e-15)
-    # What is added is the velocity field of a rigid body about the pivot.
+    # The addition is the velocity field of a rigid body about the pivot.
     arm = out[2, :3] - (at + change["position"])
     expected = states[2, 7:10] + change["velocity"] + np.cross(change["angular_velocity"], arm)
     np.testing.assert_allclose(out[2, 7:10], expected, atol=1e-12)
@@ -148,7 +148,7 @@ def test_the_same_results_on_one_and_on_more_workers(tmp_path, cluster):
     with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as two:
         more = run(plan, tmp_path / "two", two, runs_per_task=3)
     assert one.num_rows == 12 and one.equals(more)
-    # As one who has only the scene would compute run 5.
+    # Run 5, computed from the scene alone.
     simulation = pong.Scene.load(plan.scene).build()
     z, vx, k = _dispersions.values(plan)[5]
     states = simulation.states()[:1]
@@ -204,7 +204,7 @@ def test_a_campaign_that_was_stopped_goes_on(tmp_path, cluster, monkeypatch):
     assert campaign.results(tmp_path / "part").num_rows == 4
     assert run(plan, tmp_path / "part", cluster).equals(whole)
     assert sorted(added) == list(range(12)), "no run was done twice"
-    # A file that was being written when the power failed is none.
+    # A file that was incomplete at a power failure is ignored.
     (tmp_path / "part" / "parts" / "part-00000099.parquet.half").write_bytes(b"PAR1")
     assert run(plan, tmp_path / "part", cluster).equals(whole)
     assert not (tmp_path / "part" / "parts" / "part-00000099.parquet.half").exists()
@@ -238,7 +238,7 @@ def test_results_tell_their_campaign_when_its_file_is_lost(tmp_path, cluster):
     refused(lambda: run(plan_of(tmp_path, seed=8), out, cluster), "the plan changed", "another folder")
     (out / "parts" / "part-00000007.parquet").unlink()
     assert run(plan, out, cluster).equals(whole) and head.read_text() == text
-    # Results that say nothing of their campaign, as those of earlier versions.
+    # Results without their campaign, as those of earlier versions.
     head.unlink()
     for part in (out / "parts").iterdir():
         pyarrow.parquet.write_table(pyarrow.parquet.read_table(part).replace_schema_metadata(None), part)
@@ -246,7 +246,7 @@ def test_results_tell_their_campaign_when_its_file_is_lost(tmp_path, cluster):
 
 
 def test_a_full_disk_is_told_and_loses_nothing(tmp_path, cluster):
-    """Here, a limit on the length of files: what the process writes beyond it is refused, as on a full disk."""
+    """A limit on file sizes in this process, which refuses writes as a full disk does."""
     plan, out = plan_of(tmp_path), tmp_path / "out"
     whole = run(plan, out, cluster)
     store, good = campaign._store.Store(out), whole.to_pylist()[0]
@@ -276,7 +276,7 @@ def test_two_processes_cannot_run_one_campaign(tmp_path, cluster):
 
 
 def test_runs_that_fail_are_kept_apart_and_can_be_repeated(tmp_path, cluster):
-    """A stiffness below zero is refused by the engine: half of these runs fail."""
+    """A negative stiffness, refused by the engine: half of these runs fail."""
     plan = plan_of(tmp_path, dispersions=[campaign.Uniform("surface.ball.rubber.stiffness", -1e4, 1.1e4)])
     table = run(plan, tmp_path / "out", cluster)
     failed = campaign.failures(tmp_path / "out")
@@ -301,7 +301,7 @@ def test_a_worker_that_dies_of_a_run_is_a_failure_of_that_run(tmp_path, monkeypa
     assert told["run"] == 3 and told["error"] == "KilledWorker" and "ball.position.z" in told
 
 
-# --- what is refused
+# --- refusals
 
 
 def refused(call, *words):
@@ -312,7 +312,7 @@ def refused(call, *words):
 
 
 def test_a_scene_that_a_worker_cannot_read(tmp_path, cluster, monkeypatch):
-    """The same path leads elsewhere on the worker: it is another process, in another folder."""
+    """A path that resolves differently on the worker, which is another process in another folder."""
     scene_folder(tmp_path, SHORT)
     plan = plan_of(tmp_path, scene="/proc/self/cwd/drop.ron")
     monkeypatch.chdir(tmp_path)
@@ -348,7 +348,7 @@ def test_plans_that_cannot_be_run(tmp_path, cluster):
         ("ball.position", ("ball.position", "OBJECT.position.x")),
         ("surface.ball.rubber.hardness", ("hardness", "stiffness")),
         ("surface.ball.chalk.stiffness", ("chalk",)),
-        # What is misspelt must not be taken for the stiffness of the normal law.
+        # A misspelt name must not be taken for the stiffness of the normal law.
         ("surface.ball.rubber.fiction.stiffness", ("fiction", "surface.ring.steel.friction.mu")),
     ):
         plan = plan_of(tmp_path, dispersions=[campaign.Uniform(parameter, 0.0, 1.0)])
@@ -368,23 +368,23 @@ def test_plans_that_cannot_be_run(tmp_path, cluster):
     refused(lambda: campaign.results(tmp_path / "out"), "campaign.json", "name the folder of a campaign")
 
 
-# --- what is concluded
+# --- statistics
 
 
 def test_wilsons_interval_solves_its_equation():
-    """Its ends are the p at which the share seen is just z standard errors away."""
+    """The ends are the p at which the observed share is exactly z standard errors away."""
     z = 1.959963984540054
     for count, of in ((1, 10), (37, 50), (9950, 10000), (3, 7)):
         for p in campaign.wilson(count, of):
             assert abs(count / of - p) == pytest.approx(z * math.sqrt(p * (1 - p) / of), rel=1e-9)
-    # With none of n: z²/(n + z²).
+    # For zero of n: z²/(n + z²).
     assert campaign.wilson(0, 100) == (0.0, pytest.approx(z * z / (100 + z * z), rel=1e-12))
     assert campaign.wilson(100, 100)[1] == 1.0
     refused(lambda: campaign.wilson(3, 2), "3 of 2")
 
 
 def test_intervals_of_quantiles_hold_what_they_promise():
-    """Of a known distribution, at least 95 of 100 intervals contain the quantile."""
+    """Coverage: for a known distribution, at least 95 of 100 intervals contain the quantile."""
     rng = np.random.default_rng(11)
     for share, runs in ((0.5, 40), (0.95, 200)):
         inside = 0

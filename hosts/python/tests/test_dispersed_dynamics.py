@@ -1,4 +1,4 @@
-"""Dispersed masses, inertias, springs and gravity, against the motion that they must give."""
+"""Dispersed masses, inertias, springs and gravity, compared with the expected motion."""
 
 import math
 
@@ -21,7 +21,7 @@ TIME = 0.3
 
 
 def values_of(simulation, **values):
-    """Gives a simulation the values of addresses, written with `_` for `.`."""
+    """Sets values in a simulation by their addresses, written with `_` for `.`."""
     names = [name.replace("__", ".") for name in values]
     _addresses.apply(simulation, {"parameters": names, "pivots": {}}, list(values.values()))
 
@@ -36,7 +36,7 @@ def motion(folder, **values):
 
 
 def expected(mass=MASS, inertia=INERTIA, stiffness=STIFFNESS, turning=TURNING):
-    """Of two harmonic motions, each released at rest. The orientation of the scene has eight digits."""
+    """Two harmonic motions, each released at rest. The orientation of the scene has eight digits."""
     return -0.1 * math.cos(math.sqrt(stiffness / mass) * TIME), 0.1 * math.cos(math.sqrt(turning / inertia) * TIME)
 
 
@@ -58,7 +58,7 @@ def test_a_sprung_ball_swings_at_the_frequencies_of_its_values(tmp_path, given, 
 
 
 def test_damping_and_preload_of_a_spring(tmp_path):
-    """m = 1, c = 10, k = 200 about the place that the preload moves by P/k: decay 5/s, ω_d = √175."""
+    """m = 1, c = 10, k = 200 about the rest position, which the preload moves by P/k: decay 5/s, ω_d = √175."""
     z, _ = motion(tmp_path, spring__0__damping__z=10.0, spring__0__preload__z=10.0)
     w, decay, rest = math.sqrt(175.0), math.exp(-5.0 * TIME), 0.05
     assert z == pytest.approx(rest + (-0.1 - rest) * decay * (math.cos(w * TIME) + 5.0 * math.sin(w * TIME) / w), abs=1e-8)
@@ -73,7 +73,7 @@ def test_gravity_replaces_that_of_the_scene(tmp_path):
 
 
 def test_products_of_inertia_and_mass_centres_are_set_together(tmp_path):
-    """One moment alone would be refused: 4e-3, 4e-3 and 9e-3 belong to no body."""
+    """A single moment would be refused: no body has 4e-3, 4e-3 and 9e-3."""
     simulation = pong.Scene.load(scene_folder(tmp_path)).build()
     state = simulation.states()
     values_of(
@@ -87,12 +87,13 @@ def test_products_of_inertia_and_mass_centres_are_set_together(tmp_path):
     assert told["inertia"] == [[7e-3, 1e-4, 0.0], [1e-4, 4e-3, 0.0], [0.0, 0.0, 9e-3]]
     assert (told["mass"], told["mass_center"]) == (1.0, [0.0, 0.02, 0.0])
     np.testing.assert_allclose(simulation.states(), state, atol=1e-15)
-    # The mass centre falls by its law; the ball, which does not turn, with it.
+    # The mass centre falls freely; the ball, which does not turn, falls with it.
     assert simulation.run(500, every=500).states[-1, 0, 2] == pytest.approx(0.2 - 0.5 * 9.81 * 0.05**2, rel=1e-12)
 
 
 def test_a_heavier_ball_presses_harder(tmp_path):
-    """Dropped from the same height without damping, the peak force is √(2·g·h·m·k) and a little: its weight acts too."""
+    """Dropped from the same height without damping, the peak force is slightly above √(2·g·h·m·k), because of the
+    weight."""
     plan = campaign.Plan(
         scene=scene_folder(tmp_path, SCENE.replace("duration: 0.3", "duration: 0.17")),
         runs=1,
@@ -104,7 +105,7 @@ def test_a_heavier_ball_presses_harder(tmp_path):
     for mass in (1.0, 2.5):
         row = _case.outcome(_run.checked(plan), 0, np.array([mass, 0.0]))
         weight = mass * 9.81
-        # kx = W + √(W² + 2kWh): from the balance of energies at the deepest point.
+        # kx = W + √(W² + 2kWh): from the energy balance at the deepest point.
         assert row["peak_force.ball"] == pytest.approx(weight + math.sqrt(weight**2 + 2 * 2e4 * weight * 0.1), rel=2e-3)
 
 

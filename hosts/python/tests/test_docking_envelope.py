@@ -1,4 +1,4 @@
-"""The example of docs/campaigns.md, a few approaches of it: `python hosts/python/examples/docking_envelope.py` is the whole."""
+"""A few approaches of the example of docs/campaigns.md; `python hosts/python/examples/docking_envelope.py` runs all."""
 
 import os
 import pathlib
@@ -20,7 +20,7 @@ def test_the_approach_of_the_scene_itself_is_captured():
     row = _case.outcome(_run.checked(plan), 0, np.zeros(len(plan.dispersions)))
     assert row["captured"] and 400.0 < row["peak_force.target"] < 2000.0
     assert row["ended_by"] == "held" and row["time_at_end"] < 8.0 and row["contacts_at_start"] == 0
-    # From half a metre aside it passes the target by, and is told so before the duration is over.
+    # From half a metre aside it misses the target, which is recognised before the end.
     row = _case.outcome(_run.checked(plan), 0, np.array([0.5, 0.5, 0, 0, 0, 0, 0.0]))
     assert not row["captured"] and row["ended_by"] == "parted" and row["time_at_end"] < 16.0
 

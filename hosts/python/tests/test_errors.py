@@ -1,4 +1,4 @@
-"""What goes wrong is an exception of its family, with thing, cause and cure, and nothing is half done."""
+"""Errors are exceptions of their families, with thing, cause and cure, and leave nothing half done."""
 
 import signal
 import threading
@@ -172,7 +172,7 @@ def test_scenes_that_are_refused(tmp_path):
 
 
 def test_a_run_that_diverges(tmp_path):
-    """A spring that no step of 1 s can hold: each step multiplies the motion, until no number holds it."""
+    """A spring that is unstable at a step of 1 s: each step multiplies the motion until it overflows."""
     spring = "springs: [(first: Ground(), second: On(body: \"ball\"), stiffness: (1e4, 1e4, 1e4, 0, 0, 0))],"
     text = scene_folder(tmp_path).read_text().replace("step: 1e-4", f"{spring} step: 1.0")
     simulation = pong.Scene.parse(text.replace("duration: 0.3", "duration: 1000.0"), folder=tmp_path).build()
@@ -187,7 +187,7 @@ def test_cases_and_wishes_that_are_not_there():
 
 
 def test_threads_that_share_a_simulation_are_told(tmp_path):
-    """The GIL is released: while one thread computes, another can ask, and is told that it must not."""
+    """The GIL is released: while one thread computes, another can call, and is refused."""
     simulation = pong.Scene.load(scene_folder(tmp_path)).build()
     thread = threading.Thread(target=simulation.run, args=(200_000,), kwargs={"every": 1000})
     thread.start()
@@ -204,7 +204,7 @@ def test_threads_that_share_a_simulation_are_told(tmp_path):
 def test_a_run_can_be_interrupted(tmp_path):
     """Ctrl-C ends a run that would take hours."""
     simulation = pong.Scene.load(scene_folder(tmp_path)).build()
-    # A shell starts what runs in the background with Ctrl-C ignored, and Python leaves that as it is.
+    # A shell starts background processes with Ctrl-C ignored, and Python keeps that.
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT)).start()

@@ -1,4 +1,4 @@
-"""Frames: known answers, arrays in and out, what is remembered."""
+"""Frames: known answers, arrays in and out, contact memory."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def test_turned_and_moved_it_is_the_same_force():
         w.step(), still.step()
         common, expected = w.wrenches(), still.wrenches()
         np.testing.assert_allclose(common[:, :3], [turn(row[:3]) for row in expected], atol=1e-9)
-        # Along the axes of its own group the ball feels what it felt unturned.
+        # Along the axes of its own group the ball feels the same as without the rotation.
         np.testing.assert_allclose(w.wrenches(axes="group")[0], expected[0], atol=1e-9)
 
 
@@ -168,7 +168,7 @@ def test_a_restored_state_goes_on_to_the_same_bits():
     assert isinstance(block, bytes)
     restored.restore_state(block)
     assert np.array_equal(slide(restored, 5, start=5), whole[5:])
-    # What the comparison is worth: without the state the friction is another.
+    # Sensitivity of the comparison: without the state the friction differs.
     assert not np.array_equal(slide(world(), 5, start=5), whole[5:])
 
 
@@ -249,7 +249,7 @@ def test_the_builder_can_be_mended_after_a_refused_seal():
     with pytest.raises(pong.SealError) as caught:
         made.seal()
     assert caught.value.problems and "steel" in str(caught.value)
-    # Nothing was lost: the Objects are there, and more can be added.
+    # Nothing was lost: the Objects exist, and more can be added.
     made.create_object(model, "three")
     assert builder().seal().contact_capacity >= 256
 

@@ -13,7 +13,7 @@ PONG = os.environ["PONG"]
 
 
 def logged(folder, **options):
-    """A slide that meets everything that a log knows of."""
+    """A slide with every kind of entry of a log."""
     w = world()
     w.start_log(folder, name="slide", step=1e-3, **options)
     for step in range(20):
@@ -89,7 +89,7 @@ def test_a_log_that_was_cut_off_is_read_as_far_as_it_goes(tmp_path):
 
 
 def test_pipes_and_devices_are_refused_at_once(tmp_path):
-    """A pipe has no writer that would come, a device has no end."""
+    """A pipe has no writer, and a device has no end."""
     logged(tmp_path / "log")
     for name in ("run.json", "events.jsonl", "states.npy"):
         file = tmp_path / "log" / name

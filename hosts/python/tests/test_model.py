@@ -88,7 +88,7 @@ def test_what_is_read_is_not_judged_by_its_shape(tmp_path):
     (tmp_path / "m.ron").write_text(with_root('primitives: [TriangleMesh(name: "t", file: "none.obj")]'))
     (mesh,) = pong.model.read(tmp_path / "m.ron")["root"]["primitives"]
     assert mesh == {"TriangleMesh": {"name": "t", "file": "none.obj"}}
-    # How many faces the file has is not known here, so what is no face is handed on as it is.
+    # The number of faces in the file is unknown here, so an invalid face index is passed on unchanged.
     (solid,) = primitives('Polyhedron(name: "p", file: "none.obj", inactive_faces: [1, 1.5])')
     assert solid["Polyhedron"]["inactive_faces"] == [1, 1.5]
 
@@ -108,7 +108,7 @@ def test_faults_have_place_cause_and_cure(tmp_path):
 
 
 def same(a, b):
-    """Whether data is the same to the last bit, arrays with it."""
+    """True if data is equal to the last bit, including arrays."""
     if isinstance(a, dict):
         return isinstance(b, dict) and list(a) == list(b) and all(same(a[key], b[key]) for key in a)
     if isinstance(a, (list, tuple)):
@@ -148,7 +148,7 @@ def test_every_number_and_every_text_comes_back():
 def test_what_has_no_form_is_refused():
     with pytest.raises(TypeError, match="no form for .*, which is a set"):
         pong.model.write({"name": {1, 2}})
-    # What it would mean is the loader's to say.
+    # The loader judges its meaning.
     with pytest.raises(pong.ModelError, match="unknown-field"):
         pong.model.parse(pong.model.write(pong.model.parse(BALL) | {"colour": 1}))
 
@@ -170,7 +170,7 @@ def test_a_polyhedron_is_told_by_face_and_place():
     lifted[7, 2] += 0.01
     (fault,) = pong.model.check_polyhedron(lifted, FACES)
     assert (fault["rule"], fault["face"]) == ("face-not-planar", 1)
-    # The plane goes through the mean: a quarter of what one of four corners was lifted by.
+    # The plane goes through the mean: a quarter of the height by which one of four corners was lifted.
     assert fault["off"] == pytest.approx(0.0025, rel=1e-3)
     open_one = pong.model.check_polyhedron(CUBE, FACES[1:])
     assert {fault["rule"] for fault in open_one} == {"open-polyhedron"}

@@ -1,4 +1,4 @@
-"""What docs/python.md shows does what the page says."""
+"""The examples of docs/python.md behave as the page says."""
 
 import os
 import pathlib

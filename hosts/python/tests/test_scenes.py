@@ -34,7 +34,7 @@ def test_a_bounce_without_damping_gives_the_closed_form(tmp_path):
     # Half a period of √(k/m), depth v·√(m/k), force v·√(k·m); it leaves as fast as it came.
     assert run.peak_force[0] == pytest.approx(0.5 * math.sqrt(STIFFNESS), rel=1e-5)
     assert run.peak_depth[0] == pytest.approx(0.5 / math.sqrt(STIFFNESS), rel=1e-5)
-    # The step in which it touches sees the spring from its middle on: second order, (ω·h)² = 2e-4 of a part.
+    # The step of first contact sees the spring from its middle on: second order, (ω·h)² = 2e-4, relative.
     assert run.states[-1, 0, 9] == pytest.approx(0.5, rel=1e-5)
     # The trapezoid rule over 222 steps of half a sine: (π/222)²/12 of it.
     assert run.impulse[0, 2] == pytest.approx(1.0, rel=2e-5)
@@ -91,7 +91,7 @@ def test_a_run_has_the_bits_of_pong_run(tmp_path, scene):
 
 
 def test_the_docking_has_the_bits_of_pong_run(tmp_path):
-    """The first 2 s of the docking: petals have met and slide."""
+    """The first 2 s of the docking, in which petals have met and slide."""
     text = (MODELS / "idss_docking" / "scene_soft_capture.ron").read_text()
     short = text.replace("duration: 8.0", "duration: 2.0")
     assert short != text

@@ -1,4 +1,4 @@
-"""Runs that end before their duration is over: what is asked when, and that it changes nothing before."""
+"""Runs that end early: times of the checks, and no effect on the run before."""
 
 import math
 
@@ -28,32 +28,32 @@ def outcome(plan, *values):
 
 
 def test_a_body_that_leaves_ends_the_run_at_the_first_look_beyond(tmp_path):
-    """Without gravity z = 0.2 + 2t: 0.4 m is passed at 0.1 s, and the look there sees 0.4 m, give or take rounding."""
+    """Without gravity z = 0.2 + 2t: 0.4 m is passed at 0.1 s, and the check there sees 0.4 m, within rounding."""
     still = SCENE.replace("(0.0, 0.0, -9.81)", "(0.0, 0.0, 0.0)")
     plan = plan_of(tmp_path, still, stops=[campaign.Beyond("gone", "ball", "ground", 0.41)])
     row = outcome(plan, 2.0)
     assert (row["ended_by"], row["time_at_end"]) == ("gone", pytest.approx(0.11, rel=1e-12)) and not row["near"]
-    # Beyond that distance all the time, but coming nearer until it touches and goes back.
+    # Beyond that distance all the time, but approaching until it touches and returns.
     plan = plan_of(tmp_path, still, stops=[campaign.Beyond("gone", "ball", "ground", 0.05)], duration=0.5)
     row = outcome(plan, -0.5)
-    # It touches after 0.2 s and is deepest half of π√(m/k) later, k = 2e4 N/m, at 0.2111 s: the look at 0.22 s sees it farther
-    # away than that at 0.21 s.
+    # First contact at 0.2 s, greatest depth half of π√(m/k) later, k = 2e4 N/m, at 0.2111 s: the check at 0.22 s sees
+    # it farther away than that at 0.21 s.
     assert row["ended_by"] == "gone" and row["time_at_end"] == pytest.approx(0.22, rel=1e-12)
     assert row["peak_force.ball"] > 10.0
 
 
 def test_a_criterion_that_holds_ends_the_run_and_one_that_is_lost_begins_anew(tmp_path):
-    """z = 0.2 + vt - gt²/2 is above 0.25 between two times that are known."""
+    """z = 0.2 + vt - gt²/2 is above 0.25 between two known times."""
     plan = plan_of(tmp_path, stops=[campaign.Held("held", "near", 0.05)], duration=1.0)
     assert outcome(plan, 0.0)["time_at_end"] == pytest.approx(0.05, rel=1e-12)
     g, v = 9.81, 1.5
     up, down = ((v + sign * math.sqrt(v * v - 2 * g * 0.05)) / g for sign in (-1, 1))
     assert 0.03 < up < 0.04 < down
     row = outcome(plan, v)
-    # Held from the first look after it came back.
+    # Held from the first check after its return.
     back = math.ceil(down / 0.01) * 0.01
     assert (row["ended_by"], row["near"]) == ("held", True) and row["time_at_end"] == pytest.approx(back + 0.05, rel=1e-12)
-    # A run that nothing ends is told as such.
+    # A run that no stop ends is reported as such.
     assert outcome(plan_of(tmp_path, duration=0.02), 0.0)["ended_by"] == "duration"
 
 
@@ -136,7 +136,7 @@ def test_a_condition_of_the_caller_is_asked_at_whole_steps(tmp_path):
         return time > 0.0095
 
     run = simulation.run(stop=stop, stop_every=20, log=tmp_path / "log")
-    # The step is 1e-4 s: asked every 2 ms, first at the start.
+    # The step is 1e-4 s: called every 2 ms, first at the start.
     np.testing.assert_allclose([time for time, _ in asked], [0.0, 0.002, 0.004, 0.006, 0.008, 0.01], atol=1e-15)
     np.testing.assert_allclose([z for _, z in asked], [0.2 - 0.5 * 9.81 * t * t for t, _ in asked], rtol=1e-12)
     assert run.stopped and run.time[-1] == simulation.time and pong.Log(tmp_path / "log").is_whole

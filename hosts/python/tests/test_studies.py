@@ -1,4 +1,4 @@
-"""Runs made again: what is known of their answers beforehand, and that they are those of the program `pong`."""
+"""Studies: known answers, and agreement with the program `pong`."""
 
 import os
 import signal
@@ -13,7 +13,7 @@ from support import BALL, GROUND, SCENE, scene_folder
 import pong
 
 PONG = os.environ["PONG"]
-# A ball at rest on the ground: 1 kg on 1e5 N/m for 64 ms, with friction and damping that have nothing to do.
+# A ball at rest on the ground: 1 kg on 1e5 N/m for 64 ms, with friction and damping of no effect.
 RESTING = (
     SCENE.replace("(0.0, 0.0, 0.2)", "(0.0, 0.0, 0.0999019)").replace("step: 1e-4", "step: 1e-3")
     .replace("duration: 0.3", "duration: 0.064").replace("record_every: 10", "record_every: 1")
@@ -60,7 +60,7 @@ def test_a_log_without_every_commit_is_told_of(tmp_path):
 
 
 def test_the_errors_of_steps_are_those_of_the_program(tmp_path):
-    """The order of a method is its own: at half the step RK4 has 1/16 of the error."""
+    """Order of a method: at half the step RK4 has 1/16 of the error."""
     scene = resting(tmp_path)
     (tmp_path / "ball.ron").write_text(BALL.replace("damping: 30", "damping: 0"))
     found = pong.trade(scene, tmp_path / "out", within=0.05, of=["peak"], levers=["step"], rounds=1)
@@ -122,7 +122,7 @@ def test_what_cannot_be_studied_is_told(tmp_path):
 
 
 def test_tuned_models_answer_the_same(tmp_path):
-    """What is faster is not for a test to say; what is said of it is held to be true."""
+    """Timings are not tested; the statements about them must be consistent."""
     scene = scene_folder(tmp_path)
     (tmp_path / "ball.ron").write_text(BALL.replace("primitives: [", "groups: [(name: \"inner\", groups: [(name: \"core\", primitives: [")
                                        .replace("radius: 0.1),\n    ]", "radius: 0.1),\n    ])])]"))

@@ -12,12 +12,12 @@ _BINARIES = pathlib.Path(__file__).parent / "binaries"
 
 
 def versions():
-    """The versions of MuJoCo that this package has a plugin for."""
+    """Versions of MuJoCo for which this package has a plugin."""
     return sorted(folder.name for folder in _BINARIES.iterdir())
 
 
 def plugin_path():
-    """The plugin for the MuJoCo that is imported, for `mj_loadPluginLibrary` in another program."""
+    """Path of the plugin for the imported MuJoCo, for `mj_loadPluginLibrary` in another program."""
     path = _BINARIES / mujoco.__version__ / "libpong_contact.so"
     if not path.is_file():
         raise ImportError(

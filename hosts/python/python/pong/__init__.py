@@ -1,4 +1,4 @@
-"""Contact dynamics: states go in, wrenches come out.
+"""Contact dynamics: states in, wrenches out.
 
     builder = pong.WorldBuilder()
     builder.create_object(builder.add_model("ball.ron"), "ball")
@@ -107,7 +107,7 @@ __all__ = [
 
 
 class Status(IntFlag):
-    """What a frame had to leave out, or missed: `Status(report.status)`."""
+    """Incomplete or missed parts of a frame: `Status(report.status)`."""
 
     CONTACT_LIMIT = 1
     LOAD_SHARING_LIMIT = 2

@@ -1,4 +1,4 @@
-"""Response logs (docs/response_logs.md): their tables as NumPy arrays that the system maps, not reads."""
+"""Response logs (docs/response_logs.md) with their tables as memory-mapped NumPy arrays."""
 
 import json
 from pathlib import Path
@@ -9,7 +9,7 @@ from ._pong import check_log
 
 
 class Log:
-    """A log that was opened for reading. Of a log that was cut off, the whole frames are there.
+    """A log opened for reading. If the log was cut off, its complete frames are available.
 
     `frames`, `states`, `wrenches`, `contacts` and `energies` are views of the files: what is not looked at is not read.
     """
@@ -26,7 +26,7 @@ class Log:
         self.energies = self._table("energies", self.frame_count) if "energies" in self.run["tables"] else None
 
     def _table(self, name, rows):
-        """The first rows of a table. `numpy.load` refuses a file that was cut off: it maps as many as the header tells."""
+        """The first rows of a table. `numpy.load` refuses a truncated file: it maps as many rows as the header gives."""
         path = self.folder / self.run["tables"][name]["file"]
         with path.open("rb") as file:
             np.lib.format.read_magic(file)
@@ -49,13 +49,13 @@ class Log:
 
     @property
     def events(self):
-        """What the host changed between frames. A last line that was cut off is passed over."""
+        """Changes by the host between frames. An incomplete last line is skipped."""
         file = self.folder / "events.jsonl"
         whole = file.read_text(encoding="utf-8").rpartition("\n")[0] if file.exists() else ""
         return [json.loads(line) for line in whole.splitlines() if line.strip()]
 
     def contacts_of(self, frame):
-        """The contacts of a frame, counted from the log's first."""
+        """Contacts of a frame, whose index counts from the log's first."""
         row = self.frames[frame]
         first = int(row["first_contact"])
         return self.contacts[first : first + int(row["contacts"])]

@@ -1,4 +1,4 @@
-"""Writes model data as RON, in one layout: on one line what fits into it, else one field a line and long lists filled."""
+"""Writer of model data as RON, in one layout: on one line if it fits, else one field per line, with long lists filled."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ import numpy as np
 
 WIDTH = 120
 INDENT = "    "
-# Fields whose texts are names: `bound: Sphere`, not `bound: "Sphere"`.
+# Fields whose text is written as a name: `bound: Sphere`, not `bound: "Sphere"`.
 NAMES = ("bound", "response")
-# Fields for which `None` says something; everywhere else it is as if the field were left out.
+# Fields for which `None` is a value; for all others it means that the field is left out.
 SPEAKING_NONE = ("friction",)
-# Lists with one item a line, however short they are.
+# Lists with one item per line, however short.
 BROKEN_LISTS = ("groups", "primitives", "pairs")
 
 
 @dataclass
 class _Block:
-    """Something in brackets: `items` are (label, value) with a value that is text, `_Block` or `_Filled`."""
+    """A bracketed list: `items` are (label, value) with a value that is text, `_Block` or `_Filled`."""
 
     opening: str
     closing: str
@@ -32,13 +32,13 @@ class _Block:
 
 @dataclass
 class _Filled:
-    """A long list of short tokens, as many on a line as fit."""
+    """A long list of short tokens, as many per line as fit."""
 
     tokens: list[str]
 
 
 def write(data: dict[str, Any]) -> str:
-    """The text of a model file; see `pong.model.write`."""
+    """Text of a model file; see `pong.model.write`."""
     document = {"format": "pong-model", "version": 1} | data
     items = [(f"{_name(key)}: ", _field(key, value)) for key, value in document.items() if _is_written(key, value)]
     out: list[str] = []
@@ -55,7 +55,7 @@ def _is_written(key: str, value: Any) -> bool:
 
 
 def _field(key: str, value: Any) -> Any:
-    """The value of a field, whose name says how lists and texts are written."""
+    """Value of a field, whose name decides how lists and texts are written."""
     if key == "surfaces" and isinstance(value, dict):
         entries = [(f"{_text(str(name))}: ", _value(surface)) for name, surface in value.items()]
         return _Block("{", "}", entries, broken=bool(entries))
@@ -121,7 +121,7 @@ def _list(value: list[Any]) -> Any:
 
 
 def _rows(value: Iterable[Any], brackets: str) -> list[str]:
-    """`(x, y, z)` for every row."""
+    """`(x, y, z)` of every row."""
     if isinstance(value, np.ndarray) and value.ndim == 2:
         items = list(map(repr, value.ravel().tolist()))
         columns = [items[i :: value.shape[1]] for i in range(value.shape[1])]
@@ -132,12 +132,12 @@ def _rows(value: Iterable[Any], brackets: str) -> list[str]:
 
 
 def _number(value: Any) -> str:
-    """The shortest text that reads back as the same number."""
+    """Shortest text that reads back as the same number."""
     return str(int(value)) if isinstance(value, Integral) else repr(float(value)).replace("nan", "NaN")
 
 
 def _name(name: Any) -> str:
-    """A name; RON has a form for those that are no plain words."""
+    """Text of a name; RON has a raw form for names that are no plain words."""
     return str(name) if re.fullmatch(r"[A-Za-z_]\w*", str(name), re.ASCII) else f"r#{name}"
 
 

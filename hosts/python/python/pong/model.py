@@ -30,7 +30,7 @@ _Indices = NDArray[np.integer[Any]]
 
 @dataclass
 class Checked:
-    """What was found in a model. `model` is None if there is an error."""
+    """Findings about a model. `model` is None if there is an error."""
 
     model: Model | None
     errors: list[dict[str, Any]] = field(default_factory=list)
@@ -38,25 +38,25 @@ class Checked:
 
 
 def read(path: _Path) -> dict[str, Any]:
-    """Reads a model file as it is written. Raises ModelError; shapes are not judged, and mesh files not read."""
+    """Reads a model file as written. Raises ModelError; shapes are not checked, and mesh files not read."""
     return _pong.read_authored(path)
 
 
 def parse(text: str, *, name: str = "model") -> dict[str, Any]:
-    """As `read`, from text. `name` is what errors call it."""
+    """As `read`, from text. `name` stands for the file in errors."""
     return _pong.parse_authored(text, name=name)
 
 
 def write(data: dict[str, Any]) -> str:
-    """The text of a model file with this data, in the form that `read` gives. The same data gives the same text, and reading
-    it gives the same data: numbers keep every bit. Nothing is judged; `check` judges the text."""
+    """Text of a model file with this data, in the form that `read` gives. The same data gives the same text, and
+    reading it gives the same data: numbers keep every bit. Nothing is checked; `check` checks the text."""
     return _write.write(data)
 
 
 def check(
     text: str, *, name: str = "model", folder: _Path | None = None, allow_files_below: Sequence[_Path] = ()
 ) -> Checked:
-    """All errors, or all warnings, of the text of a model. Meshes are looked for in `folder`."""
+    """All errors, or all warnings, of the text of a model. Meshes are searched in `folder`."""
     try:
         model = Model.parse(text, name=name, folder=folder, allow_files_below=list(allow_files_below))
     except ModelError as refused:
@@ -67,12 +67,12 @@ def check(
 def check_polyhedron(
     vertices: ArrayLike, faces: _Indices | Sequence[Sequence[int] | _Indices], inactive: Sequence[int] = ()
 ) -> list[dict[str, Any]]:
-    """All that keeps vertices (n, 3) and faces of vertex indices from being a polyhedron; nothing if it is taken."""
+    """Faults that keep vertices (n, 3) and faces of vertex indices from being a polyhedron; empty if it is valid."""
     indices = faces.tolist() if isinstance(faces, np.ndarray) else [np.asarray(face).tolist() for face in faces]
     places = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
     return _pong.check_polyhedron(places, indices, list(map(int, inactive)))
 
 
 def check_triangles(corners: ArrayLike) -> list[dict[str, Any]]:
-    """What is wrong, or odd, about the triangles of one body, given by their corners (n, 3, 3): an entry for each rule."""
+    """Faults and oddities of the triangles of one body, given by their corners (n, 3, 3): an entry for each rule."""
     return _pong.check_triangles(np.asarray(corners, dtype=np.float64).reshape(-1, 3, 3))

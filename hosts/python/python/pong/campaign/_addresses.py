@@ -1,4 +1,4 @@
-"""What can be dispersed: the addresses of docs/campaigns.md, and how a simulation gets their values."""
+"""Addresses of dispersed parameters (docs/campaigns.md), and their setters on a simulation."""
 
 import numpy as np
 
@@ -18,10 +18,10 @@ FORMS = (
 
 
 def apply(simulation, job, values):
-    """Gives a simulation the values of a run.
+    """Sets the values of a run in a simulation.
 
     All values of one thing are set together: one alone, such as a moment of inertia, may be impossible beside the old ones.
-    Factors come last, so that they act on what the other values made."""
+    Factors are applied last, so that they act on the other values."""
     motions, changes = {}, {}
     for name, value in zip(job["parameters"], values):
         parts = name.split(".")
@@ -55,7 +55,8 @@ def move(simulation, job, motions):
 
 
 def split(name, rest, values, what):
-    """The name of a thing and the path of its value: names may hold dots, the values are known."""
+    """Splits an address into the name of a thing and the path of its value: names may contain dots, the paths are
+    known."""
     for value in values:
         if rest.endswith("." + value) and len(rest) > len(value) + 1:
             return rest[: -len(value) - 1], value.split(".")
@@ -166,7 +167,7 @@ class Surface:
     @staticmethod
     def change(held, name, path, value):
         place = held[path[0]] if len(path) == 2 else held
-        # A switch, such as `hertz`, is no number that could be spread; an exponent belongs to the law.
+        # A switch, such as `hertz`, cannot be dispersed; an exponent belongs to the law.
         numbers = [key for key, known in place.items() if isinstance(known, float | int) and not isinstance(known, bool)
                    and key != "damping_exponent"]
         if path[-1] not in numbers:

@@ -1,4 +1,4 @@
-"""One run of a campaign, as a worker computes it."""
+"""One run of a campaign, as computed by a worker."""
 
 import hashlib
 import os
@@ -20,12 +20,12 @@ def read(path):
 
 
 def where():
-    """This worker, for messages."""
+    """Name of this worker, for messages."""
     return f"{socket.gethostname()}, process {os.getpid()}"
 
 
 def build(job):
-    """The scene of a campaign as this machine has it, or why it is not that of the campaign."""
+    """Loads the scene of a campaign on this machine, or fails if it differs from that of the campaign."""
     path = job["scene"]
     cure = "put the scene and its models where every worker finds them under this path, or use workers of this machine"
     try:
@@ -47,7 +47,7 @@ def build(job):
 
 
 def check(job):
-    """Whether this worker can run the campaign: nothing, or why not."""
+    """Checks whether this worker can run the campaign; returns the obstacle or None."""
     try:
         build(job)
     except CampaignError as error:
@@ -56,7 +56,7 @@ def check(job):
 
 
 def outcome(job, index, values, log=None):
-    """The row of one run. An error of the run is in the row: it must not end the campaign."""
+    """The row of one run. A failed run returns its error in the row, because it must not end the campaign."""
     simulation = build(job)
     row = {"run": index, **dict(zip(job["parameters"], map(float, values)))}
     try:
@@ -87,5 +87,5 @@ def outcome(job, index, values, log=None):
 
 
 def outcomes(job, indices, values):
-    """The rows of some runs: what one task of a worker is."""
+    """Rows of several runs: one task of a worker."""
     return [outcome(job, index, row) for index, row in zip(indices, values)]

@@ -1,4 +1,4 @@
-"""What counts as a success: a criterion, and whether states meet it."""
+"""Criteria of success, and their evaluation on states."""
 
 import math
 from dataclasses import dataclass
@@ -23,8 +23,8 @@ def triple(thing, unit, given):
 
 @dataclass(frozen=True)
 class Within:
-    """At the end of a run, the origin of `body`, seen in the frame of the body `of`, lies between `low` and `high` (m),
-    and moves no faster against it than `speed` (m/s)."""
+    """Success if, at the end of a run, the origin of `body`, in the frame of the body `of`, lies between `low` and
+    `high` (m), and its relative speed is at most `speed` (m/s)."""
 
     name: str
     body: str
@@ -44,10 +44,10 @@ class Within:
 
 
 def met(criterion, bodies, states):
-    """Whether states meet a criterion."""
+    """True if states meet a criterion."""
     own, other = (states[bodies.index(name)] for name in (criterion["body"], criterion["of"]))
     apart = in_frame_of(other, own[:3] - other[:3])
-    # Of the place on the other body at which the origin is.
+    # Velocity of the other body's material point at that origin.
     speed = np.linalg.norm(own[7:10] - other[7:10] - np.cross(other[10:], own[:3] - other[:3]))
     inside = all(low <= x <= high for low, x, high in zip(criterion["low"], apart, criterion["high"]))
     return bool(inside and speed <= (np.inf if criterion["speed"] is None else criterion["speed"]))

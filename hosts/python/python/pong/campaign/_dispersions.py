@@ -1,4 +1,4 @@
-"""Dispersions: which parameter is spread how, and the values of every run.
+"""Dispersions: parameters with their distributions, and the values of every run.
 
 The values of a run depend on the seed, the number of the run and the place of the dispersion in the list; for
 `latin_hypercube` also on how many runs there are. They do not depend on workers or on the order of runs.
@@ -15,14 +15,15 @@ from ._errors import CampaignError
 
 
 def number(given):
-    """A number as JSON has it: one of NumPy's, or an array of one, is one of Python's. What is none stays, to be told."""
+    """A number as in JSON: a NumPy number, or an array of one, becomes a Python number. Other values stay, to be
+    reported."""
     if isinstance(given, np.generic | np.ndarray) and np.ndim(given) == 0 and np.asarray(given).dtype.kind in "fiu":
         return given.item()
     return given
 
 
 def take_numbers(entry, *names):
-    """Makes fields of a frozen dataclass numbers of Python's."""
+    """Converts fields of a frozen dataclass to Python numbers."""
     for name in names:
         object.__setattr__(entry, name, number(getattr(entry, name)))
 
@@ -31,7 +32,7 @@ METHODS = ("random", "latin_hypercube", "corners")
 
 @dataclass(frozen=True)
 class Uniform:
-    """Every value between `low` and `high` is as likely as any other."""
+    """Uniform distribution between `low` and `high`."""
 
     parameter: str
     low: float
@@ -41,13 +42,13 @@ class Uniform:
         take_numbers(self, "low", "high")
 
     def fault(self):
-        """What is wrong with it, or nothing."""
+        """The fault of the parameters, or None."""
         if not (math.isfinite(self.low) and math.isfinite(self.high) and self.low < self.high):
             return f"low is {self.low} and high is {self.high}; give finite numbers, the lower first"
         return None
 
     def at(self, share):
-        """The value below which lies a share of all values."""
+        """Quantile function: the value below which lies a share of all values."""
         return self.low + (self.high - self.low) * share
 
     def ends(self):
@@ -56,7 +57,7 @@ class Uniform:
 
 @dataclass(frozen=True)
 class Normal:
-    """Gauss's distribution."""
+    """Normal distribution."""
 
     parameter: str
     mean: float
@@ -66,17 +67,17 @@ class Normal:
         take_numbers(self, "mean", "deviation")
 
     def fault(self):
-        """What is wrong with it, or nothing."""
+        """The fault of the parameters, or None."""
         if not (math.isfinite(self.mean) and math.isfinite(self.deviation) and self.deviation > 0):
             return f"mean is {self.mean} and deviation is {self.deviation}; give finite numbers, the deviation above zero"
         return None
 
     def at(self, share):
-        """The value below which lies a share of all values."""
+        """Quantile function: the value below which lies a share of all values."""
         return NormalDist(self.mean, self.deviation).inv_cdf(share)
 
     def ends(self):
-        """Corners of a distribution without ends are three deviations out."""
+        """Corner values; those of an unbounded distribution are at three standard deviations."""
         return self.mean - 3 * self.deviation, self.mean + 3 * self.deviation
 
 
@@ -85,18 +86,18 @@ def kind_of(dispersion):
 
 
 def from_json(entry):
-    """A dispersion from what campaign.json says of it."""
+    """A dispersion from its entry in campaign.json."""
     kinds = {"Uniform": Uniform, "Normal": Normal}
     entry = dict(entry)
     return kinds[entry.pop("kind")](**entry)
 
 
-# Shares lie in the middle of 2⁵³ steps: never 0 nor 1, which Gauss's distribution has no value for.
+# Shares lie in the middle of 2⁵³ steps: never 0 or 1, where the normal distribution has no quantile.
 _STEPS = 2.0**53
 
 
 def values(plan):
-    """The values of every run: runs × dispersions."""
+    """Values of every run: runs × dispersions."""
     count, width = plan.runs, len(plan.dispersions)
     if plan.method == "corners":
         ends = [dispersion.ends() for dispersion in plan.dispersions]
@@ -105,7 +106,7 @@ def values(plan):
         shares = np.empty((count, width))
         for place in range(width):
             rng = np.random.Generator(np.random.PCG64([plan.seed, place]))
-            # One value in each of as many equal shares as there are runs, in random order.
+            # One value in each of as many equal shares as there are runs (Latin hypercube), in random order.
             shares[:, place] = (rng.permutation(count) + rng.random(count)) / count
     else:
         shares = np.array([np.random.Generator(np.random.PCG64([plan.seed, run])).random(width) for run in range(count)])
@@ -115,7 +116,7 @@ def values(plan):
 
 
 def corner_count(dispersions):
-    """How many runs the corners are."""
+    """Number of runs of the corners."""
     if len(dispersions) > 20:
         raise CampaignError(
             f"corners: {len(dispersions)} dispersions have 2^{len(dispersions)} corners; take a Latin hypercube"

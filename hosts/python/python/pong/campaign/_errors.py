@@ -1,7 +1,7 @@
-"""What goes wrong with a campaign as a whole; what goes wrong in one run is in its failures."""
+"""Errors of a whole campaign; errors of single runs are among its failures."""
 
 from pong import PongError
 
 
 class CampaignError(PongError):
-    """A campaign that cannot begin or go on. What was finished is kept."""
+    """A campaign cannot begin or continue. Finished runs are kept."""

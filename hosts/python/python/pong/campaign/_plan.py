@@ -1,4 +1,4 @@
-"""What a campaign is: scene, dispersions, criteria, stops. All of it stands in campaign.json."""
+"""Plan of a campaign: scene, dispersions, criteria, stops. It is stored completely in campaign.json."""
 
 import math
 import os
@@ -12,12 +12,12 @@ from ._errors import CampaignError
 
 INTEGRATORS = ("SemiImplicitEuler", "RungeKutta4", "ZeroOrderHold")
 
-# Columns of the results that are there in every campaign.
+# Columns of the results of every campaign.
 COLUMNS = ("run", "time_at_end", "ended_by", "contacts_at_start", "contacts_at_end", "tunnelled", "warnings", "error", "message")
 
 
 def listed(thing, kinds, given):
-    """A list of dispersions, criteria or stops, or an error that names what is none."""
+    """A list of dispersions, criteria or stops, or an error that names an invalid element."""
     names = " or ".join(kind.__name__ for kind in kinds)
     if not isinstance(given, list | tuple):
         raise CampaignError(f"{thing}: they are {given!r}; give a list, each entry a {names}")
@@ -29,7 +29,7 @@ def listed(thing, kinds, given):
 
 @dataclass(frozen=True)
 class Plan:
-    """A scene, what is dispersed, and what counts as a success.
+    """A scene, its dispersions, and its criteria of success.
 
     `method` is "random", "latin_hypercube" or "corners" (every combination of both ends; `runs` is then left out).
     `stops` end a run before its duration is over; they are looked at every `look_every` seconds.
@@ -50,7 +50,7 @@ class Plan:
     look_every: float = 0.1
 
     def __post_init__(self):
-        # Where symbolic links lead is the worker's affair: the path is kept as it was given.
+        # The path is kept as given: the worker resolves symbolic links.
         dispersions_of.take_numbers(self, "runs", "seed", "duration", "step", "look_every")
         object.__setattr__(self, "scene", os.path.abspath(self.scene))
         kinds = (dispersions_of.Uniform, dispersions_of.Normal)

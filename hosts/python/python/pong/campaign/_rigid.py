@@ -4,7 +4,7 @@ import numpy as np
 
 
 def turned(rotation, vectors):
-    """Vectors turned by a rotation vector (Rodrigues)."""
+    """Vectors rotated by a rotation vector (Rodrigues)."""
     angle = np.linalg.norm(rotation)
     if angle == 0.0:
         return vectors
@@ -14,7 +14,7 @@ def turned(rotation, vectors):
 
 
 def product(p, q):
-    """Of two quaternions (w, x, y, z)."""
+    """Product of two quaternions (w, x, y, z)."""
     vector = p[0] * q[1:] + q[0] * p[1:] + np.cross(p[1:], q[1:])
     return np.concatenate([[p[0] * q[0] - p[1:] @ q[1:]], vector])
 
@@ -32,8 +32,8 @@ def in_common(state, vector):
 
 
 def displaced(states, pivot, change):
-    """The states of the bodies of one Object (its root first), displaced as one rigid body: turned about the pivot, moved,
-    and given a velocity and an angular velocity beside those that they have."""
+    """States of the bodies of one Object (its root first), displaced as one rigid body: rotated about the pivot,
+    translated, and given additional linear and angular velocity."""
     out = states.copy()
     root = states[0]
     at = root[:3] + in_common(root, pivot)
@@ -45,7 +45,7 @@ def displaced(states, pivot, change):
         row[:3] = at + arm + change["position"]
         row[3:7] = product(turn, row[3:7])
         row[3:7] /= np.linalg.norm(row[3:7])
-        # Velocities are those of the approach: they keep their direction, however the vehicle is turned.
+        # Velocities are those of the approach: they keep their direction, whatever the rotation of the vehicle.
         row[7:10] += change["velocity"] + np.cross(change["angular_velocity"], arm)
         row[10:] += change["angular_velocity"]
     return out

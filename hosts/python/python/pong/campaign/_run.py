@@ -1,4 +1,4 @@
-"""A campaign on Dask: its runs are tasks of workers; what they come to is written by the process that began it."""
+"""Campaigns on Dask: runs are tasks of workers; the process that began the campaign writes their results."""
 
 import contextlib
 import sys
@@ -12,12 +12,12 @@ from ._plan import Plan
 from ._stops import Beyond
 from ._store import Store
 
-# Tasks that a worker has at hand beside the one it runs: enough that it never waits for the network.
+# Tasks queued on a worker beside the running one: enough that it never waits for the network.
 TASKS_AHEAD = 3
 
 
 def job_of(plan, digest=None, scene_hash=None):
-    """What a worker must know of a plan."""
+    """Data of a plan that a worker needs."""
     entry = plan.to_json()
     keys = ("scene", "step", "integrator", "duration", "criteria", "stops", "look_every", "pivots")
     job = {key: entry[key] for key in keys} | {"parameters": plan.parameters, "scene_hash": scene_hash}
@@ -29,7 +29,7 @@ def job_of(plan, digest=None, scene_hash=None):
 
 
 def checked(plan):
-    """The job of a plan whose every name leads somewhere."""
+    """Job of a plan, with all of its names resolved."""
     job = job_of(plan)
     simulation = _case.build(job)
     job["scene_hash"] = simulation.scene_hash
@@ -53,7 +53,7 @@ def checked(plan):
 
 
 def run(plan, folder, *, workers=None, scheduler=None, runs_per_task=1, progress=True):
-    """Runs a campaign, or what is left of it, into a folder.
+    """Runs a campaign, or its remaining runs, into a folder.
 
     Without `scheduler`, the address of a Dask cluster, workers of this machine are started: `workers` processes, by default
     one for each core. Runs that fail are kept apart (`failures`) and do not end the campaign. Answers the rows as a table.
@@ -73,7 +73,7 @@ def run(plan, folder, *, workers=None, scheduler=None, runs_per_task=1, progress
 
 
 def finish(store, plan, job, hands, runs_per_task, progress):
-    """Does the runs of a campaign that are not done."""
+    """Runs the unfinished runs of a campaign."""
     values = _dispersions.values(plan)
     done = store.done()
     left = [index for index in range(plan.runs) if index not in done]
@@ -92,7 +92,7 @@ def finish(store, plan, job, hands, runs_per_task, progress):
 
 @contextlib.contextmanager
 def client(workers, scheduler):
-    """A client of a cluster that is there, or of one of this machine that ends with the campaign."""
+    """A client of an existing cluster, or of a local one that ends with the campaign."""
     from dask.distributed import Client, LocalCluster
 
     if scheduler is not None:
@@ -110,7 +110,7 @@ def client(workers, scheduler):
 
 
 def refuse_unless_ready(connected, job):
-    """Every worker must have the scene and the models as they are here."""
+    """Checks that every worker has the same scene and models as this machine."""
     told = connected.run(_case.check, job, on_error="return")
     if not told:
         raise CampaignError("workers: the cluster has none; start some, or leave the scheduler out")
@@ -120,7 +120,7 @@ def refuse_unless_ready(connected, job):
 
 
 def finished(connected, job, tasks, values):
-    """The rows of task after task, as they come. Of a worker that dies, others take the tasks over."""
+    """Rows of tasks, as they arrive. The tasks of a worker that dies move to other workers."""
     from dask.distributed import KilledWorker, as_completed
 
     waiting = iter(tasks)
@@ -139,7 +139,7 @@ def finished(connected, job, tasks, values):
         try:
             rows = future.result()
         except KilledWorker as reason:
-            # Time after time the worker that ran them died: that is about these runs.
+            # The worker of these runs died repeatedly, so the runs are the likely cause.
             rows = [killed(job, index, values[index], reason) for index in indices]
         yield rows
         following = next(waiting, None)
@@ -153,7 +153,7 @@ def killed(job, index, values, reason):
 
 
 def repeat(folder, index, *, log=None):
-    """One run of a campaign again, in this process; `log` is a folder for its response log. Answers its row."""
+    """Repeats one run of a campaign in this process and returns its row; `log` is a folder for its response log."""
     store = Store(folder)
     plan = store.plan()
     if not 0 <= index < plan.runs:
@@ -164,7 +164,7 @@ def repeat(folder, index, *, log=None):
 
 
 class Progress:
-    """How far a campaign is, in one line of standard error."""
+    """Progress of a campaign, in one line of standard error."""
 
     def __init__(self, total, done, failed):
         self.total, self.done, self.failed = total, done, failed

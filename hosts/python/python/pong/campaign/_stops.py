@@ -1,4 +1,4 @@
-"""Conditions that end a run before its duration is over, because its outcome is decided."""
+"""Conditions that end a run early, because its outcome is decided."""
 
 import math
 from dataclasses import dataclass
@@ -11,14 +11,14 @@ from ._errors import CampaignError
 
 
 def positive(thing, unit, given):
-    """A finite number above zero, or an error that names the thing."""
+    """A finite positive number, or an error that names the thing."""
     if isinstance(given, bool) or not isinstance(given, int | float) or not (0.0 < given < math.inf):
         raise CampaignError(f"{thing}: it is {given!r}; give a finite number above zero, {unit}")
 
 
 @dataclass(frozen=True)
 class Held:
-    """The run ends when a criterion has been met at every look for `time` seconds."""
+    """Ends the run when a criterion has been met at every check for `time` seconds."""
 
     name: str
     criterion: str
@@ -31,7 +31,8 @@ class Held:
 
 @dataclass(frozen=True)
 class Beyond:
-    """The run ends when the origins of two bodies are farther apart than `distance` (m), and farther than a look before."""
+    """Ends the run when the origins of two bodies are farther apart than `distance` (m), and farther than at the check
+    before."""
 
     name: str
     body: str
@@ -44,13 +45,13 @@ class Beyond:
 
 
 def from_json(entry):
-    """A stop from what campaign.json says of it."""
+    """A stop from its entry in campaign.json."""
     entry = dict(entry)
     return {"Held": Held, "Beyond": Beyond}[entry.pop("kind")](**entry)
 
 
 class Watch:
-    """Looks at a run with the stops of a job; `ended_by` is the name of the one that ended it."""
+    """Checks a run against the stops of a job; `ended_by` is the name of the one that ended it."""
 
     def __init__(self, job, bodies):
         criteria = {criterion["name"]: criterion for criterion in job["criteria"]}
@@ -59,7 +60,7 @@ class Watch:
         self.ended_by = None
 
     def __call__(self, time, states):
-        # Each stop keeps a memory of its own: all of them look, even if one has decided.
+        # Each stop has its own memory: all of them are checked, even if one has decided.
         decided = [name for name, stop in self.stops if stop.looks(time, states)]
         if decided:
             self.ended_by = decided[0]
@@ -69,7 +70,7 @@ class Watch:
 class Holding:
     def __init__(self, stop, criterion, bodies, look_every):
         self.criterion, self.bodies, self.since = criterion, bodies, None
-        # Half a look less: how times are rounded decides nothing.
+        # Minus half an interval, so that the rounding of times decides nothing.
         self.time = stop["time"] - 0.5 * look_every
 
     def looks(self, time, states):

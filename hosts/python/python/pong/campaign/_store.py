@@ -25,7 +25,7 @@ from ._errors import CampaignError
 from ._plan import Plan
 
 VERSION = 1
-# Key of the metadata of a part that hold the contents of campaign.json.
+# Metadata key of a part with the contents of campaign.json.
 HEAD = b"pong-campaign"
 
 
@@ -38,7 +38,7 @@ class Store:
 
     @contextlib.contextmanager
     def _writing(self, path):
-        """Tells what the system says of a file that is being written."""
+        """Turns an error of the system while writing a file into one of the campaign."""
         try:
             yield
         except OSError as reason:
@@ -47,7 +47,8 @@ class Store:
 
     @contextlib.contextmanager
     def locked(self):
-        """Holds the folder: two processes that run one campaign would do the same runs. The system frees it when one dies."""
+        """Locks the folder: two processes on one campaign would compute the same runs. The system releases the lock of
+        a dead one."""
         lock = self.folder / "lock"
         with contextlib.ExitStack() as held:
             with self._writing(lock):
@@ -61,7 +62,7 @@ class Store:
             yield
 
     def begin(self, plan, job, version):
-        """Makes the folder, or takes up the campaign that is in it, if it is the same."""
+        """Creates the folder, or continues the campaign in it, if it is the same."""
         entry = {
             "format": "pong-campaign",
             "version": VERSION,
@@ -89,7 +90,7 @@ class Store:
             self._write(self.head, json.dumps(entry, indent=2).encode())
 
     def _known(self):
-        """What the folder says of its campaign; `None` if it is new."""
+        """Plan stored in the folder; `None` if it is new."""
         if self.head.exists():
             return self._head()
         for _, head in self._parts():
@@ -101,13 +102,13 @@ class Store:
         return None
 
     def _parts(self):
-        """Every part that can be read, with what it says of its campaign."""
+        """Every readable part, with its campaign."""
         for file in sorted(self.parts.glob("part-*.parquet")):
             with contextlib.suppress(OSError, pyarrow.ArrowException):
                 yield file, (pyarrow.parquet.read_schema(file).metadata or {}).get(HEAD)
 
     def _set_damaged_aside(self):
-        """Moves parts that cannot be read out of the way: their runs are done again."""
+        """Moves unreadable parts aside: their runs are repeated."""
         for file in sorted(self.parts.glob("part-*.parquet")):
             try:
                 pyarrow.parquet.read_table(file)
@@ -142,7 +143,7 @@ class Store:
         return head["digest"], int(head["scene_hash"], 16)
 
     def add(self, rows):
-        """Keeps the rows of some runs."""
+        """Stores the rows of some runs."""
         good = [row for row in rows if "error" not in row]
         for row in rows:
             if "error" in row:
@@ -154,7 +155,7 @@ class Store:
             self._write(self.parts / f"part-{good[0]['run']:08d}.parquet", sink.getvalue().to_pybytes())
 
     def _append(self, line):
-        """Adds a line to the failures, behind the last whole one."""
+        """Adds a line to the failures, after the last complete one."""
         with self._writing(self.failed), self.failed.open("ab+") as file:
             file.seek(0)
             there = file.read()
@@ -194,7 +195,7 @@ class Store:
     def failures(self):
         if not self.failed.exists():
             return []
-        # A last line that was cut off is of a run that will be done again.
+        # An incomplete last line belongs to a run that will be repeated.
         lines = self.failed.read_bytes().rpartition(b"\n")[0].splitlines()
         rows = []
         for number, line in enumerate(lines, 1):
@@ -207,7 +208,7 @@ class Store:
         return sorted(rows, key=lambda row: row["run"])
 
     def done(self):
-        """The numbers of the runs that need not be done again."""
+        """Numbers of the runs that need not be repeated."""
         return set(self.table()["run"].to_pylist()) | {row["run"] for row in self.failures()}
 
 
@@ -216,10 +217,10 @@ def first_line(reason):
 
 
 def results(folder):
-    """The rows of all runs that came to their end, as a table of PyArrow, in the order of the runs."""
+    """Rows of all completed runs, as a PyArrow table, in the order of the runs."""
     return Store(folder).table()
 
 
 def failures(folder):
-    """The runs that did not come to their end: number, values, error and message of each."""
+    """Failed runs: number, values, error and message of each."""
     return Store(folder).failures()

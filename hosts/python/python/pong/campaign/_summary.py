@@ -1,4 +1,4 @@
-"""What a campaign says: shares and quantiles, each with a confidence interval."""
+"""Statistics of a campaign: shares and quantiles, each with a confidence interval."""
 
 import math
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ import numpy as np
 from ._errors import CampaignError
 from ._store import Store
 
-# A load is told by these quantiles unless others are asked for: the middle, and what 95 and 99 of 100 runs keep below.
+# Default quantiles of a load: the median, and the values that 95 and 99 of 100 runs do not exceed.
 QUANTILES = (0.5, 0.95, 0.99)
 
 
@@ -19,8 +19,8 @@ def check_share(name, share):
 
 
 def wilson(count, of, confidence=0.95):
-    """Wilson's interval of a probability of which `count` of `of` runs were a success: all p for which the share seen is
-    no further from p than the normal approximation at p allows."""
+    """Wilson's interval of a probability, from `count` successes in `of` runs: all p that differ from the observed
+    share by no more than the normal approximation at p allows."""
     check_share("confidence", confidence)
     if not 0 <= count <= of or of < 1:
         raise CampaignError(f"share: {count} of {of} runs is none; give at least one run and no more successes than runs")
@@ -28,7 +28,7 @@ def wilson(count, of, confidence=0.95):
     share, spread = count / of, z * z / of
     middle = share + 0.5 * spread
     half = math.sqrt(spread * share * (1.0 - share) + 0.25 * spread * spread)
-    # At none and at all the interval ends there: rounding must not leave a rest.
+    # At zero and full counts the interval ends there exactly, without a rounding error.
     low = 0.0 if count == 0 else (middle - half) / (1.0 + spread)
     high = 1.0 if count == of else (middle + half) / (1.0 + spread)
     return low, high
@@ -43,15 +43,16 @@ def binomial_cumulative(of, share):
 
 
 def quantile_interval(values, share, confidence=0.95):
-    """An interval of a quantile between two of the values in their order, whatever their distribution is. Each side is
-    missed with at most half of 1 − confidence; a side for which there are too few runs is infinite."""
+    """Distribution-free interval of a quantile between two order statistics. Each side is missed with at most half of 1
+    − confidence; a side for which there are too few runs is infinite."""
     check_share("quantile", share)
     check_share("confidence", confidence)
     ordered = np.sort(np.asarray(values, dtype=float))
     if not len(ordered):
         raise CampaignError("quantile: there are no values; it needs at least one run that came to its end")
     miss = 0.5 * (1.0 - confidence)
-    # Of `of` values, X lie below the quantile: X is binomial. The l-th value is above it if X < l, the u-th below it if X ≥ u.
+    # Of `of` values, X lie below the quantile: X is binomial. The l-th value is above it if X < l, the u-th below it if
+    # X ≥ u.
     cumulative = binomial_cumulative(len(ordered), share)
     below = np.nonzero(cumulative <= miss)[0]
     above = np.nonzero(cumulative >= 1.0 - miss)[0]
@@ -62,7 +63,7 @@ def quantile_interval(values, share, confidence=0.95):
 
 @dataclass(frozen=True)
 class Proportion:
-    """How many runs met a criterion, with Wilson's interval."""
+    """Number of runs that met a criterion, with Wilson's interval."""
 
     name: str
     count: int
@@ -85,7 +86,7 @@ class Quantile:
 
 @dataclass(frozen=True)
 class Summary:
-    """A campaign in numbers. `print` shows it as a table."""
+    """Statistics of a campaign. `print` shows them as a table."""
 
     runs: int
     finished: int
@@ -115,7 +116,7 @@ class Summary:
 def summary(folder, *, quantiles=QUANTILES, quantities=None, confidence=0.95):
     """Shares of the criteria, and quantiles of the peak loads or of the columns that `quantities` names.
 
-    A run that failed is in no share and in no quantile; how many they are is told."""
+    Failed runs are in no share and no quantile; their number is given."""
     store = Store(folder)
     plan, table, failed = store.plan(), store.table(), store.failures()
     columns = table.column_names
@@ -134,7 +135,7 @@ def summary(folder, *, quantiles=QUANTILES, quantities=None, confidence=0.95):
             values = table[name].to_numpy()
             for share in quantiles:
                 low, high = quantile_interval(values, share, confidence)
-                # The value itself is an order statistic too: no value is made up between two runs.
+                # The value is an order statistic too, without interpolation between two runs.
                 value = float(np.quantile(values, share, method="inverted_cdf"))
                 told.append(Quantile(name, share, value, low, high))
     tunnelled, touching = (

@@ -1,4 +1,4 @@
-"""Pictures of a campaign, by Matplotlib: each function answers a figure."""
+"""Plots of a campaign, by Matplotlib: each function returns a figure."""
 
 import numpy as np
 
@@ -21,7 +21,7 @@ def _figure():
 
 
 def distribution(folder, quantity, *, quantiles=QUANTILES, confidence=0.95):
-    """The share of runs up to each value of a quantity, and quantiles with their intervals."""
+    """Share of runs up to each value of a quantity, and quantiles with their intervals."""
     values = np.sort(_column(Store(folder).table(), quantity))
     figure, axes = _figure()
     axes.step(values, np.arange(1, len(values) + 1) / len(values), where="post", color="black", linewidth=1)
@@ -36,7 +36,7 @@ def distribution(folder, quantity, *, quantiles=QUANTILES, confidence=0.95):
 
 
 def envelope(folder, x, y, criterion):
-    """Which runs met a criterion, over two of the dispersed parameters."""
+    """Scatter plot of successful and other runs over two dispersed parameters."""
     table = Store(folder).table()
     met = _column(table, criterion).astype(bool)
     across, up = _column(table, x), _column(table, y)
@@ -49,7 +49,7 @@ def envelope(folder, x, y, criterion):
 
 
 def share(folder, parameter, criterion, *, bins=12, confidence=0.95):
-    """The share of runs that met a criterion, over a dispersed parameter, with Wilson's interval of each of its bins.
+    """Share of runs that met a criterion over a dispersed parameter, with Wilson's interval of each bin.
 
     `parameter` is the name of a column, or a pair of a label and a value for each row of the results."""
     table = Store(folder).table()
@@ -63,7 +63,7 @@ def share(folder, parameter, criterion, *, bins=12, confidence=0.95):
     figure, axes = _figure()
     for place in range(bins):
         inside = met[places == place]
-        # A bin without runs says nothing.
+        # Empty bins are skipped.
         if len(inside):
             low, high = wilson(int(inside.sum()), len(inside), confidence)
             middle = 0.5 * (edges[place] + edges[place + 1])
