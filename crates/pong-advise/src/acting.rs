@@ -1,6 +1,8 @@
-//! The contacts of a frame against the host's step: what acts together, instead of what might.
+//! The contacts of a frame against the host's step: contacts that act together, instead of a bound of those
+//! that might.
 //!
-//! With coordinates in which every mass is one, a contact that pushes along n with weight w and rubs across it is
+//! In coordinates in which every mass is one, a contact with weight w along the normal n, with friction
+//! across it, adds
 //!
 //! ```text
 //! K += r·(w·k·nnᵀ + k_t·(1 − nnᵀ))·rᵀ        r: its three directions on both movable groups, mobility.rs
@@ -19,26 +21,27 @@ use pong_engine::{EngineError, InterfaceId, World};
 use pong_geometry::Vec3;
 use std::collections::BTreeSet;
 
-/// What the contacts of one frame leave of a step.
+/// Limits that the contacts of one frame set to a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActingReport {
-    /// Contacts that push something of a known mass that yields.
+    /// Contacts with at least one body of known mass that yields.
     pub contacts: usize,
     /// Contacts whose masses or laws are not known.
     pub not_judged: usize,
     /// ω² of the stiffest mode, 1/s².
     pub stiffness_rate: f64,
-    /// Of the most damped mode, damping over mass, 1/s.
+    /// Damping over mass of the most damped mode, 1/s.
     pub damping_rate: f64,
     /// The longest step at which these contacts are surely stable, s; 0 if there is none, infinite if nothing acts.
     pub stable_step: f64,
 }
 
-/// What the contacts of the last frame, all that push in it, leave of a step: exact levers and normals instead of the bound
-/// that [`step_report`](crate::step_report) has before anything touches.
+/// Limits that all contacts of the last frame set to a step, with exact levers and normals instead of the
+/// bound of [`step_report`](crate::step_report) before anything touches.
 ///
 /// # Errors
-/// A world that has no frame yet, a mass of another world's movable group, or values that no plan or group can have.
+/// A world that has no frame yet, a mass of another world's movable group, or values that no plan or group
+/// can have.
 pub fn acting_report(
     world: &World,
     plan: &StepPlan,
@@ -81,7 +84,7 @@ fn same(setting: &Setting<'_>, body: usize, other: usize) -> bool {
     body == other || setting.share_joints(body, other)
 }
 
-/// The most that springs of the host add to any of these groups.
+/// The largest rates that springs of the host add to any of these groups.
 fn sum_of_springs(setting: &Setting<'_>, groups: &BTreeSet<usize>) -> SpringRates {
     let most = SpringRates::default();
     groups.iter().fold(most, |most, body| {
@@ -90,7 +93,7 @@ fn sum_of_springs(setting: &Setting<'_>, groups: &BTreeSet<usize>) -> SpringRate
     })
 }
 
-/// A contact that acts on something that yields.
+/// A contact with at least one body that yields.
 struct Acting {
     springs: ContactSprings,
     weight: f64,
@@ -101,7 +104,7 @@ struct Acting {
 }
 
 impl Acting {
-    /// `None` for what cannot be judged.
+    /// Makes it; `None` if the contact cannot be judged.
     fn new(setting: &Setting<'_>, contact: &PushingContact) -> Option<Self> {
         let (a, b) = (contact.group_a, contact.group_b);
         if setting.masses[a].is_none() || setting.masses[b].is_none() {
@@ -142,7 +145,7 @@ pub(crate) fn compliances_at(setting: &Setting<'_>, contact: &PushingContact) ->
     [n.dot(&(sum * n)), largest_eigenvalue(DMatrix::from_column_slice(3, 3, along.as_slice()))]
 }
 
-/// Largest eigenvalue of the sum over all contacts; `values` gives what acts along the normal and what across it.
+/// Largest eigenvalue of the sum over all contacts; `values` gives the rates along the normal and across it.
 fn largest(acting: &[Acting], values: impl Fn(&Acting) -> (f64, f64)) -> f64 {
     let bodies: BTreeSet<usize> = acting.iter().flat_map(|one| one.rows.iter().map(|row| row.0)).collect();
     let slot = |body: usize| 6 * bodies.iter().position(|other| *other == body).expect("collected above");

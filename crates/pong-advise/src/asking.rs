@@ -1,7 +1,8 @@
-//! Which term of the contacts asks for a short step: stiffness or damping, of the normal force or of friction, and of which
-//! surfaces.
+//! The term of the contacts that limits the step: stiffness or damping, of the normal force or of friction,
+//! and its surfaces.
 //!
-//! Asked is what would lengthen the step most if it were not there. Where no term alone does, because another as large is
+//! The limiting term is the one whose removal would lengthen the step most. Where no removal alone does,
+//! because another term as large remains, both are named.
 //! left, both are named.
 
 use crate::coupling::{longest_stable_step, surely_stable_with};
@@ -12,10 +13,10 @@ use crate::term::{FAINT, Term};
 use crate::together::{Load, pair_load};
 use pong_engine::WrenchCoupling;
 
-/// Where springs of the host take more of the step than any term of the contacts.
+/// Text where springs of the host limit the step more than any term of the contacts.
 pub(crate) const BY_SPRINGS: &str = "its springs ask for that";
 
-/// One term, or two that are as large as each other.
+/// Candidates: one term, or two that may be equally large.
 const SUSPECTS: [&[Term]; 6] = [
     &[Term::NormalStiffness],
     &[Term::NormalDamping],
@@ -25,17 +26,17 @@ const SUSPECTS: [&[Term]; 6] = [
     &[Term::NormalDamping, Term::FrictionDamping],
 ];
 
-/// A step must grow by this factor before one term alone is called the cause.
+/// Factor by which the step must grow without a term for that term alone to be named.
 const ALONE: f64 = 1.1;
 
-/// Whether the stiffness or the damping of one spring on one mass asks for its longest stable step.
+/// Returns whether stiffness or damping limits the longest stable step of one spring on one mass.
 pub(crate) fn of_spring(spring: &Spring, coupling: WrenchCoupling, mass: f64) -> &'static str {
     let step = |k: f64, c: f64| longest_stable_step(coupling, k, c, mass);
     let (k, c) = (spring.stiffness, spring.damping);
     if step(FAINT * k, c) >= step(k, FAINT * c) { "stiffness" } else { "damping" }
 }
 
-/// What asks for the surely stable step of a movable group, in words.
+/// The term that limits the surely stable step of a movable group, in words.
 pub(crate) fn of_group(setting: &Setting<'_>, body: usize, plan: &StepPlan) -> Option<String> {
     let springs = setting.springs_on(body);
     let pairs = setting.scene.pairs().iter().filter(|pair| [pair.first, pair.second].contains(&body));
@@ -59,7 +60,7 @@ pub(crate) fn of_group(setting: &Setting<'_>, body: usize, plan: &StepPlan) -> O
     let whole = step_without(&[]);
     let longer = SUSPECTS.map(|terms| (terms, step_without(terms)));
     let longest = |suspects: &[(&'static [Term], f64)]| {
-        // Of two that are alike the first.
+        // Of equal ones the first.
         suspects.iter().rev().copied().max_by(|x, y| x.1.total_cmp(&y.1))
     };
     if !springs.is_zero() {
@@ -86,7 +87,7 @@ pub(crate) fn of_group(setting: &Setting<'_>, body: usize, plan: &StepPlan) -> O
     ))
 }
 
-/// The least damping over stiffness of the springs whose stiffness is not taken away, s.
+/// The least damping over stiffness of the springs whose stiffness remains, s.
 fn least_damped(springs: &ContactSprings, without: &[Term]) -> f64 {
     let left = |term: Term| if without.contains(&term) { None } else { springs.spring_of(term) };
     let weak = springs.without(without);
@@ -97,7 +98,7 @@ fn least_damped(springs: &ContactSprings, without: &[Term]) -> f64 {
     ratio(Term::NormalStiffness).min(ratio(Term::FrictionStiffness))
 }
 
-/// How much of a term there is; where the wrench is held, of a stiffness how much there is to its damping.
+/// Size of a term; for a stiffness under a held wrench, its ratio to the damping.
 fn size(springs: &ContactSprings, term: Term, coupling: WrenchCoupling) -> f64 {
     let Some(spring) = springs.spring_of(term) else { return -1.0 };
     match (term, coupling) {

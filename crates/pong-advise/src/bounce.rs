@@ -7,19 +7,20 @@
 //! rebound   e of pong_model::restitution
 //! ```
 //!
-//! Any step leaves these forms: touch falls between two evaluations, so the force begins up to a step late. How far is
-//! found by bouncing the mass at that step from several phases of touch. All is in units of ω and v.
+//! Any step deviates from these forms: touch falls between two evaluations, so the force begins up to a step
+//! late. The deviation is found by simulating the bounce at that step from several phases of touch. All is in
+//! units of ω and v.
 
 use pong_engine::WrenchCoupling;
 use pong_model::restitution::restitution_of_zeta;
 use std::collections::VecDeque;
 
-/// How near a bounce must come to its closed form; fractions of it.
+/// Largest relative errors of a bounce against its closed form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
-    /// Of the greatest depth.
+    /// Error of the greatest depth.
     pub depth: f64,
-    /// Of the rebound speed.
+    /// Error of the rebound speed.
     pub rebound: f64,
 }
 
@@ -30,17 +31,17 @@ impl Default for Accuracy {
     }
 }
 
-/// How far a bounce is from its closed form, for the worst phase of touch; fractions of it.
+/// Relative errors of a bounce against its closed form, at the worst phase of touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BounceError {
-    /// Of the greatest depth that an evaluation sees.
+    /// Error of the greatest depth at an evaluation.
     pub depth: f64,
-    /// Of the rebound speed.
+    /// Error of the rebound speed.
     pub rebound: f64,
 }
 
 impl BounceError {
-    /// Whether it keeps to shares of these.
+    /// True if both errors are within these.
     pub fn is_within(&self, accuracy: &Accuracy) -> bool {
         self.depth <= accuracy.depth && self.rebound <= accuracy.rebound
     }
@@ -59,11 +60,11 @@ pub fn depth_factor(zeta: f64) -> f64 {
     libm::exp(-(zeta / q) * libm::log1p(q + (zeta - 1.0)))
 }
 
-/// Phases of touch that are tried.
+/// Number of phases of touch simulated.
 const PHASES: u32 = 24;
 
-/// Of a bounce at a step of ω·dt. The damping is that of ζ and what the lag of the coupling takes from it (see
-/// [`crate::advise_contact`]).
+/// Errors of a bounce at a step of ω·dt. The damping is that of ζ, plus the damping that the lag of the
+/// coupling removes (see [`crate::advise_contact`]).
 pub fn bounce_error(coupling: WrenchCoupling, zeta: f64, omega_step: f64) -> BounceError {
     let expected = (depth_factor(zeta), restitution_of_zeta(zeta));
     let gamma = (2.0 * zeta + omega_step * coupling.lag()) * omega_step;
@@ -79,12 +80,12 @@ pub fn bounce_error(coupling: WrenchCoupling, zeta: f64, omega_step: f64) -> Bou
     worst
 }
 
-/// What of the wanted accuracy the phases that are tried may use; the rest is for those between them.
+/// Share of the accuracy for the phases simulated; the rest is for those between them.
 const USED: f64 = 0.8;
 
-/// The longest step, as ω·dt, up to which every bounce keeps to an accuracy.
+/// The longest step, as ω·dt, up to which every bounce is within an accuracy.
 pub fn resolved_step(coupling: WrenchCoupling, zeta: f64, accuracy: &Accuracy) -> f64 {
-    /// From one step that is tried to the next.
+    /// Factor from one step tried to the next.
     const LONGER: f64 = 1.1;
     let used = Accuracy { depth: USED * accuracy.depth, rebound: USED * accuracy.rebound };
     let holds = |step: f64| bounce_error(coupling, zeta, step).is_within(&used);
@@ -101,8 +102,8 @@ pub fn resolved_step(coupling: WrenchCoupling, zeta: f64, accuracy: &Accuracy) -
     step
 }
 
-/// Greatest depth and rebound speed of one bounce from `depth` ≤ 0 at speed 1, γ = c·dt/m, κ = step²; `None` if it does
-/// not end.
+/// Greatest depth and rebound speed of one bounce from `depth` ≤ 0 at speed 1, γ = c·dt/m, κ = step²; `None`
+/// if it does not end.
 fn bounce(coupling: WrenchCoupling, step: f64, gamma: f64, depth: f64) -> Option<(f64, f64)> {
     let mut mass = Mass { depth, speed: 1.0, coupling, step, gamma, waiting: VecDeque::new() };
     let mut deepest = 0.0_f64;
@@ -126,7 +127,7 @@ struct Mass {
     coupling: WrenchCoupling,
     step: f64,
     gamma: f64,
-    /// Decelerations on their way.
+    /// Queue of delayed decelerations.
     waiting: VecDeque<f64>,
 }
 
@@ -189,7 +190,7 @@ mod tests {
         assert!((depth_factor(50.0) * 100.0 - 1.0).abs() < 1e-2);
     }
 
-    /// Every scheme meets both closed forms as the step shrinks, and four times the step is not better.
+    /// Every scheme approaches both closed forms as the step shrinks, and four times the step is not better.
     #[test]
     fn short_steps_meet_the_closed_forms() {
         for coupling in ALL {

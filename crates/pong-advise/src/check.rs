@@ -1,4 +1,5 @@
-//! Every pair of movable groups against the host's step: single contacts, and all that can act on one group at once.
+//! Check of every pair of movable groups against the host's step: single contacts, and all that can act on
+//! one group at once.
 
 use crate::asking::{BY_SPRINGS, of_group};
 use crate::coupling::surely_stable_with;
@@ -11,36 +12,37 @@ use crate::warn::{StepNote, StepWarning, notes, warnings};
 use pong_engine::{EngineError, InterfaceId, World};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What the adviser found.
+/// Findings of the adviser.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StepReport {
-    /// Pairs of movable groups, one of which at least yields.
+    /// Pairs of movable groups of which at least one yields.
     pub pairs: Vec<PairLimits>,
     /// Movable groups that yield and can be touched.
     pub groups: Vec<GroupLimits>,
-    /// What could not be judged, and why.
+    /// Pairs and groups that could not be judged, and why.
     pub not_judged: Vec<String>,
-    /// What goes wrong at the step, those of instability first.
+    /// Failures at the step, instability first.
     pub warnings: Vec<StepWarning>,
-    /// What may go wrong at the step, and need not.
+    /// Possible but unproven failures at the step.
     pub notes: Vec<StepNote>,
 }
 
 impl StepReport {
-    /// The longest step at which every contact by itself is surely stable, with its friction and wherever its primitives can be
-    /// touched, s; infinite if there are none.
+    /// The longest step at which every single contact is surely stable, with its friction and wherever its
+    /// primitives can be touched, s; infinite if there are none.
     pub fn stable_step(&self) -> f64 {
         self.pairs.iter().map(|pair| pair.stable_step).fold(f64::INFINITY, f64::min)
     }
 
-    /// The step at which the scene is surely stable, whatever touches at once, s; infinite if nothing can.
+    /// The step at which the scene is surely stable for any set of simultaneous contacts, s; infinite if
+    /// nothing can touch.
     pub fn surely_stable_step(&self) -> f64 {
         self.groups.iter().map(|group| group.stable_step).fold(self.stable_step(), f64::min)
     }
 }
 
-/// What a step can hold in a sealed world, by the masses that are known. Of a movable group that is named twice the later mass
-/// counts.
+/// Limits of a step in a sealed world, by the known masses. Of a movable group that is named twice the later
+/// mass counts.
 ///
 /// # Errors
 /// A mass of another world's movable group, or values that no plan or group can have.
@@ -52,7 +54,7 @@ pub fn step_report(
     step_report_with(world, plan, masses, &[])
 }
 
-/// [`step_report`], and what springs of the host leave of the step for bodies that touch nothing, by their names.
+/// [`step_report`], with the limits by springs of the host for bodies without contact, given by name.
 ///
 /// # Errors
 /// As [`step_report`].
@@ -101,7 +103,7 @@ fn report(setting: &Setting<'_>, plan: &StepPlan, others: &[(String, GroupMass)]
             loads.entry(body).or_insert((Load::default(), f64::INFINITY));
         }
     }
-    // Groups that share joints move together: what acts on one acts on all.
+    // Groups that share joints move together: a load on one acts on all.
     let of_mechanism = |body: usize| {
         let all = setting.mechanism_of(body).into_iter().filter_map(|other| loads.get(&other));
         all.fold((Load::default(), f64::INFINITY), |(sum, least), (load, ratio)| {
@@ -125,7 +127,7 @@ fn report(setting: &Setting<'_>, plan: &StepPlan, others: &[(String, GroupMass)]
     report
 }
 
-/// A body that only springs of the host act on.
+/// Limits of a body that only springs of the host act on.
 fn springs_alone(name: &str, mass: &GroupMass, plan: &StepPlan) -> Option<GroupLimits> {
     let SpringRates { stiffness, damping } = mass.springs;
     (mass.mass.is_finite() && !mass.springs.is_zero()).then(|| GroupLimits {
@@ -138,7 +140,7 @@ fn springs_alone(name: &str, mass: &GroupMass, plan: &StepPlan) -> Option<GroupL
     })
 }
 
-/// `None` for what does not yield, or has neither contacts nor springs.
+/// Limits of one group; `None` if it does not yield, or has neither contacts nor springs.
 fn group_limits(
     setting: &Setting<'_>,
     body: usize,

@@ -1,4 +1,4 @@
-//! Stiffness, damping and friction stiffness of one contact from what is wanted of it.
+//! Stiffness, damping and friction stiffness of one contact with desired properties.
 //!
 //! ```text
 //! ζ   from the restitution, by the law that never pulls (pong_model::restitution)
@@ -6,8 +6,9 @@
 //! c   = 2ζmω + k·T·lag                            k_t = ⅔·k        c_t = 2√(k_t·m) + k_t·T·lag
 //! ```
 //!
-//! A wrench that is held acts half a frame late, and n frames more if it comes late. To first order that is a damping of
-//! −k·T(½ + n), so as much is added; friction is damped critically so that a contact that sticks does not ring.
+//! A held wrench acts half a frame late, and n frames more if it is delayed. To first order that is a damping
+//! of −k·T(½ + n), so as much is added; friction is damped critically so that a sticking contact does not
+//! ring.
 
 use crate::bounce::{Accuracy, depth_factor, resolved_step};
 use crate::coupling::longest_stable_step;
@@ -15,7 +16,7 @@ use pong_engine::EngineError;
 use pong_engine::WrenchCoupling;
 use pong_model::restitution::{restitution_of_zeta, zeta_for_restitution};
 
-/// What a contact is to do.
+/// Desired properties of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactWish {
     /// Effective mass at the contact, kg: 1/(1/m₁ + 1/m₂) of two bodies.
@@ -26,11 +27,11 @@ pub struct ContactWish {
     pub depth: f64,
     /// Coefficient of restitution: rebound speed over closing speed, above 0, at most 1.
     pub restitution: f64,
-    /// How the wrench is used.
+    /// Use of the wrench by the host.
     pub coupling: WrenchCoupling,
-    /// The host's step or frame, s; `None` for one that the adviser chooses.
+    /// The host's step or frame, s; `None` to let the adviser choose it.
     pub step: Option<f64>,
-    /// How near depth and rebound must come.
+    /// Accuracy of depth and rebound.
     pub accuracy: Accuracy,
 }
 
@@ -49,21 +50,21 @@ pub struct ContactAdvice {
     pub damping_ratio: f64,
     /// ω = √(k/m), rad/s.
     pub frequency: f64,
-    /// From touch to release, s.
+    /// Time from touch to release, s.
     pub duration: f64,
     /// Largest force of the bounce, N.
     pub peak_force: f64,
-    /// The step that the values are for, s: the host's, or the longest that keeps to the accuracy.
+    /// The step for the values, s: the host's, or the longest within the accuracy.
     pub step: f64,
-    /// The longest step that keeps to the accuracy, s.
+    /// The longest step within the accuracy, s.
     pub accurate_step: f64,
     /// The longest step at which contact and friction are stable with these values, s.
     pub stable_step: f64,
-    /// The least depth that can be had at the host's step with the accuracy, m.
+    /// The least depth possible at the host's step within the accuracy, m.
     pub least_depth: f64,
 }
 
-/// The values that give a wish.
+/// Computes the values for a desired contact.
 ///
 /// # Errors
 /// Values that no contact can have.
@@ -101,14 +102,14 @@ pub fn advise_contact(wish: &ContactWish) -> Result<ContactAdvice, EngineError> 
     })
 }
 
-/// The damping (N·s/m) at which a spring of `stiffness` (N/m) on `mass` (kg) stops ringing: 2√(k·m), and what a wrench takes
-/// that comes late.
+/// The damping (N·s/m) at which a spring of `stiffness` (N/m) on `mass` (kg) stops ringing: 2√(k·m), plus the
+/// damping that the lag of the wrench removes.
 pub fn critical_damping(stiffness: f64, mass: f64, coupling: WrenchCoupling, step: f64) -> f64 {
     2.0 * (stiffness * mass).sqrt() + stiffness * step * coupling.lag()
 }
 
-/// The largest restitution that the damping is made for. A held wrench that loses nothing stands on the brink of gaining:
-/// an eighth of the accuracy keeps it off.
+/// The largest restitution for which the damping is computed. A lossless contact with a held wrench is on the
+/// verge of gaining energy; a margin of an eighth of the accuracy prevents that.
 fn most_elastic(wish: &ContactWish) -> f64 {
     match wish.coupling {
         WrenchCoupling::ZeroOrderHold { .. } => 1.0 - 0.125 * wish.accuracy.rebound.min(1.0),
@@ -130,7 +131,7 @@ fn check(wish: &ContactWish) -> Result<(), EngineError> {
             return Err(bad(what, format!("it is {value} {unit}; give a finite number above zero")));
         }
     }
-    /// Below this the contact is a dashpot: no step of use resolves its rebound.
+    /// Smallest restitution: below it the contact is a dashpot, and no practical step resolves its rebound.
     const RESTITUTION_MIN: f64 = 0.01;
     if !(RESTITUTION_MIN..=1.0).contains(&wish.restitution) {
         let cause = format!("it is {}; give {RESTITUTION_MIN} to 1", wish.restitution);
@@ -143,7 +144,7 @@ fn bad(what: &str, cause: String) -> EngineError {
     EngineError::BadValue { what: what.to_owned(), cause }
 }
 
-/// ω times the time from touch to release: e = exp(−ζ·that).
+/// ω times the time from touch to release: e = exp(−ζ·that time).
 fn duration(zeta: f64) -> f64 {
     if zeta > 0.0 { -libm::log(restitution_of_zeta(zeta)) / zeta } else { std::f64::consts::PI }
 }
@@ -184,14 +185,14 @@ mod tests {
         assert!((advice.duration / (std::f64::consts::PI / 500.0) - 1.0).abs() < 1e-14);
     }
 
-    /// Force and depth along the analytic motion of the mass never exceed what is told, and reach it.
+    /// Force and depth along the analytic motion of the mass never exceed the advised values, and reach them.
     #[test]
     fn peak_force_and_duration_are_those_of_the_motion() {
         for restitution in [0.9, 0.5, 0.37, 0.2, 0.1] {
             let advice = advise_contact(&ContactWish { restitution, ..wish() }).unwrap();
             let (zeta, omega) = (advice.damping_ratio, advice.frequency);
             assert!((restitution_of_zeta(zeta) - restitution).abs() < 1e-9);
-            // A fine Runge-Kutta run of the law itself.
+            // A finely stepped Runge-Kutta run of the law itself.
             let acceleration = |d: f64, v: f64| -(advice.stiffness * d + advice.damping * v) / 4.0;
             let (mut d, mut v, mut time, mut deepest, mut peak) = (0.0_f64, 0.5_f64, 0.0, 0.0_f64, 0.0_f64);
             let h = 1e-5 / omega;
@@ -208,7 +209,7 @@ mod tests {
         }
     }
 
-    /// At the least depth of a step, that step is just the accurate one.
+    /// At the least depth of a step, that step is exactly the accurate one.
     #[test]
     fn the_least_depth_of_a_step_has_it_as_its_accurate_step() {
         let held = ContactWish {

@@ -19,18 +19,20 @@ use pong_engine::WrenchCoupling;
 pub fn longest_stable_step(coupling: WrenchCoupling, k: f64, c: f64, m: f64) -> f64 {
     match coupling {
         WrenchCoupling::Stages | WrenchCoupling::SemiImplicit if k <= 0.0 && c <= 0.0 => f64::INFINITY,
-        // Where |z| = dt·√(k/m) of underdamped roots is least, 2.62, and −γ of the faster real one. Of a frequency and a
-        // damping rate one that is less than half the other does not count, and is raised to that: either may be zero.
+        // `surely` lies inside the stability region: 2.6 is below its least radius |z| = dt·√(k/m) over
+        // underdamped roots, 2.62, and 2.78 below the limit of the faster real root. Each rate is raised to
+        // half the other if smaller, which does not change the result but avoids dividing by zero.
         WrenchCoupling::Stages => {
             let frequency = (k / m).sqrt();
             let surely = (2.6 / frequency.max(0.5 * c / m)).min(2.78 * m / c.max(0.5 * m * frequency));
             last_within(surely, 2.0, |step| stage_wise_holds(k * step * step / m, c * step / m))
         }
-        // The positive root of k·dt² + 2c·dt − 4m.
+        // The positive root dt of k·dt² + 2c·dt = 4m.
         WrenchCoupling::SemiImplicit => 4.0 * m / ((c * c + 4.0 * k * m).sqrt() + c),
         WrenchCoupling::ZeroOrderHold { .. } if c <= 0.0 => 0.0,
         WrenchCoupling::ZeroOrderHold { delay_frames: late } => {
-            // Where the second is the less, the first may be any that is more: k may be zero.
+            // If the second limit is the smaller, the first may be any larger value; the maximum avoids a
+            // division by k = 0.
             let at_most = (c / (k * coupling.lag()).max(0.25 * c * c / m)).min(2.0 * m / c);
             if late == 0 {
                 return at_most;
@@ -40,25 +42,28 @@ pub fn longest_stable_step(coupling: WrenchCoupling, k: f64, c: f64, m: f64) -> 
     }
 }
 
-/// A step (s) at which every mode is stable, of which is known that none has more than a stiffness `k` and a damping `c`
-/// over its mass (1/s², 1/s), nor less damping than `ratio` times its stiffness (s); 0 if there is none.
+/// A step (s) at which every mode is stable, if each mode has at most the stiffness `k` and the damping `c`
+/// over its mass (1/s², 1/s), and at least the damping `ratio` times its stiffness (`ratio` in s); 0 if there
+/// is none.
 ///
-/// A mode x of M·q'' + C·q' + K·q = 0 obeys the scalar equation with its own x*Kx and x*Cx, so a bound of both suffices.
+/// A mode x of M·q'' + C·q' + K·q = 0 obeys the scalar equation with its own x*Kx and x*Cx, so a bound of
+/// both suffices.
 pub(crate) fn surely_stable_step(coupling: WrenchCoupling, k: f64, c: f64, ratio: f64) -> f64 {
     let most = longest_stable_step(coupling, k, c, 1.0);
     let least = || longest_stable_step(coupling, k, (k * ratio).min(c), 1.0);
     match coupling {
-        // As the damping ratio ½c/√k rises to 0.54 the region's reach grows a little, then falls to its narrowest place: of
-        // any stretch the ends are the least. Beyond, the real end of a mode with damping alone is nearer still.
+        // As the damping ratio ½c/√k rises to 0.54 the radius of the region grows a little, then falls to its
+        // minimum: over any interval the ends are the minimum. Beyond it the limit of a mode with damping
+        // alone is smaller still.
         WrenchCoupling::Stages => most.min(least()).min(2.785 / c.max(0.5 * k.sqrt())),
         WrenchCoupling::SemiImplicit => most,
         WrenchCoupling::ZeroOrderHold { .. } => most.min(least()).min(ratio / coupling.lag()),
     }
 }
 
-/// [`surely_stable_step`] of contacts with these rates, whose damping is nowhere less than `ratio` times the stiffness, beside
-/// springs of the host. Springs are integrated with the contacts, and the rates of both add; under a held wrench the host
-/// integrates them in between, and each is judged by itself.
+/// [`surely_stable_step`] of contacts with these rates, whose damping is at least `ratio` times the
+/// stiffness, together with springs of the host. Springs are integrated with the contacts, and the rates of
+/// both add; under a held wrench the host integrates them between frames, and each is judged by itself.
 pub(crate) fn surely_stable_with(
     coupling: WrenchCoupling,
     contacts: SpringRates,
@@ -71,7 +76,7 @@ pub(crate) fn surely_stable_with(
     if springs.is_zero() {
         return of(coupling, contacts, ratio);
     }
-    // Springs may be undamped.
+    // Springs may be undamped, so their ratio is 0.
     match coupling {
         WrenchCoupling::ZeroOrderHold { .. } => {
             let alone = of(WrenchCoupling::Stages, springs, 0.0);
@@ -84,7 +89,7 @@ pub(crate) fn surely_stable_with(
     }
 }
 
-/// Whether the classic Runge-Kutta method keeps both roots of z² + γz + κ from growing.
+/// True if the classic Runge-Kutta method amplifies neither root of z² + γz + κ.
 fn stage_wise_holds(kappa: f64, gamma: f64) -> bool {
     let under = kappa - 0.25 * gamma * gamma;
     if under >= 0.0 {
@@ -94,7 +99,7 @@ fn stage_wise_holds(kappa: f64, gamma: f64) -> bool {
     grown((-fast, 0.0)).max(grown((-kappa / fast, 0.0))) <= 1.0 + 1e-12
 }
 
-/// |1 + z + z²/2 + z³/6 + z⁴/24|.
+/// Amplification factor |1 + z + z²/2 + z³/6 + z⁴/24|.
 fn grown((x, y): (f64, f64)) -> f64 {
     let (mut re, mut im) = (1.0, 0.0);
     for divisor in [4.0, 3.0, 2.0, 1.0] {
@@ -103,7 +108,7 @@ fn grown((x, y): (f64, f64)) -> f64 {
     (re * re + im * im).sqrt()
 }
 
-/// Whether a force that is held, and `late` frames late, leaves all roots within the unit circle (Schur and Cohn's
+/// True if a held force, `late` frames late, leaves all roots within the unit circle (Schur and Cohn's
 /// recursion).
 fn late_hold_is_stable(kappa: f64, gamma: f64, late: u32) -> bool {
     let n = late as usize;
@@ -125,12 +130,12 @@ fn late_hold_is_stable(kappa: f64, gamma: f64, late: u32) -> bool {
     true
 }
 
-/// Halvings of an interval of doubles until it cannot shrink any more.
+/// Number of halvings until an interval of doubles cannot shrink any more.
 const HALVINGS: usize = 100;
 
-/// The last step that holds, between one that surely does and `factor` times as much.
+/// The last step that holds, between `surely`, which holds, and `factor` times as much.
 fn last_within(surely: f64, factor: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    // Beside the real axis the region is not convex: walk out of it before the end is cut down.
+    // Near the real axis the region is not convex: walk to its border before bisecting.
     let (walk, mut inside) = (1.005, surely);
     while inside * walk < surely * factor && holds(inside * walk) {
         inside *= walk;
@@ -138,9 +143,9 @@ fn last_within(surely: f64, factor: f64, holds: impl Fn(f64) -> bool) -> f64 {
     bisect(inside, inside * walk, holds)
 }
 
-/// The last step that holds below one that may not; 0 if none down to a millionth of it does.
+/// The last step that holds below `at_most`, which may not hold; 0 if none down to a millionth of it does.
 fn last_below(at_most: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    // Not a number, or so short that no tenth of it is shorter.
+    // NaN, or too short to be multiplied by a tenth.
     if at_most.is_nan() || at_most < 1e-290 {
         return 0.0;
     }
@@ -193,8 +198,8 @@ mod tests {
         assert!((stages(1.0, 1.0) - 2.623).abs() < 1e-3, "{}", stages(1.0, 1.0));
     }
 
-    /// What has no stiffness, or no damping, is held by the other alone; what has neither, at every step. No infinity
-    /// takes part: `ci/traps` looks.
+    /// A contact without stiffness, or without damping, is limited by the other alone; one without both at no
+    /// step. No infinity takes part: `ci/traps` checks it.
     #[test]
     fn nothing_to_hold_limits_no_step() {
         for m in [1e-6, 1.0, 1e9] {
@@ -208,8 +213,8 @@ mod tests {
         }
     }
 
-    /// The least damping of a late wrench, found elsewhere by iteration of the map: 1.515·kT one frame late at κ = 0.01,
-    /// and no damping at all one frame late at κ = 0.5, two frames late at κ = 0.1.
+    /// The least damping of a delayed wrench, found independently by iterating the map: 1.515·kT one frame
+    /// late at κ = 0.01, and no damping at all one frame late at κ = 0.5, two frames late at κ = 0.1.
     #[test]
     fn a_late_wrench_needs_more_damping_until_none_helps() {
         let stable = |kappa: f64, gamma: f64, late| late_hold_is_stable(kappa, gamma, late);
@@ -224,7 +229,7 @@ mod tests {
         assert!((step * 10.0 - 1.0).abs() < 1e-6, "{step}");
     }
 
-    /// The polynomial without delay_frames is Jury's: κ/2 < γ < 2.
+    /// Without delay the polynomial has Jury's condition κ/2 < γ < 2.
     #[test]
     fn the_recursion_agrees_with_the_closed_form_without_delay() {
         for i in 1..60 {
@@ -239,14 +244,14 @@ mod tests {
         match coupling {
             WrenchCoupling::Stages => stage_wise_holds(kappa, gamma),
             WrenchCoupling::SemiImplicit => kappa + 2.0 * gamma <= 4.0,
-            // The recursion cannot tell a part in 1e16 from one.
+            // The recursion cannot resolve 1e-16 relative to one.
             WrenchCoupling::ZeroOrderHold { delay_frames: 0 } => 0.5 * kappa < gamma && gamma < 2.0,
             WrenchCoupling::ZeroOrderHold { delay_frames: late } => late_hold_is_stable(kappa, gamma, late),
         }
     }
 
-    /// No mode between the bounds gains at a step that is called sure, and the call is not far too careful: some mode does at
-    /// little more than twice it.
+    /// No mode within the bounds gains energy at a step called sure, and the step is not far too cautious:
+    /// some mode gains at little more than twice it.
     #[test]
     fn a_sure_step_holds_every_mode_within_the_bounds() {
         let couplings = [0, 1, 2].map(|late| WrenchCoupling::ZeroOrderHold { delay_frames: late });
@@ -276,7 +281,7 @@ mod tests {
         }
     }
 
-    /// The narrowest place of the region of Runge-Kutta, seen from zero: |z| = 2.6156 at a damping ratio of 0.54.
+    /// The least radius of the stability region of Runge-Kutta: |z| = 2.6156 at a damping ratio of 0.54.
     #[test]
     fn the_narrowest_place_is_where_it_is_said() {
         let reach = |zeta: f64| longest_stable_step(WrenchCoupling::Stages, 1.0, 2.0 * zeta, 1.0);
@@ -287,7 +292,7 @@ mod tests {
             "{least} {}",
             reach(0.54)
         );
-        // Until there it grows and then falls, so that of any stretch the ends are the least.
+        // Up to there it grows and then falls, so that over any interval the ends are the minimum.
         let reaches = (0..540).map(|i| reach(1e-3 * f64::from(i))).collect::<Vec<_>>();
         let top = reaches.iter().enumerate().max_by(|x, y| x.1.total_cmp(y.1)).unwrap().0;
         assert!(reaches[..top].windows(2).all(|two| two[0] <= two[1] + 1e-9), "{top}");

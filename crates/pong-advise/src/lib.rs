@@ -1,22 +1,23 @@
-//! The step adviser: what a fixed step can hold, and which stiffness and damping give a wanted depth and rebound.
+//! The step adviser: limits of a fixed step, and the stiffness and damping that give a desired depth and
+//! rebound.
 //!
-//! Masses and steps are the host's and serve advice alone (docs/advise.md); the engine knows of neither. Of a sealed world the
-//! adviser reads what [`pong_engine::World::inspect`] shows: [`step_report`] before anything touches, [`acting_report`] and
-//! [`pressed_report`] of a frame. [`advise_contact`] needs no world.
+//! Masses and steps are the host's and serve advice alone (docs/advise.md); the engine does not use them. The
+//! adviser reads a sealed world by [`pong_engine::World::inspect`]: [`step_report`] before anything touches,
+//! [`acting_report`] and [`pressed_report`] for a frame. [`advise_contact`] needs no world.
 //!
-//! | file | tells |
+//! | file | content |
 //! |---|---|
-//! | `coupling.rs` | the longest stable step of one contact, by how its force is used |
-//! | `bounce.rs` | closed forms of a bounce; how far a bounce at a given step is from them |
+//! | `coupling.rs` | the longest stable step of one contact, by the use of its force |
+//! | `bounce.rs` | closed forms of a bounce; error of a bounce at a given step |
 //! | `contact.rs` | stiffness and damping from depth, restitution, mass and speed |
-//! | `mass.rs`, `spring.rs` | what the host tells of masses and step; what surfaces are to a step |
-//! | `mobility.rs`, `places.rs` | how a body yields at a place; the places where its primitives can be touched |
-//! | `together.rs` | a bound of what can act on one movable group at once, levers and inertia included |
+//! | `mass.rs`, `spring.rs` | the host's masses and step; springs and dampers of surfaces |
+//! | `mobility.rs`, `places.rs` | compliance of a body at a point; the points where its primitives can be touched |
+//! | `together.rs` | a bound of the contacts that can act on one movable group at once, with levers and inertia |
 //! | `spring_rates.rs` | the same of springs and dampers of the host |
-//! | `acting.rs` | the same of what acts in a frame, exactly |
-//! | `term.rs`, `asking.rs` | the terms of a contact; which of them asks for a short step |
-//! | `setting.rs`, `limits.rs` | the world and the masses that are known; what a step can hold of them |
-//! | `pressed.rs` | single contacts of a frame, each as deep and as hard pressed as it is |
+//! | `acting.rs` | the same of the contacts in a frame, exactly |
+//! | `term.rs`, `asking.rs` | the terms of a contact; the term that limits the step |
+//! | `setting.rs`, `limits.rs` | the world and the known masses; the limits of a step |
+//! | `pressed.rs` | single contacts of a frame, each at its depth and normal force |
 //! | `stored.rs` | energy in the springs of a frame's contacts |
 //! | `check.rs`, `warn.rs` | every pair of movable groups against the host's step; the warnings and notes |
 
@@ -41,8 +42,8 @@ mod term;
 mod together;
 mod warn;
 
-/// What a [`step_report`] keeps of a pair of movable groups at most, bytes: whoever must not run out of memory after the seal
-/// has it leave so much ([`pong_engine::WorldBuilder::leave_room_per_pair`]).
+/// Upper bound of the memory of a [`step_report`] per pair of movable groups, bytes: a caller that must not
+/// run out of memory after the seal reserves it ([`pong_engine::WorldBuilder::leave_room_per_pair`]).
 pub const BYTES_PER_PAIR: usize = 1024;
 
 pub use acting::{ActingReport, acting_report};

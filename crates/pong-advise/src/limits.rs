@@ -1,4 +1,4 @@
-//! What a step can hold of one contact, and of all that can act on one movable group at once.
+//! Limits of a step by one contact, and by all that can act on one movable group at once.
 
 use crate::bounce::{Accuracy, BounceError, bounce_error, resolved_step};
 use crate::coupling::{longest_stable_step, surely_stable_step};
@@ -12,20 +12,21 @@ use pong_engine::{PairProps, WrenchCoupling};
 pub struct SpringLimit {
     /// The spring and damper of a whole contact.
     pub spring: Spring,
-    /// The least effective mass that it can feel, kg: at the place with the longest lever.
+    /// The least effective mass that it can act on, kg: at the point with the longest lever.
     pub mass: f64,
     /// The longest step at which it is stable, s; 0 if no step is.
     pub stable_step: f64,
 }
 
-/// How well the host's step follows a bounce.
+/// Accuracy of a bounce at the host's step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BounceLimit {
     /// ω = √(k/m), rad/s.
     pub frequency: f64,
-    /// The ratio c/(2mω), less what the lag of the coupling takes; below zero the contact gives more than it takes.
+    /// The ratio c/(2mω), less the damping removed by the lag of the coupling; below zero the contact gains
+    /// energy.
     pub damping_ratio: f64,
-    /// How far a bounce may be from its closed form at the host's step.
+    /// Errors of a bounce against its closed form at the host's step.
     pub error: BounceError,
 }
 
@@ -36,19 +37,21 @@ pub struct PairLimits {
     pub groups: [String; 2],
     /// Effective mass at a contact in line with both mass centres, kg; that of the bounce.
     pub mass: f64,
-    /// The normal spring that bears the least step.
+    /// The normal spring with the shortest stable step.
     pub normal: SpringLimit,
-    /// The friction spring that bears the least step, if there is friction.
+    /// The friction spring with the shortest stable step, if there is friction.
     pub friction: Option<SpringLimit>,
-    /// The longest step at which one contact is surely stable, wherever it is, with its friction, s; 0 if there is none.
+    /// The longest step at which one contact with its friction is surely stable, wherever it is, s; 0 if
+    /// there is none.
     pub stable_step: f64,
-    /// `model/surface` of the two that make the normal spring, and of those that make the friction spring.
+    /// `model/surface` of both for the normal spring, and for the friction spring.
     pub surfaces: [[String; 2]; 2],
-    /// The bounce that is followed worst; `None` if no accuracy is asked, or for laws without a closed form.
+    /// The bounce with the largest error; `None` if no accuracy is asked for, or for laws without a closed
+    /// form.
     pub bounce: Option<BounceLimit>,
 }
 
-/// All contacts that can act on one movable group at once (`together.rs` says which).
+/// All contacts that can act on one movable group at once (defined in `together.rs`).
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroupLimits {
     /// `object/path`.
@@ -57,7 +60,7 @@ pub struct GroupLimits {
     pub mass: f64,
     /// Primitives that can be in contact at once, at most.
     pub contacts: usize,
-    /// Of the stiffest mode: the stiffness and damping that a contact in line with the mass centre would need for it.
+    /// Stiffest mode, as the stiffness and damping of an equivalent contact in line with the mass centre.
     pub spring: Spring,
     /// The least damping over stiffness of any spring among them, s.
     pub least_damped: f64,
@@ -65,11 +68,11 @@ pub struct GroupLimits {
     pub stable_step: f64,
 }
 
-/// What a step can hold of one contact with these values on an effective mass (kg); `groups` is what the two are
-/// called.
+/// Limits of a step by one contact with these values on an effective mass (kg); `groups` are the names of the
+/// two bodies.
 ///
 /// # Errors
-/// Why it cannot be judged.
+/// The reason why it cannot be judged.
 pub fn judge_contact(
     groups: [String; 2],
     props: &PairProps,
@@ -111,8 +114,9 @@ pub(crate) fn pair_limits(
     Some(PairLimits { groups, mass, normal, friction, stable_step, surfaces, bounce })
 }
 
-/// The longest step (s) at which a contact with its friction is surely stable. With Y the compliance at the place, its
-/// stiffest mode has at most max(k, k_t)·Y, and at most k·Y along the normal and k_t·Y along the surface added; dampers alike.
+/// The longest step (s) at which a contact with its friction is surely stable. With Y the compliance at the
+/// contact, its stiffest mode has at most max(k, k_t)·Y, and at most the sum of k·Y along the normal and
+/// k_t·Y along the surface; dampers alike.
 fn whole_contact(known: &Known, coupling: WrenchCoupling) -> f64 {
     let Some(friction) = known.springs.friction else { return f64::INFINITY };
     let [normal_mass, mass] = known.least_masses;
@@ -123,7 +127,7 @@ fn whole_contact(known: &Known, coupling: WrenchCoupling) -> f64 {
     surely_stable_step(coupling, stiffness, damping, known.springs.least_damped())
 }
 
-/// The spring that bears the least step; of two that are equally bad the stiffer.
+/// The spring with the shortest stable step; of two equal ones the stiffer.
 fn least(limits: Vec<(SpringLimit, &[String; 2])>) -> Option<(SpringLimit, &[String; 2])> {
     limits.into_iter().min_by(|(x, _), (y, _)| {
         let by_step = x.stable_step.total_cmp(&y.stable_step);
@@ -134,7 +138,7 @@ fn least(limits: Vec<(SpringLimit, &[String; 2])>) -> Option<(SpringLimit, &[Str
 /// Beyond this damping ratio (restitution 0.01) hardly anything bounces.
 const ZETA_MAX: f64 = 5.0;
 
-/// Steps of ω·dt below this follow every bounce.
+/// Steps of ω·dt below this resolve every bounce.
 const SURELY_FINE: f64 = 1e-4;
 
 fn bounce_limit(spring: Spring, mass: f64, plan: &StepPlan) -> Option<BounceLimit> {
@@ -146,7 +150,7 @@ fn bounce_limit(spring: Spring, mass: f64, plan: &StepPlan) -> Option<BounceLimi
         return None;
     }
     let error = if damping_ratio < 0.0 {
-        // A negative damping: the rebound is exp(π|ζ|), and so is the energy's root (V28).
+        // With negative damping the rebound is exp(π|ζ|), and so is the square root of the energy (V28).
         let gain = libm::expm1(-std::f64::consts::PI * damping_ratio);
         BounceError { depth: gain, rebound: gain }
     } else if omega_step < SURELY_FINE {
@@ -158,7 +162,7 @@ fn bounce_limit(spring: Spring, mass: f64, plan: &StepPlan) -> Option<BounceLimi
 }
 
 impl BounceLimit {
-    /// The longest step that keeps to an accuracy, s.
+    /// The longest step within an accuracy, s.
     pub fn accurate_step(&self, coupling: WrenchCoupling, accuracy: &Accuracy) -> f64 {
         resolved_step(coupling, self.damping_ratio.max(0.0), accuracy) / self.frequency
     }

@@ -1,4 +1,4 @@
-//! What the adviser is told of a movable group and of the host's step.
+//! Mass properties of movable groups, and the host's step.
 
 use crate::bounce::Accuracy;
 use nalgebra::SMatrix;
@@ -16,34 +16,35 @@ pub struct GroupMass {
     pub inertia: [f64; 6],
     /// The mass centre in the group frame, m.
     pub mass_center: [f64; 3],
-    /// How the group yields if it hangs on joints; `None` for a free one.
+    /// Compliance of a group on joints; `None` for a free one.
     pub joints: Option<Joints>,
     /// The host's own springs and dampers that act on the group.
     pub springs: SpringRates,
 }
 
-/// How a group on joints answers a wrench, at one pose of its mechanism.
+/// Compliance of a group on joints, at one pose of its mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Joints {
-    /// Inverse inertia: acceleration (linear of the group's origin, then angular) per wrench (force, then moment about the
-    /// origin), along the axes of the group frame; J·M⁻¹·Jᵀ of a mechanism with mass matrix M. Symmetric, no eigenvalue below
-    /// zero.
+    /// Inverse inertia: acceleration (linear of the group's origin, then angular) per wrench (force, then
+    /// moment about the origin), along the axes of the group frame; J·M⁻¹·Jᵀ of a mechanism with mass matrix
+    /// M. Symmetric and positive semidefinite.
     pub inverse_inertia: [[f64; 6]; 6],
-    /// Groups of one number share joints: a push on one moves the others.
+    /// Groups with the same number share joints: a push on one moves the others.
     pub mechanism: u32,
 }
 
 /// Springs and dampers of the host, beside contacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SpringRates {
-    /// A bound of the largest eigenvalue of M⁻¹·K of the springs on the group, 1/s² ([`spring_rates`](crate::spring_rates)).
+    /// Upper bound of the largest eigenvalue of M⁻¹·K of the springs on the group, 1/s²
+    /// ([`spring_rates`](crate::spring_rates)).
     pub stiffness: f64,
-    /// Bound of the largest eigenvalue of M⁻¹·C of the dampers, 1/s.
+    /// Upper bound of the largest eigenvalue of M⁻¹·C of the dampers, 1/s.
     pub damping: f64,
 }
 
 impl SpringRates {
-    /// Whether nothing acts.
+    /// True if there are neither springs nor dampers.
     pub fn is_zero(&self) -> bool {
         self.stiffness == 0.0 && self.damping == 0.0
     }
@@ -51,20 +52,20 @@ impl SpringRates {
 
 impl Joints {
     pub(crate) fn matrix(&self) -> SMatrix<f64, 6, 6> {
-        // The mean of what should be equal.
+        // Symmetric part: the mean of entries that should be equal.
         let m = &self.inverse_inertia;
         SMatrix::from_fn(|i, j| 0.5 * (m[i][j] + m[j][i]))
     }
 
-    /// Cause and cure, if no mechanism answers like this.
+    /// Cause and cure, if no mechanism has such a matrix.
     fn fault(&self) -> Option<&'static str> {
-        /// Relative size of what rounding may leave.
+        /// Tolerated relative rounding error.
         const ROUNDING: f64 = 1e-6;
         let m = &self.inverse_inertia;
         if m.iter().flatten().any(|x| x.is_nan() || x.abs() > State::LARGEST) {
             return Some("the inverse inertia on joints is not finite or beyond 1e100; give J·M⁻¹·Jᵀ");
         }
-        // Of entries that mix m and rad the size is that of their rows.
+        // Entries mix m and rad, so each is compared with the diagonal of its row and column.
         let size = |i: usize, j: usize| (m[i][i].abs() * m[j][j].abs()).sqrt();
         let uneven = |i: usize, j: usize| (m[i][j] - m[j][i]).abs() > ROUNDING * size(i, j);
         if (0..6).any(|i| (0..i).any(|j| uneven(i, j))) {
@@ -94,7 +95,7 @@ impl GroupMass {
         known.then(|| Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz))
     }
 
-    /// Refuses values that no group can have; `group` is what the error calls it.
+    /// Refuses values that no group can have; the error calls it `group`.
     ///
     /// # Errors
     /// [`EngineError::BadValue`].
@@ -138,10 +139,11 @@ impl GroupMass {
     }
 }
 
-/// The lower triangle whose product with its transpose is a symmetric matrix (after Cholesky); `None` if the matrix is not
-/// positive definite.
+/// The lower triangle whose product with its transpose is a symmetric matrix (Cholesky); `None` if the matrix
+/// is not positive definite.
 ///
-/// What is not positive has no root and divides nothing, not even where a compiler takes the root before it asks.
+/// A pivot that is not positive is replaced before the square root and the division, because a compiler may
+/// compute them before the branch.
 pub(crate) fn root_of(mut matrix: Mat3) -> Option<Mat3> {
     for column in 0..3 {
         for before in 0..column {
@@ -163,22 +165,22 @@ pub(crate) fn root_of(mut matrix: Mat3) -> Option<Mat3> {
     Some(matrix.lower_triangle())
 }
 
-/// The host's step and what it does with the wrench.
+/// The host's step and its use of the wrench.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepPlan {
     /// The step or frame, s.
     pub step: f64,
-    /// How the wrench is used.
+    /// Use of the wrench by the host.
     pub coupling: WrenchCoupling,
-    /// Speed at which things touch, m/s; `None` if it is not known. Laws whose stiffness or damping follows the depth
-    /// are judged at the depth that this speed makes, and not at all without it.
+    /// Speed at which bodies touch, m/s; `None` if it is not known. Laws whose stiffness or damping follows
+    /// the depth are judged at the depth that this speed gives, and not at all without it.
     pub closing_speed: Option<f64>,
-    /// How near a bounce must come to its closed form; `None` to be warned of instability alone.
+    /// Accuracy of a bounce; `None` to be warned of instability alone.
     pub accuracy: Option<Accuracy>,
 }
 
 impl StepPlan {
-    /// A plan that asks for depth within 5 % and rebound within 2 %.
+    /// A plan with accuracies of 5 % for the depth and 2 % for the rebound.
     pub fn new(step: f64, coupling: WrenchCoupling) -> Self {
         Self { step, coupling, closing_speed: None, accuracy: Some(Accuracy::default()) }
     }
@@ -188,7 +190,7 @@ impl StepPlan {
     /// # Errors
     /// [`EngineError::BadValue`].
     pub fn check(&self) -> Result<(), EngineError> {
-        /// Wrenches that are later than this are likelier a slip of the pen.
+        /// Upper limit: longer delays are more likely a typing error.
         const DELAY_FRAMES_MAX: u32 = 100;
         let bad = |cause: String| Err(EngineError::BadValue { what: "step plan".to_owned(), cause });
         let positive = |value: f64| value > 0.0 && value.is_finite();
@@ -221,7 +223,8 @@ mod tests {
     use pong_testkit::exceptions::are_raised_by;
     use std::hint::black_box;
 
-    /// Those of nalgebra to the bit, and none where it has none; without the root of what has none.
+    /// The roots agree with nalgebra's to the bit, and are missing where nalgebra has none; no root is taken
+    /// of a negative number.
     #[test]
     fn roots_of_random_matrices() {
         let mut random = Random(7);

@@ -1,4 +1,4 @@
-//! How a body yields: contacts as rows of a matrix in coordinates in which the body's mass is one.
+//! Compliance of a body: contacts as rows of a matrix in coordinates in which the body's mass is one.
 
 use crate::mass::{GroupMass, Joints, root_of};
 use nalgebra::DMatrix;
@@ -9,24 +9,24 @@ pub(crate) type Mat6 = nalgebra::SMatrix<f64, 6, 6>;
 
 type Mat3x6 = nalgebra::SMatrix<f64, 3, 6>;
 
-/// A root S of a body's inverse inertia S·Sᵀ: of a free one the inverse Cholesky factor of its mass matrix, of one on joints
-/// the root of what the host tells.
+/// A root S of a body's inverse inertia S·Sᵀ: for a free body the inverse Cholesky factor of its mass matrix,
+/// for a body on joints the root of the host's matrix.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mobility {
     /// Rows of the root for the velocity of `center`, 1/√kg.
     linear: Mat3x6,
-    /// Rows for the spin; zero where no inertia is known.
+    /// Rows for the angular velocity; zero where no inertia is known.
     angular: Mat3x6,
     /// Mass centre in the group's frame.
     center: Vec3,
     /// ‖angular‖², 1/(kg·m²).
     spin: f64,
-    /// A bound of ‖linear·angularᵀ‖; zero for a free body.
+    /// Upper bound of ‖linear·angularᵀ‖; zero for a free body.
     coupled: f64,
 }
 
 impl Mobility {
-    /// `None` for what does not yield.
+    /// Mobility of a body; `None` if it does not yield.
     pub fn new(mass: &GroupMass) -> Option<Self> {
         if mass.mass.is_infinite() {
             return None;
@@ -41,24 +41,24 @@ impl Mobility {
         Some(Self { linear, angular, center, spin, coupled: (linear * angular.transpose()).norm() })
     }
 
-    /// Sᵀ·(d, (p − centre) × d): |that|² is the inverse of the effective mass at p along d.
+    /// Sᵀ·(d, (p − centre) × d): its squared norm is the inverse of the effective mass at p along d.
     pub fn row(&self, direction: &Vec3, at: &Vec3) -> Vec6 {
         self.linear.tr_mul(direction) + self.angular.tr_mul(&(at - self.center).cross(direction))
     }
 
-    /// Adds a spring along a direction at a place.
+    /// Adds a spring along a direction at a point.
     pub fn add(&self, sum: &mut Mat6, stiffness: f64, direction: &Vec3, at: &Vec3) {
         let row = self.row(direction, at);
         *sum += stiffness * row * row.transpose();
     }
 
-    /// Adds a spring as stiff in every direction: no less than one along any of them.
+    /// Adds an isotropic spring: an upper bound of one along any direction.
     pub fn add_bushing(&self, sum: &mut Mat6, stiffness: f64, at: &Vec3) {
         [Vec3::x(), Vec3::y(), Vec3::z()].iter().for_each(|axis| self.add(sum, stiffness, axis, at));
     }
 
-    /// Adds no less than a spring as stiff in every direction at any place within a distance of one: with a the rows at that
-    /// place and b those of the rest, (a + b)(a + b)ᵀ ≤ (1 + s)·aaᵀ + (1 + 1/s)·bbᵀ for every s > 0.
+    /// Adds an upper bound of an isotropic spring at any point within a distance of one: with a the rows at
+    /// that point and b those of the offset, (a + b)(a + b)ᵀ ≤ (1 + s)·aaᵀ + (1 + 1/s)·bbᵀ for every s > 0.
     pub fn add_bushing_around(&self, sum: &mut Mat6, stiffness: f64, at: &Vec3, reach: f64) {
         let (near, far) = (self.compliance(at).sqrt(), reach * self.spin.sqrt());
         if far == 0.0 || near == 0.0 {
@@ -76,26 +76,27 @@ impl Mobility {
         *sum += stiffness * row * row.transpose();
     }
 
-    /// Largest inverse of the effective mass at a place, along any direction, 1/kg.
+    /// Largest inverse of the effective mass at a point, along any direction, 1/kg.
     pub fn compliance(&self, at: &Vec3) -> f64 {
         let axes = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| self.row(&axis, at));
         let entries = DMatrix::from_fn(3, 3, |i, j| axes[i].dot(&axes[j]));
         largest_eigenvalue(entries)
     }
 
-    /// A bound of [`compliance`](Self::compliance) at all places within a distance of one (docs/advise.md).
+    /// Upper bound of [`compliance`](Self::compliance) at all points within a distance of one
+    /// (docs/advise.md).
     pub fn compliance_around(&self, at: &Vec3, reach: f64) -> f64 {
         let cross = self.coupled + (at - self.center).norm() * self.spin;
         self.compliance(at) + reach * (2.0 * cross + reach * self.spin)
     }
 
-    /// The largest [`compliance`](Self::compliance) in a box: it is convex in the place, so a corner has it.
+    /// The largest [`compliance`](Self::compliance) in a box: it is convex in the point, so a corner has it.
     pub fn compliance_in(&self, (low, high): &(Vec3, Vec3)) -> f64 {
         let corner = |code: u32| Vec3::from_fn(|i, _| if code >> i & 1 == 0 { low[i] } else { high[i] });
         (0..8).map(|code| self.compliance(&corner(code))).fold(0.0, f64::max)
     }
 
-    /// Whether the place of a contact makes a difference.
+    /// True if the compliance depends on the point of contact.
     pub fn has_levers(&self) -> bool {
         self.spin > 0.0
     }
@@ -115,7 +116,7 @@ fn free(mass: &GroupMass) -> (Mat3x6, Mat3x6) {
     (linear, angular)
 }
 
-/// The symmetric root, its rows for the velocity moved from the group's origin to the mass centre.
+/// The symmetric root, with the rows for the velocity moved from the group's origin to the mass centre.
 fn on_joints(joints: &Joints, center: &Vec3) -> (Mat3x6, Mat3x6) {
     let eigen = joints.matrix().symmetric_eigen();
     let roots = Mat6::from_diagonal(&eigen.eigenvalues.map(|value| value.max(0.0).sqrt()));
@@ -126,7 +127,8 @@ fn on_joints(joints: &Joints, center: &Vec3) -> (Mat3x6, Mat3x6) {
     (root.fixed_rows::<3>(0) + carried, angular)
 }
 
-/// Of a symmetric matrix that has no negative one; infinite beyond the range of numbers, where no search would end.
+/// Largest eigenvalue of a positive semidefinite matrix; infinite beyond the range of numbers, where the
+/// iteration would not end.
 pub(crate) fn largest_eigenvalue(matrix: DMatrix<f64>) -> f64 {
     if matrix.iter().any(|x| !x.is_finite()) {
         return f64::INFINITY;

@@ -1,18 +1,18 @@
-//! Where the primitives of a movable group can be touched, and how far the group yields there.
+//! Points where the primitives of a movable group can be touched, and the compliance of the group there.
 
 use crate::mobility::Mobility;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Element, Item, MovableGroup, PrimitiveInfo};
 use std::collections::BTreeMap;
 
-/// Largest inverse of the effective mass at the places of a contact, 1/kg.
+/// Largest inverse of the effective mass at the points of a contact, 1/kg.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Compliance {
     /// Along the normal.
     pub normal: f64,
     /// Along the surface, where friction acts.
     pub along: f64,
-    /// Whether a place can be as far from the mass centre as it likes; its lever is left out.
+    /// True if the point can be at any distance from the mass centre; its lever is then left out.
     pub is_unbounded: bool,
 }
 
@@ -26,7 +26,7 @@ impl Compliance {
         }
     }
 
-    /// The worse of two places, each value by itself.
+    /// The larger of each value of two points.
     pub fn or_larger(self, other: Self) -> Self {
         Self {
             normal: self.normal.max(other.normal),
@@ -48,7 +48,7 @@ pub(crate) fn compliances(body: &MovableGroup, mobility: &Mobility) -> Complianc
     all
 }
 
-/// Compliance at a place within a radius of a point through which the normal passes.
+/// Compliance at a point within a radius of a centre through which the normal passes.
 fn round(mobility: &Mobility, center: &pong_geometry::Vec3, radius: f64) -> Compliance {
     let (normal, along) = (mobility.compliance(center), mobility.compliance_around(center, radius));
     Compliance { normal, along, is_unbounded: false }
@@ -68,7 +68,7 @@ fn compliance_of(
     match info.kind {
         PrimitiveKind::Plane => unbounded(),
         PrimitiveKind::Sphere => round(mobility, &body.spheres[element].center, body.spheres[element].radius),
-        // Compliance is convex in the place: of an axis an end has the largest.
+        // Compliance is convex in the point: the largest of an axis is at an end.
         PrimitiveKind::LineSegment => {
             let ends = body.segments[element].ends;
             ends.map(|end| round(mobility, &end, 0.0))

@@ -1,7 +1,8 @@
-//! The contacts of a frame against the host's step, one by one, each as deep and as hard pressed as it is.
+//! The contacts of a frame against the host's step, one by one, each at its depth and normal force.
 //!
-//! Before the run a law whose stiffness follows the depth, or whose damping follows the load, can only be judged for a closing
-//! speed that is guessed. Here nothing is guessed; the warnings are those of `warn.rs`, as for every other check of a step.
+//! Before the run a law whose stiffness follows the depth, or whose damping follows the load, can only be
+//! judged for an assumed closing speed. Here both are known; the warnings are those of `warn.rs`, as for
+//! every other check of a step.
 
 use crate::acting::compliances_at;
 use crate::check::StepReport;
@@ -13,12 +14,13 @@ use pong_engine::inspect::PushingContact;
 use pong_engine::{EngineError, InterfaceId, World};
 use std::collections::BTreeMap;
 
-/// The single contacts of the last frame against a step, each at its depth and load: what
-/// [`step_report`](crate::step_report) can only guess of laws that follow them. Of every pair of movable groups the contact that
-/// bears the least step speaks; bounces are not judged.
+/// Limits of a step by the single contacts of the last frame, each at its depth and load, which
+/// [`step_report`](crate::step_report) can only assume. Every pair of movable groups is represented by its
+/// contact with the shortest stable step; bounces are not judged.
 ///
 /// # Errors
-/// A world that has no frame yet, a mass of another world's movable group, or values that no plan or group can have.
+/// A world that has no frame yet, a mass of another world's movable group, or values that no plan or group
+/// can have.
 pub fn pressed_report(
     world: &World,
     plan: &StepPlan,
@@ -42,18 +44,19 @@ pub fn pressed_report(
     Ok(report)
 }
 
-/// `None` where masses are not told, or the law is the host's.
+/// Springs of a contact; `None` if masses are unknown, or the law is the host's.
 fn known_of(setting: &Setting<'_>, contact: &PushingContact) -> Option<Known> {
     if setting.masses[contact.group_a].is_none() || setting.masses[contact.group_b].is_none() {
         return None;
     }
     let mut springs = setting.pressed_springs(contact)?;
-    // A contact of a seam, and the end of a bar, carries a part of the spring; its load is its own already.
+    // A contact at a seam, or at the end of a bar, carries a share of the spring; its load already is that
+    // share.
     springs.normal.stiffness *= contact.weight;
     springs.normal.damping *= contact.weight;
     let table = setting.scene.pairs()[contact.pair].tables[contact.flipped];
     let surfaces = setting.scene.surface_names(table, contact.surfaces(&setting.scene));
-    // Along the normal, and the least along the surface.
+    // Least effective masses along the normal, and along the surface.
     let least_masses = compliances_at(setting, contact).map(|compliance| 1.0 / compliance.max(STIFF));
     Some(Known { springs, surfaces, least_masses })
 }

@@ -1,4 +1,4 @@
-//! What the adviser looks at: a sealed world and the masses that are known.
+//! Input of the adviser: a sealed world and the known masses.
 
 use crate::mass::{GroupMass, Joints, SpringRates, StepPlan};
 use crate::mobility::Mobility;
@@ -10,11 +10,11 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_model::PrimitiveInfo;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Cause and cure of a lever that nothing bounds.
+/// Cause and cure of an unbounded lever.
 const UNBOUNDED: &str = "a plane of a group that yields has levers of any length, and they are left out; give it a face of \
                          a polyhedron or a patch of triangles instead";
 
-/// A compliance (1/kg) below which nothing yields: joints may leave a body no way to move.
+/// A compliance (1/kg) below which a body counts as fixed: joints may leave a body no freedom.
 pub(crate) const STIFF: f64 = 1e-100;
 
 /// Two surfaces that can meet.
@@ -25,19 +25,19 @@ pub(crate) struct Met<'w> {
     pub compliance: Compliance,
 }
 
-/// The contacts of one pair of movable groups by the names of their surfaces.
+/// The contacts of one pair of movable groups with the names of their surfaces.
 pub(crate) struct Known {
     pub springs: ContactSprings,
     /// `model/surface` of both.
     pub surfaces: [String; 2],
-    /// Least effective masses at any place where they can touch, kg: along the normal, and along the surface.
+    /// Least effective masses at any point where they can touch, kg: along the normal, and along the surface.
     pub least_masses: [f64; 2],
 }
 
-/// What the adviser looks at.
+/// Input of the adviser.
 pub(crate) struct Setting<'w> {
     pub scene: Inspection<'w>,
-    /// Of every movable group, where it is known.
+    /// Mass of every movable group, where it is known.
     pub masses: Vec<Option<GroupMass>>,
     /// Mobility of every movable group that yields and whose mass is known.
     pub mobilities: Vec<Option<Mobility>>,
@@ -63,8 +63,8 @@ impl<'w> Setting<'w> {
         Ok(Self { scene, masses: all, mobilities, compliances })
     }
 
-    /// The least effective mass of a pair, kg, of a largest compliance (1/kg): at most the mass in line with both mass centres
-    /// unless joints make it more.
+    /// The least effective mass of a pair, kg, for a largest compliance (1/kg): at most the mass in line with
+    /// both mass centres, unless joints make it larger.
     fn least_mass(&self, pair: &GroupPair, mass: f64, most: f64) -> f64 {
         let inverse = 1.0 / most.max(STIFF);
         let joined = [pair.first, pair.second].iter().any(|body| self.joints(*body).is_some());
@@ -75,7 +75,7 @@ impl<'w> Setting<'w> {
         self.masses[body].as_ref()?.joints.as_ref()
     }
 
-    /// Rates of the host's springs on a group and on all that shares joints with it.
+    /// Rates of the host's springs on a group and on all groups that share joints with it.
     pub(crate) fn springs_on(&self, body: usize) -> SpringRates {
         let mut sum = SpringRates::default();
         for rates in self.mechanism_of(body).iter().filter_map(|other| Some(self.masses[*other]?.springs)) {
@@ -85,19 +85,19 @@ impl<'w> Setting<'w> {
         sum
     }
 
-    /// Whether two groups hang on one mechanism.
+    /// True if two groups belong to one mechanism.
     pub fn share_joints(&self, a: usize, b: usize) -> bool {
         let number = |body: usize| self.joints(body).map(|joints| joints.mechanism);
         number(a).is_some() && number(a) == number(b)
     }
 
-    /// The groups that share joints with one, it among them.
+    /// The groups that share joints with one, including itself.
     pub fn mechanism_of(&self, body: usize) -> Vec<usize> {
         let shared = (0..self.masses.len()).filter(|other| *other == body || self.share_joints(body, *other));
         shared.collect()
     }
 
-    /// The contacts that a pair of movable groups can make, and why some are not known.
+    /// The contacts that a pair of movable groups can make, and the reasons why some are not known.
     pub(crate) fn known(
         &self,
         pair: &GroupPair,
@@ -119,7 +119,7 @@ impl<'w> Setting<'w> {
         (known, causes)
     }
 
-    /// The springs of a contact that pushes, as deep and as hard pressed as it is; `None` for laws of the host's.
+    /// The springs of a contact at its depth and normal force; `None` for laws of the host's.
     pub(crate) fn pressed_springs(&self, contact: &PushingContact) -> Option<ContactSprings> {
         pressed_springs(self.props(contact), contact.depth, contact.normal_force).ok()
     }
@@ -130,7 +130,7 @@ impl<'w> Setting<'w> {
         self.scene.surface_values(table, contact.surfaces(&self.scene))
     }
 
-    /// 1/(1/m₁ + 1/m₂); `None` if neither yields.
+    /// Effective mass 1/(1/m₁ + 1/m₂), kg; `None` if neither yields.
     pub fn effective_mass(&self, pair: &GroupPair) -> Option<f64> {
         let inverse = |body: usize| self.masses[body].map_or(0.0, |known| 1.0 / known.mass);
         let sum = inverse(pair.first) + inverse(pair.second);
@@ -166,7 +166,7 @@ impl<'w> Setting<'w> {
         let [in_a, in_b] = [(body_a, a, b), (body_b, b, a)].map(|(body, group, other)| {
             let mut seen = BTreeSet::new();
             let new = body.primitives.iter().filter(move |info| {
-                // Kinds of the host's share one number; each is looked at.
+                // All kinds registered by the host share one number, so each primitive counts.
                 info.kind == PrimitiveKind::Custom
                     || seen.insert((
                         info.kind,
@@ -190,7 +190,8 @@ impl<'w> Setting<'w> {
         met
     }
 
-    /// Compliance of two bodies that touch anywhere: the sum of both; twice that if a push on one moves the other.
+    /// Compliance of two bodies that touch anywhere: the sum of both; twice that if a push on one moves the
+    /// other.
     fn compliance(
         &self,
         (a, info_a): (usize, &PrimitiveInfo),

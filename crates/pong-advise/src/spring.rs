@@ -1,4 +1,4 @@
-//! What a contact between two surfaces is to a step: springs and dampers, at the depth that is expected.
+//! Springs and dampers of a contact between two surfaces, at the expected depth.
 
 use pong_engine::{FrictionProps, NormalProps, PairProps};
 use pong_model::Exponent;
@@ -6,20 +6,20 @@ use pong_model::Exponent;
 /// A spring and its damper.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spring {
-    /// N/m.
+    /// Stiffness, N/m.
     pub stiffness: f64,
-    /// N·s/m.
+    /// Damping, N·s/m.
     pub damping: f64,
 }
 
 /// A whole contact of two surfaces.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContactSprings {
-    /// Along the normal; for laws that follow the depth, the tangent there.
+    /// Spring along the normal; for laws that follow the depth, the tangent there.
     pub normal: Spring,
-    /// In the contact plane, while it sticks.
+    /// Spring in the contact plane, while it sticks.
     pub friction: Option<Spring>,
-    /// Whether the closed forms of `bounce.rs` are those of the law.
+    /// True if the closed forms of `bounce.rs` hold for the law.
     pub bounces_by_formula: bool,
 }
 
@@ -33,7 +33,7 @@ impl ContactSprings {
     }
 }
 
-/// The springs of a pair of surfaces on an effective mass (kg), or why they are not known.
+/// The springs of a pair of surfaces on an effective mass (kg), or the reason why they are not known.
 pub(crate) fn springs(
     props: &PairProps,
     mass: f64,
@@ -45,16 +45,16 @@ pub(crate) fn springs(
             return Err("a contact of exponent 3/2 is as stiff as it is deep, and no closing speed is given");
         }
         (Exponent::ThreeHalves, Some(speed)) => hertz_depth(k, mass, speed),
-        // Without a speed the damping is what it is at touch.
+        // Without a speed the damping is the one at touch.
         _ => speed.map_or(0.0, |speed| speed * (mass / k).sqrt()),
     };
     let (normal, bounces_by_formula) = normal_spring(props, depth)?;
-    // That of a bounce.
+    // The peak load of a bounce.
     let load = speed.map(|speed| speed * (normal.stiffness * mass).sqrt().max(normal.damping));
     Ok(ContactSprings { normal, friction: friction_spring(props, load)?, bounces_by_formula })
 }
 
-/// The springs of a contact that is so deep (m) and pressed so hard (N), or why they are not known.
+/// The springs of a contact at a depth (m) and a load (N), or the reason why they are not known.
 pub(crate) fn pressed_springs(
     props: &PairProps,
     depth: f64,
@@ -88,7 +88,7 @@ fn normal_spring(props: &PairProps, depth: f64) -> Result<(Spring, bool), &'stat
     })
 }
 
-/// Of friction that sticks under a load; `None` if nothing grips.
+/// The spring of sticking friction under a load; `None` without friction.
 fn friction_spring(props: &PairProps, load: Option<f64>) -> Result<Option<Spring>, &'static str> {
     Ok(match &props.friction {
         FrictionProps::None => None,
@@ -96,7 +96,7 @@ fn friction_spring(props: &PairProps, load: Option<f64>) -> Result<Option<Spring
             let grips = *mu_kinetic > 0.0 || *mu_static > 0.0;
             grips.then_some(Spring { stiffness: *stiffness, damping: *damping })
         }
-        // μN/v_ε up to the slip speed; unknown without a load.
+        // The slope is μN/v_ε up to the slip speed; unknown without a load.
         FrictionProps::Coulomb { mu, slip_speed } => {
             load.map(|load| Spring { stiffness: 0.0, damping: mu * load / slip_speed })
         }
@@ -104,7 +104,7 @@ fn friction_spring(props: &PairProps, load: Option<f64>) -> Result<Option<Spring
     })
 }
 
-/// ½mv² = ⅖·k·δ^(5/2).
+/// Depth at which ½mv² = ⅖·k·δ^(5/2).
 fn hertz_depth(k: f64, mass: f64, speed: f64) -> f64 {
     libm::pow(1.25 * mass * speed * speed / k, 0.4)
 }

@@ -1,9 +1,10 @@
-//! A bound of what the host's own springs and dampers do to each body: the largest eigenvalue of M⁻¹·K and of M⁻¹·C.
+//! An upper bound of the effect of the host's springs and dampers on each body: the largest eigenvalue of
+//! M⁻¹·K and of M⁻¹·C.
 //!
-//! The springs between two bodies, u and v, are K = (J_u, J_v)ᵀ·k·(J_u, J_v). With S the roots of the inverse inertia, the
-//! largest eigenvalue of SᵀKS is that of √k·(J_u·S_u·S_uᵀ·J_uᵀ + J_v·S_v·S_vᵀ·J_vᵀ)·√k, no more than the sum of the two parts'
-//! own. The axes of a spring are fixed in its first body; the second may have turned against them, so there a spring is as stiff
-//! in every direction as in its stiffest.
+//! The springs between two bodies, u and v, are K = (J_u, J_v)ᵀ·k·(J_u, J_v). With S the roots of the inverse
+//! inertia, the largest eigenvalue of SᵀKS is that of √k·(J_u·S_u·S_uᵀ·J_uᵀ + J_v·S_v·S_vᵀ·J_vᵀ)·√k, at most
+//! the sum of the eigenvalues of the two parts. The axes of a spring are fixed in its first body; the second
+//! may have rotated against them, so there a spring counts as isotropic with its largest stiffness.
 
 use crate::mass::{GroupMass, SpringRates};
 use crate::mobility::{Mat6, Mobility, largest_eigenvalue};
@@ -16,7 +17,7 @@ use std::collections::BTreeMap;
 pub struct HostSpringEnd {
     /// Index of the body among the masses; `None` for the ground.
     pub body: Option<usize>,
-    /// Where the spring's force acts, m, in the group frame.
+    /// Point of application of the spring's force, m, in the group frame.
     pub place: Vec3,
 }
 
@@ -33,8 +34,8 @@ pub struct HostSpring {
     pub damping: [f64; 6],
 }
 
-/// For every body the sum of the bounds of all springs that end on it. Any motion x has
-/// x·Kx ≤ Σ λ_uv·(|x_u|² + |x_v|²) = Σ |x_u|²·(sum at u), so the largest sum bounds all modes.
+/// For every body the sum of the bounds of all springs that end on it. Any motion x has x·Kx ≤ Σ λ_uv·(|x_u|²
+/// + |x_v|²) = Σ |x_u|²·(sum at u), so the largest sum bounds all modes.
 pub fn spring_rates(masses: &[GroupMass], springs: &[HostSpring]) -> Vec<SpringRates> {
     let mobilities: Vec<Option<Mobility>> = masses.iter().map(Mobility::new).collect();
     let mut between: BTreeMap<[Option<usize>; 2], Vec<&HostSpring>> = BTreeMap::new();

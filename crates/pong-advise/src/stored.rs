@@ -1,4 +1,4 @@
-//! Energy in the springs of the last frame's contacts: the work that pressing them in took, or would have taken.
+//! Energy in the springs of the last frame's contacts: the work of pressing them in from touch.
 //!
 //! ```text
 //! U = w·½kδ² (laws of exponent 1)      U = w·⅖kδ^(5/2) (exponent 3/2)      w: the contact's weight
@@ -20,9 +20,9 @@ pub struct StoredEnergy {
     pub energy: f64,
     /// The depth of the deepest contact, m.
     pub depth: f64,
-    /// Place of the deepest contact in the frame of the second group or of the first, m: of which, `groups[deepest.0]`.
+    /// Deepest contact: `groups[deepest.0]` is the group in whose frame its position `deepest.1` is given, m.
     pub deepest: (usize, [f64; 3]),
-    /// Contacts of a normal law of the host's, whose energy is not known.
+    /// Contacts with a normal law of the host's, whose energy is not known.
     pub not_known: usize,
 }
 

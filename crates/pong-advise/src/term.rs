@@ -7,9 +7,9 @@ use crate::spring::{ContactSprings, Spring};
 pub enum Term {
     /// k.
     NormalStiffness,
-    /// c, or what stands for it in laws that follow the depth.
+    /// c, or the damping slope of laws that follow the depth.
     NormalDamping,
-    /// k_t of what sticks.
+    /// k_t of sticking friction.
     FrictionStiffness,
     /// c_t, or the slope of regularised friction.
     FrictionDamping,
@@ -26,7 +26,7 @@ impl std::fmt::Display for Term {
     }
 }
 
-/// A term that is taken away is made so small that no step feels it, and the equations stay regular.
+/// Factor of a removed term: so small that no step feels it, while the equations stay regular.
 pub(crate) const FAINT: f64 = 1e-9;
 
 impl ContactSprings {

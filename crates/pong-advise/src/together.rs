@@ -1,18 +1,20 @@
-//! Contacts that can act together on a movable group: a bound of the stiffness that it can feel.
+//! Contacts that can act together on a movable group: an upper bound of their stiffness.
 //!
-//! A group on springs oscillates with ω² = λ, the largest eigenvalue of M⁻¹·Σ k·JᵀJ, J = (n, r × n) for a contact along n
-//! at the lever r. Which contacts there will be, and along which normals, nobody knows before the run. The bound:
+//! A group on springs oscillates with ω² = λ, the largest eigenvalue of M⁻¹·Σ k·JᵀJ, J = (n, r × n) for a
+//! contact along n at the lever r. The actual contacts and normals are not known before the run. The bound
+//! takes:
 //!
-//! * **who**: every point, segment, ray, ball and ellipsoid of one group that the other's surfaces can touch, as far as
-//!   they can at once: on a plane those that lie within 2 % of the group's size of one supporting plane; on anything else
-//!   those that fit into its diameter. One that lies where several surfaces of the other are counts for each.
-//! * **along what**: on a plane its normal; elsewhere k·nnᵀ ≤ k·1, a spring as stiff in every direction.
-//! * **with friction** that sticks at all of them, at the lever of the ball's skin.
-//! * **on both**: the other body's share is that of its farthest place, and the λ of two bodies add.
-//! * **everywhere**: what different partners do to one group adds.
+//! * **contacts**: every point, segment, ray, ball and ellipsoid of one group that the other's surfaces can
+//!   touch, as far as they can at once: on a plane those that lie within 2 % of the group's size of one
+//!   supporting plane; on other surfaces those that fit into the surfaces' diameter. A primitive that can
+//!   touch several surfaces at once counts for each.
+//! * **direction**: on a plane its normal; elsewhere k·nnᵀ ≤ k·1, an isotropic spring.
+//! * **friction** that sticks at all of them, at the lever of the ball's surface.
+//! * **both bodies**: the other body's share is that of its farthest point, and the λ of two bodies add.
+//! * **all partners**: the effects of different partners on one group add.
 //!
-//! Each of these can only raise λ, but for levers of friction on balls and for the directions of supporting planes, which
-//! are tried on a grid.
+//! Each of these can only raise λ, except for levers of friction on balls and for the directions of
+//! supporting planes, which are sampled on a grid.
 
 use crate::mass::StepPlan;
 use crate::mobility::{Mat6, Mobility, largest_eigenvalue};
@@ -25,7 +27,7 @@ use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Element, Item, MovableGroup, PrimitiveInfo};
 
-/// What acts on one movable group at once, at most.
+/// Upper bound of the contacts that act on one movable group at once.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Load {
     /// Contacts.
@@ -37,7 +39,7 @@ pub(crate) struct Load {
 }
 
 impl Load {
-    /// Both at once.
+    /// Sum of two loads that act at once.
     pub fn plus(self, other: Self) -> Self {
         Self {
             contacts: self.contacts + other.contacts,
@@ -66,25 +68,26 @@ impl Load {
 
 /// A primitive that can be in contact.
 struct ContactSite {
-    /// Where its normals pass, in its group's frame; of a segment or capsule the middle of its axis.
+    /// Point through which its normals pass, in its group's frame; for a segment or capsule the middle of its
+    /// axis.
     center: Vec3,
-    /// From there to an end of the axis; zero without one.
+    /// Vector from there to an end of the axis; zero without one.
     half_axis: Vec3,
-    /// How far from there it touches, m.
+    /// Distance from there to its surface, m.
     radius: f64,
-    /// Whether its normals pass anywhere within the radius.
+    /// True if its normals pass anywhere within the radius.
     is_loose: bool,
-    /// Of all surfaces that it can meet the stiffest values.
+    /// The stiffest values over all surfaces that it can meet.
     springs: ContactSprings,
 }
 
 impl ContactSite {
-    /// How far up a direction its lowest place is, m.
+    /// Height of its lowest point along a direction, m.
     fn height(&self, up: &Vec3) -> f64 {
         up.dot(&self.center) - up.dot(&self.half_axis).abs() - self.radius
     }
 
-    /// From the centre to its farthest place, m.
+    /// Distance from the centre to its farthest point, m.
     fn reach(&self) -> f64 {
         self.half_axis.norm() + self.radius
     }
@@ -94,18 +97,18 @@ impl ContactSite {
     }
 }
 
-/// The sites of A and what they are in contact with.
+/// The sites of A and their partners on B.
 struct Direction {
     sites: Vec<ContactSite>,
     mobility_a: Option<Mobility>,
-    /// Largest 1/m of B at a place where it can be touched.
+    /// Largest 1/m of B at a point where it can be touched.
     softness_b: f64,
-    /// Boxes around B's surfaces that are no planes.
+    /// Boxes around B's surfaces other than planes.
     boxes: Vec<(Vec3, Vec3)>,
     planes: usize,
 }
 
-/// What the contacts of a pair do at once, by both its directions, without some of their terms.
+/// Load of all contacts of a pair at once, in both directions, without some of their terms.
 pub(crate) fn pair_load(
     setting: &Setting<'_>,
     pair: &GroupPair,
@@ -135,7 +138,7 @@ impl Direction {
         let in_order = (flipped == 0) == pair.first_named_first;
         let table = pair.tables[flipped];
         let meets = |info_a: &PrimitiveInfo, info_b: &PrimitiveInfo| {
-            // Of two equal kinds A is the one that was named first.
+            // For two equal kinds A is the one that was named first.
             (in_order || info_a.kind != info_b.kind || info_a.kind == PrimitiveKind::Custom)
                 && setting.scene.can_be_tested((a, info_a), (b, info_b))
         };
@@ -172,9 +175,10 @@ impl Direction {
         Self { sites, mobility_a, softness_b, boxes, planes }
     }
 
-    /// On one plane at a time those that a supporting plane finds; three planes at once are as many as a corner has.
+    /// Load on planes: for one plane the sites near a supporting plane, times the number of planes, at most
+    /// the three of a corner.
     fn on_planes(&self) -> Load {
-        /// Planes that meet in a corner.
+        /// Number of planes that meet in a corner.
         const CORNER: usize = 3;
         if self.planes == 0 || self.sites.is_empty() {
             return Load::default();
@@ -189,9 +193,9 @@ impl Direction {
         worst.times(self.planes.min(CORNER))
     }
 
-    /// On anything else those that fit into its diameter.
+    /// Load on other surfaces: the sites that fit into their diameter.
     fn on_others(&self) -> Load {
-        /// Places that are tried.
+        /// Number of groups of sites tried.
         const WINDOWS: usize = 16;
         let Some((low, high)) = self.boxes.iter().copied().reduce(around) else { return Load::default() };
         if self.sites.is_empty() {
@@ -213,7 +217,7 @@ impl Direction {
         let max_simultaneous_contacts = max_simultaneous_contacts(&self.boxes, 2.0 * widest);
         let mut worst = Load::default();
         for active in windows.iter().take(WINDOWS) {
-            // A tip has its skin at its centre, whichever way.
+            // A point has its surface at its centre, in every direction.
             let ways = if widest > 0.0 { grid().collect() } else { vec![Vec3::x()] };
             for toward in ways {
                 worst = worst.or_larger(self.load(active, None, &toward));
@@ -222,7 +226,8 @@ impl Direction {
         worst.times(max_simultaneous_contacts)
     }
 
-    /// Of these sites at once: along a normal, or along any; friction acts at the skin towards a direction.
+    /// Load of these sites at once: along a normal, or along any direction; friction acts at the surface
+    /// towards `toward`.
     fn load(&self, active: &[&ContactSite], normal: Option<&Vec3>, toward: &Vec3) -> Load {
         let rate = |values: fn(&ContactSite) -> (f64, f64)| {
             let whole: f64 =
@@ -247,18 +252,19 @@ impl Direction {
     }
 }
 
-/// Values of a site: along its normal, and across it.
+/// Values of a site along its normal, and across it.
 type Values = fn(&ContactSite) -> (f64, f64);
 
-/// The largest eigenvalue of the sum of all sites, wherever along their axes those with one are touched. An eigenvalue is
-/// convex in the shares of the two ends, so all of a spring at one end is the most; of many axes both ends have a whole spring.
+/// The largest eigenvalue of the sum of all sites, for any point of contact along their axes. An eigenvalue
+/// is convex in the shares of the two ends, so the whole spring at one end is the maximum; with many axes
+/// both ends get a whole spring.
 fn largest_of_ends(
     mobility: &Mobility,
     active: &[&ContactSite],
     values: Values,
     direction: (Option<&Vec3>, &Vec3),
 ) -> f64 {
-    /// Axes whose ends are tried one by one.
+    /// Most axes whose ends are tried one by one.
     const TRIED: usize = 4;
     let (long, short): (Vec<&ContactSite>, Vec<&ContactSite>) =
         active.iter().partition(|site| site.half_axis != Vec3::zeros());
@@ -285,7 +291,7 @@ fn largest_of_ends(
     (0..1 << long.len()).map(choice).fold(0.0, f64::max)
 }
 
-/// Adds the springs of one site that is touched at a place.
+/// Adds the springs of one site touched at a point.
 fn add_site(
     sum: &mut Mat6,
     mobility: &Mobility,
@@ -300,13 +306,14 @@ fn add_site(
     let skin = at + site.radius * toward;
     mobility.add_bushing(sum, across, &skin);
     match normal {
-        // The bushing above has some of it; what it has too much stays.
+        // The bushing above already has part of the normal spring; an excess across stays, for an upper
+        // bound.
         Some(normal) => mobility.add(sum, (along - across).max(0.0), normal, &skin),
         None => mobility.add_bushing(sum, (along - across).max(0.0), at),
     }
 }
 
-/// How far behind a supporting plane a group still touches, by its size.
+/// Depth behind a supporting plane at which a group still touches, relative to its size.
 const SHALLOW: f64 = 0.02;
 
 fn total(active: &[&ContactSite]) -> f64 {
@@ -337,7 +344,7 @@ fn stiffest(a: ContactSprings, b: ContactSprings) -> ContactSprings {
 /// Kind, surface and filters: primitives that share them meet the same partners with the same values.
 type Alike = (PrimitiveKind, u32, Vec<usize>);
 
-/// One primitive for each kind and surface; every one of the host's own kinds.
+/// One primitive for each kind and surface, but every primitive of kinds registered by the host.
 fn distinct(body: &MovableGroup, filters: impl Fn(&PrimitiveInfo) -> Vec<usize>) -> Vec<&PrimitiveInfo> {
     let mut seen = std::collections::BTreeSet::new();
     let new = |info: &&PrimitiveInfo| {
@@ -358,7 +365,7 @@ fn site(body: &MovableGroup, primitive: usize, springs: ContactSprings) -> Optio
         }
         PrimitiveKind::LineSegment => (axis(&body.segments[element].ends), 0.0),
         PrimitiveKind::Capsule => (axis(&body.capsules[element].ends), body.capsules[element].radius),
-        // Box of an ellipsoid, of a round part, of a ray with its tip, of a kind of the host's.
+        // Box of an ellipsoid, of a round part, of a ray with its tip, or of a kind registered by the host.
         PrimitiveKind::Ellipsoid
         | PrimitiveKind::Cylinder
         | PrimitiveKind::Cone
@@ -383,8 +390,8 @@ fn site(body: &MovableGroup, primitive: usize, springs: ContactSprings) -> Optio
     })
 }
 
-/// Boxes around the surfaces of a body that can be touched, planes left out: convex pieces of one shell are one surface, a
-/// mesh is one.
+/// Boxes around the surfaces of a body that can be touched, without planes: convex pieces of one shell are
+/// one surface, and so is a mesh.
 fn boxes(body: &MovableGroup, touched: impl Fn(&&PrimitiveInfo) -> bool) -> Vec<(Vec3, Vec3)> {
     let mut by_surface = std::collections::BTreeMap::new();
     for (index, info) in body.primitives.iter().enumerate() {
@@ -401,10 +408,10 @@ fn boxes(body: &MovableGroup, touched: impl Fn(&&PrimitiveInfo) -> bool) -> Vec<
     by_surface.into_values().collect()
 }
 
-/// Surfaces that one body of a diameter can touch at once, at most: of any that it does, all are near to the smallest and
-/// none is smaller.
+/// Upper bound of the surfaces that a body of a diameter can touch at once: all surfaces near the smallest of
+/// them that are no smaller.
 fn max_simultaneous_contacts(boxes: &[(Vec3, Vec3)], diameter: f64) -> usize {
-    /// Beyond this many the answer is theirs all.
+    /// Above this number all surfaces count, without comparing them.
     const COMPARED: usize = 4096;
     if boxes.len() > COMPARED {
         return boxes.len();
@@ -426,18 +433,19 @@ fn grid() -> impl Iterator<Item = Vec3> {
     steps.filter_map(|step| unit(&step))
 }
 
-/// The direction of a vector; `None` if it has no length. Never divides by zero, as a compiler may divide before it asks.
+/// The direction of a vector; `None` if it has no length. The divisor is never zero, because a compiler may
+/// divide before the branch.
 fn unit(v: &Vec3) -> Option<Vec3> {
     let length = v.norm();
     (length > 0.0).then(|| v / length.max(f64::MIN_POSITIVE))
 }
 
-/// Normals of supporting planes: the grid, the way to every site from their middle, and, of few sites, the plane
-/// through every three.
+/// Normals of supporting planes: the grid, the direction to every site from their centre, and, for few sites,
+/// the plane through every three.
 fn supports(sites: &[ContactSite]) -> Vec<Vec3> {
-    /// Up to so many have every three of them tried.
+    /// Most sites for which every three are tried.
     const FEW: usize = 16;
-    /// Of more, so many show the way.
+    /// Most sites whose directions are tried.
     const MANY: usize = 256;
     let middle = sites.iter().map(|site| site.center).sum::<Vec3>() / sites.len() as f64;
     let mut normals: Vec<Vec3> = grid().collect();

@@ -1,4 +1,4 @@
-//! What the step check tells before the first frame.
+//! Warnings and notes of the step check before the first frame.
 
 use crate::asking::of_spring;
 use crate::limits::{GroupLimits, PairLimits, SpringLimit};
@@ -6,7 +6,7 @@ use crate::mass::StepPlan;
 use crate::spring::Spring;
 use pong_engine::WrenchCoupling;
 
-/// Something that goes wrong at a step.
+/// A failure at a step.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum StepWarning {
     /// A contact gains energy.
@@ -14,14 +14,14 @@ pub enum StepWarning {
         /// The movable groups, the contact and the longest stable step.
         told: String,
     },
-    /// A bounce is not followed as exactly as was asked.
+    /// A bounce is less accurate than asked for.
     TooCoarse {
         /// The movable groups, the error and the longest step without it.
         told: String,
     },
-    /// Something that the step could not be held against.
+    /// A pair or group could not be judged.
     NotJudged {
-        /// What and why.
+        /// Its name and the reason.
         told: String,
     },
 }
@@ -35,11 +35,11 @@ impl std::fmt::Display for StepWarning {
     }
 }
 
-/// What may go wrong at a step, and need not: if all contacts that can act on one movable group act at once, it may gain
+/// Possible failure at a step: if all contacts that can act on one movable group act at once, it may gain
 /// energy; one contact alone does not ([`StepWarning::TooLong`]).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StepNote {
-    /// The movable group, how many contacts, and the longest step that is surely stable.
+    /// The movable group, the number of contacts, and the longest step that is surely stable.
     pub told: String,
 }
 
@@ -49,7 +49,7 @@ impl std::fmt::Display for StepNote {
     }
 }
 
-/// An undamped wrench that is held gains a little at any step: below this ω·dt that is left to the host.
+/// Zero-order hold adds energy to an undamped spring at any step; below this ω·dt no warning is given.
 const HELD_UNDAMPED: f64 = 0.1;
 
 /// All warnings of a report, those of instability first.
@@ -65,8 +65,8 @@ pub(crate) fn warnings(pairs: &[PairLimits], not_judged: &[String], plan: &StepP
     told
 }
 
-/// What nothing proves. The worst group speaks for the others: they are bounds, and the cure is the same. `asks` tells of a
-/// group which term of its contacts asks for its step.
+/// Note of the unproven limits, for the worst group only: they are bounds, and the cure is the same. `asks`
+/// returns the limiting term of a group's contacts.
 pub(crate) fn notes(
     pairs: &[PairLimits],
     groups: &[GroupLimits],
@@ -93,7 +93,7 @@ fn unstable(pair: &PairLimits, plan: &StepPlan) -> Option<String> {
     Some(gains(pair, "friction", &friction, &pair.surfaces[1], plan) + &cure)
 }
 
-/// Which contact gains energy, and which of its terms asks for a shorter step.
+/// Text of the contact that gains energy, and its limiting term.
 fn gains(pair: &PairLimits, what: &str, limit: &SpringLimit, of: &[String; 2], plan: &StepPlan) -> String {
     let [a, b] = &pair.groups;
     let [one, other] = of;
@@ -108,7 +108,7 @@ fn gains(pair: &PairLimits, what: &str, limit: &SpringLimit, of: &[String; 2], p
 }
 
 fn may_grow(group: &GroupLimits, plan: &StepPlan) -> bool {
-    // Of springs without damping the sum is left to the host where one of them would be.
+    // Undamped springs are treated as for a single one: below `HELD_UNDAMPED` the gain is left to the host.
     let damping = if group.least_damped > 0.0 { group.spring.damping } else { 0.0 };
     let spring = Spring { damping, ..group.spring };
     grows(&SpringLimit { spring, mass: group.mass, stable_step: group.stable_step }, plan)

@@ -11,8 +11,7 @@
 //! | `description/` | `modelDescription.xml` |
 //! | `variables.rs`, `names.rs`, `surfaces.rs` | the variables of a scene |
 //! | `unit.rs`, `load.rs` | a scene in an FMU: made from files, loaded from `resources/` |
-//! | `instance.rs`, `states.rs` | an instance, independent of the version of the standard; its state as bytes
-//! |
+//! | `instance.rs`, `states.rs` | an instance, for any version of the standard; its state as bytes |
 //! | `c/` | the C functions of both versions: the only place where pointers are touched |
 //!
 //! Writing and loading an FMU use the same `Unit`, so that names, value references and start values cannot
