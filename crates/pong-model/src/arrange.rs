@@ -1,5 +1,5 @@
-//! From the groups as authored to those that the tree is made of: groups without a volume of their own give what they
-//! hold to the group above, and leaves that are to be small are cut.
+//! Conversion of authored groups into the groups of the tree: a group without its own volume passes its
+//! contents to the group above, and leaves with a size limit are split.
 
 use crate::draft::GroupDraft;
 use crate::element::Element;
@@ -8,20 +8,20 @@ use pong_geometry::Vec3;
 use pong_geometry::bounding::BoundKind;
 use std::sync::Arc;
 
-/// The groups of a body's tree; 0 is the movable one.
+/// Groups of a body's tree; 0 is the movable one.
 pub(crate) fn arranged(body: &MovableGroup, authored: &[GroupDraft]) -> Vec<GroupDraft> {
     let mut groups = Vec::with_capacity(authored.len());
     arrange(body, authored, 0, &mut groups);
     groups
 }
 
-/// The groups whose size of leaves says nothing: they have no leaf.
+/// Groups whose leaf size has no effect, because they have no leaf.
 pub(crate) fn without_leaf(authored: &[GroupDraft]) -> Vec<usize> {
     let has_leaf = |index: usize| !authored[index].above && !contents(authored, index).0.is_empty();
     (0..authored.len()).filter(|&index| authored[index].leaf_size.is_some() && !has_leaf(index)).collect()
 }
 
-/// Adds a group and all below it; answers its index.
+/// Adds a group and everything below it; returns its index.
 fn arrange(
     body: &MovableGroup,
     authored: &[GroupDraft],
@@ -33,7 +33,7 @@ fn arrange(
     groups.push(GroupDraft { at: from.at, bound: from.bound.clone(), ..GroupDraft::new(&from.path) });
     let place = groups.len() - 1;
     if !items.is_empty() {
-        // A node holds other nodes or elements, never both.
+        // A node holds either other nodes or elements.
         let leaf = if children.is_empty() { place } else { push(groups, place) };
         match from.leaf_size {
             Some(most) => cut(body, items, most, leaf, groups),
@@ -47,7 +47,8 @@ fn arrange(
     place
 }
 
-/// What counts as a group's own: its elements and those of groups below without a volume; the groups below with one.
+/// Contents of a group: its elements and those of groups below without a volume, and the groups below with a
+/// volume.
 fn contents(authored: &[GroupDraft], index: usize) -> (Vec<Item>, Vec<usize>) {
     let mut items = authored[index].items.clone();
     let mut children = Vec::new();
@@ -63,7 +64,7 @@ fn contents(authored: &[GroupDraft], index: usize) -> (Vec<Item>, Vec<usize>) {
     (items, children)
 }
 
-/// A new group below another, of its kind.
+/// Adds an empty group below another, with the same kind of volume.
 pub(crate) fn push(groups: &mut Vec<GroupDraft>, above: usize) -> usize {
     let GroupDraft { at, bound, .. } = &groups[above];
     let child = GroupDraft { at: *at, bound: bound.clone(), ..GroupDraft::new(&groups[above].path) };
@@ -73,7 +74,7 @@ pub(crate) fn push(groups: &mut Vec<GroupDraft>, above: usize) -> usize {
     index
 }
 
-/// Puts items into a group, in leaves of at most so many; unbounded ones get a leaf of their own.
+/// Adds items to a group in leaves of at most `most` items; unbounded items get a leaf of their own.
 pub(crate) fn cut(
     body: &MovableGroup,
     items: Vec<Item>,
@@ -95,7 +96,7 @@ pub(crate) fn cut(
     }
 }
 
-/// Puts bounded items into a group, or halves of them into two below it.
+/// Adds bounded items to a group, or splits them between two groups below it.
 fn halve(body: &MovableGroup, mut items: Vec<Item>, most: usize, into: usize, groups: &mut Vec<GroupDraft>) {
     if items.len() <= most {
         groups[into].items = items;
@@ -106,7 +107,7 @@ fn halve(body: &MovableGroup, mut items: Vec<Item>, most: usize, into: usize, gr
     let (low, high) = centers.iter().fold((*first, *first), |(low, high), c| (low.inf(c), high.sup(c)));
     let axis = (high - low).imax();
     let along = |item: &Item| center(body, *item).map_or(0.0, |center| center[axis]);
-    // Equal places keep the order of the items: the same tree every time.
+    // Ties keep the order of the items, so the tree is reproducible.
     items.sort_by(|a, b| along(a).total_cmp(&along(b)).then(a.cmp(b)));
     let rest = items.split_off(items.len() / 2);
     for half in [items, rest] {
@@ -115,7 +116,7 @@ fn halve(body: &MovableGroup, mut items: Vec<Item>, most: usize, into: usize, gr
     }
 }
 
-/// The middle of an element's box, m; `None` if it is unbounded.
+/// Centre of an element's box, m; `None` if it is unbounded.
 fn center(body: &MovableGroup, item: Item) -> Option<Vec3> {
     let (low, high) = Element::new(body, item).extent();
     let is_bounded = low.iter().chain(&high).all(|x| x.is_finite());
@@ -123,7 +124,7 @@ fn center(body: &MovableGroup, item: Item) -> Option<Vec3> {
 }
 
 impl GroupDraft {
-    /// A group that holds nothing yet, in a box.
+    /// Empty group bounded by a box.
     pub(crate) fn new(path: &Arc<str>) -> Self {
         Self {
             path: Arc::clone(path),

@@ -1,7 +1,7 @@
-//! A model file as it is written, for tools that show and change models.
+//! Model files as written, for tools that show and change models.
 //!
-//! Notation, fields, types, names and indices are judged by the rules of [`crate::parse`], and by nothing else: the
-//! shapes are not. So a polyhedron that is open can be read, looked at and mended.
+//! Notation, fields, types, names and indices are checked by the rules of [`crate::parse`]; shapes are not.
+//! So a polyhedron that is open can be read, shown and repaired.
 
 use crate::error::ModelErrors;
 use crate::read::{self, Reader};
@@ -11,19 +11,19 @@ use std::path::Path;
 
 pub use crate::ron_tree::{Field, Node, Rows, Value};
 
-/// The values of a model file with their places: see [`parse`].
+/// Reads a model file into its values with their positions: see [`parse`].
 ///
 /// # Errors
-/// A file that cannot be read or is no UTF-8, and all that [`parse`] refuses.
+/// The file cannot be read or is not UTF-8, or [`parse`] refuses it.
 pub fn load(path: &Path) -> Result<Node, ModelErrors> {
     parse(&crate::text_of(path)?, &path.display().to_string())
 }
 
-/// The values of a model file's text with their places. Mesh files that it names are not read, and kinds of its host's own
-/// need not be known.
+/// Reads the text of a model file into its values with their positions. Mesh files it names are not read, and
+/// custom kinds need not be registered.
 ///
 /// # Errors
-/// Every fault of notation, fields, types, names and indices, with line, column and tree path.
+/// All faults of notation, fields, types, names and indices, with line, column and tree path.
 pub fn parse(text: &str, file_name: &str) -> Result<Node, ModelErrors> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let ext = Extensions::new();

@@ -1,4 +1,4 @@
-//! From drafts of bodies to the finished model.
+//! Builds the finished model from the drafts of its bodies.
 
 use crate::draft::{BodyDraft, ModelDraft};
 use crate::model::{Model, MovableGroup};
@@ -11,7 +11,7 @@ use crate::{arrange, hash, polyhedra, tree};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 
-/// Knits every body together; faults and warnings go to the reader. `None` if there was any fault.
+/// Finishes every body; faults and warnings go to the reader. `None` if there was any fault.
 pub(crate) fn finish(reader: &mut Reader<'_>, draft: ModelDraft) -> Option<Model> {
     let ModelDraft { name, entry_memory, surfaces, pair_overrides, filters, bodies: mut drafts } = draft;
     for draft in &mut drafts {
@@ -29,7 +29,7 @@ pub(crate) fn finish(reader: &mut Reader<'_>, draft: ModelDraft) -> Option<Model
     Some(model)
 }
 
-/// The tree comes last and only when nothing is wrong so far, since it trusts every element.
+/// Builds the tree last, and only without faults so far, because it relies on every element being valid.
 fn finish_body(reader: &mut Reader<'_>, draft: &mut BodyDraft) {
     draft.welder = Welder::default();
     let findings = connect_triangles(reader, draft);
@@ -110,7 +110,7 @@ fn place(p: &Vec3) -> String {
     format!("({}, {}, {})", p.x, p.y, p.z)
 }
 
-/// Builds the polyhedra; returns the lowest piece of each one's surface.
+/// Builds the polyhedra; returns the lowest piece of each polyhedron's surface.
 fn join_pieces(reader: &mut Reader<'_>, draft: &mut BodyDraft) -> Vec<u32> {
     let mut hulls = std::mem::take(&mut draft.hulls);
     let (surface_of, lonely) = join_walls(&mut hulls);

@@ -1,4 +1,4 @@
-//! What the reader hands to the builder: bodies with all their elements, without adjacency.
+//! Output of the reader for the builder: bodies with all their elements, without adjacency.
 
 use crate::hull::Hull;
 use crate::model::{Item, MovableGroup};
@@ -7,7 +7,7 @@ use crate::weld::Welder;
 use pong_geometry::bounding::BoundKind;
 use std::sync::Arc;
 
-/// A model as read.
+/// Model as read.
 pub(crate) struct ModelDraft {
     pub(crate) name: String,
     pub(crate) entry_memory: bool,
@@ -17,38 +17,38 @@ pub(crate) struct ModelDraft {
     pub(crate) bodies: Vec<BodyDraft>,
 }
 
-/// A body as read: its elements are in place, its topology, polyhedra, shells and tree are not.
+/// Body as read: its elements are complete; topology, polyhedra, shells and tree are not built yet.
 #[derive(Default)]
 pub(crate) struct BodyDraft {
     pub(crate) body: MovableGroup,
-    /// Where each primitive begins in the file.
+    /// Byte offset of each primitive in the file.
     pub(crate) primitive_at: Vec<u32>,
-    /// Whether each primitive is a `Triangle`: it is named by its path alone, not by an index.
+    /// For each primitive, true if it is a `Triangle`, which is named by its path alone, without an index.
     pub(crate) lone_triangle: Vec<bool>,
     pub(crate) welder: Welder,
     /// Checked shapes, in the order of [`MovableGroup::polyhedra`].
     pub(crate) hulls: Vec<Hull>,
-    /// What the file says of each custom primitive, for the hash.
+    /// Kind and parameters of each custom primitive as in the file, for the hash.
     pub(crate) custom_parameters: Vec<(String, Vec<f64>)>,
-    /// The groups of this body; 0 is the movable one.
+    /// Groups of this body; 0 is the movable one.
     pub(crate) groups: Vec<GroupDraft>,
 }
 
-/// An authored group.
+/// Authored group.
 pub(crate) struct GroupDraft {
     pub(crate) path: Arc<str>,
     pub(crate) at: u32,
     pub(crate) bound: BoundKind,
-    /// It has no volume of its own: what it holds counts to the group above.
+    /// True if the group has no volume of its own: its contents belong to the group above.
     pub(crate) above: bool,
-    /// Most elements of a leaf, if it has any.
+    /// Maximum number of elements of a leaf, if limited.
     pub(crate) leaf_size: Option<usize>,
     pub(crate) children: Vec<usize>,
     pub(crate) items: Vec<Item>,
 }
 
 impl BodyDraft {
-    /// Path of an element for messages: a triangle of a mesh is named by its index.
+    /// Path of an element for messages, in which a triangle of a mesh is named by its index.
     pub(crate) fn triangle_path(&self, triangle: u32) -> (u32, String) {
         let owner =
             self.body.primitives.iter().position(|p| is_triangle(p) && p.elements.contains(&triangle));

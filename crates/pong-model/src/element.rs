@@ -1,35 +1,36 @@
-//! What bounding volumes must know of the elements of a body.
+//! Shape queries of a body's elements, for fitting bounding volumes.
 
 use crate::model::{Item, MovableGroup};
 use pong_geometry::Vec3;
 use pong_geometry::bounding::{Bounded, CustomBounds, PointCloud};
 use pong_geometry::primitive::{Ellipsoid, PrimitiveKind};
 
-/// One element of a body, as a thing to fit volumes around.
+/// Element of a body, as a shape around which volumes can be fitted.
 #[derive(Clone, Copy)]
 pub struct Element<'b> {
     body: &'b MovableGroup,
     item: Item,
 }
 
-/// A triangle with the room behind it in which it still pushes.
+/// Triangle with the region behind it in which it still pushes.
 struct ThickTriangle {
     corners: [Vec3; 3],
     normal: Vec3,
-    /// Explicit thickness, m; the default one needs no room, since the body that touches is larger.
+    /// Explicit thickness, m. The default thickness needs no extra region, because the body that touches is
+    /// larger.
     thickness: f64,
 }
 
-/// An ellipsoid and all places at which a triangle may push it.
+/// Ellipsoid and all points at which a triangle may push it.
 struct WithFeet<'a>(&'a Ellipsoid);
 
 impl<'b> Element<'b> {
-    /// The element that an item of the body's tree names.
+    /// Element named by an item of the body's tree.
     pub fn new(body: &'b MovableGroup, item: Item) -> Self {
         Self { body, item }
     }
 
-    /// Smallest and largest coordinates, m; infinite if unbounded.
+    /// Minimum and maximum coordinates, m; infinite if unbounded.
     pub fn extent(&self) -> (Vec3, Vec3) {
         let body = self.body;
         let points = match self.kind() {
@@ -101,7 +102,8 @@ impl Bounded for Element<'_> {
 }
 
 impl Bounded for ThickTriangle {
-    /// The room behind is half a ball, larger than the prism: a ray that still hits may start beside the prism.
+    /// The region behind is bounded by a half ball, larger than the prism: a ray that still hits may start
+    /// beside the prism.
     fn support(&self, direction: &Vec3) -> f64 {
         let forward = direction.dot(&self.normal);
         let widest = if forward <= 0.0 { 1.0 } else { (1.0 - forward * forward).max(0.0).sqrt() };

@@ -1,29 +1,31 @@
-//! Reading of files: regular ones, of a size that fits, and, where a file names others, below the folders that the caller
-//! allows. Writing of files: whole in their place, or not at all.
+//! Reading and writing of files. Only regular files of limited size are read; files named by other files must
+//! lie in folders that the caller allows. A file is replaced as a whole or not at all.
 
 use std::fs::{File, OpenOptions};
 use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Longer files are refused: places in them are counted in 32 bits.
+/// Maximum length of a file: byte offsets have 32 bits.
 const LONGEST: u64 = u32::MAX as u64;
 
-/// A regular file, open for reading. A pipe could keep the reader waiting for ever, a device could go on until memory ends.
+/// Opens a regular file for reading. Others are refused: a pipe could block for ever, and a device could
+/// deliver bytes without end.
 ///
 /// # Errors
-/// What the system says, or that the file is not regular.
+/// The error of the system, or that the file is not regular.
 pub fn open(path: &Path) -> Result<File> {
     let regular =
         |is_file: bool| is_file.then_some(()).ok_or_else(|| Error::other("it is not a regular file"));
-    // Before it is opened, because opening alone can move a device; and after, because the name can lead elsewhere by then.
+    // Checked before opening, because opening a device can have side effects, and again afterwards, because
+    // the name may point elsewhere by then.
     regular(std::fs::metadata(path)?.is_file())?;
     let file = at_once(OpenOptions::new().read(true)).open(path)?;
     regular(file.metadata()?.is_file())?;
     Ok(file)
 }
 
-/// Opens a pipe without waiting for its other end.
+/// Makes opening a pipe return without waiting for its other end.
 #[cfg(unix)]
 fn at_once(options: &mut OpenOptions) -> &mut OpenOptions {
     std::os::unix::fs::OpenOptionsExt::custom_flags(options, libc::O_NONBLOCK)
@@ -34,10 +36,10 @@ fn at_once(options: &mut OpenOptions) -> &mut OpenOptions {
     options
 }
 
-/// The bytes of a regular file.
+/// Reads the bytes of a regular file.
 ///
 /// # Errors
-/// As [`open`], and that the file is longer than 4 GiB.
+/// As [`open`], or that the file is longer than 4 GiB.
 pub fn read(path: &Path) -> Result<Vec<u8>> {
     let too_long = || Error::other("it is longer than 4 GiB");
     let file = open(path)?;
@@ -45,23 +47,24 @@ pub fn read(path: &Path) -> Result<Vec<u8>> {
         return Err(too_long());
     }
     let mut bytes = Vec::new();
-    // One byte more tells a file that is too long, whatever its folder says of its length.
+    // Reads one byte past the limit: the length reported by the file system may be wrong.
     let read = file.take(LONGEST + 1).read_to_end(&mut bytes)?;
     if read as u64 > LONGEST { Err(too_long()) } else { Ok(bytes) }
 }
 
-/// The text of a regular file.
+/// Reads the text of a regular file.
 ///
 /// # Errors
-/// As [`read`], and that it is no UTF-8.
+/// As [`read`], or that the file is not UTF-8.
 pub fn read_text(path: &Path) -> Result<String> {
     String::from_utf8(read(path)?).map_err(|_| Error::other("it is no UTF-8 text"))
 }
 
-/// The bytes of a regular file that another file names, if links and `..` followed it lies in one of these folders or below.
+/// Reads a file named by another file. After links and `..` are resolved, it must lie in one of the folders
+/// or below.
 ///
 /// # Errors
-/// As [`read`], and that the file lies elsewhere: the message says where.
+/// As [`read`], or that the file lies elsewhere; the message says where.
 pub fn read_below<'f>(path: &Path, folders: impl IntoIterator<Item = &'f Path>) -> Result<Vec<u8>> {
     let real = path.canonicalize()?;
     let holds = |folder: &Path| {
@@ -78,21 +81,21 @@ fn outside(real: &Path) -> String {
     format!("it lies at {}, outside the folder of the file that names it", real.display())
 }
 
-/// A file that takes its place whole when it is [finished](Self::finish). Until then, and if it never is, whatever was there
-/// stays as it was.
+/// File that replaces the one in its place when it is [finished](Self::finish). Until then the old file stays
+/// unchanged.
 #[derive(Debug)]
 pub struct NewFile {
     file: Option<File>,
-    /// Where the bytes are until the file is whole; `None` if they go straight into their place.
+    /// Temporary file; `None` if the bytes go directly to the final path.
     beside: Option<PathBuf>,
     place: PathBuf,
 }
 
 impl NewFile {
-    /// Begins a file. A link is followed; a pipe or a device, such as /dev/stdout, is written as it is.
+    /// Creates a file. A link is followed; a pipe or a device, such as /dev/stdout, is written directly.
     ///
     /// # Errors
-    /// What the system says of the place or of its folder.
+    /// The error of the system for the file or its folder.
     pub fn create(path: &Path) -> Result<Self> {
         let there = std::fs::metadata(path).ok();
         if there.as_ref().is_some_and(std::fs::Metadata::is_dir) {
@@ -105,7 +108,7 @@ impl NewFile {
         place.file_name().ok_or(ErrorKind::InvalidInput)?;
         static NUMBER: AtomicU32 = AtomicU32::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        // Short, because a name that fits may have no room for more.
+        // A short name: one made from the file's own name might be too long.
         let beside = place.with_file_name(format!(".pong.{}.{number}.part", std::process::id()));
         let file = File::create(&beside)?;
         let new = Self { file: Some(file), beside: Some(beside), place };
@@ -115,7 +118,8 @@ impl NewFile {
         Ok(new)
     }
 
-    /// Begins a file whose first rows are of use: where nothing is there that could be lost, it grows in its place.
+    /// Creates a file whose first rows are useful before it is finished: if no file exists, it grows in its
+    /// final place.
     ///
     /// # Errors
     /// As [`create`](Self::create).
@@ -128,10 +132,10 @@ impl NewFile {
         Ok(Self { file: Some(file), beside: None, place: path.to_owned() })
     }
 
-    /// Puts the file into its place, once its bytes are on the disk.
+    /// Moves the file to its final path once its bytes are on the disk.
     ///
     /// # Errors
-    /// What the system says; what was there before stays.
+    /// The error of the system; the old file is unchanged.
     pub fn finish(mut self) -> Result<()> {
         let Some(beside) = &self.beside else { return Ok(()) };
         if let Some(file) = self.file.take() {
@@ -161,10 +165,10 @@ impl Drop for NewFile {
     }
 }
 
-/// Writes a file that is there whole or not at all: what was there stays until the new one is complete.
+/// Writes a file as a whole or not at all: the old file stays until the new one is complete.
 ///
 /// # Errors
-/// What the system says.
+/// The error of the system.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<()> {
     let mut new = NewFile::create(path)?;
     new.write_all(bytes)?;
@@ -189,7 +193,7 @@ mod tests {
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
         let told = read(&pipe).unwrap_err().to_string();
         assert!(told.contains("not a regular file"), "{told}");
-        // A pipe that takes the place of a file between the question and the answer.
+        // A pipe that replaces the file between the check and the opening.
         assert!(at_once(OpenOptions::new().read(true)).open(&pipe).is_ok());
         std::fs::remove_dir_all(&folder).unwrap();
     }
@@ -234,7 +238,7 @@ mod tests {
             assert!(told.contains("outside the folder"), "{name}: {told}");
             assert_eq!(read(name, &[&own, &other]).unwrap(), b"b", "{name}");
         }
-        // A folder whose name begins alike is another one.
+        // A folder whose name begins with the same letters is a different folder.
         assert!(read_below(&other.join("b"), [folder.join("oth").as_path()]).is_err());
         for name in ["/dev/zero", "/"] {
             let told = super::read(Path::new(name)).unwrap_err().to_string();

@@ -1,71 +1,73 @@
-//! Groups that never touch each other, and a model whose leaves do not mix such groups with others.
+//! Filters: groups that never touch each other, and models whose leaves do not mix such groups with others.
 
 use crate::model::{Item, Model, MovableGroup};
 use crate::{arrange, regroup};
 use pong_geometry::extension::Extensions;
 use std::collections::BTreeMap;
 
-/// Pairs of groups that never touch: the first of one Object's model, the second of another's, each with everything below
-/// it. Groups go by their full paths, `root/arm`.
+/// Pairs of groups that never touch: the first in one Object's model, the second in another's, each with
+/// everything below it. Groups are given by their full paths, `root/arm`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Filters(Vec<[String; 2]>);
 
 impl Filters {
-    /// The filters of these pairs of groups; the order of the pairs does not matter.
+    /// Filters of these pairs of groups, in any order.
     pub fn new(mut pairs: Vec<[String; 2]>) -> Self {
         pairs.sort_unstable();
         pairs.dedup();
         Self(pairs)
     }
 
-    /// Whether nothing is kept apart.
+    /// Returns `true` if there are no filters.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// The pairs of groups, sorted.
+    /// Pairs of groups, sorted.
     pub fn pairs(&self) -> &[[String; 2]] {
         &self.0
     }
 
-    /// The same, seen from the other Object.
+    /// Filters with the two Objects exchanged.
     pub fn turned(&self) -> Self {
         Self::new(self.0.iter().map(|[a, b]| [b.clone(), a.clone()]).collect())
     }
 
-    /// Whether two primitives, by their paths, never touch: the first of the first Object.
+    /// Returns `true` if two primitives, given by their paths, never touch; the first belongs to the first
+    /// Object.
     pub fn keep_apart(&self, a: &str, b: &str) -> bool {
         self.0.iter().any(|[group_a, group_b]| holds(group_a, a) && holds(group_b, b))
     }
 
-    /// Numbers of the pairs whose group of this side (0 or 1) holds a primitive: alike for primitives that are kept apart from
-    /// the same others.
+    /// Indices of the pairs whose group on this side (0 or 1) contains a primitive. Primitives with equal
+    /// results are kept apart from the same others.
     pub fn that_hold(&self, side: usize, primitive: &str) -> Vec<usize> {
         let numbered = self.0.iter().enumerate();
         numbered.filter(|(_, groups)| holds(&groups[side], primitive)).map(|(number, _)| number).collect()
     }
 }
 
-/// Whether a primitive lies in a group or below it, by their paths.
+/// Returns `true` if a primitive lies in a group or below it, judged by their paths.
 fn holds(group: &str, primitive: &str) -> bool {
     primitive.strip_prefix(group).is_some_and(|below| below.starts_with('/'))
 }
 
 impl Model {
-    /// The full path of a group, which may be movable or not, from its full path (`root/arm/tip`), its path below the root
-    /// (`arm/tip`) or its bare name where only one group has it; of the root for an empty one. `None` if there is no such
-    /// group.
+    /// Full path of a group, movable or not, from its full path (`root/arm/tip`), its path below the root
+    /// (`arm/tip`), or its bare name if that is unique; the root for an empty name. `None` if there is no
+    /// such group.
     pub fn group_path(&self, name: &str) -> Option<&str> {
         resolved(&self.groups, name)
     }
 
-    /// The model's own filters, as those of an Object with itself.
+    /// The model's own filters, as filters of an Object with itself.
     pub fn filters_within(&self) -> Filters {
         let both = self.filters.iter().flat_map(|[a, b]| [[a.clone(), b.clone()], [b.clone(), a.clone()]]);
         Filters::new(both.collect())
     }
 
-    /// Whether two groups, by their full paths, and everything below them lie in one and the same movable group.
+    /// Returns `true` if two groups, given by their full paths, lie with everything below them in the same
+    /// movable group.
     pub fn is_within_one_body(&self, groups: [&str; 2]) -> bool {
         let bodies_of = |group: &str| {
             let owner = self.bodies.iter().filter(|body| body.path == group || holds(&body.path, group));
@@ -80,8 +82,8 @@ impl Model {
         a.len() == 1 && a == b
     }
 
-    /// The model with leaves that lie as a whole inside or outside each of some groups; `None` if they do already. Answers
-    /// are the same.
+    /// Model whose leaves each lie entirely inside or outside each of some groups; `None` if they already do.
+    /// Results do not change.
     ///
     /// # Errors
     /// Cause and cure, if a volume cannot be fitted.
@@ -112,7 +114,7 @@ impl Model {
     }
 }
 
-/// The full path among those of all groups, the root's first, that a name stands for.
+/// Full path that a name stands for, among those of all groups, the root's first.
 pub(crate) fn resolved<'g>(groups: &'g [String], name: &str) -> Option<&'g str> {
     let root = groups.first()?;
     let below =
@@ -125,7 +127,7 @@ pub(crate) fn resolved<'g>(groups: &'g [String], name: &str) -> Option<&'g str> 
     found.or_else(|| groups.iter().find(|path| below(path))).or_else(bare).map(String::as_str)
 }
 
-/// Items by the groups that hold them, in their order.
+/// Splits items by the groups that contain them, keeping their order.
 fn parts(body: &MovableGroup, items: &[Item], groups: &[&str]) -> Vec<Vec<Item>> {
     let mut parts: BTreeMap<Vec<usize>, Vec<Item>> = BTreeMap::new();
     for item in items {

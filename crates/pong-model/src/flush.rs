@@ -1,40 +1,43 @@
-//! Flat faces of different surfaces that lie in one plane: what touches both is pushed twice.
+//! Detection of coplanar faces of different surfaces: a shape that touches both is pushed twice.
 //!
-//! Faces of one surface (triangles that share vertices, pieces that share an inner wall) share a contact's load; faces of
-//! two do not (docs/theory.md, 2.2). Where two such faces overlap, a body on them feels both springs; where they only
-//! meet in a seam, it does so on its way across. Meant for tools: the time grows with the number of faces.
+//! Faces of one surface (triangles that share vertices, pieces that share an internal face) share a contact's
+//! load; faces of two surfaces do not (docs/theory.md, 2.2). Where two such faces overlap, a body on them
+//! feels both springs; where they only meet in a seam, it does so while it crosses. Meant for tools: the time
+//! grows with the number of faces.
 
 use crate::model::MovableGroup;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Pose, Vec3};
 use std::collections::BTreeMap;
 
-/// Distance from a common plane, and length that counts as no overlap, by the size of the larger face.
+/// Distance from a common plane, and length that counts as no overlap, relative to the size of the larger
+/// face.
 const IN_PLANE: f64 = 1e-6;
-/// Pairs of faces that are compared at most: enough for parts of a scene, not for terrains that lie on each other.
+/// Maximum number of pairs of faces compared: enough for parts of a scene, not for terrains on top of each
+/// other.
 const COMPARISONS_MAX: usize = 20_000_000;
 
-/// A movable group where it stands.
+/// Movable group with its pose.
 #[derive(Clone, Copy)]
 pub struct PlacedGroup<'m> {
-    /// The group.
+    /// Group.
     pub group: &'m MovableGroup,
-    /// Its pose in a frame that all groups share.
+    /// Pose in a frame common to all groups.
     pub pose: Pose,
 }
 
-/// Two primitives with faces in one plane that look the same way.
+/// Two primitives with coplanar faces of the same orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FlushPair {
-    /// For each of the two the group (index into the slice) and the primitive (index into its primitives).
+    /// For each of the two, the group (index into the slice) and the primitive (index into its primitives).
     pub primitives: [(usize, usize); 2],
-    /// Whether the faces overlap; if not, they meet in a seam.
+    /// True if the faces overlap, false if they meet in a seam.
     pub overlap: bool,
 }
 
-/// Every two primitives of different surfaces that are flush somewhere, in order.
+/// All pairs of primitives of different surfaces that are flush somewhere, in order.
 ///
-/// One group is compared with itself; of several, each with the others alone.
+/// A single group is compared with itself; several groups are compared only with each other.
 pub fn flush_pairs(placed: &[PlacedGroup<'_>]) -> Vec<FlushPair> {
     let mut faces: Vec<Face> =
         placed.iter().enumerate().flat_map(|(index, placed)| faces_of(index, placed)).collect();
@@ -69,14 +72,14 @@ fn may_be_told(placed: &[PlacedGroup<'_>], one: &Face, other: &Face) -> bool {
     one.surface != other.surface && (placed.len() == 1 || one.primitive.0 != other.primitive.0)
 }
 
-/// A convex polygon, or a whole plane.
+/// Convex polygon, or a whole plane.
 struct Face {
     /// Group and shell.
     surface: (usize, u32),
     /// Group and primitive.
     primitive: (usize, usize),
     normal: Vec3,
-    /// Counter-clockwise seen from the front; one point of a plane.
+    /// Corners, counter-clockwise seen from the front; a single point for a plane.
     outline: Vec<Vec3>,
     least: Vec3,
     most: Vec3,
@@ -96,13 +99,14 @@ impl Face {
         self.outline.len() == 1
     }
 
-    /// Length within which two faces count as touching, m: by the larger of those that have a size.
+    /// Distance within which two faces count as touching, m, from the larger face that has a size.
     fn slack(&self, other: &Self) -> f64 {
         let size = |face: &Self| if face.is_plane() { 0.0 } else { (face.most - face.least).norm() };
         IN_PLANE * size(self).max(size(other))
     }
 
-    /// Whether two faces that lie in one plane and look the same way overlap; `None` if they do not meet.
+    /// Returns `Some(true)` if two coplanar faces of the same orientation overlap, `Some(false)` if they meet
+    /// in a seam, `None` if they do not meet.
     fn flush_with(&self, other: &Self) -> Option<bool> {
         let slack = self.slack(other);
         let apart = |axis: usize| {
@@ -114,7 +118,7 @@ impl Face {
         let in_plane = |plane: &Self, face: &Self| {
             face.outline.iter().all(|p| (p - plane.outline[0]).dot(&plane.normal).abs() <= slack)
         };
-        // The point that a plane is given by may be far from a face in it: the face's own points tell.
+        // The point that defines a plane may be far from a face in it, so a face's own points decide.
         let (flush, back) = (in_plane(self, other), in_plane(other, self));
         if !(flush || other.is_plane()) || !(back || self.is_plane()) || !(flush || back) {
             return None;
@@ -123,7 +127,8 @@ impl Face {
         (gap <= slack).then_some(gap < -slack)
     }
 
-    /// The widest gap between an edge of this outline and another face, in the plane, m; below zero where they overlap.
+    /// Largest gap between an edge of this outline and another face, in the plane, m; negative if they
+    /// overlap.
     fn gap_to(&self, other: &Self) -> f64 {
         if self.is_plane() || other.is_plane() {
             return f64::NEG_INFINITY;
@@ -196,7 +201,7 @@ mod tests {
         )
     }
 
-    /// The pairs of primitives found in one group.
+    /// Pairs of primitives found in one group.
     fn in_one(primitives: &str) -> Vec<([usize; 2], bool)> {
         let group = group(primitives);
         let placed = [PlacedGroup {
@@ -221,7 +226,7 @@ mod tests {
             in_one(&format!("{PATCH}{FLOOR}{}", FLOOR.replace("floor", "again"))),
             [([0, 1], true), ([0, 2], true), ([1, 2], true)]
         );
-        // Within a millionth of its size it is there twice, beyond it is a step.
+        // Within a millionth of its size the face coincides; beyond, it is a step.
         let lifted = |height: &str| PATCH.replace(", 0)", &format!(", {height})"));
         let near = |height: &str| in_one(&format!("{FLOOR}{}", lifted(height)));
         assert_eq!((near("1e-7").len(), near("1e-4").len()), (1, 0));
@@ -257,7 +262,7 @@ mod tests {
         };
         let told: Vec<_> = pairs(Pose::identity()).iter().map(|pair| pair.primitives).collect();
         assert_eq!(told, [[(0, 0), (1, 0)], [(0, 1), (1, 0)]]);
-        // Faces that look at each other push from two sides.
+        // Faces of opposite orientation push from two sides.
         assert_eq!(pairs(turned), []);
     }
 }

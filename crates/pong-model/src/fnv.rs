@@ -1,6 +1,7 @@
-//! FNV-1a, 64 bits: a hash that is the same on every machine and in every run. It guards against accidents, not against malice.
+//! FNV-1a hash, 64 bits: the same on every machine and in every run. It protects against accidents, not
+//! against malice.
 
-/// A hash on its way.
+/// Hash being computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fnv(u64);
 
@@ -11,42 +12,42 @@ impl Default for Fnv {
 }
 
 impl Fnv {
-    /// The hash of some bytes.
+    /// Hash of a byte string.
     pub fn of(bytes: &[u8]) -> u64 {
         let mut hash = Self::default();
         hash.bytes(bytes);
         hash.0
     }
 
-    /// Takes in bytes.
+    /// Adds bytes.
     pub fn bytes(&mut self, bytes: &[u8]) {
         for &byte in bytes {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }
     }
 
-    /// Takes in a word, its lowest byte first.
+    /// Adds a word, lowest byte first.
     pub fn word(&mut self, word: u64) {
         self.bytes(&word.to_le_bytes());
     }
 
-    /// Takes in the bits of a number: 0 and -0 differ.
+    /// Adds the bits of a number: 0 and −0 differ.
     pub fn number(&mut self, x: f64) {
         self.word(x.to_bits());
     }
 
-    /// Takes in several numbers.
+    /// Adds several numbers.
     pub fn numbers(&mut self, numbers: impl IntoIterator<Item = f64>) {
         numbers.into_iter().for_each(|x| self.number(x));
     }
 
-    /// Takes in a text and its length, so that texts side by side stay apart.
+    /// Adds a text and its length, so that adjacent texts stay distinct.
     pub fn text(&mut self, text: &str) {
         self.word(text.len() as u64);
         self.bytes(text.as_bytes());
     }
 
-    /// The hash of all that was taken in.
+    /// Hash of everything added.
     pub fn value(self) -> u64 {
         self.0
     }
@@ -56,7 +57,7 @@ impl Fnv {
 mod tests {
     use super::*;
 
-    /// The values of the authors (Fowler, Noll, Vo).
+    /// Test vectors of the authors (Fowler, Noll, Vo).
     #[test]
     fn it_is_fnv_1a() {
         assert_eq!(Fnv::of(b""), 0xcbf2_9ce4_8422_2325);

@@ -1,18 +1,18 @@
-//! The groups of a model file as its text has them, and the same text with other bounding volumes and other leaves:
-//! other times, the same answers.
+//! Groups of a model file's text, and edits of their bounding volumes and leaf sizes. These change the speed,
+//! not the results.
 //!
-//! A text is changed where it must be and nowhere else: comments, order and numbers stay as they are, byte for byte.
-//! Every name stays too, since a group without a volume of its own is still a group: paths of primitives do not change.
+//! Only the necessary parts of a text change: comments, order and numbers stay, byte for byte. Names stay
+//! too, because a group without its own volume is still a group: paths of primitives do not change.
 
 use crate::ron_tree::{self, Field, Node, Value};
 use pong_geometry::bounding::BoundKind;
 
-/// What bounds a group.
+/// Bounding volume of a group.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Bound {
-    /// A volume of this kind around all below, down to the next movable groups.
+    /// Volume of this kind around everything below, down to the next movable groups.
     Around(BoundKind),
-    /// Nothing of its own: what it holds counts to the group above.
+    /// No volume: the contents belong to the group above.
     Above,
 }
 
@@ -26,47 +26,47 @@ impl std::fmt::Display for Bound {
     }
 }
 
-/// A group of a model file.
+/// Group of a model file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {
     /// Path of names from the root.
     pub path: String,
     /// Index of the group above; `None` for the root.
     pub above: Option<usize>,
-    /// Whether it is a body of its own; the root is.
+    /// True for a body of its own; the root is one.
     pub movable: bool,
-    /// What bounds it.
+    /// Bounding volume.
     pub bound: Bound,
-    /// Most elements of a leaf, if that is limited.
+    /// Maximum number of elements of a leaf, if limited.
     pub leaf_size: Option<usize>,
-    /// Whether it holds primitives, not groups.
+    /// True if it holds primitives, false if it holds groups.
     pub holds_primitives: bool,
 }
 
-/// What a group is to be given.
+/// New bounding volume and leaf size of a group.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Regrouped {
     /// Path of the group.
     pub path: String,
-    /// What is to bound it.
+    /// New bounding volume.
     pub bound: Bound,
-    /// Most elements of a leaf; `None` for no limit.
+    /// New maximum number of elements of a leaf; `None` for no limit.
     pub leaf_size: Option<usize>,
 }
 
-/// The groups of the text of a model file, each before those below it, in the order of the file.
+/// Groups in the text of a model file, each before those below it, in file order.
 ///
 /// # Errors
-/// Cause and cure, if the text is none that [`parse`](crate::parse) accepts.
+/// Cause and cure, if [`parse`](crate::parse) does not accept the text.
 pub fn groups(text: &str) -> Result<Vec<Group>, String> {
     let found = read(text.strip_prefix(BOM).unwrap_or(text))?;
     Ok(found.into_iter().map(|places| places.group).collect())
 }
 
-/// The text with other bounds and leaf sizes for some of its groups.
+/// Text with new bounding volumes and leaf sizes for some of its groups.
 ///
 /// # Errors
-/// Cause and cure, if the text is none that [`parse`](crate::parse) accepts, or has no such group.
+/// Cause and cure, if [`parse`](crate::parse) does not accept the text, or a group does not exist.
 pub fn regrouped(text: &str, changes: &[Regrouped]) -> Result<String, String> {
     let (mark, plain) = text.strip_prefix(BOM).map_or(("", text), |plain| (&text[..BOM.len_utf8()], plain));
     let found = read(plain)?;
@@ -80,7 +80,7 @@ pub fn regrouped(text: &str, changes: &[Regrouped]) -> Result<String, String> {
     Ok(mark.to_owned() + &edited(plain, edits))
 }
 
-/// A text with other words in some places, which do not overlap.
+/// Text after edits, which must not overlap.
 pub(crate) fn edited(text: &str, mut edits: Vec<Edit>) -> String {
     edits.sort_by_key(|edit| edit.from);
     let mut out = String::new();
@@ -93,10 +93,10 @@ pub(crate) fn edited(text: &str, mut edits: Vec<Edit>) -> String {
     out + &text[done..]
 }
 
-/// The mesh files that the text of a model file names, each once, in the order of the file.
+/// Mesh files named in the text of a model file, each once, in file order.
 ///
 /// # Errors
-/// Cause and cure, if the text is none that [`parse`](crate::parse) accepts.
+/// Cause and cure, if [`parse`](crate::parse) does not accept the text.
 pub fn mesh_files(text: &str) -> Result<Vec<String>, String> {
     let node = ron_tree::parse(text.strip_prefix(BOM).unwrap_or(text));
     let node = node.map_err(|error| format!("{}; check it with `pong check`", error.cause))?;
@@ -105,7 +105,7 @@ pub fn mesh_files(text: &str) -> Result<Vec<String>, String> {
     Ok(files)
 }
 
-/// Fields called `file` of primitives, wherever they are.
+/// Collects the `file` fields of primitives at any depth.
 fn meshes(node: &Node, files: &mut Vec<String>) {
     match &node.value {
         Value::Struct(kind, fields) => {
@@ -125,16 +125,16 @@ fn meshes(node: &Node, files: &mut Vec<String>) {
 
 pub(crate) const BOM: char = '\u{feff}';
 
-/// Where the fields of a group stand in the text, in bytes from and to.
+/// Positions of a group's fields in the text, as start and end in bytes.
 struct Places {
     bound: Option<(usize, usize)>,
     leaf_size: Option<(usize, usize)>,
-    /// Where the name's field begins, and where its value ends.
+    /// Start of the name's field and end of its value.
     name: (usize, usize),
     group: Group,
 }
 
-/// What is put between two bytes of a text.
+/// Replacement of a range of a text.
 pub(crate) struct Edit {
     pub from: usize,
     pub to: usize,
@@ -142,7 +142,7 @@ pub(crate) struct Edit {
 }
 
 impl Places {
-    /// What must be written where; nothing where the text says so already.
+    /// Edits for a change; none if the text already has these values.
     fn edits(&self, text: &str, change: &Regrouped) -> Vec<Edit> {
         let mut edits = Vec::new();
         let mut added = String::new();
@@ -166,7 +166,7 @@ impl Places {
         edits
     }
 
-    /// What stands between the name and a field behind it: a line's end if the name begins a line.
+    /// Separator between the name and a field after it: a line break if the name begins a line.
     fn separator(&self, text: &str) -> String {
         let line = text[..self.name.0].rfind('\n').map_or(0, |end| end + 1);
         let before = &text[line..self.name.0];
@@ -175,7 +175,7 @@ impl Places {
     }
 }
 
-/// The groups of a text, each before those below it.
+/// Groups of a text, each before those below it.
 fn read(text: &str) -> Result<Vec<Places>, String> {
     let refused = || "the text is no model; check it with `pong check`".to_owned();
     let node =
@@ -186,7 +186,7 @@ fn read(text: &str) -> Result<Vec<Places>, String> {
     Ok(found)
 }
 
-/// Adds a group and those below it; `None` if something is not as in a model that loads.
+/// Adds a group and those below it; `None` if the structure is not that of a valid model.
 fn walk(text: &str, node: &Node, above: Option<usize>, found: &mut Vec<Places>) -> Option<()> {
     let own = fields(within_some(node))?;
     let span = |field: &Field| {
@@ -238,7 +238,7 @@ fn bound_of(node: &Node) -> Option<Bound> {
     }
 }
 
-/// `Some(x)` is `x`.
+/// Replaces `Some(x)` by `x`.
 pub(crate) fn within_some(node: &Node) -> &Node {
     match &node.value {
         Value::Tuple(Some(word), items) if word.as_ref() == "Some" && items.len() == 1 => &items[0],

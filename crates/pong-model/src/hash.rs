@@ -1,7 +1,7 @@
-//! The hash of a model: FNV-1a, 64 bits, over everything that decides the numbers.
+//! Hash of a model: FNV-1a, 64 bits, over everything that affects results.
 //!
-//! Names of groups and primitives and bounding volumes are left out: they change no number. Names of surfaces
-//! are in, since tables of other models refer to them, and so are the groups that never touch each other.
+//! Names of groups and primitives, and bounding volumes, are left out: they affect no result. Included are
+//! names of surfaces, because tables of other models refer to them, and filters.
 
 use crate::draft::BodyDraft;
 use crate::fnv::Fnv;
@@ -10,10 +10,10 @@ use crate::surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{Frustum, Polyhedron, RayResponse, TriangleSet};
 
-/// The hash on its way through a model.
+/// Hash being computed for a model.
 struct ModelHash(Fnv);
 
-/// The hash; `drafts` tell what custom primitives were made of.
+/// Hash of a model; `drafts` have the parameters of custom primitives.
 pub(crate) fn hash(model: &Model, drafts: &[BodyDraft]) -> u64 {
     let mut hash = ModelHash(Fnv::default());
     hash.word(u64::from(model.entry_memory));
@@ -27,7 +27,7 @@ pub(crate) fn hash(model: &Model, drafts: &[BodyDraft]) -> u64 {
             hash.list(parameters, |hash, &x| hash.number(x));
         });
     }
-    // A model without filters keeps the hash that it had before there were any.
+    // Without filters nothing is added, so models from before filters existed keep their hash.
     for pair in model.filters_within().pairs() {
         pair.iter().for_each(|group| hash.text(group));
     }
@@ -107,7 +107,7 @@ impl ModelHash {
                 self.option(*stiffness);
                 match damping {
                     Some(damping) => self.number(*damping),
-                    // The bits of no finite number.
+                    // Bits that no finite number has.
                     None => self.word(u64::MAX),
                 }
             }
@@ -157,8 +157,8 @@ impl ModelHash {
         self.round_parts(body);
     }
 
-    /// The kinds of the primitives tell which of these lists are there: a model without round parts keeps the hash that it had
-    /// before there were any.
+    /// The kinds of the primitives imply which of these lists exist, so models without round parts keep the
+    /// hash from before these existed.
     fn round_parts(&mut self, body: &MovableGroup) {
         for capsule in &body.capsules {
             capsule.ends.iter().for_each(|end| self.vector(end));
@@ -185,7 +185,7 @@ impl ModelHash {
         self.option(info.thickness);
     }
 
-    /// Neighbours and shells follow from the vertices.
+    /// Neighbours and shells are left out: they follow from the vertices.
     fn triangles(&mut self, set: &TriangleSet) {
         self.list(&set.vertices, Self::vector);
         self.list(&set.triangles, |hash, triangle| {
@@ -195,7 +195,7 @@ impl ModelHash {
         });
     }
 
-    /// Edges follow from vertices, faces and outlines.
+    /// Edges are left out: they follow from vertices, faces and outlines.
     fn polyhedron(&mut self, polyhedron: &Polyhedron) {
         self.list(&polyhedron.vertices, |hash, vertex| hash.vector(&vertex.position));
         self.list(&polyhedron.faces, |hash, face| {

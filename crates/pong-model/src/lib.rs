@@ -1,10 +1,10 @@
 //! Model files: RON text → validated, flat, immutable [`Model`].
 //!
-//! The way of a file: `ron_tree` (text to values with their places), `read` (values to drafts of bodies), `hull`
-//! (one convex piece), `pieces`, `polyhedra` and `triangle_topology` (surfaces), `arrange`,
-//! `tree` and `box_tree` (bounding volumes), `hash`. The format is described in `docs/model_format.md`. `grouping`
-//! gives the text of a file other bounding volumes and leaves. For authoring tools, [`authored`] gives a file as it is
-//! written, and [`shapes`] what keeps single shapes from being taken.
+//! Stages of reading: `ron_tree` (text to values with positions), `read` (values to drafts of bodies), `hull`
+//! (one convex piece), `pieces`, `polyhedra` and `triangle_topology` (surfaces), `arrange`, `tree` and
+//! `box_tree` (bounding volumes), `hash`. The format is described in `docs/model_format.md`. `grouping`
+//! changes bounding volumes and leaves in the text of a file. For authoring tools, [`authored`] returns a
+//! file as it is written, and [`shapes`] the faults of single shapes.
 
 #![forbid(unsafe_code)]
 
@@ -57,11 +57,11 @@ use pong_geometry::extension::Extensions;
 use read::Reader;
 use std::path::Path;
 
-/// Reads a model file; meshes are looked for beside it, and read if they lie there or in a folder that `ext` allows
+/// Reads a model file. Meshes are read from its folder, or from a folder that `ext` allows
 /// ([`Extensions::allow_files_below`]).
 ///
 /// # Errors
-/// A file that cannot be read or is no UTF-8; every fault of the model, with line, column and tree path.
+/// The file cannot be read or is not UTF-8; or all faults of the model, with line, column and tree path.
 pub fn load(path: &Path, ext: &Extensions) -> Result<Model, ModelErrors> {
     let text = text_of(path)?;
     parse(&text, &path.display().to_string(), Some(path.parent().unwrap_or(Path::new(""))), ext)
@@ -77,11 +77,11 @@ fn text_of(path: &Path) -> Result<String, ModelErrors> {
 
 /// Reads a model from text.
 ///
-/// `file_name` is what errors call it; meshes are looked for in `mesh_dir`. Reports every fault of the text,
-/// except that nothing behind a fault of notation is read.
+/// `file_name` is the name used in errors; meshes are searched in `mesh_dir`. Reports all faults of the text,
+/// but reads nothing after a fault of notation.
 ///
 /// # Errors
-/// Every fault of the model, with line, column and tree path.
+/// All faults of the model, with line, column and tree path.
 pub fn parse(
     text: &str,
     file_name: &str,

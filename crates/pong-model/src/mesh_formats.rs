@@ -1,4 +1,4 @@
-//! Readers of OBJ and STL. Public for `pong-import`, which reads by the same rules; no stable interface.
+//! Readers of OBJ and STL. Public for `pong-import`, which reads by the same rules; not a stable interface.
 
 mod obj;
 mod stl;

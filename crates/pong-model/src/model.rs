@@ -1,4 +1,4 @@
-//! The flat, immutable form of a model that the engine reads.
+//! Flat, immutable model as the engine reads it.
 
 use crate::box_tree::{BoxNode, BoxTree};
 use crate::surface::{PairOverride, Surface};
@@ -13,44 +13,44 @@ use pong_geometry::{Pose, Vec3};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A validated model.
+/// Validated model.
 #[derive(Clone, Debug)]
 pub struct Model {
     /// Name as given in the file.
     pub name: String,
-    /// Hash of everything that decides the numbers (FNV-1a over a canonical byte form); equal files give equal
+    /// Hash of everything that affects results (FNV-1a over a canonical byte form); equal files give equal
     /// hashes on every machine.
     pub hash: u64,
-    /// Whether points remember the side of entry (docs/theory.md, 2.4).
+    /// True if points remember the side of entry (docs/theory.md, 2.4).
     pub entry_memory: bool,
     /// All surfaces.
     pub surfaces: Vec<Surface>,
-    /// Table of values for pairs of surfaces.
+    /// Values for pairs of surfaces.
     pub pair_overrides: Vec<PairOverride>,
     /// Paths of all groups as authored, the root's first.
     pub groups: Vec<String>,
-    /// Pairs of groups of one Object that never touch each other, by their full paths.
+    /// Pairs of groups of one Object that never touch each other, by full path.
     pub filters: Vec<[String; 2]>,
-    /// The movable groups; 0 is the root.
+    /// Movable groups; 0 is the root.
     pub bodies: Vec<MovableGroup>,
-    /// What the author should know though the model is valid.
+    /// Warnings for the author of a valid model.
     pub warnings: Vec<String>,
 }
 
-/// A movable group with everything that hangs below it down to the next movable groups: one rigid body.
+/// Movable group with everything below it down to the next movable groups: one rigid body.
 #[derive(Clone, Debug, Default)]
 pub struct MovableGroup {
     /// Name of the movable group.
     pub name: String,
     /// Path in the tree, `root/arm/latch`.
     pub path: String,
-    /// The next movable group above (index into [`Model::bodies`]); `None` for the root.
+    /// Next movable group above (index into [`Model::bodies`]); `None` for the root.
     pub parent: Option<u32>,
-    /// Pose in the frame of the root group, as authored: where a host may start it.
+    /// Authored pose in the frame of the root group, at which a host may start it.
     pub initial_pose: Option<Pose>,
-    /// Every primitive in file order; a mesh is one primitive.
+    /// All primitives in file order; a mesh is one primitive.
     pub primitives: Vec<PrimitiveInfo>,
-    /// The surface of every primitive once more, closely packed: a frame asks for little else of most.
+    /// Surface of every primitive, duplicated in a compact array: most accesses of a frame need only this.
     pub surfaces: Vec<u32>,
     /// All points.
     pub points: Vec<Point>,
@@ -76,14 +76,14 @@ pub struct MovableGroup {
     pub bores: Vec<Bore>,
     /// All custom primitives.
     pub customs: Vec<Arc<dyn CustomPrimitive>>,
-    /// Number of shells: connected surfaces of triangles or of polyhedra joined by inner walls (section 2.1);
-    /// every other primitive is a shell of its own.
+    /// Number of shells: connected surfaces of triangles, or of polyhedra joined by internal faces
+    /// (docs/model_format.md); every other primitive is a shell of its own.
     pub shell_count: u32,
-    /// The tree of bounding volumes.
+    /// Tree of bounding volumes.
     pub tree: Tree,
 }
 
-/// What is known of a primitive besides its shape.
+/// Properties of a primitive other than its shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrimitiveInfo {
     /// Name as authored.
@@ -94,74 +94,75 @@ pub struct PrimitiveInfo {
     pub kind: PrimitiveKind,
     /// Index into [`Model::surfaces`].
     pub surface: u32,
-    /// Its elements in the array of its kind: one, or the triangles of a mesh (mirror images included).
+    /// Elements in the array of its kind: one, or the triangles of a mesh (mirror images included).
     pub elements: Range<u32>,
-    /// Its shell; for triangles see [`pong_geometry::primitive::TriangleRecord::shell`] instead.
+    /// Shell; for triangles see [`pong_geometry::primitive::TriangleRecord::shell`] instead.
     pub shell: u32,
-    /// Triangles: how far behind the front a centre is still pushed, m; `None` takes the smallest semi-axis of
-    /// the body that touches.
+    /// Thickness of triangles: distance behind the front up to which a centre is still pushed, m; `None`
+    /// takes the smallest semi-axis of the body that touches.
     pub thickness: Option<f64>,
-    /// Triangles: the elements from this one on are mirror images that make the mesh two-sided; equals
-    /// `elements.end` if it is one-sided.
+    /// First mirror image of a two-sided mesh of triangles; the elements from here on are mirror images.
+    /// Equals `elements.end` for a one-sided mesh.
     pub first_mirror: u32,
 }
 
-/// A tree of bounding volumes of any arity in one array: the authored groups.
+/// Tree of bounding volumes of any arity in one array: the authored groups.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
-    /// Node 0 is the root; the children of a node are contiguous.
+    /// Nodes; node 0 is the root, and the children of a node are contiguous.
     pub nodes: Vec<Node>,
     /// Contents of the leaves, leaf after leaf, batch after batch.
     pub items: Vec<Item>,
-    /// The elements of each leaf by kind.
+    /// Elements of each leaf by kind.
     pub batches: Vec<Batch>,
 }
 
-/// A node: either children or items, never both.
+/// Node with either children or items.
 #[derive(Clone, Debug)]
 pub struct Node {
-    /// Bounds everything below, in the movable group's frame.
+    /// Bound of everything below, in the group frame.
     pub volume: Volume,
     /// Children (indices into [`Tree::nodes`]).
     pub children: Range<u32>,
     /// Contents of a leaf (indices into [`Tree::items`]).
     pub items: Range<u32>,
-    /// The same contents by kind (indices into [`Tree::batches`]).
+    /// Contents of a leaf by kind (indices into [`Tree::batches`]).
     pub batches: Range<u32>,
     /// Path of the authored group.
     pub group: Arc<str>,
 }
 
-/// The elements of one kind in one leaf, as they are tested: eight at a time, found through a tree of boxes.
+/// Elements of one kind in one leaf, tested eight at a time and found through a tree of boxes.
 #[derive(Clone, Debug)]
 pub struct Batch {
-    /// Their kind.
+    /// Kind of the elements.
     pub kind: PrimitiveKind,
-    /// Which they are, in the order of the tree of boxes (indices into [`Tree::items`]).
+    /// Elements in the order of the box tree (indices into [`Tree::items`]).
     pub items: Range<u32>,
-    /// Boxes around them. Its element *i* is item `items.start + i`.
+    /// Boxes around the elements. Element *i* of the tree is item `items.start + i`.
     pub boxes: BoxTree,
-    /// Boxes around eight elements each, eight boxes at a time; empty if the elements are unbounded, or of a kind
-    /// that is B in all of the engine's own tests.
+    /// Boxes around eight elements each, eight boxes per entry; empty if the elements are unbounded, or of a
+    /// kind that is B in all of the engine's tests.
     pub chunks: Vec<ChunkBoxes>,
-    /// For points and spheres, by lane; those of the elements 8·i … 8·i + 7 at place *i*. Empty for other kinds.
+    /// Centres and radii of points and spheres in lanes; entry *i* has the elements 8·i … 8·i + 7. Empty for
+    /// other kinds.
     pub balls: Vec<Balls>,
-    /// The same for line segments and capsules.
+    /// Axes and radii of line segments and capsules in lanes, in the same order.
     pub rods: Vec<Rods>,
 }
 
-/// Boxes around eight times eight elements of a batch: around its elements 64·i … 64·i + 7 in lane 0 at place *i*.
-/// Unused lanes repeat the last box.
+/// Eight boxes, each around eight elements of a batch: entry *i* has the box of the elements 64·i … 64·i + 7
+/// in lane 0. Unused lanes repeat the last box.
 #[derive(Clone, Debug)]
 pub struct ChunkBoxes {
-    /// Centres in the movable group's frame, m.
+    /// Centres in the group frame, m.
     pub center: Lanes,
-    /// Half extents along its axes, m.
+    /// Half extents along the axes of the group frame, m.
     pub half: Lanes,
 }
 
 impl ChunkBoxes {
-    /// The boxes around the elements of every bottom node of a tree.
+    /// Boxes around the elements of every bottom node of a tree.
     pub(crate) fn of(boxes: &BoxTree) -> Vec<Self> {
         let around = |node: &BoxNode| boxes.widened(&node.boxes.around());
         let mut bottoms: Vec<_> = boxes.nodes.iter().filter(|node| node.is_bottom()).collect();
@@ -187,14 +188,14 @@ impl ChunkBoxes {
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Balls {
-    /// Centres in the movable group's frame, m.
+    /// Centres in the group frame, m.
     pub centers: Lanes,
     /// Radii, m; zero for points.
     pub radii: [f64; LANES],
 }
 
 impl Balls {
-    /// Some elements, eight by eight; none of kinds that are no balls.
+    /// Packs elements eight by eight; empty for kinds other than points and spheres.
     pub(crate) fn of(body: &MovableGroup, kind: PrimitiveKind, items: &[Item]) -> Vec<Self> {
         let ball = |item: &Item| match kind {
             PrimitiveKind::Point => Some((body.points[item.element as usize].position, 0.0)),
@@ -216,14 +217,14 @@ impl Balls {
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Rods {
-    /// First and second ends of their axes in the movable group's frame, m.
+    /// First and second ends of their axes in the group frame, m.
     pub ends: [Lanes; 2],
     /// Radii, m; zero for line segments.
     pub radii: [f64; LANES],
 }
 
 impl Rods {
-    /// Some elements, eight by eight; none of kinds that are no rods.
+    /// Packs elements eight by eight; empty for kinds other than line segments and capsules.
     pub(crate) fn of(body: &MovableGroup, kind: PrimitiveKind, items: &[Item]) -> Vec<Self> {
         let rod = |item: &Item| match kind {
             PrimitiveKind::LineSegment => Some((&body.segments[item.element as usize].ends, 0.0)),
@@ -241,8 +242,8 @@ impl Rods {
     }
 }
 
-/// Elements, eight by eight: what `element` reads of each stands where `set` puts it, unused lanes repeat the last one. None
-/// of what `element` does not know.
+/// Packs elements eight by eight: `element` reads each one and `set` stores it in a lane; unused lanes repeat
+/// the last one. Empty if `element` returns `None`.
 fn by_lane<L: Copy, E>(
     items: &[Item],
     none: L,
@@ -259,7 +260,7 @@ fn by_lane<L: Copy, E>(
     items.chunks(LANES).map_while(eight).collect()
 }
 
-/// One element of a leaf.
+/// Element of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Item {
     /// Index into [`MovableGroup::primitives`].

@@ -1,10 +1,11 @@
-//! Which entries of the tables of pairs hold for two surfaces.
+//! Entries of the pair tables that apply to two surfaces.
 
 use crate::model::Model;
 use crate::surface::{PairOverride, Surface};
 
-/// The entries of the tables of two models that hold for a surface of each, with the models they stand in: of all that name
-/// the two, those that say most of which models they mean.
+/// Entries of the tables of two models that apply to a surface of each, with the models that contain them. Of
+/// all entries that name both surfaces, only the most specific ones are returned: those that name most models
+/// explicitly.
 pub fn pair_entries<'m>(
     (model_a, a): (&'m Model, &Surface),
     (model_b, b): (&'m Model, &Surface),

@@ -1,9 +1,9 @@
-//! Convex pieces of one body: which of them are one surface, and where their inner walls lie.
+//! Convex pieces of one body: grouping into surfaces, and matching of their internal faces.
 
 use crate::hull::{Hull, PLANE_TOLERANCE, area, overlap_area};
 use pong_geometry::Vec3;
 
-/// Two walls overlap if they share more than this of the smaller one's area.
+/// Fraction of the smaller one's area above which two internal faces overlap.
 const OVERLAP_SHARE: f64 = 1e-6;
 
 /// Disjoint sets; the lowest member represents its set.
@@ -30,7 +30,7 @@ impl Sets {
     }
 }
 
-/// An inactive face: a wall between pieces.
+/// Inactive face: an internal face between pieces.
 struct Wall {
     piece: u32,
     face: usize,
@@ -39,8 +39,9 @@ struct Wall {
     high: Vec3,
 }
 
-/// Joins pieces along their inner walls: gives each the lowest piece of its surface, makes the planes of twin
-/// walls exact opposites, and lists the walls (piece, face) without a twin.
+/// Joins pieces along their internal faces: assigns to each the lowest piece of its surface, makes the planes
+/// of opposite internal faces exact opposites, and lists the internal faces (piece, face) without a
+/// counterpart.
 pub(crate) fn join_walls(hulls: &mut [Hull]) -> (Vec<u32>, Vec<(u32, usize)>) {
     let walls = sorted_walls(hulls);
     let twins = twin_walls(hulls, &walls);
@@ -61,7 +62,7 @@ pub(crate) fn join_walls(hulls: &mut [Hull]) -> (Vec<u32>, Vec<(u32, usize)>) {
     ((0..hulls.len() as u32).map(|piece| pieces.find(piece)).collect(), lonely)
 }
 
-/// All inactive faces from left to right.
+/// All inactive faces, sorted by x.
 fn sorted_walls(hulls: &[Hull]) -> Vec<Wall> {
     let mut walls = Vec::new();
     for (piece, hull) in hulls.iter().enumerate() {
@@ -108,7 +109,7 @@ fn are_twins(hulls: &[Hull], a: &Wall, b: &Wall) -> bool {
             > OVERLAP_SHARE * area(&a.corners).min(area(&b.corners))
 }
 
-/// All walls of one plane take the plane of the lowest piece among them, turned to their own side.
+/// Gives all internal faces in one plane the plane of the lowest piece among them, reversed where necessary.
 fn share_planes(hulls: &mut [Hull], walls: &[Wall], planes: &mut Sets) {
     let key = |wall: usize| (walls[wall].piece, walls[wall].face);
     let mut lowest: Vec<usize> = (0..walls.len()).collect();

@@ -1,7 +1,8 @@
-//! From checked pieces to polyhedra that know their surface: which edges and vertices may push, and where.
+//! Builds polyhedra from checked pieces, with the edges and vertices of the surface that may push, and the
+//! normals along which they push.
 //!
-//! Whether an edge or a vertex pushes is decided over the whole surface: pieces joined by inner walls count as
-//! one solid, and every feature belongs to the lowest piece that has it.
+//! This is decided over the whole surface: pieces joined by internal faces count as one solid, and every
+//! feature belongs to the lowest piece that has it.
 
 use crate::hull::Hull;
 use crate::weld::{PositionKey, WordMap, position_key};
@@ -11,24 +12,24 @@ use pong_geometry::primitive::{
 };
 use std::cmp::Ordering;
 
-/// Sine below which two faces count as flat. Only rounding lies below: an edge that is convex by what `f32`
-/// makes of flat must keep its (tiny) range of normals, or a ball could fall between its two faces.
+/// Sine below which two faces count as flat, just above rounding: a nearly flat edge that `f32` rounding has
+/// made convex must keep its (tiny) range of normals, or a sphere could fall between its two faces.
 const FLAT_SINE: f64 = 1e-12;
 
-/// How often a vertex's normal is turned before its cone counts as empty.
+/// Number of rotations of a vertex's normal after which its cone counts as empty.
 const TURNS: usize = 1000;
 
 type EdgeKey = (u32, PositionKey, PositionKey);
 type VertexKey = (u32, PositionKey);
 
-/// An active face at an edge of the surface.
+/// Active face at an edge of the surface.
 #[derive(Clone, Copy)]
 struct FaceAtEdge {
     normal: Vec3,
     outward: Vec3,
 }
 
-/// All that meets at a vertex of the surface.
+/// Edges and faces that meet at a vertex of the surface.
 #[derive(Default)]
 struct VertexStar {
     directions: Vec<Vec3>,
@@ -38,7 +39,7 @@ struct VertexStar {
 
 /// Builds the polyhedra of a body; `surface_of` gives each piece the lowest piece of its surface.
 ///
-/// Also returns the places where more than two active faces meet at one edge, by piece.
+/// Also returns, by piece, the points where more than two active faces meet at one edge.
 pub(crate) fn build(hulls: &[Hull], surface_of: &[u32]) -> (Vec<Polyhedron>, Vec<(usize, Vec3)>) {
     let mut polyhedra: Vec<PolyhedronParts> = hulls.iter().map(piece).collect();
     let edges = edges_of_surfaces(&polyhedra, surface_of);
@@ -68,7 +69,7 @@ pub(crate) fn build(hulls: &[Hull], surface_of: &[u32]) -> (Vec<Polyhedron>, Vec
     (polyhedra.into_iter().map(Polyhedron::new).collect(), tangled)
 }
 
-/// A piece with its outline, edges and vertices; nothing pushes yet.
+/// Piece with its outline, edges and vertices, none of which pushes yet.
 fn piece(hull: &Hull) -> PolyhedronParts {
     let vertex =
         |&position: &Vec3| PolyhedronVertex { position, pushes: false, first_cone: 0, cone_count: 0 };
@@ -99,7 +100,7 @@ fn piece(hull: &Hull) -> PolyhedronParts {
     polyhedron
 }
 
-/// An edge as one face sees it; the edge is added when its first face comes by.
+/// Edge as one face sees it; adds the edge when its first face is processed.
 fn rim(
     polyhedron: &mut PolyhedronParts,
     numbers: &mut WordMap<(u32, u32), u32>,
@@ -128,7 +129,7 @@ fn rim(
     RimEdge { start, edge, neighbor: face, anchor, outward: if forward { across } else { -across } }
 }
 
-/// Out of a face, across the line from one place to another along its outline.
+/// Unit vector out of a face, perpendicular to the line between two points of its outline.
 fn outward([start, end]: [Vec3; 2], normal: &Vec3) -> Vec3 {
     unit(&unit(&(end - start)).cross(normal))
 }
@@ -157,7 +158,7 @@ fn edge_key(surface: u32, polyhedron: &PolyhedronParts, edge: usize) -> EdgeKey 
     (surface, a, b)
 }
 
-/// The active faces at every edge of every surface, in the order of pieces and faces.
+/// Active faces at every edge of every surface, in the order of pieces and faces.
 fn edges_of_surfaces(polyhedra: &[PolyhedronParts], surface_of: &[u32]) -> WordMap<EdgeKey, Vec<FaceAtEdge>> {
     let mut edges: WordMap<EdgeKey, Vec<FaceAtEdge>> = WordMap::default();
     for (index, polyhedron) in polyhedra.iter().enumerate() {
@@ -189,15 +190,15 @@ fn stars_of_surfaces(polyhedra: &[PolyhedronParts], surface_of: &[u32]) -> WordM
     stars
 }
 
-/// What a convex edge pushes between; `None` unless exactly two active faces meet, and convexly.
+/// Range of normals of a convex edge; `None` unless exactly two active faces meet, and convexly.
 fn push(faces: &[FaceAtEdge]) -> Option<EdgePush> {
     let [a, b] = faces else { return None };
-    // Where the solid is convex, each face rises to the edge from below the other's plane.
+    // At a convex edge, each face rises to the edge from below the other's plane.
     let convex = a.normal.dot(&b.outward) > FLAT_SINE && b.normal.dot(&a.outward) > FLAT_SINE;
     convex.then_some(EdgePush { normals: [a.normal, b.normal], outwards: [a.outward, b.outward] })
 }
 
-/// An edge with an active face bounds the cones at both its ends.
+/// Records that an edge with an active face bounds the normal cones of both its ends.
 fn note_edge(
     stars: &mut WordMap<VertexKey, VertexStar>,
     surface: u32,
@@ -212,7 +213,7 @@ fn note_edge(
     }
 }
 
-/// Gives the vertices their cones; the first piece that asks for a star takes it.
+/// Gives the vertices their normal cones; the first piece with a vertex takes its cone.
 fn set_cones(polyhedron: &mut PolyhedronParts, surface: u32, stars: &mut WordMap<VertexKey, VertexStar>) {
     for vertex in &mut polyhedron.vertices {
         let Some(star) = stars.remove(&(surface, position_key(&vertex.position))) else { continue };
@@ -226,12 +227,12 @@ fn set_cones(polyhedron: &mut PolyhedronParts, surface: u32, stars: &mut WordMap
 }
 
 impl VertexStar {
-    /// Whether some normal points away from every edge, or across it: beside a vertex in the middle of a straight edge,
-    /// where a wall between pieces ends, normals across the edge are all that is left, and rounding may put a centre
-    /// between the two halves of the edge.
+    /// Returns `true` if some normal has a non-positive product with every edge direction. (Zero is allowed:
+    /// at a vertex in the middle of a straight edge, where an internal face ends, only normals perpendicular
+    /// to the edge remain, and rounding may put a centre between the two halves of the edge.)
     ///
-    /// Where the surface is convex the mean of its normals does. At the tip of a spire with grooves it need not;
-    /// there the normal is turned away from the worst edge until it suits all.
+    /// Where the surface is convex, the mean of its normals is such a normal. At the tip of a grooved spire
+    /// it need not be; then the normal is turned away from the worst edge until it satisfies all.
     fn has_cone(&self) -> bool {
         if self.active_faces < 3 {
             return false;
@@ -242,7 +243,7 @@ impl VertexStar {
             let worst = self.directions.iter().max_by(|a, b| height(a).total_cmp(&height(b)));
             match worst {
                 Some(away) if normal.dot(away) > FLAT_SINE * normal.norm() => normal -= away,
-                // A normal that the turns have brought to nothing points nowhere.
+                // The rotations have reduced the normal to zero.
                 _ => return normal.norm() > FLAT_SINE,
             }
         }

@@ -1,11 +1,11 @@
-//! Text that a terminal, a log or a dialog can be given whatever a file or a host called its things.
+//! Text safe for a terminal, a log or a dialog, whatever names a file or a host uses.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// Whether a character steers a display instead of being shown: a control character (ESC begins the sequences that
-/// recolour, move and rename a terminal), a separator of lines, or one that changes the direction of writing, so that
-/// what is shown stands in another order than what is there.
+/// Returns `true` for a character that controls a display instead of being shown: a control character (ESC
+/// begins the sequences that recolour, move and rename a terminal), a line separator, or a change of writing
+/// direction, which shows text in another order than it is stored.
 fn steers(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{2028}' | '\u{2029}' | '\u{61c}' | '\u{200e}' | '\u{200f}')
@@ -29,8 +29,8 @@ fn escaped(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// A name, or a message of one line, on one line: every character that steers a display is written as its escape,
-/// `\n`, `\u{1b}`. What needs none comes back as it is.
+/// Text on one line, in which every character that controls a display is escaped: `\n`, `\u{1b}`. Text
+/// without such characters is returned unchanged.
 ///
 /// ```
 /// assert_eq!(pong_model::printable("arm/tip"), "arm/tip");
@@ -40,8 +40,8 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     escaped(text, |_| false)
 }
 
-/// The same for a text of several lines: its line ends stay. Names within must have been made [`printable`] before,
-/// or they could add lines of their own.
+/// [`printable`] for a text of several lines, which keeps its line breaks. Names in it must be made
+/// [`printable`] before, or they could add lines of their own.
 pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| c == '\n')
 }
@@ -58,7 +58,7 @@ mod tests {
             assert!(!shown.chars().any(char::is_control), "{:x}", u32::from(c));
             assert_eq!(shown == name, !steers(c), "{:x}", u32::from(c));
         }
-        // An override of direction shows `nor.exe` as `exe.ron`.
+        // A change of writing direction would show `nor.exe` as `exe.ron`.
         assert_eq!(printable("a\u{202e}nor.b"), r"a\u{202e}nor.b");
         assert_eq!(printable("µ–δ é 漢字 👍"), "µ–δ é 漢字 👍");
     }

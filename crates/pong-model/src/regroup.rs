@@ -1,4 +1,4 @@
-//! The same model with other bounding volumes or other leaves: other times, the same answers.
+//! Models with other bounding volumes or other leaves: other times, the same results.
 
 use crate::draft::GroupDraft;
 use crate::model::{Model, MovableGroup};
@@ -7,7 +7,7 @@ use pong_geometry::bounding::{BoundKind, Volume};
 use pong_geometry::extension::Extensions;
 
 impl Model {
-    /// The model with the bounding volumes of all its groups fitted anew in one kind.
+    /// Model whose groups all have bounding volumes of one kind, fitted anew.
     ///
     /// # Errors
     /// Cause and cure, if a volume cannot be fitted.
@@ -19,12 +19,12 @@ impl Model {
         })
     }
 
-    /// The model with leaves of at most so many elements each: the authored groups give way to halves of halves, cut
-    /// across the longest side, in volumes of the kind of the authored root (boxes along the axes where that is
+    /// Model with leaves of at most `most` elements: the authored groups are replaced by repeated halving
+    /// across the longest side, in volumes of the kind of the authored root (axis-aligned boxes if that is
     /// unbounded). Unbounded elements get a leaf of their own.
     ///
     /// # Errors
-    /// Cause and cure, if a volume cannot be fitted, or if there is to be nothing in a leaf.
+    /// Cause and cure, if a volume cannot be fitted, or `most` is zero.
     pub fn with_leaves(&self, most: usize, ext: &Extensions) -> Result<Self, String> {
         if most == 0 {
             return Err("leaves are to hold 0 elements; give at least 1".to_owned());
@@ -57,7 +57,7 @@ impl Model {
     }
 }
 
-/// The groups that the nodes of a body's tree came from.
+/// Groups from which the nodes of a body's tree were built.
 pub(crate) fn groups_of(body: &MovableGroup) -> Vec<GroupDraft> {
     let nodes = body.tree.nodes.iter();
     nodes
@@ -107,7 +107,8 @@ mod tests {
         items
     }
 
-    /// Nothing is lost or doubled, leaves hold what they may, and the hash, which leaves volumes out, is the same.
+    /// No element is lost or duplicated, leaves respect the limit, and the hash, which ignores volumes, does
+    /// not change.
     #[test]
     fn leaves_hold_every_element_once() {
         let model = model();

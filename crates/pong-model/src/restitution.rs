@@ -1,4 +1,4 @@
-//! Damping from a wanted restitution.
+//! Damping from a desired restitution.
 //!
 //! Linear law, F = max(0, k·δ + c·δ'), damping ratio ζ = c/(2·√(k·m)); the contact ends where the force would
 //! begin to pull:
@@ -15,13 +15,14 @@
 //! ln((1 + χv)/(1 − χev)) = χv·(1 + e)
 //! ```
 //!
-//! Both are solved by bisection, which gives the same bits everywhere. The power law has no closed form: `power_law.rs`.
+//! Both are solved by bisection, which gives the same bits on every machine. The power law has no closed
+//! form: see `power_law.rs`.
 
 mod power_law;
 
 pub use power_law::{Impact, power_law_damping, restitution_of_power_law};
 
-/// Halvings of an interval of doubles until it cannot shrink any more.
+/// Number of bisections after which an interval of doubles cannot shrink further.
 const HALVINGS: usize = 200;
 
 /// Restitution of the linear law that never pulls, as a function of the damping ratio.
@@ -31,7 +32,7 @@ pub fn restitution_of_zeta(zeta: f64) -> f64 {
         return libm::exp(-(zeta / s) * libm::atan2(2.0 * zeta * s, 2.0 * zeta * zeta - 1.0));
     }
     let q = ((zeta - 1.0) * (zeta + 1.0)).sqrt();
-    // ζ − q = 1/(ζ + q), and ln((1+u)/(1−u)) with u = q/ζ keeps its digits near ζ = 1.
+    // Uses ζ − q = 1/(ζ + q), and ln((1+u)/(1−u)) with u = q/ζ, which keeps its precision near ζ = 1.
     if q == 0.0 {
         return libm::exp(-2.0);
     }
@@ -56,7 +57,8 @@ pub fn chi_for_restitution(e: f64, speed: f64) -> f64 {
     if e >= 1.0 {
         return 0.0;
     }
-    // With x = χ·v: the root of g(x) = ln(1+x) − ln(1−e·x) − x·(1+e), negative from 0 to the root.
+    // With x = χ·v: the root of g(x) = ln(1+x) − ln(1−e·x) − x·(1+e), which is negative between 0 and the
+    // root.
     let low = 0.5 * (1.5 * (1.0 - e) * (1.0 + e) / (1.0 + e * e * e));
     bisect(low, 1.0 / e, |x| excess(x, e) < 0.0) / speed
 }
@@ -78,7 +80,7 @@ fn excess(x: f64, e: f64) -> f64 {
     sum
 }
 
-/// The place between `low` and `high` up to which `below` holds.
+/// Point between `low` and `high` up to which `below` holds.
 fn bisect(mut low: f64, mut high: f64, below: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);

@@ -1,4 +1,4 @@
-//! What keeps shapes from being taken, told by face and place: for tools in which they are made.
+//! Faults of single shapes, by face and vertex, for tools in which shapes are made.
 
 use crate::hull;
 use crate::model::{MovableGroup, PrimitiveInfo};
@@ -8,25 +8,25 @@ use crate::weld::Welder;
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{Lean, MayPush, NO_NEIGHBOR, PrimitiveKind, TriangleRecord};
 
-/// What is wrong with a polyhedron.
+/// Fault of a polyhedron.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PolyhedronFault {
-    /// Name of the rule that is broken; stable from version to version.
+    /// Name of the broken rule; stable from version to version.
     pub rule: &'static str,
-    /// What is wrong.
+    /// Cause of the fault.
     pub cause: String,
-    /// What would make it right.
+    /// Cure.
     pub cure: &'static str,
-    /// The face, if it lies with one.
+    /// Index of the face, if it concerns one.
     pub face: Option<usize>,
-    /// The vertices that it lies with.
+    /// Vertices that it concerns.
     pub places: Vec<Vec3>,
-    /// By how much a vertex misses a plane or a line, m; 0 where none does.
+    /// Distance by which a vertex misses a plane or a line, m; 0 if not applicable.
     pub off: f64,
 }
 
-/// What keeps vertices and faces from being a polyhedron: all that is wrong at the first stage of the loader that finds
-/// anything. Faces have their fronts outside; `inactive` are indices of faces.
+/// Faults of vertices and faces as a polyhedron: all that the first failing stage of the loader finds. Faces
+/// have their fronts outside; `inactive` are indices of faces.
 pub fn check_polyhedron(vertices: &[Vec3], faces: &[&[u32]], inactive: &[usize]) -> Vec<PolyhedronFault> {
     let active: Vec<bool> = (0..faces.len()).map(|face| !inactive.contains(&face)).collect();
     let problems = hull::check(vertices, faces, &active).err().unwrap_or_default();
@@ -41,23 +41,23 @@ pub fn check_polyhedron(vertices: &[Vec3], faces: &[&[u32]], inactive: &[usize])
     problems.into_iter().map(told).collect()
 }
 
-/// What is wrong, or odd, about triangles of one body.
+/// Fault or warning about triangles of one body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriangleFault {
-    /// Whether the loader refuses them; if not, it warns.
+    /// True if the loader refuses them, false if it warns.
     pub is_error: bool,
     /// Name of the rule.
     pub rule: &'static str,
-    /// What is wrong, of each of the triangles.
+    /// Cause, for each of the triangles.
     pub cause: &'static str,
-    /// What would make it right.
+    /// Cure.
     pub cure: &'static str,
-    /// Indices of the triangles, in rising order.
+    /// Indices of the triangles, in increasing order.
     pub triangles: Vec<u32>,
 }
 
-/// What is wrong, or odd, about the triangles of a body, one entry for each rule. Corners that are the same place to the last bit
-/// are one vertex, whatever mesh they belong to. Slivers are told alone: how triangles fit together is asked when there are none.
+/// Faults and warnings of the triangles of a body, one entry per rule. Bit-equal corners are one vertex, in
+/// whatever mesh. If there are slivers, only these are reported: the topology is checked when there are none.
 pub fn check_triangles(corners: &[[Vec3; 3]]) -> Vec<TriangleFault> {
     let thin = |corners: &[Vec3; 3]| {
         let share = smallest_height_share(corners);
@@ -82,7 +82,7 @@ pub fn check_triangles(corners: &[[Vec3; 3]]) -> Vec<TriangleFault> {
     told.into_iter().filter_map(|(rule, triangles)| fault(rule, triangles)).collect()
 }
 
-/// Whether it is an error, name, cause and cure of a rule.
+/// Severity (true for an error), name, cause and cure of a rule.
 type Rule = (bool, &'static str, &'static str, &'static str);
 
 const SLIVERS: Rule = (
@@ -118,7 +118,7 @@ fn fault((is_error, rule, cause, cure): Rule, mut triangles: Vec<u32>) -> Option
     (!triangles.is_empty()).then_some(TriangleFault { is_error, rule, cause, cure, triangles })
 }
 
-/// A body of nothing but these triangles.
+/// Body that consists of these triangles only.
 fn body_of(corners: &[[Vec3; 3]]) -> MovableGroup {
     let mut body = MovableGroup::default();
     let (mut welder, set) = (Welder::default(), &mut body.triangles);

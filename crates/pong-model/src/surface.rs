@@ -2,7 +2,7 @@
 
 use crate::limits::LARGEST;
 
-/// A named surface: what primitives are made of.
+/// Named surface: the material of primitives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     /// Name, unique in the model.
@@ -17,8 +17,9 @@ pub struct Surface {
 }
 
 impl PairOverride {
-    /// How many of the two names say the model, if the entry is for these two surfaces, given as (model, surface); `None` if
-    /// it is not. Of two entries that are, the one that says more goes first.
+    /// Number of the two names that include a model, if the entry applies to these two surfaces, given as
+    /// (model, surface); `None` if it does not apply. Of two entries that apply, the one with more has
+    /// priority.
     pub fn names_models(&self, a: (&str, &str), b: (&str, &str)) -> Option<usize> {
         let [one, other] = &self.surfaces;
         let in_order = |x, y| Some(names(one, x)? + names(other, y)?);
@@ -26,7 +27,8 @@ impl PairOverride {
     }
 }
 
-/// 1 if a name of an entry says model and surface, 0 if only the surface, `None` if it is another's.
+/// Returns 1 if a name of an entry matches with model and surface, 0 if it matches with the surface only,
+/// `None` if it does not match.
 fn names(entry: &str, (model, surface): (&str, &str)) -> Option<usize> {
     if entry == surface {
         return Some(0);
@@ -36,47 +38,48 @@ fn names(entry: &str, (model, surface): (&str, &str)) -> Option<usize> {
 }
 
 impl Surface {
-    /// Whether an entry of the table of pairs means this surface, of a model of that name.
+    /// Returns `true` if an entry of the pair table names this surface, of a model of that name.
     pub fn is_called(&self, entry: &str, model: &str) -> bool {
         names(entry, (model, &self.name)).is_some()
     }
 
-    /// Whether it says nothing of its own about a law, and so takes that of what it meets.
+    /// Returns `true` if it defines no normal or no friction law, and so takes that of the other surface.
     pub fn inherits(&self) -> bool {
         self.normal == NormalLaw::Inherited || self.friction == FrictionLaw::Inherited
     }
 
-    /// k_t (N/m) and c_t (N·s/m) of its bristle, values left out included; `None` without a bristle.
+    /// Stiffness k_t (N/m) and damping c_t (N·s/m) of its bristle, defaults included; `None` without a
+    /// bristle.
     pub fn bristle(&self) -> Option<(f64, f64)> {
         let FrictionLaw::Bristle { stiffness, damping, .. } = self.friction else { return None };
         let k_t = stiffness.unwrap_or(Self::BRISTLE_SHARE * self.stiffness);
         Some((k_t, damping.unwrap_or_else(|| self.normal.bristle_damping(self.stiffness, k_t))))
     }
 
-    /// Stiffness of a bristle that gives none, over the normal stiffness.
+    /// Default stiffness of a bristle relative to the normal stiffness.
     pub const BRISTLE_SHARE: f64 = 2.0 / 3.0;
 
-    /// The stiffest that is not rigid, N/m (N/m^1.5 with the exponent 3/2), of surface, pair and bristle. As no place is
-    /// beyond 1e100 m, energy and moment of a spring without damping stay below 1e301: within the range of numbers, and so
-    /// do sums of stiffnesses.
+    /// Largest finite stiffness, N/m (N/m^1.5 with the exponent 3/2), of surface, pair and bristle. As no
+    /// coordinate exceeds 1e100 m, energy and moment of a spring without damping stay below 1e301, within the
+    /// range of numbers, and so do sums of stiffnesses.
     pub const STIFFEST: f64 = LARGEST;
-    /// The softest, N/m: its inverse and its share of the yield stay within that range.
+    /// Smallest stiffness, N/m: its inverse and its share of the yield stay within the range of numbers.
     pub const SOFTEST: f64 = 1e-100;
 
-    /// Whether a spring may have this stiffness, if it is not rigid.
+    /// Returns `true` if a spring that is not rigid may have this stiffness.
     pub fn can_be_so_stiff(stiffness: f64) -> bool {
         (Self::SOFTEST..=Self::STIFFEST).contains(&stiffness)
     }
 }
 
-/// The normal force law of a surface (docs/theory.md, 3).
+/// Normal force law of a surface (docs/theory.md, 3).
 #[derive(Clone, Debug, PartialEq)]
 pub enum NormalLaw {
     /// F = max(0, k·δ + c·S(δ/ramp)·δ').
     Linear {
         /// c, N·s/m.
         damping: f64,
-        /// Depth over which the damping sets in, m; 0 means at once.
+        /// Depth over which the damping sets in, m; 0 for immediately.
         ramp: f64,
     },
     /// F = max(0, k·δ^e·(1 + χ·δ')).
@@ -95,19 +98,19 @@ pub enum NormalLaw {
         /// q, from 0 to p.
         damping_exponent: f64,
     },
-    /// A law registered with the engine under this name.
+    /// Law registered with the engine under this name.
     Custom {
         /// Name of the registered law.
         name: String,
-        /// Handed to the law as they stand.
+        /// Parameters passed to the law unchanged.
         parameters: Vec<f64>,
     },
-    /// That of the surface it meets: a rigid surface that names none.
+    /// Law of the other surface: for a rigid surface that names none.
     Inherited,
 }
 
 impl NormalLaw {
-    /// Exponent of the depth in the spring's force; 1 of a law of the host's.
+    /// Exponent of the depth in the spring's force; 1 for a law of the host.
     pub fn exponent(&self) -> Exponent {
         match self {
             Self::HuntCrossley { exponent, .. } | Self::PowerLaw { exponent, .. } => *exponent,
@@ -115,8 +118,9 @@ impl NormalLaw {
         }
     }
 
-    /// c_t (N·s/m) of a bristle of stiffness `k_t` that gives none, beside a normal spring of stiffness `k`: c·√(k_t/k) is the
-    /// damping ratio of the linear law on every mass. A rigid surface and the other laws have no such ratio, which leaves 0.
+    /// Default damping c_t (N·s/m) of a bristle of stiffness `k_t` beside a normal spring of stiffness `k`:
+    /// c·√(k_t/k), the damping ratio of the linear law for every mass. A rigid surface and the other laws
+    /// have no such ratio; the result is then 0.
     pub fn bristle_damping(&self, k: f64, k_t: f64) -> f64 {
         match self {
             // Finite on both sides: a compiler may divide before it asks for k, and ∞/∞ traps.
@@ -128,7 +132,7 @@ impl NormalLaw {
     }
 }
 
-/// Exponent of the depth in the Hunt-Crossley law and in the power law.
+/// Exponent of the depth in the Hunt-Crossley law and the power law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exponent {
     /// e = 1.
@@ -147,7 +151,7 @@ impl Exponent {
     }
 }
 
-/// The friction law of a surface (docs/theory.md, 4).
+/// Friction law of a surface (docs/theory.md, 4).
 #[derive(Clone, Debug, PartialEq)]
 pub enum FrictionLaw {
     /// No friction; costs nothing.
@@ -170,28 +174,29 @@ pub enum FrictionLaw {
         /// v_ε, the slip speed at which the full force is reached, m/s.
         slip_speed: f64,
     },
-    /// A law registered with the engine under this name.
+    /// Law registered with the engine under this name.
     Custom {
         /// Name of the registered law.
         name: String,
-        /// Handed to the law as they stand.
+        /// Parameters passed to the law unchanged.
         parameters: Vec<f64>,
     },
-    /// That of the surface it meets: a rigid surface that names none.
+    /// Law of the other surface: for a rigid surface that names none.
     Inherited,
 }
 
-/// An entry of the model's table for a pair of surfaces: every value given replaces the combined one.
+/// Entry of the model's table for a pair of surfaces: every value given replaces the combined one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairOverride {
-    /// The two surfaces, in either order; they may be the same, and may belong to another model. `model/surface` is that
-    /// surface of that model alone, a name without a slash that of any model.
+    /// The two surfaces, in either order; they may be equal, and may belong to another model. `model/surface`
+    /// is that surface of that model only; a name without a slash is that surface of any model.
     pub surfaces: [String; 2],
-    /// k of the pair, N/m (N/m^1.5).
+    /// Stiffness k of the pair, N/m (N/m^1.5).
     pub stiffness: Option<f64>,
-    /// Normal law with its damping values, those of the pair.
+    /// Normal law of the pair, with its damping values.
     pub normal: Option<NormalLaw>,
-    /// Friction law with its values, those of the pair. `stiffness: None` keeps ⅔·k. `damping: None` follows the normal law of
-    /// this entry, or without one keeps the damping ratio that the bristles of the two surfaces have together.
+    /// Friction law of the pair, with its values. `stiffness: None` keeps ⅔·k. `damping: None` follows the
+    /// normal law of this entry or, without one, keeps the combined damping ratio of the bristles of the two
+    /// surfaces.
     pub friction: Option<FrictionLaw>,
 }

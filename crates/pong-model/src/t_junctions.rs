@@ -1,11 +1,11 @@
-//! Vertices that lie within a free edge of another triangle: the surface has a crack there.
+//! T-junctions: vertices inside a free edge of another triangle, where the surface has a crack.
 //!
-//! Only ends of free edges can; they go into a k-d tree, and every free edge looks only into the boxes that it
-//! passes.
+//! Only ends of free edges can be such vertices. They go into a k-d tree, and every free edge searches only
+//! the boxes that it passes.
 
 use pong_geometry::Vec3;
 
-/// A vertex nearer to an edge than this share of its length lies on it.
+/// Distance, relative to the edge's length, within which a vertex lies on an edge.
 pub const ON_EDGE: f64 = 1e-9;
 const LEAF: usize = 8;
 
@@ -14,7 +14,7 @@ struct Node {
     high: Vec3,
     start: usize,
     end: usize,
-    /// The second child; the first one follows its parent. 0 for a leaf.
+    /// Index of the second child; the first follows its parent. 0 for a leaf.
     second: usize,
 }
 
@@ -24,8 +24,8 @@ struct KdTree<'v> {
     nodes: Vec<Node>,
 }
 
-/// Pairs of a vertex and the index of the free edge within which it lies, by edge; the search ends when it has more than
-/// `enough` of them.
+/// Pairs of a vertex and the index of the free edge that contains it, by edge; the search ends when it has
+/// more than `enough` pairs.
 pub fn find(vertices: &[Vec3], free_edges: &[[u32; 2]], enough: usize) -> Vec<(u32, usize)> {
     let mut ends: Vec<u32> = free_edges.iter().flatten().copied().collect();
     ends.sort_unstable();
@@ -101,7 +101,7 @@ impl<'v> KdTree<'v> {
     }
 }
 
-/// Whether a segment passes through a box that is larger by `near` on all sides.
+/// Returns `true` if a segment passes through a box enlarged by `near` on all sides.
 fn passes(a: &Vec3, along: &Vec3, length: f64, node: &Node, near: f64) -> bool {
     let (mut enter, mut leave) = (-near, length + near);
     for axis in 0..3 {

@@ -1,5 +1,5 @@
-//! The tree of bounding volumes of a body: the authored groups, each fitted in the kind that it names. Below a
-//! leaf the elements lie in batches, one per kind, each with a [`BoxTree`] of its own.
+//! Tree of bounding volumes of a body: the authored groups, each with a volume of its kind. The elements of a
+//! leaf lie in batches, one per kind, each with a [`BoxTree`] of its own.
 
 use crate::box_tree::{BoxTree, Boxed};
 use crate::draft::GroupDraft;
@@ -12,13 +12,13 @@ use pong_geometry::primitive::PrimitiveKind;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// More things than this are not fitted one and all.
+/// Number of shapes above which a volume is not fitted to all of them.
 const MANY: usize = 512;
 
-/// A group whose volume cannot be fitted: its index and the reason.
+/// Group whose volume cannot be fitted: its index and the reason.
 pub(crate) type FitFault = (usize, String);
 
-/// A node on its way: children by index among the drafts.
+/// Node under construction, whose children are indices into the drafts.
 struct DraftNode {
     volume: Volume,
     children: Vec<usize>,
@@ -34,7 +34,7 @@ struct Builder<'b> {
     faults: Vec<FitFault>,
 }
 
-/// Builds the tree of a body whose elements are all in place.
+/// Builds the tree of a body whose elements are complete.
 pub(crate) fn build(
     body: &MovableGroup,
     groups: &[GroupDraft],
@@ -49,7 +49,7 @@ pub(crate) fn build(
 }
 
 impl Builder<'_> {
-    /// A body without geometry of its own: a leaf that holds nothing.
+    /// Adds an empty leaf, for a body without geometry of its own.
     fn nothing(&mut self) -> usize {
         let group = Arc::clone(&self.groups[0].path);
         let volume = Volume::Aabb { center: Vec3::zeros(), half: Vec3::zeros() };
@@ -61,7 +61,7 @@ impl Builder<'_> {
         self.nodes.len() - 1
     }
 
-    /// The node of a group and all items below it; `None` if there are none.
+    /// Adds the node of a group, and returns it with all items below it; `None` if there are none.
     fn group(&mut self, index: usize) -> Option<(usize, Vec<Item>)> {
         let groups = self.groups;
         let group = &groups[index];
@@ -101,8 +101,7 @@ impl Builder<'_> {
         fit(kind, &things, self.ext)
     }
 
-    /// A fitted volume; of many things only the outermost choose where it stands, and all of them how large it
-    /// is.
+    /// Fitted volume. With many shapes, only the outermost determine its position, and all of them its size.
     fn fitted_around_many(&self, kind: &BoundKind, items: &[Item]) -> Result<Volume, String> {
         if items.len() <= MANY || matches!(kind, BoundKind::Custom(_)) {
             return self.fitted(kind, items);
@@ -135,7 +134,8 @@ fn boxed(body: &MovableGroup, item: Item) -> Boxed<Item> {
     Boxed { item, low, high }
 }
 
-/// The elements of a leaf by kind, the unbounded ones apart, each batch in the order of its tree.
+/// Elements of a leaf by kind, with unbounded ones in separate batches, each batch in the order of its box
+/// tree.
 fn batches(body: &MovableGroup, items: &[Item], tree: &mut Tree) {
     let mut by_kind: BTreeMap<(PrimitiveKind, bool), Vec<Boxed<Item>>> = BTreeMap::new();
     for &item in items {
@@ -157,9 +157,9 @@ fn batches(body: &MovableGroup, items: &[Item], tree: &mut Tree) {
     }
 }
 
-/// The box with the margin that every fitted volume carries.
+/// Box with the margin of a fitted volume.
 fn with_margin(boxed: Boxed<Item>) -> Boxed<Item> {
-    // Asked first: an infinite box has no centre.
+    // Tested first, because an infinite box has no centre.
     if boxed.is_bounded()
         && let Volume::Aabb { center, half } = fit_aabb_bounds(boxed.low, boxed.high)
     {
@@ -169,7 +169,7 @@ fn with_margin(boxed: Boxed<Item>) -> Boxed<Item> {
     Boxed { low: -infinite, high: infinite, ..boxed }
 }
 
-/// The items that lie outermost in any of 26 directions, or all if one of them is unbounded or no number.
+/// Items that are outermost in one of 26 directions, or all items if one is unbounded or NaN.
 fn outermost(elements: &[Element<'_>], items: &[Item]) -> Vec<Item> {
     let mut found = Vec::new();
     for code in 0..27_u32 {
@@ -194,7 +194,7 @@ fn outermost(elements: &[Element<'_>], items: &[Item]) -> Vec<Item> {
     found
 }
 
-/// `None` if anything is unbounded, or not a number.
+/// Box around all boxes; `None` if one is unbounded or NaN.
 fn box_around(boxed: &[Boxed<Item>]) -> Option<Volume> {
     if !boxed.iter().all(Boxed::is_bounded) {
         return None;
@@ -205,7 +205,7 @@ fn box_around(boxed: &[Boxed<Item>]) -> Option<Volume> {
     Some(fit_aabb_bounds(low, high))
 }
 
-/// Breadth first, so that the children of a node lie side by side.
+/// Converts the drafts to an array in breadth-first order, so that the children of a node are contiguous.
 fn flatten(body: &MovableGroup, mut drafts: Vec<DraftNode>, root: usize) -> Tree {
     let mut order = vec![root];
     let mut tree = Tree::default();

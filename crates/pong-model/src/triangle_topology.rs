@@ -1,6 +1,6 @@
-//! Neighbours and shells of the triangles of one body, and what is odd about them.
+//! Neighbours and shells of the triangles of one body, and warnings about them.
 //!
-//! Mirror images of two-sided meshes touch only mirror images. Everything sorts, nothing compares all with all.
+//! Mirror images of two-sided meshes touch only mirror images. All searches sort; none is quadratic.
 
 use crate::model::MovableGroup;
 use crate::pieces::Sets;
@@ -9,33 +9,34 @@ use pong_geometry::interference::pushing_features::mark_pushing;
 use pong_geometry::primitive::{NO_NEIGHBOR, PrimitiveKind, TriangleRecord, TriangleSet};
 use std::collections::BTreeSet;
 
-/// More T-junctions are not worth telling.
+/// Maximum number of T-junctions reported.
 const JUNCTIONS_TOLD: usize = 1000;
 
-/// A warning of a mesh.
+/// Warning about a mesh.
 pub(crate) enum MeshWarning {
-    /// An edge shared by three or more triangles.
+    /// Edge shared by three or more triangles.
     CrowdedEdge { triangles: Vec<u32> },
     /// Two triangles that run along their common edge in the same direction.
     Winding { triangle: u32, other: u32 },
-    /// A vertex within another triangle's free edge.
+    /// Vertex inside another triangle's free edge.
     TJunction { triangle: u32, vertex: u32 },
 }
 
-/// What was found while triangles were connected.
+/// Findings from connecting the triangles.
 #[derive(Default)]
 pub(crate) struct TopologyReport {
     pub(crate) mesh_warnings: Vec<MeshWarning>,
     /// Triangles that repeat an earlier one: (repeated, earlier).
     pub(crate) duplicates: Vec<(u32, u32)>,
-    /// For each triangle the lowest triangle of its shell.
+    /// Lowest triangle of the shell of each triangle.
     pub(crate) shell_leader: Vec<u32>,
 }
 
-/// An edge of a triangle: the ends in rising order, then triangle and edge in one number.
+/// Edge of a triangle: the ends in increasing order packed in one number, then triangle and edge in the
+/// other.
 type HalfEdge = (u64, u32);
 
-/// Sets the neighbours of all triangles, and which of their features may push.
+/// Sets the neighbours of all triangles, and the features that may push.
 pub(crate) fn build_adjacency(body: &mut MovableGroup) -> TopologyReport {
     let mut findings =
         TopologyReport { shell_leader: vec![0; body.triangles.triangles.len()], ..TopologyReport::default() };
@@ -59,7 +60,7 @@ pub(crate) fn build_adjacency(body: &mut MovableGroup) -> TopologyReport {
     findings
 }
 
-/// Fronts, or mirror images, in order.
+/// Front triangles, or mirror images, in order.
 fn triangles_of(body: &MovableGroup, mirrors: bool) -> Vec<u32> {
     let meshes = body.primitives.iter().filter(|info| info.kind == PrimitiveKind::Triangle);
     meshes
@@ -73,7 +74,7 @@ fn triangles_of(body: &MovableGroup, mirrors: bool) -> Vec<u32> {
 #[derive(Default)]
 struct Connections {
     mesh_warnings: Vec<MeshWarning>,
-    /// Triangles at crowded or wrongly wound edges: only they can be duplicates.
+    /// Triangles at crowded or inconsistently wound edges: only these can be duplicates.
     suspects: BTreeSet<u32>,
     free_edges: Vec<[u32; 2]>,
     free_owner: Vec<u32>,
@@ -127,7 +128,7 @@ fn set_neighbor(set: &mut TriangleSet, half: &HalfEdge, neighbor: u32) {
     set.triangles[(half.1 / 3) as usize].neighbors[(half.1 % 3) as usize] = neighbor;
 }
 
-/// Triangles that share a vertex are one shell.
+/// Joins triangles that share a vertex into one shell.
 fn lead_shells(set: &TriangleSet, part: &[u32], leader: &mut [u32]) {
     let mut vertices = Sets::new(set.vertices.len());
     for &triangle in part {
@@ -151,7 +152,7 @@ fn duplicates(set: &TriangleSet, suspects: &BTreeSet<u32>) -> Vec<(u32, u32)> {
     same.flat_map(|group| group[1..].iter().map(|repeated| (repeated.1, group[0].1))).collect()
 }
 
-/// Its vertices from the lowest on; the winding stays.
+/// Vertices rotated so that the lowest is first; the winding stays.
 fn rotated(triangle: &TriangleRecord) -> [u32; 3] {
     let [a, b, c] = triangle.vertices;
     match a.min(b).min(c) {
@@ -161,5 +162,6 @@ fn rotated(triangle: &TriangleRecord) -> [u32; 3] {
     }
 }
 
-/// The most triangles one body may have: three times a triangle's index must fit the number of a half edge.
+/// Maximum number of triangles of one body: three times a triangle's index must fit the number of a half
+/// edge.
 pub(crate) const TRIANGLE_LIMIT: usize = u32::MAX as usize / 3;

@@ -1,17 +1,17 @@
-//! The text of a model file without some of its primitives.
+//! Text of a model file without some of its primitives.
 //!
-//! What stays is as it was, byte for byte, comments too. A group of which nothing stays goes as well, unless it is
-//! movable: a host hands in its state.
+//! The rest stays unchanged, byte for byte, including comments. A group that becomes empty is removed too,
+//! unless it is movable: a host sets its state.
 
 use crate::grouping::{BOM, Edit, edited, field, fields, within_some};
 use crate::ron_tree::{self, Node, Value};
 use std::collections::BTreeSet;
 
-/// The text without the primitives of these paths (`root/arm/tip`), and without groups that hold nothing else.
+/// Text without the primitives at these paths (`root/arm/tip`), and without groups that contain nothing else.
 ///
 /// # Errors
-/// Cause and cure, if the text is none that [`parse`](crate::parse) accepts, if it has no such primitive, or if nothing
-/// would be left of the root or of a movable group.
+/// Cause and cure, if [`parse`](crate::parse) does not accept the text, if a primitive does not exist, or if
+/// the root or a movable group would become empty.
 pub fn without(text: &str, dropped: &BTreeSet<String>) -> Result<String, String> {
     let (mark, plain) = text.strip_prefix(BOM).map_or(("", text), |plain| (&text[..BOM.len_utf8()], plain));
     let node =
@@ -35,13 +35,13 @@ pub fn without(text: &str, dropped: &BTreeSet<String>) -> Result<String, String>
 struct Trimming<'t> {
     text: &'t str,
     dropped: &'t BTreeSet<String>,
-    /// Primitives that are to go and were found.
+    /// Number of primitives to remove that were found.
     found: usize,
     edits: Vec<Edit>,
 }
 
 impl Trimming<'_> {
-    /// Takes out what is to go below a group; whether anything stays.
+    /// Removes the given primitives below a group; returns `true` if anything stays.
     fn group(&mut self, node: &Node, above: &str, is_root: bool) -> Result<bool, String> {
         let own = fields(within_some(node)).unwrap_or_default();
         let path = join(above, &name(node));
@@ -61,13 +61,14 @@ impl Trimming<'_> {
             return Err(emptied(&path));
         }
         if !stays {
-            // The group goes as a whole.
+            // The group is removed as a whole.
             self.edits.truncate(edits_before);
         }
         Ok(stays)
     }
 
-    /// Takes an item out of its list, with the comma behind it and the rest of its lines; whether it stays.
+    /// Removes an item from its list, with the comma after it and the rest of its lines; returns `true` if it
+    /// stays.
     fn take(&mut self, item: &Node, goes: bool) -> Result<bool, String> {
         if goes {
             let end = ron_tree::end_of_value(self.text, item.at).map_err(|error| error.cause)?;
@@ -81,13 +82,13 @@ impl Trimming<'_> {
     }
 }
 
-/// Where the line begins if only blanks stand before a place in it, else the place.
+/// Start of the line if only blanks precede the position, else the position.
 fn start_of_line(text: &str, at: usize) -> usize {
     let before = text[..at].trim_end_matches([' ', '\t']);
     if before.is_empty() || before.ends_with('\n') { before.len() } else { at }
 }
 
-/// Behind the comma that follows a value, and behind the end of the line if nothing else is on it.
+/// Position after the comma that follows a value, and after the line break if nothing else is on the line.
 fn behind_comma(text: &str, end: usize) -> usize {
     let rest = &text[end..];
     let Some(rest) = rest.trim_start().strip_prefix(',') else { return end };
@@ -157,7 +158,7 @@ mod tests {
             let expected: Vec<String> =
                 paths(TEXT).into_iter().filter(|path| !gone.contains(&path.as_str())).collect();
             assert_eq!(paths(&text), expected);
-            // Lines are left out, none is changed but that of `head`, which has two primitives.
+            // Lines are removed, and none changes except that of `head`, which has two primitives.
             assert!(text.lines().all(|line| line.contains("head") || TEXT.contains(line)), "{text}");
         }
     }

@@ -1,10 +1,10 @@
-//! Builds a tree of boxes from the top down: bottom nodes are filled with eight elements, the levels above them
-//! have as few boxes per node as the number of levels allows, all alike.
+//! Top-down construction of a box tree. Bottom nodes are filled with eight elements; the levels above have as
+//! few boxes per node as the number of levels allows, evenly distributed.
 
 use super::{BoxNode, BoxTree, ELEMENT, NarrowBox, NarrowBoxes, WIDTH};
 use pong_geometry::Vec3;
 
-/// An element on its way: what it is and its box, m.
+/// Element during construction, with its box, m.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Boxed<T> {
     pub item: T,
@@ -13,12 +13,12 @@ pub(crate) struct Boxed<T> {
 }
 
 impl<T> Boxed<T> {
-    /// Whether the box is finite.
+    /// Returns `true` if the box is finite.
     pub fn is_bounded(&self) -> bool {
         self.low.iter().chain(self.high.iter()).all(|x| x.is_finite())
     }
 
-    /// Twice the centre; what is infinite both ways is everywhere, and so in the middle.
+    /// Twice the centre; 0 if infinite on both sides.
     fn center(&self, axis: usize) -> f64 {
         let (low, high) = (self.low[axis], self.high[axis]);
         if low.is_finite() && high.is_finite() { low + high } else { 0.0 }
@@ -26,8 +26,8 @@ impl<T> Boxed<T> {
 }
 
 impl BoxTree {
-    /// The tree of some elements, which are put into its order. Unbounded elements make every box above them
-    /// unbounded: keep them in a tree of their own.
+    /// Builds the tree of the elements and sorts them into its order. An unbounded element makes every box
+    /// above it unbounded, so keep unbounded elements in a tree of their own.
     pub(crate) fn build<T: Copy + Ord>(elements: &mut [Boxed<T>]) -> Self {
         let mut tree = Self {
             origin: middle(elements),
@@ -48,7 +48,7 @@ impl BoxTree {
         tree
     }
 
-    /// Adds the node of some elements and all nodes below; answers its index and the box around it.
+    /// Adds the node of some elements and all nodes below; returns its index and its box.
     fn add_node<T: Copy + Ord>(
         &mut self,
         elements: &mut [Boxed<T>],
@@ -80,7 +80,7 @@ impl BoxTree {
     }
 }
 
-/// Levels of nodes above so many bottom nodes.
+/// Number of levels above `bottoms` bottom nodes.
 fn levels_above(bottoms: usize) -> u32 {
     let mut levels = 0;
     while WIDTH.pow(levels) < bottoms {
@@ -89,13 +89,13 @@ fn levels_above(bottoms: usize) -> u32 {
     levels
 }
 
-/// The least number of boxes per node with which so many levels suffice.
+/// Smallest number of boxes per node for which `levels` levels suffice.
 fn root_up(bottoms: usize, levels: u32) -> usize {
     (1..).find(|width: &usize| width.pow(levels) >= bottoms).expect("numbers do not end")
 }
 
-/// Cuts elements into parts of nearly as many bottom nodes each, and no more than `most`, by halving across the longest side;
-/// hands out every part with its start.
+/// Splits elements into `parts` parts with nearly equal numbers of bottom nodes, at most `most`, by repeated
+/// halving across the longest side. Passes each part, with its start, to `take`.
 fn deal<T: Copy + Ord>(
     elements: &mut [Boxed<T>],
     (parts, most): (usize, usize),
@@ -104,8 +104,8 @@ fn deal<T: Copy + Ord>(
     deal_from(elements, (parts, most), 0, take);
 }
 
-/// Parts of so many bottom nodes, and larger ones, begin at multiples of eight of them: what asks a tree of as many chunks at
-/// a time then finds eight of one part together.
+/// Parts of at least this many bottom nodes begin at multiples of eight bottom nodes, so that eight chunks
+/// taken together belong to the same part.
 const WHOLE_GROUPS_FROM: usize = 2 * WIDTH;
 
 fn deal_from<T: Copy + Ord>(
@@ -146,7 +146,7 @@ fn longest_axis<T>(elements: &[Boxed<T>]) -> usize {
     (high - low).imax()
 }
 
-/// The middle of all finite boxes, m.
+/// Centre of the box around all finite boxes, m.
 fn middle<T>(elements: &[Boxed<T>]) -> Vec3 {
     let mut bounded = elements.iter().filter(|element| element.is_bounded()).map(|e| (e.low, e.high));
     let Some(first) = bounded.next() else { return Vec3::zeros() };

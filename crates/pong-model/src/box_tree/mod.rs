@@ -1,9 +1,9 @@
-//! A tree of boxes around the elements of a leaf, eight to a node, for one question: which of them may a given box
-//! touch?
+//! Tree of boxes around the elements of a leaf, eight to a node, which finds the elements that a given box
+//! may touch.
 //!
-//! Boxes are kept in single precision around an origin of the tree's own, rounded outward. A coarser box costs a
-//! test that finds nothing; it can never change an answer. Eight boxes are compared at once, and eight elements of
-//! a leaf share one bottom node: what the engine carries into another frame and tests together.
+//! Boxes are stored in single precision relative to the tree's origin, rounded outward. A larger box may cost
+//! a test that finds nothing, but never changes a result. Eight boxes are compared at once. The eight
+//! elements of a bottom node are transformed and tested together by the engine.
 
 mod build;
 pub(crate) use build::Boxed;
@@ -12,79 +12,79 @@ use pong_geometry::Vec3;
 use pong_geometry::simd::{EightBoxes, LANES, LaneBits, Simd};
 use std::ops::Range;
 
-/// Boxes of one node.
+/// Boxes per node.
 pub const WIDTH: usize = LANES;
 
-/// In [`BoxNode::children`]: the child is an element, not a node.
+/// Flag in [`BoxNode::children`]: the child is an element, not a node.
 const ELEMENT: u32 = 1 << 31;
 
-/// A box in single precision; empty where `low > high`.
+/// Box in single precision; empty if `low > high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NarrowBox {
-    /// Least coordinates less the tree's origin, m.
+    /// Minimum coordinates relative to the tree's origin, m.
     pub low: [f32; 3],
-    /// Greatest coordinates less the tree's origin, m.
+    /// Maximum coordinates relative to the tree's origin, m.
     pub high: [f32; 3],
 }
 
-/// A ball in single precision.
+/// Sphere in single precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NarrowBall {
     center: [f32; 3],
-    /// Infinite where the ball is beyond what single precision tells apart.
+    /// Squared radius, m²; infinite if the sphere is outside the range in which single precision can decide.
     square: f32,
 }
 
-/// Eight boxes, coordinate by coordinate; unused ones are empty.
+/// Eight boxes as coordinate arrays; unused ones are empty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NarrowBoxes {
-    /// Least coordinates by axis less the tree's origin, then the greatest, m.
+    /// Minimum coordinates by axis relative to the tree's origin, then the maximum ones, m.
     pub bounds: EightBoxes,
 }
 
 /// Up to eight boxes, each around a child node or an element.
-// Four cache lines, and no eight bounds span two of them.
+// Four cache lines; no group of eight bounds crosses a cache line.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub struct BoxNode {
-    /// The boxes.
+    /// Boxes.
     pub boxes: NarrowBoxes,
     children: [u32; WIDTH],
-    /// The elements below, consecutive in the tree's order.
+    /// Elements below, consecutive in the tree's order.
     pub elements: Range<u32>,
 }
 
-/// What a box of a node holds.
+/// Contents of a box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Child {
-    /// Another node, by index.
+    /// Child node, by index.
     Node(u32),
-    /// An element, by its place in the tree's order.
+    /// Element, by its index in the tree's order.
     Element(u32),
 }
 
-/// The tree.
+/// Tree of boxes.
 #[derive(Clone, Debug)]
 pub struct BoxTree {
-    /// Subtracted from coordinates before they are rounded to single precision, m.
+    /// Origin subtracted from coordinates before they are rounded to single precision, m.
     pub origin: Vec3,
-    /// Node 0 is the root, unless there is no element.
+    /// Nodes; node 0 is the root, unless there is no element.
     pub nodes: Vec<BoxNode>,
-    /// The box around everything.
+    /// Box around everything.
     pub around: NarrowBox,
-    /// Whether every element has a bound in each direction.
+    /// True if every element is bounded in all directions.
     pub is_bounded: bool,
     /// Levels of nodes above the bottom nodes, which are all at the same depth.
     pub levels: u32,
 }
 
 impl NarrowBox {
-    /// All space.
+    /// Box that contains all space.
     pub const EVERYTHING: Self = Self { low: [-f32::MAX; 3], high: [f32::MAX; 3] };
-    /// No place at all: beyond every other box.
+    /// Empty box, disjoint from every other box.
     pub const NOTHING: Self = Self { low: [f32::INFINITY; 3], high: [f32::NEG_INFINITY; 3] };
 
-    /// The box between two corners given from the tree's origin, rounded outward.
+    /// Box between two corners given relative to the tree's origin, rounded outward.
     #[inline]
     pub fn outward(low: &Vec3, high: &Vec3) -> Self {
         Self {
@@ -93,13 +93,13 @@ impl NarrowBox {
         }
     }
 
-    /// Whether two boxes around the same origin share a place.
+    /// Returns `true` if two boxes with the same origin overlap.
     #[inline]
     pub fn meets(&self, other: &Self) -> bool {
         !(0..3).any(|k| self.low[k] > other.high[k] || self.high[k] < other.low[k])
     }
 
-    /// The box around both.
+    /// Smallest box around both.
     #[inline]
     pub fn join(&self, other: &Self) -> Self {
         Self {
@@ -110,12 +110,12 @@ impl NarrowBox {
 }
 
 impl NarrowBall {
-    /// The ball about a place given from the tree's origin, with room for rounding.
+    /// Sphere about a centre given relative to the tree's origin, enlarged for rounding.
     #[inline]
     fn outward(center: &Vec3, radius: f64) -> Self {
-        /// Places farther than this are near everything: their squares do not fit.
+        /// Coordinates beyond this count as near everything: their squares overflow.
         const FAR: f64 = 1e18;
-        /// More than the rounding of a place, and of a distance and its square.
+        /// Relative margin above the rounding of a coordinate, of a distance and of its square.
         const ROOM: f64 = 8.0 * f32::EPSILON as f64;
         let size = center.x.abs() + center.y.abs() + center.z.abs();
         let wide = (radius + ROOM * size) * (1.0 + ROOM);
@@ -123,27 +123,27 @@ impl NarrowBall {
         Self { center: [center.x as f32, center.y as f32, center.z as f32], square: square as f32 }
     }
 
-    /// Whether anything is beyond it.
+    /// Returns `true` if the sphere excludes anything.
     #[inline]
     pub fn is_bounded(&self) -> bool {
         self.square < f32::INFINITY
     }
 }
 
-/// A finite number of single precision that is not greater. What lies below them all, and what is no number, becomes the
-/// least: every upper bound is at least as great, so two boxes are not taken for apart.
+/// Finite single-precision number that is not greater than `x`. Numbers below the range, and NaN, become the
+/// least number: every upper bound is at least as great, so such boxes are never taken for disjoint.
 #[inline(always)]
 #[allow(clippy::manual_clamp, reason = "of what is no number this makes the least")]
 pub fn round_down(x: f64) -> f32 {
     const MOST: f64 = f32::MAX as f64;
-    // Infinity would be taken from itself.
+    // Infinity minus infinity would be NaN.
     let x = if x > MOST { MOST } else { x };
-    // In double precision: more than a unit in the last place below, also where the product underflows.
+    // In double precision: more than one unit in the last place below `x`, even if the product underflows.
     let below = x - (x.abs() * (1.01 * f64::from(f32::EPSILON)) + f64::from(f32::MIN_POSITIVE));
     below.max(-MOST).min(MOST) as f32
 }
 
-/// A finite number of single precision that is not smaller, likewise.
+/// Finite single-precision number that is not less than `x`; NaN becomes the greatest number.
 #[inline]
 pub fn round_up(x: f64) -> f32 {
     -round_down(-x)
@@ -163,7 +163,7 @@ fn greatest(x: &[f32; WIDTH]) -> f32 {
     pick(pick(four[0], four[2]), pick(four[1], four[3]))
 }
 
-/// The lanes whose bits are set, in order.
+/// Lanes whose bits are set, in order.
 #[inline(always)]
 pub fn lanes(mut bits: LaneBits) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
@@ -174,25 +174,25 @@ pub fn lanes(mut bits: LaneBits) -> impl Iterator<Item = usize> {
 }
 
 impl NarrowBoxes {
-    /// No place at all.
+    /// Eight empty boxes.
     pub const NOTHING: Self = Self { bounds: [[[f32::INFINITY; WIDTH]; 3], [[f32::NEG_INFINITY; WIDTH]; 3]] };
 
-    /// Eight times all space.
+    /// Eight boxes that contain all space.
     pub const EVERYTHING: Self = Self { bounds: [[[-f32::MAX; WIDTH]; 3], [[f32::MAX; WIDTH]; 3]] };
 
-    /// Which of the boxes a box meets.
+    /// Returns the boxes that overlap `query`.
     #[inline(always)]
     pub fn met_by<S: Simd>(&self, simd: S, query: &NarrowBox) -> LaneBits {
         simd.boxes_met(&self.bounds, &query.low, &query.high)
     }
 
-    /// Which of the boxes a ball may reach. Only one that is not bounded reaches empty boxes.
+    /// Returns the boxes that a sphere may reach. Only an unbounded sphere reaches empty boxes.
     #[inline(always)]
     pub fn near<S: Simd>(&self, simd: S, ball: &NarrowBall) -> LaneBits {
         simd.boxes_near(&self.bounds, &ball.center, ball.square)
     }
 
-    /// The box around all of them.
+    /// Box around all of them.
     #[inline(always)]
     pub fn around(&self) -> NarrowBox {
         let [low, high] = &self.bounds;
@@ -202,7 +202,7 @@ impl NarrowBoxes {
         }
     }
 
-    /// One of the boxes.
+    /// Box of one lane.
     #[inline]
     pub fn lane(&self, lane: usize) -> NarrowBox {
         let [low, high] = &self.bounds;
@@ -221,33 +221,33 @@ impl NarrowBoxes {
 }
 
 impl BoxNode {
-    /// What a box holds.
+    /// Contents of a box.
     #[inline]
     pub fn child(&self, lane: usize) -> Child {
         let child = self.children[lane];
         if child & ELEMENT != 0 { Child::Element(child & !ELEMENT) } else { Child::Node(child) }
     }
 
-    /// The nodes in some of the boxes, in the boxes' order, from the first place on; what follows them has no meaning. Not for a
-    /// bottom node.
+    /// Child nodes in the boxes whose bits are set, in order, moved to the front; the remaining lanes have no
+    /// meaning. Not for a bottom node.
     #[inline(always)]
     pub fn nodes_in<S: Simd>(&self, simd: S, boxes: LaneBits) -> [u32; WIDTH] {
         simd.packed(&self.children, boxes)
     }
 
-    /// The places of the elements in some of the boxes of a bottom node, likewise.
+    /// Elements in the boxes whose bits are set, in the same form. Only for a bottom node.
     #[inline(always)]
     pub fn elements_in<S: Simd>(&self, simd: S, boxes: LaneBits) -> [u32; WIDTH] {
         simd.packed(&self.children, boxes).map(|child| child & !ELEMENT)
     }
 
-    /// Whether the boxes are those of elements: of all that are below, in their order.
+    /// Returns `true` for a bottom node, whose boxes hold all elements below, in order.
     #[inline]
     pub fn is_bottom(&self) -> bool {
         self.children[0] & ELEMENT != 0
     }
 
-    /// What the boxes hold.
+    /// Contents of all boxes.
     pub fn children(&self) -> impl Iterator<Item = Child> + '_ {
         let [low, high] = &self.boxes.bounds;
         let used = move |&lane: &usize| low[0][lane] <= high[0][lane];
@@ -256,19 +256,19 @@ impl BoxNode {
 }
 
 impl BoxTree {
-    /// A box of the movable group's frame, as this tree sees it.
+    /// Box of the group frame, relative to the tree's origin in single precision.
     #[inline]
     pub fn narrowed(&self, low: &Vec3, high: &Vec3) -> NarrowBox {
         NarrowBox::outward(&(low - self.origin), &(high - self.origin))
     }
 
-    /// A ball of the movable group's frame, as this tree sees it.
+    /// Sphere of the group frame, relative to the tree's origin in single precision.
     #[inline]
     pub fn narrowed_ball(&self, center: &Vec3, radius: f64) -> NarrowBall {
         NarrowBall::outward(&(center - self.origin), radius)
     }
 
-    /// The box of an element in the movable group's frame, m; infinite where the element is unbounded.
+    /// Box of an element in the group frame, m; infinite in directions in which the element is unbounded.
     pub fn bounds(&self, element: u32) -> (Vec3, Vec3) {
         let (mut node, mut lane) = (&self.nodes[0], 0);
         loop {
@@ -285,7 +285,7 @@ impl BoxTree {
         self.widened(&node.boxes.lane(lane))
     }
 
-    /// A box of this tree in the movable group's frame, m.
+    /// Box of this tree in the group frame, m.
     pub fn widened(&self, narrow: &NarrowBox) -> (Vec3, Vec3) {
         let wide = |x: f32, beyond: f64| if x.abs() < f32::MAX { f64::from(x) } else { beyond };
         let low = Vec3::from(narrow.low.map(|x| wide(x, f64::NEG_INFINITY)));
@@ -293,8 +293,8 @@ impl BoxTree {
         (self.origin + low, self.origin + high)
     }
 
-    /// Calls `visit` with every bottom node that has boxes which a box meets; answers how many nodes were looked
-    /// at.
+    /// Calls `visit` with every bottom node that has boxes overlapping the query; returns the number of nodes
+    /// visited.
     #[inline(always)]
     pub fn visit<S: Simd>(
         &self,
@@ -302,7 +302,8 @@ impl BoxTree {
         query: &NarrowBox,
         mut visit: impl FnMut(&BoxNode, LaneBits),
     ) -> u32 {
-        /// A tree of 2³¹ elements has eleven levels; each leaves at most seven nodes waiting.
+        /// Stack limit: a tree of 2³¹ elements has eleven levels, each of which leaves at most seven nodes
+        /// waiting.
         const DEPTH_MAX: usize = 80;
         let mut stack = [0_u32; DEPTH_MAX];
         let mut waiting = usize::from(!self.nodes.is_empty());

@@ -14,7 +14,7 @@ fn boxes(count: usize, random: &mut Random, around: &Vec3) -> Vec<Boxed<u32>> {
     (0..count as u32).map(one).collect()
 }
 
-/// Rounding outward never loses a place, for numbers of every size.
+/// Rounding outward never excludes a point, for numbers of every size.
 #[test]
 fn single_precision_boxes_hold_their_numbers() {
     let mut random = Random(1);
@@ -36,7 +36,7 @@ fn single_precision_boxes_hold_their_numbers() {
     }
 }
 
-/// Whatever is asked, every element that the question touches is found: compared with asking all of them.
+/// Every element that the query touches is found: compared with a test of all elements.
 #[test]
 fn nothing_that_a_box_touches_is_missed() {
     let mut random = Random(2);
@@ -63,7 +63,7 @@ fn nothing_that_a_box_touches_is_missed() {
     }
 }
 
-/// A ball within the box leaves out what it does not reach, and nothing else; places far from the origin too.
+/// The sphere test inside a box excludes exactly the elements out of reach, also far from the origin.
 #[test]
 fn nothing_that_a_ball_reaches_is_missed() {
     let mut random = Random(4);
@@ -73,7 +73,7 @@ fn nothing_that_a_ball_reaches_is_missed() {
         let tree = BoxTree::build(&mut elements);
         for round in 0..200 {
             let center = around + Vec3::from_fn(|_, _| random.unit());
-            // A radius that just reaches one of the boxes.
+            // Radius that just reaches one of the boxes.
             let element = &elements[round * 7];
             let nearest = center.sup(&element.low).inf(&element.high);
             let radius = (nearest - center).norm().min(0.3);
@@ -99,7 +99,8 @@ fn nothing_that_a_ball_reaches_is_missed() {
     assert!(reached > 1000 && seen <= reached + reached / 100, "{reached} {seen}");
 }
 
-/// Bottom nodes are full but for the last of a part, all at one depth, and every node bounds what is below it.
+/// Bottom nodes are full except the last of a part, all are at the same depth, and every node bounds what is
+/// below it.
 #[test]
 fn nodes_are_full_and_hold_what_is_below() {
     let mut random = Random(3);

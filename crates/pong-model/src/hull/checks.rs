@@ -1,4 +1,4 @@
-//! What a polyhedron must be.
+//! Checks of a polyhedron.
 
 use super::places::Places;
 use super::polygon::{self, area_vector, dent, plane_of};
@@ -14,7 +14,7 @@ fn verdict(problems: Vec<Problem>) -> Checked {
     if problems.is_empty() { Ok(()) } else { Err(problems) }
 }
 
-/// Numbers and indices as authored.
+/// Checks numbers and indices as authored.
 pub(super) fn authored(vertices: &[Vec3], faces: &[&[u32]]) -> Checked {
     let mut problems = Vec::new();
     for (index, vertex) in vertices.iter().enumerate() {
@@ -52,7 +52,7 @@ fn corners(vertices: &[Vec3], face: &[u32]) -> Vec<Vec3> {
     face.iter().map(|&v| vertices[v as usize]).collect()
 }
 
-/// No edge without length.
+/// Checks that every edge has a length.
 pub(super) fn edges(vertices: &[Vec3], faces: &[Vec<u32>]) -> Checked {
     let without = |(index, face): (usize, &Vec<u32>)| {
         let (a, _) = polygon::edges(face).find(|(a, b)| a == b)?;
@@ -63,13 +63,13 @@ pub(super) fn edges(vertices: &[Vec3], faces: &[Vec<u32>]) -> Checked {
     verdict(faces.iter().enumerate().filter_map(without).collect())
 }
 
-/// What is told of faces without width that cannot be joined to others.
+/// Problem: a face without width that cannot be joined to a neighbour.
 pub(super) fn sliver(face: usize, share: f64) -> Problem {
     let cause = format!("a sliver: its width is {share:.1e} of its longest edge");
     Problem::new(Some(face), "sliver-face", cause, "remove it or move a vertex")
 }
 
-/// Every edge is shared by exactly two faces that run along it in opposite directions.
+/// Checks that every edge is shared by exactly two faces that run along it in opposite directions.
 pub(super) fn closed_surface(vertices: &[Vec3], faces: &[Vec<u32>]) -> Checked {
     let mut users: WordMap<(u32, u32), u32> = WordMap::default();
     for (a, b) in faces.iter().flat_map(|face| polygon::edges(face)) {
@@ -91,7 +91,7 @@ pub(super) fn closed_surface(vertices: &[Vec3], faces: &[Vec<u32>]) -> Checked {
     verdict(problems)
 }
 
-/// The solid lies behind its faces.
+/// Checks that the solid lies behind its faces.
 pub(super) fn volume(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Checked {
     let first = vertices[0];
     let local = |v: u32| (vertices[v as usize] - first) / diameter;
@@ -104,7 +104,7 @@ pub(super) fn volume(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Ch
         six_volumes += area.dot(&origin);
         largest_area = largest_area.max(area.norm());
     }
-    // Thickness in diameters is about the volume over the largest area.
+    // The thickness in diameters is about the volume over the largest area.
     if six_volumes.abs() <= PLANE_TOLERANCE * largest_area {
         let thickness = six_volumes.abs() / (3.0 * largest_area);
         return Err(vec![no_thickness(None, &format!("about {thickness:.1e} of its diameter thick"))]);
@@ -117,18 +117,18 @@ pub(super) fn volume(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Ch
     Ok(())
 }
 
-/// What is told of a solid without thickness: behind which face, and how thick it is.
+/// Problem: a solid without thickness, with the face and the thickness behind it.
 fn no_thickness(face: Option<usize>, how_thick: &str) -> Problem {
     let cause = format!("the solid is {how_thick}; it has to be thicker than {PLANE_TOLERANCE:.0e}");
     Problem::new(face, "zero-volume", cause, "give it a thickness, or use triangles")
 }
 
-/// What is told where no faces are left that make a solid.
+/// Problem: too few faces remain for a solid.
 pub(super) fn too_few_faces() -> Problem {
     no_thickness(None, "as good as flat: its faces lie in fewer than four planes")
 }
 
-/// Faces of more than three vertices lie in a plane.
+/// Checks that faces of more than three vertices are planar.
 pub(super) fn planar(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Checked {
     let mut problems = Vec::new();
     for (index, face) in faces.iter().enumerate().filter(|(_, face)| face.len() > 3) {
@@ -149,20 +149,21 @@ pub(super) fn planar(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Ch
     verdict(problems)
 }
 
-/// No vertex lies in front of a face, no face has a dent, and there is a thickness behind every face.
+/// Checks that no vertex lies in front of a face, no face has a dent, and the solid has a thickness behind
+/// every face.
 ///
-/// Vertices that merging has dropped count too: no place of the solid may move by more than the tolerance.
+/// Vertices dropped by merging count too: no point of the solid may move by more than the tolerance.
 pub(super) fn convex(vertices: &[Vec3], faces: &[HullFace], tree: &Places, diameter: f64) -> Checked {
     verdict(faces.iter().filter_map(|one| face(vertices, one, tree, diameter)).collect())?;
     thickness(faces, tree, diameter)
 }
 
-/// What is wrong with one face: a vertex in front of it, or a dent.
+/// Problem of one face, if any: a vertex in front of it, or a dent.
 pub(super) fn face(vertices: &[Vec3], face: &HullFace, tree: &Places, diameter: f64) -> Option<Problem> {
     vertex_in_front(vertices, face, tree, diameter).or_else(|| dented(vertices, face, diameter))
 }
 
-/// What is wrong with the outline of a face whose walls run along its edges.
+/// Problem of the outline, if any, for a face whose boundary planes run along its edges.
 pub(super) fn dented(vertices: &[Vec3], face: &HullFace, diameter: f64) -> Option<Problem> {
     if !face.walls.is_empty() {
         return None;
@@ -177,7 +178,8 @@ pub(super) fn dented(vertices: &[Vec3], face: &HullFace, diameter: f64) -> Optio
     Some(not_convex(face, "face-not-convex", cause).at(&[corners[corner]]).off(depth))
 }
 
-/// There is something behind every face. Merged to fewer than four, the solid would be as good as flat.
+/// Checks the thickness behind every face. With fewer than four faces after merging, the solid would be
+/// practically flat.
 pub(super) fn thickness(faces: &[HullFace], tree: &Places, diameter: f64) -> Checked {
     let floor = PLANE_TOLERANCE * diameter;
     if faces.len() < 4 {
@@ -189,7 +191,7 @@ pub(super) fn thickness(faces: &[HullFace], tree: &Places, diameter: f64) -> Che
     Err(vec![no_thickness(Some(thin.authored as usize), how_thick)])
 }
 
-/// None of some vertices that lie in no face lies deeper below the surface than the tolerance.
+/// Checks that no vertex without a face lies deeper below the surface than the tolerance.
 pub(super) fn none_deep(vertices: &[Vec3], lost: &[u32], faces: &[HullFace], diameter: f64) -> Checked {
     let problem = |vertex: &u32| {
         let vertex = &vertices[*vertex as usize];

@@ -1,12 +1,12 @@
-//! Neighbouring faces that lie in one plane become one: hulls from OBJ and STL files are triangulated.
+//! Merging of coplanar neighbouring faces: hulls from OBJ and STL files are triangulated.
 //!
-//! Regions grow from the largest faces, whose normals are the surest. A face joins when every vertex of the
-//! region stays within the tolerance of the common plane. Area vectors add up to that of the union, so the
-//! arbitrary normal of a sliver cannot turn the plane.
+//! Regions grow from the largest faces, whose normals are the most reliable. A face joins if every vertex of
+//! the region stays within the tolerance of the common plane. Area vectors are summed, so the arbitrary
+//! normal of a sliver cannot turn the plane.
 //!
-//! Where faces are nearly but not quite in one plane (a shallow cap, a finely tessellated ball), a region can end with a
-//! ragged outline. Such a region is grown again with a quarter of the tolerance, and so on down to single faces, which
-//! are convex as they are: the merging always ends in convex faces within the tolerance, as few as it finds.
+//! If faces are almost but not quite coplanar (a shallow cap, a finely tessellated sphere), a region may get
+//! a ragged outline. It is then grown again with a quarter of the tolerance, and so on down to single faces,
+//! which are convex. So merging always ends with convex faces within the tolerance, as few as it finds.
 
 use super::places::Places;
 use super::polygon::{area_vector, edges, hull_sides, plane_of, unit, width};
@@ -16,37 +16,37 @@ use crate::weld::WordMap;
 use pong_geometry::Vec3;
 use std::collections::VecDeque;
 
-/// Below this width (in diameters) the normal of a face is noise and says nothing about its side.
+/// Width, in diameters, below which the normal of a face is noise.
 pub(super) const SURE_WIDTH: f64 = 4e-6;
-/// By how much the tolerance of a region that is grown again is smaller.
+/// Factor by which the tolerance shrinks when a region is grown again.
 const FINER: f64 = 0.25;
-/// How often it is made smaller: the last one, 4e-9 of the diameter, is below what rounding to 32 bits leaves.
+/// Number of tolerances; the last, 4e-9 of the diameter, is below the rounding to 32 bits.
 pub(super) const LEVELS: usize = 5;
 
-/// The faces of a solid, to be merged where that leaves them convex.
+/// Faces of a solid, to be merged as far as they stay convex.
 pub(super) struct Faces<'a> {
     vertices: &'a [Vec3],
     outlines: &'a [Vec<u32>],
     active: &'a [bool],
     areas: Vec<Vec3>,
     sure: Vec<bool>,
-    /// The face that runs along a directed edge.
+    /// Face that runs along a directed edge.
     along: WordMap<(u32, u32), u32>,
-    /// All faces, the largest first.
+    /// All faces, largest first.
     order: Vec<u32>,
-    /// That of the model format, m.
+    /// Planarity tolerance of the model format, m.
     tolerance: f64,
 }
 
-/// A merged face, and all vertices that its plane must hold: those of its outline and those that merging has dropped.
+/// Merged face, and all vertices that its plane must hold: those of its outline and those dropped by merging.
 pub(super) struct Merged {
     pub(super) face: HullFace,
     pub(super) held: Vec<u32>,
 }
 
-/// Which faces a region may still take.
+/// Faces that regions may still take.
 struct Free {
-    /// The set of faces that each belongs to; zero once it is taken.
+    /// Set that each face belongs to; zero once it is taken.
     set: Vec<u32>,
     sets: u32,
 }
@@ -84,8 +84,8 @@ impl<'a> Faces<'a> {
         }
     }
 
-    /// The faces as they are merged if regions begin with the tolerance made smaller `level` times; with [`LEVELS`] nothing
-    /// is merged.
+    /// Merged faces if regions start with the tolerance reduced `level` times; with [`LEVELS`] nothing is
+    /// merged.
     pub(super) fn merged(&self, level: usize) -> Vec<Merged> {
         let mut merged = Vec::new();
         let mut free = Free { set: vec![0; self.outlines.len()], sets: 0 };
@@ -98,7 +98,7 @@ impl<'a> Faces<'a> {
         edges(&self.outlines[face as usize]).map(|(a, b)| self.along[&(b, a)])
     }
 
-    /// Merges among these faces, the largest first.
+    /// Merges the given faces, largest first.
     fn settle(&self, order: Vec<u32>, level: usize, free: &mut Free, merged: &mut Vec<Merged>) {
         if level >= LEVELS {
             merged.extend(order.iter().map(|&face| self.alone(face)));
@@ -162,8 +162,8 @@ impl<'a> Faces<'a> {
         !self.sure[face as usize] || unit(own).dot(&unit(area)) > 0.5
     }
 
-    /// A region as one face, if its outline is one convex loop and its vertices lie within the tolerance of the face's
-    /// plane.
+    /// Region as one face, if its outline is one convex loop and its vertices lie within the tolerance of the
+    /// face's plane.
     fn united(&self, region: &[u32]) -> Option<Merged> {
         if let [face] = region {
             return Some(self.alone(*face));
@@ -186,7 +186,7 @@ impl<'a> Faces<'a> {
         Merged { face: self.face(outline.clone(), face), held: outline.clone() }
     }
 
-    /// The outline of a region, if it is one loop.
+    /// Outline of a region, if it is a single loop.
     fn outline(&self, region: &[u32]) -> Option<Vec<u32>> {
         let mut next: WordMap<u32, u32> = WordMap::default();
         let mut first = None;
@@ -225,17 +225,17 @@ impl<'a> Faces<'a> {
     }
 }
 
-/// The vertices of a region and how far apart they lie along its normal.
+/// Vertices of a region and their extent along its normal.
 ///
-/// The normal settles down as the region grows. As long as it has turned by less than could matter, the heights that
-/// were measured before serve, with what the turn can add: no vertex is looked at once per face that joins.
+/// The normal converges as the region grows. While it has turned by a negligible angle, the measured heights
+/// are reused with a bound for the turn, so the vertices are not measured again for each face that joins.
 struct Slab {
     places: Vec<Vec3>,
-    /// Along which the heights were measured.
+    /// Normal along which the heights were measured.
     normal: Vec3,
     low: f64,
     high: f64,
-    /// How far the places are from the first one.
+    /// Largest distance of a vertex from the first one.
     reach: f64,
 }
 
@@ -244,7 +244,7 @@ impl Slab {
         Self { places: Vec::new(), normal, low: 0.0, high: 0.0, reach: 0.0 }
     }
 
-    /// Measures all heights anew.
+    /// Measures all heights again.
     fn measure(&mut self, normal: Vec3) {
         let first = self.places[0];
         let heights = self.places.iter().map(|p| normal.dot(&(p - first)));
@@ -253,7 +253,7 @@ impl Slab {
         self.normal = normal;
     }
 
-    /// Takes further places if all then lie within `thickness` along the normal.
+    /// Adds vertices if all then lie within `thickness` along the normal.
     fn takes(&mut self, places: impl Iterator<Item = Vec3>, normal: Vec3, thickness: f64) -> bool {
         let (known, first) = (self.places.len(), self.places[0]);
         let (mut low, mut high, mut reach) = (self.low, self.high, self.reach);
@@ -285,9 +285,9 @@ impl Slab {
     }
 }
 
-/// Drops the vertices at which only two faces meet, where that moves the edge between the two by no more than the
-/// tolerance: rounding gives the short edges of a subdivided straight one directions of their own, and lines along them
-/// would cut into the faces.
+/// Drops the vertices at which only two faces meet, if that moves the edge between them by no more than the
+/// tolerance: rounding gives the short segments of a subdivided straight edge arbitrary directions, and lines
+/// along them would cut into the faces.
 pub(super) fn straighten(vertices: &[Vec3], merged: &mut [Merged], tolerance: f64) {
     let mut faces: Vec<&mut HullFace> = merged.iter_mut().map(|merged| &mut merged.face).collect();
     let mut users = vec![0_u32; vertices.len()];
@@ -314,7 +314,8 @@ pub(super) fn straighten(vertices: &[Vec3], merged: &mut [Merged], tolerance: f6
     faces.iter_mut().for_each(|face| face.outline.retain(|&v| !dropped[v as usize]));
 }
 
-/// Drops what lies between the ends of a chain, or what lies between them and the vertex farthest from their line.
+/// Drops the vertices between the ends of a chain, or keeps the one farthest from their line and repeats on
+/// both sides.
 fn drop_between(vertices: &[Vec3], chain: &[u32], tolerance: f64, dropped: &mut [bool]) {
     let place = |v: u32| vertices[v as usize];
     let mut open = vec![(0, chain.len() - 1)];
@@ -332,9 +333,9 @@ fn drop_between(vertices: &[Vec3], chain: &[u32], tolerance: f64, dropped: &mut 
     }
 }
 
-/// Gives a face that a vertex is in front of, or that does not hold its own, the plane that comes nearest to supporting the
-/// solid and holding the face's vertices: across a narrow face rounding decides which way its normal points. Answers whether
-/// it does both.
+/// Replaces the plane of a face that a vertex lies in front of, or that does not hold its own vertices, by
+/// the plane that comes nearest to supporting the solid and holding these vertices (the normal of a narrow
+/// face is dominated by rounding). Returns `true` if it does both.
 pub(super) fn support(vertices: &[Vec3], merged: &mut Merged, tree: &Places, tolerance: f64) -> bool {
     let face = &mut merged.face;
     let held: Vec<Vec3> = merged.held.iter().map(|&v| vertices[v as usize]).collect();

@@ -1,11 +1,11 @@
-//! One convex piece: from authored vertices and faces to a checked shape with merged planar faces.
+//! Convex piece: from authored vertices and faces to a checked shape with merged planar faces.
 //!
-//! Degenerate cases, each with its own rule: vertices that are not finite; too few faces; faces of too few,
-//! unknown or repeated vertices; edges without length; slivers; faces that are not planar or not convex; open
-//! or inside-out surfaces; solids without thickness; solids that are not convex. All tolerances are relative to
-//! the diameter, so that what `f32` rounding makes of a good shape passes at every size. What rounding leaves without extent or
-//! turned over is left out or joined to its neighbours ([`slivers`]), and faces too narrow to have a normal get a plane that
-//! supports the solid ([`support`]).
+//! Each degenerate case has its own rule: non-finite vertices; too few faces; faces of too few, unknown or
+//! repeated vertices; edges without length; slivers; non-planar or non-convex faces; open or inside-out
+//! surfaces; solids without thickness; non-convex solids. All tolerances are relative to the diameter, so a
+//! good shape rounded to `f32` passes at every size. Parts that rounding has made degenerate or turned over
+//! are dropped or joined to their neighbours ([`slivers`]); faces too narrow to have a normal get a plane
+//! that supports the solid ([`support`]).
 
 mod checks;
 mod merge;
@@ -28,21 +28,21 @@ use places::Places;
 use pong_geometry::Vec3;
 use std::borrow::Cow;
 
-/// Checks a polyhedron and merges its coplanar neighbouring faces, or lists all that is wrong at the first
-/// stage that finds anything.
+/// Checks a polyhedron and merges its coplanar neighbouring faces, or returns all problems of the first stage
+/// that finds any.
 pub(crate) fn check(vertices: &[Vec3], faces: &[&[u32]], active: &[bool]) -> Result<Hull, Vec<Problem>> {
     checks::authored(vertices, faces)?;
     let (vertices, faces, remarks) = welded(vertices, faces);
     let as_written = checks::edges(&vertices, &faces).and_then(|()| of_surface(&vertices, &faces, active));
     let hull = as_written.or_else(|problems| match slivers::collapsed(&faces) {
-        // Where rounding has brought vertices together, the solid may be good without what lay between them.
+        // If rounding has merged vertices, the solid may be valid without what lay between them.
         Some(faces) => of_surface(&vertices, &faces, active).map_err(|_| problems),
         None => Err(problems),
     })?;
     Ok(Hull { remarks: [remarks, hull.remarks].concat(), ..hull })
 }
 
-/// A solid whose edges all have a length; faces without an outline are none.
+/// Builds the solid from faces whose edges all have a length; faces without an outline are ignored.
 fn of_surface(vertices: &[Vec3], authored: &[Vec<u32>], active: &[bool]) -> Result<Hull, Vec<Problem>> {
     let tree = Places::new(vertices);
     let diameter = places::diameter(vertices, &tree);
@@ -66,7 +66,7 @@ fn of_surface(vertices: &[Vec3], authored: &[Vec<u32>], active: &[bool]) -> Resu
     Ok(without_unused(Hull { vertices: vertices.to_vec(), faces: convex, diameter, remarks }))
 }
 
-/// Joins faces without width to their neighbours, if that leaves enough for a solid.
+/// Joins faces without width to their neighbours, if enough faces remain for a solid.
 fn join_slivers(vertices: &[Vec3], faces: &mut Cow<'_, [Vec<u32>]>) -> Result<(), Vec<Problem>> {
     let slivers = slivers::without_width(vertices, faces);
     if slivers.is_empty() {
@@ -81,16 +81,16 @@ fn join_slivers(vertices: &[Vec3], faces: &mut Cow<'_, [Vec<u32>]>) -> Result<()
     if problems.is_empty() { Ok(()) } else { Err(problems) }
 }
 
-/// Where the walls of a face stand.
+/// Position of the planes that bound a face sideways.
 #[derive(Clone, Copy, PartialEq)]
 enum Walls {
     /// Along its edges.
     Edges,
-    /// Along the sides of its outline's convex hull, where edges are too short to say how they run.
+    /// Along the sides of its outline's convex hull, if edges are too short to define directions.
     Sides,
 }
 
-/// A closed surface to be made convex.
+/// Closed surface to be made convex.
 struct Solid<'a> {
     vertices: &'a [Vec3],
     tree: &'a Places,
@@ -99,8 +99,8 @@ struct Solid<'a> {
 }
 
 impl Solid<'_> {
-    /// The faces, merged as far as the solid stays convex; or what keeps it from being so. Walls along the sides of hulls are
-    /// the last resort, as they are no longer those of the edges that push.
+    /// Faces merged as far as the solid stays convex, or the problems that prevent it. Planes along the sides
+    /// of hulls are the last resort, because they differ from the edges that push.
     fn convex_faces(&self, faces: &[Vec<u32>]) -> Result<Vec<HullFace>, Vec<Problem>> {
         let Self { vertices, tree, diameter, active } = *self;
         let tolerance = PLANE_TOLERANCE * diameter;
@@ -112,14 +112,15 @@ impl Solid<'_> {
             let mut merged = faces_of_attempt(attempt, vertices, &authored, tolerance);
             let is_bad = |merged: &mut Merged| match attempt {
                 0 => checks::face(vertices, &merged.face, tree, diameter).is_some(),
-                // What supports the solid has nothing in front.
+                // A supporting plane has nothing in front.
                 _ => {
                     !merge::support(vertices, merged, tree, tolerance)
                         || !self.has_walls(&mut merged.face, walls)
                 }
             };
             match first_from(&mut merged, suspect, is_bad) {
-                // Likely this is where the next attempt fails too: it begins there, and need not look at all faces.
+                // The next attempt will probably fail at the same face: it starts there, and need not test
+                // all faces.
                 Some(authored) => suspect = authored,
                 None => {
                     let faces = faces_alone(merged);
@@ -129,7 +130,7 @@ impl Solid<'_> {
                 }
             }
         }
-        // What is wrong in the last attempt is told: its faces are those that were authored.
+        // Reports the problems of the last attempt, whose faces are the authored ones.
         let mut merged = faces_of_attempt(last, vertices, &authored, tolerance);
         for merged in &mut merged {
             merge::support(vertices, merged, tree, tolerance);
@@ -140,7 +141,7 @@ impl Solid<'_> {
         Err(checks::planar(vertices, faces, diameter).err().unwrap_or_else(|| vec![checks::too_few_faces()]))
     }
 
-    /// Whether no corner of a face is beyond one of its walls.
+    /// Returns `true` if no corner of a face is beyond one of its lateral planes.
     fn has_walls(&self, face: &mut HullFace, walls: Walls) -> bool {
         if checks::dented(self.vertices, face, self.diameter).is_none() {
             return true;
@@ -155,8 +156,7 @@ impl Solid<'_> {
         true
     }
 
-    /// Joins the faces that rounding has turned over to their neighbours, and what that makes of them, too. Answers whether
-    /// there are any.
+    /// Joins faces turned over by rounding to their neighbours, repeatedly. Returns `true` if there were any.
     fn join_turned_over(&self, faces: &mut Cow<'_, [Vec<u32>]>) -> bool {
         let mut any = false;
         loop {
@@ -169,7 +169,7 @@ impl Solid<'_> {
         }
     }
 
-    /// The narrow faces that no plane that supports the solid shows from outside: rounding has turned them over.
+    /// Narrow faces that no supporting plane shows from outside: rounding has turned them over.
     fn turned_over(&self, faces: &[Vec<u32>]) -> Vec<usize> {
         let authored = merge::Faces::new(self.vertices, faces, self.active, self.diameter);
         let is_over = |merged: &mut Merged| {
@@ -189,9 +189,9 @@ fn faces_alone(merged: Vec<Merged>) -> Vec<HullFace> {
     merged.into_iter().map(|merged| merged.face).collect()
 }
 
-/// The first attempt merges all that lies within the tolerance and leaves the rest as it is, which suits nearly every solid.
-/// Those after it straighten edges that rounding has bent, and merge less and less; their planes are tilted face by face
-/// ([`merge::support`]).
+/// Faces for one attempt. The first attempt merges everything within the tolerance and leaves the rest
+/// unchanged, which suits nearly every solid. Later ones straighten edges bent by rounding and merge less and
+/// less; their planes are tilted face by face ([`merge::support`]).
 fn faces_of_attempt(
     attempt: usize,
     vertices: &[Vec3],
@@ -205,7 +205,8 @@ fn faces_of_attempt(
     merged
 }
 
-/// Looks at the faces once round, from an authored one on: which authored face the first bad one is.
+/// Tests all faces cyclically, starting at an authored face, and returns the authored index of the first bad
+/// one.
 fn first_from(
     faces: &mut [Merged],
     authored: u32,
@@ -216,7 +217,7 @@ fn first_from(
     after.iter_mut().chain(before).find_map(|merged| is_bad(merged).then_some(merged.face.authored))
 }
 
-/// Bit-equal positions become one vertex.
+/// Merges bit-equal positions into one vertex.
 fn welded(vertices: &[Vec3], faces: &[&[u32]]) -> (Vec<Vec3>, Vec<Vec<u32>>, Vec<String>) {
     let mut welder = Welder::default();
     let mut distinct = Vec::new();
@@ -237,7 +238,7 @@ fn welded(vertices: &[Vec3], faces: &[&[u32]]) -> (Vec<Vec3>, Vec<Vec<u32>>, Vec
     (distinct, faces, remarks)
 }
 
-/// Drops the vertices that lie within merged faces.
+/// Drops the vertices that lie inside merged faces.
 fn without_unused(hull: Hull) -> Hull {
     let mut number = vec![u32::MAX; hull.vertices.len()];
     let mut vertices = Vec::new();
@@ -251,7 +252,7 @@ fn without_unused(hull: Hull) -> Hull {
             }
             *vertex = *slot;
         }
-        // Walls run between vertices of the outline.
+        // Lateral planes run between vertices of the outline.
         face.walls.iter_mut().flatten().for_each(|vertex| *vertex = number[*vertex as usize]);
     }
     Hull { vertices, faces, ..hull }

@@ -1,44 +1,44 @@
-//! Places in a tree of boxes turned to fit them: how far they reach in a direction, and which two are farthest apart.
+//! Vertices in a tree of fitted oriented boxes, for support queries and the diameter.
 //!
-//! A patch of a round body lies flat in its box, so that a plane that touches the body there meets few boxes: what would
-//! take every place against every face takes about as many steps as there are faces.
+//! A patch of a round body lies flat in its box, so a plane that touches the body there meets few boxes.
+//! Checking every vertex against every face then takes about as many steps as there are faces.
 
 use nalgebra::{Matrix3, SymmetricEigen};
 use pong_geometry::Vec3;
 
-/// Most places of a leaf.
+/// Maximum number of vertices of a leaf.
 const LEAF: usize = 16;
-/// So few are compared with each other one by one.
+/// Number of vertices up to which all pairs are compared.
 const FEW: usize = 256;
-/// Rounding of a bound, in sizes of what it bounds.
+/// Rounding of a bound, relative to the size of what it bounds.
 const ROUNDING: f64 = 1e-12;
 
-/// A box around some of the places.
+/// Box around some of the vertices.
 struct Node {
     center: Vec3,
-    /// Half the box along each of its axes.
+    /// Half-extent vectors of the box.
     half: [Vec3; 3],
-    /// Length of half the box's diagonal.
+    /// Half the box's diagonal.
     radius: f64,
     range: std::ops::Range<usize>,
-    /// The second child; the first one follows its parent. Zero for a leaf.
+    /// Index of the second child; the first follows its parent. Zero for a leaf.
     second: usize,
 }
 
-/// The places and the tree over them.
+/// Vertices and the tree over them.
 pub(super) struct Places {
-    /// In the order of the leaves.
+    /// Positions in leaf order.
     places: Vec<Vec3>,
-    /// The number that each had.
+    /// Original index of each vertex.
     numbers: Vec<u32>,
     nodes: Vec<Node>,
-    /// Boxes looked at since the tree was made.
+    /// Number of boxes visited since the tree was built.
     #[cfg(test)]
     pub(super) looked: std::cell::Cell<u64>,
 }
 
 impl Node {
-    /// How far it reaches from its center along a direction.
+    /// Extent of the box from its centre along a direction.
     fn reach(&self, direction: &Vec3) -> f64 {
         let [first, second, third] = &self.half;
         first.dot(direction).abs() + second.dot(direction).abs() + third.dot(direction).abs()
@@ -63,8 +63,8 @@ impl Places {
         }
     }
 
-    /// The highest of the places that lie more than `floor` above a plane and are `wanted`: height and number, the lowest
-    /// number of equals.
+    /// Highest of the vertices that lie more than `floor` above a plane and are `wanted`: height and index
+    /// (ties: lowest index).
     pub(super) fn highest(
         &self,
         (normal, offset): (&Vec3, f64),
@@ -95,7 +95,7 @@ impl Places {
         best
     }
 
-    /// Whether a place lies more than `floor` above a plane.
+    /// Returns `true` if a vertex lies more than `floor` above a plane.
     pub(super) fn any_above(&self, (normal, offset): (&Vec3, f64), floor: f64) -> bool {
         let mut open = vec![(0, self.nodes[0].bound(normal, offset))];
         while let Some((index, bound)) = open.pop() {
@@ -115,24 +115,24 @@ impl Places {
         false
     }
 
-    /// Both children of a node with their bounds, the more promising one last: that is looked into first.
+    /// Children of a node with their bounds, the more promising one last, because it is visited first.
     fn children(&self, index: usize, (normal, offset): (&Vec3, f64)) -> [(usize, f64); 2] {
         let with_bound = |child: usize| (child, self.nodes[child].bound(normal, offset));
         let (first, second) = (with_bound(index + 1), with_bound(self.nodes[index].second));
         if first.1 < second.1 { [first, second] } else { [second, first] }
     }
 
-    /// Counts the boxes that are looked at, where tests ask how much work a solid takes.
+    /// Counts a visited box, for tests that measure the work.
     fn look(&self) {
         #[cfg(test)]
         self.looked.set(self.looked.get() + 1);
     }
 
-    /// The largest distance between two places.
+    /// Largest distance between two vertices.
     pub(super) fn diameter(&self) -> f64 {
         let mut best: f64 = 0.0;
         let mut from = self.places[0];
-        // A pair that is far apart to begin with leaves little to look at.
+        // A pair that is far apart from the start leaves little to search.
         for _ in 0..4 {
             let farther =
                 |a: &&Vec3, b: &&Vec3| (*a - from).norm_squared().total_cmp(&(*b - from).norm_squared());
@@ -173,7 +173,7 @@ impl Places {
     }
 }
 
-/// The largest distance between two places; few are simply tried.
+/// Largest distance between two vertices; by comparing all pairs if there are few.
 pub(super) fn diameter(places: &[Vec3], tree: &Places) -> f64 {
     if places.len() > FEW {
         return tree.diameter();
@@ -187,7 +187,7 @@ pub(super) fn diameter(places: &[Vec3], tree: &Places) -> f64 {
     largest.sqrt()
 }
 
-/// A bound of the squared distance between a place of one box and one of the other.
+/// Upper bound of the squared distance between a point of one box and a point of the other.
 fn farthest_between(a: &Node, b: &Node) -> f64 {
     let between = b.center - a.center;
     let distance = between.norm();
@@ -200,7 +200,7 @@ fn farthest_between(a: &Node, b: &Node) -> f64 {
     (along * along + both * both) * (1.0 + ROUNDING)
 }
 
-/// Adds the box of some places and those of both halves of them.
+/// Adds the box of some vertices, and recursively of both halves of them.
 fn grow(points: &[Vec3], order: &mut [u32], start: usize, nodes: &mut Vec<Node>) {
     let (node, longest) = fitted(points, order, start..start + order.len());
     let index = nodes.len();
@@ -217,10 +217,10 @@ fn grow(points: &[Vec3], order: &mut [u32], start: usize, nodes: &mut Vec<Node>)
     grow(points, high, start + middle, nodes);
 }
 
-/// A box around places, along their principal axes, and the axis along which they reach farthest.
+/// Box around vertices along their principal axes, and the axis of largest extent.
 fn fitted(points: &[Vec3], order: &[u32], range: std::ops::Range<usize>) -> (Node, Vec3) {
     let count = order.len() as f64;
-    // Scaled, so that no size overflows in a square.
+    // Scaled, so that squares do not overflow.
     let first = points[order[0] as usize];
     let from_first = |i: &u32| points[*i as usize] - first;
     let size = order.iter().map(|i| from_first(i).amax()).fold(f64::MIN_POSITIVE, f64::max);
@@ -237,7 +237,7 @@ fn fitted(points: &[Vec3], order: &[u32], range: std::ops::Range<usize>) -> (Nod
         let reach = order.iter().map(|i| axis.dot(&from_first(i)));
         let (low, high) = reach.fold((0.0_f64, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
         center += axis * (0.5 * (low + high));
-        // Rounding of the axes and of the center stays inside.
+        // Enlarged for the rounding of the axes and of the centre.
         *half = axis * (0.5 * (high - low) + ROUNDING * size);
     }
     let longest = half.iter().max_by(|a, b| a.norm().total_cmp(&b.norm())).copied().unwrap_or_default();
@@ -249,7 +249,7 @@ fn fitted(points: &[Vec3], order: &[u32], range: std::ops::Range<usize>) -> (Nod
 mod tests {
     use super::*;
 
-    /// Places on an egg, with coordinates of single precision, far from the origin.
+    /// Points on an ellipsoid, with single-precision coordinates, far from the origin.
     fn egg(count: usize) -> Vec<Vec3> {
         let place = |k: usize| {
             let (height, turn) = (1.0 - (2 * k + 1) as f64 / count as f64, 2.399_963 * k as f64);

@@ -3,43 +3,43 @@
 use super::places::Places;
 use pong_geometry::Vec3;
 
-/// Twice the area along the polygon's normal (Newell's rule), relative to its first corner.
+/// Twice the area times the unit normal (Newell's method), relative to the first corner.
 pub(super) fn area_vector(corners: &[Vec3]) -> Vec3 {
     let first = corners[0];
     corners.windows(2).skip(1).map(|pair| (pair[0] - first).cross(&(pair[1] - first))).sum()
 }
 
-/// Unit normal and offset: Newell's normal through the mean of the corners. The polygon has an area.
+/// Unit normal and offset: Newell's normal through the mean of the corners. The polygon must have an area.
 pub(crate) fn plane_of(corners: &[Vec3]) -> (Vec3, f64) {
     let normal = unit(&area_vector(corners));
     (normal, normal.dot(&mean(corners)))
 }
 
-/// A unit vector without overflow at any size.
+/// Unit vector, without overflow at any size.
 pub(super) fn unit(v: &Vec3) -> Vec3 {
     (v / v.amax()).normalize()
 }
 
 pub(super) fn mean(corners: &[Vec3]) -> Vec3 {
-    // Relative to one corner, so that a far origin costs no digits.
+    // Relative to one corner, so that a distant origin costs no precision.
     let first = corners[0];
     first + corners.iter().map(|corner| corner - first).sum::<Vec3>() / corners.len() as f64
 }
 
-/// Each corner with the next one.
+/// Pairs of each corner and the next one.
 pub(super) fn edges<T: Copy>(outline: &[T]) -> impl Iterator<Item = (T, T)> + '_ {
     outline.iter().copied().zip(outline.iter().copied().cycle().skip(1))
 }
 
-/// Outlines of more corners are not compared corner by edge: that would take the square of their number.
+/// Number of corners above which outlines are not compared corner by edge, which takes quadratic time.
 const MANY: usize = 64;
 
-/// The smallest distance between two parallel lines that hold the polygon: one of them lies along an edge. Of a polygon
-/// of many corners, a bound below it, at least a quarter of it.
+/// Smallest distance between two parallel lines that enclose the polygon; one of them lies along an edge. For
+/// a polygon of many corners, a lower bound of at least a quarter of it.
 pub(super) fn width(corners: &[Vec3]) -> f64 {
     if corners.len() > MANY {
         let reach = corners.iter().map(|c| (c - corners[0]).norm()).fold(0.0, f64::max);
-        // No polygon is larger than its width times its diameter, which is at most twice the reach.
+        // No polygon has more area than its width times its diameter, which is at most twice the reach.
         return 0.25 * area_vector(corners).norm() / reach;
     }
     let across = |a: Vec3, b: Vec3| {
@@ -49,14 +49,14 @@ pub(super) fn width(corners: &[Vec3]) -> f64 {
     edges(corners).map(|(a, b)| across(a, b)).fold(f64::INFINITY, f64::min)
 }
 
-/// The corner farthest beyond the line along an edge, and how far, if that is more than the tolerance: the outline has a
-/// dent there.
+/// Corner farthest beyond the line along an edge, and its distance, if that exceeds the tolerance: a dent in
+/// the outline.
 pub(super) fn dent(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Option<(f64, usize)> {
     let tree = (corners.len() > MANY).then(|| Places::new(corners));
     let beyond = |(a, b): (Vec3, Vec3)| {
         let outward = unit(&(b - a)).cross(normal);
         if outward.amax() == 0.0 {
-            // An edge along the normal has no side, and so no line to be behind.
+            // An edge parallel to the normal defines no side.
             return corners.iter().position(|c| *c == b).map(|corner| ((b - a).norm(), corner));
         }
         let outward = unit(&outward);
@@ -74,9 +74,10 @@ pub(super) fn dent(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Option<(f
     edges(corners).filter_map(beyond).max_by(|x, y| x.0.total_cmp(&y.0))
 }
 
-/// The sides of the convex hull of an outline that runs counter-clockwise about the normal: for each edge of the outline the two
-/// corners between which it runs. `None` unless all corners lie within the tolerance of their side: rounding may give the short
-/// edges of a straight side any direction, and no corner need move farther than that.
+/// Sides of the convex hull of an outline that runs counter-clockwise about the normal: for each edge of the
+/// outline, the two corners of its side. `None` unless all corners lie within the tolerance of their side.
+/// (Rounding may give the short edges of a straight side any direction, but moves no corner farther than
+/// that.)
 pub(super) fn hull_sides(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Option<Vec<[usize; 2]>> {
     let first = corners[0];
     let across = unit(&(if normal.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() }).cross(normal));
@@ -90,7 +91,7 @@ pub(super) fn hull_sides(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Opt
     let first = hull.iter().enumerate().min_by_key(|(_, corner)| **corner).map_or(0, |(at, _)| at);
     hull.rotate_left(first);
     if hull.len() < 3 || !hull.is_sorted() {
-        // It runs clockwise, or crosses itself.
+        // The outline runs clockwise or crosses itself.
         return None;
     }
     hull.push(hull[0] + count);
@@ -111,7 +112,7 @@ pub(super) fn hull_sides(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Opt
     Some(sides)
 }
 
-/// The corners of the convex hull of places in a plane, counter-clockwise (Andrew, 1979).
+/// Corners of the convex hull of points in a plane, counter-clockwise (Andrew, 1979).
 fn convex_hull(places: &[[f64; 2]]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     order.sort_by(|&a, &b| {
@@ -129,7 +130,7 @@ fn convex_hull(places: &[[f64; 2]]) -> Vec<usize> {
             }
             chain.push(corner);
         }
-        // The last one begins the other half.
+        // The last corner is the first of the other half.
         chain.pop();
         chain
     };
@@ -142,10 +143,10 @@ pub(super) fn longest_edge(corners: &[Vec3]) -> f64 {
     edges(corners).map(|(a, b)| (b - a).norm()).fold(0.0, f64::max)
 }
 
-/// Area that two convex polygons of opposite normals share, seen along `normal` (the first one's).
+/// Overlap area of two convex polygons with opposite normals, seen along `normal` (that of the first).
 pub(crate) fn overlap_area(first: &[Vec3], second: &[Vec3], normal: &Vec3) -> f64 {
     let mut rest = first.to_vec();
-    // The second runs clockwise seen along the first's normal.
+    // The second polygon runs clockwise seen along the first's normal.
     for (b, a) in edges(second) {
         let inward = normal.cross(&(b - a));
         rest = clipped(&rest, &a, &inward);
@@ -156,12 +157,12 @@ pub(crate) fn overlap_area(first: &[Vec3], second: &[Vec3], normal: &Vec3) -> f6
     0.5 * area_vector(&rest).dot(normal)
 }
 
-/// The area of a polygon.
+/// Area of a polygon.
 pub(crate) fn area(corners: &[Vec3]) -> f64 {
     0.5 * area_vector(corners).norm()
 }
 
-/// The part of a polygon on the inner side of a line.
+/// Part of a polygon on the inner side of a line.
 fn clipped(polygon: &[Vec3], on_line: &Vec3, inward: &Vec3) -> Vec<Vec3> {
     let mut inside = Vec::with_capacity(polygon.len() + 1);
     for (a, b) in edges(polygon) {

@@ -1,18 +1,18 @@
-//! What keeps authored faces from being a convex piece.
+//! Problems that prevent authored faces from forming a convex piece.
 
 use pong_geometry::Vec3;
 
-/// What is wrong with a polyhedron.
+/// Problem of a polyhedron.
 #[derive(Debug)]
 pub(crate) struct Problem {
-    /// The authored face, if it lies with one.
+    /// Index of the authored face, if it concerns one.
     pub(crate) face: Option<usize>,
     pub(crate) rule: &'static str,
     pub(crate) cause: String,
     pub(crate) cure: &'static str,
-    /// The vertices that it lies with.
+    /// Vertices that it concerns.
     pub(crate) places: Vec<Vec3>,
-    /// By how much a plane or a line is missed, m; 0 where none is.
+    /// Distance by which a plane or a line is missed, m; 0 if not applicable.
     pub(crate) off: f64,
 }
 

@@ -1,25 +1,25 @@
-//! Faces that rounding to 32 bits has left without width, or turned over: narrow triangles whose corners have come to lie on one
-//! line, or beyond it.
+//! Faces that rounding to 32 bits has left without width, or turned over: narrow triangles whose corners have
+//! moved onto one line, or past it.
 //!
-//! The longest edge of such a face runs along all its others. So the face joins the neighbour across that edge, which then has the
-//! others in its place: the surface stays closed and no vertex moves.
+//! The longest edge of such a face runs along all its others. So the face joins the neighbour across that
+//! edge, which takes over the other edges: the surface stays closed and no vertex moves.
 
 use super::polygon::{area_vector, edges, longest_edge, width};
 use crate::weld::WordMap;
 use pong_geometry::Vec3;
 use std::collections::VecDeque;
 
-/// A face narrower than this share of its longest edge has no width, and no normal.
+/// Width relative to its longest edge below which a face has no width and no normal.
 const SLIVER: f64 = 1e-9;
 
-/// The faces without width, and the width of each as a share of its longest edge.
+/// Faces without width, each with its width relative to its longest edge.
 pub(super) fn without_width(vertices: &[Vec3], faces: &[Vec<u32>]) -> Vec<(usize, f64)> {
     let present = faces.iter().enumerate().filter(|(_, face)| !face.is_empty());
     let shares = present.map(|(index, face)| (index, narrowness(vertices, face)));
     shares.filter(|(_, share)| is_sliver(*share)).collect()
 }
 
-/// The width of a face as a share of its longest edge.
+/// Width of a face relative to its longest edge.
 fn narrowness(vertices: &[Vec3], face: &[u32]) -> f64 {
     let corners = corners(vertices, face);
     if area_vector(&corners).amax() > 0.0 { width(&corners) / longest_edge(&corners) } else { 0.0 }
@@ -29,13 +29,14 @@ fn is_sliver(share: f64) -> bool {
     share.is_nan() || share < SLIVER
 }
 
-/// Whether a face lies in a strip of this width.
+/// Returns `true` if a face lies in a strip of this width.
 pub(super) fn is_narrow(vertices: &[Vec3], face: &[u32], strip: f64) -> bool {
     width(&corners(vertices, face)) <= strip
 }
 
-/// Joins faces of a closed surface to their neighbours, and what has no width then, too. They keep their numbers, with no outline.
-/// Those that cannot be joined are left, and returned in rising order.
+/// Joins faces of a closed surface to their neighbours, and repeats for faces that become narrow. Joined
+/// faces keep their indices, with an empty outline. Returns the faces that could not be joined, in increasing
+/// order.
 pub(super) fn join(vertices: &[Vec3], faces: &mut [Vec<u32>], narrow: &[usize]) -> Vec<usize> {
     let mut along: WordMap<(u32, u32), usize> = WordMap::default();
     for (index, face) in faces.iter().enumerate() {
@@ -58,7 +59,7 @@ pub(super) fn join(vertices: &[Vec3], faces: &mut [Vec<u32>], narrow: &[usize]) 
     left
 }
 
-/// The vertices that no face has any more after some have joined others.
+/// Vertices that no face uses any more after faces were joined.
 pub(super) fn lost(before: &[Vec<u32>], after: &[Vec<u32>]) -> Vec<u32> {
     if before.iter().zip(after).all(|(before, after)| before == after) {
         return Vec::new();
@@ -72,9 +73,9 @@ pub(super) fn lost(before: &[Vec<u32>], after: &[Vec<u32>]) -> Vec<u32> {
     lost
 }
 
-/// The faces without what has no area where vertices have come together: edges between a vertex and itself, faces of fewer than
-/// three vertices, and pairs of faces back to back. What is taken out keeps its number, with no outline. `None` if there is
-/// nothing to take out.
+/// Faces without degenerate parts left where vertices have merged: edges between a vertex and itself, faces
+/// of fewer than three vertices, and pairs of faces back to back. Removed faces keep their indices, with an
+/// empty outline. `None` if there is nothing to remove.
 pub(super) fn collapsed(faces: &[Vec<u32>]) -> Option<Vec<Vec<u32>>> {
     let mut left: Vec<Vec<u32>> = faces.iter().map(|face| without_repeats(face)).collect();
     let mut by_outline: WordMap<Vec<u32>, usize> = WordMap::default();
@@ -89,7 +90,7 @@ pub(super) fn collapsed(faces: &[Vec<u32>]) -> Option<Vec<Vec<u32>>> {
     (left != faces).then_some(left)
 }
 
-/// An outline without edges between a vertex and itself; empty if that leaves fewer than three vertices.
+/// Outline without edges between a vertex and itself; empty if fewer than three vertices remain.
 fn without_repeats(face: &[u32]) -> Vec<u32> {
     let mut left = face.to_vec();
     left.dedup();
@@ -99,7 +100,7 @@ fn without_repeats(face: &[u32]) -> Vec<u32> {
     if left.len() < 3 { Vec::new() } else { left }
 }
 
-/// The same loop from its lowest vertex on.
+/// Same loop, starting at its lowest vertex.
 fn from_lowest(mut outline: Vec<u32>) -> Vec<u32> {
     let lowest = (0..outline.len()).min_by_key(|&k| outline[k]).unwrap_or(0);
     outline.rotate_left(lowest);
@@ -110,8 +111,8 @@ fn corners(vertices: &[Vec3], face: &[u32]) -> Vec<Vec3> {
     face.iter().map(|&v| vertices[v as usize]).collect()
 }
 
-/// Gives the outline of a face to the neighbour across its longest edge. Which that is; `None` if that would leave no
-/// face.
+/// Merges a face into the neighbour across its longest edge, and returns that neighbour; `None` if no face
+/// would remain.
 fn joined(
     vertices: &[Vec3],
     faces: &mut [Vec<u32>],
@@ -129,14 +130,15 @@ fn joined(
     Some(neighbor)
 }
 
-/// The outline of two faces with a common edge, which runs from `a` to `b` along the first one; `None` if it is not one loop.
+/// Outline of two faces with a common edge, which runs from `a` to `b` along the first one; `None` if it is
+/// not a single loop.
 fn united(first: &[u32], second: &[u32], (a, b): (u32, u32)) -> Option<Vec<u32>> {
     let mut outline = Vec::with_capacity(first.len() + second.len());
     for (face, start) in [(first, b), (second, a)] {
         let at = face.iter().position(|&v| v == start)?;
         outline.extend(face.iter().cycle().skip(at).take(face.len() - 1));
     }
-    // Where they have further edges in common, the outline runs there and back.
+    // Along further common edges the outline runs forth and back; these are removed.
     while let Some(tip) = (0..outline.len()).find(|&k| {
         let count = outline.len();
         count > 2 && outline[(k + count - 1) % count] == outline[(k + 1) % count]

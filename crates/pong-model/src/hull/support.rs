@@ -1,37 +1,40 @@
-//! A plane that supports the solid along a face that is too narrow, or too small, to say how it lies.
+//! Supporting plane along a face that is too narrow, or too small, to define its own plane.
 //!
-//! Rounding moves the vertices of such a face by no more than those of a large one, but it may turn the face's plane by any
-//! angle, and far away the plane would cut into the solid. A better plane always exists where the vertices were moved by less
-//! than the tolerance: the one that the face had before. Of all planes with a normal n the best one leaves the same distance to
-//! the highest vertex p of the solid and to the lowest vertex c of the face; that distance is half of n·p − n·c. Over all
-//! normals near a given one this is a convex function, whose smallest value is a linear program in two tilts. Cutting planes
-//! find it: at each normal that is tried, the tree of all vertices tells the highest one, and the pair (p, c) is a bound from below at
-//! all others (Kelley, 1960).
+//! Rounding moves the vertices of such a face as little as those of a large one, but may turn its plane by
+//! any angle, and at a distance the plane would cut into the solid. If the vertices moved by less than the
+//! tolerance, a better plane exists: the one before rounding. Among the planes with normal n, the best one
+//! has equal distances to the highest vertex p of the solid and to the lowest vertex c of the face, namely
+//! half of n·p − n·c. Over the normals near a given one this is a convex function, and its minimum is a
+//! linear program in two tilts. It is solved by cutting planes: for each normal tried, the tree of all
+//! vertices gives the highest one, and the pair (p, c) is a lower bound for all other normals (Kelley, 1960).
 
 use super::places::Places;
 use super::polygon::{mean, unit};
 use nalgebra::Matrix3;
 use pong_geometry::Vec3;
 
-/// The largest tangent by which a normal is turned along either axis at once.
+/// Largest tangent by which a normal is tilted along either axis in one search.
 const REACH: f64 = 2.0;
-/// How often the search begins again around the normal that it has found: one farther off may be better.
+/// Number of searches, each around the normal found by the one before, in case a more distant normal is
+/// better.
 const TURNS: usize = 4;
-/// Above this tangent it does.
+/// Tangent of the tilt above which the search is repeated.
 const FAR: f64 = 0.25;
-/// The longest normal that tilts within reach make of a unit one: 1, 2 and 2 along three axes.
+/// Length of a unit normal after the largest tilts: 1, 2 and 2 along three axes.
 const LONGEST: f64 = 3.0;
-/// How many normals are tried in one search; the hardest of the random solids in `tests/it/convex_families.rs` took 36.
+/// Maximum number of normals tried in one search; the hardest of the random solids in
+/// `tests/it/convex_families.rs` took 36.
 const CUTS: usize = 100;
-/// The search ends when no distance is shorter by more than this share of the tolerance.
+/// Improvement, as a fraction of the tolerance, below which the search ends.
 const ENOUGH: f64 = 1e-3;
 /// Rounding of a distance, in tolerances: the diameter is a million of them.
 const ROUNDING: f64 = 1e-7;
 
-/// A plane: unit normal and offset along it.
+/// Plane: unit normal and offset along it.
 pub(super) type Plane = (Vec3, f64);
 
-/// A bound of the distance for all tilts, `distance ≥ at + along · tilt`; or of the tilt alone, without the distance.
+/// Lower bound of the distance for all tilts, `distance ≥ at + along · tilt`; or a bound of the tilt alone,
+/// without the distance.
 #[derive(Clone, Copy)]
 struct Cut {
     along: [f64; 2],
@@ -40,7 +43,7 @@ struct Cut {
 }
 
 impl Cut {
-    /// By how much a tilt and a distance miss it.
+    /// Amount by which a tilt and a distance violate the bound.
     fn missed(&self, [x, y, distance]: [f64; 3]) -> f64 {
         self.at + self.along[0] * x + self.along[1] * y - if self.with_distance { distance } else { 0.0 }
     }
@@ -50,7 +53,7 @@ impl Cut {
     }
 }
 
-/// The linear program: the tilt with the smallest distance that all cuts allow.
+/// Linear program: the tilt with the smallest distance that satisfies all cuts.
 struct Program {
     cuts: Vec<Cut>,
     /// Both tilts and the distance.
@@ -58,7 +61,7 @@ struct Program {
 }
 
 impl Program {
-    /// Tilts as far as they may go, and no distance below zero.
+    /// Starts with the limits of the tilts and a non-negative distance.
     fn new() -> Self {
         let bound = |along| Cut { along, at: -REACH, with_distance: false };
         let mut cuts = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].map(bound).to_vec();
@@ -66,9 +69,9 @@ impl Program {
         Self { cuts, lowest: [0.0; 3] }
     }
 
-    /// Takes one more cut. Answers whether there still is a lowest place: if not, the numbers have too few digits.
+    /// Adds a cut. Returns `false` if no minimum is left, which means that the precision is exhausted.
     ///
-    /// Where the cut excludes the lowest place so far, the new one lies on it, and on two of the others.
+    /// If the cut excludes the previous minimum, the new one lies on it and on two of the others.
     fn add(&mut self, cut: Cut) -> bool {
         if cut.missed(self.lowest) > ROUNDING {
             let mut lowest: Option<[f64; 3]> = None;
@@ -90,29 +93,29 @@ impl Program {
     }
 }
 
-/// The lower place, and of equals the one that is tilted less.
+/// Compares by distance, and at equal distance by tilt.
 fn is_lower(a: &[f64; 3], b: &[f64; 3]) -> bool {
     let tilt = |p: &[f64; 3]| p[0] * p[0] + p[1] * p[1];
     (a[2] - b[2]).abs() <= ROUNDING && tilt(a) < tilt(b) || a[2] < b[2] - ROUNDING
 }
 
-/// Where three cuts are met exactly.
+/// Intersection of three cuts.
 fn common(cuts: [&Cut; 3]) -> Option<[f64; 3]> {
     let rows = cuts.map(Cut::row).concat();
     let place = Matrix3::from_row_slice(&rows).try_inverse()? * Vec3::from(cuts.map(|cut| -cut.at));
     place.iter().all(|x| x.is_finite()).then_some(place.into())
 }
 
-/// A plane that was tried: midway between the highest vertex of the solid and the lowest one of the face, and its distance from
-/// both.
+/// Plane that was tried, midway between the highest vertex of the solid and the lowest one of the face, and
+/// its distance from both.
 #[derive(Clone, Copy)]
 struct Tried {
     plane: Plane,
     distance: f64,
 }
 
-/// The plane nearest to the vertices that a face holds, of all that no vertex of the solid is farther in front of than
-/// those, and whether that is within the tolerance. It is looked for around a normal.
+/// Plane nearest to the vertices that a face must hold, among the planes that no vertex of the solid is
+/// farther in front of; and `true` if it is within the tolerance. The search starts at the normal `around`.
 pub(super) fn plane(
     held: &[Vec3],
     (vertices, tree): (&[Vec3], &Places),
@@ -139,7 +142,7 @@ pub(super) fn plane(
     (best.plane, best.distance <= tolerance)
 }
 
-/// The planes along a face whose normals are a given one, tilted along two axes.
+/// Planes along a face whose normals are a given one tilted along two axes.
 struct Chart<'a> {
     held: &'a [Vec3],
     vertices: &'a [Vec3],
@@ -151,7 +154,7 @@ struct Chart<'a> {
 }
 
 impl Chart<'_> {
-    /// The best plane, and the larger one of its tilts.
+    /// Best plane, and the larger of its tilts.
     fn best(&mut self) -> (Tried, f64) {
         let across = unit(&self.center.cross(&if self.center.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() }));
         self.axes = [across, self.center.cross(&across)];
@@ -171,7 +174,7 @@ impl Chart<'_> {
         best.unwrap_or_else(|| (self.tried(0.0, 0.0).0, 0.0))
     }
 
-    /// The plane of a tilt, and what it tells of the others.
+    /// Plane of a tilt, and the bound it gives for the others.
     fn tried(&self, x: f64, y: f64) -> (Tried, Cut) {
         let normal = self.center + self.axes[0] * x + self.axes[1] * y;
         let length = normal.norm();

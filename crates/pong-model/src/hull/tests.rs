@@ -1,8 +1,8 @@
-//! What reading a solid costs, in boxes that are looked at: no clock is asked.
+//! Cost of reading a solid, in visited boxes; no clock is used.
 
 use super::*;
 
-/// A ball of unit radius with its poles on the third axis: triangles at the poles, quadrangles elsewhere.
+/// Unit sphere with its poles on the third axis: triangles at the poles, quadrilaterals elsewhere.
 fn ball(circles: u32, meridians: u32) -> (Vec<Vec3>, Vec<Vec<u32>>) {
     let pi = std::f64::consts::PI;
     let mut vertices = vec![Vec3::z(), -Vec3::z()];
@@ -24,8 +24,8 @@ fn ball(circles: u32, meridians: u32) -> (Vec<Vec3>, Vec<Vec<u32>>) {
     (vertices, faces)
 }
 
-/// Thin triangles at the poles lie so nearly in one plane that they are merged again and again, less and less. Attempts that
-/// fail cost little beside looking at every face once.
+/// Thin triangles at the poles are so nearly coplanar that they are merged again and again, with smaller
+/// tolerances. Failed attempts cost little compared with testing every face once.
 #[test]
 fn a_ball_that_takes_many_attempts_costs_little_more() {
     let (vertices, faces) = ball(40, 1000);

@@ -1,4 +1,5 @@
-//! OBJ: faces of any number of corners, lines and points. Normals, texture coordinates and materials are left aside.
+//! OBJ: faces of any number of corners, lines and points. Normals, texture coordinates and materials are
+//! ignored.
 
 use super::text::{FormatFault, decoded, lines, marked, quoted, words};
 use std::borrow::Cow;
@@ -7,28 +8,28 @@ use std::borrow::Cow;
 #[derive(Debug, Default)]
 pub struct Obj {
     pub places: Vec<[f64; 3]>,
-    /// Objects and groups that have faces, in the order of the file.
+    /// Objects and groups with faces, in file order.
     pub objects: Vec<ObjObject>,
-    /// Vertices of lines and points, whatever object they are in.
+    /// Vertices of lines and points of all objects.
     pub lines: Vec<[u32; 2]>,
     pub points: Vec<u32>,
-    /// Number of faces of fewer than three corners, which were left out.
+    /// Number of faces of fewer than three corners, which are skipped.
     pub without_area: usize,
 }
 
 /// Faces of one object or group.
 #[derive(Debug, Default)]
 pub struct ObjObject {
-    /// Name behind `o` or `g`; empty without one.
+    /// Name after `o` or `g`; empty if there is none.
     pub name: String,
     /// Vertex indices, face after face.
     pub corners: Vec<u32>,
-    /// Where each face ends in `corners`.
+    /// End of each face in `corners`.
     pub ends: Vec<u32>,
 }
 
 impl ObjObject {
-    /// The corners of each face.
+    /// Corners of each face.
     pub fn faces(&self) -> impl Iterator<Item = &[u32]> {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
         starts.zip(&self.ends).map(|(start, &end)| &self.corners[start as usize..end as usize])
@@ -38,7 +39,7 @@ impl ObjObject {
 /// Reads an OBJ file.
 ///
 /// # Errors
-/// Damage, and curves or surfaces that are not made of faces; with the line.
+/// Damaged content, or curves and surfaces other than faces; with the line.
 pub fn obj(bytes: &[u8]) -> Result<Obj, FormatFault> {
     let mut found = Obj::default();
     let mut object = ObjObject::default();
@@ -84,7 +85,7 @@ pub fn obj(bytes: &[u8]) -> Result<Obj, FormatFault> {
     Ok(found)
 }
 
-/// Lines with the number of their first part: a backslash at the end continues a line in the next one.
+/// Joined lines with the number of their first part: a backslash at the end continues a line on the next one.
 fn whole_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
     let mut lines = lines(bytes);
     std::iter::from_fn(move || {
@@ -100,7 +101,8 @@ fn whole_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
     })
 }
 
-/// Length of a line before the backslash that continues it. Names of materials and files may end with one.
+/// Length of a line before the backslash that continues it. Names of materials and files may end with a
+/// backslash.
 fn continued(line: &[u8]) -> Option<usize> {
     let text = line.trim_ascii_end();
     let keyword = words(text).next()?;
@@ -120,7 +122,7 @@ fn place<'a>(number: usize, words: &mut impl Iterator<Item = &'a [u8]>) -> Resul
     Ok(place)
 }
 
-/// The vertex that a word `7`, `7/1/2` or `-1` names among those so far.
+/// Vertex that a word `7`, `7/1/2` or `-1` refers to, among those read so far.
 fn index(number: usize, word: &[u8], count: usize) -> Result<u32, FormatFault> {
     let digits = word.split(|&byte| byte == b'/').next().unwrap_or(b"");
     let named: Option<i64> = std::str::from_utf8(digits).ok().and_then(|digits| digits.parse().ok());
@@ -143,7 +145,7 @@ fn index(number: usize, word: &[u8], count: usize) -> Result<u32, FormatFault> {
 mod tests {
     use super::*;
 
-    /// Name of an object, and the corners of its faces as places.
+    /// Name of an object, and the corner positions of its faces.
     type Named = (String, Vec<Vec<[f64; 3]>>);
 
     fn read(bytes: &[u8]) -> Result<Vec<Named>, FormatFault> {

@@ -1,26 +1,27 @@
-//! STL: binary, and text of any number of solids.
+//! STL: binary files, and text files with any number of solids.
 
 use super::text::{FormatFault, decoded, lines, marked, quoted, words};
 use std::borrow::Cow;
 
-/// Bytes of a binary STL file before its first triangle.
+/// Size of a binary STL file's header before its first triangle, bytes.
 pub const STL_HEAD: usize = 84;
-/// Bytes of a triangle in a binary STL file.
+/// Size of a triangle in a binary STL file, bytes.
 pub const STL_TRIANGLE: usize = 50;
 
-/// Contents of an STL file beside its triangles.
+/// Contents of an STL file except its triangles.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Stl {
-    /// Names of the solids in the order of the file; one without a name for a binary file.
+    /// Names of the solids in file order; one empty name for a binary file.
     pub solids: Vec<String>,
-    /// Whether a text file ends without `endsolid`.
+    /// True if a text file ends without `endsolid`.
     pub unfinished: bool,
 }
 
-/// Hands over the number of the solid and the corners of each triangle of a binary or a text file.
+/// Reads a binary or a text file and passes the number of the solid and the corners of each triangle to
+/// `each`.
 ///
 /// # Errors
-/// Damage, with the line of a text file.
+/// Damaged content, with the line of a text file.
 pub fn stl(bytes: &[u8], mut each: impl FnMut(usize, [[f32; 3]; 3])) -> Result<Stl, FormatFault> {
     // Some programs begin binary files with "solid", the mark of text files: the length tells them apart.
     if promised_length(bytes) == Some(bytes.len()) {
@@ -30,14 +31,14 @@ pub fn stl(bytes: &[u8], mut each: impl FnMut(usize, [[f32; 3]; 3])) -> Result<S
     if is_text(text) { Reader::default().read(text, &mut each) } else { binary(bytes, each) }
 }
 
-/// Length of a binary file by the number of triangles that its head tells.
+/// Length of a binary file computed from the number of triangles in its header.
 fn promised_length(bytes: &[u8]) -> Option<usize> {
     let count = u32::from_le_bytes(*bytes.get(80..)?.first_chunk()?);
     (count as usize).checked_mul(STL_TRIANGLE)?.checked_add(STL_HEAD)
 }
 
-/// Whether a file begins with the keyword of a text file and has no zero byte where a binary one tells its number of
-/// triangles.
+/// Returns `true` if a file begins with the keyword of a text file and has no zero byte where a binary file
+/// has its number of triangles.
 fn is_text(bytes: &[u8]) -> bool {
     let first = words(bytes).next().unwrap_or(b"");
     let starts =
@@ -67,13 +68,13 @@ fn binary(bytes: &[u8], mut each: impl FnMut(usize, [[f32; 3]; 3])) -> Result<St
     Ok(Stl { solids: vec![String::new()], unfinished: false })
 }
 
-/// A text file on its way through the reader.
+/// State of reading a text file.
 #[derive(Default)]
 struct Reader {
     found: Stl,
-    /// Between `solid` and `endsolid`.
+    /// True between `solid` and `endsolid`.
     in_solid: bool,
-    /// Line of the facet that is open; 0 between facets.
+    /// Line of the open facet; 0 between facets.
     facet: usize,
     corners: Vec<[f32; 3]>,
 }
@@ -103,7 +104,7 @@ impl Reader {
                 b"vertex" => self.vertex(number, &mut words)?,
                 b"facet" => {
                     self.open_facet(number)?;
-                    // Normals follow from the corners; some programs write `nan` there.
+                    // Normals are recomputed from the corners; some programs write `nan` here.
                     words.by_ref().take_while(|word| !word.eq_ignore_ascii_case(b"outer")).for_each(drop);
                 }
                 b"outer" | b"loop" | b"endloop" | b"normal" => {}
@@ -119,7 +120,7 @@ impl Reader {
                     self.in_solid = false;
                     return Ok(());
                 }
-                // `end facet` and `color …` of some programs, and comments.
+                // Comments, and `end facet` and `color …` as some programs write them.
                 b"end" => {
                     let what = words.next().unwrap_or(b"").to_ascii_lowercase();
                     match what.as_slice() {

@@ -1,4 +1,4 @@
-//! Lines and words of text files, and what is wrong with a file.
+//! Lines and words of text files, and faults of mesh files.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -6,9 +6,9 @@ use std::fmt;
 /// Fault of a mesh file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FormatFault {
-    /// Line of a text file, from 1; 0 in a binary file.
+    /// Line in a text file, from 1; 0 for a binary file.
     pub line: usize,
-    /// Name of the rule, as docs/importing.md lists them.
+    /// Name of the rule, as listed in docs/importing.md.
     pub rule: &'static str,
     pub cause: String,
     pub cure: &'static str,
@@ -29,7 +29,7 @@ impl fmt::Display for FormatFault {
     }
 }
 
-/// Text of a name or word in UTF-8, else in Latin-1.
+/// Decodes a name or word as UTF-8, else as Latin-1.
 pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
@@ -37,15 +37,15 @@ pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// A text file in UTF-8, else in Latin-1.
+/// Decodes a text file as UTF-8, else as Latin-1.
 ///
 /// # Errors
-/// Text of two bytes a character.
+/// Text in UTF-16.
 pub fn text(bytes: &[u8]) -> Result<Cow<'_, str>, FormatFault> {
     marked(bytes).map(decoded)
 }
 
-/// A word in quotes for messages, cut where it is long.
+/// Quotes a word for messages, shortened if it is long.
 pub(super) fn quoted(bytes: &[u8]) -> String {
     const SHOWN: usize = 40;
     match bytes.len() {
@@ -54,7 +54,7 @@ pub(super) fn quoted(bytes: &[u8]) -> String {
     }
 }
 
-/// The file without the mark that some editors put before UTF-8; a fault for text of two bytes a character.
+/// Removes the byte order mark that some editors put before UTF-8; a fault for text in UTF-16.
 pub(super) fn marked(bytes: &[u8]) -> Result<&[u8], FormatFault> {
     if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
         let cause = "it is text in UTF-16".to_owned();

@@ -1,4 +1,4 @@
-//! The bristle of a surface or of a pair of surfaces, and its damping from a mass (docs/theory.md, 4).
+//! Bristle of a surface or a pair of surfaces, and its damping from a mass (docs/theory.md, 4).
 
 use super::fields::Fields;
 use super::law_values::either_or;
@@ -8,12 +8,12 @@ use crate::limits::LARGEST;
 use crate::ron_tree::{Node, Value};
 use crate::surface::{FrictionLaw, Surface};
 
-/// Values that stand beside a friction law.
+/// Values given next to a friction law.
 #[derive(Clone, Copy)]
 pub(super) struct Beside<'n> {
     /// Stiffness of the surface or pair; `None` if an entry of `pairs` gives none.
     pub(super) stiffness: Option<f64>,
-    /// The normal law as it is written.
+    /// Normal law as written.
     pub(super) normal: Option<&'n Node>,
 }
 
@@ -47,7 +47,7 @@ pub(super) fn bristle(
     Some(FrictionLaw::Bristle { mu: mu?, static_excess: static_excess?, stiffness, damping })
 }
 
-/// The mass that a normal law names in its `restitution`. Its faults are told where the law is read.
+/// Mass that a normal law gives in its `restitution`. Its faults are reported where the law is read.
 fn named_mass(law: &Node) -> Option<f64> {
     let restitution = Fields::peek(law)?.optional("restitution")?;
     match Fields::peek(restitution)?.optional("mass")?.value {
@@ -56,7 +56,7 @@ fn named_mass(law: &Node) -> Option<f64> {
     }
 }
 
-/// The critical damping of the bristle on the mass that it names itself.
+/// Critical damping of the bristle for the mass given in its own fields.
 fn damping_of_mass(reader: &mut Reader<'_>, node: &Node, path: &str, k_t: Option<f64>) -> Option<f64> {
     let mass = reader.positive(node, path, "the mass")?;
     match k_t {
@@ -74,7 +74,7 @@ fn damping_of_mass(reader: &mut Reader<'_>, node: &Node, path: &str, k_t: Option
     }
 }
 
-/// c_t = 2·√(k_t·m).
+/// Critical damping c_t = 2·√(k_t·m).
 fn critical(reader: &mut Reader<'_>, node: &Node, path: &str, (k_t, mass): (f64, f64)) -> Option<f64> {
     let damping = 2.0 * (k_t * mass).sqrt();
     if damping <= LARGEST {

@@ -1,11 +1,11 @@
-//! Primitives of kinds that the user has registered.
+//! Primitives of registered custom kinds.
 
 use super::opened_primitive::Primitive;
 use super::reader::Reader;
 use pong_geometry::primitive::CustomPrimitive;
 use std::sync::Arc;
 
-/// A custom primitive is made in the frame of its movable group: its kind knows no poses.
+/// Creates a custom primitive in the frame of its movable group, because custom kinds have no poses.
 pub(super) fn custom(reader: &mut Reader<'_>, p: &mut Primitive<'_, '_>) -> Option<Arc<dyn CustomPrimitive>> {
     let kind = p.fields.required(reader, "kind").and_then(|node| reader.text(node, &p.path));
     let parameters = match p.fields.optional("parameters") {

@@ -1,4 +1,4 @@
-//! The top level of a model file.
+//! Top level of a model file.
 
 use super::fields::Fields;
 use super::filters;
@@ -12,7 +12,7 @@ use crate::ron_tree::{Node, Value};
 const FIELDS: [&str; 8] =
     ["format", "version", "name", "entry_memory", "surfaces", "pairs", "filters", "root"];
 
-/// Reads the whole file; `None` only if it is no struct. Faults are with the reader.
+/// Reads the whole file; `None` only if it is not a struct. Faults go to the reader.
 pub(crate) fn document(reader: &mut Reader<'_>, node: &Node) -> Option<ModelDraft> {
     if is_scene(node) {
         let cure = "run it with `pong run`; the models that it lists are files of their own";
@@ -51,7 +51,7 @@ pub(crate) fn document(reader: &mut Reader<'_>, node: &Node) -> Option<ModelDraf
     })
 }
 
-/// Whether the file says of itself that it is a scene: no field of it is then a fault of a model.
+/// Returns `true` if the file declares itself a scene: its fields are then not reported as faults of a model.
 fn is_scene(node: &Node) -> bool {
     let Value::Struct(_, fields) = &node.value else { return false };
     let format = fields.iter().find(|field| field.name.as_ref() == "format");

@@ -1,21 +1,21 @@
-//! The named fields of a value.
+//! Named fields of a value.
 
 use super::reader::Reader;
 use super::suggest;
 use crate::ron_tree::{Field, Node, Value};
 
-/// The fields of one struct, checked against the names it may have.
+/// Fields of one struct, checked against the allowed names.
 pub(crate) struct Fields<'n> {
-    /// Where the struct begins.
+    /// Byte offset of the struct.
     pub(crate) at: u32,
     path: String,
     fields: &'n [Field],
 }
 
 impl<'n> Fields<'n> {
-    /// Opens a struct whose fields may be `allowed`; faults are noted for unknown and repeated ones.
+    /// Opens a struct with the `allowed` fields; reports unknown and repeated ones.
     ///
-    /// `None` only if the node is no struct at all.
+    /// `None` only if the node is not a struct.
     pub(crate) fn open(
         reader: &mut Reader<'_>,
         node: &'n Node,
@@ -41,13 +41,13 @@ impl<'n> Fields<'n> {
         Some(Self { at: node.at, path: path.to_owned(), fields })
     }
 
-    /// Opens a struct without noting faults, for a second look at what is read elsewhere.
+    /// Opens a struct without reporting faults, for a second look at values that are read elsewhere.
     pub(crate) fn peek(node: &'n Node) -> Option<Self> {
         let Value::Struct(_, fields) = &node.value else { return None };
         Some(Self { at: node.at, path: String::new(), fields })
     }
 
-    /// A field that may be left out; `Some(x)` is `x`, `None` is as if it were left out.
+    /// Optional field; `Some(x)` is `x`, and `None` counts as absent.
     pub(crate) fn optional(&self, name: &str) -> Option<&'n Node> {
         let node = &self.fields.iter().find(|field| field.name.as_ref() == name)?.value;
         match &node.value {
@@ -57,12 +57,12 @@ impl<'n> Fields<'n> {
         }
     }
 
-    /// A field as it stands, where `None` has a meaning of its own.
+    /// Field as written, where `None` has a meaning of its own.
     pub(crate) fn literal(&self, name: &str) -> Option<&'n Node> {
         self.fields.iter().find(|field| field.name.as_ref() == name).map(|field| &field.value)
     }
 
-    /// A field that must be there.
+    /// Required field.
     pub(crate) fn required(&self, reader: &mut Reader<'_>, name: &str) -> Option<&'n Node> {
         let node = self.optional(name);
         if node.is_none() {
@@ -72,7 +72,7 @@ impl<'n> Fields<'n> {
         node
     }
 
-    /// Where the name of a field stands, or the struct if it is left out.
+    /// Byte offset of a field's name, or of the struct if the field is absent.
     pub(crate) fn at_field(&self, name: &str) -> u32 {
         self.fields.iter().find(|field| field.name.as_ref() == name).map_or(self.at, |field| field.at)
     }

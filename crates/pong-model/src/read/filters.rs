@@ -1,4 +1,4 @@
-//! The table of groups that never touch each other.
+//! Table of groups that never touch each other.
 
 use super::reader::Reader;
 use super::suggest;
@@ -34,7 +34,7 @@ pub(super) fn filters(reader: &mut Reader<'_>, node: &Node, bodies: &[BodyDraft]
     filters
 }
 
-/// The paths of all authored groups, the root's first.
+/// Paths of all authored groups, the root's first.
 pub(crate) fn group_paths(bodies: &[BodyDraft]) -> Vec<String> {
     let groups = bodies.iter().flat_map(|draft| &draft.groups);
     groups.map(|group| group.path.to_string()).collect()
@@ -62,7 +62,7 @@ fn filter(reader: &mut Reader<'_>, node: &Node, path: &str, groups: &[String]) -
     Some([side(&items[0])?, side(&items[1])?])
 }
 
-/// Whether the two groups have parts in different rigid bodies.
+/// Returns `true` if the two groups have parts in different rigid bodies.
 fn can_meet(bodies: &[BodyDraft], pair: &[String; 2]) -> bool {
     let is_in = |group: &str, path: &str| path == group || path.starts_with(&format!("{group}/"));
     let bodies_of = |group: &String| -> Vec<usize> {

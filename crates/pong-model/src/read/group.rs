@@ -1,4 +1,4 @@
-//! Groups: names, poses, bounding volumes, surfaces, and what hangs below.
+//! Groups: names, poses, bounding volumes, surfaces, and contents.
 
 use super::fields::Fields;
 use super::place::{GroupReader, Place, authored_name, read_name, surface_index};
@@ -14,12 +14,12 @@ use std::collections::HashSet;
 const FIELDS: [&str; 8] =
     ["name", "movable", "pose", "bound", "leaf_size", "surface", "groups", "primitives"];
 
-/// What a group inherits from the group above it.
+/// Values that a group inherits from the group above it.
 #[derive(Clone)]
 pub(super) struct Above {
     /// Path of the group above; empty above the root.
     path: String,
-    /// The body above and its group; `None` above the root.
+    /// Body above and the group's index in it; `None` above the root.
     owner: Option<(usize, usize)>,
     /// Pose of the group above in the frame of that body.
     x_bg: Pose,
@@ -176,7 +176,7 @@ fn read_pose(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, is_root: 
     }
 }
 
-/// The kind of a group's volume; `None` if it has none of its own.
+/// Kind of a group's volume; `None` if it has no volume of its own.
 fn read_bound(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, movable: bool) -> Option<BoundKind> {
     let Some(node) = fields.optional("bound") else { return Some(BoundKind::Aabb) };
     match reader.variant(node, path, &["Aabb", "Sphere", "Obb", "Above", "Custom"]) {
@@ -196,7 +196,7 @@ fn read_bound(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, movable:
 fn read_leaf_size(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str) -> Option<usize> {
     let node = fields.optional("leaf_size")?;
     let size = reader.number(node, path)?;
-    // Beyond 2³² a leaf is never cut: no body has so many elements.
+    // Limited to 2³²: no body has more elements.
     if size >= 1.0 && size == libm::trunc(size) {
         return Some(size.min(f64::from(u32::MAX)) as usize);
     }

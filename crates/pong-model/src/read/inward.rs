@@ -1,10 +1,10 @@
-//! Closed meshes that face inwards.
+//! Detection of closed meshes that face inwards.
 
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{TriangleRecord, TriangleSet};
 
-/// Volume within triangles that close it and face inwards, m³; `None` if they are open, run against each other or face
-/// outwards.
+/// Volume enclosed by triangles that are closed and face inwards, m³; `None` if they are open, inconsistently
+/// wound or face outwards.
 pub(super) fn inward_volume_m3(set: &TriangleSet, triangles: &[TriangleRecord]) -> Option<f64> {
     let corners = |t: &TriangleRecord| t.vertices.map(|v| set.vertices[v as usize]);
     let origin = corners(triangles.first()?)[0];
@@ -13,11 +13,11 @@ pub(super) fn inward_volume_m3(set: &TriangleSet, triangles: &[TriangleRecord]) 
         a.dot(&b.cross(&c))
     };
     let volume = triangles.iter().map(six).sum::<f64>() / 6.0;
-    // Most meshes need no look at their edges.
+    // The volume test first: most meshes then need no test of their edges.
     (volume < 0.0 && is_closed(triangles)).then_some(-volume)
 }
 
-/// Whether each edge has one triangle that runs along it each way.
+/// Returns `true` if each edge has two triangles that run along it in opposite directions.
 fn is_closed(triangles: &[TriangleRecord]) -> bool {
     let mut edges: Vec<(u32, u32, bool)> = Vec::with_capacity(3 * triangles.len());
     for [a, b, c] in triangles.iter().map(|triangle| triangle.vertices) {
@@ -28,6 +28,6 @@ fn is_closed(triangles: &[TriangleRecord]) -> bool {
     let (pairs, rest) = edges.as_chunks::<2>();
     let joins =
         |[one, other]: &[(u32, u32, bool); 2]| (one.0, one.1) == (other.0, other.1) && one.2 != other.2;
-    // Of four triangles at an edge, sorted, the first two run the same way.
+    // If four triangles share an edge, the first two in sorted order run the same way.
     rest.is_empty() && pairs.iter().all(joins)
 }

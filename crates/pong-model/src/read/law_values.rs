@@ -1,4 +1,4 @@
-//! Values that several laws of surfaces have.
+//! Values common to several laws of surfaces.
 
 use super::fields::Fields;
 use super::reader::Reader;
@@ -23,7 +23,7 @@ pub(super) fn restitution(reader: &mut Reader<'_>, node: &Node, path: &str) -> O
     reader.refuse(node.at, path, "restitution-range", cause, "it lies above 0 and is at most 1")
 }
 
-/// The stiffness that a restitution goes with.
+/// Stiffness for a law with a restitution; a fault if it is rigid.
 pub(super) fn not_rigid(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: f64) -> Option<f64> {
     if stiffness.is_finite() {
         return Some(stiffness);

@@ -1,4 +1,4 @@
-//! Shapes from OBJ and STL files that lie beside the model file.
+//! Shapes from OBJ and STL files next to the model file.
 
 use super::reader::Reader;
 use crate::files;
@@ -14,9 +14,9 @@ pub(super) struct Mesh {
     pub(super) vertices: Vec<Vec3>,
     /// Vertex indices, face after face.
     pub(super) corners: Vec<u32>,
-    /// Where each face ends in `corners`.
+    /// End of each face in `corners`.
     pub(super) ends: Vec<u32>,
-    /// Where each face stands in the model file; empty if it does not.
+    /// Byte offset of each face in the model file; empty for a mesh from a mesh file.
     pub(super) at: Vec<u32>,
 }
 
@@ -35,7 +35,7 @@ impl Mesh {
     }
 }
 
-/// Reads the file named by `node`, every coordinate multiplied by the scale.
+/// Reads the file named by `node`; every coordinate is multiplied by the scale.
 pub(super) fn from_file(
     reader: &mut Reader<'_>,
     node: &Node,
@@ -112,7 +112,8 @@ fn extension(name: &str) -> String {
     Path::new(name).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
-/// A mesh lies in the model file's folder or below it, so that a model can be moved as a whole.
+/// Path of a mesh, which must lie in the model file's folder or below it, so that a model can be moved as a
+/// whole.
 fn allowed_path(reader: &mut Reader<'_>, node: &Node, path: &str, name: &str) -> Option<PathBuf> {
     let inside = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
     if name.contains(['\\', ':', '\0']) || !Path::new(name).components().all(inside) {
@@ -138,8 +139,8 @@ fn allowed_path(reader: &mut Reader<'_>, node: &Node, path: &str, name: &str) ->
     Some(folder.join(name))
 }
 
-/// Faces of any number of corners of all objects; the vertices of each object in the order of their first use. With it
-/// the number of faces that were left out.
+/// Faces, of any number of corners, of all objects, with the vertices of each object in the order of first
+/// use; and the number of faces that were skipped.
 fn obj(bytes: &[u8]) -> Result<(Mesh, usize), FormatFault> {
     let found = mesh_formats::obj(bytes)?;
     let mut mesh = Mesh::default();
@@ -148,7 +149,7 @@ fn obj(bytes: &[u8]) -> Result<(Mesh, usize), FormatFault> {
         let first = mesh.vertices.len() as u32;
         for &corner in &object.corners {
             let slot = &mut number[corner as usize];
-            // Numbers below `first` are those of an earlier object.
+            // Indices below `first` belong to an earlier object.
             if *slot == u32::MAX || *slot < first {
                 *slot = mesh.vertices.len() as u32;
                 mesh.vertices.push(Vec3::from(found.places[corner as usize]));
@@ -161,7 +162,7 @@ fn obj(bytes: &[u8]) -> Result<(Mesh, usize), FormatFault> {
     Ok((mesh, found.without_area))
 }
 
-/// The triangles of all solids, and whether the file ends without `endsolid`.
+/// Triangles of all solids, and `true` if the file ends without `endsolid`.
 fn stl(bytes: &[u8]) -> Result<(Mesh, bool), FormatFault> {
     let mut mesh = Mesh::default();
     let found = mesh_formats::stl(bytes, |_, corners| {

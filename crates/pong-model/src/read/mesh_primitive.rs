@@ -1,4 +1,4 @@
-//! Triangles, meshes of triangles, and polyhedra: inline or from a file.
+//! Triangles, triangle meshes and polyhedra, inline or from a file.
 
 use super::inward::inward_volume_m3;
 use super::mesh_file::{self, Mesh};
@@ -11,7 +11,7 @@ use crate::ron_tree::{Node, Value};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{Lean, MayPush, NO_NEIGHBOR, TriangleRecord};
 
-/// A triangle whose smallest height is below this share of its longest edge is refused.
+/// Ratio of smallest height to longest edge below which a triangle is refused.
 pub(crate) const SLIVER: f64 = 1e-9;
 
 pub(super) fn triangle(
@@ -56,7 +56,7 @@ pub(super) fn triangle_mesh(
     Some(info)
 }
 
-/// Tells of a closed mesh of a file that faces inwards: in the model nothing shows it.
+/// Warns of a closed mesh from a file that faces inwards, because nothing in the model shows it.
 fn tell_inward(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, info: &PrimitiveInfo, mesh: &Mesh) {
     let (from_file, one_sided) = (mesh.at.is_empty(), info.first_mirror == info.elements.end);
     if !from_file || !one_sided {
@@ -73,7 +73,7 @@ fn tell_inward(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, info: &PrimitiveI
     }
 }
 
-/// Thickness and sidedness.
+/// Reads thickness and sidedness.
 fn options(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<(Option<f64>, bool)> {
     let thickness = match p.fields.optional("thickness") {
         Some(node) => reader.positive(node, &p.path, "the thickness").map(Some),
@@ -86,7 +86,7 @@ fn options(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<(Option<f64
     Some((thickness?, two_sided?))
 }
 
-/// Notes the faults of single faces, but no more than a handful of them.
+/// Reports the faults of single faces, but only a limited number of them.
 struct FaceFaults<'p> {
     path: &'p str,
     list: &'static str,
@@ -151,7 +151,7 @@ fn add_triangles(
     }
     faults.close(reader, p.at);
     if faults.count > 0 {
-        // Later faults name triangles by their place in the array: leave no gap.
+        // Later faults name triangles by their index in the array, so no gap may remain.
         set.triangles.truncate(first as usize);
         return None;
     }
@@ -201,7 +201,7 @@ fn triangle_corners(mesh: &Mesh, face: usize, x: &pong_geometry::Transform) -> R
     Ok(corners)
 }
 
-/// Smallest height over longest edge; scaled first so that no size overflows.
+/// Ratio of smallest height to longest edge; scaled first so that no size overflows.
 pub(crate) fn smallest_height_share(corners: &[Vec3; 3]) -> f64 {
     let edges = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
     let longest = edges.iter().map(Vec3::norm).fold(0.0, f64::max);
@@ -211,7 +211,7 @@ pub(crate) fn smallest_height_share(corners: &[Vec3; 3]) -> f64 {
     (edges[0] / longest).cross(&(edges[1] / longest)).norm()
 }
 
-/// The checked shape of a polyhedron in the frame of its body.
+/// Reads and checks the shape of a polyhedron, in the frame of its body.
 pub(super) fn polyhedron(reader: &mut Reader<'_>, p: &mut Primitive<'_, '_>) -> Option<Hull> {
     let mesh = mesh(reader, p, "faces");
     let inactive = match p.fields.optional("inactive_faces") {
@@ -248,7 +248,8 @@ pub(super) fn polyhedron(reader: &mut Reader<'_>, p: &mut Primitive<'_, '_>) -> 
     }
 }
 
-/// Notes the faces that name a vertex that is not there. Of a mesh whose shape is not judged, this is all that is asked.
+/// Reports the faces that refer to a missing vertex. This is the only check of a mesh whose shape is not
+/// judged.
 fn indices_of_vertices(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, mesh: &Mesh, list: &'static str) {
     let mut faults = FaceFaults { path: &p.path, list, count: 0 };
     for face in 0..mesh.face_count() {
@@ -290,7 +291,7 @@ fn inactive_faces(
     all_there.then_some(faces)
 }
 
-/// The mesh of a primitive, from its fields or from the file it names; indices are not checked yet.
+/// Mesh of a primitive, from its fields or from the file it names; indices are not checked yet.
 fn mesh(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, faces: &'static str) -> Option<Mesh> {
     let file = p.fields.optional("file");
     let inline = [p.fields.optional("vertices"), p.fields.optional(faces)];
@@ -322,7 +323,7 @@ fn mesh(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, faces: &'static str) -> 
     Some(mesh)
 }
 
-/// Rows of numbers, each with its place; faults for whatever is none.
+/// Rows of numbers, each with its byte offset; reports everything else as a fault.
 fn rows(
     reader: &mut Reader<'_>,
     node: &Node,

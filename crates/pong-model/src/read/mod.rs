@@ -1,4 +1,4 @@
-//! From the tree of values to drafts of bodies: every field of the format, with all faults collected.
+//! Reading of the tree of values into drafts of bodies: every field of the format, with all faults collected.
 
 mod bristle;
 mod custom;

@@ -1,10 +1,10 @@
-//! A primitive whose fields are open.
+//! Primitive whose fields are open.
 
 use super::fields::Fields;
 use crate::draft::BodyDraft;
 use pong_geometry::Transform;
 
-/// A primitive being read.
+/// Primitive being read.
 pub(super) struct Primitive<'n, 'd> {
     pub(super) fields: Fields<'n>,
     pub(super) at: u32,

@@ -1,4 +1,4 @@
-//! Where groups and primitives go, and how they are called.
+//! Destination and names of groups and primitives.
 
 use super::fields::Fields;
 use super::reader::Reader;
@@ -9,14 +9,14 @@ use crate::surface::Surface;
 use pong_geometry::Pose;
 use std::collections::HashSet;
 
-/// What reading a group needs and fills.
+/// State of reading groups: reader, inputs and the lists that are filled.
 pub(super) struct GroupReader<'r, 'a> {
     pub(super) reader: &'r mut Reader<'a>,
     pub(super) surfaces: &'r [Surface],
     pub(super) bodies: &'r mut Vec<BodyDraft>,
 }
 
-/// Where primitives go.
+/// Destination of primitives.
 pub(super) struct Place {
     pub(super) path: String,
     pub(super) body: usize,
@@ -25,7 +25,7 @@ pub(super) struct Place {
     pub(super) surface: Option<u32>,
 }
 
-/// The name of a group or primitive, if it has a usable one, so that all its faults carry its path.
+/// Name of a group or primitive, if it has a usable one, so that all its faults carry its path.
 pub(super) fn authored_name(node: &Node) -> Option<&str> {
     let Value::Struct(_, fields) = &node.value else { return None };
     match &fields.iter().find(|field| field.name.as_ref() == "name")?.value.value {
@@ -34,7 +34,7 @@ pub(super) fn authored_name(node: &Node) -> Option<&str> {
     }
 }
 
-/// The name of a group or primitive: there, not empty, without `/`, unique among its siblings.
+/// Reads the name of a group or primitive: present, not empty, without `/`, unique among its siblings.
 pub(super) fn read_name(
     reader: &mut Reader<'_>,
     fields: &Fields<'_>,
@@ -63,7 +63,7 @@ pub(super) fn read_name(
     Some(name)
 }
 
-/// The index of a surface by name.
+/// Index of a surface, by name.
 pub(super) fn surface_index(
     reader: &mut Reader<'_>,
     surfaces: &[Surface],

@@ -1,4 +1,4 @@
-//! The normal law k·δ^p + c·δ^q·δ' in a model file.
+//! Normal law k·δ^p + c·δ^q·δ' in a model file.
 
 use super::fields::Fields;
 use super::law_values::{either_or, exponent, not_rigid, restitution};
@@ -8,7 +8,7 @@ use crate::restitution::{Impact, power_law_damping};
 use crate::ron_tree::Node;
 use crate::surface::{Exponent, NormalLaw};
 
-/// `stiffness` is that of the surface or pair, if it could be read.
+/// Reads the law; `stiffness` is that of the surface or pair, if it could be read.
 pub(super) fn power_law(
     reader: &mut Reader<'_>,
     node: &Node,
@@ -32,7 +32,8 @@ pub(super) fn power_law(
     Some(NormalLaw::PowerLaw { damping: damping?, exponent, damping_exponent })
 }
 
-/// q, from 0 to p: below zero the damping would begin without end, beyond p the contact would cling to its last depth.
+/// Reads q, from 0 to p: below 0 the damping force would start at infinity; above p the contact would stick
+/// at its last depth.
 fn damping_exponent(
     reader: &mut Reader<'_>,
     node: &Node,
@@ -54,7 +55,7 @@ fn damping_exponent(
     )
 }
 
-/// c from a restitution at a speed and a mass.
+/// Computes c from a restitution at a speed and a mass.
 fn damping_of(
     reader: &mut Reader<'_>,
     node: &Node,

@@ -1,4 +1,4 @@
-//! What every part of the reading has at hand: the text, the caller's extensions, and all that was found wrong.
+//! State shared by all parts of the reading: the text, the caller's extensions, and all faults found.
 
 use crate::error::ModelError;
 use crate::ron_tree::SyntaxError;
@@ -8,23 +8,24 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// How many faults of one mesh are listed one by one before the rest is only counted.
+/// Number of faults listed per mesh; further ones are only counted.
 pub(crate) const LISTED_PER_MESH: usize = 20;
 
-/// The text being read and all that was found wrong with it.
+/// Text being read and all faults found in it.
 pub(crate) struct Reader<'a> {
     text: &'a str,
     file: &'a str,
     pub(crate) mesh_dir: Option<&'a Path>,
     pub(crate) ext: &'a Extensions,
-    /// Whether shapes are judged and mesh files read. If not, only notation, fields, types, names and indices are.
+    /// True if shapes are judged and mesh files read; false if only notation, fields, types, names and
+    /// indices are.
     pub(crate) judges_shapes: bool,
-    /// Byte offset and fault.
+    /// Faults with their byte offsets.
     faults: Vec<(u32, ModelError)>,
-    /// Where each line begins; found when the first warning needs it.
+    /// Byte offset of each line; computed for the first warning.
     line_starts: OnceCell<Vec<u32>>,
     pub(crate) warnings: Vec<String>,
-    /// The surfaces by their names; made when the first one is looked for.
+    /// Surfaces by name; built at the first look-up.
     surfaces: OnceCell<BTreeMap<String, u32>>,
 }
 
@@ -43,7 +44,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Notes a fault.
+    /// Reports a fault.
     pub(crate) fn fault(
         &mut self,
         at: u32,
@@ -54,7 +55,7 @@ impl<'a> Reader<'a> {
     ) {
         let error = ModelError {
             file: self.file.to_owned(),
-            // Found for all faults together, when all are known.
+            // Computed for all faults together at the end.
             line: 0,
             column: 0,
             path: path.to_owned(),
@@ -65,7 +66,7 @@ impl<'a> Reader<'a> {
         self.faults.push((at, error));
     }
 
-    /// Notes a fault, where a value cannot be given for it.
+    /// Reports a fault and returns `None`.
     pub(crate) fn refuse<T>(
         &mut self,
         at: u32,
@@ -92,7 +93,7 @@ impl<'a> Reader<'a> {
         self.warnings.push(format!("{}:{line}: {path}: {what}", self.file));
     }
 
-    /// The first surface of that name. The list is the same whenever this is asked.
+    /// First surface with that name. Every call must pass the same list.
     pub(crate) fn surface_called(&self, surfaces: &[Surface], name: &str) -> Option<u32> {
         let by_name = self.surfaces.get_or_init(|| {
             let named = surfaces.iter().zip(0..surfaces.len() as u32).rev();
@@ -105,15 +106,15 @@ impl<'a> Reader<'a> {
         self.faults.len()
     }
 
-    /// All faults in the order of the file.
+    /// All faults, in file order.
     pub(crate) fn into_faults(mut self) -> Vec<ModelError> {
         self.faults.sort_by_key(|(at, _)| *at);
         self.place_faults();
         self.faults.into_iter().map(|(_, error)| error).collect()
     }
 
-    /// Gives sorted faults their lines and columns in one walk through the text: counted from its line's start for each, the
-    /// faults of a file in one line would take the square of its length.
+    /// Computes lines and columns of the sorted faults in one pass over the text: counting from the start of
+    /// the line for each fault would be quadratic for a file in a single line.
     fn place_faults(&mut self) {
         let (mut here, mut line, mut column) = (0, 1, 1);
         for (at, error) in &mut self.faults {

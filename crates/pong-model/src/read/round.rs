@@ -21,7 +21,7 @@ pub(super) fn cone(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Fru
     frustum(reader, p, "move one end: a cone has a length", "give one end a radius, or use a LineSegment")
 }
 
-/// Without a thickness all that is closer behind the wall than the smaller radius is pushed back.
+/// Reads a bore. The default thickness is the smaller radius.
 pub(super) fn bore(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Bore> {
     let hole = frustum(reader, p, "move one end: a bore has a length", "give one end a radius");
     let thickness = match p.fields.optional("thickness") {
@@ -38,7 +38,7 @@ pub(super) fn bore(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Bor
     Some(Bore { hole, thickness: thickness.unwrap_or(narrowest), mouths: mouths? })
 }
 
-/// With the cures of an axis and of radii that are zero.
+/// Reads a frustum; the arguments are the cures for an axis of zero length and for zero radii.
 fn frustum(
     reader: &mut Reader<'_>,
     p: &Primitive<'_, '_>,
@@ -50,7 +50,7 @@ fn frustum(
     Some(Frustum::new(ends?, radii?))
 }
 
-/// Two places that are not the same.
+/// Reads two distinct points.
 fn ends(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, cure: &str) -> Option<[Vec3; 2]> {
     let node = p.fields.required(reader, "ends")?;
     let ends = reader.vectors::<2>(node, &p.path)?.map(|end| p.x.point(&end));
@@ -65,7 +65,7 @@ fn radius(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<f64> {
     p.fields.required(reader, "radius").and_then(|node| reader.positive(node, &p.path, "the radius"))
 }
 
-/// One of the two may be zero: the tip of a cone.
+/// Reads two radii, one of which may be zero: the apex of a cone.
 fn radii(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, cure: &str) -> Option<[f64; 2]> {
     let node = p.fields.required(reader, "radii")?;
     let radii = reader.not_negative_pair(node, &p.path, "a radius")?;

@@ -1,11 +1,11 @@
-//! Numbers, texts, vectors and rotations, each refused with a reason where it makes no sense.
+//! Numbers, texts, vectors and rotations; invalid ones are refused with a reason.
 
 use super::reader::Reader;
 use crate::limits::{NumberFault, not_finite, out_of_range};
 use crate::ron_tree::{Node, Value};
 use pong_geometry::{Quat, Vec3};
 
-/// How far the norm of an authored quaternion may be from 1.
+/// Largest deviation from 1 of the norm of an authored quaternion.
 const QUATERNION_NORM_TOLERANCE: f64 = 1e-3;
 
 impl Reader<'_> {
@@ -14,7 +14,7 @@ impl Reader<'_> {
         self.refuse(node.at, path, "wrong-type", cause, format!("write {expected}"))
     }
 
-    /// Any number, infinite ones and NaN included.
+    /// Reads any number, including infinity and NaN.
     pub(crate) fn any_number(&mut self, node: &Node, path: &str) -> Option<f64> {
         match node.value {
             Value::Number(value) => Some(value),
@@ -22,26 +22,26 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether a number has no fault; else it is noted.
+    /// Returns `true` if a number has no fault; otherwise reports the fault.
     fn has_none(&mut self, at: u32, path: &str, fault: Option<NumberFault>) -> bool {
         let Some((rule, cause, cure)) = fault else { return true };
         self.fault(at, path, rule, cause, cure);
         false
     }
 
-    /// A finite number of any size.
+    /// Reads a finite number of any size.
     pub(crate) fn finite(&mut self, node: &Node, path: &str) -> Option<f64> {
         let value = self.any_number(node, path)?;
         self.has_none(node.at, path, not_finite(value)).then_some(value)
     }
 
-    /// A finite number, not beyond [`LARGEST`](crate::LARGEST).
+    /// Reads a finite number within ±[`LARGEST`](crate::LARGEST).
     pub(crate) fn number(&mut self, node: &Node, path: &str) -> Option<f64> {
         let value = self.any_number(node, path)?;
         self.has_none(node.at, path, out_of_range(value)).then_some(value)
     }
 
-    /// A number above zero, not beyond [`LARGEST`](crate::LARGEST).
+    /// Reads a positive number up to [`LARGEST`](crate::LARGEST).
     pub(crate) fn positive(&mut self, node: &Node, path: &str, what: &str) -> Option<f64> {
         let value = self.number(node, path)?;
         self.above_zero(node, path, what, value)
@@ -55,7 +55,7 @@ impl Reader<'_> {
         self.refuse(node.at, path, "not-positive", cause, format!("{what} must be above zero"))
     }
 
-    /// A finite number, zero or above.
+    /// Reads a non-negative number up to [`LARGEST`](crate::LARGEST).
     pub(crate) fn not_negative(&mut self, node: &Node, path: &str, what: &str) -> Option<f64> {
         let value = self.number(node, path)?;
         if value >= 0.0 {
@@ -79,7 +79,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A list of numbers, finite ones.
+    /// Reads a list of finite numbers.
     pub(crate) fn numbers(&mut self, node: &Node, path: &str) -> Option<Vec<f64>> {
         match &node.value {
             Value::List(items) => {
@@ -91,7 +91,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Exactly `N` finite numbers in parentheses.
+    /// Reads exactly `N` finite numbers in parentheses.
     fn tuple<const N: usize>(&mut self, node: &Node, path: &str, form: &str) -> Option<[f64; N]> {
         match &node.value {
             Value::Numbers(numbers) if numbers.len() == N => {
@@ -109,12 +109,12 @@ impl Reader<'_> {
         }
     }
 
-    /// `(x, y, z)`.
+    /// Reads `(x, y, z)`.
     pub(crate) fn vector(&mut self, node: &Node, path: &str) -> Option<Vec3> {
         self.tuple::<3>(node, path, "a tuple of three numbers (x, y, z)").map(Vec3::from)
     }
 
-    /// `(a, b)`, neither below zero.
+    /// Reads `(a, b)`, both non-negative.
     pub(crate) fn not_negative_pair(&mut self, node: &Node, path: &str, what: &str) -> Option<[f64; 2]> {
         let pair = self.tuple::<2>(node, path, "a tuple of two numbers (at end 0, at end 1)")?;
         if pair.iter().all(|&x| x >= 0.0) {
@@ -124,7 +124,7 @@ impl Reader<'_> {
         self.refuse(node.at, path, "negative", cause, "it must be zero or above")
     }
 
-    /// `(true, false)`.
+    /// Reads `(true, false)`.
     pub(crate) fn boolean_pair(&mut self, node: &Node, path: &str) -> Option<[bool; 2]> {
         let Value::Tuple(None, items) = &node.value else {
             return self.wrong_type(node, path, "a tuple of two of true and false");
@@ -136,7 +136,7 @@ impl Reader<'_> {
         Some([one?, other?])
     }
 
-    /// `N` tuples of three numbers.
+    /// Reads `N` tuples of three numbers.
     pub(crate) fn vectors<const N: usize>(&mut self, node: &Node, path: &str) -> Option<[Vec3; N]> {
         match &node.value {
             Value::Tuple(None, items) if items.len() == N => {
@@ -150,12 +150,12 @@ impl Reader<'_> {
         }
     }
 
-    /// A vector that is not zero, made unit.
+    /// Reads a non-zero vector and normalises it.
     pub(crate) fn direction(&mut self, node: &Node, path: &str, what: &str) -> Option<Vec3> {
         let vector = self.vector(node, path)?;
         let largest = vector.amax();
         if largest > 0.0 {
-            // Scaled first, so that neither tiny nor huge components spoil the norm.
+            // Scaled first, so that tiny or huge components do not spoil the norm.
             return Some((vector / largest).normalize());
         }
         self.refuse(
@@ -167,7 +167,7 @@ impl Reader<'_> {
         )
     }
 
-    /// `(w, x, y, z)`, normalised.
+    /// Reads a quaternion `(w, x, y, z)` and normalises it.
     pub(crate) fn rotation(&mut self, node: &Node, path: &str) -> Option<Quat> {
         let [w, x, y, z] = self.tuple::<4>(node, path, "a quaternion (w, x, y, z)")?;
         let quaternion = nalgebra::Quaternion::new(w, x, y, z);
@@ -179,7 +179,7 @@ impl Reader<'_> {
         self.refuse(node.at, path, "quaternion-norm", cause, "give w, x, y, z with w² + x² + y² + z² = 1")
     }
 
-    /// The tuple's or struct's name, and the node itself, for values like `Bristle(…)` or `None`.
+    /// Name of a tuple or struct, or the name itself, for values like `Bristle(…)` or `None`.
     pub(crate) fn variant<'n>(&mut self, node: &'n Node, path: &str, expected: &[&str]) -> Option<&'n str> {
         let name = match &node.value {
             Value::Name(name) => Some(name.as_ref()),
@@ -196,7 +196,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The items of a list.
+    /// Items of a list.
     pub(crate) fn list<'n>(&mut self, node: &'n Node, path: &str) -> Option<&'n [Node]> {
         match &node.value {
             Value::List(items) => Some(items),

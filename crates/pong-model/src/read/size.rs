@@ -1,7 +1,7 @@
-//! Sizes of primitives that the engine can compute with.
+//! Limits of the sizes of primitives.
 //!
-//! Interference multiplies up to four lengths, and bounding boxes are in single precision: between these limits neither
-//! leaves the range of numbers. Beyond them contacts would be missed without a word.
+//! Interference tests multiply up to four lengths, and bounding boxes are in single precision: between these
+//! limits neither overflows nor underflows. Beyond them contacts would be missed without a warning.
 
 use super::reader::Reader;
 use crate::draft::BodyDraft;
@@ -10,7 +10,7 @@ use crate::model::PrimitiveInfo;
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{Frustum, PrimitiveKind};
 
-/// Notes a primitive that is too small or too large; whether it is neither.
+/// Reports a primitive that is too small or too large; returns `true` if the size is valid.
 pub(super) fn check(reader: &mut Reader<'_>, draft: &BodyDraft, info: &PrimitiveInfo, at: u32) -> bool {
     if !reader.judges_shapes {
         return true;
@@ -22,7 +22,7 @@ pub(super) fn check(reader: &mut Reader<'_>, draft: &BodyDraft, info: &Primitive
     false
 }
 
-/// What is to lie between the limits, with its name, m.
+/// Sizes that must lie between the limits, with their names, m.
 fn sizes(draft: &BodyDraft, info: &PrimitiveInfo) -> Vec<(&'static str, f64)> {
     let body = &draft.body;
     let first = info.elements.start as usize;
@@ -36,7 +36,7 @@ fn sizes(draft: &BodyDraft, info: &PrimitiveInfo) -> Vec<(&'static str, f64)> {
         PrimitiveKind::Ray => {
             let ray = &body.rays[first];
             sizes.push(("the length", ray.length));
-            // A ray may be without reach.
+            // The reach of a ray may be zero.
             sizes.extend(ray.reach.filter(|reach| *reach > 0.0).map(|reach| ("the reach", reach)));
         }
         PrimitiveKind::Sphere => sizes.push(("the radius", body.spheres[first].radius)),
@@ -72,15 +72,15 @@ fn sizes(draft: &BodyDraft, info: &PrimitiveInfo) -> Vec<(&'static str, f64)> {
     sizes
 }
 
-/// A tip has no radius.
+/// Sizes of a frustum; the radius of an apex is left out.
 fn of_frustum(frustum: &Frustum) -> Vec<(&'static str, f64)> {
     let radii = frustum.radii.into_iter().filter(|radius| *radius > 0.0);
     let [a, b] = frustum.ends;
     radii.map(|radius| ("a radius", radius)).chain([("the length", longest(&[a - b]))]).collect()
 }
 
-/// Length of the longest vector, whose squares may lie outside the range of numbers: by its largest component, which is
-/// less by √3 at most.
+/// Length of the longest vector, by its largest component, which is smaller by √3 at most: squares might
+/// leave the range of numbers.
 fn longest(vectors: &[Vec3]) -> f64 {
     vectors.iter().map(Vec3::amax).fold(0.0, f64::max)
 }

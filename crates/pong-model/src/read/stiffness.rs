@@ -1,10 +1,10 @@
-//! Stiffnesses that are not infinite.
+//! Finite stiffnesses.
 
 use super::reader::Reader;
 use crate::ron_tree::Node;
 use crate::surface::Surface;
 
-/// So stiff that no sum or product of the laws leaves the range of numbers.
+/// Reads a stiffness within the range in which no sum or product of the laws overflows.
 pub(super) fn in_range(
     reader: &mut Reader<'_>,
     node: &Node,
@@ -21,7 +21,7 @@ pub(super) fn in_range(
     reader.refuse(node.at, path, "stiffness-range", format!("{what} is {value:e}"), cure)
 }
 
-/// Finite, above zero and within the range of stiffnesses.
+/// Reads a finite, positive stiffness within the range of stiffnesses.
 pub(super) fn finite_stiffness(reader: &mut Reader<'_>, node: &Node, path: &str, what: &str) -> Option<f64> {
     let value = reader.finite(node, path)?;
     let value = reader.above_zero(node, path, what, value)?;

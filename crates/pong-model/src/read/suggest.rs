@@ -1,11 +1,11 @@
-//! "Did you mean …?"
+//! Suggestions of the form "did you mean …?".
 
-/// How many candidates are compared and how many are listed: a file of very many names with a fault at each of them must not
-/// take the square of their number.
+/// Maximum number of candidates compared, and then of candidates listed: a file with very many names and a
+/// fault at each must not take quadratic time.
 const COMPARED: usize = 100;
 const LISTED: usize = 20;
 
-/// The candidate nearest to `name`, if it is near enough to be a slip of the keyboard.
+/// Candidate nearest to `name`, if it is near enough to be a typing error.
 pub(crate) fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let limit = 1 + name.chars().count() / 4;
     let best =
@@ -18,7 +18,8 @@ pub(crate) fn cure(name: &str, candidates: &[&str]) -> String {
     cure_among(name, candidates.len(), candidates.iter().copied())
 }
 
-/// The same for `count` candidates of which no more are looked at than are told.
+/// Cure for a name that is not among `count` candidates, given as an iterator of which only the first ones
+/// are used.
 pub(crate) fn cure_among<'c>(
     name: &str,
     count: usize,
@@ -35,7 +36,7 @@ pub(crate) fn cure_among<'c>(
     }
 }
 
-/// Edits (insert, remove, replace) between two names, letter case counting as nothing.
+/// Edit distance between two names (insert, remove, replace), ignoring case.
 fn distance(a: &str, b: &str) -> usize {
     strsim::levenshtein(&a.to_lowercase(), &b.to_lowercase())
 }

@@ -1,4 +1,4 @@
-//! The tables of surfaces and of pairs of surfaces.
+//! Tables of surfaces and of pairs of surfaces.
 
 use super::bristle::{Beside, bristle};
 use super::fields::Fields;
@@ -12,7 +12,7 @@ use crate::ron_tree::{Node, Value};
 use crate::surface::{FrictionLaw, NormalLaw, PairOverride, Surface};
 use std::collections::HashSet;
 
-/// Reads the `surfaces` map, in the order of the file.
+/// Reads the `surfaces` map, in file order.
 pub(super) fn surfaces(reader: &mut Reader<'_>, node: &Node) -> Vec<Surface> {
     let Value::Map(entries) = &node.value else {
         let cause = format!("expected a map of surfaces, found {}", node.value.describe());
@@ -36,7 +36,7 @@ pub(super) fn surfaces(reader: &mut Reader<'_>, node: &Node) -> Vec<Surface> {
     surfaces
 }
 
-/// A surface whose values could not be read still counts as defined, so that its users raise no second fault.
+/// Reads a surface. A surface with faults still counts as defined, so that its users cause no second fault.
 fn surface(reader: &mut Reader<'_>, node: &Node, name: String, path: &str) -> Surface {
     let mut surface = Surface {
         name,
@@ -50,7 +50,7 @@ fn surface(reader: &mut Reader<'_>, node: &Node, name: String, path: &str) -> Su
     let stiffness = fields.required(reader, "stiffness").and_then(|node| stiffness(reader, node, path));
     surface.stiffness = stiffness.unwrap_or(1.0);
     if surface.stiffness.is_infinite() {
-        // What it does not say below is said by what it meets.
+        // Laws not given below are taken from the other surface.
         (surface.normal, surface.friction) = (NormalLaw::Inherited, FrictionLaw::Inherited);
     }
     let normal = fields.optional("normal");
@@ -68,7 +68,7 @@ fn surface(reader: &mut Reader<'_>, node: &Node, name: String, path: &str) -> Su
     surface
 }
 
-/// Above zero; infinite means rigid.
+/// Reads a positive stiffness; infinite means rigid.
 fn stiffness(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
     let value = reader.any_number(node, path)?;
     if value == f64::INFINITY {
@@ -87,7 +87,7 @@ fn stiffness(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
     )
 }
 
-/// `known_stiffness` is that of the surface or pair, if it could be read.
+/// Reads a normal law; `known_stiffness` is that of the surface or pair, if it could be read.
 fn normal_law(
     reader: &mut Reader<'_>,
     node: &Node,
@@ -117,7 +117,7 @@ fn linear(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: Option<f6
     Some(NormalLaw::Linear { damping, ramp })
 }
 
-/// c = 2·ζ·√(k·m), with ζ from the law that never pulls.
+/// Computes c = 2·ζ·√(k·m), with ζ from the law that never pulls.
 fn linear_damping(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: Option<f64>) -> Option<f64> {
     let fields = Fields::open(reader, node, path, &["e", "mass"])?;
     let e = fields.required(reader, "e").and_then(|node| restitution(reader, node, path));
@@ -188,7 +188,7 @@ fn custom(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<(String, V
     Some((name?, parameters))
 }
 
-/// Reads the `pairs` table of a model of this name.
+/// Reads the `pairs` table of a model with this name.
 pub(super) fn pairs(
     reader: &mut Reader<'_>,
     node: &Node,
@@ -212,7 +212,7 @@ pub(super) fn pairs(
     pairs
 }
 
-/// The name of the model and the surfaces that it defines.
+/// Name of the model and the surfaces that it defines.
 type Defined<'d> = (&'d str, &'d [Surface]);
 
 fn pair(reader: &mut Reader<'_>, node: &Node, path: &str, defined: Defined<'_>) -> Option<PairOverride> {
@@ -240,7 +240,8 @@ fn pair_stiffness(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f6
     finite_stiffness(reader, node, path, "the stiffness of a pair")
 }
 
-/// A restitution needs the stiffness of the pair, which only this entry can tell for certain.
+/// Reads the normal law of a pair. A restitution needs the stiffness of the pair, which only this entry can
+/// give for certain.
 fn pair_normal(
     reader: &mut Reader<'_>,
     node: &Node,

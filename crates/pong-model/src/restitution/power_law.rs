@@ -1,6 +1,7 @@
-//! Restitution of F = max(0, k·δ^p + c·δ^q·δ'), and the damping c that gives a wanted one.
+//! Restitution of F = max(0, k·δ^p + c·δ^q·δ'), and the damping c for a desired restitution.
 //!
-//! With r = (q + 1)/(p + 1) the restitution depends on r and on one group (docs/theory.md, 3):
+//! With r = (q + 1)/(p + 1) the restitution depends on r and on one dimensionless group Γ (docs/theory.md,
+//! 3):
 //!
 //! ```text
 //! Γ = c·(q + 1)^(r − 1)·k^(−r)·m^(r − 1)·v^(2r − 1)
@@ -14,12 +15,12 @@
 //! rebound       by Q = −Γ·y'/y^a, 0 to 1:   the share of the spring's force that the damper takes
 //! ```
 //!
-//! ln ρ keeps its relative accuracy where hardly anything is lost.
+//! ln ρ keeps its relative precision where the loss is small.
 
 use super::{chi_for_restitution, restitution_of_zeta, zeta_for_restitution};
 use std::f64::consts::FRAC_PI_2;
 
-/// An impact and its restitution.
+/// Impact and its restitution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// Rebound speed over impact speed, 0 < e ≤ 1; no unit.
@@ -30,8 +31,8 @@ pub struct Impact {
     pub mass: f64,
 }
 
-/// Damping c, N·s/m^(1+q), of a contact of stiffness `k` (N/m^p) and exponents p and q that gives the restitution of an
-/// impact.
+/// Damping c, N·s/m^(1+q), of a contact of stiffness `k` (N/m^p) and exponents p and q that gives the
+/// restitution of an impact.
 pub fn power_law_damping(k: f64, p: f64, q: f64, impact: &Impact) -> f64 {
     let Impact { e, speed, mass } = *impact;
     let r = (q + 1.0) / (p + 1.0);
@@ -39,17 +40,17 @@ pub fn power_law_damping(k: f64, p: f64, q: f64, impact: &Impact) -> f64 {
     damping_group(r, e) * scale * libm::pow(speed, 1.0 - 2.0 * r)
 }
 
-/// Restitution of the law of exponents r = (q + 1)/(p + 1) at the group Γ; 0.4 ≤ r ≤ 1.
+/// Restitution of a law with r = (q + 1)/(p + 1) at the group Γ; 0.4 ≤ r ≤ 1.
 pub fn restitution_of_power_law(r: f64, group: f64) -> f64 {
     if group == 0.0 { 1.0 } else { libm::exp(-speed_loss(r, group)) }
 }
 
-/// Γ that gives the restitution `e`, 0 < e ≤ 1.
+/// Group Γ that gives the restitution `e`, 0 < e ≤ 1.
 fn damping_group(r: f64, e: f64) -> f64 {
     if e >= 1.0 {
         return 0.0;
     }
-    // The laws with a closed form.
+    // Laws with a closed form.
     if r == 0.5 {
         return 2.0 * zeta_for_restitution(e);
     }
@@ -57,7 +58,7 @@ fn damping_group(r: f64, e: f64) -> f64 {
         return chi_for_restitution(e, 1.0);
     }
     let wanted = -libm::log(e);
-    // ln(−ln e) is nearly a straight line of ln Γ where little is lost, and flattens beyond.
+    // ln(−ln e) is nearly linear in ln Γ where the loss is small, and flattens beyond.
     let excess = |ln_group: f64| libm::log(speed_loss(r, libm::exp(ln_group)) / wanted);
     let start = libm::log(wanted);
     let (mut low, mut high) = (start - 2.0, start + 2.0);
@@ -70,10 +71,11 @@ fn damping_group(r: f64, e: f64) -> f64 {
     libm::exp(root(low, high, excess))
 }
 
-/// Value of [`root`]'s function that is zero but for the errors of the integrals.
+/// Function value in [`root`] that counts as zero: the error of the integrals.
 const ZERO: f64 = 1e-10;
 
-/// Root of a rising function between two values of other signs, by false position; the end that stays has its value halved (the Illinois rule).
+/// Root of an increasing function between two values of opposite sign, by false position with the Illinois
+/// rule: the value at an end that is kept is halved.
 fn root(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
     let (mut at_low, mut at_high) = (function(low), function(high));
     let mut stayed = 0;
@@ -96,10 +98,10 @@ fn root(mut low: f64, mut high: f64, function: impl Fn(f64) -> f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Restitution below which that of a strong damper, Γ^(−1/r), is exact to eight digits.
+/// Restitution below which the formula for a strong damper, Γ^(−1/r), is exact to eight digits.
 const HARDLY_ANY: f64 = 1e-10;
 
-/// −ln e at a group above zero.
+/// Computes −ln e at a positive group.
 fn speed_loss(r: f64, group: f64) -> f64 {
     if r == 0.5 {
         return -libm::log(restitution_of_zeta(0.5 * group));
@@ -117,7 +119,8 @@ fn speed_loss(r: f64, group: f64) -> f64 {
     0.5 * libm::log1p(2.0 * r * libm::exp(ln_kappa)) - compressed - rebound
 }
 
-/// ln ρ at the greatest depth. The variable is φ^(2r), in which the slope is finite at touch.
+/// Computes ln ρ at the greatest depth. The variable of integration is φ^(2r), in which the slope is finite
+/// at first touch.
 fn compression(r: f64, damper: f64) -> f64 {
     let power = 2.0 * r - 1.0;
     let slope = |s: f64, [ln_rho]: [f64; 1]| {
@@ -132,14 +135,14 @@ fn compression(r: f64, damper: f64) -> f64 {
     ln_rho
 }
 
-/// ln κ at the end of the force, and the change of ln ρ up to there.
+/// Computes ln κ at the end of the force, and the change of ln ρ up to there.
 fn rebound(r: f64, ln_kappa: f64) -> [f64; 2] {
     let a = 1.0 / r - 1.0;
     let slope = |share: f64, [ln_kappa, _]: [f64; 2]| {
         let kappa = libm::exp(ln_kappa);
         let squared = share * share;
         let turning = kappa * (1.0 - share) + a * squared;
-        // Nothing is left of the spring.
+        // The spring has no force left.
         if turning == 0.0 {
             return [0.0, 0.0];
         }
@@ -148,13 +151,13 @@ fn rebound(r: f64, ln_kappa: f64) -> [f64; 2] {
     integral(slope, 1.0, [ln_kappa, 0.0])
 }
 
-/// Error of a step relative to what is integrated.
+/// Error of a step relative to the integrated quantity.
 const STEP_ERROR: f64 = 1e-11;
-/// Steps within which every integral here ends; the hardest take a tenth.
+/// Step limit; the hardest integral takes a tenth of it.
 const STEPS: usize = 20_000;
 
-/// Integrates from 0 to `end` with the pair of orders 5 and 4 of Dormand and Prince; the steps follow from the numbers
-/// alone.
+/// Integrates from 0 to `end` with the Dormand-Prince pair of orders 5 and 4; the steps depend on the numbers
+/// only.
 fn integral<const N: usize>(
     slope: impl Fn(f64, [f64; N]) -> [f64; N],
     end: f64,
@@ -174,7 +177,7 @@ fn integral<const N: usize>(
                 break;
             }
         }
-        // What is not a number comes of a step that is far too long.
+        // NaN comes from a step that is far too long.
         let factor = if share.is_finite() { 0.9 * libm::pow(share.max(1e-4), -0.2) } else { 0.1 };
         step = width * factor.clamp(0.1, 5.0);
     }
@@ -218,13 +221,14 @@ fn dormand_prince<const N: usize>(
 mod tests {
     use super::*;
 
-    /// Γ of exponents p and q where k = m = v = 1 and the damping is `c`.
+    /// Group Γ of exponents p and q for k = m = v = 1 and damping `c`.
     fn group(p: f64, q: f64, c: f64) -> (f64, f64) {
         let r = (q + 1.0) / (p + 1.0);
         (r, c * libm::pow(q + 1.0, r - 1.0))
     }
 
-    /// x" = −max(0, x^p + c·x^q·x') integrated in time by another program (eighth order, error 1e-8) up to the rebound.
+    /// x" = −max(0, x^p + c·x^q·x') integrated in time by another program (eighth order, error 1e-8) up to
+    /// the rebound.
     #[test]
     fn restitution_is_that_of_the_equation_of_motion() {
         for (p, q, c, e) in [
@@ -244,7 +248,8 @@ mod tests {
         }
     }
 
-    /// r = 1/2 has the closed form of the linear law, r = 1 that of Hunt and Crossley; between them nothing jumps.
+    /// r = 1/2 has the closed form of the linear law, r = 1 that of Hunt and Crossley; in between the
+    /// restitution is continuous.
     #[test]
     fn the_ends_are_the_laws_with_closed_forms() {
         for e in [1e-6, 0.01, 0.3, 0.58, 0.9, 0.999_99] {
@@ -274,7 +279,7 @@ mod tests {
         }
     }
 
-    /// Where little is lost, 1 − e goes with v^(2r − 1) and m^(r − 1), over two decades each.
+    /// Where the loss is small, 1 − e is proportional to v^(2r − 1) and m^(r − 1), over two decades each.
     #[test]
     fn the_loss_follows_the_powers_of_speed_and_mass() {
         for (p, q) in [(1.0, 0.6), (1.5, 1.0), (1.5, 0.5), (1.5, 0.25)] {

@@ -1,8 +1,8 @@
-//! A small reader of RON that remembers where everything stands in the text.
+//! Small RON reader that keeps the position of every value in the text.
 //!
-//! It accepts the notation of the `ron` crate but for byte strings; its tests compare the two on a corpus.
-//! Long lists of number tuples (the vertices and triangles of meshes) are kept as [`Rows`], about as compact
-//! as the numbers themselves.
+//! It accepts the notation of the `ron` crate except byte strings; its tests compare the two on a corpus.
+//! Long lists of number tuples (vertices and triangles of meshes) are stored as [`Rows`], about as compact as
+//! the numbers themselves.
 
 mod number;
 mod parser;
@@ -12,16 +12,16 @@ mod text;
 
 pub(crate) use parser::{end_of_value, parse};
 
-/// A value and the byte offset at which it begins.
+/// Value and its byte offset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
     /// Byte offset in the text.
     pub at: u32,
-    /// What stands there.
+    /// Value.
     pub value: Value,
 }
 
-/// A value.
+/// Value of a model file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// `true` or `false`.
@@ -30,7 +30,7 @@ pub enum Value {
     Number(f64),
     /// A string or a character.
     Text(String),
-    /// A name that stands alone.
+    /// Bare name.
     Name(Box<str>),
     /// `Name(a: 1, b: 2)` or `(a: 1, b: 2)`.
     Struct(Option<Box<str>>, Vec<Field>),
@@ -46,31 +46,31 @@ pub enum Value {
     Rows(Box<Rows>),
 }
 
-/// A field of a struct and where its name stands.
+/// Field of a struct, with the position of its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    /// Its name.
+    /// Name.
     pub name: Box<str>,
     /// Byte offset of the name in the text.
     pub at: u32,
-    /// What it holds.
+    /// Value of the field.
     pub value: Node,
 }
 
-/// A list of tuples (or of lists) of numbers, in flat arrays.
+/// List of tuples (or lists) of numbers, in flat arrays.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rows {
-    /// Whether the rows are written with brackets instead of parentheses.
+    /// True if the rows are written with brackets instead of parentheses.
     pub bracketed: bool,
     /// All numbers, row after row.
     pub numbers: Vec<f64>,
-    /// Where each row ends in `numbers`.
+    /// End of each row in `numbers`.
     pub ends: Vec<u32>,
-    /// Byte offset at which each row begins.
+    /// Byte offset of each row.
     pub at: Vec<u32>,
 }
 
-/// Why a text is not RON.
+/// Syntax error of a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct SyntaxError {
     pub(crate) at: u32,
@@ -79,13 +79,13 @@ pub(crate) struct SyntaxError {
 }
 
 impl Rows {
-    /// How many rows there are.
+    /// Number of rows.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.ends.len()
     }
 
-    /// The numbers of a row.
+    /// Numbers of a row.
     pub fn row(&self, index: usize) -> &[f64] {
         let start = if index == 0 { 0 } else { self.ends[index - 1] as usize };
         &self.numbers[start..self.ends[index] as usize]
@@ -93,7 +93,7 @@ impl Rows {
 }
 
 impl Value {
-    /// What it is, for messages.
+    /// Description for messages.
     pub(crate) fn describe(&self) -> String {
         match self {
             Self::Bool(value) => format!("the truth value {value}"),

@@ -1,9 +1,9 @@
-//! Numbers: decimal, hexadecimal, binary, octal, with underscores and type suffixes, infinite or not a number.
+//! Numbers: decimal, hexadecimal, binary, octal, with underscores and type suffixes, infinity and NaN.
 
 const SUFFIXES: [&str; 12] =
     ["i8", "i16", "i32", "i64", "i128", "u8", "u16", "u32", "u64", "u128", "f32", "f64"];
 
-/// The number that begins at a place of a text, and the place behind it; the token that stands there if it is none.
+/// Number that begins at `start`, and the offset after it; if there is none, the token found instead.
 pub(super) fn number(text: &str, start: usize) -> Result<(f64, usize), &str> {
     let bytes = text.as_bytes();
     let mut end = start;
@@ -14,7 +14,8 @@ pub(super) fn number(text: &str, start: usize) -> Result<(f64, usize), &str> {
     meaning(token).map(|value| (value, end)).ok_or(token)
 }
 
-/// Signs belong to a number at its start and behind the `e` of an exponent.
+/// Returns `true` if a character belongs to the number. Signs do at its start and after the `e` of an
+/// exponent.
 fn belongs(bytes: &[u8], start: usize, here: usize) -> bool {
     match bytes[here] {
         b'+' | b'-' => {
@@ -30,7 +31,7 @@ fn is_hex(token: &[u8]) -> bool {
 }
 
 fn meaning(token: &str) -> Option<f64> {
-    // Nearly every number of a large file takes this way out.
+    // Fast path for nearly every number of a large file.
     if token.bytes().all(|b| matches!(b, b'0'..=b'9' | b'-' | b'.')) && token != "." && token != "-." {
         return token.parse().ok();
     }
@@ -70,7 +71,8 @@ fn integer(digits: &str, radix: u32) -> Option<f64> {
     u64::from_str_radix(&plain, radix).ok().map(|value| value as f64)
 }
 
-/// An underscore must follow a digit (or the `e` of an exponent), as in the `ron` crate.
+/// Parses a decimal number. An underscore must follow a digit (or the `e` of an exponent), as in the `ron`
+/// crate.
 fn decimal(digits: &str) -> Option<f64> {
     let mut plain = String::with_capacity(digits.len());
     let mut underscore_allowed = false;

@@ -3,9 +3,9 @@
 use super::number::number;
 use super::{Field, Node, Rows, SyntaxError, Value};
 
-/// How deep values may nest; the same as the `ron` crate's default.
+/// Maximum nesting depth of values; the `ron` crate's default.
 const DEPTH_LIMIT: u32 = 128;
-/// Names that `#![enable(…)]` may list; none changes how a model file reads.
+/// Names allowed in `#![enable(…)]`; none changes how a model file is read.
 const KNOWN_EXTENSIONS: [&str; 4] =
     ["implicit_some", "unwrap_newtypes", "unwrap_variant_newtypes", "explicit_struct_names"];
 
@@ -35,7 +35,7 @@ pub(crate) fn parse(text: &str) -> Parsed<Node> {
     }
 }
 
-/// The byte offset behind a value that begins at another, in a text that [`parse`] has read.
+/// Byte offset after the value that begins at `at`, in a text that [`parse`] has read.
 pub(crate) fn end_of_value(text: &str, at: u32) -> Parsed<usize> {
     let mut parser = Parser { text, position: at as usize, depth: 0 };
     parser.value()?;
@@ -149,7 +149,7 @@ impl Parser<'_> {
         self.skip_blank()
     }
 
-    /// Reads a value; what precedes it must already be skipped.
+    /// Reads a value; blanks before it must already be skipped.
     fn value(&mut self) -> Parsed<Node> {
         let at = self.position as u32;
         self.depth += 1;
@@ -235,7 +235,7 @@ impl Parser<'_> {
         self.items(open, ")").map(|items| Value::Tuple(name, items))
     }
 
-    /// Tries to read the rest of a tuple as plain numbers; stays where it is if it is anything else.
+    /// Tries to read the rest of a tuple as plain numbers; does not advance if it is anything else.
     fn number_tuple(&mut self) -> Option<Box<[f64]>> {
         let start = self.position;
         let mut numbers = Vec::new();
@@ -247,7 +247,7 @@ impl Parser<'_> {
         None
     }
 
-    /// Whether `name :` stands next.
+    /// Returns `true` if `name :` comes next.
     fn at_field(&mut self) -> Parsed<bool> {
         let start = self.position;
         let named = self.peek().is_some_and(|c| c == '_' || c.is_alphabetic());
@@ -290,7 +290,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Steps over a comma unless the closing bracket stands next.
+    /// Consumes a comma, unless the closing bracket comes next.
     fn separator(&mut self, close: &str, purpose: &str) -> Parsed<()> {
         self.skip_blank()?;
         if self.rest().starts_with(close) { Ok(()) } else { self.expect(",", purpose) }
@@ -332,7 +332,7 @@ impl Parser<'_> {
         self.items(open, "]").map(Value::List)
     }
 
-    /// Tries to read the rest of a list as rows of numbers; stays where it is if it is anything else.
+    /// Tries to read the rest of a list as rows of numbers; does not advance if it is anything else.
     fn rows(&mut self) -> Parsed<Option<Rows>> {
         let start = self.position;
         let bracketed = match self.byte() {

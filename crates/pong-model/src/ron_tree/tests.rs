@@ -1,9 +1,9 @@
-//! Our reader against the `ron` crate, and where it says things stand.
+//! Our reader compared with the `ron` crate, and the positions it reports.
 
 use super::{Node, Value, parse};
 use std::collections::BTreeMap;
 
-/// Reads the same with both; `Some` only if both agree that it is RON.
+/// Reads a text with both readers; `Some` only if both accept it as RON.
 fn both(text: &str) -> Option<(Node, ron::Value)> {
     let options = ron::Options::default();
     match (parse(text), options.from_str::<ron::Value>(text)) {
@@ -52,7 +52,7 @@ fn agree(ours: &Node, theirs: &ron::Value, text: &str) {
             }
         }
         (Value::Map(entries), Theirs::Map(map)) => {
-            // Theirs is sorted by key; ours keeps the order of the file.
+            // Their map is sorted by key; ours keeps the file order.
             let mut entries: Vec<_> = entries.iter().collect();
             entries.sort_by_key(|(key, _)| format!("{:?}", key.value));
             entries.iter().zip(map.iter()).for_each(|((_, a), (_, b))| agree(a, b, text));

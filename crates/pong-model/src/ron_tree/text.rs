@@ -67,7 +67,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Reads what follows a backslash; a line break swallows the white space after it.
+    /// Reads the part after a backslash; a line break swallows the white space after it.
     fn escape(&mut self) -> Parsed<Option<char>> {
         let at = self.position - 1;
         let Some(kind) = self.peek() else {
