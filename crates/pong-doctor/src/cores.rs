@@ -1,12 +1,12 @@
-//! Processors: how many, which share a core, which are kept free, how fast they are clocked, how deep they sleep.
+//! Processors: number, shared cores, isolation, clock rates, idle states.
 
 use crate::{CpuSet, Files, Finding, State};
 use std::collections::BTreeSet;
 
 const CPU: &str = "/sys/devices/system/cpu";
-/// From here on, waking up is a visible part of a frame of 1 ms, in µs.
+/// Exit latency from which waking up is a visible part of a frame of 1 ms, µs.
 const IDLE_EXIT_LATENCY_MAX_US: u64 = 20;
-/// More than the kernel's largest number of idle states (`CPUIDLE_STATE_MAX` is 10).
+/// Upper bound of the kernel's number of idle states (`CPUIDLE_STATE_MAX` is 10).
 const IDLE_STATES_MAX: usize = 16;
 
 pub(crate) fn examine(files: &impl Files) -> Vec<Finding> {
@@ -32,7 +32,7 @@ fn allowed(files: &impl Files) -> Option<CpuSet> {
     CpuSet::parse(status.lines().find_map(|line| line.strip_prefix("Cpus_allowed_list:"))?)
 }
 
-/// Per core the processors of `cpus` that are on it.
+/// The sets of processors that share a core, one for each core of `cpus`.
 fn by_core(files: &impl Files, cpus: &CpuSet) -> Option<BTreeSet<String>> {
     let on_core = |cpu| {
         let all = listed(files, &format!("{CPU}/cpu{cpu}/topology/thread_siblings_list"))?;
@@ -134,7 +134,7 @@ fn governor(files: &impl Files, allowed: &CpuSet) -> Finding {
     Finding::judged(name, found == "performance", found, meaning, "cpupower frequency-set -g performance")
 }
 
-/// The longest exit latency of an idle state that is not disabled, in µs.
+/// The longest exit latency of an enabled idle state, µs.
 fn idle_exit_latency_us(files: &impl Files, cpu: usize) -> Option<u64> {
     let state = |index| {
         let folder = format!("{CPU}/cpu{cpu}/cpuidle/state{index}");
@@ -161,7 +161,7 @@ fn idle_states(files: &impl Files, allowed: &CpuSet) -> Finding {
     }
 }
 
-/// Whether the processor is a virtual one.
+/// Finding about a virtual machine.
 pub(crate) fn virtual_machine(files: &impl Files) -> Finding {
     let name = "virtual machine";
     let meaning = "On a virtual machine the host decides when a processor runs; nothing below can promise more than the host.";

@@ -3,16 +3,17 @@
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// Logical processors, as the kernel lists them: `0-3,8`.
+/// Logical processors in the kernel's notation: `0-3,8`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CpuSet(BTreeSet<usize>);
 
-/// More processors than any kernel is built for (8,192 at most): a larger number is not a list of processors.
+/// Upper limit: more processors than any kernel supports (8,192 at most), so a larger number is not a list of
+/// processors.
 const PROCESSORS_MAX: usize = 1 << 16;
 
 impl CpuSet {
-    /// From the notation of the kernel. An empty text is an empty set, and so is `(null)`, which some kernels write for
-    /// `nohz_full`. None for any other text that is no list.
+    /// Parses the kernel's notation. An empty text is an empty set, and so is `(null)`, which some kernels
+    /// write for `nohz_full`. `None` for any other text that is not a list.
     pub fn parse(text: &str) -> Option<Self> {
         let text = text.trim();
         if text.is_empty() || text == "(null)" {
@@ -31,27 +32,27 @@ impl CpuSet {
         Some(Self(cpus))
     }
 
-    /// How many.
+    /// Number of processors.
     pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    /// Whether there are none.
+    /// True if there are none.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// In ascending order.
+    /// Processors in ascending order.
     pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         self.0.iter().copied()
     }
 
-    /// Those in either.
+    /// Processors in either set.
     pub(crate) fn union(&self, other: &Self) -> Self {
         Self(self.0.union(&other.0).copied().collect())
     }
 
-    /// Those in both.
+    /// Processors in both sets.
     pub(crate) fn intersection(&self, other: &Self) -> Self {
         Self(self.0.intersection(&other.0).copied().collect())
     }

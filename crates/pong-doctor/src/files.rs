@@ -1,10 +1,10 @@
-//! Where the checks read: the machine, or a record of one.
+//! Source of the checks: the machine, or a record of one.
 
 use std::path::Path;
 
 /// Text files by their absolute path.
 pub trait Files {
-    /// The text without the white space at its end; none if there is no such file or it may not be read.
+    /// The text without trailing white space; `None` if the file does not exist or cannot be read.
     fn text(&self, path: &str) -> Option<String>;
 }
 

@@ -2,43 +2,43 @@
 
 use serde::Serialize;
 
-/// What a finding says about real time.
+/// Verdict of a finding for real-time use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum State {
-    /// As a real-time program wants it.
+    /// Suitable for a real-time program.
     Good,
-    /// It works without, with longer delays; the cure says what to change.
+    /// Works, but with longer delays; there is a cure.
     Advice,
     /// Neither good nor bad.
     Info,
-    /// The system does not tell.
+    /// Not reported by the system.
     Unknown,
 }
 
-/// What the machine grants in one respect.
+/// Finding about one property of the machine.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
-    /// What it is about; a name that stays the same.
+    /// Its subject; a name that stays the same.
     pub name: &'static str,
-    /// How it is.
+    /// Its verdict.
     pub state: State,
-    /// What was found, with units.
+    /// The value found, with units.
     pub found: String,
-    /// Why it matters.
+    /// Its meaning for a real-time program.
     pub meaning: &'static str,
-    /// What to change, where something is to be changed.
+    /// The change to make, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cure: Option<&'static str>,
 }
 
 impl Finding {
-    /// Without a cure.
+    /// Finding without a cure.
     pub(crate) fn new(name: &'static str, state: State, found: String, meaning: &'static str) -> Self {
         Self { name, state, found, meaning, cure: None }
     }
 
-    /// Good if `good`, and otherwise advice with this cure.
+    /// Good if `good`; otherwise advice with this cure.
     pub(crate) fn judged(
         name: &'static str,
         good: bool,
@@ -52,7 +52,7 @@ impl Finding {
         Self { cure: Some(cure), ..Self::new(name, State::Advice, found, meaning) }
     }
 
-    /// Not told by the system, for this reason.
+    /// Finding about a property that the system does not report, with the reason.
     pub(crate) fn unknown(name: &'static str, why: &str, meaning: &'static str) -> Self {
         Self::new(name, State::Unknown, why.to_owned(), meaning)
     }

@@ -1,4 +1,4 @@
-//! How soon the kernel lets go of a core, and by which clock.
+//! Preemption and clock source of the kernel.
 
 use crate::cores::virtual_machine;
 use crate::{Files, Finding, State};
@@ -7,14 +7,15 @@ pub(crate) fn examine(files: &impl Files) -> Vec<Finding> {
     vec![preemption(files), timer_slack(files), clock_source(files), virtual_machine(files)]
 }
 
-/// What the kernel was built as, from `/proc/version`, and what a kernel that can choose was told.
+/// Preemption model built into the kernel, from `/proc/version`, and the mode selected in a kernel with
+/// dynamic preemption.
 fn preemption_model(files: &impl Files) -> Option<String> {
     if files.text("/sys/kernel/realtime").as_deref() == Some("1") {
         return Some("PREEMPT_RT".to_owned());
     }
     let version = files.text("/proc/version")?;
     let has = |word| version.split_whitespace().any(|found| found == word);
-    // The mode in use stands in parentheses: "none voluntary (full)".
+    // The selected mode is in parentheses: "none voluntary (full)".
     let debug = files.text("/sys/kernel/debug/sched/preempt");
     let in_use = debug.as_deref().and_then(|modes| modes.split_once('(')?.1.split_once(')'));
     let command_line = files.text("/proc/cmdline").unwrap_or_default();

@@ -1,4 +1,4 @@
-//! How late threads run: measured, on whatever else the machine does at that moment.
+//! Wake-up latency of threads, measured under the present load of the machine.
 
 use pong_threads::{Grant, Job, Outcome, Pool, Settings};
 use serde::Serialize;
@@ -6,40 +6,41 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Upper bounds of the bins of a histogram, in µs; above the last there is one more bin.
+/// Upper bounds of the bins of a histogram, in µs; one more bin has the rest.
 pub const BIN_BOUNDS_US: [u64; 10] = [10, 20, 50, 100, 200, 500, 1_000, 2_000, 5_000, 10_000];
-/// The sleep of a frame at 1 kHz.
+/// Sleep time of a frame at 1 kHz.
 const PERIOD: Duration = Duration::from_millis(1);
-/// A worker that has not come after so long does not help in a frame of 1 ms.
+/// Time after which a worker is of no use in a frame of 1 ms.
 const LONGEST_WAIT: Duration = Duration::from_millis(5);
-/// Above everything that is not real-time, below what serves devices and clocks (threaded interrupts have 50).
+/// Priority above everything that is not real-time, and below threaded interrupts (50).
 const FIFO_PRIORITY: u8 = 40;
 
-/// Times from the moment at which a thread was to run to the moment at which it did.
+/// Times from the moment at which a thread should run to the moment at which it did.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Latency {
-    /// What was measured.
+    /// The kind of wake-up.
     pub what: &'static str,
-    /// How often.
+    /// Number of samples.
     pub samples: usize,
-    /// How often the thread did not come within 5 ms.
+    /// Number of times that the thread did not come within 5 ms.
     pub missed: usize,
-    /// The middle one, in µs.
+    /// Median, µs.
     pub median_us: f64,
-    /// 99 of 100 are not above, in µs.
+    /// 99th percentile, µs.
     pub p99_us: f64,
-    /// In µs.
+    /// Maximum, µs.
     pub largest_us: f64,
-    /// How many were below each of [`BIN_BOUNDS_US`] and not below the one before; the last: how many were above all.
+    /// Number of samples from the previous bound up to, but not including, each of [`BIN_BOUNDS_US`]; the
+    /// last bin has the rest.
     pub bins: [usize; BIN_BOUNDS_US.len() + 1],
 }
 
 impl Latency {
-    /// Of samples in ns.
+    /// Statistics of samples in ns.
     fn of(what: &'static str, mut samples: Vec<u64>, missed: usize) -> Self {
         samples.sort_unstable();
         let quantile = |part: f64| {
-            // The smallest sample that this part of all is not above.
+            // The smallest sample that is not below this share of all (nearest rank).
             let rank = (part * samples.len() as f64).ceil() as usize;
             samples.get(rank.saturating_sub(1)).map_or(0.0, |ns| *ns as f64 / 1e3)
         };
@@ -59,10 +60,10 @@ impl Latency {
     }
 }
 
-/// Whether the system lets a thread have SCHED_FIFO; if not, why. A thread that ends at once asks for it.
+/// Checks that the system lets a thread have SCHED_FIFO, by a thread that ends at once.
 ///
 /// # Errors
-/// The answer of the system.
+/// The reason of the system.
 pub fn try_fifo() -> Result<(), String> {
     let pool =
         Pool::start(Arc::new(Idle), &one_worker(Some(FIFO_PRIORITY))).map_err(|error| error.to_string())?;
@@ -73,10 +74,10 @@ pub fn try_fifo() -> Result<(), String> {
     }
 }
 
-/// Measures each kind of waking up for `duration`; the kinds with SCHED_FIFO only if it is granted.
+/// Measures each kind of wake-up for `duration`; the kinds with SCHED_FIFO only if it is granted.
 ///
 /// # Errors
-/// If the system starts no thread.
+/// Fails if the system starts no thread.
 pub fn measure(duration: Duration, fifo_is_granted: bool) -> Result<Vec<Latency>, String> {
     let mut latencies = vec![
         sleeping("clock_nanosleep", duration, None)?,
@@ -95,14 +96,14 @@ fn one_worker(fifo_priority: Option<u8>) -> Settings {
     Settings { workers: 1, oversubscribe: true, fifo_priority, ..Settings::default() }
 }
 
-/// Does nothing.
+/// A job that does nothing.
 struct Idle;
 
 impl Job for Idle {
     fn run(&self, _block: u32, _lane: usize) {}
 }
 
-/// The worker sleeps again and again; the caller's block ends once it has begun.
+/// A job whose worker sleeps again and again; the caller's block ends once the worker has begun.
 struct Sleeper {
     duration: Duration,
     late_ns: Mutex<Vec<u64>>,
@@ -122,12 +123,12 @@ impl Job for Sleeper {
     }
 }
 
-/// How late a thread of this priority comes out of its sleeps.
+/// Latency of the wake-ups of a thread with this priority from its sleeps.
 fn sleeping(what: &'static str, duration: Duration, fifo_priority: Option<u8>) -> Result<Latency, String> {
-    // The sleeps run on a worker, because a pool is what asks for a priority here.
+    // The sleeps run on a worker, because pools set the priority of their workers.
     let sleeper =
         Arc::new(Sleeper { duration, late_ns: Mutex::default(), has_begun: AtomicBool::new(false) });
-    // Longer than on any machine that is not stopped.
+    // Longer than any delay of a running machine.
     let worker_timeout = duration + Duration::from_secs(60);
     let settings = Settings { worker_timeout, ..one_worker(fifo_priority) };
     let mut pool = Pool::start(sleeper.clone(), &settings).map_err(|error| error.to_string())?;
@@ -138,26 +139,26 @@ fn sleeping(what: &'static str, duration: Duration, fifo_priority: Option<u8>) -
     Ok(Latency::of(what, late, 0))
 }
 
-/// How late each of a series of sleeps ended, in ns.
+/// Delays at the end of each of a series of sleeps, ns.
 fn sleep_again_and_again(duration: Duration) -> Vec<u64> {
     let times = duration.as_nanos() / PERIOD.as_nanos();
     (0..times).map(|_| in_ns(late_after_sleep())).collect()
 }
 
-/// Sleeps for a period until an absolute time, as an executive does; how late it ended.
+/// Sleeps for a period until an absolute time, as an executive does; returns the delay.
 #[cfg(target_os = "linux")]
 fn late_after_sleep() -> Duration {
     use rustix::thread::clock_nanosleep_absolute;
     use rustix::time::{ClockId, Timespec, clock_gettime};
 
-    // The clock begins with the machine: it has no negative times.
+    // The clock starts at boot: it has no negative times.
     let now = || {
         let Timespec { tv_sec, tv_nsec } = clock_gettime(ClockId::Monotonic);
         Duration::new(tv_sec as u64, tv_nsec as u32)
     };
     let release = now() + PERIOD;
     let until = Timespec { tv_sec: release.as_secs() as _, tv_nsec: release.subsec_nanos() as _ };
-    // A signal ends a sleep early; the rest is slept then.
+    // A signal ends a sleep early; the loop sleeps for the rest.
     while clock_nanosleep_absolute(ClockId::Monotonic, &until).is_err() && now() < release {}
     now().saturating_sub(release)
 }
@@ -169,10 +170,10 @@ fn late_after_sleep() -> Duration {
     release.elapsed()
 }
 
-/// The worker tells when it runs; the caller keeps its own block until then.
+/// A job whose worker records when it runs; the caller waits in its own block until then.
 struct Waker {
     origin: Instant,
-    /// Since the origin, in ns; 0: not yet.
+    /// Time since the origin, ns; 0 before the worker has run.
     ran_at_ns: AtomicU64,
 }
 
@@ -190,14 +191,14 @@ impl Job for Waker {
     }
 }
 
-/// What the workers do when a phase begins.
+/// State of the workers before a phase.
 #[derive(Clone, Copy)]
 enum Workers {
     Parked,
     Spinning,
 }
 
-/// From the call of a phase to the first instruction of the worker in it.
+/// Latency from the call of a phase to the worker's first instruction in it.
 fn waking(
     what: &'static str,
     duration: Duration,
@@ -215,7 +216,7 @@ fn waking(
                 pool.quiesce();
                 std::thread::sleep(PERIOD);
             }
-            // What a host does ahead of a frame.
+            // A host prewakes its workers ahead of a frame.
             Workers::Spinning => {
                 pool.prewake(PERIOD);
                 spin_for(PERIOD / 10);
@@ -251,7 +252,7 @@ mod tests {
 
     #[test]
     fn quantiles_and_bins_are_those_of_the_samples() {
-        // 1, 2, …, 100 µs: the middle one of 100 is the 50th, 99 of 100 are not above the 99th.
+        // 1, 2, …, 100 µs: the median is the 50th, and the 99th percentile is the 99th.
         let latency = Latency::of("test", (1..=100).rev().map(|us| us * 1000).collect(), 3);
         assert_eq!((latency.samples, latency.missed), (100, 3));
         assert_eq!((latency.median_us, latency.p99_us, latency.largest_us), (50.0, 99.0, 100.0));

@@ -1,8 +1,8 @@
-//! What a machine grants a real-time program: cores, clocks, limits and priorities as Linux tells them in `/proc` and
-//! `/sys`, and the measured time in which a thread wakes up. What each item is good for, and the cure where it is not
+//! Real-time properties of a machine: cores, clocks, limits and priorities from Linux's `/proc` and `/sys`,
+//! and the measured time in which a thread wakes up. The purpose of each item, and the cure where it is not
 //! granted, is in docs/realtime.md.
 //!
-//! [`examine`] reads, [`measure`] measures; neither changes anything that outlives it.
+//! [`examine`] reads, [`measure`] measures; neither leaves a lasting change.
 
 #![forbid(unsafe_code)]
 
@@ -19,8 +19,8 @@ pub use files::{Files, ThisMachine};
 pub use finding::{Finding, State};
 pub use latency::{BIN_BOUNDS_US, Latency, measure, try_fifo};
 
-/// Everything that can be read. `fifo` is the answer of the system to a thread that asked for SCHED_FIFO, from
-/// [`try_fifo`].
+/// All findings that can be read. `fifo` is the answer of the system to a thread that asked for SCHED_FIFO,
+/// from [`try_fifo`].
 pub fn examine(files: &impl Files, fifo: Result<(), String>) -> Vec<Finding> {
     let mut findings = cores::examine(files);
     findings.extend(limits::examine(files, fifo));

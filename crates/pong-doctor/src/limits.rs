@@ -1,4 +1,4 @@
-//! What the system lets this process have: locked memory, SCHED_FIFO, the share of a core.
+//! Limits of this process: locked memory, SCHED_FIFO, the share of a core.
 
 use crate::{Files, Finding, State};
 

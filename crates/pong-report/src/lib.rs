@@ -1,4 +1,4 @@
-//! Tables and plots of reports: aligned text, Markdown and SVG. Nothing here knows what the numbers mean.
+//! Tables and plots of reports: aligned text, Markdown and SVG, for any numbers.
 
 #![forbid(unsafe_code)]
 

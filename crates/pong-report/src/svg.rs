@@ -1,11 +1,11 @@
-//! Plots as SVG text: lines, dots, words, and logarithmic axes. Lengths are in pixels, y downwards.
+//! Plots as SVG text: lines, dots, labels, and logarithmic axes. Lengths are in pixels, y downwards.
 
 use std::fmt::Write as _;
 
-/// Told apart by the colour-blind too, and on light and dark ground.
+/// Colours that colour-blind readers can distinguish, on light and dark backgrounds.
 pub const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 
-/// A picture in the making.
+/// An SVG picture being built.
 pub struct Picture(String);
 
 impl Picture {
@@ -17,13 +17,13 @@ impl Picture {
         ))
     }
 
-    /// A line from one place to another, with attributes of its stroke.
+    /// A line between two points, with attributes of its stroke.
     pub fn line(&mut self, [x1, y1, x2, y2]: [f64; 4], style: &str) {
         let _ =
             writeln!(self.0, "<line x1=\"{x1:.1}\" y1=\"{y1:.1}\" x2=\"{x2:.1}\" y2=\"{y2:.1}\" {style}/>");
     }
 
-    /// A disc or ring with attributes of its fill and stroke; a title is shown where the pointer rests.
+    /// A disc or ring with attributes of its fill and stroke; the title is shown as a tooltip.
     pub fn circle(&mut self, [x, y]: [f64; 2], radius: f64, style: &str, title: &str) {
         let _ = write!(self.0, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" {style}");
         let _ = match title {
@@ -32,18 +32,18 @@ impl Picture {
         };
     }
 
-    /// A path that is not filled, in SVG's own commands.
+    /// An unfilled path, in SVG's own commands.
     pub fn path(&mut self, commands: &str, style: &str) {
         let _ = writeln!(self.0, "<path d=\"{commands}\" fill=\"none\" {style}/>");
     }
 
-    /// Words at a place, which is their start, middle or end.
+    /// Text with its start, middle or end at a point.
     pub fn text(&mut self, [x, y]: [f64; 2], anchor: &str, words: &str) {
         let words = escaped(words);
         let _ = writeln!(self.0, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{words}</text>");
     }
 
-    /// Words that run upwards, their middle at a place.
+    /// Text that runs upwards, with its middle at a point.
     pub fn text_upwards(&mut self, [x, y]: [f64; 2], words: &str) {
         let words = escaped(words);
         let _ = writeln!(
@@ -52,7 +52,7 @@ impl Picture {
         );
     }
 
-    /// The whole file.
+    /// Returns the complete file.
     pub fn finish(self) -> String {
         self.0 + "</svg>\n"
     }
@@ -66,12 +66,12 @@ fn escaped(text: &str) -> String {
 pub struct LogAxis {
     /// Exponents of ten at its ends.
     decades: [i32; 2],
-    /// Its ends on the page; the unit is a pixel.
+    /// Its ends on the page, pixels.
     pub pixels: [f64; 2],
 }
 
 impl LogAxis {
-    /// Around all values, one decade at least; from 1 to 10 around none.
+    /// Axis around all values, of one decade at least; from 1 to 10 without values.
     pub fn around(values: impl Iterator<Item = f64>, pixels: [f64; 2]) -> Self {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for value in values.map(libm::log10) {
@@ -84,7 +84,7 @@ impl LogAxis {
         Self { decades: [from, (libm::ceil(high) as i32).max(from + 1)], pixels }
     }
 
-    /// The pixel of a value; of one beyond the ends the end's.
+    /// The pixel of a value, clamped to the axis.
     pub fn at(&self, value: f64) -> f64 {
         let [low, high] = self.decades.map(f64::from);
         let share = (libm::log10(value) - low) / (high - low);

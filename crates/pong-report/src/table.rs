@@ -1,4 +1,4 @@
-//! Tables of text. Control characters in cells are made visible, so that no name breaks a line.
+//! Tables of text. Control characters in cells are escaped, so that no name breaks a line.
 
 use pong_model::printable;
 
@@ -12,8 +12,8 @@ fn lines(heading: &[&str], rows: &[Vec<String>]) -> Lines {
     std::iter::once(head).chain(rows.iter().map(cells)).collect()
 }
 
-/// Every cell as wide as its column, which is `least` wide or more: the first `left` columns to the left, the others to the
-/// right. And the widths.
+/// Pads every cell to the width of its column, at least `least`: the first `left` columns to the left, the
+/// others to the right. Returns the lines and the widths.
 fn padded(lines: Lines, least: usize, left: usize) -> (Lines, Vec<usize>) {
     let count = lines.first().map_or(0, Vec::len);
     let width =
@@ -29,19 +29,19 @@ fn padded(lines: Lines, least: usize, left: usize) -> (Lines, Vec<usize>) {
     (lines.into_iter().map(pad).collect(), widths)
 }
 
-/// For a terminal: indented, the first column to the left, the others to the right.
+/// Table for a terminal: indented, the first column left-aligned, the others right-aligned.
 pub fn aligned(heading: &[&str], rows: &[Vec<String>]) -> String {
     let line = |cells: &Vec<String>| format!("  {}\n", cells.join("   ").trim_end());
     padded(lines(heading, rows), 0, 1).0.iter().map(line).collect()
 }
 
-/// For a terminal: not indented, all columns to the left.
+/// Table for a terminal: not indented, all columns left-aligned.
 pub fn aligned_left(heading: &[&str], rows: &[Vec<String>]) -> String {
     let line = |cells: &Vec<String>| format!("{}\n", cells.join("  ").trim_end());
     padded(lines(heading, rows), 0, heading.len()).0.iter().map(line).collect()
 }
 
-/// Markdown whose columns line up as text too: the first to the left, the others to the right.
+/// Markdown table whose columns line up as text too: the first left-aligned, the others right-aligned.
 pub fn markdown(heading: &[&str], rows: &[Vec<String>]) -> String {
     let (lines, widths) = padded(lines(heading, rows), 3, 1);
     let rule = |(column, width): (usize, &usize)| match column {
@@ -52,7 +52,7 @@ pub fn markdown(heading: &[&str], rows: &[Vec<String>]) -> String {
     with_rule(&lines, &rules)
 }
 
-/// Markdown of long cells, which do not line up.
+/// Markdown table of long cells, which do not line up.
 pub fn markdown_of_prose(heading: &[&str], rows: &[Vec<String>]) -> String {
     with_rule(&lines(heading, rows), &vec!["---".to_owned(); heading.len()])
 }

@@ -1,4 +1,4 @@
-//! What can go wrong, told as thing, cause and cure.
+//! Errors, each with thing, cause and cure.
 
 use pong_executive::scene::SceneErrors;
 use pong_model::ModelErrors;
@@ -11,27 +11,27 @@ use std::path::Path;
 #[error("{0}")]
 pub struct StudyError(pub String);
 
-/// What a study answers.
+/// Result of a study.
 pub type Result<T, E = StudyError> = std::result::Result<T, E>;
 
 impl StudyError {
-    /// From the thing and a line that holds cause and cure.
+    /// Error of a thing, from a line with cause and cure.
     pub(crate) fn new(thing: &str, line: impl Display) -> Self {
         Self(format!("{thing}: {line}"))
     }
 
-    /// From a file and a line that holds cause and cure.
+    /// Error of a file, from a line with cause and cure.
     pub(crate) fn file(path: &Path, line: impl Display) -> Self {
         Self::new(&path.display().to_string(), line)
     }
 
-    /// From a file of the output that cannot be written.
+    /// Error of an output file that cannot be written.
     pub(crate) fn output(path: &Path, reason: impl Display) -> Self {
         Self::file(path, format!("{reason}; name another folder with -o"))
     }
 }
 
-/// Errors that say thing, cause and cure themselves.
+/// Converts errors whose text already has thing, cause and cure.
 macro_rules! told_already {
     ($($error:ty),*) => {
         $(impl From<$error> for StudyError {

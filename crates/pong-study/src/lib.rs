@@ -1,8 +1,8 @@
-//! Runs of the engine, studied: a scene or a log is run again and again.
+//! Studies: a scene or a log is run many times with changes.
 //!
-//! * [`sweep`]: over the levers that buy speed, each against a reference. What it means: `docs/trade.md`.
-//! * [`tree_tuning`]: with other bounding volumes and leaves, the same bits demanded. What it means: `docs/tune.md`.
-//! * [`trimming`]: without the primitives that a run never came near. What it means: `docs/trim.md`.
+//! * [`sweep`]: the options that buy speed, each against a reference. See `docs/trade.md`.
+//! * [`tree_tuning`]: other bounding volumes and leaves, with the same bits required. See `docs/tune.md`.
+//! * [`trimming`]: models without the primitives that a run never came near. See `docs/trim.md`.
 
 #![forbid(unsafe_code)]
 

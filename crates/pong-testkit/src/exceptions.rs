@@ -1,7 +1,8 @@
-//! Floating-point exceptions that code raises, as the processor's flags tell: for code that must not rely on ∞ − ∞ or 0/0.
+//! Floating-point exceptions that code raises, read from the processor's flags: for code that must not rely
+//! on ∞ − ∞ or 0/0.
 //!
-//! A compiler may divide before the branch that keeps zeros out, or in lanes that nobody looks at. No answer shows it; a host
-//! that traps exceptions would.
+//! A compiler may divide before the branch that excludes zeros, or in unused vector lanes. No result shows
+//! it, but a host that traps exceptions stops there.
 //!
 //! ```
 //! let zero = std::hint::black_box(0.0);
@@ -13,14 +14,15 @@
 //! ```
 #![allow(unsafe_code)]
 
-/// Whether work does an invalid operation, or divides by zero, on the calling thread. Told on x86-64; never elsewhere.
+/// True if the work does an invalid operation, or divides by zero, on the calling thread. Only on x86-64;
+/// false elsewhere.
 pub fn are_raised_by(work: impl FnOnce()) -> bool {
     unit::clear();
     fenced(work);
     unit::are_raised()
 }
 
-/// A function of its own, so that no arithmetic is moved to before or after it.
+/// Runs the work in a function of its own, so that no arithmetic is moved before or after it.
 #[inline(never)]
 fn fenced(work: impl FnOnce()) {
     work();
@@ -44,7 +46,7 @@ mod unit {
 
     pub fn clear() {
         let word = read() & !FLAGS;
-        // SAFETY: loads four bytes of the variable: the environment there was, without its flags.
+        // SAFETY: loads four bytes of the variable: the previous environment, without its flags.
         unsafe { asm!("ldmxcsr [{}]", in(reg) &word, options(nostack, readonly)) };
     }
 

@@ -1,4 +1,4 @@
-//! An allocator that counts its calls, thread by thread: for tests of what must not allocate.
+//! An allocator that counts its calls by thread: for tests that code does not allocate.
 //!
 //! ```
 //! #[global_allocator]
@@ -11,7 +11,7 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-/// The system's allocator; tells of every call before it hands it on. What it tells must not allocate.
+/// The system's allocator, with a function that is called before every call. That function must not allocate.
 pub struct Telling(pub fn());
 
 /// Counts the calls of each thread.
@@ -21,7 +21,7 @@ thread_local! {
     static CALLS: Cell<usize> = const { Cell::new(0) };
 }
 
-/// How often the calling thread has asked for memory or given some back, since it began.
+/// Number of calls to the allocator, allocations and deallocations, by the calling thread since it began.
 pub fn calls() -> usize {
     CALLS.get()
 }
@@ -34,11 +34,11 @@ pub fn calls_during(work: impl FnOnce()) -> usize {
 }
 
 fn count() {
-    // A thread that ends may free memory after its counter is gone.
+    // A thread that ends may free memory after its counter is destroyed.
     let _ = CALLS.try_with(|calls| calls.set(calls.get() + 1));
 }
 
-// SAFETY: every call is handed on to `System` as it came.
+// SAFETY: every call is passed to `System` unchanged.
 unsafe impl GlobalAlloc for Telling {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         (self.0)();

@@ -1,5 +1,5 @@
-//! What tests of several crates share, and with them the crates whose work is to test: the cases with known answers and the
-//! random scenes. Nothing that is tested uses it.
+//! Utilities for the tests of several crates, and for the crates of tests: the cases with known answers and
+//! the random scenes. No product code uses it.
 
 #![deny(unsafe_code)]
 
@@ -15,12 +15,12 @@ pub use random::Random;
 
 use std::path::{Path, PathBuf};
 
-/// Whether a number is another but for this part of it.
+/// True if two numbers agree within a relative error.
 pub fn is_near(got: f64, expected: f64, relative: f64) -> bool {
     (got - expected).abs() <= relative * expected.abs()
 }
 
-/// Panics unless a number is another but for this part of it.
+/// Panics unless two numbers agree within a relative error.
 #[track_caller]
 pub fn assert_near(got: f64, expected: f64, relative: f64) {
     assert!(is_near(got, expected, relative), "{got} instead of {expected}");

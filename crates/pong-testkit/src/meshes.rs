@@ -1,9 +1,9 @@
-//! Meshes written by code, as triangles whose corners stand counter-clockwise seen from outside.
+//! Meshes made by code, as triangles with vertices counter-clockwise seen from outside.
 
-/// A place, m.
+/// A position, m.
 pub type Place = [f64; 3];
 
-/// Corners of the cube from −1 to 1 and its sides, outwards.
+/// Vertices of the cube from −1 to 1.
 pub const CUBE: [Place; 8] = [
     [-1.0, -1.0, -1.0],
     [1.0, -1.0, -1.0],
@@ -14,7 +14,7 @@ pub const CUBE: [Place; 8] = [
     [-1.0, 1.0, 1.0],
     [1.0, 1.0, 1.0],
 ];
-/// The sides of the cube: indices of corners.
+/// Sides of the cube, outwards: indices of vertices.
 pub const SIDES: [[usize; 4]; 6] =
     [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [1, 3, 7, 5], [0, 4, 6, 2]];
 
@@ -24,7 +24,7 @@ pub fn cube() -> Vec<[Place; 3]> {
     SIDES.into_iter().flat_map(cut).map(|triangle| triangle.map(|corner| CUBE[corner])).collect()
 }
 
-/// The surface of a set of unit cubes, scaled: triangles outwards, no walls between cubes.
+/// The surface of a set of unit cubes, scaled: triangles outwards, without the faces between cubes.
 pub fn blocks(cubes: &[[i32; 3]], edge: f64) -> Vec<[Place; 3]> {
     let mut triangles = Vec::new();
     for cube in cubes {
@@ -44,7 +44,7 @@ pub fn blocks(cubes: &[[i32; 3]], edge: f64) -> Vec<[Place; 3]> {
     triangles
 }
 
-/// A torus around z: rings of `sides` corners.
+/// A torus around z: rings of `sides` vertices.
 pub fn torus(radius: f64, thickness: f64, rings: usize, sides: usize) -> Vec<[Place; 3]> {
     let angle = |k: usize, of: usize| std::f64::consts::TAU * (k % of) as f64 / of as f64;
     let place = |ring: usize, side: usize| {
@@ -60,7 +60,7 @@ pub fn torus(radius: f64, thickness: f64, rings: usize, sides: usize) -> Vec<[Pl
     quads.flat_map(cut).collect()
 }
 
-/// An OBJ file of triangles, all digits; equal places become one vertex.
+/// An OBJ file of triangles, with all digits; equal positions become one vertex.
 pub fn obj(triangles: &[[Place; 3]]) -> String {
     let mut places: Vec<Place> = Vec::new();
     let mut faces = String::new();

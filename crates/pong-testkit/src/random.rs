@@ -10,7 +10,7 @@ type Quat = UnitQuaternion<f64>;
 pub struct Random(pub u64);
 
 impl Random {
-    /// Numbers of their own for every (seed, stream, index).
+    /// An independent sequence of numbers for every (seed, stream, index).
     pub fn new(seed: u64, stream: u64, index: u64) -> Self {
         let mut random = Self(seed);
         for part in [stream, index] {
@@ -19,7 +19,7 @@ impl Random {
         random
     }
 
-    /// 64 bits.
+    /// 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -28,17 +28,17 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// From 0 to below 1.
+    /// A number from 0 up to, but not including, 1.
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Between two numbers.
+    /// A number between two bounds.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    /// Between two positive numbers, their logarithm evenly spread.
+    /// A number between two positive bounds, with uniform logarithm.
     pub fn log_between(&mut self, low: f64, high: f64) -> f64 {
         libm::exp(self.between(libm::log(low), libm::log(high)))
     }
@@ -53,17 +53,17 @@ impl Random {
         self.unit() < probability
     }
 
-    /// One of some.
+    /// One element of a list.
     pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
         from[self.below(from.len())]
     }
 
-    /// Every component between ±`size`.
+    /// A vector with every component between ±`size`.
     pub fn vector(&mut self, size: f64) -> Vec3 {
         Vec3::from_fn(|_, _| self.between(-size, size))
     }
 
-    /// A unit vector, every direction as likely.
+    /// A unit vector, uniform over the sphere.
     pub fn direction(&mut self) -> Vec3 {
         loop {
             let v = self.vector(1.0);
@@ -74,7 +74,7 @@ impl Random {
         }
     }
 
-    /// A unit vector across another.
+    /// A unit vector perpendicular to another.
     pub fn across(&mut self, n: &Vec3) -> Vec3 {
         loop {
             let v = n.cross(&self.direction());
@@ -84,12 +84,12 @@ impl Random {
         }
     }
 
-    /// Any rotation: every axis and every angle as likely. The same bits everywhere.
+    /// A rotation with uniform axis and uniform angle, the same bits on every machine.
     pub fn orientation(&mut self) -> Quat {
         self.small_rotation(std::f64::consts::PI)
     }
 
-    /// The matrix of any rotation, as [`orientation`](Self::orientation) draws it.
+    /// The matrix of a rotation from [`orientation`](Self::orientation).
     pub fn rotation_matrix(&mut self) -> Matrix3<f64> {
         self.orientation().to_rotation_matrix().into_inner()
     }
@@ -100,12 +100,12 @@ impl Random {
         rotation_about(&axis, self.between(-angle, angle))
     }
 
-    /// Any rotation, by the sine of the platform: that of a vector within ±3 rad.
+    /// A rotation with the platform's sine: its rotation vector has components within ±3 rad.
     pub fn rotation(&mut self) -> Quat {
         Quat::from_scaled_axis(self.vector(3.0))
     }
 
-    /// The indices below `count` in any order.
+    /// A random permutation of the indices below `count`.
     pub fn order(&mut self, count: usize) -> Vec<usize> {
         let mut order: Vec<usize> = (0..count).collect();
         for last in (1..count).rev() {
@@ -115,14 +115,14 @@ impl Random {
     }
 }
 
-/// The rotation about a unit axis, the same bits everywhere.
+/// The rotation about a unit axis, the same bits on every machine.
 pub fn rotation_about(axis: &Vec3, angle: f64) -> Quat {
     let (sine, cosine) = (libm::sin(0.5 * angle), libm::cos(0.5 * angle));
     let v = axis * sine;
     Quat::new_normalize(Quaternion::new(cosine, v.x, v.y, v.z))
 }
 
-/// The rotation that takes one unit vector into another by the shortest way.
+/// The shortest rotation from one unit vector to another.
 pub fn rotation_between(from: &Vec3, to: &Vec3) -> Quat {
     Quat::rotation_between(from, to).unwrap_or_else(|| {
         let side = if from.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() };

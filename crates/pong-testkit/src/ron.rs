@@ -1,4 +1,4 @@
-//! Models as an author writes them.
+//! Models in the notation of model files.
 
 use nalgebra::Vector3;
 
@@ -15,12 +15,13 @@ pub fn surface(stiffness: f64, rest: &str) -> String {
     format!("\"s\": (stiffness: {stiffness:?}, {rest})")
 }
 
-/// Coordinates.
+/// Coordinates of a vector as text.
 pub fn place_of(v: &Vector3<f64>) -> String {
     format!("({:?},{:?},{:?})", v.x, v.y, v.z)
 }
 
-/// A box about a centre, its corners carried by `carry`; `inactive` lists its inactive faces, of −z, +z, −y, +y, −x, +x.
+/// A box about a centre, with vertices mapped by `carry`; `inactive` lists its inactive faces, of −z, +z, −y,
+/// +y, −x, +x.
 pub fn carried_box(
     name: &str,
     [center, half]: [Vector3<f64>; 2],
@@ -44,7 +45,7 @@ pub fn box_polyhedron(name: &str, center: [f64; 3], half: [f64; 3], inactive: &s
     carried_box(name, [center.into(), half.into()], inactive, |corner| corner)
 }
 
-/// A mesh; `more` are further fields.
+/// A mesh; `more` is text with further fields.
 pub fn triangle_mesh(name: &str, vertices: &[Vector3<f64>], triangles: &[[usize; 3]], more: &str) -> String {
     let vertices: Vec<String> = vertices.iter().map(place_of).collect();
     let triangles: Vec<String> = triangles.iter().map(|[a, b, c]| format!("({a},{b},{c})")).collect();
@@ -55,7 +56,7 @@ pub fn triangle_mesh(name: &str, vertices: &[Vector3<f64>], triangles: &[[usize;
     )
 }
 
-/// A flat square plate of `n × n` cells, two triangles each, of side `size`, its vertices through `place`.
+/// A flat square plate of `n × n` cells, two triangles each, of side `size`, with vertices mapped by `place`.
 pub fn plate_mesh(name: &str, n: usize, size: f64, place: impl Fn(f64, f64) -> Vector3<f64>) -> String {
     let step = size / n as f64;
     let mut vertices = Vec::new();
@@ -79,8 +80,8 @@ pub fn plate_mesh(name: &str, n: usize, size: f64, place: impl Fn(f64, f64) -> V
     triangle_mesh(name, &vertices, &triangles, "")
 }
 
-/// A round shell of `cells × cells` cells around the origin, 0.1995 m from it, from one angle off its lowest point to another,
-/// seen from within or from without.
+/// A spherical shell of `cells × cells` cells around the origin, 0.1995 m from it, from one angle off its
+/// lowest point to another, facing inwards or outwards.
 pub fn shell_mesh(cells: usize, from: f64, to: f64, seen_from_within: bool) -> String {
     let place = |x: f64, y: f64| {
         let (up, around) = (from + (to - from) * (y + 0.5), std::f64::consts::TAU * (x + 0.5));

@@ -4,8 +4,8 @@ use pong_engine::{Config, InterfaceId, SealReport, World, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use std::sync::Arc;
 
-/// A sealed world of Objects `o0`, `o1`, …, of which the first is paired with each of the others, with what the seal said
-/// and the root of each Object.
+/// A sealed world of Objects `o0`, `o1`, …, of which the first is paired with each of the others; with the
+/// seal report and the root of each Object.
 pub fn paired_with_first(config: Config, models: &[&str]) -> (World, SealReport, Vec<InterfaceId>) {
     let mut builder = WorldBuilder::new(config);
     let mut objects = Vec::new();

@@ -1,4 +1,4 @@
-//! What the engine answers in a frame, as hashes: two answers are equal only if every bit is.
+//! Answers of the engine in a frame, as hashes: two answers are equal only if every bit is.
 
 use pong_engine::{Contact, ContactSide, EngineError, InterfaceId, World};
 use pong_model::Fnv;
@@ -6,22 +6,22 @@ use pong_model::Fnv;
 /// The answer of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Answer {
-    /// Wrenches on all movable groups, and what the frame had to leave out.
+    /// Hash of the wrenches on all movable groups, and of the limits that the frame hit.
     wrenches: u64,
-    /// All contacts, in their order, with all that is told of them.
+    /// Hash of all contacts, in their order, with all their fields.
     pub contacts: u64,
-    /// Contact state as it stands after the frame, if that was asked for.
+    /// Hash of the contact state after the frame, if requested.
     state: Option<u64>,
 }
 
 impl Answer {
-    /// Whether wrenches and what was left out are the same bits. Numbers of primitives, which contacts and contact state
-    /// hold, may differ.
+    /// True if the wrenches and limits are the same bits. The indices of primitives, which contacts and
+    /// contact state hold, may differ.
     pub fn has_wrenches_of(&self, other: &Self) -> bool {
         self.wrenches == other.wrenches
     }
 
-    /// What differs, if anything does that both know.
+    /// Name of the first difference between parts that both have; `None` if they agree.
     pub fn difference(&self, other: &Self) -> Option<&'static str> {
         let parts = [
             (self.wrenches == other.wrenches, "the wrenches"),
@@ -32,15 +32,15 @@ impl Answer {
     }
 }
 
-/// Reads answers; keeps its memory.
+/// Reads answers; its buffer is reused.
 #[derive(Default)]
 pub(crate) struct Reader {
     block: Vec<u8>,
 }
 
 impl Reader {
-    /// The answer of the world's last frame, after its commit if there was one. What is wrong in contact state stays in it:
-    /// it need not be asked for in every frame.
+    /// The answer of the world's last frame, after its commit if there was one. Errors in the contact state
+    /// persist, so it need not be read in every frame.
     pub fn read(
         &mut self,
         world: &World,
@@ -65,7 +65,7 @@ impl Reader {
     }
 }
 
-/// The checksum at the end of a block, which is a hash of all before it.
+/// The checksum at the end of a block, which is a hash of all bytes before it.
 fn hash_of_block(block: &[u8]) -> u64 {
     let mut last = [0; 8];
     last.copy_from_slice(&block[block.len() - 8..]);
@@ -73,7 +73,7 @@ fn hash_of_block(block: &[u8]) -> u64 {
 }
 
 fn add(hash: &mut Fnv, contact: &Contact) {
-    // Taken apart without `..`: a field that is added to contacts must be added here.
+    // Destructured without `..`, so that a field added to contacts must be added here.
     let Contact {
         pair,
         a,
@@ -150,7 +150,7 @@ mod tests {
         hash.value()
     }
 
-    /// Whatever is other about a contact, its hash is other; of a world's number nothing is in it.
+    /// Every change of a contact changes its hash; ids of worlds are not part of it.
     #[test]
     fn nothing_of_a_contact_is_left_out() {
         let changes: [fn(&mut Contact); 22] = [
@@ -181,7 +181,7 @@ mod tests {
         for (index, change) in changes.iter().enumerate() {
             let mut other = contact();
             change(&mut other);
-            // 0 and -0, too: they compare equal and are other bits.
+            // 0 and -0 too: they compare equal but have different bits.
             assert_ne!(hash(&other), same, "change {index}");
         }
         let mut elsewhere = contact();

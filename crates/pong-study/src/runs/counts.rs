@@ -1,4 +1,4 @@
-//! What the engine counted over some frames: the same numbers every time.
+//! Counters of the engine over some frames: the same numbers every time.
 
 use pong_engine::{FrameCounts, Tally};
 use pong_geometry::primitive::PrimitiveKind;
@@ -9,13 +9,13 @@ use std::collections::BTreeMap;
 pub struct Counts {
     /// Frames counted.
     pub frames: u64,
-    /// Tests of authored bounding volumes by their kinds, A's first: how many, and how many met.
+    /// Tests of authored bounding volumes by their kinds, A's first: number of tests, and of those that met.
     pub volumes: BTreeMap<(&'static str, &'static str), [u64; 2]>,
-    /// Pairs of leaves whose contents were looked at.
+    /// Pairs of leaves whose contents were tested.
     pub leaf_pairs: u64,
     /// Comparisons of a box with eight boxes below a leaf.
     pub boxes: u64,
-    /// Contact tests by the kinds of primitives, A's first: how many, and contacts found.
+    /// Contact tests by the kinds of primitives, A's first: number of tests, and of contacts found.
     pub testers: BTreeMap<(String, String), [u64; 2]>,
 }
 
@@ -36,7 +36,7 @@ impl Counts {
         }
     }
 
-    /// Those of several runs together.
+    /// Sum over several runs.
     pub(crate) fn of_all(runs: &[Self]) -> Self {
         let mut all = Self::default();
         for run in runs {
@@ -49,17 +49,17 @@ impl Counts {
         all
     }
 
-    /// All tests of bounding volumes, and how many met.
+    /// Number of tests of bounding volumes, and of those that met.
     pub fn volumes_tested(&self) -> [u64; 2] {
         sum(self.volumes.values())
     }
 
-    /// All contact tests, and how many contacts they found.
+    /// Number of contact tests, and of contacts found.
     pub fn primitives_tested(&self) -> [u64; 2] {
         sum(self.testers.values())
     }
 
-    /// Whether nothing is done less often than in another count, so that it cannot be faster.
+    /// True if no count is below the other's, so that it cannot be faster.
     pub(crate) fn is_no_less_than(&self, other: &Self) -> bool {
         let at_least = |own: Option<&[u64; 2]>, other: u64| own.map_or(0, |own| own[0]) >= other;
         self.leaf_pairs >= other.leaf_pairs

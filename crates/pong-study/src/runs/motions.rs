@@ -1,39 +1,39 @@
-//! The motions of a run, kept: some frames that follow each other, again and again over the run, each time with what the
-//! engine knew before the first of them. So every proposal is asked for the same frames, in the midst of the run.
+//! Kept motions of a run: windows of consecutive frames spread over the run, each with the engine's state
+//! before its first frame. So every proposal is played on the same frames, in the middle of the run.
 
 use crate::runs::answer::{Answer, Reader};
 use pong_engine::{EngineError, InterfaceId, State, World};
 use pong_model::Surface;
 
-/// Frames in a row.
+/// Number of frames in a window.
 const ROW: u64 = 16;
 
-/// What is kept of a run.
+/// Kept data of a run.
 pub(crate) struct Motions {
     /// The answer of every frame of the run.
     pub answers: Vec<Answer>,
-    /// The rows, in the order of the run.
+    /// The windows, in the order of the run.
     pub windows: Vec<Window>,
     /// Frames in which a limit was hit.
     pub limited: u64,
 }
 
-/// Some frames in a row.
+/// Some consecutive frames.
 pub(crate) struct Window {
-    /// Number of the first in the run, from 0.
+    /// Index of the first frame in the run, from 0.
     pub first: u64,
     pub before: Snapshot,
     pub frames: Vec<Given>,
 }
 
-/// What a host gave for a frame.
+/// Input of the host for a frame.
 pub(crate) struct Given {
-    /// States of movable groups, by their place among all of the world.
+    /// States of movable groups, by their index in the world.
     pub states: Vec<(usize, State)>,
     pub commit: Commit,
 }
 
-/// What a host did after a frame.
+/// Commit of the host after a frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Commit {
     Nothing,
@@ -42,11 +42,11 @@ pub(crate) enum Commit {
     Pairs(Vec<usize>),
 }
 
-/// What a world knows between frames.
+/// State of a world between frames.
 pub(crate) struct Snapshot {
     block: Vec<u8>,
     enabled: Vec<bool>,
-    /// Of each model.
+    /// Surfaces of each model.
     surfaces: Vec<Vec<Surface>>,
 }
 
@@ -62,7 +62,7 @@ impl Snapshot {
         })
     }
 
-    /// Gives a world of the same calls what is known here.
+    /// Sets this state in a world built by the same calls.
     pub fn restore(&self, world: &mut World) -> Result<(), EngineError> {
         let pairs: Vec<_> = world.scene().pairs().map(|(pair, _)| pair).collect();
         for (pair, enabled) in pairs.into_iter().zip(&self.enabled) {
@@ -82,12 +82,12 @@ impl Snapshot {
     }
 }
 
-/// Which frames of a run are kept, from and to: rows spread evenly, at most so many frames together, and none that
-/// something else than states belongs to (`events`, in order).
+/// Ranges of the frames to keep: windows spread evenly, at most `wanted` frames together, without the frames
+/// at `events` (sorted), where the host did more than set states.
 pub(crate) fn rows(frames: u64, wanted: u64, events: &[u64]) -> Vec<(u64, u64)> {
     let count = wanted.div_ceil(ROW).min(frames.div_ceil(ROW)).max(1);
     let all = (0..count).map(|row| {
-        // Whole rows fit side by side if all frames are wanted.
+        // Whole windows fit side by side if all frames are wanted.
         let first = if wanted >= frames { row * ROW } else { row * (frames - ROW) / (count - 1).max(1) };
         (first, (first + ROW).min(frames))
     });
@@ -96,7 +96,7 @@ pub(crate) fn rows(frames: u64, wanted: u64, events: &[u64]) -> Vec<(u64, u64)> 
         let first = first.max(kept.last().map_or(0, |last| last.1));
         let mut from = first;
         let within = events.iter().filter(|event| (first..end).contains(event)).map(|event| event + 1);
-        // The longest part that no event cuts.
+        // The longest part without an event.
         let mut best = (first, first);
         for next in within.chain([end + 1]) {
             if next - 1 - from > best.1 - best.0 {
@@ -111,7 +111,7 @@ pub(crate) fn rows(frames: u64, wanted: u64, events: &[u64]) -> Vec<(u64, u64)> 
     kept
 }
 
-/// Takes in a run, frame after frame.
+/// Records a run, frame by frame.
 pub(crate) struct Gatherer {
     rows: std::vec::IntoIter<(u64, u64)>,
     row: Option<(u64, u64)>,
@@ -126,7 +126,7 @@ impl Gatherer {
         Self { row: rows.next(), rows, reader: Reader::default(), motions }
     }
 
-    /// Before the next frame.
+    /// Records the state before the next frame.
     pub fn before(&mut self, world: &World) -> Result<(), EngineError> {
         let next = self.motions.answers.len() as u64;
         if self.row.is_some_and(|(first, _)| first == next) {
@@ -136,7 +136,7 @@ impl Gatherer {
         Ok(())
     }
 
-    /// After a frame and its commit.
+    /// Records a frame after its commit.
     pub fn after(
         &mut self,
         world: &World,
@@ -160,7 +160,7 @@ impl Gatherer {
         Ok(())
     }
 
-    /// All that was taken in.
+    /// Returns the recorded data.
     pub fn finish(mut self) -> Motions {
         self.motions.windows.retain(|window| !window.frames.is_empty());
         self.motions
@@ -177,7 +177,7 @@ mod tests {
         assert_eq!(rows(5, 1000, &[]), [(0, 5)]);
         assert_eq!(rows(1000, 32, &[]), [(0, 16), (984, 1000)]);
         assert_eq!(rows(1000, 48, &[]), [(0, 16), (492, 508), (984, 1000)]);
-        // The frame of an event is in no row; the longer part stays.
+        // The frame of an event is in no window; the longer part stays.
         assert_eq!(rows(1000, 32, &[0, 986]), [(1, 16), (987, 1000)]);
         assert_eq!(rows(3, 100, &[0, 1, 2]), []);
         let many = rows(100, 96, &[]);

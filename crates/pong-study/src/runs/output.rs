@@ -1,28 +1,28 @@
-//! Changed model files: written beside their place, read back, and only then put there.
+//! Changed model files: written to a temporary file, read back, and only then renamed.
 
 use crate::runs::subject::Subject;
 use crate::{Result, StudyError};
 use pong_model::{Model, files, grouping};
 use std::path::{Path, PathBuf};
 
-/// Where changed files go, and whether others there may be replaced.
+/// Output folder of changed files, and permission to replace files.
 #[derive(Clone, Debug, Default)]
 pub struct Output {
-    /// A folder; beside the model unless given.
+    /// The folder; beside the model unless given.
     pub folder: Option<PathBuf>,
-    /// Whether files there are replaced.
+    /// True if existing files are replaced.
     pub force: bool,
 }
 
 impl Output {
-    /// The file for a model; `what` was done to it ends its name.
+    /// The output file for a model; `what` is the suffix of its name.
     pub(crate) fn place(&self, subject: &Subject, what: &str) -> PathBuf {
         let stem = subject.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let home = subject.file.parent().unwrap_or(Path::new(""));
         self.folder.as_deref().unwrap_or(home).join(format!("{stem}_{what}.ron"))
     }
 
-    /// Refuses places that are taken, before anything is run.
+    /// Refuses files that exist, before anything is run.
     pub(crate) fn check(&self, subjects: &[Subject], what: &str) -> Result<()> {
         let mut places: Vec<PathBuf> = Vec::new();
         for subject in subjects {
@@ -46,7 +46,7 @@ impl Output {
         Ok(())
     }
 
-    /// Writes a text as the changed file of a model; what is read back must be as `expected`.
+    /// Writes a text as the changed file of a model; the model read back must satisfy `expected`.
     pub(crate) fn write(
         &self,
         (subject, what): (&Subject, &str),
@@ -75,7 +75,7 @@ impl Output {
         moved.map(|()| place)
     }
 
-    /// Meshes are found beside a model or below: in another folder they are needed as well.
+    /// Copies meshes, which are found beside a model or below, to another output folder.
     fn copy_meshes(&self, subject: &Subject, folder: &Path) -> Result<()> {
         let home = subject.file.parent().unwrap_or(Path::new(""));
         let meshes =
@@ -103,7 +103,7 @@ impl Output {
     }
 }
 
-/// The file as it will be read: the model that was run.
+/// Checks the file by reading it back: it must give the model that was run.
 fn check(staged: &Path, subject: &Subject, expected: &dyn Fn(&Model) -> bool) -> Result<()> {
     if expected(&pong_model::load(staged, &subject.extensions)?) {
         return Ok(());
@@ -112,7 +112,7 @@ fn check(staged: &Path, subject: &Subject, expected: &dyn Fn(&Model) -> bool) ->
     Err(StudyError::file(staged, line))
 }
 
-/// The text of a changed file: a line at its head says what was done, and for which run.
+/// The text of a changed file, with a line at its head that says what was done, and for which run.
 pub(crate) fn headed(text: &str, done: &str, name: &str) -> String {
     let (mark, rest) = text.strip_prefix('\u{feff}').map_or(("", text), |rest| ("\u{feff}", rest));
     let name: String = name.chars().filter(|c| !c.is_control()).collect();

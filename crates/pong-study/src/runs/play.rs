@@ -1,4 +1,4 @@
-//! A world that plays kept motions: counted and compared, or timed.
+//! A world that plays kept motions, to compare and count, or to time.
 
 use crate::runs::answer::Reader;
 use crate::runs::counts::Counts;
@@ -7,7 +7,7 @@ use pong_engine::{EngineError, InterfaceId, PairId, State, World};
 use pong_executive::scene::BuiltScene;
 use std::time::Instant;
 
-/// Where a world lives.
+/// Storage of a world.
 pub(crate) enum Held {
     Scene(Box<BuiltScene>),
     World(Box<World>),
@@ -21,11 +21,11 @@ pub(crate) struct Player {
     states: Vec<(InterfaceId, State)>,
 }
 
-/// What came of a comparison.
+/// Result of a comparison.
 pub(crate) enum Compared {
-    /// The same bits in every frame, and what was counted.
+    /// The same bits in every frame, with the counts.
     Same(Counts),
-    /// The first frame that differs, and in what.
+    /// The first frame that differs, and the quantity.
     Differs(String),
 }
 
@@ -61,12 +61,12 @@ impl Player {
         Ok(Self { held, bodies, pairs, states: Vec::new() })
     }
 
-    /// The world that plays.
+    /// The playing world.
     pub fn world(&self) -> &World {
         self.held.world()
     }
 
-    /// Plays every `stride`-th row of frames, counts, and compares every answer with the run's own.
+    /// Plays every `stride`-th window, counts, and compares every answer with the run's own.
     pub fn compare(&mut self, motions: &Motions, stride: usize) -> Result<Compared, EngineError> {
         let mut counts = Counts::default();
         let mut reader = Reader::default();
@@ -87,7 +87,7 @@ impl Player {
         Ok(Compared::Same(counts))
     }
 
-    /// Plays every `stride`-th row of frames and keeps the shorter time of each frame, ns.
+    /// Plays every `stride`-th window and keeps the shorter time of each frame, ns.
     pub fn time(
         &mut self,
         motions: &Motions,
@@ -115,7 +115,7 @@ impl Player {
         self.states.extend(given.states.iter().map(|(place, state)| (self.bodies[*place], *state)));
     }
 
-    /// States in, evaluation, commit.
+    /// Sets states, evaluates and commits.
     fn frame(&mut self, given: &Given) -> Result<(), EngineError> {
         let world = self.held.world_mut();
         world.set_states(&self.states)?;

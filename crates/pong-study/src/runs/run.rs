@@ -1,4 +1,4 @@
-//! A run whose models are changed: a scene, or the motions of a log.
+//! A run with changed models: a scene, or the motions of a log.
 
 use crate::runs::motions::{Commit, Gatherer, Motions, rows};
 use crate::runs::play::{Held, Player, bodies};
@@ -16,9 +16,9 @@ use std::sync::Arc;
 pub(crate) struct Run {
     pub name: String,
     source: Source,
-    /// The subject of each model, by the file it was read from (scene) or its place (log).
+    /// Index of each model's subject, with the file of the model (scene) or its position (log).
     models: Vec<(PathBuf, usize)>,
-    /// Frames of it.
+    /// Number of its frames.
     pub frames: u64,
     extensions: Extensions,
 }
@@ -28,22 +28,22 @@ enum Source {
     Log(PathBuf),
 }
 
-/// Told of the frames done; its error ends the run.
+/// Called with the number of frames done; its error ends the run.
 pub(crate) type Tick<'a> = &'a mut dyn FnMut(u64) -> Result<()>;
 
-/// Sees the world after each frame; its error ends the run.
+/// Called with the world after each frame; its error ends the run.
 pub(crate) type Seen<'a> = &'a mut dyn FnMut(&World) -> Result<(), EngineError>;
 
-/// Which frames are kept, from and to, by the places of a log's events.
+/// Ranges of the frames to keep, given the positions of a log's events.
 type Rows<'a> = &'a mut dyn FnMut(&[u64]) -> Vec<(u64, u64)>;
 
-/// What sees nothing.
+/// An observer that does nothing.
 fn unseen(_: &World) -> Result<(), EngineError> {
     Ok(())
 }
 
 impl Run {
-    /// Reads a scene, or the folder of a log; models that are new are added to the subjects.
+    /// Reads a scene, or the folder of a log; new models are added to the subjects.
     pub fn load(
         path: &Path,
         duration_s: Option<f64>,
@@ -99,12 +99,13 @@ impl Run {
         Ok(Self { name, source, models, frames, extensions: extensions.clone() })
     }
 
-    /// Runs it as it is and keeps its motions: at most so many frames.
+    /// Runs it unchanged and keeps its motions, at most `wanted` frames.
     pub fn gather(&self, wanted: u64, tick: Tick<'_>) -> Result<Motions> {
         self.gather_with(None, wanted, &mut unseen, tick)
     }
 
-    /// The same with other models, one for each subject; `seen` is shown every frame.
+    /// As [`gather`](Self::gather) with other models, one for each subject; `seen` is called with every
+    /// frame.
     pub fn gather_with(
         &self,
         made: Option<&[Arc<Model>]>,
@@ -120,7 +121,8 @@ impl Run {
         Ok(motions)
     }
 
-    /// Runs all of it again with other models, one for each subject, and tells the first frame whose answer is another.
+    /// Runs all of it again with other models, one for each subject; returns the first frame with another
+    /// answer.
     pub fn differs(&self, made: &[Arc<Model>], motions: &Motions, tick: Tick<'_>) -> Result<Option<String>> {
         let again = self.repeat(Some(made), &mut |_| Vec::new(), &mut unseen, tick)?.answers;
         if again.len() != motions.answers.len() {
@@ -130,7 +132,8 @@ impl Run {
         Ok(pairs.find_map(|(frame, (new, old))| Some(format!("{} of frame {frame}", new.difference(old)?))))
     }
 
-    /// Runs it from its start; the frames of `rows` are kept, which gets the places of a log's events.
+    /// Runs it from its start and keeps the frames of `rows`, which is called with the positions of a log's
+    /// events.
     fn repeat(
         &self,
         made: Option<&[Arc<Model>]>,
@@ -151,7 +154,7 @@ impl Run {
         }
     }
 
-    /// A world with a model for each subject, to play kept motions.
+    /// A world that plays kept motions, with a model for each subject.
     pub fn player(&self, made: &[Arc<Model>]) -> Result<Player> {
         let held = match &self.source {
             Source::Scene(scene) => Held::Scene(Box::new(build(scene, Some((self, made)))?)),
@@ -164,7 +167,7 @@ impl Run {
         Player::new(held).map_err(|error| self.refused(&error))
     }
 
-    /// A log run again, with these models in place of its own.
+    /// Options for running a log with these models in place of its own.
     fn options<'a>(&self, instead: &'a dyn Fn(usize) -> Option<Arc<Model>>) -> ReplayOptions<'a> {
         let extensions = self.extensions.clone();
         ReplayOptions { instead: Some(instead), extensions, ..ReplayOptions::default() }
@@ -174,7 +177,7 @@ impl Run {
         StudyError::new(&self.name, error)
     }
 
-    /// The scene's own run; every answer is kept, and the frames of some rows.
+    /// Runs the scene; keeps every answer, and the frames of `rows`.
     fn follow(
         &self,
         mut built: BuiltScene,
@@ -197,7 +200,7 @@ impl Run {
         Ok(gatherer.finish())
     }
 
-    /// The log's motions, event by event, likewise.
+    /// Runs the log's motions, event by event; keeps the same.
     fn rerun(
         &self,
         mut log: Log,
@@ -224,7 +227,7 @@ impl Run {
     }
 }
 
-/// What the host of a log did after a frame.
+/// The host's commit of a frame of the log.
 fn commit(row: &FrameRow, events: &[LoggedEvent]) -> Commit {
     let accepted = |event: &LoggedEvent| match &event.event {
         Event::Commit { pairs } if event.frame == row.frame => Some(pairs.clone()),
@@ -239,7 +242,7 @@ fn commit(row: &FrameRow, events: &[LoggedEvent]) -> Commit {
     }
 }
 
-/// Places of the log's frames before which its host did something else than to hand in states, in order.
+/// Sorted positions of the log's frames before which its host did more than set states.
 fn places_of_events(log: &mut Log, frames: u64) -> Result<Vec<u64>> {
     let changes = log.events().iter().filter(|event| !matches!(event.event, Event::Commit { .. }));
     let numbers: Vec<u64> = changes.map(|event| event.frame).collect();
@@ -251,7 +254,7 @@ fn places_of_events(log: &mut Log, frames: u64) -> Result<Vec<u64>> {
     Ok(places)
 }
 
-/// The subject of a model file: an earlier one if the file says the same.
+/// The subject of a model file; an earlier one if the contents are equal.
 fn subject(file: &Path, in_log: bool, extensions: &Extensions, subjects: &mut Vec<Subject>) -> Result<usize> {
     let new = Subject::load(file, in_log, extensions)?;
     let known = subjects.iter().position(|known| known.hash == new.hash && known.text == new.text);

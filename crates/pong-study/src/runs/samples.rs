@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// A folder of the test's own, gone afterwards.
+/// A folder of the test's own, removed afterwards.
 pub(crate) struct Folder(pub PathBuf);
 
 impl Folder {

@@ -1,4 +1,4 @@
-//! A model that is tuned: its text, and what its groups may be given.
+//! A model to be tuned: its text, and the settings of its groups.
 
 use crate::{Result, StudyError};
 use pong_geometry::extension::Extensions;
@@ -8,7 +8,7 @@ use pong_model::grouping::{self, Bound, Group, Regrouped};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What bounds one group, and how large its leaves may be.
+/// Bounding volume of one group, and the size of its leaves.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Setting {
     pub bound: Bound,
@@ -18,20 +18,20 @@ pub(crate) struct Setting {
 /// A setting for every group of a model, in the order of its file.
 pub(crate) type Grouping = Vec<Setting>;
 
-/// The groups of a model, as far as a search must know them.
+/// The groups of a model, with the data that a search needs.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
     /// Name of the model.
     pub name: String,
     pub groups: Vec<Group>,
-    /// Elements that each group holds itself.
+    /// Number of elements directly in each group.
     pub elements: Vec<usize>,
 }
 
 /// A model file.
 pub(crate) struct Subject {
     pub file: PathBuf,
-    /// Whether it is the copy that a log keeps.
+    /// True if it is the copy in a log's folder.
     pub in_log: bool,
     pub text: String,
     pub hash: u64,
@@ -42,23 +42,23 @@ pub(crate) struct Subject {
 /// A model made for a grouping.
 pub(crate) struct Made {
     pub model: Arc<Model>,
-    /// Hash of its trees: equal ones cost the same.
+    /// Hash of its trees: models with equal trees have the same cost.
     pub trees: u64,
 }
 
 impl Shape {
-    /// What a file's own groups say.
+    /// The settings in the file itself.
     pub fn authored(&self) -> Grouping {
         let setting = |group: &Group| Setting { bound: group.bound.clone(), leaf_size: group.leaf_size };
         self.groups.iter().map(setting).collect()
     }
 
-    /// Groups right below one.
+    /// Child groups of a group.
     pub fn below(&self, group: usize) -> impl Iterator<Item = usize> + '_ {
         (0..self.groups.len()).filter(move |other| self.groups[*other].above == Some(group))
     }
 
-    /// Elements in the leaf of a group: its own and those of groups below that have no volume.
+    /// Number of elements in the leaf of a group: its own, and those of groups below without a volume.
     pub fn leaf(&self, grouping: &Grouping, group: usize) -> usize {
         if grouping[group].bound == Bound::Above {
             return 0;
@@ -86,7 +86,7 @@ impl Subject {
         Ok(Self { file: file.to_owned(), in_log, text, hash: model.hash, shape, extensions })
     }
 
-    /// The text of the file with a grouping.
+    /// The text of the file with the settings of a grouping.
     pub fn text(&self, grouping: &Grouping) -> Result<String> {
         let changes: Vec<Regrouped> = self
             .shape
@@ -116,7 +116,7 @@ impl Subject {
     }
 }
 
-/// Elements that each group holds itself.
+/// Number of elements directly in each group.
 fn elements(model: &Model, groups: &[Group]) -> Vec<usize> {
     let mut counts = vec![0; groups.len()];
     for primitive in model.bodies.iter().flat_map(|body| &body.primitives) {

@@ -1,6 +1,6 @@
-//! Which levels are worth their time.
+//! Choice of the levels that are worth their time.
 
-/// A level that reached the end: what a frame takes and how far off it is.
+/// Frame time and error of a level that reached the end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// Frame time, in any unit.
@@ -9,7 +9,8 @@ pub struct Point {
     pub error: f64,
 }
 
-/// Whether each point is on the Pareto front: none is as good in both ways and better in one.
+/// For each point, true if it is on the Pareto front: no other point is as good in both values and better in
+/// one.
 pub fn front(points: &[Point]) -> Vec<bool> {
     let beats = |a: &Point, b: &Point| {
         a.time <= b.time && a.error <= b.error && (a.time < b.time || a.error < b.error)
@@ -26,7 +27,7 @@ pub fn cheapest(points: &[Point], tolerance: f64) -> Option<usize> {
     })
 }
 
-/// The value below or at which a share of the values lies (nearest rank); 0 of none.
+/// The value at or below which a share of the values lies (nearest rank); 0 without values.
 pub fn percentile(values: &[u64], share: f64) -> u64 {
     let mut sorted = values.to_vec();
     sorted.sort_unstable();
@@ -42,8 +43,8 @@ mod tests {
         table.iter().map(|&(time, error)| Point { time, error }).collect()
     }
 
-    /// A table made by hand: a staircase, a point above it, one as fast as another but worse, twins, one without error
-    /// to speak of.
+    /// A table made by hand: a staircase, a point above it, one as fast as another but less accurate, two
+    /// equal points, one with almost no error.
     #[test]
     fn the_front_of_a_table_made_by_hand() {
         let table = points(&[

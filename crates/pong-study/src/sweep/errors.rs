@@ -1,9 +1,9 @@
-//! How far a run is from the reference.
+//! Errors of a run against the reference.
 
 use crate::sweep::record::{Record, vector};
 use serde::{Deserialize, Serialize};
 
-/// What is compared.
+/// Quantity to compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Quantity {
     /// Contact wrench over time.
@@ -14,7 +14,7 @@ pub enum Quantity {
     Peak,
     /// Change of kinetic, potential and spring energy over the run.
     Energy,
-    /// Where the bodies are at the end.
+    /// Final poses of the bodies.
     Pose,
 }
 
@@ -33,30 +33,30 @@ impl Quantity {
 pub struct Errors {
     #[serde(with = "crate::sweep::store::numbers")]
     relative: [f64; 5],
-    /// Greatest distance of a body from where it ends in the reference, m.
+    /// Largest final distance of a body from its position in the reference, m.
     pub position_m: f64,
     /// Greatest angle between a body's final orientation and that in the reference, rad.
     pub angle_rad: f64,
 }
 
 impl Errors {
-    /// The relative error of one quantity: 0.01 is one per cent. Infinite where the reference has nothing to compare with.
+    /// The relative error of one quantity: 0.01 is one per cent. Infinite where the reference is zero.
     pub fn of(&self, quantity: Quantity) -> f64 {
         self.relative[quantity as usize]
     }
 
-    /// The largest of some quantities.
+    /// The largest error of some quantities.
     pub fn worst(&self, of: &[Quantity]) -> f64 {
         of.iter().map(|quantity| self.of(*quantity)).fold(0.0, f64::max)
     }
 
-    /// From relative errors in the order of [`Quantity::ALL`].
+    /// Errors from relative errors in the order of [`Quantity::ALL`].
     pub fn new(relative: [f64; 5]) -> Self {
         Self { relative, ..Self::default() }
     }
 }
 
-/// What errors are relative to.
+/// Scales for relative errors.
 struct Scales {
     force: f64,
     moment: f64,
@@ -67,8 +67,8 @@ struct Scales {
 }
 
 impl Scales {
-    /// Moments count against the larger of the peak moment and what the peak force makes at a radius of gyration:
-    /// bodies that hardly feel a moment would else be judged by rounding.
+    /// Moments are relative to the larger of the peak moment and the peak force times a radius of gyration:
+    /// bodies with almost no moment would otherwise be judged by rounding errors.
     fn of(reference: &Record, radii: &[f64]) -> Self {
         let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
         let radius = most(&mut radii.iter().copied());
@@ -86,7 +86,7 @@ impl Scales {
     }
 }
 
-/// How far the body that goes farthest is from its start, turning included (angle times radius of gyration).
+/// Largest displacement of a body from its start, including rotation (angle times radius of gyration).
 fn travel(reference: &Record, radii: &[f64]) -> f64 {
     let mut greatest = 0.0_f64;
     for instant in 0..reference.instants() {
@@ -103,18 +103,18 @@ fn apart(a: &[f64], b: &[f64]) -> (f64, f64) {
     let distance = (vector(&a[6..]) - vector(&b[6..])).norm();
     let ([w, p @ ..], [v, q @ ..]) = (&a[9..13], &b[9..13]) else { return (distance, 0.0) };
     let (p, q) = (vector(p), vector(q));
-    // The turn from b to a: conjugate of b times a.
+    // The rotation from b to a: conjugate of b times a.
     let (real, imaginary) = (w * v + p.dot(&q), p * *v - q * *w - q.cross(&p));
     (distance, 2.0 * libm::atan2(imaginary.norm(), real.abs()))
 }
 
-/// The error, 0 if both are 0.
+/// The relative error; 0 if both are 0.
 fn relative(error: f64, scale: f64) -> f64 {
     if error == 0.0 { 0.0 } else { error / scale }
 }
 
-/// Errors of a run against the reference. The grid of the reference is that of the run or a finer one of which the run's
-/// instants are part. `radii` are radii of gyration of the bodies, m; 0 for those that are not free.
+/// Errors of a run against the reference. The grid of the reference is that of the run, or a refinement of
+/// it. `radii` are radii of gyration of the bodies, m; 0 for those that are not free.
 pub(crate) fn errors(run: &Record, reference: &Record, radii: &[f64]) -> Errors {
     let scales = Scales::of(reference, radii);
     let (position_m, pose, angle_rad) = pose(run, reference, radii);
@@ -128,7 +128,7 @@ pub(crate) fn errors(run: &Record, reference: &Record, radii: &[f64]) -> Errors 
     Errors { relative, position_m, angle_rad }
 }
 
-/// Root mean square over time, of the body where it is greatest.
+/// Root mean square over time, for the body with the largest one.
 fn wrench(run: &Record, reference: &Record, scales: &Scales) -> f64 {
     let stride = (reference.per_frame / run.per_frame) as usize;
     let instants = run.instants().max(2) - 1;
@@ -165,7 +165,7 @@ fn peak(run: &Record, reference: &Record, scales: &Scales) -> f64 {
     pairs.map(of_body).fold(0.0, f64::max)
 }
 
-/// Greatest distance, greatest distance with turning, greatest angle, at the end.
+/// Largest distance, distance with rotation, and angle, at the end.
 fn pose(run: &Record, reference: &Record, radii: &[f64]) -> (f64, f64, f64) {
     let (last, other) = (run.instants() - 1, reference.instants() - 1);
     let mut worst = (0.0_f64, 0.0_f64, 0.0_f64);
@@ -182,7 +182,7 @@ mod tests {
 
     const RADIUS: f64 = 0.5;
 
-    /// A body pushed with 10 N that goes 1 m in a frame, twice, and ends turned by `angle` about z.
+    /// A body pushed with 10 N that moves 1 m in a frame, twice, and ends rotated by `angle` about z.
     fn moved(angle: f64) -> Record {
         let row = |x: f64, angle: f64| {
             let (sine, cosine) = (libm::sin(0.5 * angle), libm::cos(0.5 * angle));
@@ -201,7 +201,7 @@ mod tests {
         }
     }
 
-    /// One thing off at a time: the error of its quantity is the difference over the scale, that of all others is zero.
+    /// With one quantity changed, its error is the difference over the scale, and all others are zero.
     #[test]
     fn every_error_is_the_difference_over_its_scale() {
         let reference = moved(0.4);
@@ -221,14 +221,14 @@ mod tests {
         let force = |run: &mut Record| (run.rows[13 + 1], run.rows[13 + 2]) = (3.0, 4.0);
         check(off(&force), Quantity::Wrench, 12.5_f64.sqrt() / 10.0);
         check(off(&|run| run.rows[26 + 5] += 6.0), Quantity::Wrench, 18.0_f64.sqrt() / 8.0);
-        // The impulse of moments counts against what that of forces makes at the radius of gyration: 10 N·m·s.
+        // The impulse of moments is relative to that of forces at the radius of gyration: 10 N·m·s.
         check(off(&|run| run.impulses[0][1] = 2.0), Quantity::Impulse, 2.0 / 20.0);
         check(off(&|run| run.impulses[0][5] += 3.0), Quantity::Impulse, 3.0 / 10.0);
-        // Too low is as wrong as too high.
+        // A peak that is too low is as wrong as one too high.
         check(off(&|run| run.peaks[0][0] -= 1.0), Quantity::Peak, 1.0 / 10.0);
         check(off(&|run| run.peaks[0][1] += 2.0), Quantity::Peak, 2.0 / 8.0);
         check(off(&|run| run.energy_change -= 4.0), Quantity::Energy, 4.0 / 50.0);
-        // It travels 2 m and turns by 0.4 rad at a radius of 0.5 m.
+        // It moves 2 m and rotates by 0.4 rad at a radius of 0.5 m.
         let displaced = off(&|run| run.rows[26 + 7] = 0.11);
         check(displaced, Quantity::Pose, 0.11 / 2.2);
         assert_eq!((displaced.position_m, displaced.angle_rad), (0.11, 0.0));

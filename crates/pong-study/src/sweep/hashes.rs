@@ -1,4 +1,4 @@
-//! Hashes of what decides a study's answers: a run that was kept is taken again only while they are the same.
+//! Hashes of all inputs of a study: a kept run is used again only while they are the same.
 
 use crate::{Result, StudyError};
 use pong_executive::scene::Scene;
@@ -18,8 +18,8 @@ pub(crate) fn hash_of_scene(scene: &Scene, text: &str) -> Result<Fnv> {
     Ok(hash)
 }
 
-/// The text of a model and the model's own hash: meshes lie in files of their own. What is wrong with a model is told
-/// when it is run.
+/// Adds the text of a model, and the model's own hash for its mesh files. Faults of a model are reported when
+/// it is run.
 pub(crate) fn hash_model(hash: &mut Fnv, file: &Path, extensions: &Extensions) -> Result<()> {
     let unreadable = |reason| StudyError::file(file, reason);
     hash.text(&pong_model::files::read_text(file).map_err(unreadable)?);
@@ -28,7 +28,7 @@ pub(crate) fn hash_model(hash: &mut Fnv, file: &Path, extensions: &Extensions) -
     Ok(())
 }
 
-/// The bytes of a file, a piece at a time.
+/// Adds the bytes of a file, a piece at a time.
 pub(crate) fn hash_file(hash: &mut Fnv, path: &Path) -> Result<()> {
     let unreadable = |reason: std::io::Error| StudyError::file(path, reason);
     let mut file = pong_model::files::open(path).map_err(unreadable)?;

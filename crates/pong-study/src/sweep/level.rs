@@ -5,49 +5,49 @@ use pong_geometry::bounding::BoundKind;
 use std::fmt::Write as _;
 use strum::VariantArray;
 
-/// What moves the bodies.
+/// Source of the bodies' motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// An integrator, under the wrenches.
+    /// An integrator, driven by the wrenches.
     Integrated(Integrator),
-    /// A log of so many frames in one of the study.
+    /// A log, with this number of its frames in one of the study.
     Logged(u32),
 }
 
-/// One setting of every lever. What is `None` or 0 is as the scene and its models say.
+/// One setting of every lever. `None` or 0 leaves the setting of the scene and its models.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
-    /// Steps in a frame: the step is frame / steps. Of a log: how many of its frames the engine sees.
+    /// Steps in a frame: the step is frame / steps. For a log the number of its frames that the engine sees.
     pub steps_per_frame: u32,
-    /// The integrator, or that there is none.
+    /// The integrator, or a log.
     pub motion: Motion,
-    /// Whether friction is left out of every surface.
+    /// True if friction is left out of every surface.
     pub frictionless: bool,
     /// The scene's alternative whose models are taken.
     pub alternative: Option<String>,
-    /// The kind that every bounding volume is made.
+    /// Kind of every bounding volume.
     pub bounds: Option<BoundKind>,
-    /// Most elements of a leaf; the trees are built anew.
+    /// Most elements of a leaf; the trees are rebuilt.
     pub leaf: Option<usize>,
     /// Workers beside the calling thread.
     pub workers: usize,
 }
 
-/// What can be set.
+/// Setting that a study varies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::IntoStaticStr, strum::VariantArray)]
 #[strum(serialize_all = "snake_case")]
 pub enum Lever {
-    /// The length of a step; of a log, over how many frames a wrench is held.
+    /// The length of a step; for a log, the number of frames over which a wrench is held.
     Step,
-    /// The integrator, the wrench held over a step and its sub-steps included.
+    /// The integrator, including the hold of the wrench over a step and its substeps.
     Integrator,
-    /// Friction as the models say, or none.
+    /// Friction as in the models, or none.
     Friction,
-    /// Other models that the scene names.
+    /// Alternative models that the scene names.
     Alternatives,
     /// The kind of every bounding volume.
     Bounds,
-    /// How many elements a leaf holds.
+    /// The number of elements in a leaf.
     Leaves,
     /// Workers.
     Workers,
@@ -62,14 +62,14 @@ impl Lever {
         self.into()
     }
 
-    /// Whether it may change the answer; the others change the time alone, which is checked.
+    /// True if it may change the answer; the others change only the time, which is checked.
     pub fn changes_answers(self) -> bool {
         !matches!(self, Self::Bounds | Self::Leaves | Self::Workers)
     }
 }
 
 impl Level {
-    /// The scene's models and one thread, at so many steps a frame.
+    /// The scene's models and one thread, with this number of steps in a frame.
     pub fn plain(motion: Motion, steps_per_frame: u32) -> Self {
         Self {
             steps_per_frame,
@@ -82,17 +82,17 @@ impl Level {
         }
     }
 
-    /// Times that a step asks the engine.
+    /// Number of engine calls in a step.
     pub fn calls_per_step(&self) -> u32 {
         if self.motion == Motion::Integrated(Integrator::RungeKutta4) { 4 } else { 1 }
     }
 
-    /// Times that a frame asks the engine.
+    /// Number of engine calls in a frame.
     pub fn calls_per_frame(&self) -> u64 {
         u64::from(self.calls_per_step()) * u64::from(self.steps_per_frame)
     }
 
-    /// What is set, besides step and integrator.
+    /// Settings other than step and integrator.
     pub fn settings(&self) -> Vec<(Lever, String)> {
         let mut settings = Vec::new();
         if self.frictionless {
@@ -119,7 +119,7 @@ impl Level {
         }
     }
 
-    /// A name that tells it from every other level of a study.
+    /// A name that is unique in a study.
     pub fn name(&self, frame_s: f64) -> String {
         let mut name = match self.motion {
             Motion::Integrated(integrator) => {
@@ -134,7 +134,7 @@ impl Level {
     }
 }
 
-/// What moves the bodies, in short.
+/// Short name of the source of motion.
 pub fn motion_name(motion: Motion) -> String {
     match motion {
         Motion::Integrated(integrator) => integrator_name(integrator),
@@ -142,7 +142,7 @@ pub fn motion_name(motion: Motion) -> String {
     }
 }
 
-/// Short, as the scene format says it where that is short.
+/// Short name of an integrator, as in the scene format where that is short.
 fn integrator_name(integrator: Integrator) -> String {
     match integrator {
         Integrator::SemiImplicitEuler => "Euler".to_owned(),
@@ -154,7 +154,7 @@ fn integrator_name(integrator: Integrator) -> String {
     }
 }
 
-/// A time as s, ms or µs, with as many digits as it has, six at most.
+/// A time in s, ms or µs, with as many digits as it has, six at most.
 pub fn seconds(time_s: f64) -> String {
     let (value, unit) = match time_s.abs() {
         t if t >= 1.0 => (time_s, "s"),

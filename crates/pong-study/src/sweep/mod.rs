@@ -1,13 +1,14 @@
-//! Speed against accuracy, measured: a scene is run over the levers that buy speed, each run is compared with a reference
-//! that is checked by itself, and the levels that are worth their time are named. What it means: `docs/trade.md`.
+//! Speed against accuracy, measured: a scene is run with the options that buy speed, each run is compared
+//! with a reference whose own error is estimated, and the levels that are worth their time are named. See
+//! `docs/trade.md`.
 //!
 //! | file | is |
 //! |---|---|
-//! | `level.rs`, `plan.rs` | one setting of every lever; which of them are run |
-//! | `run.rs`, `record.rs`, `rewrite.rs` | one run: recorded, or timed; models as a level wants them |
-//! | `subject.rs`, `open_loop.rs` | what is run: a scene, or the motions of a log |
-//! | `errors.rs`, `reference.rs` | how far a run is from the reference; how far that may be off itself |
-//! | `study.rs`, `store.rs` | all runs, in turn; what is kept of them |
+//! | `level.rs`, `plan.rs` | one setting of every lever; the levels to run |
+//! | `run.rs`, `record.rs`, `rewrite.rs` | one run, recorded or timed; models changed for a level |
+//! | `subject.rs`, `open_loop.rs` | the subject: a scene, or the motions of a log |
+//! | `errors.rs`, `reference.rs` | errors of a run against the reference; error of the reference itself |
+//! | `study.rs`, `store.rs` | all runs, in turn; kept results |
 //! | `choice.rs` | the Pareto front and the cheapest level within a tolerance |
 //! | `report/` | tables and the plot |
 

@@ -1,4 +1,4 @@
-//! A log as the subject of a study: its motions through the engine, again and again.
+//! A log as the subject of a study: its motions played in the engine, again and again.
 
 use crate::sweep::hashes::{hash_file, hash_model};
 use crate::sweep::level::Level;
@@ -14,21 +14,22 @@ use pong_model::Model;
 use pong_record::{Event, Log, LogError, ReplayOptions, RerunFrame, rerun};
 use std::path::{Path, PathBuf};
 
-/// Other files for some models of a log.
+/// Replacement files for some models of a log.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LogAlternative {
-    /// What the alternative is called.
+    /// Name of the alternative.
     pub name: String,
-    /// Names of models of the log, and the files that they are read from instead.
+    /// Names of models of the log, and the files that replace theirs.
     pub models: Vec<(String, PathBuf)>,
 }
 
-/// A log that is run again and again.
+/// A log that is run many times.
 pub(crate) struct LoggedRun {
     log: Log,
     alternatives: Vec<LogAlternative>,
     extensions: Extensions,
-    /// The greatest distance of the engine's wrenches from the log's own, over the greatest in the log; once it is known.
+    /// The largest difference between the engine's wrenches and the log's own, relative to the largest in the
+    /// log; `None` until known.
     apart: Option<f64>,
 }
 
@@ -59,7 +60,7 @@ impl LoggedRun {
         self.alternatives.iter().map(|alternative| alternative.name.clone()).collect()
     }
 
-    /// Whether a contact state was restored while the log was written: it fits no other models and no other laws.
+    /// True if a contact state was restored while the log was written: it fits only the same models and laws.
     pub fn restores(&self) -> bool {
         self.log.events().iter().any(|event| matches!(event.event, Event::Restore { .. }))
     }
@@ -68,7 +69,7 @@ impl LoggedRun {
         self.log.run().bodies.len()
     }
 
-    /// Frames of so many frames of the log each; those left over are not run.
+    /// Frames made of `logged` frames of the log each; the remainder is not run.
     pub fn frames(&mut self, logged: u32) -> Result<Frames> {
         let count = self.log.frame_count() / u64::from(logged);
         if count == 0 {
@@ -86,12 +87,13 @@ impl LoggedRun {
         Ok(Frames { frame_s: mean * f64::from(logged), count, instants: logged })
     }
 
-    /// The greatest relative distance of the engine's wrenches from the log's own, if the log as it is was run.
+    /// The largest relative difference between the engine's wrenches and the log's own, once the unchanged
+    /// log was run.
     pub fn apart(&self) -> Option<f64> {
         self.apart
     }
 
-    /// A hash of everything that decides the answers.
+    /// A hash of all inputs that determine the answers.
     pub fn hash(&self) -> Result<Fnv> {
         let mut hash = Fnv::default();
         hash.text(env!("CARGO_PKG_VERSION"));
@@ -112,7 +114,7 @@ impl LoggedRun {
         Ok(hash)
     }
 
-    /// Records a level; frames that it passes over have the wrench of the last that it did not.
+    /// Records a level; skipped frames have the wrench of the last frame evaluated.
     pub fn record(&mut self, level: &Level, frames: &Frames) -> Result<Record> {
         let bodies = self.bodies();
         let mut gathered = Gathered::new(bodies, frames);
@@ -123,7 +125,7 @@ impl LoggedRun {
         Ok(gathered.record)
     }
 
-    /// Times a level: of each frame, all that was handed to the engine in it.
+    /// Times a level: for each frame, all engine calls in it.
     pub fn time(&mut self, level: &Level, frames: &Frames) -> Result<Vec<u64>> {
         let mut times = vec![0; frames.count as usize];
         let logged = u64::from(frames.instants);
@@ -171,11 +173,11 @@ impl LoggedRun {
     }
 }
 
-/// A record of a log on its way.
+/// A record of a log being built.
 struct Gathered {
     record: Record,
     time: f64,
-    /// Largest distance from the log's wrenches, and their largest size: force, moment.
+    /// Largest difference from the log's wrenches, and their largest magnitude: force, moment.
     off: [f64; 2],
     size: [f64; 2],
 }
@@ -188,7 +190,7 @@ impl Gathered {
 
     fn take(&mut self, frame: &RerunFrame<'_>) -> Result<(), LogError> {
         let time = frame.logged.row.time;
-        // The first frame is no end of an interval.
+        // The first frame ends no interval.
         let half = if self.time.is_nan() { 0.0 } else { 0.5 * (time - self.time) };
         let last = self.record.rows.len().saturating_sub(self.record.bodies * crate::sweep::record::VALUES);
         for (body, interface) in frame.bodies.iter().enumerate() {
@@ -216,7 +218,7 @@ impl Gathered {
         Ok(())
     }
 
-    /// The wrench on a body at the instant before, whose rows begin at an index.
+    /// The wrench on a body at the previous instant, whose rows begin at an index.
     fn before(&self, rows: usize, body: usize) -> [f64; 6] {
         let start = rows.min(self.record.rows.len()) + body * crate::sweep::record::VALUES;
         let mut six = [0.0; 6];

@@ -1,4 +1,4 @@
-//! Which levels are run.
+//! Choice of the levels to run.
 
 use crate::sweep::level::{Level, Lever, Motion};
 use crate::sweep::open_loop::LoggedRun;
@@ -8,7 +8,7 @@ use pong_executive::Integrator;
 use pong_executive::scene::Scene;
 use pong_geometry::bounding::BoundKind;
 
-/// Numbers of the grid, over all bodies, that a record may hold: 40 MiB.
+/// Most rows of a record's grid, over all bodies: 40 MiB.
 const GRID_ROWS: u64 = 400_000;
 
 /// Most steps of a frame.
@@ -21,26 +21,26 @@ pub struct Plan {
     pub frames: Frames,
     /// The levels of step and integrator: every step with every integrator.
     pub grid: Vec<Level>,
-    /// Which of them is the scene as written, or nearest to it.
+    /// Index of the level that is the scene as written, or nearest to it.
     pub base: usize,
     /// Most steps of a frame in the grid.
     pub finest: u32,
 }
 
-/// What a plan is made from.
+/// Settings of a plan.
 #[derive(Clone, Debug)]
 pub struct PlanSettings {
     /// Length of a frame, s; `None` for 16 steps of the scene, less if the scene is short.
     pub frame_s: Option<f64>,
-    /// How often the frame is halved for the shortest step; `None` down to half the scene's own step.
+    /// Number of halvings of the frame for the shortest step; `None` down to half the scene's own step.
     pub halvings: Option<u32>,
     /// Duration, s; `None` for the scene's.
     pub duration_s: Option<f64>,
-    /// Which levers are pulled.
+    /// Levers to vary.
     pub levers: Vec<Lever>,
-    /// How many elements leaves are given.
+    /// Leaf sizes to try, in elements.
     pub leaves: Vec<usize>,
-    /// How many workers are tried.
+    /// Numbers of workers to try.
     pub workers: Vec<usize>,
 }
 
@@ -58,11 +58,12 @@ impl Default for PlanSettings {
 }
 
 impl Plan {
-    /// The plan for a scene whose bodies are counted.
+    /// The plan for a scene with this number of bodies.
     ///
     /// # Errors
     ///
-    /// `--duration` or `--frame` that is no finite time above zero, no frame in the duration, or too many steps in a frame.
+    /// `--duration` or `--frame` that is no finite time above zero, no frame in the duration, or too many
+    /// steps in a frame.
     pub fn new(scene: &Scene, bodies: usize, settings: &PlanSettings) -> Result<Self> {
         let duration = settings.duration_s.unwrap_or(scene.duration());
         check("--duration", duration)?;
@@ -73,7 +74,7 @@ impl Plan {
             let line = format!("{duration} s hold no frame of {frame_s} s; give a shorter --frame");
             return Err(StudyError::new("frame", line));
         }
-        // Steps of a frame that come nearest to the scene's own step.
+        // Power of two of steps in a frame nearest to the scene's own step.
         let own = libm::exp2(libm::round(libm::log2(frame_s / scene.step())).max(0.0));
         let finest = settings.halvings.map_or(2.0 * own, |halvings| libm::exp2(f64::from(halvings)));
         if finest > STEPS_MAX {
@@ -99,7 +100,7 @@ impl Plan {
         Ok(Self { frames, grid, base, finest })
     }
 
-    /// The plan for a log: the engine sees every frame, every other … .
+    /// The plan for a log: the engine sees every frame, every second, … .
     pub(crate) fn of_log(log: &mut LoggedRun, settings: &PlanSettings) -> Result<Self> {
         let halvings = settings.halvings.unwrap_or(3).min(16);
         let finest = 1_u32 << halvings;
@@ -111,7 +112,7 @@ impl Plan {
         Ok(Self { frames, grid, base: 0, finest })
     }
 
-    /// Levels with one lever set besides those of the grid, around a level of it.
+    /// Levels that differ from a level of the grid in one further lever.
     pub fn around(
         &self,
         anchor: &Level,
@@ -150,7 +151,7 @@ fn check(name: &str, time_s: f64) -> Result<()> {
     Err(StudyError::new(name, format!("it is {time_s} s; give a finite time above zero")))
 }
 
-/// Sixteen steps, or fewer so that a run has sixty-four frames.
+/// Length of a frame: sixteen steps, or fewer so that a run has sixty-four frames.
 fn frame(step: f64, duration: f64) -> f64 {
     let mut steps = 16.0;
     while steps > 1.0 && duration / (steps * step) < 64.0 {
@@ -159,7 +160,7 @@ fn frame(step: f64, duration: f64) -> f64 {
     steps * step
 }
 
-/// 1, 2, 4 … up to the finest.
+/// Powers of two: 1, 2, 4 … up to the finest.
 fn halvings(finest: u32) -> Vec<u32> {
     let doubled = |steps: &u32| steps.checked_mul(2);
     std::iter::successors(Some(1_u32), doubled).take_while(|steps| *steps <= finest).collect()
@@ -179,7 +180,7 @@ fn integrators(own: Integrator, all: bool) -> Vec<Integrator> {
     integrators
 }
 
-/// The finest grid that is not too large to keep.
+/// Instants in a frame of the finest grid that is not too large to keep.
 fn instants(frames: u64, bodies: usize, finest: u32) -> u32 {
     let fits = |instants: &u32| frames * u64::from(*instants) * bodies as u64 <= GRID_ROWS;
     halvings(finest).into_iter().rev().find(fits).unwrap_or(1)

@@ -1,11 +1,11 @@
-//! What a run leaves behind to be compared: motion and wrenches on a grid of instants, and sums over every step.
+//! Record of a run for comparison: motion and wrenches on a grid of instants, and sums over every step.
 
 use pong_executive::{Simulation, Vec3};
 
-/// Numbers of a body at an instant: force, moment, position, orientation (w, x, y, z).
+/// Number of values of a body at an instant: force, moment, position, orientation (w, x, y, z).
 pub(crate) const VALUES: usize = 13;
 
-/// A run, to be compared.
+/// Record of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Record {
     pub bodies: usize,
@@ -17,18 +17,18 @@ pub(crate) struct Record {
     pub impulses: Vec<[f64; 6]>,
     /// ∫ |force| dt and ∫ |moment| dt of each body.
     pub efforts: Vec<[f64; 2]>,
-    /// Greatest force and greatest moment on each body over every step.
+    /// Largest force and largest moment on each body over every step.
     pub peaks: Vec<[f64; 2]>,
     /// Kinetic, potential and spring energy at the end less that at the start, J.
     pub energy_change: f64,
-    /// The greatest of kinetic energy, energy in springs and change of energy on the grid, J.
+    /// The largest of kinetic energy, energy in springs and change of energy on the grid, J.
     pub energy_scale: f64,
-    /// Steps in which the engine had to leave something out.
+    /// Steps in which the engine hit a limit.
     pub incomplete: u64,
 }
 
 impl Record {
-    /// Of so many bodies, without a row.
+    /// A record without rows for this number of bodies.
     pub fn empty(bodies: usize, per_frame: u32) -> Self {
         Self {
             bodies,
@@ -40,7 +40,7 @@ impl Record {
         }
     }
 
-    /// Adds the wrenches of a body at the ends of an interval, of which this is the half, s, to its sums.
+    /// Adds the wrenches of a body at the ends of an interval to its sums; `half` is half its length, s.
     pub fn add(&mut self, body: usize, before: &[f64; 6], now: &[f64; 6], half: f64) {
         for (sum, (a, b)) in self.impulses[body].iter_mut().zip(before.iter().zip(now)) {
             *sum += half * (a + b);
@@ -50,13 +50,13 @@ impl Record {
         }
     }
 
-    /// Keeps the peaks of a body.
+    /// Updates the peaks of a body.
     pub fn peak(&mut self, body: usize, now: &[f64; 6]) {
         let peaks = self.peaks[body].iter_mut().enumerate();
         peaks.for_each(|(place, peak)| *peak = peak.max(size(now, place)));
     }
 
-    /// Instants of the grid.
+    /// Number of instants of the grid.
     pub fn instants(&self) -> usize {
         self.rows.len() / (VALUES * self.bodies).max(1)
     }
@@ -85,7 +85,7 @@ pub(crate) fn vector(values: &[f64]) -> Vec3 {
     Vec3::new(values[0], values[1], values[2])
 }
 
-/// Gathers a [`Record`] step by step.
+/// Builds a [`Record`] step by step.
 pub(crate) struct Recorder {
     record: Record,
     step: f64,
@@ -94,7 +94,7 @@ pub(crate) struct Recorder {
 }
 
 impl Recorder {
-    /// Takes in the first instant.
+    /// Records the first instant.
     pub fn new(simulation: &Simulation, per_frame: u32) -> Self {
         let bodies = simulation.bodies().len();
         let record = Record::empty(bodies, per_frame);
@@ -106,7 +106,7 @@ impl Recorder {
         recorder
     }
 
-    /// Takes in the end of a step.
+    /// Records the end of a step.
     pub fn step(&mut self, simulation: &Simulation) {
         let half = 0.5 * self.step;
         for (id, _) in simulation.bodies() {
@@ -124,7 +124,7 @@ impl Recorder {
         }
     }
 
-    /// Takes in an instant of the grid.
+    /// Records an instant of the grid.
     pub fn instant(&mut self, simulation: &Simulation) {
         for (id, _) in simulation.bodies() {
             let pose = simulation.pose(id);
@@ -139,7 +139,7 @@ impl Recorder {
         self.record.energy_scale = sizes.into_iter().fold(self.record.energy_scale, f64::max);
     }
 
-    /// All that was gathered.
+    /// Returns the record.
     pub fn finish(self) -> Record {
         self.record
     }
@@ -156,7 +156,7 @@ fn six(simulation: &Simulation, id: pong_executive::BodyId) -> [f64; 6] {
     [f.x, f.y, f.z, m.x, m.y, m.z]
 }
 
-/// Size of the force (0) or of the moment (1).
+/// Norm of the force (0) or of the moment (1).
 fn size(six: &[f64; 6], place: usize) -> f64 {
     vector(&six[3 * place..]).norm()
 }

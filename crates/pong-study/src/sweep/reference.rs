@@ -1,4 +1,4 @@
-//! The reference: Runge-Kutta at finer and finer steps, and what their differences say of its own error.
+//! The reference: Runge-Kutta with smaller and smaller steps, whose differences estimate its own error.
 //!
 //! Of three runs at steps 4h, 2h and h (errors ε of order p: ε ≈ C·hᵖ) the differences d₁ = |4h − 2h| and d₂ = |2h − h|
 //! give the observed order and the error of the last (Richardson):
@@ -10,23 +10,23 @@
 use crate::sweep::errors::{Errors, Quantity};
 use serde::{Deserialize, Serialize};
 
-/// Orders outside are not believed: contact sets in and ends between steps, which no method sees at its own order, and
-/// beyond four there is only chance.
+/// Accepted range of observed orders: contact begins and ends between steps, where no method has its own
+/// order, and an order above four is chance.
 const BELIEVED_ORDERS: (f64, f64) = (0.5, 4.0);
 
-/// Differences below are rounding.
+/// Differences below this are rounding errors.
 const ROUNDING: f64 = 1e-12;
 
-/// What is known of the reference.
+/// Properties of the reference.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reference {
     /// Its steps in a frame.
     pub steps_per_frame: u32,
-    /// By quantity, in the order of [`Quantity::ALL`].
+    /// Checks by quantity, in the order of [`Quantity::ALL`].
     pub checks: [Check; 5],
 }
 
-/// Richardson's check of one quantity; relative, as the errors are.
+/// Richardson's check of one quantity, relative as the errors are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Check {
     /// The observed order of convergence in the step, without unit; `None` where the differences are rounding.
@@ -37,7 +37,7 @@ pub struct Check {
 }
 
 impl Check {
-    /// From the difference of the first two of three runs and that of the last two.
+    /// Check from the difference between the first two of three runs and that between the last two.
     pub fn new(first: f64, second: f64) -> Self {
         if first.max(second) < ROUNDING {
             return Self { order: None, error: second };
@@ -54,7 +54,7 @@ impl Check {
 }
 
 impl Reference {
-    /// From two differences: of the last runs but one, and of the last two.
+    /// Reference from the differences between the last three runs.
     pub fn new(steps_per_frame: u32, first: &Errors, second: &Errors) -> Self {
         let checks = Quantity::ALL.map(|quantity| Check::new(first.of(quantity), second.of(quantity)));
         Self { steps_per_frame, checks }
@@ -70,10 +70,11 @@ impl Reference {
         of.iter().map(|quantity| self.of(*quantity).error).fold(0.0, f64::max)
     }
 
-    /// The largest share of the tolerance that the reference's own error may take before it counts as not converged.
+    /// The largest share of the tolerance for the reference's own error: above it the reference has not
+    /// converged.
     pub const SHARE: f64 = 0.25;
 
-    /// Whether levels can be judged by it.
+    /// True if levels can be judged by it.
     pub fn has_converged(&self, of: &[Quantity], within: f64) -> bool {
         self.uncertainty(of) <= Self::SHARE * within
     }
@@ -83,7 +84,7 @@ impl Reference {
 mod tests {
     use super::*;
 
-    /// Errors C·hᵖ at 4h, 2h, h: the order and the error of the last come back.
+    /// From errors C·hᵖ at 4h, 2h, h, the order and the error of the last are recovered.
     #[test]
     fn richardson_finds_order_and_error() {
         for order in [1.0, 2.0, 3.5, 4.0_f64] {
@@ -94,7 +95,8 @@ mod tests {
         }
     }
 
-    /// Differences that do not fall are no convergence: the error is then told as larger than the last difference.
+    /// Differences that do not fall mean no convergence: the reported error is then larger than the last
+    /// difference.
     #[test]
     fn what_does_not_fall_is_not_believed() {
         let check = Check::new(0.01, 0.02);

@@ -1,10 +1,10 @@
-//! Models as a level wants them: without friction, with other bounding volumes, with other leaves.
+//! Models changed for a level: without friction, with other bounding volumes, with other leaves.
 
 use crate::sweep::level::Level;
 use pong_geometry::extension::Extensions;
 use pong_model::{FrictionLaw, Model};
 
-/// The model as a level wants it; an error is a line of cause and cure.
+/// The model changed for a level; an error is a line of cause and cure.
 pub(crate) fn model(mut model: Model, level: &Level) -> Result<Model, String> {
     if level.frictionless {
         drop_friction(&mut model);
@@ -18,7 +18,7 @@ pub(crate) fn model(mut model: Model, level: &Level) -> Result<Model, String> {
     }
 }
 
-/// Friction left out of every surface and of every pair.
+/// Removes friction from every surface and from every pair.
 fn drop_friction(model: &mut Model) {
     model.surfaces.iter_mut().for_each(|surface| surface.friction = FrictionLaw::None);
     for pair in &mut model.pair_overrides {

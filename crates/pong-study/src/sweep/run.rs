@@ -12,15 +12,15 @@ use std::time::Instant;
 /// The frames of a study, the same for every level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frames {
-    /// Length of a frame, s: the longest step. Of a log the mean.
+    /// Length of a frame, s: the longest step. For a log the mean.
     pub frame_s: f64,
-    /// How many there are.
+    /// Number of frames.
     pub count: u64,
     /// Most instants in a frame at which runs are compared; a power of two.
     pub instants: u32,
 }
 
-/// What became of a run.
+/// Outcome of a run.
 pub(crate) enum Ended {
     Whole(Record),
     /// A state left the range of numbers at this time, s.
@@ -57,7 +57,7 @@ fn follow(
     Ok(recorder.finish())
 }
 
-/// Runs a level that is known to reach the end, and times every frame, ns.
+/// Runs a level that is known to reach the end; returns the time of every frame, ns.
 pub(crate) fn time(scene: &Scene, level: &Level, frames: &Frames) -> Result<Vec<u64>> {
     let fails = |error: ExecutiveError| StudyError::new(&level.name(frames.frame_s), error);
     let mut simulation = build(scene, level, frames)?.simulation;

@@ -1,6 +1,6 @@
-//! What is kept in the output folder, so that a study that was stopped goes on where it was.
+//! Kept results in the output folder, so that a study that was stopped goes on where it was.
 //!
-//! Every file is named by a hash of all that decides what is in it, and is put in place whole.
+//! Every file is named by a hash of all that determines its contents, and is written atomically.
 
 use crate::sweep::record::Record;
 use crate::{Result, StudyError};
@@ -8,13 +8,13 @@ use pong_model::files;
 use serde::{Serialize, de::DeserializeOwned};
 use std::path::{Path, PathBuf};
 
-/// The folder of what is kept.
+/// The folder of kept results.
 pub(crate) struct Store {
     folder: PathBuf,
 }
 
 impl Store {
-    /// Opens the folder `kept` of an output folder, and makes both if they are not there.
+    /// Opens the folder `kept` of an output folder, and creates both if they do not exist.
     pub fn open(output: &Path, fresh: bool) -> Result<Self> {
         let folder = output.join("kept");
         if fresh && folder.exists() {
@@ -28,13 +28,13 @@ impl Store {
         self.folder.join(format!("{kind}_{key:016x}.{ending}"))
     }
 
-    /// What was kept under a key; what cannot be read counts as not there.
+    /// The result kept under a key; `None` if there is none or it cannot be read.
     pub fn get<T: DeserializeOwned>(&self, kind: &str, key: u64) -> Option<T> {
         let text = files::read_text(&self.path(kind, key, "json")).ok()?;
         serde_json::from_str(&text).ok()
     }
 
-    /// Keeps something under a key.
+    /// Keeps a result under a key.
     pub fn put<T: Serialize>(&self, kind: &str, key: u64, value: &T) -> Result<()> {
         let path = self.path(kind, key, "json");
         let text = serde_json::to_string(value).map_err(|reason| StudyError::output(&path, reason))?;
@@ -52,12 +52,13 @@ impl Store {
     }
 }
 
-/// Writes a file that is there whole or not at all.
+/// Writes a file atomically: complete or not at all.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     files::replace(path, bytes).map_err(|reason| StudyError::output(path, reason))
 }
 
-/// Little-endian words: bodies, instants in a frame, incomplete steps, number of rows' values; then all numbers.
+/// Little-endian words: bodies, instants in a frame, incomplete steps, number of rows' values; then all
+/// numbers.
 fn record_bytes(record: &Record) -> Vec<u8> {
     let head = [
         record.bodies as u64,
@@ -98,7 +99,7 @@ fn read_record(bytes: &[u8]) -> Option<Record> {
     })
 }
 
-/// A number that may be infinite, which JSON cannot write: null.
+/// Serialises a number that may be infinite, which JSON cannot represent, as null.
 pub(crate) mod number {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -111,7 +112,7 @@ pub(crate) mod number {
     }
 }
 
-/// Five of them.
+/// Serialises five such numbers.
 pub(crate) mod numbers {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

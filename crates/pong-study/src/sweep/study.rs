@@ -1,4 +1,4 @@
-//! A study: the reference, every level once to be compared, then all of them in turn to be timed.
+//! A study: the reference, every level run once for comparison, then all of them in turn for timing.
 
 use crate::sweep::choice::{self, Point, percentile};
 use crate::sweep::errors::{Errors, Quantity, errors};
@@ -20,22 +20,22 @@ use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use std::path::Path;
 
-/// How a study is made.
+/// Settings of a study.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// Which levels.
+    /// Choice of the levels.
     pub plan: PlanSettings,
-    /// The relative error that a level may have.
+    /// The largest relative error allowed for a level.
     pub within: f64,
-    /// The quantities that count.
+    /// The quantities compared.
     pub of: Vec<Quantity>,
-    /// How often every level is timed.
+    /// Number of timings of every level.
     pub rounds: u32,
-    /// How often the reference's step may be halved again to make it converge.
+    /// Most halvings of the reference's step for convergence.
     pub refinements: u32,
-    /// Nothing that was kept earlier is used.
+    /// True to ignore results kept earlier.
     pub fresh: bool,
-    /// What models may use beside what is built in, and where their files may lie.
+    /// Extensions for the models, and the folders allowed for their files.
     pub extensions: Extensions,
 }
 
@@ -53,21 +53,21 @@ impl Default for Settings {
     }
 }
 
-/// How far a study is.
+/// Progress of a study.
 #[derive(Clone, Debug)]
 pub struct Progress<'a> {
-    /// Done, in calls of the engine.
+    /// Engine calls done.
     pub done: u64,
-    /// All of it, about.
+    /// Engine calls in all, approximately.
     pub of: u64,
-    /// What is run now.
+    /// The present run.
     pub doing: &'a str,
 }
 
-/// Called before every run; a study that is told to break stops there and can go on later.
+/// Called before every run; a study stopped by it can be continued later.
 type Watch<'a> = &'a mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>;
 
-/// What a level answers.
+/// Result of a level.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Answer {
     /// It reached the end.
@@ -76,12 +76,12 @@ pub enum Answer {
         errors: Errors,
         /// Hash of every bit of its record.
         hash: u64,
-        /// Steps in which the engine left something out.
+        /// Steps in which the engine hit a limit.
         incomplete: u64,
     },
     /// A state left the range of numbers.
     Diverged {
-        /// When that was noticed, s.
+        /// Time at which it was noticed, s.
         time_s: f64,
     },
 }
@@ -115,29 +115,29 @@ impl Times {
         }
     }
 
-    /// The frame than which half are shorter, ns.
+    /// The median frame, ns.
     pub fn median_ns(&self) -> u64 {
         percentile(&self.frames_ns, 0.5)
     }
 
-    /// The frame than which 99 of 100 are shorter, ns.
+    /// The 99th percentile of the frames, ns.
     pub fn tail_ns(&self) -> u64 {
         percentile(&self.frames_ns, 0.99)
     }
 
-    /// By how much the median of a round may differ from that of another: largest over smallest, less one.
+    /// Spread of the medians of the rounds: largest over smallest, less one.
     pub fn spread(&self) -> f64 {
         let least = self.medians_ns.iter().min().copied().unwrap_or(0).max(1);
         self.medians_ns.iter().max().copied().unwrap_or(0) as f64 / least as f64 - 1.0
     }
 }
 
-/// Why a level is there.
+/// Reason for a level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A step and an integrator.
     Grid,
-    /// One lever pulled at a level of the grid.
+    /// A change of one lever at a level of the grid.
     Around {
         /// The row of that level.
         anchor: usize,
@@ -146,65 +146,69 @@ pub enum Place {
     },
 }
 
-/// A level and what came of it.
+/// A level and its results.
 #[derive(Clone, Debug)]
 pub struct Row {
     /// The level.
     pub level: Level,
     /// Its name.
     pub name: String,
-    /// Why it is there.
+    /// Its reason.
     pub place: Place,
-    /// What it answered.
+    /// Its result.
     pub answer: Answer,
-    /// What it took; `None` if it did not reach the end.
+    /// Its times; `None` if it did not reach the end.
     pub times: Option<Times>,
-    /// Whether it is on the Pareto front of median frame time and worst error.
+    /// True if it is on the Pareto front of median frame time and worst error.
     pub on_front: bool,
 }
 
-/// All that a study found.
+/// Results of a study.
 #[derive(Clone, Debug)]
 pub struct Study {
     /// Name of the scene.
     pub scene: String,
     /// The plan.
     pub plan: Plan,
-    /// How good the reference is; `None` for a log, whose levels are compared with the engine at every frame.
+    /// Accuracy of the reference; `None` for a log, whose levels are compared with the engine at every frame.
     pub reference: Option<Reference>,
-    /// Of a log: the greatest distance of the engine's wrenches from the log's own, relative to the peak.
+    /// For a log: the largest difference between the engine's wrenches and the log's own, relative to the
+    /// peak.
     pub apart: Option<f64>,
     /// The levels: the grid, then those around the base, then those around the level chosen by its errors alone.
     pub rows: Vec<Row>,
-    /// The row of the level with fewest calls of the engine within the tolerance, around which levers were pulled again.
+    /// The row of the level with fewest engine calls within the tolerance, around which levers were varied
+    /// again.
     pub second: Option<usize>,
-    /// The row of least median time within the tolerance; `None` if there is none or the reference has not converged.
+    /// The row with the least median time within the tolerance; `None` if there is none or the reference has
+    /// not converged.
     pub cheapest: Option<usize>,
-    /// Whether the reference is good enough to judge by.
+    /// True if the reference is accurate enough to judge levels.
     pub converged: bool,
     /// The tolerance: a relative error.
     pub within: f64,
-    /// The quantities that count.
+    /// The quantities compared.
     pub of: Vec<Quantity>,
 }
 
 impl Study {
-    /// Whether a log was studied.
+    /// True if a log was studied.
     pub fn is_log(&self) -> bool {
         self.reference.is_none()
     }
 
-    /// What the reference may be off itself, in the quantities that count.
+    /// The estimated error of the reference in the quantities compared.
     pub fn uncertainty(&self) -> f64 {
         self.reference.as_ref().map_or(0.0, |reference| reference.uncertainty(&self.of))
     }
 
-    /// The worst relative error of a row in the quantities that count.
+    /// The worst relative error of a row in the quantities compared.
     pub fn error(&self, row: &Row) -> Option<f64> {
         row.answer.errors().map(|errors| errors.worst(&self.of))
     }
 
-    /// Whether a row of a lever that changes no answer has the same bits as its anchor; `None` for all others.
+    /// For a lever that must not change the answer, true if the row has the same bits as its anchor; `None`
+    /// for others.
     pub fn same_bits(&self, row: &Row) -> Option<bool> {
         let Place::Around { anchor, lever } = row.place else { return None };
         let hash = |answer: &Answer| match answer {
@@ -215,10 +219,11 @@ impl Study {
     }
 }
 
-/// Studies a scene file and keeps what is finished in a folder, so that a study that was stopped goes on where it was.
+/// Studies a scene file and keeps finished results in a folder, so that a study that was stopped goes on
+/// where it was.
 ///
 /// # Errors
-/// A scene or a model at fault, a folder that cannot be written, a study that was told to stop.
+/// A scene or a model with a fault, a folder that cannot be written, a study stopped by `watch`.
 pub fn study(scene: &Path, output: &Path, settings: &Settings, watch: Watch<'_>) -> Result<Study> {
     let text = pong_model::files::read_text(scene).unwrap_or_default();
     let scene = Scene::load(scene)?;
@@ -251,12 +256,14 @@ pub fn study(scene: &Path, output: &Path, settings: &Settings, watch: Watch<'_>)
     }))
 }
 
-/// Studies a log, open loop: its motions go through the engine at every level, and the wrenches are compared.
+/// Studies a log, open loop: its motions are played in the engine at every level, and the wrenches are
+/// compared.
 ///
-/// Step means how many of its frames the engine sees; the wrench is held in between. Energy and pose do not count.
+/// The step is the number of its frames that the engine sees; the wrench is held in between. Energy and pose
+/// are not compared.
 ///
 /// # Errors
-/// As [`study`], and a log that cannot be read or whose world cannot be built again.
+/// As [`study`], and a log that cannot be read or whose world cannot be rebuilt.
 pub fn study_log(
     log: &Path,
     alternatives: &[LogAlternative],
@@ -291,10 +298,10 @@ pub fn study_log(
     Ok(judge(Study { scene, plan, reference, apart, rows, second, cheapest: None, converged, within, of }))
 }
 
-/// An answer as far off as none at all is on no front, however fast it is.
+/// Error from which a level is on no front, however fast it is: as large as that of no answer at all.
 const USELESS: f64 = 1.0;
 
-/// Marks the front and names the cheapest.
+/// Marks the Pareto front and the cheapest level.
 fn judge(mut study: Study) -> Study {
     let timed: Vec<(usize, Point)> = (0..study.rows.len())
         .filter_map(|index| {
@@ -313,7 +320,8 @@ fn judge(mut study: Study) -> Study {
     study
 }
 
-/// The level that asks the engine least often: known without a clock, so that the same levels are run every time.
+/// The level with the fewest engine calls: independent of the clock, so that the same levels are run every
+/// time.
 fn fewest_calls(rows: &[Row], of: &[Quantity], tolerance: f64) -> Option<usize> {
     let error = |row: &Row| row.answer.errors().map_or(f64::INFINITY, |errors| errors.worst(of));
     let good = (0..rows.len()).filter(|index| error(&rows[*index]) <= tolerance);
@@ -332,7 +340,7 @@ fn radii(simulation: &Simulation) -> Vec<f64> {
     simulation.bodies().map(|(_, body)| body.mass().map_or(0.0, radius)).collect()
 }
 
-/// A study at work.
+/// A study in progress.
 struct Job<'a> {
     subject: Subject,
     settings: &'a Settings,
@@ -364,7 +372,7 @@ impl<'a> Job<'a> {
         job
     }
 
-    /// Calls of the engine that the study will make, about.
+    /// Approximate number of engine calls of the study.
     fn calls_in_all(&self) -> u64 {
         let (plan, settings) = (self.plan, self.settings);
         let runs = 1 + u64::from(settings.rounds);
@@ -375,7 +383,7 @@ impl<'a> Job<'a> {
         plan.frames.count * (runs * (grid + around * base.calls_per_frame()) + reference)
     }
 
-    /// Every level, compared and timed, and the one around which levers were pulled again.
+    /// Every level, compared and timed, and the level around which levers were varied again.
     fn rows(
         &mut self,
         reference_steps: u32,
@@ -396,7 +404,7 @@ impl<'a> Job<'a> {
         Ok((rows, second))
     }
 
-    /// Tells what is run next; an error if it is to stop.
+    /// Reports the next run; fails if the study is to stop.
     fn tell(&mut self, level: &Level, doing: &str) -> Result<()> {
         let doing = format!("{doing} {}", level.name(self.plan.frames.frame_s));
         let progress = Progress { done: self.done, of: self.all.max(self.done), doing: &doing };
@@ -416,7 +424,7 @@ impl<'a> Job<'a> {
         hash.value()
     }
 
-    /// The reference and its record, kept or run.
+    /// The reference and its record, kept earlier or run now.
     fn reference(&mut self) -> Result<(Reference, Record)> {
         let (of, settings) = (&self.settings.of, self.settings);
         let mut parts = vec![self.plan.finest.into(), settings.refinements.into(), settings.within.to_bits()];
@@ -431,7 +439,7 @@ impl<'a> Job<'a> {
         Ok((reference, record))
     }
 
-    /// Halves the step until three runs in a row agree well enough, or no more halvings are left.
+    /// Halves the step until three runs in a row agree well enough, or the limit of halvings is reached.
     fn refine(&mut self) -> Result<(Reference, Record)> {
         let mut steps = self.plan.finest;
         let (mut last, mut difference): (Option<Record>, Option<Errors>) = (None, None);
@@ -498,7 +506,7 @@ impl<'a> Job<'a> {
         Ok(())
     }
 
-    /// Times every level that reached the end, round after round, so that what disturbs hits all alike.
+    /// Times every level that reached the end, round after round, so that disturbances affect all alike.
     fn time(&mut self, rows: &mut [Row]) -> Result<()> {
         for round in 1..=self.settings.rounds {
             for row in rows.iter_mut().filter(|row| row.answer.errors().is_some()) {

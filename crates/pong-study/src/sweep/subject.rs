@@ -1,4 +1,4 @@
-//! What is studied: a scene, whose motion follows from its wrenches, or a log, whose motion is what it is.
+//! Subject of a study: a scene, whose motion follows from its wrenches, or a log, whose motion is given.
 
 use crate::Result;
 use crate::sweep::level::Level;
@@ -21,7 +21,7 @@ impl Subject {
         }
     }
 
-    /// Runs a level that is known to reach the end, and times every frame, ns.
+    /// Runs a level that is known to reach the end; returns the time of every frame, ns.
     pub fn time(&mut self, level: &Level, frames: &Frames) -> Result<Vec<u64>> {
         match self {
             Self::Scene(scene) => run::time(scene, level, frames),

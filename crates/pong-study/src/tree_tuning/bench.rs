@@ -11,21 +11,21 @@ use pong_model::Fnv;
 use pong_model::Model;
 use std::sync::Arc;
 
-/// Runs, their motions, and the models that they use.
+/// Runs, their motions, and their models.
 pub(crate) struct Bench<'a> {
     pub subjects: &'a [Subject],
     pub runs: &'a [Run],
     pub motions: &'a [Motions],
-    /// Every how many rows of frames are played.
+    /// Stride of the windows that are played.
     pub stride: usize,
-    /// The model of each subject that was made last.
+    /// The last model made for each subject.
     made: Vec<Option<(Grouping, Made)>>,
 }
 
 /// Times of a proposal in one run: the shortest of each frame, ns.
 pub(crate) type FrameTimes = Vec<u64>;
 
-/// A proposal that takes longer than the first by more than this after two rounds is timed no further.
+/// A proposal slower than the first by more than this factor after two rounds is not timed further.
 const HOPELESS: f64 = 1.05;
 
 impl<'a> Bench<'a> {
@@ -60,7 +60,7 @@ impl<'a> Bench<'a> {
         self.runs.iter().map(|run| run.player(&models)).collect()
     }
 
-    /// What each run counts with a proposal, or why it is refused.
+    /// Counts of each run with a proposal, or the reason for its refusal.
     pub fn compare(&mut self, proposal: &Proposal) -> Result<Result<Vec<Counts>, String>> {
         let mut counts = Vec::new();
         let players = match self.players(proposal) {
@@ -78,7 +78,7 @@ impl<'a> Bench<'a> {
         Ok(Ok(counts))
     }
 
-    /// Times of each proposal in each run, all in turn.
+    /// Times of each proposal in each run, measured in turn.
     pub fn times(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<Vec<FrameTimes>>> {
         let mut players = Vec::new();
         for proposal in proposals {
@@ -121,7 +121,7 @@ impl Judge for Bench<'_> {
     }
 }
 
-/// The mean over all runs of one time over the other.
+/// The mean over all runs of the ratio of the times.
 pub(crate) fn relative(own: &[FrameTimes], other: &[FrameTimes]) -> f64 {
     let sum = |frames: &FrameTimes| frames.iter().map(|ns| *ns as f64).sum::<f64>();
     let ratios = own.iter().zip(other).map(|(own, other)| sum(own) / sum(other).max(1.0));

@@ -1,15 +1,17 @@
-//! Bounding volumes and leaves that lower the frame time of a run, for the same bits: the models of a scene or of a log are
-//! given other kinds of volumes, fewer of them, smaller or larger leaves; every proposal must answer as before, bit for
-//! bit, and what is faster by more than noise is written as a new model file. What it means: `docs/tune.md`.
+//! Bounding volumes and leaves that lower the frame time of a run, with the same bits: the models of a scene
+//! or of a log get other kinds of volumes, fewer of them, smaller or larger leaves. Every proposal must give
+//! the same answers, bit for bit, and one that is faster by more than noise is written as a new model file.
+//! See `docs/tune.md`.
 //!
-//! A sweep (`sweep`) asks what each lever costs in accuracy; here no answer may change, and what is looked for is a model.
+//! A sweep (`sweep`) measures the cost of each lever in accuracy; here no answer may change, and the result
+//! is a model.
 //!
 //! | file | is |
 //! |---|---|
-//! | `moves.rs` | what may be changed in one step |
-//! | `bench.rs`, `search.rs` | proposals measured in turn; which are tried, which are taken |
-//! | `tune.rs` | all of it |
-//! | `report.rs`, `words.rs` | the page; changes in words |
+//! | `moves.rs` | changes made in one step |
+//! | `bench.rs`, `search.rs` | proposals measured in turn; the search among them |
+//! | `tune.rs` | the whole procedure |
+//! | `report.rs`, `words.rs` | the report; changes in words |
 
 mod bench;
 mod moves;

@@ -1,4 +1,4 @@
-//! What may be changed about the groups of a model: in steps from large to small.
+//! Changes of the groups of a model, from large to small.
 
 use crate::runs::subject::{Grouping, Setting, Shape};
 use pong_geometry::bounding::BoundKind;
@@ -8,18 +8,18 @@ use pong_model::grouping::Bound;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Move(pub Vec<(usize, Setting)>);
 
-/// How much one move changes.
+/// Extent of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reach {
     /// All groups of a model.
     Model,
-    /// All groups of a body, or those right below one group.
+    /// All groups of a body, or the child groups of one group.
     Family,
     /// One group.
     Group,
 }
 
-/// Sizes of leaves that are tried.
+/// Leaf sizes tried, in elements.
 const SIZES: [usize; 4] = [8, 32, 128, 512];
 
 const KINDS: [BoundKind; 3] = [BoundKind::Aabb, BoundKind::Sphere, BoundKind::Obb];
@@ -42,7 +42,7 @@ pub(crate) fn moves(shape: &Shape, now: &Grouping, reach: Reach) -> Vec<Move> {
     moves
 }
 
-/// The grouping after a move. Sizes of leaves that are none any more go.
+/// The grouping after a move. Leaf sizes are removed from groups that are no longer leaves.
 pub(crate) fn applied(shape: &Shape, now: &Grouping, change: &Move) -> Grouping {
     let mut then = now.clone();
     for (group, setting) in &change.0 {
@@ -53,7 +53,7 @@ pub(crate) fn applied(shape: &Shape, now: &Grouping, change: &Move) -> Grouping 
     then
 }
 
-/// All groups of each body, if there are several bodies; the groups right below each group.
+/// All groups of each body, if there are several bodies; the child groups of each group.
 fn families(shape: &Shape) -> Vec<Vec<usize>> {
     let body_of = |mut group: usize| {
         while let Some(above) = shape.groups[group].above.filter(|_| !shape.groups[group].movable) {
@@ -72,7 +72,8 @@ fn families(shape: &Shape) -> Vec<Vec<usize>> {
     families
 }
 
-/// Moves of families as one: a kind for all, no volumes but the bodies' own, none above leaves, none of leaves.
+/// Moves of whole families: one kind for all, no volumes except the bodies' own, none above leaves, none of
+/// leaves.
 fn of_families(shape: &Shape, now: &Grouping, families: &[Vec<usize>]) -> Vec<Move> {
     let mut moves = Vec::new();
     for family in families {
@@ -100,7 +101,7 @@ fn of_families(shape: &Shape, now: &Grouping, families: &[Vec<usize>]) -> Vec<Mo
     moves
 }
 
-/// A size of leaves for the movable groups of a family that get large ones from what is below.
+/// Leaf sizes for the movable groups of a family whose leaves become large without the volumes below.
 fn cut_bodies(
     shape: &Shape,
     now: &Grouping,
@@ -129,7 +130,8 @@ fn of_group(shape: &Shape, now: &Grouping, group: usize) -> Vec<Move> {
     moves
 }
 
-/// Something set for some groups. Volumes of a host's own kind are not touched: nobody else knows what they are for.
+/// A setting for some groups. Volumes of a kind registered by the host are left alone, because only the host
+/// knows their purpose.
 fn set<'g>(now: &Grouping, groups: impl Iterator<Item = &'g usize>, change: impl Fn(&mut Setting)) -> Move {
     let known = groups.filter(|group| !matches!(now[**group].bound, Bound::Around(BoundKind::Custom(_))));
     Move(

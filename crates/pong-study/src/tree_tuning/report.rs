@@ -1,4 +1,4 @@
-//! Before and after, as a page.
+//! Report of the times before and after.
 
 use crate::runs::counts::Counts;
 use crate::tree_tuning::tune::{RunTuned, Tuned};
@@ -7,10 +7,10 @@ use pong_report::table;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Most proposals that are told one by one as thrown away.
+/// Most refused proposals that are listed one by one.
 const REFUSED_TOLD: usize = 5;
 
-/// The page: for each run before and after, what is other in each model, how to use it.
+/// The report: each run before and after, the changes of each model, and how to use it.
 pub fn page(tuned: &Tuned) -> String {
     let mut out = String::new();
     for run in &tuned.runs {
@@ -127,7 +127,7 @@ fn row(name: &str, [before, again]: [f64; 2], after: f64) -> Vec<String> {
     vec![name.to_owned(), number(before), again, number(after), ratio]
 }
 
-/// Three digits, all of them if there are more before the point.
+/// Three digits, or all digits before the point if there are more.
 fn number(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),

@@ -1,5 +1,6 @@
-//! The search: proposals from large to small, those that cannot be faster left out by what the engine counts, the others
-//! timed in turn with what is best so far, twice, so that noise is known and no chance is taken for a gain.
+//! The search: proposals from large to small. Those that cannot be faster by the engine's counts are skipped;
+//! the others are timed in turn with the best so far, which is timed twice to measure the noise, so that
+//! chance is not taken for a gain.
 
 use crate::Result;
 use crate::runs::counts::Counts;
@@ -14,34 +15,34 @@ pub(crate) type Proposal = Vec<Grouping>;
 pub(crate) trait Judge {
     /// A hash of all trees of a proposal; cause and cure if it cannot be made.
     fn trees(&mut self, proposal: &Proposal) -> Result<u64, String>;
-    /// What the engine counts with it, or why it is refused: its answers are not the same bits.
+    /// The engine's counts with it, or the reason for its refusal: its answers are not the same bits.
     fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>>;
-    /// The time of each, in any unit, all in turn, so many rounds.
+    /// The time of each, in any unit, measured in turn for `rounds` rounds.
     fn time(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<f64>>;
 }
 
-/// What a search found.
+/// Result of a search.
 pub(crate) struct Found {
     pub best: Proposal,
-    /// Proposals that were thrown away: the model, what was proposed, why.
+    /// Refused proposals: the model, the proposal, the reason.
     pub refused: Vec<(usize, Grouping, String)>,
-    /// Proposals that were compared, and that were timed.
+    /// Number of proposals compared, and of those timed.
     pub compared: usize,
     pub timed: usize,
 }
 
-/// The least gain that is taken for one, whatever the noise: what is less is not worth another file.
+/// The least gain accepted, whatever the noise: a smaller one is not worth another file.
 pub(crate) const LEAST_GAIN: f64 = 0.01;
-/// How many times the noise a gain must be.
+/// Ratio of the least gain accepted to the noise.
 pub(crate) const OVER_NOISE: f64 = 2.0;
-/// Proposals that are timed in turn, beside the best so far.
+/// Number of proposals timed in turn, beside the best so far.
 const TOGETHER: usize = 6;
-/// Times that all models are gone through.
+/// Number of passes over all models.
 const CYCLES: usize = 2;
-/// Times that one reach of moves is tried again after it gained something.
+/// Number of times that one reach of moves is tried again after a gain.
 const REPEATS: usize = 4;
 
-/// Searches from a proposal; `tell` hears what is tried, and its error ends the search.
+/// Searches from a proposal; `tell` is called with each trial, and its error ends the search.
 pub(crate) fn search(
     judge: &mut dyn Judge,
     shapes: &[&Shape],
@@ -90,7 +91,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Tries all moves of a reach once; whether one was taken.
+    /// Tries all moves of a reach once; true if one was taken.
     fn step(&mut self, model: usize, reach: Reach) -> Result<bool> {
         let shape = self.shapes[model];
         let best = self.found.best.clone();
@@ -131,7 +132,7 @@ impl Search<'_> {
         Ok(winner.is_some())
     }
 
-    /// Whether a proposal gives the same bits, has trees that none before it had, and may be faster by what is counted.
+    /// True if a proposal gives the same bits, has new trees, and may be faster by its counts.
     fn worth_timing(
         &mut self,
         model: usize,
@@ -158,7 +159,7 @@ impl Search<'_> {
         })
     }
 
-    /// By what part of the time of the best so far each proposal is shorter; `None` where that is not more than noise.
+    /// Relative gain in time of each proposal over the best so far; `None` if it is not above the noise.
     fn gains(&mut self, proposals: Vec<&Proposal>, rounds: u32) -> Result<Vec<Option<f64>>> {
         let mut gains = Vec::new();
         for some in proposals.chunks(TOGETHER) {
@@ -177,7 +178,7 @@ impl Search<'_> {
     }
 }
 
-/// The shorter of two times of the same thing, and the part of it by which they differ: noise.
+/// The shorter of two times of the same thing, and their relative difference: the noise.
 pub(crate) fn base(one: f64, other: f64) -> (f64, f64) {
     let least = one.min(other);
     (least, (one - other).abs() / least)
@@ -189,7 +190,7 @@ fn with(proposal: &Proposal, model: usize, grouping: Grouping) -> Proposal {
     proposal
 }
 
-/// Moves one after the other as one; what an earlier one has set stays.
+/// Joins moves into one; settings of earlier ones stay.
 fn joined<'m>(moves: impl Iterator<Item = &'m Move>) -> Move {
     let mut all: Vec<_> = Vec::new();
     for (group, setting) in moves.flat_map(|one| &one.0) {

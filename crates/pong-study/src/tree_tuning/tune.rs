@@ -1,4 +1,5 @@
-//! All of it: runs in, motions kept, search, the whole run compared, before and after timed in turn, files out.
+//! The whole procedure: read runs, keep motions, search, compare the whole run, time before and after in
+//! turn, write files.
 
 use crate::runs::counts::Counts;
 use crate::runs::motions::Motions;
@@ -15,22 +16,22 @@ use pong_model::Model;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// What ends the names of tuned files, and what is said at their head.
+/// Suffix of the names of tuned files, and the text at their head.
 pub(crate) const TUNED: &str = "tuned";
 pub(crate) const DONE: &str = "Bounds and leaves by `pong tune`";
 
-/// How models are tuned.
+/// Settings of a tuning.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// How often every proposal is timed; before and after three times as often.
+    /// Number of timings of every proposal; before and after three times as many.
     pub rounds: u32,
-    /// Frames of each run that are timed in the end; the search has a quarter of them.
+    /// Frames of each run that are timed in the end; the search uses a quarter of them.
     pub frames: u64,
-    /// Only so much of each run, s.
+    /// Part of each run to use, s.
     pub duration_s: Option<f64>,
-    /// Where files go.
+    /// Output of files.
     pub output: Output,
-    /// What models may use beside what is built in, and where their files may lie.
+    /// Extensions for the models, and the folders allowed for their files.
     pub extensions: Extensions,
 }
 
@@ -46,26 +47,26 @@ impl Default for Settings {
     }
 }
 
-/// How far a tuning is.
+/// Progress of a tuning.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Progress {
     /// Frames of a run, done and in all, while it is run from end to end.
     Running {
-        /// What for.
+        /// Purpose of the run.
         doing: String,
         /// Frames done.
         done: u64,
         /// Frames in all.
         of: u64,
     },
-    /// What the search tries now.
+    /// The present trial of the search.
     Searching(String),
 }
 
-/// Called now and then; a tuning that is told to break ends there, and writes nothing.
+/// Called now and then; a tuning stopped by it writes nothing.
 type Watch<'a> = &'a mut dyn FnMut(&Progress) -> ControlFlow<()>;
 
-/// Tells how far the tuning is; an error if it is to stop.
+/// Reports progress; fails if the tuning is to stop.
 fn tell(watch: Watch<'_>, progress: &Progress) -> Result<()> {
     match watch(progress) {
         ControlFlow::Continue(()) => Ok(()),
@@ -73,22 +74,22 @@ fn tell(watch: Watch<'_>, progress: &Progress) -> Result<()> {
     }
 }
 
-/// What came of a tuning.
+/// Result of a tuning.
 #[derive(Clone, Debug)]
 pub struct Tuned {
     /// The runs, in the order they were given.
     pub runs: Vec<RunTuned>,
     /// The models, each once.
     pub models: Vec<ModelTuned>,
-    /// Proposals that were thrown away because they would have changed an answer, or could not be made.
+    /// Proposals that were refused because they would have changed an answer, or could not be made.
     pub refused: Vec<String>,
-    /// Proposals that were compared bit by bit, and that were timed.
+    /// Number of proposals compared bit by bit, and of those timed.
     pub tried: [usize; 2],
     /// The fraction by which the time is shorter.
     pub gain: f64,
-    /// The fraction by which the same thing timed twice differs, in the last timing.
+    /// The relative difference of two timings of the same thing, in the last timing.
     pub noise: f64,
-    /// Whether files were written.
+    /// True if files were written.
     pub taken: bool,
 }
 
@@ -97,13 +98,13 @@ pub struct Tuned {
 pub struct RunTuned {
     /// Its name.
     pub name: String,
-    /// Frames of the whole run, every one of which was compared.
+    /// Frames of the whole run, all of them compared.
     pub frames: u64,
-    /// Frames in which the engine left contacts out because a limit was hit.
+    /// Frames in which the engine left contacts out because of a limit.
     pub limited: u64,
-    /// Before, before once more, and after: the shortest time of each of the frames that were timed, ns.
+    /// Before, before once more, and after: the shortest time of each timed frame, ns.
     pub times_ns: [Vec<u64>; 3],
-    /// What was counted over these frames before and after.
+    /// Counts over these frames before and after.
     pub counts: [Counts; 2],
 }
 
@@ -114,7 +115,7 @@ pub struct ModelTuned {
     pub name: String,
     /// Its file.
     pub file: PathBuf,
-    /// What is other, group by group; nothing if it stays as it is.
+    /// Changes, group by group; empty if there are none.
     pub changes: Vec<String>,
     /// The file that was written.
     pub written: Option<PathBuf>,
@@ -123,7 +124,8 @@ pub struct ModelTuned {
 /// Tunes the models of some runs, each a scene file or the folder of a log, for all of them together.
 ///
 /// # Errors
-/// A run or a model at fault, a place that is taken or cannot be written, a tuning that was told to stop.
+/// A run or a model with a fault, an output file that exists or cannot be written, a tuning stopped by
+/// `watch`.
 pub fn tune(paths: &[&Path], settings: &Settings, watch: Watch<'_>) -> Result<Tuned> {
     check(settings)?;
     let mut subjects = Vec::new();
@@ -153,7 +155,7 @@ fn check(settings: &Settings) -> Result<()> {
     Ok(())
 }
 
-/// Tells the frames of a run that are done, now and then.
+/// Reports the number of frames done, now and then.
 fn ticker<'w>(watch: Watch<'w>, doing: &str, run: &Run) -> impl FnMut(u64) -> Result<()> + use<'w> {
     let (doing, of) = (format!("{doing} {}", run.name), run.frames);
     move |done| {
@@ -171,7 +173,7 @@ struct Job<'a> {
     settings: &'a Settings,
 }
 
-/// Every how many rows of frames the search plays.
+/// Stride of the windows that the search plays.
 const STRIDE: usize = 4;
 
 impl Job<'_> {
@@ -203,7 +205,7 @@ impl Job<'_> {
         Bench::new(&self.subjects, &self.runs, &self.motions, stride.min(fewest.max(1)))
     }
 
-    /// The models as they are must give the run's own bits when its motions are played.
+    /// Checks that the unchanged models give the run's own bits when its motions are played.
     fn check_player(&self, authored: &Proposal) -> Result<()> {
         match self.bench(1).compare(authored)? {
             Ok(_) => Ok(()),
@@ -214,7 +216,7 @@ impl Job<'_> {
         }
     }
 
-    /// Every frame of every run with other models; the first difference.
+    /// Compares every frame of every run with other models; returns the first difference.
     fn whole_runs(
         &self,
         bench: &mut Bench<'_>,
@@ -231,7 +233,7 @@ impl Job<'_> {
         Ok(None)
     }
 
-    /// Before, before once more and after, in turn, and all that is told of them.
+    /// Times before, before once more and after, in turn; returns the report.
     fn timed(&self, authored: &Proposal, found: &Found) -> Result<Tuned> {
         let mut bench = self.bench(1);
         let refused = |why: String| StudyError::new("compare", why);

@@ -1,10 +1,10 @@
-//! What was changed, group by group, in words.
+//! Changes, group by group, in words.
 
 use crate::runs::subject::{Grouping, Setting, Shape};
 use pong_geometry::bounding::BoundKind;
 use pong_model::grouping::Bound;
 
-/// A line for every group that is not as before; groups that change as one, and neighbours that change alike, share one.
+/// A line for every changed group; groups that change as one, and neighbours with the same change, share one.
 pub(crate) fn changes(shape: &Shape, before: &Grouping, after: &Grouping) -> Vec<String> {
     let mut lines: Vec<(Vec<usize>, String)> = Vec::new();
     let mut told = vec![false; shape.groups.len()];
@@ -32,7 +32,7 @@ pub(crate) fn changes(shape: &Shape, before: &Grouping, after: &Grouping) -> Vec
     lines.into_iter().map(|(groups, what)| format!("{}: {what}", names(shape, &groups))).collect()
 }
 
-/// A group and all below it that are of its body.
+/// A group and all groups below it in its body.
 fn branch(shape: &Shape, group: usize) -> Vec<usize> {
     let below = shape.below(group).filter(|below| !shape.groups[*below].movable);
     std::iter::once(group).chain(below.flat_map(|below| branch(shape, below))).collect()

@@ -1,19 +1,19 @@
-//! Which primitives of a model go.
+//! Choice of the primitives to remove from a model.
 
 use pong_model::{Model, MovableGroup, PrimitiveInfo};
 use std::collections::BTreeSet;
 
-/// A primitive that goes.
+/// A removed primitive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gone {
     /// Its path in the model.
     pub path: String,
-    /// How near it came to any partner, m; infinite if nothing was paired with it.
+    /// Least distance from any partner, m; infinite if nothing was paired with it.
     pub nearest: f64,
 }
 
-/// The primitives of a model that never came nearer than the margin, but one of each movable group that would be left empty:
-/// that which came nearest.
+/// The primitives of a model that never came nearer than the margin. A movable group that would be left empty
+/// keeps the one that came nearest.
 pub(crate) fn gone(model: &Model, least: &[Vec<f64>], margin: f64) -> Vec<Gone> {
     let mut gone = Vec::new();
     for (index, body) in model.bodies.iter().enumerate() {
@@ -35,7 +35,7 @@ pub(crate) fn gone(model: &Model, least: &[Vec<f64>], margin: f64) -> Vec<Gone> 
     gone
 }
 
-/// Pieces of one solid stay together: where they join there is no face.
+/// Keeps the pieces of one solid together, because they have no faces where they join.
 fn keep_shells(body: &MovableGroup, stays: &mut [bool]) {
     let shells: Vec<BTreeSet<u32>> = body.primitives.iter().map(|info| shells(body, info)).collect();
     loop {

@@ -1,13 +1,13 @@
-//! What runs never came near, and models without it: the wrenches of these runs stay the same bits. What it means:
-//! `docs/trim.md`.
+//! Models without the primitives that runs never came near: the wrenches of these runs stay the same bits.
+//! See `docs/trim.md`.
 //!
 //! | file | is |
 //! |---|---|
-//! | `shape.rs` | how far a primitive reaches, and how far two of them are apart at least |
-//! | `nearness.rs` | how near each primitive of each model came to any partner in a run |
-//! | `choice.rs` | which primitives of a model go |
-//! | `trim.rs` | all of it |
-//! | `report.rs` | the page |
+//! | `shape.rs` | extent of a primitive, and a lower bound of the distance between two |
+//! | `nearness.rs` | least distance of each primitive of each model from any partner in a run |
+//! | `choice.rs` | choice of the primitives to remove |
+//! | `trim.rs` | the whole procedure |
+//! | `report.rs` | the report |
 
 mod choice;
 mod nearness;

@@ -1,4 +1,4 @@
-//! How near each primitive of each model came to any partner in a run.
+//! Least distance of each primitive of each model from any partner in a run.
 
 use super::shape::Shape;
 use pong_engine::{EngineError, World};
@@ -6,7 +6,7 @@ use pong_geometry::Pose;
 use pong_model::Model;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A model: its hash and its name. Several files of a run may hold the same one.
+/// Identity of a model: its hash and its name. Several files of a run may hold the same one.
 pub(crate) type Key = (u64, String);
 
 pub(crate) fn key(model: &Model) -> Key {
@@ -25,7 +25,7 @@ pub(crate) fn testers(world: &World) -> BTreeMap<(String, String), usize> {
             for one in &view.body(first).primitives {
                 let partners = view.body(second).primitives.iter();
                 for other in partners.filter(|other| view.can_be_tested((first, one), (second, other))) {
-                    // Two of one kind are tested once, whichever is A.
+                    // Two of one kind are tested once, with either as A.
                     if one.kind != other.kind || first == pair.first {
                         let kinds = (one.kind.name().to_owned(), other.kind.name().to_owned());
                         *testers.entry(kinds).or_insert(0) += 1;
@@ -37,17 +37,17 @@ pub(crate) fn testers(world: &World) -> BTreeMap<(String, String), usize> {
     testers
 }
 
-/// The movable groups of a world, measured frame after frame.
+/// Distances between the movable groups of a world, measured frame by frame.
 pub(crate) struct Measure<'w> {
     bodies: Vec<Body<'w>>,
     pairs: Vec<Pair>,
-    /// Groups that filters name.
+    /// Groups named by filters.
     named: BTreeSet<(Key, String)>,
 }
 
 struct Body<'w> {
     key: Key,
-    /// Place among the movable groups of its model.
+    /// Index among the movable groups of its model.
     index: usize,
     shapes: Vec<Shape<'w>>,
     /// Path of each primitive.
@@ -60,12 +60,12 @@ struct Pair {
     /// The pair of Objects.
     pair: usize,
     bodies: [usize; 2],
-    /// Primitives of both that have a test with each other.
+    /// Primitives of both that are tested against each other.
     tested: Vec<(u32, u32)>,
 }
 
 impl<'w> Measure<'w> {
-    /// `world` gives the models only.
+    /// Prepares the measurement; `world` is used for its models only.
     pub fn new(world: &'w World) -> Result<Self, EngineError> {
         let (scene, view) = (world.scene(), world.inspect());
         let mut bodies = Vec::new();
@@ -108,7 +108,7 @@ impl<'w> Measure<'w> {
         Ok(Self { bodies, pairs, named })
     }
 
-    /// A frame of a world of the same Objects and pairs; its own models may be other copies.
+    /// Measures a frame of a world with the same Objects and pairs; its own models may be other copies.
     pub fn frame(&mut self, world: &World) -> Result<(), EngineError> {
         let mut poses = Vec::new();
         for object in world.scene().objects() {
@@ -129,7 +129,7 @@ impl<'w> Measure<'w> {
         Ok(())
     }
 
-    /// Adds what was measured.
+    /// Merges the measured distances into `nearness`.
     pub fn add_to(&self, nearness: &mut Nearness) {
         for body in &self.bodies {
             let model = nearness.entry(body.key.clone()).or_default();
@@ -143,7 +143,8 @@ impl<'w> Measure<'w> {
         self.keep_named(nearness);
     }
 
-    /// Has the nearest primitive of every group that a filter names stay, so that the name still leads somewhere.
+    /// Sets the distance of the nearest primitive in every group named by a filter to zero: it stays, so that
+    /// the name remains valid.
     fn keep_named(&self, nearness: &mut Nearness) {
         for (model, group) in &self.named {
             let below = format!("{group}/");
@@ -160,7 +161,7 @@ impl<'w> Measure<'w> {
     }
 }
 
-/// The distances of a pair of movable groups; `x_ba` leads from the first to the second.
+/// Measures the distances of a pair of movable groups; `x_ba` maps from the first to the second.
 fn measure(bodies: &mut [Body<'_>], pair: &Pair, x_ba: &Pose) {
     let [first, second] = pair.bodies;
     let x_ba = x_ba.transform();
@@ -168,7 +169,7 @@ fn measure(bodies: &mut [Body<'_>], pair: &Pair, x_ba: &Pose) {
     for &(a, b) in &pair.tested {
         let (a, b) = (a as usize, b as usize);
         let (one, other) = (&bodies[first], &bodies[second]);
-        // What is as near as this already learns nothing from a pair that is farther apart.
+        // A pair farther apart than both least distances cannot lower either.
         let known = one.least[a].max(other.least[b]);
         let (shape, partner) = (&one.shapes[a], &other.shapes[b]);
         if (centers[a] - partner.center).norm() - shape.radius - partner.radius >= known {

@@ -1,14 +1,14 @@
-//! What goes and what that saves, as a page.
+//! Report of the removed primitives and the saving.
 
 use super::trim::{Gone, ModelTrimmed, RunTrimmed, Trimmed};
 use pong_model::printable;
 use pong_report::table;
 use std::fmt::Write as _;
 
-/// Most primitives of a model that are told one by one.
+/// Most primitives of a model that are listed one by one.
 const GONE_TOLD: usize = 12;
 
-/// The page: for each model what goes and how near it came, for each run what that saves.
+/// The report: for each model the removed primitives and their distances, for each run the saving.
 pub fn page(trimmed: &Trimmed) -> String {
     let mut out = format!(
         "What came no nearer than {} m to any partner goes. Of every frame the wrenches are the same bits.\n",

@@ -1,4 +1,4 @@
-//! How far a primitive reaches, and how far two of them are apart at least.
+//! Extent of a primitive, and a lower bound of the distance between two.
 
 use pong_geometry::bounding::Bounded;
 use pong_geometry::primitive::{Plane, PrimitiveKind};
@@ -7,7 +7,7 @@ use pong_model::{Element, Item, MovableGroup};
 
 /// A primitive in the frame of its movable group.
 pub(crate) enum Reach<'m> {
-    /// One element: as far as it reaches itself.
+    /// One element, with its own extent.
     Element(Element<'m>),
     /// A mesh: the box around it.
     Box(Vec3, Vec3),
@@ -15,7 +15,7 @@ pub(crate) enum Reach<'m> {
     Plane(&'m Plane),
 }
 
-/// A primitive and a ball around it, m; a plane's has no end.
+/// A primitive and a ball around it, m; a plane's is infinite.
 pub(crate) struct Shape<'m> {
     reach: Reach<'m>,
     pub center: Vec3,
@@ -50,8 +50,9 @@ impl<'m> Shape<'m> {
         }
     }
 
-    /// A lower bound of the distance between two primitives, m, negative where they may overlap; `x_ba` leads from A's frame
-    /// to B's. The largest gap along the axes of both frames, between the middles, and along the normal of a plane.
+    /// A lower bound of the distance between two primitives, m, negative where they may overlap; `x_ba` maps
+    /// from A's frame to B's. The largest gap along the axes of both frames, between the centres, and along
+    /// the normal of a plane.
     pub fn apart(&self, other: &Self, x_ba: &Transform) -> f64 {
         let x_ab = x_ba.inverse();
         match (&self.reach, &other.reach) {
@@ -76,7 +77,7 @@ impl<'m> Shape<'m> {
     }
 }
 
-/// How far a shape is above a plane; `x` leads from the plane's frame to the shape's.
+/// Height of a shape above a plane; `x` maps from the plane's frame to the shape's.
 fn below(shape: &Shape<'_>, plane: &Plane, x: &Transform) -> f64 {
     let lowest =
         -shape.support(&-x.vector(&plane.normal)) - x.vector(&plane.normal).dot(&x.point(&Vec3::zeros()));

@@ -1,4 +1,4 @@
-//! Distances with closed forms, what goes and what stays, files that are written.
+//! Distances with closed forms, primitives removed and kept, output files.
 
 use super::shape::Shape;
 use super::{Output, Settings, Trimmed, trim};
@@ -10,11 +10,11 @@ use pong_model::Model;
 use pong_testkit::Random;
 use std::path::Path;
 
-/// A ball of 0.1 m that comes down; its antenna is 2 m above, its tag is a primitive of a group of its own.
+/// A falling ball of 0.1 m; its antenna is 2 m above, its tag is a primitive of a group of its own.
 const BALL: &str = "groups: [(name: \"body\", primitives: [Sphere(name: \"skin\", center: (0, 0, 0), radius: 0.1), \
                     Point(name: \"antenna\", position: (0, 0, 2))]), \
                     (name: \"mast\", primitives: [Sphere(name: \"top\", center: (0, 0, 3), radius: 0.1)])]";
-/// A floor of two boxes that are one solid, and a post far away.
+/// A floor of two boxes that form one solid, and a post far away.
 fn floor() -> String {
     format!(
         "groups: [(name: \"slabs\", primitives: [{}, {}]), (name: \"posts\", primitives: [{}])]",
@@ -24,7 +24,8 @@ fn floor() -> String {
     )
 }
 
-/// A box between two values of x, 2 m wide, below z = 0; faces where another piece of the solid begins.
+/// A box between two values of x, 2 m wide, below z = 0; its `inactive` faces join another piece of the
+/// solid.
 fn slab(name: &str, (from, to): (f64, f64), inactive: &str) -> String {
     let corner = |x: f64, y: f64, z: f64| format!("({x}, {y}, {z})");
     let ring =
@@ -72,10 +73,11 @@ fn what_never_came_near_goes_with_its_group() {
         gone.iter().map(|(path, _)| *path).collect::<Vec<_>>(),
         ["ball/body/antenna", "ball/mast/top"]
     );
-    // The ball begins to roll: what is 2 m above it comes down by some centimetres, and less of the mast's end.
+    // The ball begins to roll: the antenna 2 m above it comes down by some centimetres, and the mast's end by
+    // less.
     assert!((1.7..2.1).contains(&gone[0].1) && (2.6..3.0).contains(&gone[1].1), "{gone:?}");
     assert_eq!(paths(ball.written.as_ref().unwrap()), ["ball/body/skin"]);
-    // The second slab is 1 m away, but of one solid with the first.
+    // The second slab is 1 m away, but part of one solid with the first.
     assert_eq!(paths(floor.written.as_ref().unwrap()), ["floor/slabs/here", "floor/slabs/joined"]);
     let run = &page.runs[0];
     assert_eq!(run.frames, 101);
@@ -101,7 +103,7 @@ fn the_margin_decides() {
     );
 }
 
-/// A movable group stays, with what came nearest: a host hands in its state.
+/// A movable group keeps its nearest primitive, because a host sets its state.
 #[test]
 fn a_movable_group_keeps_one_primitive() {
     let folder = Folder::new("trim_movable");
@@ -130,7 +132,7 @@ fn apart(a: &Model, b: &Model, x_wa: &Pose, x_wb: &Pose) -> f64 {
     a.apart(&b, &Pose::relative(x_wa, x_wb).transform())
 }
 
-/// Balls and planes have closed forms; in any pose, and whichever is named first.
+/// Distances of balls and planes have closed forms, in any pose and either order.
 #[test]
 fn distances_of_balls_and_planes_are_exact() {
     let ball = primitives("Sphere(name: \"ball\", center: (0.3, -0.2, 0.1), radius: 0.25)");
@@ -148,7 +150,8 @@ fn distances_of_balls_and_planes_are_exact() {
     }
 }
 
-/// Never more than the distance between any two points of the primitives, turned and moved at random.
+/// A lower bound is never above the distance between any two points of the primitives, rotated and moved at
+/// random.
 #[test]
 fn distances_are_lower_bounds() {
     let kinds = [
@@ -177,7 +180,7 @@ fn distances_are_lower_bounds() {
         assert!(bound <= least + 1e-12, "{bound} {least}");
         nearly += usize::from(bound > 0.5 * least);
     }
-    // A bound of nothing would be one, too.
+    // The bounds must also be close: a bound of zero would pass, too.
     assert!(nearly > 1000, "{nearly}");
 }
 

@@ -1,4 +1,4 @@
-//! All of it: runs in, distances measured, models without what is far, the runs repeated with these, files out.
+//! The whole procedure: read runs, measure distances, remove far primitives, repeat the runs, write files.
 
 pub use super::choice::Gone;
 use super::choice::gone;
@@ -17,28 +17,28 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What ends the names of trimmed files, and what is said at their head.
+/// Suffix of the names of trimmed files, and the text at their head.
 const TRIMMED: &str = "trimmed";
 const DONE: &str = "What never came near left out by `pong trim`";
 
-/// How models are trimmed.
+/// Settings of trimming.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// What came no nearer than this to any partner goes, m.
+    /// Primitives that came no nearer than this to any partner are removed, m.
     pub margin: f64,
-    /// How often before and after are timed, in turn.
+    /// Number of timings of before and after, in turn.
     pub rounds: u32,
     /// Frames of each run that are timed.
     pub frames: u64,
-    /// Only so much of each run, s.
+    /// Part of each run to use, s.
     pub duration_s: Option<f64>,
-    /// Where files go.
+    /// Output of files.
     pub output: Output,
-    /// What models may use beside what is built in, and where their files may lie.
+    /// Extensions for the models, and the folders allowed for their files.
     pub extensions: Extensions,
 }
 
-/// What came of it.
+/// Result of trimming.
 #[derive(Clone, Debug)]
 pub struct Trimmed {
     /// The margin, m.
@@ -54,13 +54,13 @@ pub struct Trimmed {
 pub struct RunTrimmed {
     /// Its name.
     pub name: String,
-    /// Frames, every one of which was compared.
+    /// Frames, all of them compared.
     pub frames: u64,
-    /// The shortest time of each of the frames that were timed, before and after, ns.
+    /// The shortest time of each timed frame, before and after, ns.
     pub times_ns: [Vec<u64>; 2],
-    /// What was counted over these frames, before and after.
+    /// Counts over these frames, before and after.
     pub counts: [Counts; 2],
-    /// Pairs of primitives that have a test, by their kinds, A's first: before and after.
+    /// Tested pairs of primitives by their kinds, A's first: before and after.
     pub testers: BTreeMap<(String, String), [usize; 2]>,
 }
 
@@ -71,9 +71,9 @@ pub struct ModelTrimmed {
     pub name: String,
     /// Its file.
     pub file: PathBuf,
-    /// Primitives of it.
+    /// Number of its primitives.
     pub primitives: usize,
-    /// What goes.
+    /// Removed primitives.
     pub gone: Vec<Gone>,
     /// Bounding volumes before and after.
     pub volumes: [usize; 2],
@@ -81,14 +81,15 @@ pub struct ModelTrimmed {
     pub written: Option<PathBuf>,
 }
 
-/// Tells how many frames of a run are done, and for what; its error ends the work.
+/// Called with the purpose of a run, its frames done and in all; its error ends the work.
 pub type Watch<'a> = &'a mut dyn FnMut(&str, u64, u64) -> Result<()>;
 
-/// Trims the models of some runs, each a scene file or the folder of a log: what stays is what any of them came near.
+/// Trims the models of some runs, each a scene file or the folder of a log: primitives that any of them came
+/// near stay.
 ///
 /// # Errors
-/// A run or a model at fault, a place that is taken or cannot be written, a run whose wrenches are not the same bits without
-/// what goes.
+/// A run or a model with a fault, an output file that exists or cannot be written, a run whose wrenches are
+/// not the same bits without the removed primitives.
 pub fn trim(paths: &[&Path], settings: &Settings, watch: Watch<'_>) -> Result<Trimmed> {
     check(settings)?;
     let mut subjects = Vec::new();
@@ -130,7 +131,7 @@ fn own_models(subjects: &[Subject]) -> Result<Vec<Arc<Model>>> {
     subjects.iter().map(|subject| Ok(subject.make(&subject.shape.authored())?.model)).collect()
 }
 
-/// Runs it as it is; keeps its motions and adds to what came near.
+/// Runs it unchanged; keeps its motions and adds its least distances.
 fn measured(
     run: &Run,
     own: &[Arc<Model>],
@@ -155,7 +156,7 @@ fn ticker<'w>(doing: &'w str, run: &'w Run, watch: Watch<'w>) -> impl FnMut(u64)
     }
 }
 
-/// A model and what is left of it.
+/// A model and its trimmed form.
 struct Candidate<'s> {
     subject: &'s Subject,
     before: Arc<Model>,
@@ -198,7 +199,7 @@ impl<'s> Candidate<'s> {
     }
 }
 
-/// A run with its own models, and with what is left of them.
+/// A run with its own models, and with their trimmed forms.
 struct Comparison<'r> {
     run: &'r Run,
     before: &'r Motions,
@@ -243,7 +244,7 @@ impl Comparison<'_> {
         Ok(RunTrimmed { name: run.name.clone(), frames: run.frames, times_ns, counts, testers: both })
     }
 
-    /// Wrenches of every frame must be the same bits.
+    /// Checks that the wrenches of every frame are the same bits.
     fn compare(&self, after: &Motions) -> Result<()> {
         let (old, new) = (&self.before.answers, &after.answers);
         let differs = |frame: &usize| !new[*frame].has_wrenches_of(&old[*frame]);

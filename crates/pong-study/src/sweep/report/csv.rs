@@ -6,7 +6,7 @@ use crate::sweep::study::{Answer, Row, Study};
 use pong_record::csv_name;
 use std::fmt::Write as _;
 
-/// One line per level: all that decides it, its errors, its times.
+/// One line per level: its settings, its errors, its times.
 pub fn csv(study: &Study) -> String {
     let head = format!("{},median_us,p99_us,spread,on_front,cheapest\n", heading());
     study.rows.iter().enumerate().fold(head, |mut text, (index, row)| {
@@ -20,7 +20,7 @@ pub fn csv(study: &Study) -> String {
     })
 }
 
-/// The same without times and what follows from them: the same bytes from every run of a study.
+/// The table without times and values derived from them: the same bytes from every run of a study.
 pub fn errors_csv(study: &Study) -> String {
     study.rows.iter().fold(heading() + "\n", |text, row| text + &line(study, row) + "\n")
 }

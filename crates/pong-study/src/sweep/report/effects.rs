@@ -1,4 +1,4 @@
-//! Which lever bought what: levels that differ from one level in one lever.
+//! Effects of single levers: levels that differ from one level in one lever.
 
 use super::numbers::{digits, percent};
 use crate::sweep::level::Lever;
@@ -36,7 +36,7 @@ fn section(study: &Study, anchor: usize, what: &str) -> String {
     )
 }
 
-/// The one lever in which a row differs from another, if it is one.
+/// The only lever in which a row differs from another; `None` if there is not exactly one.
 fn differs(study: &Study, anchor: usize, row: &Row) -> Option<Lever> {
     let base = &study.rows[anchor].level;
     match row.place {

@@ -1,4 +1,4 @@
-//! The page for people.
+//! The report in Markdown.
 
 use super::effects;
 use super::numbers::{digits, microseconds, percent};
@@ -10,7 +10,7 @@ use pong_model::printable;
 use pong_report::table;
 use std::fmt::Write as _;
 
-/// The whole page: how the reference stands, every level, what to choose, what each lever does.
+/// The whole report: convergence of the reference, every level, the choice, the effect of each lever.
 pub fn markdown(study: &Study) -> String {
     let frames = &study.plan.frames;
     let mut page = format!("# Speed against accuracy: {}\n\n", printable(&study.scene));
@@ -32,7 +32,7 @@ pub fn markdown(study: &Study) -> String {
     page
 }
 
-/// What a log's levels are compared with.
+/// Basis of comparison for the levels of a log.
 fn of_log(study: &Study) -> String {
     let against = match study.apart {
         Some(0.0) => "which gives the log's own wrenches bit for bit".to_owned(),

@@ -1,4 +1,4 @@
-//! What a study found, as text: a table in Markdown and in CSV, and a plot.
+//! Report of a study: a table in Markdown and in CSV, and a plot.
 
 mod csv;
 mod effects;

@@ -1,4 +1,4 @@
-//! Numbers as the tables and the plot print them.
+//! Format of numbers in the tables and the plot.
 
 /// A relative error as per cent, with three digits.
 pub(crate) fn percent(error: f64) -> String {

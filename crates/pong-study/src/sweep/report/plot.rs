@@ -7,14 +7,14 @@ use std::fmt::Write as _;
 
 const WIDTH: f64 = 860.0;
 const HEIGHT: f64 = 520.0;
-/// Left, top, right, bottom of the field.
+/// Left, top, right and bottom of the plot area.
 const FIELD: [f64; 4] = [80.0, 56.0, 640.0, 460.0];
 /// Lines of the grid.
 const GRID: &str = "stroke=\"#ddd\"";
-/// Errors below are drawn here: 1e-6 %.
+/// Errors below this are drawn at it: 1e-6 %.
 const FLOOR: f64 = 1e-8;
 
-/// What is drawn of a row.
+/// A row of the study to draw.
 struct Dot<'a> {
     row: &'a Row,
     time_us: f64,
@@ -85,7 +85,7 @@ fn plain(value: f64) -> String {
     format!("{value:.0e}")
 }
 
-/// The tolerance, and what the reference may be off itself, if that is within the field.
+/// Lines for the tolerance, and for the reference's own error if it is within the plot area.
 fn lines(out: &mut Picture, study: &Study, y: &LogAxis) {
     let uncertainty = study.uncertainty();
     let own = (uncertainty >= y.least()).then_some((uncertainty, "the reference's own", "#999"));
@@ -96,7 +96,7 @@ fn lines(out: &mut Picture, study: &Study, y: &LogAxis) {
     }
 }
 
-/// Stairs through the front: what is below and to the left of them no level reaches.
+/// Staircase through the front: no level lies below and to the left of it.
 fn front(out: &mut Picture, dots: &[Dot<'_>], x: &LogAxis, y: &LogAxis) {
     let mut corners: Vec<[f64; 2]> =
         dots.iter().filter(|dot| dot.row.on_front).map(|dot| [x.at(dot.time_us), y.at(dot.error)]).collect();

@@ -1,4 +1,4 @@
-//! Files that are written, and those that are not.
+//! Output files: written, and refused.
 
 use super::{Folder, Ready, ball_on_sheet, model};
 use crate::runs::output::{Output, headed};
@@ -11,7 +11,7 @@ use pong_model::Model;
 use std::ops::ControlFlow::{Break, Continue};
 use std::path::PathBuf;
 
-/// What a file must read as.
+/// Check of the model read from a file.
 fn as_measured(subject: &Subject, trees: u64) -> impl Fn(&Model) -> bool {
     let hash = subject.hash;
     move |model| model.hash == hash && hash_of_trees(model) == trees
@@ -27,7 +27,8 @@ fn best_of(ready: &Ready) -> (Vec<String>, crate::tree_tuning::search::Proposal)
     (texts.collect(), best)
 }
 
-/// What is written reads back as what was measured, can be tuned again, and is the same bytes every time.
+/// A written file reads back as the model that was measured, can be tuned again, and is the same bytes every
+/// time.
 #[test]
 fn a_tuned_file_reads_back() {
     let folder = Folder::new("round_trip");
@@ -42,7 +43,7 @@ fn a_tuned_file_reads_back() {
         assert_eq!(again.hash, subject.hash);
         assert_eq!(again.shape.authored(), best[index]);
         assert_eq!(again.make(&best[index]).unwrap().trees, trees);
-        // All but the head, the bounds and the sizes is as it was, names and paths too.
+        // All but the head, the bounds and the sizes is unchanged, including names and paths.
         let back = headed(&again.text(&subject.shape.authored()).unwrap(), DONE, "a run");
         let own = subject.make(&subject.shape.authored()).unwrap().model;
         let model = pong_model::parse(&back, "back", None, &Default::default()).unwrap();
@@ -58,7 +59,7 @@ fn a_tuned_file_reads_back() {
         assert_eq!(std::fs::read(replaced).unwrap(), bytes);
     }
     assert_eq!(headed(&texts[0], DONE, "a run"), texts[0]);
-    // A head with a line's end in it would be read as part of the model.
+    // A line end in the head would begin a line that is read as part of the model.
     assert!(headed("()", DONE, "a\nb").starts_with("// Bounds and leaves by `pong tune` for `ab`;"));
     let left: Vec<_> =
         std::fs::read_dir(&folder.0).unwrap().map(|entry| entry.unwrap().file_name()).collect();
@@ -84,7 +85,7 @@ fn files_that_are_there_are_refused_before_anything_is_run() {
     assert!(run(Output { folder: Some(folder.0.join("elsewhere")), force: false }).is_ok());
 }
 
-/// The text that is read back is not what was measured: nothing is put there.
+/// If the text read back is not the model that was measured, no file is put in place.
 #[test]
 fn a_file_that_reads_otherwise_is_not_put_in_place() {
     let folder = Folder::new("otherwise");
@@ -145,7 +146,7 @@ fn what_cannot_be_tuned_is_refused_with_a_cure() {
     );
 }
 
-/// Whenever it is told to stop, it says so, asks no more and leaves the folder as it was.
+/// A tuning that is stopped at any time says so, makes no further calls and leaves the folder unchanged.
 #[test]
 fn a_tuning_that_is_told_to_stop_writes_nothing() {
     let folder = Folder::new("stopped");
@@ -164,7 +165,7 @@ fn a_tuning_that_is_told_to_stop_writes_nothing() {
     }
 }
 
-/// The same models in two runs are tuned once, and both runs are told of.
+/// Models shared by two runs are tuned once, and the report has both runs.
 #[test]
 fn runs_share_the_models_that_they_share() {
     let folder = Folder::new("also");

@@ -1,4 +1,4 @@
-//! Logs whose host did more than to hand in states.
+//! Logs whose host did more than set states.
 
 use super::{BALL, Folder, Ready, SHEET, model};
 use crate::StudyError;
@@ -8,7 +8,8 @@ use pong_record::{ModelSource, RecordOptions, Recorder};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A log of 300 frames in which a pair is switched, a surface set, a ball forgotten, and not every frame committed.
+/// A log of 300 frames in which a pair is switched, a surface set, a ball's history cleared, and not every
+/// frame committed.
 fn log(folder: &Folder) -> PathBuf {
     let ext = Extensions::new();
     let mut builder = WorldBuilder::new(Config { contact_capacity: Some(64), ..Config::default() });
@@ -73,7 +74,7 @@ fn log(folder: &Folder) -> PathBuf {
     place
 }
 
-/// Played row by row, out of order if one likes, the log's frames are the same bits: nothing that its host did is missing.
+/// Played window by window, in any order, the log's frames are the same bits: no call of its host is missing.
 #[test]
 fn a_log_with_events_is_played_as_it_was() {
     let folder = Folder::new("events");
@@ -96,7 +97,7 @@ fn a_log_with_events_is_played_as_it_was() {
     assert_eq!(stopped, Err(stop));
 }
 
-/// Frames that are kept and in which the pair is switched off.
+/// Number of kept frames in which the pair is switched off.
 fn switched_off(ready: &Ready) -> u64 {
     let frames =
         |window: &crate::runs::motions::Window| window.first..window.first + window.frames.len() as u64;
@@ -111,7 +112,7 @@ fn what_is_not_restored_would_be_seen() {
     let windows = &ready.motions[0].windows;
     let late = windows.iter().position(|window| window.first > 200).unwrap();
     let mut early = Ready::new(&folder.0.join("log")).motions;
-    // The frames of a late row with what was known before an early one.
+    // The frames of a late window with the state before an early one.
     let mut moved = early[0].windows.swap_remove(late);
     let first = early[0].windows.swap_remove(0);
     moved.before = first.before;

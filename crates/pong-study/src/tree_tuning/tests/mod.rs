@@ -1,6 +1,6 @@
-//! Models whose best grouping is known, proposals that change an answer, logs with events, files that are written.
+//! Models whose best grouping is known, proposals that change an answer, logs with events, output files.
 //!
-//! Times are made from counts here, so that the same is found every time.
+//! Times are computed from counts here, so that the result is the same every time.
 
 mod files;
 mod logs;
@@ -18,7 +18,7 @@ use crate::tree_tuning::search::{Judge, Proposal};
 use pong_geometry::extension::Extensions;
 use std::path::{Path, PathBuf};
 
-/// A ball of 0.1 m that comes down on a sheet of triangles and slides; both in groups that are there for nothing.
+/// A ball of 0.1 m that falls on a sheet of triangles and slides; both in groups without purpose.
 const BALL: &str = "groups: [(name: \"a\", groups: [(name: \"b\", groups: [(name: \"c\", primitives: \
                     [Sphere(name: \"skin\", center: (0, 0, 0), radius: 0.1)])])])]";
 const SHEET: &str = "groups: [(name: \"x\", bound: Obb, groups: [(name: \"y\", primitives: [TriangleMesh(name: \"floor\", \
@@ -58,7 +58,7 @@ impl Ready {
         Counts::of_all(&counts)
     }
 
-    /// What a search finds where every test has its price.
+    /// The result of a search in which every test has a fixed price.
     fn search(&self) -> crate::tree_tuning::search::Found {
         let shapes: Vec<_> = self.subjects.iter().map(|subject| &subject.shape).collect();
         let mut judge = Priced { bench: self.bench(), timings: 0 };

@@ -1,4 +1,4 @@
-//! Proposals that change an answer are refused, and named. Code is broken on purpose here.
+//! Proposals that change an answer are refused, and reported. Models are broken on purpose here.
 
 use super::{Folder, Priced, Ready, ball_on_sheet, scene};
 use crate::Result;
@@ -20,13 +20,13 @@ fn bar_on_floor(folder: &Folder) -> std::path::PathBuf {
     scene(folder, ("bar", bar), ("floor", floor), start)
 }
 
-/// One end of the bar is one unit in the last place higher.
+/// Models with one end of the bar higher by one unit in the last place.
 fn by_one_bit(ready: &Ready) -> Vec<Arc<Model>> {
     let mut models = models(ready);
     let bar = &mut Arc::make_mut(&mut models[0]).bodies[0];
     let end = &mut bar.segments[0].ends[0];
     end.z = end.z.next_up();
-    // The model has it a second time, by lane.
+    // The model also has it in the arrays for vector code.
     bar.tree.batches[0].rods[0].ends[0].z[0] = end.z;
     models
 }
@@ -47,7 +47,7 @@ fn one_bit_of_one_primitive_is_seen_in_the_sample_and_in_the_whole_run() {
     assert_eq!(what.as_deref(), Some("the wrenches of frame 0"));
 }
 
-/// The first frame that is not the run's own is named, with the run.
+/// The report names the first frame that differs, with the run.
 #[test]
 fn the_frame_that_differs_is_named() {
     let folder = Folder::new("parts");
@@ -66,7 +66,7 @@ fn the_frame_that_differs_is_named() {
     );
 }
 
-/// A judge whose engine answers otherwise as soon as the ball has a ball for a volume.
+/// A judge whose engine gives another answer as soon as a group of the first model has no volume of its own.
 struct Broken<'a>(Priced<'a>);
 
 impl Judge for Broken<'_> {
@@ -102,7 +102,8 @@ fn what_is_refused_is_never_taken_and_told() {
     assert_eq!((above(0), above(1)), (0, 2));
 }
 
-/// A clock by which every proposal takes half the time, and the best so far, timed twice, differs by a part of itself.
+/// A clock by which every proposal takes half the time, and two timings of the best so far differ by a given
+/// share.
 struct Noisy<'a>(Priced<'a>, f64);
 
 impl Judge for Noisy<'_> {
@@ -122,7 +123,7 @@ impl Judge for Noisy<'_> {
     }
 }
 
-/// Half the time is a gain of 0.5: taken where the same thing differs by less than half of that.
+/// Half the time is a gain of 0.5: taken if two timings of the same thing differ by less than half of that.
 #[test]
 fn what_is_not_beyond_noise_is_not_taken() {
     let folder = Folder::new("noise");
@@ -136,7 +137,7 @@ fn what_is_not_beyond_noise_is_not_taken() {
     }
 }
 
-/// A frame in which nothing touches, and one in which something does.
+/// A frame without contacts, and one with some.
 #[test]
 fn contacts_are_part_of_an_answer() {
     let folder = Folder::new("contacts");

@@ -6,7 +6,7 @@ use crate::tree_tuning::moves::{Reach, applied, moves};
 use pong_geometry::bounding::BoundKind;
 use pong_model::grouping::{self, Bound};
 
-/// Groups that hold nothing but a group: one test of two volumes is left of all.
+/// Groups that hold only one group each: a single test of two volumes remains.
 #[test]
 fn groups_nested_for_nothing_are_merged() {
     let folder = Folder::new("nested");
@@ -40,7 +40,8 @@ const BLOCK: &str = "primitives: [Polyhedron(name: \"block\", vertices: [(-0.1, 
                      (-0.1, 0.1, 0.1)], faces: [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], \
                      [3, 0, 4, 7]])]";
 
-/// A thousand points in one leaf, in two clusters far from the block between them: cut, no box below a leaf is asked.
+/// A thousand points in one leaf, in two clusters far from the block between them: after the cut, no box
+/// below a leaf is tested.
 #[test]
 fn a_leaf_of_clusters_far_apart_is_cut() {
     let folder = Folder::new("clusters");
@@ -52,7 +53,7 @@ fn a_leaf_of_clusters_far_apart_is_cut() {
     assert_cut(&ready, 512);
 }
 
-/// A thousand triangles likewise, and a ball between them.
+/// The same with a thousand triangles, and a ball between them.
 #[test]
 fn a_mesh_of_clusters_far_apart_is_cut() {
     let folder = Folder::new("far_triangles");
@@ -108,7 +109,7 @@ fn shape() -> Shape {
     Shape { name: "r".to_owned(), elements: vec![0, 0, 40, 9, 5, 200], groups }
 }
 
-/// Bodies keep a volume, a host's own volumes stay, sizes stand only where a leaf is larger.
+/// Bodies keep a volume, volumes of the host's kinds stay, and sizes are only at leaves that are larger.
 #[test]
 fn moves_leave_alone_what_is_not_theirs() {
     let shape = shape();
@@ -133,7 +134,7 @@ fn moves_leave_alone_what_is_not_theirs() {
     }
 }
 
-/// A size of leaves goes where the leaf goes.
+/// A leaf size is removed with the leaf.
 #[test]
 fn a_group_that_gives_up_its_volume_has_no_size_of_leaves() {
     let shape = shape();
