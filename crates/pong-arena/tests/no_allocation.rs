@@ -1,6 +1,6 @@
-//! After it is made, nothing in this crate asks the system for memory or gives any back.
+//! Once created, nothing in this crate allocates or frees memory.
 //!
-//! A program of its own: it counts what the allocator of the process is asked for.
+//! A program of its own, because it counts the calls of the process's allocator.
 
 use pong_arena::{Arena, Table};
 use pong_testkit::heap::{COUNTING, Telling, calls_during};
@@ -34,7 +34,7 @@ fn an_arena_neither_allocates_nor_frees_however_much_is_asked_of_it() {
                     }
                     std::hint::black_box(&*list);
                 }
-                // Larger than all there is: the block must not be exchanged for a larger one.
+                // Larger than the arena: the block must not be replaced by a larger one.
                 refused += usize::from(arena.slice(capacity + 1, 0_u8).is_err());
             }
         });

@@ -1,4 +1,5 @@
-//! Divides zero by zero inside a call: built with `--cfg pong_traps` it must be ended by that (`ci/traps --long`).
+//! Divides zero by zero inside a call. Built with `--cfg pong_traps`, the program must be ended by that
+//! (`ci/traps --long`).
 
 use std::hint::black_box;
 

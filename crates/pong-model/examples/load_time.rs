@@ -1,4 +1,4 @@
-//! How long a terrain of a million triangles takes to load, inline and from STL and OBJ files.
+//! Load time of a terrain of a million triangles, inline and from STL and OBJ files.
 //!
 //! `cargo run --release -p pong-model --example load_time [cells along one side] [only this case]`
 
@@ -55,7 +55,7 @@ fn model(shape: &str) -> String {
     )
 }
 
-/// Every triangle a primitive of its own.
+/// Every triangle as a primitive of its own.
 fn singles(vertices: &[[f32; 3]], triangles: &[[usize; 3]]) -> String {
     let mut text = String::new();
     for (index, triangle) in triangles.iter().enumerate() {

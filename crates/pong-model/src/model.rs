@@ -76,8 +76,8 @@ pub struct MovableGroup {
     pub bores: Vec<Bore>,
     /// All custom primitives.
     pub customs: Vec<Arc<dyn CustomPrimitive>>,
-    /// Number of shells: connected surfaces of triangles, or of polyhedra joined by internal faces
-    /// (docs/model_format.md); every other primitive is a shell of its own.
+    /// Number of shells: connected surfaces of triangles, or of polyhedra joined by internal faces; every other
+    /// primitive is a shell of its own.
     pub shell_count: u32,
     /// Tree of bounding volumes.
     pub tree: Tree,

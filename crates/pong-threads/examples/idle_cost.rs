@@ -1,9 +1,9 @@
-//! What a pool costs while it waits: processor time of the whole process, caller and worker, as a share of one core, while a
-//! frame of empty blocks runs at 100 Hz.
+//! Cost of a waiting pool: processor time of the whole process, caller and worker, as a fraction of one core,
+//! for frames of empty blocks at 100 Hz.
 //!
 //! `cargo run --release -p pong-threads --example idle_cost`
 //!
-//! A system that counts processor time by ticks of its own can show far too little here, or the same for all.
+//! A system that samples processor time by ticks may report far too little, or the same for every case.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -28,7 +28,7 @@ fn cpu_time() -> Duration {
     time(usage.ru_utime) + time(usage.ru_stime)
 }
 
-/// Runs frames at 100 Hz for 2 s and prints what they cost.
+/// Runs frames at 100 Hz for 2 s and prints their cost.
 fn measure(name: &str, settings: &Settings, after_frame: impl Fn(&mut Pool)) {
     let mut pool = Pool::start(Arc::new(Empty), settings).unwrap();
     let (started, cpu_before) = (Instant::now(), cpu_time());

@@ -1,9 +1,10 @@
-//! The round trip of one phase, core to core, beside the least that it could be: one word that two threads pass on.
+//! Round trip of one phase between two cores, compared with the lower bound: one word passed between two
+//! threads.
 //!
 //!     cargo run --release -p pong-threads --example round_trip
 //!
-//! All contenders take turns in one run. Shown are wall-clock nanoseconds with the clock in them; from the ratios it is
-//! subtracted.
+//! All cases take turns in one run. The times are wall-clock nanoseconds including the clock; the ratios
+//! exclude it.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -30,7 +31,7 @@ fn main() {
     crowded();
 }
 
-/// Binds this thread to the first core of the mask; answers it and the second.
+/// Binds this thread to the first core of the mask; returns it and the second.
 fn two_cores() -> Option<(usize, usize)> {
     let cores = core_affinity::get_core_ids()?;
     let (first, second) = (cores.first()?.id, cores.get(1)?.id);
@@ -90,7 +91,7 @@ fn print_ratios(ratios: &mut [f64]) {
     );
 }
 
-/// Runs `measure` with the workers of `pool` awake, and lets them sleep after.
+/// Runs `measure` with the workers of `pool` awake, and lets them sleep afterwards.
 fn awake(pool: &mut Pool, measure: impl FnOnce(&mut Pool)) {
     pool.prewake(Duration::from_millis(100));
     thread::sleep(Duration::from_micros(300));
@@ -101,14 +102,14 @@ fn awake(pool: &mut Pool, measure: impl FnOnce(&mut Pool)) {
 
 fn complete(pool: &mut Pool, blocks: u32) {
     while pool.run(blocks) == Outcome::Abandoned {
-        // A neighbour has the worker's core: its block must end before the next phase can be measured.
+        // Another thread has the worker's core: its block must end before the next phase can be measured.
         while !pool.is_quiet() {
             thread::yield_now();
         }
     }
 }
 
-/// The caller's block ends when the worker has begun its own, so neither can run both.
+/// Job whose block on the caller ends when the worker has begun its own, so neither can run both.
 #[derive(Default)]
 struct Meet {
     met: CachePadded<AtomicU64>,
@@ -135,7 +136,7 @@ impl Job for Empty {
     fn run(&self, _block: u32, _lane: usize) {}
 }
 
-/// One word that goes to another thread and comes back.
+/// Word that goes to another thread and back.
 struct PingPong {
     shared: Arc<Ball>,
     thread: Option<JoinHandle<()>>,

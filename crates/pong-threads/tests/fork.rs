@@ -1,6 +1,6 @@
-//! A worker that was killed is a worker that no longer exists: after a fork the child has the pool and no worker.
+//! After a fork the child has the pool but no workers, as if all workers had been killed.
 //!
-//! A program of its own: it forks, and only the calling thread goes on in the child.
+//! A program of its own: it forks, and only the calling thread continues in the child.
 #![cfg(target_os = "linux")]
 
 #[allow(dead_code, reason = "these tests use some of it")]
@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 use common::{Count, FOR_EVER, Meet, patient, start};
 use pong_threads::{Outcome, Settings};
 
-/// Runs `child` in a forked process and answers whether it returned true. A child that hangs is ended.
+/// Runs `child` in a forked process and returns its result. A child that hangs is killed.
 fn in_a_fork(child: impl FnOnce() -> bool) -> bool {
     // SAFETY: the child runs code of this test only, touches no lock that another thread may have held, and ends
     // without unwinding into the test runner.
@@ -33,7 +33,7 @@ fn in_a_fork(child: impl FnOnce() -> bool) -> bool {
 fn succeeds(process: libc::pid_t) -> bool {
     let started = Instant::now();
     let mut status = 0;
-    // SAFETY: waits for, and ends, the child that this test has made.
+    // SAFETY: waits for, and kills, the child that this test has made.
     unsafe {
         while libc::waitpid(process, &mut status, libc::WNOHANG) == 0 {
             if started.elapsed() > FOR_EVER {

@@ -1,4 +1,5 @@
-//! What a host in real time relies on: no allocation in a phase, a start under SCHED_FIFO that does not hang.
+//! Guarantees for a real-time host: no allocation in a phase, and a start under SCHED_FIFO that does not
+//! hang.
 #![cfg(target_os = "linux")]
 
 #[allow(dead_code, reason = "these tests use some of it")]
@@ -13,13 +14,13 @@ use std::time::Duration;
 use common::{Count, FOR_EVER, patient, start};
 use pong_threads::{Grant, Outcome, Settings};
 
-/// Counts the calls of all threads while `COUNTING`.
+/// Allocator that counts the calls of all threads while `COUNTING` is set.
 struct Counting;
 
 static COUNTING: AtomicBool = AtomicBool::new(false);
 static CALLS: AtomicU64 = AtomicU64::new(0);
 
-// SAFETY: hands every call to the system's allocator unchanged.
+// SAFETY: passes every call to the system's allocator unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         CALLS.fetch_add(u64::from(COUNTING.load(SeqCst)), SeqCst);
@@ -59,7 +60,7 @@ fn phases_do_not_allocate() {
     println!("no allocation in 3000 phases; workers ran {blocks_of_workers} of 300000 blocks");
 }
 
-/// The caller has the highest claim to its core, and the worker begins there.
+/// The caller has the highest priority on its core, and the worker starts on that core.
 fn a_start_under_fifo_does_not_hang() {
     let (done, is_done) = channel();
     std::thread::spawn(move || {

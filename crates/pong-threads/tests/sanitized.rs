@@ -1,5 +1,5 @@
-//! The test for ThreadSanitizer, which sees accesses to memory that are in no order. `ci/threads` builds it so; in an
-//! ordinary run it checks the results alone. With the argument `race` it makes a mistake that must be seen.
+//! Test for ThreadSanitizer, which detects unordered memory accesses. `ci/threads` builds it so; an ordinary
+//! run checks the results only. With the argument `race` it makes a race that must be detected.
 
 use std::cell::UnsafeCell;
 use std::sync::Arc;
@@ -10,18 +10,18 @@ use pong_threads::{Job, Outcome, Pool, Settings};
 
 const BLOCKS: u32 = 12;
 
-/// Plain memory, as an engine has it: what the caller wrote is read by the blocks, and the reverse.
+/// Plain memory, as an engine uses it: blocks read what the caller wrote, and the reverse.
 struct Plain {
     input: UnsafeCell<u64>,
     outputs: Vec<UnsafeCell<u64>>,
-    /// All blocks write the first output.
+    /// True if all blocks write the first output.
     race: bool,
-    /// Blocks of workers take longer than the worker timeout.
+    /// True if blocks of workers take longer than the worker timeout.
     slow: AtomicBool,
 }
 
-// SAFETY: each block writes its own output, and the caller touches memory only when no block can run. That this
-// holds is what is tested.
+// SAFETY: each block writes its own output, and the caller accesses memory only when no block can run. This
+// is the property under test.
 unsafe impl Sync for Plain {}
 
 impl Plain {
@@ -44,7 +44,7 @@ impl Plain {
 impl Job for Plain {
     fn run(&self, block: u32, lane: usize) {
         match lane {
-            // Workers shall have their share, however short the blocks.
+            // Yields so that workers get their share, even of short blocks.
             0 => std::thread::yield_now(),
             _ if self.slow.load(Ordering::Relaxed) => std::thread::sleep(Duration::from_micros(300)),
             _ => {}

@@ -1,6 +1,6 @@
-//! Signals are the host's: no worker takes one that another thread could.
+//! Signals belong to the host: no worker takes one that another thread could take.
 //!
-//! A program of its own: it changes what signals do in the process.
+//! A program of its own: it changes the signal handling of the process.
 #![cfg(target_os = "linux")]
 
 #[allow(dead_code, reason = "these tests use some of it")]
@@ -12,9 +12,9 @@ use std::sync::{Arc, Mutex};
 use common::{Meet, patient, start};
 use pong_threads::Outcome;
 
-/// The signals that the calling thread does not take.
+/// Signals blocked in the calling thread.
 fn blocked() -> Vec<i32> {
-    // SAFETY: an all-zero set is valid; the calls read and write it alone.
+    // SAFETY: an all-zero set is valid; the calls access only this set.
     unsafe {
         let mut set: libc::sigset_t = std::mem::zeroed();
         libc::pthread_sigmask(libc::SIG_BLOCK, std::ptr::null(), &mut set);
@@ -32,7 +32,7 @@ fn workers_take_no_signal_but_those_of_their_own_faults() {
     assert_eq!(pool.run(2), Outcome::Complete);
 
     let own = [libc::SIGSEGV, libc::SIGBUS, libc::SIGFPE, libc::SIGILL, libc::SIGTRAP, libc::SIGSYS];
-    // Nobody can block these; the C library keeps those between 31 and SIGRTMIN for itself.
+    // Not blockable; the C library reserves those between 31 and SIGRTMIN.
     let unblockable = [libc::SIGKILL, libc::SIGSTOP];
     let could_go_elsewhere = |signal: &i32| !own.contains(signal) && !unblockable.contains(signal);
     let expected: Vec<i32> =

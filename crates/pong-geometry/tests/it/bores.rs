@@ -1,5 +1,5 @@
-//! What touches the wall of a round or tapered hole: depths by an independent search, wrenches by the derivative of the stored
-//! energy, seams, and what must not matter.
+//! Contacts with the wall of a round or tapered hole: depths by an independent search, wrenches as
+//! derivatives of the stored energy, seams, and invariances.
 
 use crate::bore_support::{across, carried, on_wall, random_bore, rounded, scaled, shared_square, swapped};
 use crate::common::random_motion;
@@ -11,14 +11,15 @@ use pong_geometry::{Transform, Vec3};
 use pong_testkit::Random;
 use std::f64::consts::TAU;
 
-/// A place in the hole, behind its wall or beyond a mouth.
+/// Random point in the hole, behind its wall or beyond a mouth.
 fn near(random: &mut Random, bore: &Bore) -> Vec3 {
     let place = on_wall(bore, random.between(-0.2, 1.2), random.between(0.0, TAU));
     let on_axis = bore.hole.ends[0] + bore.hole.axis * bore.hole.axis.dot(&(place - bore.hole.ends[0]));
     on_axis + (place - on_axis) * random.between(0.0, 1.4)
 }
 
-/// Distance to the nearest place of the wall, with that place's share of the length, by descent from a grid.
+/// Distance to the nearest point of the wall, with that point's fraction of the length, by descent from a
+/// grid.
 fn nearest_by_search(bore: &Bore, place: &Vec3) -> (f64, f64) {
     let at = |share: f64, angle: f64| (on_wall(bore, share, angle) - place).norm();
     let grid = (0..=20).flat_map(|i| (0..48).map(move |j| (f64::from(i) / 20.0, TAU * f64::from(j) / 48.0)));
@@ -37,7 +38,8 @@ fn nearest_by_search(bore: &Bore, place: &Vec3) -> (f64, f64) {
     (at(share, angle), share)
 }
 
-/// With a stiffness of 1 N/m, shared as in docs/theory.md, 2.2: half of the square of the shortest way that clears both.
+/// Energy with a stiffness of 1 N/m, shared as in docs/theory.md, 2.2: half the square of the shortest vector
+/// that clears both.
 fn energy(contacts: &BallContacts) -> f64 {
     let [one, two] = contacts.map(|contact| contact.map_or((0.0, Vec3::zeros()), |c| (c.depth, c.normal_b)));
     0.5 * shared_square(one.0, two.0, one.1.dot(&two.1))
@@ -59,7 +61,8 @@ fn force(contacts: &BallContacts) -> Vec3 {
     one.1 * share(one.0, two.0) + two.1 * share(two.0, one.0)
 }
 
-/// The depth beside the centre is the radius less the distance of the centre from the wall, or more behind it.
+/// The depth at the nearest wall is the radius minus the distance of the centre from the wall; behind the
+/// wall, plus.
 #[test]
 fn depths_of_balls_are_found_by_a_search_over_the_wall() {
     let mut random = Random::new(1, 0, 0);
@@ -96,7 +99,7 @@ fn depths_of_balls_are_found_by_a_search_over_the_wall() {
     assert!(walls > 50 && mouths > 10 && none > 50, "{walls} {mouths} {none}");
 }
 
-/// Of many planes around a straight or tapered hole the deepest is the wall's depth, from N of them as 1/N².
+/// The deepest of N planes around a straight or tapered hole converges to the depth at the wall as 1/N².
 #[test]
 fn planes_around_a_hole_come_closer_as_the_square_of_their_number() {
     let mut random = Random::new(2, 0, 0);
@@ -128,8 +131,8 @@ fn planes_around_a_hole_come_closer_as_the_square_of_their_number() {
     }
 }
 
-/// Wherever no mouth shares its spring the wrench is minus the derivative of the stored energy, on the wall, at a mouth, and
-/// for balls too large for the hole.
+/// Where no mouth shares its spring, the wrench is minus the derivative of the stored energy: on the wall, at
+/// a mouth, and for spheres too large for the hole.
 #[test]
 fn wrenches_of_balls_derive_from_the_stored_energy() {
     const STEP: f64 = 1e-6;
@@ -164,7 +167,8 @@ fn wrenches_of_balls_derive_from_the_stored_energy() {
     assert!(compared > 5000 && both > 500 && kinks * 200 < compared, "{compared} {both} {kinks}");
 }
 
-/// A ball moves from the wall over the mouth without a jump of the force, and through the axis of a hole too small for it.
+/// The force is continuous while a sphere moves from the wall over the mouth, and through the axis of a hole
+/// too small for it.
 #[test]
 fn balls_pass_seams_without_a_jump() {
     let mut random = Random::new(4, 0, 0);
@@ -196,7 +200,8 @@ fn balls_pass_seams_without_a_jump() {
     assert!(steps.windows(2).all(|pair| (pair[0] - pair[1]).norm() < 1e-4));
 }
 
-/// Turned and moved together, turned about its own axis, its ends exchanged, f32 or not, scaled: nothing changes.
+/// Moved together, rotated about its own axis, its ends exchanged, rounded to f32 or not, scaled: nothing
+/// changes.
 #[test]
 fn no_pose_no_naming_of_ends_and_no_scale_changes_what_balls_feel() {
     let mut random = Random::new(5, 0, 0);
@@ -224,7 +229,7 @@ fn no_pose_no_naming_of_ends_and_no_scale_changes_what_balls_feel() {
     }
 }
 
-/// What is pushed lies in the support of the bore, however thick the wall.
+/// Every point that a bore may push lies in its support, for any thickness of the wall.
 #[test]
 fn bounding_volumes_hold_all_that_is_pushed() {
     let mut random = Random::new(6, 0, 0);
@@ -245,7 +250,7 @@ fn bounding_volumes_hold_all_that_is_pushed() {
     assert!(pushed > 1000);
 }
 
-/// A ray meets the wall where it comes out of the hole, at the place that small steps along it find.
+/// A ray meets the wall where it leaves the hole, at the point found by small steps along it.
 #[test]
 fn rays_hit_the_wall_from_within_the_hole() {
     let mut random = Random::new(7, 0, 0);
@@ -282,7 +287,7 @@ fn rays_hit_the_wall_from_within_the_hole() {
                 assert!(wall.is_none_or(|wall| (wall.normal_b - hit.normal_b).norm() < 1e-5));
             }
             (None, None) => misses += 1,
-            // Through an end within a step.
+            // The ray leaves through an end within a step.
             (_, hit) => {
                 let t = hit.map_or_else(|| at(step.unwrap()), |hit| hit.distance);
                 let along = bore.hole.axis.dot(&(origin + direction * t - bore.hole.ends[0]));
@@ -295,7 +300,7 @@ fn rays_hit_the_wall_from_within_the_hole() {
     assert!(hits > 300 && misses > 300, "{hits} {misses}");
 }
 
-/// Along the axis of a straight hole, and along a straight line of a cone, a ray goes out nowhere.
+/// A ray along the axis of a straight hole, or along a generator of a cone, has no exit.
 #[test]
 fn rays_along_the_wall_go_out_nowhere() {
     let ray = |origin: Vec3, direction: Vec3| Ray {
@@ -312,7 +317,7 @@ fn rays_along_the_wall_go_out_nowhere() {
         for aside in [0.0, 0.25, 0.5, 0.75] {
             assert_eq!(ray_bore(&ray(Vec3::x() * aside, Vec3::z() * direction), &straight), None);
         }
-        // Beside a straight line of the cone and along it: the wall is never met between the ends.
+        // Parallel to a generator of the cone, beside it: the wall is never met between the ends.
         let found = ray_bore(&ray(Vec3::x() * 0.5, Vec3::new(1.0, 0.0, 1.0) * direction), &cone);
         assert_eq!(found, None, "{direction}");
     }

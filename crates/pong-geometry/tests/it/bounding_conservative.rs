@@ -1,4 +1,4 @@
-//! Bounding volumes never miss: whenever two bodies share a point, their volumes overlap.
+//! Bounding volumes never miss: whenever two bodies have a common point, their volumes overlap.
 //!
 //! Degenerate cases among the random ones: points, needles and plates without volume; rotations that leave axes
 //! parallel, to the last bit or nearly; bodies far from their frame's origin; volumes that share one point of
@@ -25,7 +25,7 @@ fn bodies_that_share_a_point_have_volumes_that_overlap() {
                 let (in_a, in_b) = if random.below(4) == 0 {
                     (a.body.inside(&mut random), b.body.inside(&mut random))
                 } else {
-                    // They touch from outside: nothing but the common point keeps them from being apart.
+                    // They touch from outside: only the common point keeps them from being disjoint.
                     let n_b = tricky_direction(&mut random);
                     (a.body.extreme(&-rotation.tr_mul(&n_b)), b.body.extreme(&n_b))
                 };
@@ -41,8 +41,8 @@ fn bodies_that_share_a_point_have_volumes_that_overlap() {
     }
 }
 
-/// Two boxes around their origins touch where an edge of one crosses an edge of the other. Without any margin of
-/// their own, so that the test has to be right by itself.
+/// Two boxes around their origins touch where an edge of one crosses an edge of the other. The boxes have no
+/// margin, so the test itself has to be right.
 #[test]
 fn crossing_edges_touch_however_nearly_parallel() {
     let mut random = Random(2);

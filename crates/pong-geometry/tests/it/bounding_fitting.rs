@@ -1,4 +1,5 @@
-//! What is fitted contains all that it was fitted around, is not much larger, and says so when it cannot be.
+//! A fitted volume contains all shapes it was fitted around and is not much larger; fitting reports when it
+//! is impossible.
 //!
 //! Degenerate cases: a single point, coincident points, needles, plates, a cube (no principal axes), an ellipsoid
 //! seen from its own axis, a half space, nothing at all, not a number.
@@ -70,7 +71,7 @@ fn axis_aligned_box_is_exact() {
 fn sphere_is_nearly_the_smallest() {
     let (mut random, mut sum) = (Random(22), 0.0);
     for _ in 0..300 {
-        // Four points on a sphere whose hull holds the centre, and many points inside.
+        // Four points on a sphere whose hull contains the centre, and many points inside.
         let center = random.vector(1.0);
         let turn = tricky_rotation(&mut random);
         let tetrahedron = [0, 3, 5, 6].map(|i| center + turn * corner(i, &Vec3::repeat(1.0 / 3f64.sqrt())));
@@ -119,7 +120,7 @@ fn farthest_point_of_an_ellipsoid_is_bounded_tightly() {
             _ => random.vector(1.0) * 2.0,
         };
         let bound = ellipsoid.farthest(&from);
-        // Walk uphill from many starts: the farthest point along the direction to the last one.
+        // Ascent from many starts: the point farthest along the direction of the previous one.
         let climb = |start: Vec3| {
             let distance = |d: &Vec3| (ellipsoid.support(d) - from).norm();
             (0..200).fold(start, |d, _| (ellipsoid.support(&d) - from).normalize()).pipe(distance)
@@ -196,7 +197,7 @@ fn a_single_point_and_equal_points_have_volumes() {
     }
 }
 
-/// A user's volume: the layer between two heights.
+/// User-defined volume: the layer between two heights.
 #[derive(Debug)]
 struct Slab {
     low: f64,
@@ -251,7 +252,8 @@ fn a_custom_volume_is_fitted_and_tested_in_either_order() {
     let slab = fit(&BoundKind::Custom("Slab".to_owned()), &[&CustomBounds(&Disc)], &ext).expect("a slab");
     let ball = fitted(&BoundKind::Sphere, &Sphere { center: Vec3::zeros(), radius: 1.0 });
     let tests = VolumeTests::new(&ext);
-    // From the slab's frame to the ball's; a quarter turn about x, so that the inverse is another transform.
+    // From the slab's frame to the sphere's; a quarter turn about x, so that the inverse is a different
+    // transform.
     let up = |height: f64| {
         let turn = pong_geometry::Quat::from_axis_angle(&Vec3::x_axis(), std::f64::consts::FRAC_PI_2);
         let rotation = turn.to_rotation_matrix().into_inner();
@@ -268,8 +270,9 @@ fn a_custom_volume_is_fitted_and_tested_in_either_order() {
     assert!((measure(&fitted(&BoundKind::Sphere, &disc)) - 2f64.sqrt()).abs() < 1e-9, "by the box around it");
 }
 
-/// Where a face pushes an ellipsoid, the foot of the deepest point lies within the reach of feet of the centre along each axis,
-/// or within the ellipsoid's own extent: with the centre in front, in the plane, or behind it by up to the smallest semi-axis.
+/// If a face pushes an ellipsoid, the foot of the deepest point lies within the reach of feet of the centre
+/// along each axis, or within the ellipsoid's own extent: with the centre in front, in the plane, or behind
+/// it by up to the smallest semi-axis.
 #[test]
 fn the_reach_of_feet_holds_every_foot() {
     let mut random = Random(77);

@@ -1,5 +1,5 @@
-//! What a fitter asks of the things it bounds — support, farthest distance, points that stand for them — against the points
-//! they are made of.
+//! Shape queries of the fitters (support, farthest distance, representative points) compared with the points
+//! of the shapes.
 
 use crate::bounding_support::{KINDS, Random, tricky_direction};
 use crate::common::{fibonacci_sphere, stretched_hull};
@@ -13,7 +13,7 @@ use pong_geometry::primitive::{
 use pong_geometry::{Mat3, Vec3};
 use std::sync::Arc;
 
-/// A thing and points of it among which the extreme ones are, but for `missed` of its size.
+/// Shape and points of it that include the extreme ones, up to the relative error `missed`.
 struct Known<'a> {
     name: &'static str,
     thing: &'a dyn Bounded,
@@ -22,7 +22,7 @@ struct Known<'a> {
     stand_for_it: Vec<Vec3>,
 }
 
-/// A post that stands on the plane z = 0 and has no upper end, or hangs from it and has no lower one.
+/// Post that stands on the plane z = 0 without an upper end, or hangs from it without a lower end.
 #[derive(Debug)]
 struct Post {
     up: f64,
@@ -40,7 +40,7 @@ impl CustomPrimitive for Post {
     }
 }
 
-/// A ball that tells its support alone, as primitive and as volume.
+/// Sphere that provides only its support function, as primitive and as volume.
 #[derive(Debug)]
 struct Told(Sphere);
 
@@ -71,7 +71,8 @@ impl CustomVolume for Told {
 const CENTER: Vec3 = Vec3::new(0.5, -2.0, 1.25);
 const HALF: Vec3 = Vec3::new(0.25, 0.5, 1.5);
 const RADIUS: f64 = 0.75;
-/// Tens of units in the last place of places some metres away, m; as a share, of what does not hang on the scale.
+/// Tens of units in the last place of positions some metres away, m; relative for quantities that do not
+/// scale.
 const ROUNDING: f64 = 1e-14;
 
 fn along_axes(axes: &Mat3, reach: &Vec3) -> Vec<Vec3> {
@@ -143,7 +144,7 @@ fn things_reach_as_far_as_their_points() {
         missed: 0.0,
         stand_for_it: points.to_vec(),
     };
-    // Twenty thousand directions miss the extreme one by at most an angle of 0.02 rad: 2e-4 of the size, squared.
+    // Twenty thousand directions miss the extreme one by at most 0.02 rad: 2e-4 of the size, squared.
     let curved =
         |name, thing, points, stand_for_it| Known { name, thing, points, missed: 3e-4, stand_for_it };
     let all = [
@@ -162,7 +163,7 @@ fn things_reach_as_far_as_their_points() {
     all.iter().for_each(|known| check(known, &mut random));
 }
 
-/// The search for the farthest point of an ellipsoid does not hang on the unit of length.
+/// The search for the farthest point of an ellipsoid does not depend on the unit of length.
 #[test]
 fn farthest_scales_with_the_scene() {
     let axes = Random(34).rotation_matrix();
@@ -179,7 +180,7 @@ fn farthest_scales_with_the_scene() {
     }
 }
 
-/// Of what tells nothing but its support the box along the axes stands for it.
+/// A shape that provides only its support is represented by its axis-aligned box.
 #[test]
 fn a_thing_of_ones_own_is_asked_for_six_supports() {
     let told = Told(Sphere { center: CENTER, radius: RADIUS });
@@ -226,7 +227,7 @@ fn what_has_one_end_has_no_volume() {
     }
 }
 
-/// Squares of such numbers are none: what comes of them is told, or holds.
+/// The squares of such numbers overflow: the result is an error, or a valid bound.
 #[test]
 fn what_is_beyond_all_squares_is_refused_or_bounded() {
     for size in [1e160, 1e300] {

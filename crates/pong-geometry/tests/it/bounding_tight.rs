@@ -1,4 +1,4 @@
-//! Bounding volumes are not loose: volumes that are apart by a millionth of their size are told apart.
+//! Bounding volumes are tight: volumes separated by a millionth of their size are found disjoint.
 //!
 //! Degenerate cases: corner over corner, edge over edge (each of the nine pairs of directions), axes parallel
 //! exactly or nearly, needles and plates, far origins.
@@ -20,7 +20,7 @@ fn size_and_offset(volume: &Volume) -> (f64, f64) {
     }
 }
 
-/// A millionth of the sizes, or what rounding leaves of the offsets.
+/// A millionth of the sizes, or the rounding of the offsets.
 fn visible_gap(a: &Volume, b: &Volume) -> f64 {
     let ((size_a, offset_a), (size_b, offset_b)) = (size_and_offset(a), size_and_offset(b));
     1e-6 * (size_a + size_b) + 1e-12 * (offset_a + offset_b)
@@ -46,7 +46,7 @@ fn extreme(volume: &Volume, direction: &Vec3) -> Vec3 {
     }
 }
 
-/// Places A so that its lowest point along `n_b` lies a gap above B's highest: apart for certain.
+/// Places A so that its lowest point along `n_b` is a gap above B's highest point: certainly disjoint.
 fn placed_apart(a: &Volume, b: &Volume, rotation: Mat3, n_b: &Vec3) -> Transform {
     let lowest = extreme(a, &-rotation.tr_mul(n_b));
     meeting(rotation, &lowest, &(extreme(b, n_b) + n_b * visible_gap(a, b)))
@@ -75,7 +75,7 @@ fn volumes_apart_along_any_direction_are_told_apart() {
     }
 }
 
-/// Edges that pass over each other in the middle: only the one product of edges tells these boxes apart.
+/// Edges that pass over each other in the middle: only their cross product separates these boxes.
 #[test]
 fn boxes_apart_edge_over_edge_are_told_apart() {
     let mut random = Random(12);
@@ -102,8 +102,8 @@ fn boxes_apart_edge_over_edge_are_told_apart() {
     }
 }
 
-/// Gilbert's method for the point of A − B nearest to the origin, which knows nothing of separating axes:
-/// `Some(true)` if they certainly overlap, `Some(false)` if they are apart by more than `gap`.
+/// Gilbert's method for the point of A − B nearest to the origin, independent of separating axes:
+/// `Some(true)` if they certainly overlap, `Some(false)` if they are separated by more than `gap`.
 fn nearest_point_verdict(a: &[Vec3], b: &[Vec3], gap: f64) -> Option<bool> {
     let difference: Vec<Vec3> = a.iter().flat_map(|p| b.iter().map(move |q| p - q)).collect();
     let mut v = difference[0];
@@ -121,7 +121,7 @@ fn nearest_point_verdict(a: &[Vec3], b: &[Vec3], gap: f64) -> Option<bool> {
     None
 }
 
-/// Random placements, most of them near contact, against a method of another kind, both ways.
+/// Random placements, most of them near contact, compared in both directions with an independent method.
 #[test]
 fn box_verdicts_agree_with_the_nearest_point() {
     let mut random = Random(13);

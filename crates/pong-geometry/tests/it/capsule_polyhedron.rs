@@ -1,8 +1,9 @@
-//! Capsule against the edges of a piece: that none is left out which pushes, to the same bits, at every level of instructions.
+//! Capsule against the edges of a piece: no edge that pushes is left out, with the same bits at every
+//! instruction-set level.
 //!
-//! Asked of all edges, one by one: what theory.md, 2.8, tells. Poses and seams: at a distance, along edges and faces but for
-//! rounding, through edges and vertices, sunk in so that an edge is the way out, beside the apex of a fan, on inner walls; turned
-//! and moved, in numbers of half the digits, small and large.
+//! The reference tests all edges one by one by theory.md, 2.8. Poses: at a distance, along edges and faces up
+//! to rounding, through edges and vertices, sunk in so that an edge gives the minimum translation, beside the
+//! apex of a fan, on internal faces; rotated and moved, with coordinates of half precision, small and large.
 
 use crate::common::{
     Random, cuboid, cuboid_corners, hull, hull_with_walls, levels, moved, random_motion, scaled,
@@ -15,7 +16,7 @@ use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::{Capsule, Polyhedron, PolyhedronEdge};
 use pong_geometry::simd::{self, Level};
 
-/// All edges that the axis crosses, in their order.
+/// Contacts of all edges that the axis crosses, in edge order.
 fn crossings(capsule: &Capsule, piece: &Polyhedron) -> Vec<Interference> {
     let mut found = Vec::new();
     for (index, edge) in piece.edges.iter().enumerate() {
@@ -32,7 +33,8 @@ fn crossings(capsule: &Capsule, piece: &Polyhedron) -> Vec<Interference> {
     found
 }
 
-/// Those that push: less deep than the radius, or the shortest way out of the piece; `None` in front of a face.
+/// Contacts that push: less deep than the radius, or the minimum translation out of the piece; `None` in
+/// front of a face.
 fn pushing(capsule: &Capsule, piece: &Polyhedron) -> Option<Vec<Interference>> {
     let rounding = 16.0 * f64::EPSILON * capsule.ends[0].amax().max(capsule.ends[1].amax());
     let lower_end = |normal: &Vec3, offset: f64| {
@@ -60,10 +62,10 @@ fn pushing(capsule: &Capsule, piece: &Polyhedron) -> Option<Vec<Interference>> {
 struct Tally {
     poses: usize,
     apart: usize,
-    /// Edges above which the axis passes, and below which it has sunk.
+    /// Numbers of edges that the axis passes above, and that it has sunk below.
     over: usize,
     sunk: usize,
-    /// Edges beside an end of which it passes: with a normal that is not across both.
+    /// Edges of which the axis passes an end: the normal is then not perpendicular to both.
     beside: usize,
 }
 
@@ -100,7 +102,7 @@ fn half(v: Vec3) -> Vec3 {
     v.map(|x| f64::from(x as f32))
 }
 
-/// A cone of so many sides on the ground, its apex above the origin: all edges to the apex are near it.
+/// Pyramid of `sides` sides on the ground, its apex above the origin: all edges to the apex are near it.
 fn fan(sides: usize) -> Polyhedron {
     let rim = |k: usize| {
         let angle = std::f64::consts::TAU * k as f64 / sides as f64;
@@ -109,14 +111,14 @@ fn fan(sides: usize) -> Polyhedron {
     hull(&(0..sides).map(rim).chain([Vec3::new(0.0, 0.0, 0.8)]).collect::<Vec<_>>())
 }
 
-/// Two thirds of a box, with an inner wall where the rest is cut off.
+/// Two thirds of a box, with an internal face where the rest is cut off.
 fn walled() -> Polyhedron {
     hull_with_walls(&cuboid_corners(Vec3::new(-0.9, -0.7, -0.5), Vec3::new(0.6, 0.7, 0.5)), &|normal, _| {
         normal.x > 0.9
     })
 }
 
-/// The same, its edges at the end of a long list of others that push nobody.
+/// Piece with its edges at the end of a long list of edges that do not push.
 fn with_many_edges(piece: Polyhedron) -> Polyhedron {
     let mut parts = piece.into_parts();
     let others = 1000;
@@ -144,14 +146,14 @@ fn pieces() -> Vec<(&'static str, Polyhedron)> {
     ]
 }
 
-/// A capsule that has something to do with an edge of a piece.
+/// Random capsule near an edge of a piece.
 fn capsule_at(piece: &Polyhedron, random: &mut Random) -> Capsule {
     let pushing: Vec<_> = piece.edges.iter().filter(|edge| edge.push.is_some()).collect();
     let edge = random.pick(&pushing);
     let ends = edge.vertices.map(|vertex| piece.vertices[vertex as usize].position);
     let along = ends[1] - ends[0];
     let normals = edge.faces.map(|face| piece.faces[face as usize].normal);
-    // Most places are on the edge, some at its ends, to the bit.
+    // Most points are on the edge, some exactly at its ends.
     let share = [0.0, 1.0, 0.5, random.between(0.0, 1.0), random.between(0.0, 1.0)][random.below(5)];
     let place = ends[0] + along * share;
     let out = normals[0] * random.unit() + normals[1] * random.unit();
@@ -159,7 +161,7 @@ fn capsule_at(piece: &Polyhedron, random: &mut Random) -> Capsule {
     let height = [radius * random.between(-1.5, 1.2), -random.unit(), 0.0, radius][random.below(4)];
     let across = out.cross(&along);
     let direction = match random.below(6) {
-        // Along the edge, but for rounding or little.
+        // Along the edge, exactly or nearly.
         0 => along,
         1 => along + random.vector(1e-12 * along.norm()),
         2 => along + random.vector(1e-6 * along.norm()),

@@ -12,7 +12,7 @@ use pong_geometry::interference::point_ellipsoid::point_ellipsoid;
 use pong_geometry::primitive::Ellipsoid;
 use pong_geometry::{Mat3, Vec3};
 
-/// A sum of two numbers kept to twice the digits.
+/// Sum of two numbers, with twice the precision.
 #[derive(Clone, Copy, Debug)]
 struct Long(f64, f64);
 
@@ -61,9 +61,9 @@ impl Long {
     }
 }
 
-/// Depth and normal of an inside point by bisection of the secular equation in long arithmetic.
+/// Depth and normal of an inside point by bisection of the secular equation in double-double arithmetic.
 ///
-/// The unknown is `u = t + a_min²`, so that roots near the pole keep their digits.
+/// The unknown is `u = t + a_min²`, so that roots near the pole keep their precision.
 fn reference(a: &Vec3, y: &Vec3) -> (f64, Vec3) {
     let (ax, yx): (Vec<Long>, Vec<Long>) =
         ((0..3).map(|i| Long::of(a[i])).collect(), (0..3).map(|i| Long::of(y[i])).collect());
@@ -81,7 +81,7 @@ fn reference(a: &Vec3, y: &Vec3) -> (f64, Vec3) {
     let mut low = Long::of(0.0);
     let mut high = Long::of(a.component_mul(y).norm() * 2.0 + a.min() * a.min());
     for step in 0..420 {
-        // Geometric first, to reach roots of any size.
+        // Geometric bisection first, to reach roots of any magnitude.
         let middle = if step < 300 && high.0 > 2.0 * low.0 {
             Long::of((low.0.max(high.0 * 1e-30) * high.0).sqrt())
         } else {
@@ -118,13 +118,13 @@ fn random_points_agree_with_long_arithmetic() {
         }
         let foot = nearest_on_ellipsoid(&a, &y);
         let (depth, normal) = reference(&a, &y);
-        // Near the surface the point's own rounding is all there is: measured against the smallest semi-axis.
+        // Near the surface only the rounding of the point matters: measured against the smallest semi-axis.
         worst_depth = worst_depth.max((foot.depth - depth).abs() / a.min());
         if share < 0.99 {
             worst_relative = worst_relative.max((foot.depth - depth).abs() / depth);
         }
         let error = (Vec3::from(foot.normal) - normal).norm();
-        // Two normals as near as the rounding of depth allows cannot be told apart at the focal curve.
+        // Two normals as close as the rounding of the depth allows are indistinguishable at the focal curve.
         let gap = normal.dot(&y);
         let honest = a.component_mul(&normal).norm() - gap;
         assert!((honest - depth).abs() < 1e-12 * a.max(), "the reference is stationary");
@@ -163,7 +163,7 @@ fn spheres_and_equal_axes() {
         assert!((foot.depth - (2.0 - y.norm())).abs() < 4e-16 * 2.0);
         assert!((Vec3::from(foot.normal) - y.normalize()).norm() < 1e-15);
         assert!(second_nearest_on_ellipsoid(&Vec3::repeat(2.0), &y).is_none());
-        // Oblate: as the ellipse of the half plane through the axis.
+        // Oblate: compared with the ellipse in the half plane through the axis.
         let foot = nearest_on_ellipsoid(&Vec3::new(2.0, 2.0, 0.7), &Vec3::new(y.x, y.y, 0.3 * y.z));
         let flat = nearest_on_ellipse([2.0, 0.7], [(y.x * y.x + y.y * y.y).sqrt(), 0.3 * y.z]);
         assert!((foot.depth - flat.depth).abs() < 1e-14);
@@ -209,8 +209,8 @@ fn on_axes_and_symmetry_planes() {
     assert!((foot.depth - 0.25).abs() < 1e-15);
 }
 
-/// Beyond the ellipse of the centres of curvature the nearest point lies in the plane across the shortest axis, as for the
-/// ellipse in that plane; the other minimum has gone.
+/// Beyond the ellipse of the centres of curvature the nearest point lies in the plane perpendicular to the
+/// shortest axis, as for the ellipse in that plane; the other minimum does not exist.
 #[test]
 fn in_the_plane_across_the_shortest_axis_near_the_rim() {
     /// Some units in the last place of half widths of metres, m: two roots are compared.
@@ -219,7 +219,7 @@ fn in_the_plane_across_the_shortest_axis_near_the_rim() {
     let mut beyond = 0;
     for (x, y) in (0..48).flat_map(|i| (0..32).map(move |j| (f64::from(i) / 16.0, f64::from(j) / 16.0))) {
         let inside = x * x / 9.0 + y * y / 4.0 < 1.0;
-        // aᵢ·yᵢ/(aᵢ² − 1), of which neither must exceed 1 by itself.
+        // Values aᵢ·yᵢ/(aᵢ² − 1), neither of which may exceed 1 by itself.
         let (u, v) = (3.0 * x / 8.0, 2.0 * y / 3.0);
         if !inside || u * u + v * v <= 1.0 {
             continue;
@@ -237,7 +237,7 @@ fn in_the_plane_across_the_shortest_axis_near_the_rim() {
 
 #[test]
 fn at_the_focal_curve_the_depth_stays_exact() {
-    // The centre of curvature of the long axis' end.
+    // Centre of curvature of the end of the long axis.
     let a = Vec3::new(2.0, 1.0, 1.5);
     for step in [-1e-3, -1e-8, -1e-15, 0.0, 1e-15, 1e-8, 1e-3] {
         for off in [1e-30, 1e-18, 1e-12, 1e-8, 1e-4] {
@@ -275,7 +275,7 @@ fn ellipse_minima(a: [f64; 2], y: [f64; 2]) -> Vec<f64> {
     for k in 0..COUNT {
         let (before, here, after) = (at(k + COUNT - 1), at(k), at(k + 1));
         if here <= before && here < after {
-            // The parabola through three samples.
+            // Parabola through three samples.
             let bend = before - 2.0 * here + after;
             minima.push(here - (after - before).powi(2) / (8.0 * bend));
         }
@@ -342,7 +342,7 @@ fn the_second_minimum_is_a_local_minimum_and_there_is_no_third() {
                 .iter()
                 .map(|k| overlap(&Vec3::from(*k)) - value)
                 .fold(f64::INFINITY, |m, d| m.min(d.abs()));
-            // Descent may stop on the way in a flat valley; it must never end below what is known.
+            // Descent may stop early in a flat valley, but must never end below a known minimum.
             let least = known.iter().map(|k| overlap(&Vec3::from(*k))).fold(f64::INFINITY, f64::min);
             assert!(value > least - 1e-12);
             let is_stuck = reached > 1e-6;
@@ -362,7 +362,7 @@ fn mirrored_minima_on_the_plane_across_the_shortest_axis() {
     assert_eq!(first.depth, second.depth);
     assert_eq!(first.normal[1], -second.normal[1]);
     assert!(first.normal[1] > 0.0);
-    // With two axes as short there is a circle of nearest points, and nothing beside it.
+    // With two equal shortest axes there is a circle of nearest points, and no second minimum.
     for a in [Vec3::new(2.0, 0.5, 0.5), Vec3::repeat(0.5)] {
         assert_eq!(second_nearest_on_ellipsoid(&a, &Vec3::new(0.1, 0.0, 0.0)), None);
     }

@@ -20,7 +20,7 @@ fn overlap(e: &Ellipsoid, p: &Polyhedron, n: &Vec3) -> f64 {
     e.half_width(n) + support
 }
 
-/// The least overlap over all directions: a dense scan, then a pattern search from the best few.
+/// Reference: least overlap over all directions, by a dense scan and a pattern search from the best few.
 struct Reference {
     directions: Vec<Vec3>,
 }
@@ -50,7 +50,8 @@ impl Reference {
     }
 }
 
-/// The least overlap between the normals of two faces, where the overlap has a crease: a scan, then thirds.
+/// Least overlap between the normals of two faces, where the overlap has a crease: a scan, then ternary
+/// search.
 fn least_on_arc(e: &Ellipsoid, p: &Polyhedron, normals: [Vec3; 2]) -> (f64, Vec3) {
     const COUNT: usize = 16;
     let at = |s: f64| {
@@ -135,7 +136,7 @@ fn compare(p: &Polyhedron, semi_axes: Vec3, reach: f64, cases: usize, seed: u64)
         };
         assert!(least > -1e-12, "case {case}: contact though apart by {least}");
         check_contact(&e, p, &contact, 1e-13);
-        // A search can stop above the minimum, never below: its excess is tallied, not judged.
+        // A search can stop above the minimum, never below: its excess is recorded, not judged.
         let above = (contact.depth - least) / (least.abs() + 1e-3);
         assert!(
             above < 1e-9,
@@ -176,11 +177,11 @@ fn compare(p: &Polyhedron, semi_axes: Vec3, reach: f64, cases: usize, seed: u64)
 const HULL: Vec3 = Vec3::new(0.5, 0.4, 0.3);
 const ELLIPSOID: Vec3 = Vec3::new(0.2, 0.12, 0.08);
 
-/// The rim of a disc of 64 corners: more than a search remembers. What is found is the overlap along its own normal, and no
-/// more than that along any face's.
+/// The rim of a disc of 64 corners exceeds the capacity of a search. The contact's depth is the overlap along
+/// its own normal, and at most that along the normal of any face.
 #[test]
 fn a_face_of_many_corners_is_searched_to_the_end() {
-    /// Of supports of a disc of a metre, in directions from roots, m.
+    /// Error of supports of a disc of a metre, in directions computed with roots, m.
     const ROUNDING: f64 = 1e-13;
     let mut random = Random(71);
     let corners: Vec<Vec3> = (0..64)
@@ -277,13 +278,13 @@ fn aligned_ellipsoid_over_a_box_face_edge_and_corner() {
     assert!(
         (contact.depth - 0.01).abs() < 1e-15 && contact.normal_b == Vec3::z() && contact.feature.is_face()
     );
-    // Straight above an edge and straight above a corner: the face and they agree.
+    // Straight above an edge and straight above a corner, face and feature agree.
     for (x, y) in [(1.0, 0.0), (-1.0, 0.2), (1.0, 1.0), (-1.0, 1.0), (0.0, -1.0)] {
         let contact = ellipsoid_polyhedron(&at(x, y, 1.39), &p).expect("rim");
         assert!((contact.depth - 0.01).abs() < 1e-15, "{x} {y}: {contact:?}");
         assert!((contact.normal_b - Vec3::z()).norm() < 1e-9);
     }
-    // Off the edge x = 1 = z, along a normal of the ellipse.
+    // Beside the edge x = 1 = z, along a normal of the ellipse.
     let n = Vec3::new(0.6, 0.0, 0.8);
     let half_width = (0.3_f64 * 0.6).hypot(0.4 * 0.8);
     let reach = Vec3::new(0.09 * 0.6, 0.0, 0.16 * 0.8) / half_width;
@@ -465,7 +466,7 @@ fn abutting_pieces_push_as_one_plate() {
     }
 }
 
-/// Two minima of one body, each found by the piece that has it: which is less deep is for the body to say.
+/// Two minima of one body, each found by the piece that has it; the body decides which is less deep.
 #[test]
 fn a_piece_finds_the_minimum_of_its_own_features() {
     let wall = |n: &Vec3, d: f64| n.z > 0.9 && d.abs() < 1e-9;
@@ -483,7 +484,8 @@ fn a_piece_finds_the_minimum_of_its_own_features() {
     }
 }
 
-/// Where all feet lie beside a piece its least active face stands in for it, with the overlap of its own normal.
+/// If all feet lie outside a piece, its least active face is the fallback, with the overlap along its own
+/// normal.
 #[test]
 fn a_piece_without_a_foot_has_a_stand_in() {
     let wall_at_zero = |n: &Vec3, d: f64| n.x > 0.9 && d.abs() < 1e-9;

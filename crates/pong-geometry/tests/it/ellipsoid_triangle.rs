@@ -26,7 +26,7 @@ fn contacts(e: &Ellipsoid, set: &TriangleSet, thickness: f64) -> Vec<TriangleCon
     found
 }
 
-/// The contacts that push, spare ones and stand-ins only where nothing else is as deep.
+/// Contacts that push; fallbacks only if nothing else is as deep.
 fn pushing(e: &Ellipsoid, set: &TriangleSet, thickness: f64) -> Vec<TriangleContact> {
     let is_firm = |c: &TriangleContact| matches!(c.standing, Standing::Front | Standing::Behind);
     let (mut firm, spare): (Vec<_>, Vec<_>) = contacts(e, set, thickness).into_iter().partition(is_firm);
@@ -37,8 +37,9 @@ fn pushing(e: &Ellipsoid, set: &TriangleSet, thickness: f64) -> Vec<TriangleCont
     firm
 }
 
-/// Whether a face, or what has the centre behind it, yields to a less deep contact that meets it convexly: the tester finds
-/// both, and the sharing of loads, which knows which of them push, keeps the less deep (docs/theory.md, 2.2).
+/// Returns `true` if a face, or a contact with the centre behind it, yields to a less deep contact that meets
+/// it convexly: the tester finds both, and load sharing, which knows which of them push, keeps the less deep
+/// (docs/theory.md, 2.2).
 fn yields(contact: &TriangleContact, other: &TriangleContact) -> bool {
     let (here, there) = (touched(contact), touched(other));
     let [depth, less] = [contact, other].map(|c| c.interference.depth);
@@ -70,7 +71,7 @@ fn flat_tessellation_is_one_plane() {
         let mut e = Ellipsoid { center: Vec3::zeros(), axes: random.rotation_matrix(), semi_axes };
         let depth = random.between(1e-6, 1.0) * 0.02;
         e.center.z = e.half_width(&Vec3::z()) - depth;
-        // The foot: anywhere, or exactly over a vertex or the middle of an edge.
+        // Foot point: anywhere, or exactly over a vertex or the middle of an edge.
         let foot = match case % 3 {
             0 => Vec3::new(random.between(-0.25, 0.25), random.between(-0.25, 0.25), 0.0),
             1 => set.vertices[16 + (random.bits() % 3) as usize + 7 * (random.bits() % 3) as usize],
@@ -150,7 +151,7 @@ fn deep_on_a_convex_surface_the_least_is_among_them_and_nothing_is_lost() {
             check_against_convex_neighbors(contact, &found, &set);
             let height = contact.interference.normal_b.dot(&(e.center - touched(contact)));
             assert_eq!(contact.standing == Standing::Behind, height < -1e-14, "{contact:?}");
-            // No deeper than any face that meets the pushing feature.
+            // Not deeper than any face at the pushing feature.
             for t in faces_at(contact, &set) {
                 let corner = set.corners(t)[0];
                 let plane = e.half_width(&set.normal(t)) - set.normal(t).dot(&(e.center - corner));
@@ -165,15 +166,15 @@ fn deep_on_a_convex_surface_the_least_is_among_them_and_nothing_is_lost() {
     println!("{checked} contacts, {several} with more than one minimum");
 }
 
-/// A rod stands deep in a plateau, beside a step down of 1 cm. Below the step's slant it lies less deep, but far below
-/// its foot: the slant does not push, so the plateau must.
+/// A rod stands deep in a plateau, beside a step down of 1 cm. It is less deep below the step's slope, but
+/// its foot is far outside it: the slope does not push, so the plateau must.
 #[test]
 fn a_face_beside_a_small_step_pushes_a_rod_that_reaches_below_the_step() {
     let profile = [(-1.0, 0.0), (0.0, 0.0), (0.01, -0.01), (1.0, -0.01)];
     let corners = [-1.0, 1.0].map(|y| profile.map(|(x, z)| Vec3::new(x, y, z)));
     let strips = [[0, 1, 5], [0, 5, 4], [1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6]];
     let set = triangle_set(corners.concat(), &strips);
-    // The centre in front, in the plane and behind by less than the thickness.
+    // Centre in front, in the plane, and behind by less than the thickness.
     for (y, z) in [-0.5, 0.25].into_iter().flat_map(|y| [0.1, 0.0, -1e-9, -0.125].map(|z| (y, z))) {
         let rod = Ellipsoid {
             center: Vec3::new(-0.05, y, z),
@@ -198,7 +199,7 @@ fn upright(center: Vec3, semi_axes: Vec3) -> Ellipsoid {
     Ellipsoid { center, axes: Mat3::identity(), semi_axes }
 }
 
-/// A sheet that falls to both sides of the y axis at 45°, one triangle each.
+/// Roof with its ridge on the y axis, sloping down at 45° on both sides, one triangle each.
 fn roof() -> TriangleSet {
     let corners = [(0.0, -1.0, 0.0), (0.0, 1.0, 0.0), (1.0, 0.0, -1.0), (-1.0, 0.0, -1.0)]
         .map(|(x, y, z)| Vec3::new(x, y, z));
@@ -212,7 +213,8 @@ fn a_rod_exactly_above_a_ridge_is_pushed_by_one_of_two_equal_faces() {
     assert_eq!(features, [Feature::face(0)], "{found:?}");
 }
 
-/// Deep beside a free edge the way out is sideways, if the centre is not too far behind for it; else upwards. Never both.
+/// Deep beside a free edge the minimum translation is sideways, if the centre is not too far behind for it;
+/// else upwards. Never both.
 #[test]
 fn beside_a_free_edge_either_the_edge_or_the_face_pushes_a_rod() {
     let plate = triangle_set(
@@ -245,10 +247,10 @@ fn a_centre_on_an_edge_or_a_vertex_is_in_front() {
     }
 }
 
-/// Where the foot is on a convex edge, within rounding, the face or the edge has the contact.
+/// If the foot point is on a convex edge, within rounding, the face or the edge has the contact.
 #[test]
 fn a_foot_on_a_convex_edge_is_not_lost() {
-    /// m; and what rounding makes of it, m, where centre and foot come from random axes.
+    /// Depth, m; and the error, m, of centre and foot computed from random axes.
     const DEPTH: f64 = 1e-3;
     const OF_PLACES: f64 = 1e-12;
     let mut random = Random(107);
@@ -275,7 +277,7 @@ fn touched(contact: &TriangleContact) -> Vec3 {
     contact.interference.deepest_b + contact.interference.normal_b * contact.interference.depth
 }
 
-/// The faces that meet at the pushing feature.
+/// Faces that meet at the pushing feature.
 fn faces_at(contact: &TriangleContact, set: &TriangleSet) -> Vec<u32> {
     let index = contact.interference.feature.index();
     match contact.interference.feature.0 >> 30 {
@@ -288,7 +290,7 @@ fn faces_at(contact: &TriangleContact, set: &TriangleSet) -> Vec<u32> {
     }
 }
 
-/// On a convex surface no two faces side by side push, nor a face and a less deep edge of it.
+/// On a convex surface no two adjacent faces push, nor a face and a less deep edge of it.
 fn check_against_convex_neighbors(contact: &TriangleContact, found: &[TriangleContact], set: &TriangleSet) {
     if !contact.interference.feature.is_face() {
         return;
@@ -371,7 +373,7 @@ fn a_sphere_as_the_sphere_tester() {
         for t in 0..bumpy.triangles.len() as u32 {
             sphere_triangle(&sphere, &bumpy, t, 0.03, &mut |contact| expected.push(contact));
         }
-        // A face behind yields here to any less deep plane next to it; among spheres that is settled later.
+        // A face behind yields here to any less deep plane next to it; for spheres load sharing does that.
         let front = |list: &[TriangleContact]| {
             let mut list: Vec<_> =
                 list.iter().filter(|c| c.standing == Standing::Front).map(|c| c.interference).collect();

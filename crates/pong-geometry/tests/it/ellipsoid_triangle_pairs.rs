@@ -1,5 +1,4 @@
-//! What is left out before an ellipsoid is tested against a triangle would have found nothing: pairs of which eight at a time
-//! are told apart.
+//! Rejected pairs of an ellipsoid and a triangle have no contact. Pairs are classified eight at a time.
 
 use crate::common::{Random, levels, scaled_ellipsoid};
 use crate::oracle_support::rows::{Pairs, tell_in_rows};
@@ -12,15 +11,16 @@ use pong_geometry::interference::triangle_features::TriangleContact;
 use pong_geometry::primitive::{Ellipsoid, TriangleSet};
 use pong_geometry::simd::{LANES, LaneBits, Level, Simd, set_level};
 
-/// Surfaces of every sort, and two on which a vertex pushes alone: a sharp spike, and a box whose corner is cut so that the
-/// lowest triangle there has none of the box's edges.
+/// Surfaces of every kind, and two on which only a vertex pushes: a sharp spike, and a box cut at a corner so
+/// that the lowest triangle there has none of the box's edges.
 fn all_surfaces(random: &mut Random) -> Vec<(&'static str, TriangleSet)> {
     let corner = |angle: f64| Vec3::new(0.12 * angle.cos(), 0.12 * angle.sin(), 0.0);
     let base = [0.3, 2.4, 4.5].map(corner);
     let spike = vec![base[0], base[1], base[2], Vec3::new(0.02, 0.01, 1.0)];
     let spike = surface(spike, &[[0, 1, 3], [1, 2, 3], [2, 0, 3], [2, 1, 0]]);
     let at = |x: f64, y: f64, z: f64| Vec3::new(x, y, z);
-    // The top is cut from its corner 0 into three, of which the middle one comes first, after two at its other corners.
+    // The top is cut from its corner 0 into three triangles, of which the middle one comes first, after two
+    // at its other corners.
     let vertices = vec![
         at(0.5, 0.5, 0.4),
         at(-0.5, 0.5, 0.4),
@@ -38,8 +38,8 @@ fn all_surfaces(random: &mut Random) -> Vec<(&'static str, TriangleSet)> {
     all
 }
 
-/// An ellipsoid of any shape, from a needle to a disc, somewhere about a triangle: anywhere, over its face, or at an edge or a
-/// vertex, shallow or deep.
+/// Ellipsoid of any shape, from a needle to a disc, near a triangle: anywhere, over its face, or at an edge
+/// or a vertex, shallow or deep.
 fn ellipsoid(set: &TriangleSet, triangle: u32, random: &mut Random) -> Ellipsoid {
     let [a, b, c] = set.corners(triangle);
     let normal = set.normal(triangle);
@@ -110,8 +110,8 @@ fn contacts(e: &Ellipsoid, set: &TriangleSet, triangle: u32, thickness: f64) -> 
     found
 }
 
-/// No pair that is left out finds anything, at any level of instructions and of any size, marked or not; most pairs without
-/// contacts are left out.
+/// No rejected pair has a contact, at any instruction-set level and of any size, marked or not; most pairs
+/// without contacts are rejected.
 #[test]
 fn pairs_that_are_left_out_find_nothing() {
     let mut random = Random(73);
@@ -121,7 +121,7 @@ fn pairs_that_are_left_out_find_nothing() {
             if round % 3 != 0 {
                 mark_pushing(&mut set);
             }
-            // By a power of two, which rounds nothing: a kilometre, a millimetre.
+            // Scaled by a power of two, which is exact: a kilometre, a millimetre.
             let scale = f64::exp2(f64::from(round % 3 - 1) * 10.0);
             let mut scaled = set.clone();
             scaled.vertices.iter_mut().for_each(|vertex| *vertex *= scale);
@@ -171,7 +171,7 @@ fn pairs_that_are_left_out_find_nothing() {
     assert!(touching > 10_000 && f64::from(left_out) > 0.6 * f64::from(idle));
 }
 
-/// A pair with a number that is none is tested.
+/// A pair with NaN is not rejected.
 #[test]
 fn what_is_no_number_is_not_left_out() {
     let set = regular_plate(2);

@@ -1,5 +1,5 @@
-//! Every tester on its own boundaries, in numbers without rounding: what only touches does not push, what is an eighth
-//! deeper does by an eighth; a centre in a plane is in front of it; each feature is told by its number.
+//! Every tester on its own boundaries, in exact numbers: shapes that only touch do not push; shapes an eighth
+//! deeper push by an eighth; a centre in a plane is in front of it; each feature has its index.
 
 use crate::common::{cuboid, hull};
 use crate::oracle_support::{all_contacts, skin, surface};
@@ -28,9 +28,9 @@ use pong_geometry::primitive::{
 use pong_geometry::{Mat3, Vec3};
 
 const EIGHTH: f64 = 0.125;
-/// A depth that squares of distances of metres still tell from none: 1.8e-12 m.
+/// Depth that squares of distances of metres still distinguish from zero: 1.8e-12 m.
 const LEAST: f64 = 1.0 / (1_u64 << 39) as f64;
-/// Some units in the last place of a depth of an eighth of a metre and of a unit vector: roots round.
+/// Some units in the last place of a depth of an eighth of a metre and of a unit vector, because roots round.
 const ROUNDING: f64 = 1e-15;
 
 fn at(x: f64, y: f64, z: f64) -> Vec3 {
@@ -45,18 +45,18 @@ fn floor() -> Plane {
     Plane { normal: Vec3::z(), offset: 0.0 }
 }
 
-/// From (−2, −2, −2) to the origin's octant's corner (2, 2, 0): its top is the plane z = 0.
+/// Box from (−2, −2, −2) to (2, 2, 0): its top is the plane z = 0.
 fn block() -> Polyhedron {
     cuboid(at(-2.0, -2.0, -2.0), at(2.0, 2.0, 0.0))
 }
 
-/// Its ridge is the x axis from −2 to 2.
+/// Tent whose ridge is the x axis from −2 to 2.
 fn tent() -> Polyhedron {
     let side = |y: f64, z: f64| [at(-2.0, y, z), at(2.0, y, z)];
     hull(&[side(-2.0, -2.0), side(2.0, -2.0), side(0.0, 0.0)].concat())
 }
 
-/// The top of the block in two triangles, all edges but the diagonal free.
+/// Top of the block as two triangles; all edges but the diagonal are free.
 fn sheet() -> TriangleSet {
     let corners = vec![at(-2.0, -2.0, 0.0), at(2.0, -2.0, 0.0), at(2.0, 2.0, 0.0), at(-2.0, 2.0, 0.0)];
     surface(corners, &[[0, 1, 2], [0, 2, 3]])
@@ -74,13 +74,13 @@ fn ellipsoid(center: Vec3, semi_axes: Vec3) -> Ellipsoid {
     Ellipsoid { center, axes: Mat3::identity(), semi_axes }
 }
 
-/// The contact of a point that remembers no side.
+/// Contact of a point without a remembered side.
 fn point_inside(p: &Vec3, block: &Polyhedron) -> Option<Interference> {
     let face = shallowest_face(p, block).filter(|_| block.contains(p))?;
     point_below_face(p, block, face)
 }
 
-/// Depth of a body lowered by so much from where it touches.
+/// Depth of a body lowered by a distance from where it touches.
 type Lowered<'a> = (&'a str, &'a dyn Fn(f64) -> Option<f64>);
 
 #[test]
@@ -169,8 +169,8 @@ fn rays_end_before_their_length_and_begin_behind_their_reach() {
     assert_eq!(hits(&along), [None; 3], "in the surface");
 }
 
-/// A line through an edge enters by the lower of its faces; one that only touches it does not, and one that ends on a wall
-/// does if the wall is closed.
+/// A line through an edge enters by the lower of its faces. A line that only touches the edge does not enter,
+/// and one that ends on an internal face does if that face is closed.
 #[test]
 fn lines_enter_by_the_lower_face_and_not_where_they_only_touch() {
     let mut block = block();
@@ -191,13 +191,13 @@ fn lines_enter_by_the_lower_face_and_not_where_they_only_touch() {
     let onto_top = |block: &Polyhedron, end: f64| entry(block, at(0.0, 0.0, 2.0), at(0.0, 0.0, end));
     assert_eq!(onto_top(&block, 0.0), None);
     block.change(|parts| (parts.faces[top].active, parts.faces[top].closed) = (false, true));
-    // An inner wall stands out by what is within rounding of it.
+    // An internal face is raised by its tolerance.
     let entered = onto_top(&block, 0.0).expect("through the wall");
     assert!(entered.0 == top && entered.1 < 1.0 && entered.1 > 1.0 - 1e-5, "{entered:?}");
     assert_eq!(onto_top(&block, 1.0), None, "ends above");
 }
 
-/// A line in the plane of an inner wall enters the piece that the wall is closed for.
+/// A line in the plane of an internal face enters the piece for which the face is closed.
 #[test]
 fn a_line_along_a_closed_wall_enters() {
     let plain = block();
@@ -217,7 +217,8 @@ fn a_line_along_a_closed_wall_enters() {
     }
 }
 
-/// An ellipsoid nearer to an inner wall than to the top is pushed out by the top: walls never push.
+/// An ellipsoid nearer to an internal face than to the top is pushed out by the top: internal faces never
+/// push.
 #[test]
 fn an_ellipsoid_beside_a_wall_is_pushed_by_the_top() {
     let mut block = block();
@@ -228,7 +229,8 @@ fn an_ellipsoid_beside_a_wall_is_pushed_by_the_top() {
     assert_eq!((contact.normal_b, contact.depth), (Vec3::z(), 0.625));
 }
 
-/// Behind a face: as deep as the thickness is too deep; in the plane is in front, with no thickness too.
+/// A centre behind a face by exactly the thickness is too deep; in the plane it is in front, also with zero
+/// thickness.
 #[test]
 fn a_centre_in_the_plane_is_in_front() {
     let sheet = sheet();
@@ -241,14 +243,15 @@ fn a_centre_in_the_plane_is_in_front() {
     assert_eq!(standings(-0.25, 0.25 + EIGHTH), [(Standing::Behind, 1.25)]);
     let over_face = |height: f64| sphere_over_face(&ball(at(0.5, 0.25, height), 1.0), &sheet, 0);
     assert_eq!(over_face(0.0).map(|contact| contact.standing), Some(Standing::Front));
-    // Beyond a free edge: in the plane it pushes along the plane, below not at all.
+    // Beyond a free edge: a centre in the plane is pushed along the plane, below not at all.
     let beside = |height: f64| all_contacts(&ball(at(2.5, 0.5, height), 1.0), &sheet, 0.0);
     let normals: Vec<_> = beside(0.0).iter().map(|contact| contact.interference.normal_b).collect();
     assert_eq!(normals, [Vec3::x()]);
     assert!(beside(-EIGHTH).is_empty());
 }
 
-/// The owner of an edge is the lower of its two triangles, and tells it by its own count; vertices have the set's.
+/// The owner of an edge is the lower of its two triangles, which gives the edge's index; vertices have the
+/// indices of the set.
 #[test]
 fn edges_and_vertices_are_told_by_their_numbers() {
     let block = skin(&block());
@@ -285,7 +288,7 @@ fn edges_and_vertices_are_told_by_their_numbers() {
     assert_eq!((edges, vertices), (12, 8));
 }
 
-/// A feature is its kind and its index, and is ordered by them.
+/// A feature consists of its kind and its index, and is ordered by them.
 #[test]
 fn features_differ_by_kind_and_index() {
     let last = (1 << 30) - 1;
@@ -302,9 +305,9 @@ fn features_differ_by_kind_and_index() {
     assert_eq!(Feature::WHOLE, Feature::face(0));
 }
 
-/// Two faces folded to 53° about the y axis, their fronts inside the fold: what is below the fold and in front of one of
-/// them is outside, and nothing pushes; what is behind both within the thickness is pushed by both, whichever is named
-/// first.
+/// Two faces folded to 53° about the y axis, their fronts inside the fold. A centre below the fold and in
+/// front of one of them is outside, and nothing pushes; a centre behind both within the thickness is pushed
+/// by both, whichever comes first.
 #[test]
 fn below_a_sharp_fold_only_what_is_behind_both_faces_is_pushed() {
     let rows = [-1.0, 1.0].map(|y| [at(-0.5, y, 1.0), at(0.0, y, 0.0), at(0.5, y, 1.0)]);

@@ -1,5 +1,5 @@
-//! Degenerate cases raise no floating-point exception, at any level of instructions: neither 0/0 nor a quotient by zero, in
-//! lanes that nobody looks at included. The answers themselves are tested elsewhere.
+//! Degenerate cases raise no floating-point exception at any instruction-set level: no 0/0 and no division by
+//! zero, not even in unused lanes. The results are tested elsewhere.
 
 use crate::common::{cuboid, levels, surface_of};
 use pong_geometry::Vec3;
@@ -22,7 +22,7 @@ fn assert_none(what: &str, work: impl Fn()) {
     }
 }
 
-/// Along the faces of a box: in the plane of one, above it, below it; through the box and past it.
+/// Lines along the faces of a box: in the plane of one, above it, below it; through the box and past it.
 fn lines_along_faces() -> impl Iterator<Item = [Vec3; 2]> {
     let heights = [1.0, 2.0, 0.5, 0.0, -1.0];
     heights.into_iter().flat_map(move |y| {
@@ -66,7 +66,8 @@ fn lines_along_triangles() {
     }
 }
 
-/// A line without length is none, and neither is one that is longer than numbers reach; a loop around it changes nothing.
+/// A line without length has no direction, nor has one whose length overflows; a loop around it changes
+/// nothing.
 #[test]
 fn lines_without_length_and_beyond_numbers() {
     let far = Vec3::repeat(f64::MAX);

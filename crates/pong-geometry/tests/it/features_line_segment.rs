@@ -1,4 +1,4 @@
-//! What must come out of LineSegment–Polyhedron (docs/theory.md, 2.3, "what must come out of it").
+//! Properties of LineSegment–Polyhedron (docs/theory.md, 2.3, "what must come out of it").
 //!
 //! Degenerate cases: bars exactly parallel to a face, along its normal, over the seam between two pieces, lying on
 //! a face's edge.
@@ -54,7 +54,7 @@ fn a_bar_lying_flat_carries_all_of_it() {
     }
 }
 
-/// Where bounds of the energy leave the range of numbers every face is asked: the answer is the same, scaled.
+/// If energy bounds overflow, every face is tested: the result is the same, scaled.
 #[test]
 fn a_scene_beyond_all_scenes_is_answered_as_a_small_one() {
     let mut random = Random(613);
@@ -84,13 +84,13 @@ fn a_scene_beyond_all_scenes_is_answered_as_a_small_one() {
         }
         assert!(touching > 1000);
     }
-    // A short one in such a solid.
+    // A short segment in such a solid.
     let short = bar(Vec3::new(0.5, 0.25, -0.25), Vec3::new(0.75, 0.25, -0.25));
     let large = scaled(&brick(), f64::exp2(280.0));
     assert_eq!(line_segment_polyhedron(&short, &large), line_segment_polyhedron(&short, &brick()));
 }
 
-/// The least overlap over all directions in which a segment and a convex solid can be in line.
+/// Least overlap over all directions in which a segment and a convex solid can touch.
 fn minimum_translation(segment: &LineSegment, shape: &Polyhedron) -> (f64, Vec3) {
     let along = segment.ends[1] - segment.ends[0];
     let crossings = shape.edges.iter().flat_map(|edge| {
@@ -122,7 +122,7 @@ fn a_tip_or_one_crossing_is_the_minimum_translation() {
         let contacts = line_segment_polyhedron(&segment, &shape);
         let ([Some(contact), None] | [None, Some(contact)]) = contacts else { continue };
         let (least, normal) = minimum_translation(&segment, &shape);
-        // Shallow ones: deep inside, the halves of two faces compete.
+        // Shallow contacts only: deep inside, the halves of two faces compete.
         if contact.depth > 0.05 {
             continue;
         }
@@ -132,8 +132,8 @@ fn a_tip_or_one_crossing_is_the_minimum_translation() {
             crossings += 1;
         }
         if (contact.depth - least).abs() > 1e-13 {
-            // The allowed steps: a tip over the polygon but nearer to an edge than it is deep, to second order;
-            // a crossing that cuts off a vertex.
+            // Allowed differences: a tip over the polygon but nearer to an edge than it is deep, to second
+            // order; and a crossing that cuts off a vertex.
             let foot = contact.deepest_b + contact.normal_b * contact.depth;
             let to_vertex =
                 shape.vertices.iter().map(|v| (v.position - foot).norm()).fold(f64::INFINITY, f64::min);
@@ -153,7 +153,7 @@ fn a_tip_or_one_crossing_is_the_minimum_translation() {
     assert!(steps * 50 < tips);
 }
 
-/// Tilting through parallel: short, ending within the face, overhanging on one side, through on both.
+/// Tilting through parallel: short, ending within the face, overhanging on one side, extending on both.
 #[test]
 fn the_wrench_is_continuous_through_parallel() {
     let mut worst = Worst::new("tilt through parallel: step beyond the slope, over the depth");
@@ -164,7 +164,7 @@ fn the_wrench_is_continuous_through_parallel() {
             let at = |tilt: f64| {
                 let along = Vec3::new(f64::cos(yaw), f64::sin(yaw), 0.0);
                 let along = (along + Vec3::z() * tilt).normalize();
-                // About the middle of what lies over the face.
+                // About the middle of the part over the face.
                 let middle = Vec3::new(0.5 * (f64::max(from, -1.0) + f64::min(to, 1.0)), 0.0, -depth);
                 let pivot = middle - Vec3::new(yaw.cos(), yaw.sin(), 0.0) * middle.x;
                 push(&bar(pivot + along * from, pivot + along * to), &shape).0
@@ -175,13 +175,13 @@ fn the_wrench_is_continuous_through_parallel() {
                 let tilt = 10.0_f64.powi(-power);
                 for tilt in [tilt, -tilt] {
                     let turned = at(tilt);
-                    // The slope: ends move by tilt times their distance over the face.
+                    // Slope: ends move by the tilt times their distance over the face.
                     let slope = 10.0 * tilt.abs();
                     worst.note((turned.force - flat.force).norm() - slope, depth * 1e-9);
                     worst.note((turned.moment - flat.moment).norm() - slope, depth * 1e-9);
                 }
             }
-            // And nowhere near: steps of at most second order in the tilt.
+            // No other step nearby: changes of at most second order in the tilt.
             let step = 2e-7;
             let mut before = at(-8e-4);
             for i in -3999..4000 {
@@ -222,14 +222,14 @@ fn a_bar_that_passes_right_through_does_no_work_along_itself() {
     }
 }
 
-/// A pose of the bar, six numbers: translation and rotation vector about its middle.
+/// Bar in a pose of six numbers: translation and rotation vector about its middle.
 fn posed(rest: &LineSegment, pose: &[f64; 6]) -> LineSegment {
     let turn = Vec3::new(pose[3], pose[4], pose[5]);
     let rotation = nalgebra::Rotation3::new(turn).into_inner();
     rest.carried(&Transform { rotation, translation: Vec3::new(pose[0], pose[1], pose[2]) })
 }
 
-/// The push is the slope of the energy wherever the energy is smooth.
+/// The force is the derivative of the energy wherever the energy is smooth.
 #[test]
 fn the_wrench_is_the_slope_of_the_energy() {
     let mut random = Random(605);
@@ -265,7 +265,7 @@ fn the_wrench_is_the_slope_of_the_energy() {
     assert!(kinks < 30);
 }
 
-/// Closed paths over one edge and the faces beside it: the line integral of the work gains nothing.
+/// Closed paths over one edge and the faces beside it: the line integral of the work is zero.
 #[test]
 fn closed_paths_gain_nothing() {
     let mut random = Random(606);
@@ -295,12 +295,12 @@ fn closed_paths_gain_nothing() {
         }
         paths += 1;
         let (fine, _) = work(&at, &shape, 16_000);
-        // What is left after refinement; the second difference bounds the error of the sum.
+        // Remainder after refinement; the second difference bounds the error of the sum.
         worst.note((fine - (coarse - fine).abs()).max(0.0) / largest, 2e-3);
     }
 }
 
-/// Work done on the bar round a path: forces on its two ends' mean motion, middle rule.
+/// Work done on the bar along a path: forces times the mean motion of its two ends, by the midpoint rule.
 fn work(at: &dyn Fn(f64) -> LineSegment, shape: &[Polyhedron], steps: usize) -> (f64, f64) {
     let (mut sum, mut largest) = (0.0, 0.0_f64);
     for i in 0..steps {
@@ -362,7 +362,7 @@ fn pieces_share_the_halves() {
     assert!(crossing > 2000);
 }
 
-/// Parallel to the walls, within one: one piece alone carries it.
+/// A bar inside an internal face, parallel to it: one piece alone carries it.
 #[test]
 fn a_bar_within_an_inner_wall_is_carried_once() {
     let pieces = brick_in_pieces();
@@ -377,8 +377,8 @@ fn a_bar_within_an_inner_wall_is_carried_once() {
     }
 }
 
-/// Both faces of an edge that a bar crosses claim the one crossing. The end that reaches farther out has it, in whatever order
-/// the faces are.
+/// Both faces of an edge that a bar crosses claim the same crossing. The end that is farther out carries it,
+/// whatever the order of the faces.
 #[test]
 fn an_edge_is_carried_by_the_end_that_reaches_farther_out() {
     let mut random = Random(614);
@@ -409,7 +409,7 @@ fn an_edge_is_carried_by_the_end_that_reaches_farther_out() {
     assert!(crossed.iter().all(|count| *count > 1000));
 }
 
-/// A bar in a face, or with a tip on an edge, touches: nothing carries it, whatever rounding says.
+/// A bar in a face, or with a tip on an edge, only touches: nothing carries it, in spite of rounding.
 #[test]
 fn a_bar_that_only_touches_is_not_carried() {
     let mut random = Random(615);
@@ -427,7 +427,7 @@ fn a_bar_that_only_touches_is_not_carried() {
     }
 }
 
-/// A solid whose top slopes down beyond an edge at x = 0.
+/// Solid whose top slopes down beyond an edge at x = 0.
 fn roof(slope: f64) -> Polyhedron {
     let drop = 2.0 * slope.tan();
     let outline = [(-2.0, 0.0), (0.0, 0.0), (2.0, -drop), (2.0, -4.0), (-2.0, -4.0)];
@@ -436,7 +436,7 @@ fn roof(slope: f64) -> Polyhedron {
     hull(&corners)
 }
 
-/// Flat on the slope, overhanging the ridge into the open: all of kδ, as over the square edge of a box.
+/// Flat on the slope, overhanging the ridge: all of kδ, as over the square edge of a box.
 #[test]
 fn a_flat_bar_overhanging_an_obtuse_edge_carries_all_of_it() {
     for degrees in [10.0_f64, 30.0, 60.0] {
@@ -449,7 +449,7 @@ fn a_flat_bar_overhanging_an_obtuse_edge_carries_all_of_it() {
     }
 }
 
-/// A steep bar whose tip is 0.25 m below the slope: nothing happens to that when its line passes the ridge.
+/// Steep bar whose tip is 0.25 m below the slope: it is unaffected when its line passes the ridge.
 #[test]
 fn energy_is_continuous_where_a_line_passes_an_obtuse_edge() {
     let shape = [roof(30_f64.to_radians())];
@@ -459,7 +459,7 @@ fn energy_is_continuous_where_a_line_passes_an_obtuse_edge() {
     assert!((above - below).abs() < 1e-5, "{above:e} above, {below:e} below");
 }
 
-/// A prism of six sides, a face on top at z = 0 from x = −0.5 to 0.5.
+/// Prism of six sides, with a face on top at z = 0 from x = −0.5 to 0.5.
 fn hexagon() -> Polyhedron {
     let corners: Vec<Vec3> = (0..6)
         .flat_map(|i| {
@@ -470,8 +470,8 @@ fn hexagon() -> Polyhedron {
     hull(&corners)
 }
 
-/// Tilting through parallel on a face between obtuse edges: all of kδ at parallel, no step near it, whether the
-/// bar ends within the face, overhangs one edge or both, or digs into the neighbour's side.
+/// Tilting through parallel on a face between obtuse edges: all of kδ at parallel and no step near it,
+/// whether the bar ends within the face, overhangs one edge or both, or digs into the neighbour's side.
 #[test]
 fn the_wrench_is_continuous_through_parallel_between_obtuse_edges() {
     let shape = [hexagon()];

@@ -1,4 +1,4 @@
-//! Scaling by 10⁻⁴ and 10⁴ and rigid motions change nothing but the scale and the frame, for every tester here.
+//! Scaling by 10⁻⁴ and 10⁴ and rigid motions change only the scale and the frame, for every tester here.
 //!
 //! Degenerate cases: sizes of 10⁻⁴ and 10⁴ m; places near 0.
 
@@ -88,7 +88,7 @@ impl Scene {
         }
     }
 
-    /// Every contact there is, in a fixed order.
+    /// All contacts, in a fixed order.
     fn contacts(&self) -> Vec<Option<Interference>> {
         let point = Point { position: self.point };
         let mut all = vec![
@@ -137,7 +137,8 @@ fn scenes(seed: u64, count: usize) -> Vec<Scene> {
     (0..count).map(|_| Scene::random(&mut random, &solids, &mesh)).collect()
 }
 
-/// Largest difference of two lists after the second is brought back by `back`; `None` if they are of other kinds.
+/// Largest difference of two lists after the second is transformed back by `back`; `None` if the kinds of
+/// contacts differ.
 fn difference(a: &Scene, b: &Scene, back: &dyn Fn(&Interference) -> Interference) -> Option<f64> {
     let (first, second) = (a.contacts(), b.contacts());
     let same = first.len() == second.len()
@@ -169,7 +170,7 @@ fn scaling_scales() {
     }
 }
 
-/// As [`difference`], with the thickness that `contacts` gives to triangles left out of the comparison.
+/// [`difference`] without the mesh, whose thickness does not scale.
 fn difference_scaled(a: &Scene, b: &Scene, s: f64, back: &dyn Fn(&Interference) -> Interference) -> f64 {
     let without_mesh =
         |scene: &Scene| Scene { mesh: TriangleSet::default(), solids: scene.solids.clone(), ..*scene };

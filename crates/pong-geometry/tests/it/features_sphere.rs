@@ -1,4 +1,4 @@
-//! Seams do not exist for spheres over plates, closed meshes and polyhedra (docs/theory.md, 2.2).
+//! Seams have no effect on spheres over plates, closed meshes and polyhedra (docs/theory.md, 2.2).
 //!
 //! Degenerate cases: centres exactly above vertices and edges and up to three ulps beside them, over regular,
 //! irregular, `f32`-rounded and turned surfaces; on the planes between the regions of neighbouring features.
@@ -15,7 +15,7 @@ use pong_geometry::interference::Interference;
 use pong_geometry::interference::sphere_polyhedron::sphere_outside_polyhedron;
 use pong_geometry::primitive::{Polyhedron, Sphere, TriangleSet};
 
-/// A place on a surface: a vertex, a place on an edge, or within a triangle.
+/// Random point of a surface: a vertex, a point on an edge, or a point inside a triangle.
 fn feature_place(set: &TriangleSet, random: &mut Random) -> Vec3 {
     let c = set.corners((random.bits() % set.triangles.len() as u64) as u32);
     match random.bits() % 4 {
@@ -34,7 +34,7 @@ fn jittered(p: Vec3, random: &mut Random) -> Vec3 {
     p.map(|x| nudge(x, (random.bits() % 7) as i64 - 3))
 }
 
-/// Each feature at most once.
+/// Each feature occurs at most once.
 fn assert_once(contacts: &[Interference]) {
     for (i, a) in contacts.iter().enumerate() {
         assert!(contacts[i + 1..].iter().all(|b| a.feature != b.feature), "{contacts:?}");
@@ -78,14 +78,14 @@ fn plates_have_no_gaps() {
     }
 }
 
-/// Directions in which a place of a convex surface may be left: mixtures of the normals there.
+/// Direction away from a point of a convex surface: a mixture of the normals there.
 fn outward_mix(set: &TriangleSet, place: &Vec3, random: &mut Random) -> Vec3 {
     let mut sum = Vec3::zeros();
     let sharp = random.bits().is_multiple_of(3);
     for t in 0..set.triangles.len() as u32 {
         let foot = oracle_support::nearest_on_triangle(place, &set.corners(t));
         if (foot - place).norm() < 1e-12 {
-            // Sometimes one normal alone: exactly on the border of the cone.
+            // Sometimes a single normal: exactly on the border of the cone.
             let share =
                 if sharp { f64::from(u8::from(random.bits().is_multiple_of(2))) } else { random.unit() };
             sum += set.normal(t) * share;
@@ -132,7 +132,7 @@ fn closed_convex_surfaces_have_no_gaps() {
     }
 }
 
-/// Along straight lines over a surface the push moves no faster than the centre allows.
+/// Along straight lines over a surface, the force changes no faster than the centre allows.
 fn continuous(push: &dyn Fn(&Vec3) -> Option<Vec3>, lines: usize, seed: u64, name: &'static str) {
     let mut random = Random(seed);
     let mut worst = Worst::new(name);
@@ -142,7 +142,7 @@ fn continuous(push: &dyn Fn(&Vec3) -> Option<Vec3>, lines: usize, seed: u64, nam
         let at = |s: f64| from + (to - from) * s;
         for i in 0..200 {
             let (mut low, mut high) = (f64::from(i) / 200.0, f64::from(i + 1) / 200.0);
-            // Halve towards the larger change: a step stays, a slope vanishes.
+            // Bisect towards the larger change: a step remains, a slope vanishes.
             let (Some(mut below), Some(mut above)) = (push(&at(low)), push(&at(high))) else { continue };
             let allowed = |low: f64, high: f64| 60.0 * (high - low) * (to - from).norm();
             while (above - below).norm() > allowed(low, high) && high - low > 1e-13 {
@@ -183,7 +183,7 @@ fn the_push_is_continuous_across_features() {
     continuous(&on_mesh, 40, 704, "continuity: mesh");
 }
 
-/// A valley of two walls, at several angles: both push, no edge in it does, and the push has no step.
+/// A valley of two walls at several angles: both walls push, no edge does, and the force has no step.
 #[test]
 fn valleys_are_continuous_and_their_edges_silent() {
     for degrees in [90.0_f64, 120.0, 150.0, 179.0, 179.999_999] {
@@ -213,7 +213,8 @@ fn valleys_are_continuous_and_their_edges_silent() {
     }
 }
 
-/// A convex edge and vertex push only strictly inside their cone; a free edge only while the centre is in front.
+/// A convex edge or vertex pushes only strictly inside its cone; a free edge only while the centre is in
+/// front.
 #[test]
 fn cones_and_free_edges() {
     let mut random = Random(706);
@@ -249,7 +250,7 @@ fn cones_and_free_edges() {
     assert!(rim > 200 && front > rim + 200);
 }
 
-/// Over the line where two pieces abut something always pushes, along the common normal.
+/// Over the line where two pieces abut there is always a contact, along the common normal.
 #[test]
 fn abutting_pieces_have_no_gaps() {
     let mut random = Random(708);
@@ -273,7 +274,7 @@ fn abutting_pieces_have_no_gaps() {
     }
 }
 
-/// Two pieces of a plate that abut at x = 0, the wall coming before the top in both.
+/// Two pieces of a plate that abut at x = 0; in both, the internal face comes before the top.
 fn abutting_pieces(size: f64) -> [pong_geometry::primitive::Polyhedron; 2] {
     let wall = |n: &Vec3, d: f64| n.x.abs() > 0.9 && d == 0.0;
     let corners = |low: f64, high: f64| {
@@ -304,7 +305,7 @@ fn a_centre_on_a_seam_is_pushed() {
     }
 }
 
-/// What is not on the seam but beside it, by a billionth of the size, is pushed by the piece below it alone, at any size.
+/// A centre beside the seam by a billionth of the size is pushed only by the piece below it, at any size.
 #[test]
 fn beside_a_seam_one_piece_pushes() {
     for size in [1e-4, 1.0, 1e4] {
@@ -318,8 +319,8 @@ fn beside_a_seam_one_piece_pushes() {
     }
 }
 
-/// A centre on a convex edge or vertex lies in the planes of all faces there. One contact pushes it, along the mean of their
-/// normals, however the surface is turned and cut.
+/// A centre on a convex edge or vertex lies in the planes of all faces there. One contact pushes it, along
+/// the mean of their normals, however the surface is rotated and cut.
 #[test]
 fn a_centre_on_a_convex_rim_is_pushed_once() {
     let mut random = Random(703);

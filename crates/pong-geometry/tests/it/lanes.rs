@@ -1,4 +1,4 @@
-//! Eight points at a time, at every level of instructions, against the plain formulas: the same bits.
+//! Operations on eight points, at every instruction-set level, against the scalar formulas: the same bits.
 
 use crate::common::{Random, cuboid, levels, pieces, place_near, stretched_hull};
 use pong_geometry::interference::line_segment_polyhedron::line_segment_piece;
@@ -24,7 +24,7 @@ fn bits_of(truth: impl Fn(usize) -> bool) -> u8 {
     (0..LANES).map(|lane| u8::from(truth(lane)) << lane).sum()
 }
 
-/// Equal bits; any NaN equals any other.
+/// Compares bits; all NaNs count as equal.
 fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
 }
@@ -128,7 +128,7 @@ fn a_reach_of_exactly_the_height_is_outside() {
     });
 }
 
-/// Of triangles from a point of the plane to each edge: half the edge times how far away its line is.
+/// Area of a face, from the triangles between a point of its plane and each edge.
 fn area(polyhedron: &Polyhedron, face: usize) -> f64 {
     let rims = polyhedron.rim(face);
     let triangle = |rim: &RimEdge| {
@@ -155,7 +155,7 @@ fn planes_are_those_of_all_faces_from_the_widest_to_the_narrowest() {
     }
 }
 
-/// The ends of eight segments.
+/// Ends of eight segments.
 fn ends_of(segments: &[LineSegment; LANES]) -> [Lanes; 2] {
     [0, 1].map(|end: usize| lanes_of(&std::array::from_fn(|lane| segments[lane].ends[end])))
 }

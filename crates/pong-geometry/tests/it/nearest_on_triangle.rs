@@ -1,7 +1,8 @@
-//! The nearest point of a surface of triangles, and on which side of it a point lies there.
+//! Nearest point of a triangle surface, and the side of the surface on which a point lies.
 //!
-//! A point is in front of a convex closed surface exactly where it is outside; of the same surface inside out, where it is
-//! inside. Degenerate cases: sharp spikes and thin wedges, on whose edges and tips one face alone says the wrong side.
+//! A point is in front of a convex closed surface exactly if it is outside; for the same surface inside out,
+//! if it is inside. Degenerate cases: sharp spikes and thin wedges, at whose edges and tips a single face
+//! gives the wrong side.
 
 use crate::common::{Random, hull, random_motion, surface_of, triangle_set};
 use pong_geometry::Vec3;
@@ -21,7 +22,7 @@ fn outside_is_in_front_of_a_closed_convex_surface_and_behind_it_inside_out() {
     let mut random = Random(31);
     let (mut on_edges, mut on_corners, mut one_face_is_wrong) = (0, 0, 0);
     for _ in 0..300 {
-        // A tetrahedron, some of them needles and blades.
+        // Tetrahedra, some of them needles and blades.
         let flat = Vec3::from_fn(|_, _| 10_f64.powf(random.between(-2.0, 0.0)));
         let corners: Vec<Vec3> = (0..4).map(|_| random.direction().component_mul(&flat)).collect();
         let solid = hull(&corners);
@@ -54,7 +55,7 @@ fn outside_is_in_front_of_a_closed_convex_surface_and_behind_it_inside_out() {
     assert!(on_edges > 1000 && on_corners > 1000 && one_face_is_wrong > 100);
 }
 
-/// The nearest place by a fine grid over the triangle is no nearer.
+/// No point of a fine grid over the triangle is nearer.
 #[test]
 fn no_place_of_the_triangle_is_nearer() {
     let mut random = Random(32);
@@ -72,8 +73,8 @@ fn no_place_of_the_triangle_is_nearer() {
     }
 }
 
-/// A place beyond an edge and over one of its ends belongs to the edge for both triangles, or to the corner for both,
-/// however they name it and wherever they are.
+/// For a point beyond an edge and over one of its ends, both triangles assign it to the edge, or both to the
+/// corner, in any order of vertices and any pose.
 #[test]
 fn both_triangles_of_an_edge_agree_where_it_ends() {
     let mut random = Random(32);

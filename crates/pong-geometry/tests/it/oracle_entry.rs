@@ -1,4 +1,5 @@
-//! The side of entry: where a line comes in, how memory follows a point, which face pushes.
+//! Side of entry: the face by which a line enters, how the remembered face follows a point, and which face
+//! pushes.
 //!
 //! Degenerate cases: lines that start on a face, end on an inner wall, run through edges and vertices, along a
 //! face; points at the middle of symmetric shapes (ties).
@@ -36,7 +37,7 @@ fn shapes(random: &mut Random) -> Vec<Polyhedron> {
     .collect()
 }
 
-/// Where stepping along the line first finds itself inside, to rounding, and the face that is crossed there.
+/// Point at which stepping along the line first finds itself inside, and the face crossed there.
 fn stepped_entry(from: &Vec3, to: &Vec3, shape: &Polyhedron) -> Option<(f64, usize)> {
     let place = |s: f64| from + (to - from) * s;
     if shape.contains(from) {
@@ -54,7 +55,7 @@ fn stepped_entry(from: &Vec3, to: &Vec3, shape: &Polyhedron) -> Option<(f64, usi
         }
     }
     let p = place(0.5 * (out + within));
-    // The face whose polygon is nearest to that place, by area.
+    // Face whose polygon is nearest to that point, by area.
     let gap = |face: usize| {
         let c = polygon(shape, face);
         (1..c.len() - 1)
@@ -74,14 +75,14 @@ fn lines_enter_where_stepping_finds_them() {
     while entered < 2500 {
         let shape = &shapes[(random.bits() % 4) as usize];
         let from = random.direction() * random.between(0.1, 2.0);
-        // Half of them end inside, half shoot through or miss.
+        // Half of them end inside, half pass through or miss.
         let to = random.direction() * random.between(0.0, if entered % 2 == 0 { 0.5 } else { 2.0 });
         let expected = stepped_entry(&from, &to, shape);
         let found = entry_of_line(&from, &to, shape);
         match (expected, found) {
             (Some((at, face)), Some(entry)) => {
                 entered += 1;
-                // An inner wall stands out by what is within rounding of it.
+                // An internal face is raised by its tolerance.
                 let wall = &shape.faces[entry.face];
                 let room = if wall.active { 0.0 } else { shape.planes().wall_slack };
                 let early = room / -wall.normal.dot(&(to - from).normalize());
@@ -108,13 +109,13 @@ fn lines_enter_where_stepping_finds_them() {
     assert!(missed > 300 && border < 40);
 }
 
-/// Whether two faces share an edge.
+/// Returns `true` if two faces share an edge.
 fn adjacent(shape: &Polyhedron, f: usize, g: usize) -> bool {
     let (a, b) = (polygon(shape, f), polygon(shape, g));
     f != g && a.iter().filter(|corner| b.contains(corner)).count() == 2
 }
 
-/// The least depth over a face and its active neighbours, and the faces that have it.
+/// Least depth over a face and its active neighbours, and the faces that have it.
 fn pushed(p: &Vec3, shape: &Polyhedron, face: usize) -> (f64, Vec<usize>) {
     let depth = |f: usize| shape.faces[f].offset - shape.faces[f].normal.dot(p);
     let candidates =
@@ -124,8 +125,8 @@ fn pushed(p: &Vec3, shape: &Polyhedron, face: usize) -> (f64, Vec<usize>) {
     (least, candidates.into_iter().filter(|&g| depth(g) == least).collect())
 }
 
-/// 2.4 written down again: while it lowers the depth, go to the active neighbour with n·n' > 0.3 of least depth, unless
-/// what pushes there is deeper.
+/// Independent implementation of 2.4: while it lowers the depth, move to the active neighbour with n·n' > 0.3
+/// of least depth, unless the face that pushes there is deeper.
 fn walked(p: &Vec3, shape: &Polyhedron, remembered: usize) -> usize {
     let depth = |f: usize| shape.faces[f].offset - shape.faces[f].normal.dot(p);
     let mut here = remembered;
@@ -163,7 +164,7 @@ fn memory_walks_as_defined() {
         assert_eq!((reached.depth, reached.pushes), (least, faces[0]));
         let contact = point_below_face(&p, shape, reached.pushes).expect("inside");
         assert_eq!((contact.normal_b, contact.feature.index()), (shape.faces[faces[0]].normal, faces[0]));
-        // Depth over the walk is never less than the plain least depth.
+        // The depth after the walk is never less than the plain least depth.
         let least = shallowest_face(&p, shape).expect("active");
         assert!(contact.depth >= -shape.height(least, &p));
         let direction = random.direction();
@@ -175,7 +176,8 @@ fn memory_walks_as_defined() {
     assert!(turns > 1000);
 }
 
-/// Along any path inside a hull the depth grows by no more than the path is long: a step of the walk never raises it.
+/// Along any path inside a hull the depth grows by no more than the length of the path: a step of the walk
+/// never raises it.
 #[test]
 fn along_a_path_the_depth_never_steps_up() {
     let mut random = Random(404);
@@ -186,7 +188,7 @@ fn along_a_path_the_depth_never_steps_up() {
         let step = random.between(1e-4, 0.05);
         let mut p = corners.iter().sum::<Vec3>() / 8.0;
         let mut heading = random.direction();
-        // As a commit does: the face reached is what the next frame begins from.
+        // As in a commit: the next frame starts from the new face.
         let first = follow(&p, &hull, (random.bits() % hull.faces.len() as u64) as usize);
         let (mut memory, mut depth) = (first.face, first.depth);
         for _ in 0..200 {
@@ -209,7 +211,7 @@ fn along_a_path_the_depth_never_steps_up() {
     assert!(turned > 1000 && stayed > 1000);
 }
 
-/// Through a thin plate: remembered from above, a point past the middle is still pushed up.
+/// Through a thin plate: a point that entered from above is still pushed up when it is past the middle.
 #[test]
 fn memory_never_goes_round_a_sharp_rim() {
     let plate = cuboid(Vec3::new(-1.0, -1.0, -0.01), Vec3::new(1.0, 1.0, 0.01));
@@ -222,13 +224,13 @@ fn memory_never_goes_round_a_sharp_rim() {
         let (above, below) = (follow(&p, &plate, top), follow(&p, &plate, bottom));
         assert_eq!((above.face, above.pushes, below.pushes), (top, top, bottom));
     }
-    // Near the rim the side may push, the far face may not: memory stays where it is.
+    // Near the rim the side may push, the opposite face may not: the remembered face stays.
     let p = Vec3::new(0.999, 0.0, -0.009);
     let reached = follow(&p, &plate, top);
     assert_eq!((reached.face, reached.pushes), (top, face(Vec3::x())));
 }
 
-/// Round a twelve-sided prism memory follows, however many facets the point went on in one step.
+/// On a twelve-sided prism the remembered face follows over any number of facets in one step.
 #[test]
 fn memory_follows_a_faceted_curve() {
     let shape = shapes(&mut Random(0)).swap_remove(1);
@@ -254,21 +256,21 @@ fn degenerate_lines_and_ties() {
     for face in 0..6 {
         assert_eq!(follow(&middle, &shape, face).face, face, "no walk without gain");
     }
-    // Through an edge and a vertex: one of the faces there, where the line meets it.
+    // Through an edge and a vertex: one of the faces there, at the intersection.
     for from in [Vec3::new(2.0, 2.0, 0.0), Vec3::repeat(2.0), Vec3::new(1.0, 2.0, 0.0), Vec3::repeat(1.0)] {
         let entry = entry_of_line(&from, &middle, &shape).expect("enters");
         let p = from * (1.0 - entry.at);
         assert!(shape.height(entry.face, &p).abs() < 1e-15, "{from:?}");
     }
-    // Starting on a face counts as outside; starting inside, ending on the surface, and sliding along it do not
-    // enter.
+    // A start on a face counts as outside. A line that starts inside, ends on the surface or slides along it
+    // does not enter.
     let top = shape.faces.iter().position(|f| f.normal.z > 0.9);
     assert_eq!(entry_of_line(&Vec3::z(), &middle, &shape).map(|e| (e.face, e.at)), top.map(|f| (f, 0.0)));
     assert_eq!(entry_of_line(&(Vec3::z() * 0.5), &middle, &shape), None);
     assert_eq!(entry_of_line(&(Vec3::z() * 2.0), &Vec3::z(), &shape), None);
     assert_eq!(entry_of_line(&Vec3::z(), &Vec3::new(0.5, 0.0, 1.0), &shape), None);
     assert_eq!(entry_of_line(&middle, &middle, &shape), None);
-    // No active face at all.
+    // Without any active face.
     let walls = hull_with_walls(&cuboid_corners(Vec3::repeat(-1.0), Vec3::repeat(1.0)), &|_, _| true);
     assert_eq!(
         (shallowest_face(&middle, &walls), face_most_along(&Vec3::x(), &middle, &walls)),
@@ -276,11 +278,12 @@ fn degenerate_lines_and_ties() {
     );
 }
 
-/// Equally deep below two faces: the lower one pushes, and memory goes the way of the lower one.
+/// Equally deep below two faces: the lower one pushes, and the remembered face moves to the lower one.
 #[test]
 fn ties_go_to_the_lower_face() {
     let cube = cuboid(Vec3::repeat(-1.0), Vec3::repeat(1.0));
-    // Its floor and its top have four sides each with an axis for a normal, and four more beside: ten faces.
+    // The floor and the top have four sides each with a normal along an axis, and four more beside: ten
+    // faces.
     let rim = [(1.0, 0.4), (0.4, 1.0), (-0.4, 1.0), (-1.0, 0.4)].map(|(x, y)| Vec3::new(x, y, 1.0));
     let corners: Vec<Vec3> =
         rim.iter().flat_map(|p| [*p, -p, Vec3::new(p.x, p.y, -1.0), Vec3::new(-p.x, -p.y, 1.0)]).collect();
@@ -298,8 +301,8 @@ fn ties_go_to_the_lower_face() {
             assert_eq!(follow(&p, solid, reached).pushes, tied[0]);
         }
     }
-    // A tall prism of eight sides around z, seen from its middle: from the top, and from the bottom, both ways to the side
-    // are equally short. Turned and mirrored, so that its faces are listed in other orders.
+    // A tall prism of eight sides around z, seen from its middle: both ways from the top, and from the
+    // bottom, to the side are equally short. Rotated and mirrored, so that its faces come in other orders.
     let outline = [(0.5, 3.0), (1.0, 2.5), (1.0, -2.5), (0.5, -3.0)];
     let frames = [(Vec3::x(), Vec3::y()), (Vec3::y(), -Vec3::x()), (Vec3::y(), Vec3::x())];
     for (e_x, e_y) in frames {

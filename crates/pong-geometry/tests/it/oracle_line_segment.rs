@@ -1,5 +1,5 @@
-//! Line segments against planes and polyhedra, compared with the rule as docs/decisions/0001 words it, worked out by
-//! sampling, winding numbers and least squares.
+//! Line segments against planes and polyhedra, compared with the rule as worded in docs/decisions/0001,
+//! evaluated by sampling, winding numbers and least squares.
 //!
 //! Degenerate cases: a segment along a face's normal, along an edge, through a vertex, within an inner wall,
 //! touching from outside.
@@ -13,18 +13,18 @@ use pong_geometry::interference::line_segment_plane::line_segment_plane;
 use pong_geometry::interference::line_segment_polyhedron::{EndContacts, line_segment_polyhedron};
 use pong_geometry::primitive::{LineSegment, Plane, Polyhedron};
 
-/// What one end carries: depth, normal, point.
+/// Contact of one end: depth, normal, point.
 type End = Option<(f64, Vec3, Vec3)>;
 
-/// What one face measures at one end.
+/// Measurement of one face at one end.
 #[derive(Clone, Copy)]
 struct Measured {
     end: End,
-    /// Whether an inner wall cuts it off.
+    /// True if an internal face cuts it off.
     walled: bool,
 }
 
-/// Winding of a polygon about a point, both seen along a normal.
+/// Winding number of a polygon about a point, seen along a normal.
 fn encloses(corners: &[Vec3], normal: &Vec3, p: &Vec3) -> bool {
     let u = (corners[1] - corners[0]).normalize();
     let v = normal.cross(&u);
@@ -53,7 +53,7 @@ impl Text<'_> {
         self.shape.faces.iter().map(|f| f.offset - f.normal.dot(&p)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The stretch inside the solid: from its deepest place outwards by halving.
+    /// Interval inside the solid: from its deepest point outwards by bisection.
     fn stretch(&self, deepest: f64) -> [f64; 2] {
         [0.0, 1.0].map(|tip| {
             if self.depth(tip) > 0.0 {
@@ -72,7 +72,8 @@ impl Text<'_> {
         })
     }
 
-    /// What a face measures at the end `t` of the stretch, on the side of the tip `tip`; `None`: takes no part.
+    /// Measurement of a face at the end `t` of the interval, on the side of the tip `tip`; `None` if it takes
+    /// no part.
     fn end(&self, face: usize, t: f64, tip: f64) -> Option<Measured> {
         let faces = &self.shape.faces;
         let normal = faces[face].normal;
@@ -93,7 +94,7 @@ impl Text<'_> {
         if encloses(&polygon(self.shape, face), &normal, &self.place(tip)) {
             return below(self.place(tip)).map(|measured| Measured { walled, ..measured });
         }
-        // The line in which the two planes meet, and the nearest points of the two lines by least squares.
+        // Intersection line of the two planes, and the nearest points of the two lines by least squares.
         let e = normal.cross(&faces[exit].normal);
         if e.norm() < 1e-9 {
             return None;
@@ -115,7 +116,7 @@ impl Text<'_> {
         Some(Measured { end, walled })
     }
 
-    /// The deepest place, by sections, and its depth.
+    /// Deepest point, by sectioning, and its depth.
     fn deepest(&self) -> (f64, f64) {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..90 {
@@ -126,7 +127,7 @@ impl Text<'_> {
         places.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)).expect("places")
     }
 
-    /// What the face of least energy carries, with all that tie, and how clear the choice is.
+    /// Contacts of the face of least energy, with all ties, and the margin of the choice.
     fn answer(&self) -> (Vec<[End; 2]>, f64) {
         let (deepest, reach) = self.deepest();
         if reach <= 0.0 {
@@ -207,8 +208,8 @@ fn polyhedra_as_the_rule_says() {
     compare_with_the_rule(&shapes, 10_000, &mut random);
 }
 
-/// Few faces are kept in registers, more are bounded first, many are asked one by one, and of very many not all have a bit
-/// in a word: the answer is the same.
+/// The number of faces selects the algorithm (registers, bounds, one by one, beyond the bits of a word); the
+/// result is the same.
 #[test]
 fn however_many_faces_as_the_rule_says() {
     let mut random = Random(503);
@@ -244,8 +245,9 @@ fn compare_with_the_rule(shapes: &[Polyhedron], wanted: usize, random: &mut Rand
     assert!(skipped * 60 < wanted);
 }
 
-/// Of a segment that enters by one face and leaves by another both claim the one crossing. Its end is what the contact is
-/// remembered by: the one that reaches farther out has it, the first if both reach out alike, whatever rounding says.
+/// A segment that enters by one face and leaves by another has one crossing, claimed by both. The end that is
+/// farther out carries it, and the first if both are equal, in spite of rounding: the contact is remembered
+/// by that end.
 #[test]
 fn a_crossing_that_two_faces_claim_is_at_the_end_farther_out() {
     let mut random = Random(504);
@@ -275,7 +277,8 @@ fn a_crossing_that_two_faces_claim_is_at_the_end_farther_out() {
     }
 }
 
-/// Whether the sampled answer itself changes nearby (a stretch shorter than the sampling, a vertex).
+/// Returns `true` if the sampled answer itself changes nearby (an interval shorter than the sampling, a
+/// vertex).
 fn wavers(segment: &LineSegment, shape: &Polyhedron, expected: &[End; 2], random: &mut Random) -> bool {
     (0..6).any(|_| {
         let ends = segment.ends.map(|end| end + random.direction() * 3e-3);
@@ -311,8 +314,8 @@ fn degenerate_segments_are_finite_and_the_same_every_time() {
                     assert!((contact.normal_b.norm() - 1.0).abs() < 1e-15);
                     assert!(contact.deepest_b.iter().all(|c| c.is_finite()));
                 }
-                // Turned round it is the same contact with the ends exchanged; a single one is at the first end both times
-                // where both tips reach out alike.
+                // The reversed segment has the same contact with the ends exchanged; if both tips are equally
+                // far out, a single contact is at the first end both times.
                 let back = line_segment_polyhedron(&LineSegment { ends: [*b, *a] }, shape);
                 let depths = |contacts: EndContacts| contacts.map(|c| c.map_or(0.0, |c| c.depth));
                 let (one, other) = (depths(contacts), depths(back));

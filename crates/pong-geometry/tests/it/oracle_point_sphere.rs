@@ -18,7 +18,7 @@ use pong_geometry::interference::sphere_polyhedron::{
 use pong_geometry::interference::sphere_sphere::sphere_sphere;
 use pong_geometry::primitive::{Plane, Point, Polyhedron, Sphere};
 
-/// The largest φ(n) = min n·a − max n·b over a fan of directions that is narrowed again and again.
+/// Largest φ(n) = min n·a − max n·b over a fan of directions that is narrowed repeatedly.
 fn best_separation(phi: &dyn Fn(&Vec3) -> f64, random: &mut Random) -> (f64, Vec3) {
     let mut best = (f64::NEG_INFINITY, Vec3::x());
     for _ in 0..200 {
@@ -54,7 +54,7 @@ fn planes_against_three_points_of_the_plane() {
         let n = random.direction();
         let offset = random.between(-3.0, 3.0);
         let plane = Plane { normal: n, offset };
-        // The plane again from three of its points; height by volume over area.
+        // The plane recomputed from three of its points; height by volume over area.
         let u = n.cross(&random.direction()).normalize();
         let v = n.cross(&u);
         let corners = [n * offset, n * offset + u * 2.0, n * offset + v * 2.0];
@@ -99,7 +99,7 @@ fn spheres_against_the_search_over_directions() {
         depth.note((contact.depth - (a.radius + b.radius - distance)).abs(), 1e-15);
         let support = a.center - contact.normal_b * a.radius;
         depth.note((contact.deepest_b - support).norm(), 1e-15);
-        // The definition itself, on some of them.
+        // Direct evaluation of the definition for some of them.
         if round % 10 == 0 {
             let phi = |n: &Vec3| n.dot(&a.center) - a.radius - (n.dot(&b.center) + b.radius);
             let (value, n) = best_separation(&phi, &mut random);
@@ -183,7 +183,7 @@ fn points_and_spheres_inside_find_the_least_depth() {
         let face = shallowest_face(&p, shape).expect("active faces");
         let contact = point_below_face(&p, shape, face).expect("inside");
         worst.note((contact.depth - least).abs(), 1e-14);
-        // Nearest face, nearest surface point and minimum translation are one and the same for a point.
+        // For a point, nearest face, nearest surface point and minimum translation coincide.
         let (foot, _) = nearest_on_polyhedron(shape, &p);
         worst.note(((foot - p).norm() - contact.depth).abs(), 1e-14);
         let radius = random.between(0.001, 2.0);
@@ -226,7 +226,7 @@ fn spheres_outside_meet_the_nearest_surface_point() {
     assert!(outside > touching);
 }
 
-/// A box in three pieces along two walls; the outer surface is that of the whole box.
+/// Box in three pieces along two internal faces; the outer surface is that of the whole box.
 fn box_in_pieces() -> (Vec<Polyhedron>, Polyhedron) {
     let cuts = [-1.0, -0.31, 0.42, 1.0];
     let mut pieces: Vec<Polyhedron> = (0..3)
@@ -250,21 +250,21 @@ fn every_point_inside_belongs_to_exactly_one_piece() {
     for round in 0..20_000 {
         let mut p = Vec3::from_fn(|_, _| random.between(-1.1, 1.1));
         if round % 2 == 0 {
-            // On a wall, and one ulp beside it.
+            // On an internal face, and one ulp beside it.
             let wall = if round % 4 == 0 { -0.31 } else { 0.42 };
             p.x = oracle_support::nudge(wall, (round / 4) % 3 - 1);
         }
         let owners = pieces.iter().filter(|piece| piece.contains(&p)).count();
         assert_eq!(owners, usize::from(whole.contains(&p)), "{p:?}");
     }
-    // On a wall: the lower piece.
+    // On an internal face: the lower piece.
     for (x, owner) in [(-0.31, 0), (0.42, 1)] {
         let p = Vec3::new(x, 0.1, 0.1);
         assert_eq!(pieces.iter().position(|piece| piece.contains(&p)), Some(owner));
     }
 }
 
-/// Which of the pieces' contacts count is the sharing's business; the deepest of them is that of the whole box.
+/// Load sharing decides which of the pieces' contacts count; the deepest of them is that of the whole box.
 #[test]
 fn spheres_over_pieces_see_the_whole_box() {
     let (pieces, whole) = box_in_pieces();
@@ -293,7 +293,7 @@ fn spheres_over_pieces_see_the_whole_box() {
         let deepest = contacts.iter().max_by(|a, b| a.depth.total_cmp(&b.depth)).expect("a contact");
         worst.note((deepest.depth - (0.6 - distance)).abs(), 1e-14);
         worst.note((deepest.normal_b * distance - (center - foot)).norm(), 1e-14);
-        // Of one convex surface one point is nearest: a piece that pushes elsewhere pushes a second time.
+        // A convex surface has one nearest point: a piece that pushes elsewhere would push a second time.
         for contact in &contacts {
             worst.note((contact.deepest_b + contact.normal_b * contact.depth - foot).norm(), 1e-13);
         }

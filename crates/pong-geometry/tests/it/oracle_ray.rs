@@ -1,4 +1,4 @@
-//! Rays against planes, triangles and polyhedra, compared with closed forms on other paths; no leaks at seams.
+//! Rays against planes, triangles and polyhedra, compared with independent closed forms; no leaks at seams.
 //!
 //! Degenerate cases: rays along a surface, from behind, aimed exactly at edges and vertices, running within an
 //! inner wall, starting inside; hits exactly at the length and at the reach.
@@ -25,7 +25,7 @@ fn random_ray(random: &mut Random) -> Ray {
     ray(random.direction() * random.between(0.0, 2.0), random.direction(), random.between(0.1, 4.0), reach)
 }
 
-/// The point where a line meets the plane through three points, by the ratio of two volumes.
+/// Intersection of a line with the plane through three points, by the ratio of two volumes.
 fn meets(r: &Ray, [a, b, c]: &[Vec3; 3]) -> (f64, Vec3) {
     let volume = |p: &Vec3, q: &Vec3, s: &Vec3| p.dot(&q.cross(s));
     let (u, v) = (b - a, c - a);
@@ -67,7 +67,7 @@ fn planes_against_volumes() {
     }
 }
 
-/// Signed areas of the three parts into which a point cuts a triangle, over its area; the least.
+/// Signed areas of the three parts into which a point divides a triangle, over its area; the least.
 fn least_share([a, b, c]: &[Vec3; 3], p: &Vec3) -> f64 {
     let area = (b - a).cross(&(c - a));
     [(a, b), (b, c), (c, a)]
@@ -110,14 +110,15 @@ fn triangles_against_volumes() {
     println!("{hits} hits of {rounds}");
 }
 
-/// The least height of a triangle over its longest side (at most 1): what its normal's rounding grows by.
+/// Least height of a triangle over its longest side (at most 1), to which the rounding of its normal is
+/// inversely proportional.
 fn least_height([a, b, c]: &[Vec3; 3]) -> f64 {
     let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
     (b - a).cross(&(c - a)).norm() / (longest * longest)
 }
 
-/// The reference: of the faces that the ray's line meets within their polygon from the front, the one that
-/// counts; and whether the origin has not passed the solid.
+/// Reference: among the faces that the ray's line meets within their polygon from the front, the one that
+/// counts; and true if the origin has not passed the solid.
 fn polyhedron_hit(r: &Ray, shape: &Polyhedron) -> Option<(f64, usize, f64)> {
     let mut entry = None;
     let (mut exit, mut margin) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -193,7 +194,7 @@ fn first_hit(r: &Ray, set: &TriangleSet) -> Option<RayHit> {
         .min_by(|a, b| a.distance.total_cmp(&b.distance))
 }
 
-/// Edges and vertices where all triangles look towards `from` with a margin, and a point on each.
+/// Edges and vertices at which all triangles face `from` with a margin, and a point on each.
 fn targets(set: &TriangleSet, from: &Vec3, random: &mut Random) -> Vec<Vec3> {
     let faces = |t: u32, p: &Vec3| set.normal(t).dot(&(from - p).normalize()) > 0.02;
     let count = set.triangles.len() as u32;
@@ -229,7 +230,7 @@ fn targets(set: &TriangleSet, from: &Vec3, random: &mut Random) -> Vec<Vec3> {
     targets
 }
 
-/// Rays aimed exactly at shared edges and vertices hit there or earlier, never later and never not at all.
+/// Rays aimed exactly at shared edges and vertices hit there or earlier; never later, and they never miss.
 #[test]
 fn no_ray_slips_through_a_seam() {
     let mut random = Random(304);
@@ -270,10 +271,10 @@ fn exact_rays_onto_exact_seams_hit() {
             let origin = Vec3::new(f64::from(i) / 4.0, f64::from(j) / 4.0, 1.0);
             let hit = first_hit(&ray(origin, -Vec3::z(), 2.0, None), &set).expect("hit");
             assert_eq!((hit.distance, hit.normal_b), (1.0, Vec3::z()));
-            // From below: the back, nothing.
+            // From below: the back, no hit.
             let below = Vec3::new(origin.x, origin.y, -1.0);
             assert!(first_hit(&ray(below, Vec3::z(), 2.0, None), &set).is_none());
-            // Along the plate: nothing.
+            // Along the plate: no hit.
             let within = Vec3::new(origin.x, origin.y, 0.0);
             assert!(first_hit(&ray(within, Vec3::x(), 2.0, None), &set).is_none());
         }
@@ -306,11 +307,11 @@ fn no_ray_slips_between_pieces() {
         let cut = if round % 4 == 0 { 0.0 } else { 0.25 };
         let mut pieces = pieces(cut, &motion);
         if round % 3 == 0 {
-            // Order must not matter: the closed wall goes with the lower index.
+            // The order must not matter: the closed internal face belongs to the lower index.
             pieces.reverse();
             close_lower_walls(&mut pieces);
         }
-        // Twin walls are made exact opposites at load.
+        // The loader makes opposite internal faces exact opposites.
         let wall = pieces[0].faces.iter().find(|f| !f.active).map(|f| (f.normal, f.offset)).expect("wall");
         pieces[1].change(|parts| {
             for face in parts.faces.iter_mut().filter(|f| !f.active) {
@@ -344,13 +345,14 @@ fn rays_from_inside_and_beyond() {
     assert_eq!(at(-1.5, Some(9.0)), None, "the solid is behind");
     assert_eq!(at(-1.0, Some(9.0)), None);
     assert_eq!(at(4.0, None), None, "exactly at the length");
-    // Winding agrees that these origins are where the test says they are.
+    // The winding number confirms the positions of these origins.
     let set = skin(&shape);
     assert!(winding_number(&set, &Vec3::new(0.1, 0.2, 0.5)) > 0.99);
     assert!(winding_number(&set, &Vec3::new(0.1, 0.2, -1.5)).abs() < 0.01);
 }
 
-/// The same where each piece has its own rounding: turned wedges, rays in any direction onto their common line.
+/// Seams between pieces with different rounding: rotated wedges, rays in any direction onto their common
+/// line.
 #[test]
 fn no_ray_slips_between_turned_pieces() {
     let mut random = Random(306);
@@ -378,7 +380,8 @@ fn no_ray_slips_between_turned_pieces() {
     }
 }
 
-/// Exactly through the common line, slanted and exactly representable: the active face, not the wall, is entered.
+/// Exactly through the common line, slanted and exactly representable: the ray enters the active face, not
+/// the internal one.
 #[test]
 fn exact_slanted_rays_between_pieces_hit() {
     for order in [false, true] {
@@ -399,7 +402,7 @@ fn exact_slanted_rays_between_pieces_hit() {
     }
 }
 
-/// A ray that starts on a face exactly: what is at no distance lies within a reach, and without one is not before it.
+/// A ray that starts exactly on a face: with a reach a hit at distance zero counts, without one it does not.
 #[test]
 fn a_ray_that_starts_on_a_face_hits_it_within_its_reach() {
     let solid = common::hull(&cuboid_corners(Vec3::repeat(-1.0), Vec3::repeat(1.0)));
@@ -416,7 +419,8 @@ fn a_ray_that_starts_on_a_face_hits_it_within_its_reach() {
     }
 }
 
-/// Rays exactly along an axis, either way, onto a triangle across it: they hit inside its outline and nowhere else.
+/// Rays exactly along an axis, in either direction, onto a perpendicular triangle: they hit inside its
+/// outline only.
 #[test]
 fn rays_along_the_axes_hit_inside_the_outline_alone() {
     let mut random = Random(307);
@@ -426,7 +430,7 @@ fn rays_along_the_axes_hit_inside_the_outline_alone() {
             (place[axis], place[(axis + 1) % 3], place[(axis + 2) % 3]) = (along, u, v);
             place
         };
-        // Seen from where the axis points to it runs counter-clockwise, and its mirror image does so from the other side.
+        // Counter-clockwise seen from where the axis points to; its mirror image from the other side.
         for side in [1.0, -1.0] {
             let mut corners = vec![place(0.0, 0.0, 0.0), place(0.0, 1.0, 0.0), place(0.0, 0.0, 1.0)];
             if side < 0.0 {

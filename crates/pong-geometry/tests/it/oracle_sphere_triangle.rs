@@ -15,7 +15,8 @@ use pong_geometry::interference::triangle_features::Standing;
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::{Sphere, TriangleSet};
 
-/// Compares the contacts of one sphere with the local minima that may push; answers whether they agree.
+/// Compares the contacts of one sphere with the local minima that may push; returns the largest error if they
+/// agree.
 fn agrees(contacts: &[Interference], minima: &[&Nearest], sphere: &Sphere, tolerance: f64) -> Option<f64> {
     let mut worst = 0.0_f64;
     if contacts.len() != minima.len() {
@@ -34,8 +35,8 @@ fn agrees(contacts: &[Interference], minima: &[&Nearest], sphere: &Sphere, toler
     (worst <= tolerance).then_some(worst)
 }
 
-/// What may push with no thickness: the centre in front of the foot's triangles. `closed`: decided by being
-/// outside the solid; else by the faces there (all of a fold, any of a free fan).
+/// Minima that may push with zero thickness: the centre is in front of the foot's triangles. `closed`:
+/// decided by being outside the solid; else by the faces there (all of a fold, any of a free fan).
 fn pushing(set: &TriangleSet, p: &Vec3, radius: f64, closed: bool) -> Vec<Nearest> {
     let outside = !closed || winding_number(set, p) < 0.5;
     let mut minima = local_minima(set, p, radius, 1.0);
@@ -44,7 +45,7 @@ fn pushing(set: &TriangleSet, p: &Vec3, radius: f64, closed: bool) -> Vec<Neares
     minima
 }
 
-/// For open surfaces: judged by the sum of the normals at the foot, or by the face for a free edge.
+/// For open surfaces: decided by the sum of the normals at the foot, or by the face at a free edge.
 fn in_front(set: &TriangleSet, p: &Vec3, m: &Nearest) -> bool {
     let free = m.triangles.iter().any(|&t| {
         let c = set.corners(t);
@@ -75,14 +76,14 @@ fn compare(set: &TriangleSet, rounds: usize, closed: bool, seed: u64, name: &'st
         let references: Vec<&Nearest> = minima.iter().collect();
         if let Some(error) = agrees(&contacts, &references, &sphere, 1e-9) {
             worst.note(error, 1e-12);
-            // Whatever the order of the triangles: the same set.
+            // For any order of the triangles: the same set.
             if touching % 16 == 0 {
                 let other = counting_contacts(&sphere, &shuffled(set, &mut random), 0.0);
                 assert!(agrees(&other, &references, &sphere, 1e-12).is_some());
             }
             continue;
         }
-        // On the border between two answers the search itself must waver nearby.
+        // On the border between two answers the search itself must change nearby.
         let wavers = (0..24).any(|_| {
             let p = center + random.direction() * 1e-6;
             pushing(set, &p, sphere.radius, closed).len() != minima.len()
@@ -132,7 +133,7 @@ fn open_sheets_push_from_every_local_minimum_in_front() {
     }
 }
 
-/// A square L-shaped trough: concave edges and vertices never push, whatever the centre.
+/// A square L-shaped trough: concave edges and vertices never push, for any centre.
 #[test]
 fn concave_features_are_silent() {
     let vertices = [(0., 1.), (0., 0.), (1., 0.)]
@@ -165,7 +166,7 @@ fn concave_features_are_silent() {
     }
 }
 
-/// Behind: inside the prism and less than the thickness; never elsewhere.
+/// Behind: inside the prism and by less than the thickness; never elsewhere.
 #[test]
 fn thickness_is_measured_at_the_centre_inside_the_prism() {
     let set = surface(vec![Vec3::zeros(), Vec3::x(), Vec3::y()], &[[0, 1, 2]]);
@@ -193,7 +194,7 @@ fn lean(random: &mut Random) -> f64 {
     random.between(-1.0, 1.0)
 }
 
-/// The shared push of a flat plate, however it is cut and rounded, is that of one plane.
+/// The shared force of a flat plate, however it is cut and rounded, is that of one plane.
 #[test]
 fn rounded_plates_push_like_one_plane() {
     let mut random = Random(240);
@@ -203,7 +204,7 @@ fn rounded_plates_push_like_one_plane() {
         let motion = random_motion(&mut random, 2.0);
         let tilted = rounded_to_f32(&moved_surface(&plate, &motion));
         let normal = motion.rotation.column(2).into_owned();
-        // How far the rounded facets lean and lie off the plane.
+        // Angle and distance by which the rounded facets deviate from the plane.
         let slope = (0..tilted.triangles.len() as u32)
             .map(|t| (tilted.normal(t) - normal).norm())
             .fold(1e-15, f64::max);
@@ -222,8 +223,9 @@ fn rounded_plates_push_like_one_plane() {
     }
 }
 
-/// The tip of a slanting cone of few or many faces, round or as flat as the corner of a sheet, pushes what lies above all its edges if its fronts are
-/// outside; as the bottom of a pit, seen through the solid, it does not.
+/// The tip of an oblique cone of few or many faces, pointed or as flat as the corner of a sheet, pushes a
+/// centre above all its edges if its fronts are outside; as the bottom of a pit, seen through the solid, it
+/// does not.
 #[test]
 fn slanting_tips_push_from_their_front_alone() {
     let mut random = Random(250);
@@ -244,7 +246,7 @@ fn slanting_tips_push_from_their_front_alone() {
             continue;
         }
         tried += 1;
-        // Whether the foot of the axis z lies beside the cone.
+        // True if the foot of the z axis lies beside the cone.
         aslant += usize::from(axis.z > -1.0 / (1.0 + width * width).sqrt());
         let count = count as u32;
         let fan = |out: bool| -> Vec<[u32; 3]> {

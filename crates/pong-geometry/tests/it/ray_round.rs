@@ -1,5 +1,5 @@
-//! Rays into capsules, cylinders and cones: the entrance by halving, on the definition of the solid alone; normals by the support
-//! function; limits of length and reach; and what must not matter.
+//! Rays into capsules, cylinders and cones: entry by bisection, from the definition of the solid alone;
+//! normals by the support function; limits of length and reach; and invariances.
 
 use crate::common::{hull, random_motion};
 use crate::round_support::Solid;
@@ -23,7 +23,7 @@ fn random_solid(random: &mut Random) -> Solid {
 }
 
 impl Solid {
-    /// Negative inside, convex along every line: by the definition of the solid.
+    /// Signed function, negative inside and convex along every line, from the definition of the solid.
     fn outside(&self, place: &Vec3) -> f64 {
         match self {
             Self::Capsule(Capsule { ends: [a, b], radius }) => {
@@ -57,7 +57,7 @@ fn random_ray(random: &mut Random) -> Ray {
     }
 }
 
-/// Where the ray's line comes in and goes out, m from the origin, by thirds and by halving.
+/// Entry and exit of the ray's line, m from the origin, by ternary search and bisection.
 fn passage(ray: &Ray, outside: impl Fn(&Vec3) -> f64) -> Option<[f64; 2]> {
     const FAR: f64 = 10.0;
     let at = |along: f64| outside(&(ray.origin + ray.direction * along));
@@ -92,7 +92,7 @@ fn the_entrance_is_where_the_line_comes_into_the_solid() {
             assert!(found.is_none(), "{told}");
             continue;
         };
-        // What only grazes, and what is at a limit, rounding decides.
+        // Grazing rays, and hits at a limit, are decided by rounding.
         let close = |a: f64, b: f64| (a - b).abs() < 1e-6;
         let reach = ray.reach.unwrap_or(0.0);
         if close(comes_in, goes_out)
@@ -117,7 +117,7 @@ fn the_entrance_is_where_the_line_comes_into_the_solid() {
     assert!(hits > 1500 && behind > 50, "{hits} {behind}");
 }
 
-/// Balls and ellipsoids of any slenderness: the entrance, the normal there, and what a pose must not change.
+/// Spheres and ellipsoids of any slenderness: entry, normal there, and invariance under motions.
 #[test]
 fn the_entrance_into_balls_and_ellipsoids_is_where_the_line_comes_in() {
     let mut random = Random::new(24, 0, 0);
@@ -186,7 +186,7 @@ fn depths_are_those_below_the_surface_that_is_hit() {
     assert!((axial.depth - (1.0 - hit.distance)).abs() < 1e-15);
 }
 
-/// Along the axis, along a wall, across a tip, through a rim, in a plane of an end.
+/// Rays along the axis, along the lateral surface, across an apex, through a rim, in the plane of an end.
 #[test]
 fn what_lies_along_the_solid_is_decided_alike() {
     let cylinder = Frustum::new([Vec3::zeros(), Vec3::z()], [0.5; 2]);
@@ -241,7 +241,7 @@ fn no_pose_no_scale_and_no_naming_of_ends_changes_anything() {
             assert!(off < limit, "{what}: {off:e} {solid:?} {ray:?}");
         };
         let x = random_motion(&mut random, 3.0);
-        // Turned into another frame the direction's rounding moves the place of a grazing ray.
+        // In another frame, rounding of the direction moves the entry of a grazing ray.
         close(solid.carried(&x), ray.carried(&x), &x, 1.0, 1e-10, "moved");
         let still = Transform { rotation: nalgebra::Matrix3::identity(), translation: Vec3::zeros() };
         let [a, b] = solid.ends();
@@ -262,7 +262,7 @@ fn no_pose_no_scale_and_no_naming_of_ends_changes_anything() {
     assert!(compared > 300, "{compared}");
 }
 
-/// A ray that comes from far away meets the same place, but for the rounding of its direction.
+/// A ray from far away meets the same point, up to the rounding of its direction.
 #[test]
 fn rays_from_far_away_keep_their_digits() {
     let mut random = Random::new(23, 0, 0);

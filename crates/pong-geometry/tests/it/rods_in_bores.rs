@@ -1,5 +1,5 @@
-//! Segments, capsules and cylinders in a bore: depths by an independent search, wrenches by the derivative of the stored energy, the
-//! closed form of a pin that takes up its clearance, and what must not matter.
+//! Segments, capsules and cylinders in a bore: depths by an independent search, wrenches as derivatives of
+//! the stored energy, the closed form of a pin that takes up its clearance, and invariances.
 
 use crate::bore_support;
 use crate::bore_support::{carried, random_bore, rounded, scaled, shared_square, swapped};
@@ -20,7 +20,7 @@ enum Kind {
     Cylinder,
 }
 
-/// What is in the hole.
+/// Rod in the hole.
 #[derive(Clone, Copy, Debug)]
 struct Rod {
     kind: Kind,
@@ -46,7 +46,7 @@ impl Rod {
         (self.ends[1] - self.ends[0]).normalize()
     }
 
-    /// A rod about as wide as the hole, tilted by no more than `tilt`, in it or through one of its mouths.
+    /// Random rod about as wide as the hole, tilted by at most `tilt`, in it or through one of its mouths.
     fn random(random: &mut Random, bore: &Bore, tilt: f64) -> Self {
         let narrow = bore.hole.radii[0].min(bore.hole.radii[1]);
         let kind = [Kind::Segment, Kind::Capsule, Kind::Cylinder][random.below(3)];
@@ -75,7 +75,7 @@ fn energy(contacts: &EndsInBore) -> f64 {
     of_end(&contacts[0]) + of_end(&contacts[1])
 }
 
-/// Of two depths at one end their parts of the spring.
+/// Shares of the spring of the two contacts of one end.
 fn weights(end: &[Option<Interference>; 2]) -> [f64; 2] {
     let [one, two] = end.map(|contact| contact.map_or((0.0, Vec3::zeros()), |c| (c.depth, c.normal_b)));
     let g = one.1.dot(&two.1).max(0.0);
@@ -91,7 +91,7 @@ fn weights(end: &[Option<Interference>; 2]) -> [f64; 2] {
     [share(one.0, two.0), share(two.0, one.0)]
 }
 
-/// Force and moment about a place, with a stiffness of 1 N/m.
+/// Force and moment about a point, with a stiffness of 1 N/m.
 fn wrench(contacts: &EndsInBore, about: &Vec3) -> (Vec3, Vec3) {
     let mut sum = (Vec3::zeros(), Vec3::zeros());
     for end in contacts {
@@ -109,7 +109,7 @@ fn deepest(contacts: &[Option<Interference>; 2]) -> f64 {
     contacts.iter().flatten().map(|contact| contact.depth).fold(0.0, f64::max)
 }
 
-/// How far a place is behind the wall, which goes on past the ends, m.
+/// Distance of a point behind the wall, extended past the ends, m.
 fn behind_wall(bore: &Bore, place: &Vec3) -> f64 {
     let [first, last] = bore.hole.radii;
     let arm = place - bore.hole.ends[0];
@@ -118,7 +118,7 @@ fn behind_wall(bore: &Bore, place: &Vec3) -> f64 {
     (aside - first - (last - first) * along / bore.hole.length) * bore.hole.wall[1]
 }
 
-/// Greatest of a function of an angle, by a fine grid and steps that halve.
+/// Maximum of a function of an angle, by a fine grid and steps that halve.
 fn greatest(of: impl Fn(f64) -> f64) -> f64 {
     let mut at =
         (0..720).map(|i| TAU * f64::from(i) / 720.0).max_by(|a, b| of(*a).total_cmp(&of(*b))).unwrap();
@@ -138,8 +138,8 @@ fn around(center: Vec3, axis: Vec3, radius: f64) -> impl Fn(f64) -> Vec3 {
     move |angle| center + (one * angle.cos() + other * angle.sin()) * radius
 }
 
-/// An end in the hole is as deep as the deepest place of its rim, or its tip; an end beyond a mouth as deep as the circle of the
-/// mouth is below its side.
+/// An end in the hole is as deep as the deepest point of its rim, or its tip; an end beyond a mouth is as
+/// deep as the circle of the mouth is below its side.
 #[test]
 fn depths_of_rods_are_found_by_a_search_around_circles() {
     let mut random = Random::new(1, 0, 0);
@@ -176,7 +176,7 @@ fn depths_of_rods_are_found_by_a_search_around_circles() {
                 let apart = |angle: f64| {
                     let arm = circle(angle) - rod.ends[0];
                     let along = rod.axis().dot(&arm);
-                    // A pin's side goes on past its rims, a capsule ends in balls.
+                    // A pin's side extends past its rims, a capsule ends in spheres.
                     let most = (rod.ends[1] - rod.ends[0]).norm();
                     let along = if rod.kind == Kind::Capsule { along.clamp(0.0, most) } else { along };
                     rod.radius - (arm - rod.axis() * along).norm()
@@ -209,7 +209,8 @@ fn depths_of_rods_are_found_by_a_search_around_circles() {
     assert!(rims > 500 && mouths > 300, "{rims} {mouths}");
 }
 
-/// The wrench is minus the derivative of the stored energy along any motion: frictionless closed paths do no work.
+/// The wrench is minus the derivative of the stored energy along any motion: frictionless closed paths do no
+/// work.
 #[test]
 fn wrenches_of_rods_derive_from_the_stored_energy() {
     const STEP: f64 = 1e-6;
@@ -219,7 +220,8 @@ fn wrenches_of_rods_derive_from_the_stored_energy() {
         let bore = random_bore(&mut random);
         let rod = Rod::random(&mut random, &bore, 0.3);
         let contacts = rod.touch(&bore);
-        // Of rims that touch in two places whose normals turn the two share a spring, as edges do (docs/theory.md, 2.2).
+        // Rims that touch at two points with different normals share a spring, as edges do (docs/theory.md,
+        // 2.2).
         let shares = contacts
             .iter()
             .any(|[one, two]| one.zip(*two).is_some_and(|(one, two)| one.normal_b.dot(&two.normal_b) > 0.0));
@@ -246,7 +248,8 @@ fn wrenches_of_rods_derive_from_the_stored_energy() {
     assert!(compared > 2500 && both > 30 && kinks * 200 < compared, "{compared} {both} {kinks}");
 }
 
-/// Turned and moved together, turned about either's own axis, ends exchanged, f32 or not, scaled: nothing changes.
+/// Moved together, rotated about either's own axis, ends exchanged, rounded to f32 or not, scaled: nothing
+/// changes.
 #[test]
 fn no_pose_no_naming_of_ends_and_no_scale_changes_what_rods_feel() {
     let mut random = Random::new(3, 0, 0);
@@ -290,7 +293,8 @@ fn no_pose_no_naming_of_ends_and_no_scale_changes_what_rods_feel() {
     assert!(loose * 50 < compared, "{loose} of {compared} are off by more than 1e-12");
 }
 
-/// A pin in a hole from z = 0 down, its middle in the middle of the hole, tilted towards a direction across.
+/// Pin in a hole from z = 0 down, its middle in the middle of the hole, tilted towards a perpendicular
+/// direction.
 fn pin_in_hole(diameter: f64, length: f64, tilt: f64, toward: f64) -> Rod {
     let axis = Vec3::new(tilt.sin() * toward.cos(), tilt.sin() * toward.sin(), tilt.cos());
     Rod {
@@ -305,8 +309,9 @@ fn straight_hole(diameter: f64, length: f64) -> Bore {
     Bore { hole: Frustum::new(ends, [0.5 * diameter; 2]), thickness: diameter, mouths: [true; 2] }
 }
 
-/// A pin of diameter d and length L in a hole of diameter D touches in two places, on opposite sides, exactly when
-/// L·sin θ + d·cos θ = D: in the hole with its two rims; through it, with L the length of the hole, with both mouths.
+/// A pin of diameter d and length L in a hole of diameter D touches at two points, on opposite sides, exactly
+/// when L·sin θ + d·cos θ = D: in the hole with its two rims; through it, with L the length of the hole, with
+/// both mouths.
 #[test]
 fn a_pin_touches_in_two_places_exactly_when_its_tilt_takes_up_the_clearance() {
     let mut random = Random::new(4, 0, 0);
@@ -321,7 +326,7 @@ fn a_pin_touches_in_two_places_exactly_when_its_tilt_takes_up_the_clearance() {
             *(if clears(middle) { &mut low } else { &mut high }) = middle;
         }
         let toward = random.between(0.0, TAU);
-        // Of a pin through a hole the mouths are the rims, with the roles of the diameters exchanged.
+        // For a pin through a hole the mouths act as the rims, with the roles of the diameters exchanged.
         let through = |tilt: f64| length * tilt.sin() + diameter < hole * tilt.cos();
         let (mut from, mut to) = (0.0, 0.5);
         for _ in 0..60 {
@@ -339,7 +344,7 @@ fn a_pin_touches_in_two_places_exactly_when_its_tilt_takes_up_the_clearance() {
             assert_eq!(contacts.iter().flatten().flatten().count(), 2);
             assert!(one.normal_b.dot(&other.normal_b) < -0.999_999);
             assert!((one.depth - other.depth).abs() < 1e-12);
-            // Turned about its own axis, or tilted towards another side, it is the same pin.
+            // Rotated about its own axis, or tilted towards another side, it is the same pin.
             let depth = |toward: f64| {
                 deepest(&pin_in_hole(diameter, long, tilt * (1.0 + 1e-3), toward).touch(&bore)[0])
             };
@@ -348,8 +353,8 @@ fn a_pin_touches_in_two_places_exactly_when_its_tilt_takes_up_the_clearance() {
     }
 }
 
-/// Coaxial with clearance a pin touches nothing; coaxial and too large it is loaded on opposite sides without a net force; off
-/// the axis or tilted by little the wrench grows from nothing without a jump, towards whichever side.
+/// A coaxial pin with clearance touches nothing; if too large it is loaded on opposite sides without a net
+/// force. Off the axis or slightly tilted, the wrench grows continuously from zero, in every direction.
 #[test]
 fn a_pin_that_is_too_large_is_held_in_the_middle() {
     let bore = straight_hole(0.1, 0.2);
@@ -373,7 +378,7 @@ fn a_pin_that_is_too_large_is_held_in_the_middle() {
     }
 }
 
-/// Flat on the wall a rod carries kδ, whatever overhangs.
+/// A rod flat on the wall carries kδ, whatever overhangs.
 #[test]
 fn a_rod_that_lies_flat_in_a_hole_carries_its_spring() {
     let mut random = Random::new(6, 0, 0);
@@ -398,8 +403,9 @@ fn a_rod_that_lies_flat_in_a_hole_carries_its_spring() {
     }
 }
 
-/// A segment that leans into the wall of a hole is pushed there by what is nearest to its tip, the wall, as long as the mouth is
-/// farther away; how steep it is and where its axis would pass the mouth does not matter.
+/// A segment that leans into the wall of a hole is pushed by the feature nearest to its tip, the wall, as
+/// long as the mouth is farther away; its slope, and the point where its axis would pass the mouth, do not
+/// matter.
 #[test]
 fn a_tip_that_leans_into_the_wall_is_pushed_by_the_wall() {
     let mut random = Random::new(8, 0, 0);
@@ -422,8 +428,8 @@ fn a_tip_that_leans_into_the_wall_is_pushed_by_the_wall() {
     }
 }
 
-/// Energy and wrench do not jump while rods slide out through a mouth, tilt, turn in it and come back, their axes in the hole or,
-/// of segments, behind the wall.
+/// Energy and wrench are continuous while rods slide out through a mouth, tilt, turn in it and return, with
+/// their axes in the hole or, for segments, behind the wall.
 #[test]
 fn rods_pass_mouths_without_a_jump() {
     let mut random = Random::new(7, 0, 0);
@@ -433,16 +439,17 @@ fn rods_pass_mouths_without_a_jump() {
         let kind = [Kind::Segment, Kind::Capsule, Kind::Cylinder][case % 3];
         let radius = if kind == Kind::Segment { 0.0 } else { 0.05 };
         let depth = 1e-3;
-        // A rim that is tilted across the wall as well does step, by as much as the tilt squared (docs/theory.md, 2.8).
+        // A rim that is also tilted across the wall does have a step, proportional to the tilt squared
+        // (docs/theory.md, 2.8).
         let most_skew = if kind == Kind::Cylinder { 0.01 } else { 0.15 };
         let (lean, skew) = (random.between(-0.15, 0.15), random.between(-most_skew, most_skew));
         let axis = Vec3::new(lean, skew, 1.0).normalize();
         let pose = |share: f64| {
-            // The end goes from 10 mm inside to 10 mm outside of the mouth, at the wall.
+            // The end moves from 10 mm inside to 10 mm outside the mouth, at the wall.
             let tip = Vec3::new(0.1 - radius + depth, 0.0, 0.5 - 0.01 + 0.02 * share);
             Rod { kind, ends: [tip - axis * 0.7, tip], radius }
         };
-        // Of the end that passes alone: leaning, the other one is much deeper.
+        // Only of the end that passes: in a leaning rod the other one is much deeper.
         let of_end = |rod: Rod| energy(&[[None; 2], rod.touch(&bore)[1]]);
         const STEPS: u32 = 20_000;
         let energies: Vec<f64> = (0..=STEPS).map(|i| of_end(pose(f64::from(i) / f64::from(STEPS)))).collect();
@@ -454,7 +461,8 @@ fn rods_pass_mouths_without_a_jump() {
     assert!(touched > 140 && jumps == 0, "{jumps} of {touched}");
 }
 
-/// Nor does the energy while they are pulled out of the hole, however deep in the wall: at last they are as deep as they are in.
+/// The energy is continuous while rods are pulled out of the hole, however deep in the wall: at the end their
+/// depth is their distance inside.
 #[test]
 fn rods_leave_the_hole_without_a_jump() {
     let mut random = Random::new(8, 0, 0);
@@ -479,13 +487,14 @@ fn rods_leave_the_hole_without_a_jump() {
         let jump = energies.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
         touched += usize::from(most > 0.0);
         assert!(jump <= 5e-3 * most, "{kind:?} {lean}: {jump:e} of {most:e}");
-        // A capsule ends in a ball, which stays at the edge for longer.
+        // A capsule ends in a sphere, which stays at the edge for longer.
         assert!(kind == Kind::Capsule || energies[STEPS as usize] == 0.0);
     }
     assert!(touched > 50, "{touched}");
 }
 
-/// A hole that is cut in two where it goes on holds a rod like the whole: in it, through the seam, with a rim exactly in the seam.
+/// A straight hole cut in two holds a rod like the whole hole: inside, through the seam, and with a rim
+/// exactly in the seam.
 #[test]
 fn a_hole_in_two_pieces_is_one() {
     let mut random = Random::new(9, 0, 0);
@@ -518,13 +527,13 @@ fn a_hole_in_two_pieces_is_one() {
     assert!(touched > 150, "{touched}");
 }
 
-/// How far two things are apart in the one of many directions in which they are farthest.
+/// Separation of two shapes along the best of many directions.
 fn gap(random: &mut Random, a: &dyn Bounded, b: &dyn Bounded) -> f64 {
     let directions = (0..60).map(|_| random.direction());
     directions.map(|d| -a.support(&d) - b.support(&-d)).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// A rod whose line goes through the plane of a mouth, in it or around it, and that may end before.
+/// Random rod whose line passes through the plane of a mouth, in it or around it, and that may end before.
 fn ends_near_a_mouth(random: &mut Random, bore: &Bore) -> [Vec3; 2] {
     let mouth = random.below(2);
     let [one, other] = bore_support::across(bore);
@@ -538,8 +547,8 @@ fn ends_near_a_mouth(random: &mut Random, bore: &Bore) -> [Vec3; 2] {
     [ends[first], ends[1 - first]]
 }
 
-/// Whatever a bore pushes, and wherever a ray hits it, reaches into its bounds: of rods in any pose, and of rays that begin behind
-/// the wall.
+/// All shapes that a bore pushes, and all rays that hit it, reach into its bounds: rods in any pose, and rays
+/// that begin behind the wall.
 #[test]
 fn nothing_that_a_bore_pushes_is_outside_its_bounds() {
     let mut random = Random(31);
@@ -562,7 +571,7 @@ fn nothing_that_a_bore_pushes_is_outside_its_bounds() {
             let gap = gap(&mut random, body, &bore);
             assert!(gap < 1e-9, "trial {trial}: {gap}, {rod:?} {bore:?}");
         }
-        // Along the wall, a little outwards or not.
+        // Along the wall, slightly outwards or not.
         let direction = (bore.hole.axis * random.between(-1.0, 1.0) + random.direction() * 0.3).normalize();
         let ray = Ray {
             origin: place(&mut random),

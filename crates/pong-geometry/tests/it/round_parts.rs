@@ -1,5 +1,5 @@
-//! Balls and two-ended bodies against capsules, cylinders and cones: depths by a search over all directions, wrenches by the
-//! derivative of the stored energy, and what must not matter.
+//! Spheres and two-ended bodies against capsules, cylinders and cones: depths by a search over all
+//! directions, wrenches as derivatives of the stored energy, and invariances.
 
 use crate::common::{fibonacci_sphere, random_motion};
 use crate::round_support::Solid;
@@ -13,7 +13,7 @@ use pong_geometry::primitive::{Capsule, Frustum, LineSegment, Sphere};
 use pong_geometry::{Transform, Vec3};
 use pong_testkit::Random;
 
-/// About 1 m in size, of any slenderness, anywhere near the origin.
+/// Random solid, about 1 m in size, of any slenderness, near the origin.
 fn random_solid(random: &mut Random) -> Solid {
     let one = random.direction() * random.between(0.0, 1.0);
     let other = one + random.direction() * random.between(0.05, 2.0);
@@ -29,7 +29,7 @@ fn random_solid(random: &mut Random) -> Solid {
 }
 
 impl Solid {
-    /// A place on the axis or not far off, in units of its size.
+    /// Random point on the axis or near it, in units of its size.
     fn near(&self, random: &mut Random) -> Vec3 {
         let (Self::Capsule(Capsule { ends, .. }) | Self::Frustum(Frustum { ends, .. })) = self;
         ends[0]
@@ -70,12 +70,13 @@ fn random_rod(random: &mut Random, solid: &Solid) -> Capsule {
     Capsule { ends: [solid.near(random), solid.near(random)], radius }
 }
 
-/// Least overlap over all unit vectors, m, by descent from many of them: the definition of depth, with support functions only.
+/// Least overlap over all unit vectors, m, by descent from many of them: the definition of depth, with
+/// support functions only.
 fn depth_by_search(rod: &Capsule, solid: &Solid) -> f64 {
     depth_by_descent(rod, solid, 1000, 20)
 }
 
-/// The same, from the best few of so many directions.
+/// Least overlap by descent from the best `few` of `directions` directions, m.
 fn depth_by_descent(rod: &Capsule, solid: &Solid, directions: usize, few: usize) -> f64 {
     let overlap = |n: &Vec3| solid.support(n) + Bounded::support(rod, &-n);
     let mut starts: Vec<(f64, Vec3)> =
@@ -109,7 +110,7 @@ fn deepest(contacts: &EndContacts) -> f64 {
     contacts.iter().flatten().map(|contact| contact.interference.depth).fold(0.0, f64::max)
 }
 
-/// With a stiffness of 1 N/m.
+/// Energy with a stiffness of 1 N/m.
 fn energy(contacts: &EndContacts) -> f64 {
     let depth = deepest(contacts);
     if depth == 0.0 {
@@ -119,7 +120,7 @@ fn energy(contacts: &EndContacts) -> f64 {
     0.25 * (depth * depth + square(0) * square(1) / (depth * depth))
 }
 
-/// Force and moment about a place, with a stiffness of 1 N/m.
+/// Force and moment about a point, with a stiffness of 1 N/m.
 fn wrench(contacts: &EndContacts, about: &Vec3) -> (Vec3, Vec3) {
     contacts.iter().flatten().fold((Vec3::zeros(), Vec3::zeros()), |(force, moment), contact| {
         let Interference { depth, normal_b, deepest_b, .. } = contact.interference;
@@ -128,8 +129,8 @@ fn wrench(contacts: &EndContacts, about: &Vec3) -> (Vec3, Vec3) {
     })
 }
 
-/// A rod exactly on the axis of a solid has no direction of its own in which the wall is nearest; its depth is the least translation
-/// all the same, and that of the rod beside the axis.
+/// For a rod exactly on the axis of a solid the direction of the nearest wall is undefined; its depth is
+/// still the minimum translation, and the same as beside the axis.
 #[test]
 fn a_rod_on_the_axis_of_a_solid_leaves_it_by_the_shortest_way() {
     let mut random = Random::new(1, 7, 0);
@@ -150,7 +151,7 @@ fn a_rod_on_the_axis_of_a_solid_leaves_it_by_the_shortest_way() {
             radius: if case % 2 == 0 { 0.0 } else { random.between(0.01, 0.3) },
         };
         let depth = deepest(&solid.touch_rod(&rod));
-        // All is round: the ways out in one plane through the axis are all there are.
+        // By symmetry, the translations in one plane through the axis are sufficient.
         let (aside, _) = frame(&axis);
         let overlap = |angle: f64| {
             let n = axis * angle.cos() + aside * angle.sin();
@@ -180,7 +181,7 @@ fn a_rod_on_the_axis_of_a_solid_leaves_it_by_the_shortest_way() {
     assert!(through_wall > 20, "{through_wall}");
 }
 
-/// The depth of the pair is the least translation, however deep and whatever is touched.
+/// The depth of the pair is the minimum translation, for any depth and any feature.
 #[test]
 fn depths_are_the_least_translation_that_separates() {
     let mut random = Random::new(1, 0, 0);
@@ -192,7 +193,7 @@ fn depths_are_the_least_translation_that_separates() {
         let contacts = solid.touch_rod(&rod);
         let found = deepest(&contacts);
         let told = format!("case {case}: {found} {searched} {solid:?} {rod:?}");
-        // The search may stop short of the least.
+        // The search may stop above the minimum.
         assert!(found < searched.max(0.0) + 1e-9, "{told}");
         assert!(found > 0.0 || searched < 1e-6, "{told}");
         touching += usize::from(found > 0.0);
@@ -205,7 +206,8 @@ fn depths_are_the_least_translation_that_separates() {
     assert!(touching > 30);
 }
 
-/// Rods whose axes go through a cylinder or a cone, many poses for each pair: no direction of a search is a shorter way out.
+/// Rods whose axes pass through a cylinder or a cone, many poses for each pair: no searched direction gives a
+/// shorter translation.
 #[test]
 fn no_way_out_of_cylinders_and_cones_is_shorter_than_the_depth() {
     const POSES: usize = 1000;
@@ -279,7 +281,7 @@ fn wrenches_derive_from_the_stored_energy() {
         let power = force.dot(&velocity) + moment.dot(&spin);
         let slope = (moved(STEP) - moved(-STEP)) / (2.0 * STEP);
         compared += 1;
-        // Where another side is the way out within the step the energy has a kink, and no derivative.
+        // If another side becomes the exit within the step, the energy has a kink and no derivative.
         let halves = [moved(STEP) - moved(0.0), moved(0.0) - moved(-STEP)].map(|change| change / STEP);
         if (halves[0] - halves[1]).abs() > 1e-4 {
             kinks += 1;
@@ -290,11 +292,11 @@ fn wrenches_derive_from_the_stored_energy() {
     assert!(compared > 5000 && kinks * 200 < compared, "{kinks} kinks of {compared}");
 }
 
-/// Turned and moved together, turned about its own axis, with its ends exchanged: nothing changes.
+/// Moved together, rotated about its own axis, with its ends exchanged: nothing changes.
 #[test]
 fn no_pose_and_no_naming_of_ends_changes_anything() {
     let mut random = Random::new(4, 0, 0);
-    // Where two lie nearly along each other the place at which they touch hangs by the last digits.
+    // If two are nearly parallel, the contact point depends on the last digits.
     let (mut compared, mut loose) = (0, 0);
     for _ in 0..3000 {
         let solid = random_solid(&mut random);
@@ -338,7 +340,8 @@ fn scale_changes_nothing_but_lengths() {
     }
 }
 
-/// Lying flat a rod carries kδ, whatever overhangs; on one end or across, half of it along the least translation.
+/// A rod that lies flat carries kδ, whatever overhangs; on one end or across, half of it along the minimum
+/// translation.
 #[test]
 fn a_rod_that_lies_flat_carries_its_spring_and_a_tip_half_of_it() {
     let mut random = Random::new(6, 0, 0);
@@ -372,7 +375,7 @@ fn a_rod_that_lies_flat_carries_its_spring_and_a_tip_half_of_it() {
     }
 }
 
-/// While a rod tilts through lying flat neither force nor moment jumps.
+/// While a rod tilts through lying flat, force and moment are continuous.
 #[test]
 fn a_rod_tilts_through_lying_flat_without_a_jump() {
     let cylinder = Solid::Frustum(Frustum::new([Vec3::zeros(), Vec3::x()], [0.3; 2]));
@@ -395,8 +398,8 @@ fn a_rod_tilts_through_lying_flat_without_a_jump() {
     }
 }
 
-/// A rod along a cylinder, sunk in until its axis is inside, past one end or both: it is held at the ends of what overlaps,
-/// however the two are turned and whatever rounding says of which end is deeper.
+/// A rod along a cylinder, sunk in until its axis is inside, past one end or both: it is held at the ends of
+/// the overlap, in any pose and in spite of rounding.
 #[test]
 fn a_rod_sunk_in_along_a_cylinder_is_held_where_it_overlaps() {
     let mut random = Random::new(7, 0, 0);
@@ -421,7 +424,7 @@ fn a_rod_sunk_in_along_a_cylinder_is_held_where_it_overlaps() {
     }
 }
 
-/// A rod inside a cone, along its axis, leaves across it, by the wide end: there it is held.
+/// A rod inside a cone, along its axis, leaves perpendicular to the axis, by the wide end: it is held there.
 #[test]
 fn a_rod_sunk_in_along_the_axis_of_a_cone_is_held_at_the_wide_end() {
     let mut random = Random::new(8, 0, 0);
@@ -439,8 +442,8 @@ fn a_rod_sunk_in_along_the_axis_of_a_cone_is_held_at_the_wide_end() {
     }
 }
 
-/// A rod that lies across a coin, past its rim on both sides: the two faces of the coin are the ends of what overlaps, each as deep
-/// as the radius reaches past it, though the axis is outside of both.
+/// A rod that lies across a coin, past its rim on both sides: the two faces of the coin are the ends of the
+/// overlap, each as deep as the radius extends past it, though the axis is outside both.
 #[test]
 fn a_rod_across_a_coin_is_held_by_both_faces() {
     let mut random = Random::new(10, 0, 0);
@@ -463,8 +466,8 @@ fn a_rod_across_a_coin_is_held_by_both_faces() {
     }
 }
 
-/// A rod along an end face of a cylinder or a cone, past its rim on both sides and its axis inside, leaves over that face: it is held
-/// over the middle of what overlaps, however the two are turned.
+/// A rod along an end face of a cylinder or a cone, past its rim on both sides and its axis inside, leaves
+/// over that face: it is held over the middle of the overlap, in any pose.
 #[test]
 fn a_rod_sunk_in_along_an_end_face_is_held_over_its_middle() {
     let mut random = Random::new(11, 0, 0);
@@ -489,7 +492,7 @@ fn a_rod_sunk_in_along_an_end_face_is_held_over_its_middle() {
     }
 }
 
-/// An axis that goes through the end of another leaves it across both, and that turns with the two.
+/// If an axis passes through the end of another, the normal is perpendicular to both, and rotates with them.
 #[test]
 fn an_axis_through_the_end_of_another_leaves_across_both() {
     let mut random = Random::new(9, 0, 0);

@@ -1,5 +1,5 @@
-//! Capsules, cylinders and cones on a plane: depths by support functions, wrenches by the derivative of the stored energy, what
-//! stands and lies carries its spring, and nothing jumps while a part tilts through standing upright.
+//! Capsules, cylinders and cones on a plane: depths by support functions, wrenches as derivatives of the
+//! stored energy, full spring for parts that stand or lie, and no steps while a part tilts through upright.
 
 use crate::common::random_motion;
 use crate::round_support::Solid;
@@ -10,7 +10,7 @@ use pong_geometry::primitive::{Capsule, Frustum, Plane};
 use pong_geometry::{Quat, Transform, Vec3};
 use pong_testkit::Random;
 
-/// About 1 m in size, of any slenderness, near the origin.
+/// Random solid, about 1 m in size, of any slenderness, near the origin.
 fn random_solid(random: &mut Random) -> Solid {
     let one = random.direction() * random.between(0.0, 0.5);
     let ends = [one, one + random.direction() * random.between(0.05, 1.0)];
@@ -26,7 +26,7 @@ fn random_solid(random: &mut Random) -> Solid {
 }
 
 impl Solid {
-    /// As a model in single precision has it.
+    /// Solid rounded to single precision, as a model file holds it.
     fn rounded(&self) -> Self {
         let single = |v: Vec3| v.map(|x| f64::from(x as f32));
         match self {
@@ -47,12 +47,12 @@ impl Solid {
     }
 }
 
-/// With a stiffness of 1 N/m, half of it at each place.
+/// Energy with a stiffness of 1 N/m, half of it at each point.
 fn energy(contacts: &[Interference]) -> f64 {
     contacts.iter().map(|contact| 0.25 * contact.depth * contact.depth).sum()
 }
 
-/// Force and moment about a place, with a stiffness of 1 N/m.
+/// Force and moment about a point, with a stiffness of 1 N/m.
 fn wrench(contacts: &[Interference], about: &Vec3) -> (Vec3, Vec3) {
     contacts.iter().fold((Vec3::zeros(), Vec3::zeros()), |(force, moment), contact| {
         let one = contact.normal_b * (0.5 * contact.depth);
@@ -73,7 +73,7 @@ fn floor() -> Plane {
     Plane { normal: Vec3::z(), offset: 0.0 }
 }
 
-/// A cylinder or cone that stands on its end 0 with the middle of the disc so high, m.
+/// Cylinder or cone that stands on its end 0, with the middle of the disc at a height, m.
 fn standing(radii: [f64; 2], height: f64) -> Frustum {
     Frustum::new([Vec3::new(0.3, -0.2, height), Vec3::new(0.3, -0.2, height + 1.0)], radii)
 }
@@ -108,7 +108,7 @@ fn wrenches_derive_from_the_stored_energy() {
         let mut part = random_solid(&mut random);
         let normal = random.direction();
         if case % 2 == 0 {
-            // Nearly upright, where the lowest place goes round the rim.
+            // Nearly upright, where the lowest point moves around the rim.
             let radius = random.between(0.05, 0.5);
             let axis = (normal + random.direction() * 1e-3 * random.between(0.0, 1.0)).normalize();
             part = Solid::Frustum(Frustum::new([Vec3::zeros(), axis], [radius, 0.5 * radius]));
@@ -131,7 +131,8 @@ fn wrenches_derive_from_the_stored_energy() {
     assert_eq!(compared, 6000);
 }
 
-/// What stands on a disc or lies on its side carries kδ with the middle of what touches; a rim, a tip or a ball half of it.
+/// A part that stands on a disc or lies on its side carries kδ at the middle of the contact; a rim, an apex
+/// or a sphere carries half of it.
 #[test]
 fn what_stands_or_lies_carries_its_spring_and_a_rim_half_of_it() {
     let mut random = Random::new(13, 0, 0);
@@ -159,7 +160,7 @@ fn what_stands_or_lies_carries_its_spring_and_a_rim_half_of_it() {
         check(Solid::Frustum(Frustum::new(leans, [0.2; 2])), 0.5, rim, "on its rim");
         let ball = [Vec3::z() * (0.2 - depth), Vec3::z() * (0.2 - depth) + leaning];
         check(Solid::Capsule(Capsule { ends: ball, radius: 0.2 }), 0.5, Vec3::zeros(), "on its ball");
-        // A cone on its side: the wall touches along a line from the rim to the tip.
+        // A cone on its side touches along a line from the rim to the apex.
         let cone = Frustum::new([Vec3::zeros(), Vec3::x()], [0.5, 0.0]);
         let wall = Vec3::new(cone.wall[0], 0.0, -cone.wall[1]);
         let to_floor = nalgebra::Rotation3::rotation_between(&wall, &-Vec3::z()).unwrap().into_inner();
@@ -171,8 +172,8 @@ fn what_stands_or_lies_carries_its_spring_and_a_rim_half_of_it() {
     }
 }
 
-/// A disc that stands resists tilting to every side alike, and the wrench does not jump as the lowest place goes to the other
-/// side, nor as it goes round the rim beside upright.
+/// A standing disc resists tilting equally in all directions, and the wrench is continuous when the lowest
+/// point changes sides, and when it moves around the rim near upright.
 #[test]
 fn parts_tilt_through_upright_without_a_jump() {
     const STEP: f64 = 1e-7;
@@ -217,7 +218,7 @@ fn turning_about_its_own_axis_and_naming_its_ends_changes_nothing() {
         let part = random_solid(&mut random);
         let [one, other] = part.ends();
         let axis = (other - one).normalize();
-        // Standing upright, too, and lying.
+        // Standing upright and lying, too.
         let normal = [random.direction(), axis, axis.cross(&random.direction()).normalize()][case % 3];
         let plane = Plane { normal, offset: random.between(0.0, 0.1) - part.support(&-normal) };
         let (force, moment) = wrench(&part.touch_plane(&plane), &one);
@@ -260,7 +261,7 @@ fn no_pose_and_no_scale_changes_anything() {
     }
 }
 
-/// The lowest corner of a prism of N sides comes closer to the lowest place of the cylinder as 1/N².
+/// The lowest corner of a prism of N sides converges to the lowest point of the cylinder as 1/N².
 #[test]
 fn prisms_of_many_sides_come_closer_as_the_square_of_their_number() {
     let mut random = Random::new(17, 0, 0);

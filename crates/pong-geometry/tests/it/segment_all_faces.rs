@@ -1,8 +1,8 @@
-//! Line segments: only the faces that may decide are asked; the answer is that of asking all of them one by one, in the same
-//! bits, at every level of instructions.
+//! Line segments: only the faces that may decide are tested; the result is bit-identical to that of testing
+//! all faces one by one, at every instruction-set level.
 //!
-//! Degenerate cases: segments in the plane of a face, along an edge, through vertices, with ends within rounding of these,
-//! with coordinates of single precision; pieces with inner walls.
+//! Degenerate cases: segments in the plane of a face, along an edge, through vertices, with ends within
+//! rounding of these, with coordinates of single precision; pieces with internal faces.
 
 use crate::common::{Random, levels, pieces, place_near};
 use pong_geometry::Vec3;
@@ -10,7 +10,8 @@ use pong_geometry::interference::line_segment_polyhedron::line_segment_piece;
 use pong_geometry::primitive::{LineSegment, Polyhedron, PolyhedronFace};
 use pong_geometry::simd::{Level, set_level};
 
-/// The same piece with a face far beyond everything: where a number is as large as its offset, all faces are asked.
+/// Piece with an additional face at an enormous distance, whose immoderate offset forces the test of all
+/// faces one by one.
 fn asked_one_by_one(piece: &Polyhedron) -> Polyhedron {
     let mut parts = piece.clone().into_parts();
     parts.faces.push(PolyhedronFace {

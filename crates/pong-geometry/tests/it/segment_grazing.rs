@@ -1,21 +1,21 @@
 //! A segment that barely enters a solid must barely be pushed, wherever it enters.
 //!
-//! Degenerate cases: a crossing that has just passed a vertex; a tip outside the solid but below a face of it, beside
-//! a flank that leans; a part over a face that ends, untouched, outside the solid.
+//! Degenerate cases: a crossing that has just passed a vertex; a tip outside the solid but below a face of
+//! it, beside an inclined flank; a part over a face that ends, untouched, outside the solid.
 
 use crate::common::{Random, cuboid, hull};
 use pong_geometry::Vec3;
 use pong_geometry::interference::line_segment_polyhedron::line_segment_polyhedron;
 use pong_geometry::primitive::{LineSegment, Polyhedron};
 
-/// A petal of a docking ring: flanks that lean both ways, so that a corner of its root sticks out.
+/// Petal of a docking ring: its flanks are inclined both ways, so that a corner of its root sticks out.
 fn petal() -> Polyhedron {
     let half = [[0.5, 0.275, 0.0], [0.6, 0.3, 0.0], [0.425, 0.04, 0.17], [0.4, 0.03375, 0.17]];
     let corners = half.iter().flat_map(|c| [Vec3::new(c[0], c[1], c[2]), Vec3::new(c[0], -c[1], c[2])]);
     hull(&corners.collect::<Vec<_>>())
 }
 
-/// Negative minimum translation distance, and the direction of the translation.
+/// Minus the minimum translation distance, and the direction of the translation.
 fn separation(segment: &LineSegment, shape: &Polyhedron) -> (f64, Vec3) {
     let along = segment.ends[1] - segment.ends[0];
     let across = shape.edges.iter().map(|edge| edge.direction.cross(&along)).filter(|n| n.norm() > 1e-9);

@@ -1,5 +1,5 @@
-//! What is left out before a sphere is tested against a triangle would have found nothing: pairs of which eight at a
-//! time are told apart, and features that are marked as never pushing.
+//! Rejected pairs of a sphere and a triangle have no contact, and features marked as never pushing have none.
+//! Pairs are classified eight at a time.
 
 use crate::common::{Random, levels, random_motion};
 use crate::oracle_support::rows::{Pairs, tell_in_rows};
@@ -16,7 +16,7 @@ use pong_geometry::interference::triangle_features::TriangleContact;
 use pong_geometry::primitive::{Ellipsoid, MayPush, Sphere, TriangleSet};
 use pong_geometry::simd::{LANES, Level, Simd, set_level};
 
-/// A sphere somewhere about a surface: anywhere, over a face or at a degenerate place; and the triangle there.
+/// Random sphere near a surface: anywhere, over a face or at a degenerate point; and the triangle there.
 fn sphere(set: &TriangleSet, random: &mut Random) -> (Sphere, u32) {
     let count = set.triangles.len() as u64;
     let triangle = (random.bits() % count) as u32;
@@ -41,9 +41,9 @@ fn contacts(sphere: &Sphere, set: &TriangleSet, triangle: u32, thickness: f64) -
     found
 }
 
-/// No pair that is left out finds anything, at any level of instructions and of any size; most pairs without contacts are
-/// left out, though none whose centre is behind the triangle and near its plane. Where the face alone may push nothing else
-/// does.
+/// No rejected pair has a contact, at any instruction-set level and of any size. Most pairs without contacts
+/// are rejected, though none whose centre is behind the triangle and near its plane. Where only the face may
+/// push, no other feature does.
 #[test]
 fn pairs_that_are_left_out_find_nothing() {
     let mut random = Random(71);
@@ -53,7 +53,7 @@ fn pairs_that_are_left_out_find_nothing() {
             if round % 2 == 0 {
                 mark_pushing(&mut set);
             }
-            // By a power of two, which rounds nothing: a kilometre, a millimetre.
+            // Scaled by a power of two, which is exact: a kilometre, a millimetre.
             let scale = f64::exp2(f64::from(round % 3 - 1) * 10.0);
             let mut scaled = set.clone();
             scaled.vertices.iter_mut().for_each(|vertex| *vertex *= scale);
@@ -148,7 +148,7 @@ fn pairs_are_counted_and_forgotten() {
     assert_eq!(pairs.take(&set).near, 1);
 }
 
-/// A pair with a number that is none is tested.
+/// A pair with NaN is not rejected.
 #[test]
 fn what_is_no_number_is_not_left_out() {
     let set = regular_plate(2);
@@ -158,7 +158,7 @@ fn what_is_no_number_is_not_left_out() {
     assert_eq!(pairs.take(&set), PairsTold { near: 3, over_face: 0 });
 }
 
-/// Marking which features may push changes no contact of any sphere or ellipsoid.
+/// Marking the features that may push changes no contact of any sphere or ellipsoid.
 #[test]
 fn marked_surfaces_push_as_unmarked_ones() {
     let mut random = Random(72);
@@ -188,7 +188,7 @@ fn marked_surfaces_push_as_unmarked_ones() {
     assert!(compared > 1000, "{compared}");
 }
 
-/// A pyramid without a base, of so many sides that fall by a slope.
+/// Pyramid without a base, with `sides` sides that descend with a slope.
 fn pyramid(sides: u32, slope: f64, random: &mut Random) -> TriangleSet {
     let corner = |k: u32, turn: f64| {
         let angle = (f64::from(k) + turn) / f64::from(sides) * std::f64::consts::TAU;
@@ -200,7 +200,8 @@ fn pyramid(sides: u32, slope: f64, random: &mut Random) -> TriangleSet {
     surface(vertices, &(0..sides).map(side).collect::<Vec<_>>())
 }
 
-/// Curved a little or much, turned, moved and scaled, half of them rounded to single precision; marked.
+/// Surface with little or much curvature, rotated, moved and scaled, half of them rounded to single
+/// precision; marked.
 fn curved_surface(round: usize, random: &mut Random) -> TriangleSet {
     let hill = [1e-6, 1e-3, 0.02, 0.1, 0.4][round % 5];
     let set = match round % 4 {
@@ -221,15 +222,15 @@ fn curved_surface(round: usize, random: &mut Random) -> TriangleSet {
     set
 }
 
-/// Whether a pair of its own is told as one that may touch.
+/// Returns `true` if a single pair is classified as one that may touch.
 fn is_told_near(sphere: &Sphere, set: &TriangleSet, triangle: u32) -> bool {
     let mut pairs = SphereTrianglePairs::default();
     pairs.add(sphere, triangle, sphere.radius);
     pairs.take(set).near == 1
 }
 
-/// A centre straight over an edge or a vertex, on a mixture of the normals that meet there: up to one of them, and beside it
-/// by rounding. Whatever the edge or the vertex finds there is not left out.
+/// A centre straight over an edge or a vertex, on a mixture of the normals there: up to one of them, and
+/// beside it by rounding. A contact of the edge or the vertex is not rejected.
 #[test]
 fn what_pushes_aside_is_not_left_out() {
     const PARTS: [f64; 8] = [0.0, 1e-15, 1e-9, 1e-3, 0.3, 0.5, 1.0 - 1e-9, 1.0];
@@ -246,7 +247,7 @@ fn what_pushes_aside_is_not_left_out() {
                 let radius = height * random.between(1.001, 1.1);
                 let neighbor = record.neighbors[k];
                 let other = if neighbor == u32::MAX { t as u32 } else { neighbor };
-                // Of the triangles around the vertex.
+                // One of the triangles around the vertex.
                 let around = (0..set.triangles.len() as u32)
                     .filter(|&t| set.triangles[t as usize].vertices.contains(&record.vertices[k]))
                     .collect::<Vec<_>>();
@@ -276,7 +277,7 @@ fn what_pushes_aside_is_not_left_out() {
     assert!(edges > 5000 && vertices > 500);
 }
 
-/// On a surface that is curved a little, a ball that is pressed into it is tested against few triangles that find nothing.
+/// On a slightly curved surface, a sphere pressed into it is tested against few triangles without a contact.
 #[test]
 fn most_neighbours_of_the_face_below_are_left_out() {
     let mut random = Random(74);

@@ -1,4 +1,4 @@
-//! Good models, and what becomes of them.
+//! Valid models, and the results of loading them.
 
 use crate::common::{CUBE_FACES, cube_vertices, load, model_of};
 use pong_geometry::Vec3;
@@ -31,8 +31,8 @@ fn every_primitive_and_option_is_read() {
     assert!(model.warnings.is_empty(), "{:?}", model.warnings);
 }
 
-/// The deepest tree of groups that is accepted loads on the stack that docs/model_format.md asks for (Rust's own threads have
-/// 2 MiB); one level more is refused there, and so are texts that nest without end.
+/// The deepest accepted tree of groups loads on the stack that docs/model_format.md asks for (Rust's own
+/// threads have 2 MiB). One level more is refused there, and so are texts of unlimited nesting.
 #[test]
 fn the_deepest_text_loads_on_a_small_stack() {
     const STACK: usize = 256 * 1024;
@@ -52,7 +52,7 @@ fn the_deepest_text_loads_on_a_small_stack() {
         };
         std::thread::Builder::new().stack_size(STACK).spawn(read).unwrap().join().unwrap()
     };
-    // A place in a primitive is three levels below its group.
+    // A point in a primitive is three levels below its group.
     assert_eq!(rules(nested(61)), [""; 0]);
     assert_eq!(rules(nested(62)), ["too-deep"]);
     assert_eq!(rules("[".repeat(100_000)), ["too-deep"]);
@@ -64,10 +64,10 @@ fn surfaces_and_pairs_are_read() {
     let model = load(include_str!("../models/everything.ron"));
     let by_name = |name: &str| model.surfaces.iter().find(|s| s.name == name).unwrap();
     assert_eq!(by_name("steel").stiffness, f64::INFINITY);
-    // A rigid surface takes what it does not say from what it meets.
+    // A rigid surface takes laws it does not name from the other surface.
     assert_eq!(by_name("steel").normal, NormalLaw::Inherited);
     let NormalLaw::Linear { damping, .. } = by_name("rubber").normal else { panic!() };
-    // zeta 0.25528 gives e = 0.5 where the law never pulls; the textbook's formula would say 0.2155.
+    // zeta 0.25528 gives e = 0.5 for the law that never pulls; the textbook formula would give 0.2155.
     assert!((damping - 2.0 * 0.25528 * (1e4_f64 * 100.0).sqrt()).abs() < 0.02, "{damping}");
     let NormalLaw::HuntCrossley { dissipation, exponent } = by_name("foam").normal else { panic!() };
     assert_eq!(exponent, Exponent::ThreeHalves);
@@ -90,10 +90,10 @@ fn surfaces_and_pairs_are_read() {
 fn poses_compose_down_to_the_movable_group_and_in_the_root_frame() {
     let model = load(include_str!("../models/everything.ron"));
     let tip = &model.bodies[2];
-    // arm stands at (1, 0, 0) turned 90° about z; mount is 2 m along its x; tip is 1 m above the mount.
+    // arm is at (1, 0, 0), rotated by 90° about z; mount is 2 m along its x; tip is 1 m above the mount.
     let x_rt = tip.initial_pose.unwrap();
     assert!((x_rt.position - Vec3::new(1.0, 2.0, 1.0)).norm() < 1e-15);
-    // mount's point at its own (0, 0, 1) lies at (2, 0, 1) in the frame of arm.
+    // mount's point at its own (0, 0, 1) is at (2, 0, 1) in the frame of arm.
     let arm = &model.bodies[1];
     assert!((arm.points[0].position - Vec3::new(2.0, 0.0, 1.0)).norm() < 1e-15);
 }
@@ -143,7 +143,7 @@ fn poses_of_nested_groups_turn_one_after_the_other() {
     );
     let body = &model.bodies[0];
     let near = |a: Vec3, b: [f64; 3]| (a - Vec3::from(b)).norm() < 1e-14;
-    // b takes (1, 2, 3) to (1, 1 − 3, 2); a takes that to (2 − 1, 2, 5 + 2).
+    // b maps (1, 2, 3) to (1, 1 − 3, 2); a maps that to (2 − 1, 2, 5 + 2).
     assert!(near(body.points[0].position, [1.0, 2.0, 7.0]), "{}", body.points[0].position);
     assert!(near(body.planes[0].normal, [0.0, 0.0, 1.0]));
     assert!((body.planes[0].offset - 7.0).abs() < 1e-14);
@@ -151,7 +151,7 @@ fn poses_of_nested_groups_turn_one_after_the_other() {
     assert!((body.ellipsoids[0].half_width(&Vec3::z()) - 2.0).abs() < 1e-14);
 }
 
-/// Surfaces and pairs in RON.
+/// Model with the given tables of surfaces and pairs, in RON.
 fn with_tables(surfaces: &str, pairs: &str) -> pong_model::Model {
     load(&format!(
         "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{ \"s\": (stiffness: 1), {surfaces} }}, pairs: [{pairs}],\n\
@@ -159,7 +159,7 @@ fn with_tables(surfaces: &str, pairs: &str) -> pong_model::Model {
     ))
 }
 
-/// c_t = 2·√(k_t·m) of a mass that is named; else the damping ratio of the linear law, c·√(k_t/k); else 0.
+/// c_t = 2·√(k_t·m) if a mass is given; else by the damping ratio of the linear law, c·√(k_t/k); else 0.
 #[test]
 fn a_bristle_without_damping_takes_it_from_a_mass_or_from_the_normal_law() {
     let rebound = "normal: Linear(restitution: (e: 0.5, mass: 3.0))";
@@ -206,7 +206,7 @@ fn a_bristle_without_damping_takes_it_from_a_mass_or_from_the_normal_law() {
     }
 }
 
-/// A rigid surface has no share of the bristle; one with a soft bristle of its own may name the mass for it.
+/// A rigid surface gives no default damping of a bristle; for a soft bristle of its own it may give the mass.
 #[test]
 fn a_bristle_of_a_rigid_surface_needs_no_damping() {
     for (bristle, k_t, c_t) in [
@@ -221,7 +221,7 @@ fn a_bristle_of_a_rigid_surface_needs_no_damping() {
     }
 }
 
-/// An entry of `pairs` names mass and stiffness itself, or leaves the damping to the two surfaces.
+/// An entry of `pairs` gives mass and stiffness itself, or leaves the damping to the two surfaces.
 #[test]
 fn a_bristle_of_a_pair_takes_the_mass_that_its_entry_names() {
     for (values, expected) in [
@@ -241,7 +241,8 @@ fn a_bristle_of_a_pair_takes_the_mass_that_its_entry_names() {
     }
 }
 
-/// Damping that is left out follows the normal law as it is, so it is another model than the same number or none.
+/// Omitted damping follows the normal law in effect, so the model differs from one with the same number or
+/// with none.
 #[test]
 fn the_hash_knows_whether_a_bristle_gives_its_damping() {
     let hash = |bristle: &str| {

@@ -1,4 +1,4 @@
-//! A file as it is written, and shapes told by face and place.
+//! Files as written, and faults of shapes by face and vertex.
 
 use pong_geometry::Vec3;
 use pong_geometry::extension::Extensions;
@@ -80,7 +80,8 @@ fn faces() -> Vec<&'static [u32]> {
 #[test]
 fn faults_of_a_polyhedron_name_face_place_and_distance() {
     assert_eq!(check_polyhedron(&cube(|_, v| v), &faces(), &[3]), []);
-    // One corner is lifted out of the upper face: 0.75 of its height is the distance to the plane through the mean.
+    // One corner is lifted out of the upper face: 0.75 of its height is the distance to the plane through the
+    // mean.
     let lift = |index, v: Vec3| if index == 6 { v + Vec3::new(0.0, 0.0, 0.01) } else { v };
     let lifted = check_polyhedron(&cube(lift), &faces(), &[]);
     assert_eq!(
@@ -88,7 +89,7 @@ fn faults_of_a_polyhedron_name_face_place_and_distance() {
         [("face-not-planar", Some(1))]
     );
     assert!((lifted[0].off - 0.0025).abs() < 1e-6, "{:?}", lifted[0]);
-    // A face is missing: each of its four neighbours has an open edge, whose ends are told.
+    // A face is missing: each of its four neighbours has an open edge, whose ends are reported.
     let open = check_polyhedron(&cube(|_, v| v), &faces()[1..], &[]);
     assert_eq!(open.iter().map(|fault| fault.face).collect::<Vec<_>>(), [Some(1), Some(2), Some(3), Some(4)]);
     assert!(

@@ -1,5 +1,6 @@
-//! Random solids of every family in [`common::families`], turned, moved, scaled and rounded to single precision: each loads, and
-//! is held to the tolerance of the model format; what is not convex is refused with a vertex and how far it is off.
+//! Random solids of every family in [`common::families`], rotated, moved, scaled and rounded to single
+//! precision: each loads within the tolerance of the model format; a non-convex solid is refused with a
+//! vertex and its distance.
 
 use crate::common::families::{FAMILIES, Family};
 use crate::common::held::{TOLERANCE, brief, holds, is_held, load, thickness, written};
@@ -7,23 +8,25 @@ use crate::common::solids::{Solid, cut_box};
 use pong_geometry::Vec3;
 use pong_testkit::Random;
 
-/// A solid thinner than this, in diameters, may be refused as one without thickness: the loader estimates that from its volume.
+/// Thickness, in diameters, below which a solid may be refused as flat: the loader estimates the thickness
+/// from the volume.
 const THIN: f64 = 5.0 * TOLERANCE;
-/// How far solids are moved, in diameters: rounding then moves a vertex by a quarter of the tolerance.
+/// Distance by which solids are moved, in diameters: rounding then moves a vertex by a quarter of the
+/// tolerance.
 const FAR: f64 = 3.0;
 
 fn reach(solid: &Solid) -> f64 {
     solid.vertices.iter().map(|v| (v - solid.vertices[0]).norm()).fold(0.0, f64::max)
 }
 
-/// A solid as an exporter writes it: anywhere, of any size, in single precision.
+/// Solid as an exporter writes it: anywhere, of any size, in single precision.
 fn exported(solid: &Solid, random: &mut Random) -> Solid {
     let size = random.log_between(1e-4, 1e4);
     let to = random.direction() * (reach(solid) * size * random.between(0.0, FAR));
     solid.posed(random.rotation_matrix(), to, size)
 }
 
-/// The shortest distance between two vertices of a face, in diameters.
+/// Shortest distance between two vertices of a face, in diameters.
 fn shortest_edge(solid: &Solid) -> f64 {
     let length = |face: &Vec<u32>, k: usize| {
         let [a, b] = [k, (k + 1) % face.len()].map(|k| solid.vertices[face[k] as usize]);
@@ -33,14 +36,14 @@ fn shortest_edge(solid: &Solid) -> f64 {
     edges.fold(f64::INFINITY, f64::min) / reach(solid)
 }
 
-/// What became of the solids of one family.
+/// Results for the solids of one family.
 #[derive(Default)]
 struct Survey {
     made: usize,
     refused_thin: usize,
-    /// What is told of solids with edges shorter than the tolerance.
+    /// Messages for solids with edges shorter than the tolerance.
     refused_crowded: Vec<String>,
-    /// Loaded with fewer vertices than were written.
+    /// Number of solids loaded with fewer vertices than were written.
     joined: usize,
 }
 
@@ -107,7 +110,7 @@ fn very_many_solids_load_and_are_held() {
     });
 }
 
-/// The same file makes the same bits; and what is loaded and then written is a solid that loads.
+/// Equal files give equal bits, and a loaded solid that is written again loads.
 #[test]
 fn what_is_loaded_loads_again() {
     for (stream, family) in FAMILIES.iter().enumerate() {
@@ -123,7 +126,7 @@ fn what_is_loaded_loads_again() {
     }
 }
 
-/// A dent of a few tolerances is no rounding.
+/// A dent of a few tolerances is more than rounding.
 #[test]
 fn what_is_not_convex_is_refused_with_a_vertex_and_how_far_it_is_off() {
     for index in 0..300 {

@@ -1,12 +1,12 @@
-//! Every solid whose vertices are in convex position, to the rounding of single precision, loads; and what is loaded is that
-//! solid, within the tolerance of the model format.
+//! Every solid whose vertices are in convex position, up to the rounding of single precision, loads; the
+//! loaded solid is the written one, within the tolerance of the model format.
 
 use crate::common::held::{TOLERANCE, brief, holds, load, thickness};
 use crate::common::solids::{Solid, cut_box, geodesic, prism, uv_sphere};
 use pong_geometry::Vec3;
 use pong_testkit::Random;
 
-/// A cloud of points that lie in convex position, or do not: the hull decides.
+/// Cloud of points, in convex position or not: the hull decides.
 fn cloud(random: &mut Random, kind: usize, count: usize) -> Vec<Vec3> {
     let squash = Vec3::new(1.0, random.between(0.05, 1.0), random.between(0.01, 1.0));
     let point = |random: &mut Random| match kind {
@@ -14,7 +14,7 @@ fn cloud(random: &mut Random, kind: usize, count: usize) -> Vec<Vec3> {
         1 => random.direction() * random.unit(),
         2 => random.direction().component_mul(&squash),
         3 => Vec3::new(random.unit(), random.unit(), random.unit()),
-        // Many places in few planes, moved by less than the tolerance.
+        // Many points in few planes, moved by less than the tolerance.
         4 => {
             let side = random.direction();
             let face = side.iamax();
@@ -23,7 +23,7 @@ fn cloud(random: &mut Random, kind: usize, count: usize) -> Vec<Vec3> {
             place[face] = side[face].signum() + random.between(-1e-6, 1e-6);
             place
         }
-        // A chamfer of about the tolerance along every edge of a box.
+        // Chamfers of about the tolerance along every edge of a box.
         _ => {
             let mut place = Vec3::new(1.0, 1.0, 1.0) - random.direction().abs() * random.between(0.0, 1e-5);
             (0..3).for_each(|k| place[k] *= if random.unit() < 0.5 { -1.0 } else { 1.0 });
@@ -56,7 +56,8 @@ fn hulls_by_the_thousand_load() {
     assert!(tried > 3500, "{tried}");
 }
 
-/// Faces narrower than 1e-9 of their longest edge are refused by a rule of their own.
+/// Returns `true` unless a face is narrower than 1e-9 of its longest edge, which is refused by a rule of its
+/// own.
 fn has_no_sliver(solid: &Solid) -> bool {
     let width = |face: &Vec<u32>| {
         let [a, b, c] = [0, 1, 2].map(|k| solid.vertices[face[k] as usize]);
@@ -66,7 +67,7 @@ fn has_no_sliver(solid: &Solid) -> bool {
     solid.faces.iter().all(|face| width(face) > 1.1e-9)
 }
 
-/// Places on a shallow cap: its faces meet at angles of about their heights' share of the tolerance.
+/// Points on a shallow cap: the angles between its faces are comparable to the tolerance.
 #[test]
 fn shallow_caps_load() {
     let mut random = Random(77);
@@ -111,7 +112,7 @@ fn solids_of_many_faces_load() {
     }
 }
 
-/// A box whose faces and edges are cut fine stays a box, however it is turned.
+/// A box whose faces and edges are finely cut stays a box, in every orientation.
 #[test]
 fn cut_boxes_are_boxes() {
     let mut random = Random(11);
@@ -126,7 +127,7 @@ fn cut_boxes_are_boxes() {
     }
 }
 
-/// Two places a little more than the tolerance above a face keep their places.
+/// Two points slightly more than the tolerance above a face keep their positions.
 #[test]
 fn low_bumps_on_a_box_stay() {
     let mut points: Vec<Vec3> = Vec::new();
@@ -144,7 +145,8 @@ fn low_bumps_on_a_box_stay() {
     assert!(loaded.faces.len() < hull.faces.len(), "the five other faces are merged");
 }
 
-/// How deep a place lies is what it was before the merging, within the tolerance: exact hulls, so the planes before are sure.
+/// The depth of a point is the same as before the merging, within the tolerance. The hulls are exact, so the
+/// planes before merging are reliable.
 #[test]
 fn depths_are_those_of_the_unmerged_solid() {
     let mut random = Random(21);
@@ -162,7 +164,7 @@ fn depths_are_those_of_the_unmerged_solid() {
             })
             .collect();
         for _ in 0..40 {
-            // A place inside: a mean of vertices.
+            // Point inside: a mean of vertices.
             let shares: Vec<f64> = hull.vertices.iter().map(|_| random.unit().powi(4)).collect();
             let sum: f64 = shares.iter().sum();
             let place = hull.vertices.iter().zip(&shares).map(|(v, share)| v * (share / sum)).sum::<Vec3>();
@@ -179,7 +181,7 @@ fn depths_are_those_of_the_unmerged_solid() {
     }
 }
 
-/// What is refused says where and by how much.
+/// A refusal names the vertex and its distance.
 #[test]
 fn what_is_not_convex_is_told_with_its_vertex() {
     let mut dented = cut_box(Vec3::new(1.0, 1.0, 1.0), 4);

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 const DOCUMENT: &str = include_str!("../../../../docs/model_format.md");
 
-/// Examples by what they are, and the line at which they begin.
+/// Examples with their kind and the line at which they begin.
 fn examples() -> Vec<(usize, String, String)> {
     let mut examples = Vec::new();
     let mut lines = DOCUMENT.lines().enumerate();

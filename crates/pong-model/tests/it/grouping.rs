@@ -1,4 +1,4 @@
-//! Bounds and leaves of a text, changed and read back: trees differ, nothing else does.
+//! Bounds and leaf sizes of a text, changed and read back: only the trees differ.
 
 use pong_geometry::bounding::{BoundKind, Volume};
 use pong_geometry::extension::Extensions;
@@ -20,7 +20,7 @@ fn points(prefix: &str, count: u32, x: f64) -> String {
     (0..count).map(point).collect::<Vec<_>>().join(", ")
 }
 
-/// Two groups of points below a group, a group of points beside it, a movable group.
+/// Two groups of points below a group, a group of points beside it, and a movable group.
 fn text() -> String {
     format!(
         "// A comment: name: \"no\"\n(\n    format: \"pong-model\", version: 1, name: \"m\",\n    surfaces: {{ \"s\": (stiffness: 1e5) }},\n    \
@@ -57,7 +57,7 @@ fn items(model: &Model) -> Vec<Vec<Item>> {
     model.bodies.iter().map(|body| sorted(&body.tree)).collect()
 }
 
-/// What must not depend on bounds: every primitive with its path, every element, the hash.
+/// Checks everything that must not depend on bounds: every primitive with its path, every element, the hash.
 fn assert_same_but_for_trees(a: &Model, b: &Model) {
     assert_eq!(a.hash, b.hash);
     assert_eq!(items(a), items(b));
@@ -96,7 +96,7 @@ fn leaves_of_a_limited_size_hold_every_element_once() {
     assert_same_but_for_trees(&model, &load(&unlimited));
 }
 
-/// Both groups below `a` in one leaf of the root; beside them `b`, which keeps its own.
+/// Both groups below `a` are in one leaf of the root; beside them `b`, which keeps its own.
 #[test]
 fn what_a_group_without_a_volume_holds_is_in_the_leaf_of_the_group_above() {
     let changes = [
@@ -110,12 +110,12 @@ fn what_a_group_without_a_volume_holds_is_in_the_leaf_of_the_group_above() {
     let tree = &after.bodies[0].tree;
     assert_eq!(leaves(tree), [("m".to_owned(), 13), ("m/b".to_owned(), 5)]);
     assert!(tree.nodes.iter().all(|node| node.items.is_empty() || node.children.is_empty()));
-    // With `b` as well the root is the leaf.
+    // With `b` changed as well, the root is the leaf.
     let mut all = changes.to_vec();
     all.push(change("m/b", Bound::Above, None));
     let tree = load(&regrouped(&text(), &all).unwrap()).bodies[0].tree.clone();
     assert_eq!((tree.nodes.len(), leaves(&tree)), (1, vec![("m".to_owned(), 18)]));
-    // A size of leaves counts for what came from below.
+    // The leaf size applies to contents from below.
     all.push(change("m", around(BoundKind::Obb), Some(5)));
     let tree = load(&regrouped(&text(), &all).unwrap()).bodies[0].tree.clone();
     assert!(
@@ -126,7 +126,7 @@ fn what_a_group_without_a_volume_holds_is_in_the_leaf_of_the_group_above() {
     assert!(tree.nodes.iter().all(|node| matches!(node.volume, Volume::Obb { .. })), "{:?}", tree.nodes);
 }
 
-/// A text is changed where it must be, and nowhere else; what is set can be taken back.
+/// Only the necessary parts of a text change; a change can be reverted.
 #[test]
 fn a_text_keeps_all_but_the_fields_that_change() {
     let text = text();
@@ -165,7 +165,7 @@ fn what_is_not_there_cannot_be_changed() {
     assert!(groups("(format:").is_err());
 }
 
-/// Authors are told of a size that can do nothing.
+/// Authors are warned of a leaf size without effect.
 #[test]
 fn a_size_of_leaves_without_a_leaf_is_warned_of() {
     let on = |path: &str, bound| {
@@ -178,7 +178,7 @@ fn a_size_of_leaves_without_a_leaf_is_warned_of() {
     assert_eq!(on("m/arm", around(BoundKind::Aabb)), 0);
 }
 
-/// A plane in a leaf that is cut stands by itself, so that the rest is bounded.
+/// A plane in a leaf that is split gets a leaf of its own, so that the rest is bounded.
 #[test]
 fn unbounded_elements_stand_apart_in_a_leaf_that_is_cut() {
     let text = format!(

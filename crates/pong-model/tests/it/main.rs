@@ -1,4 +1,4 @@
-//! Tests of the model format: what is read, refused and made of it.
+//! Tests of the model format: accepted files, refused files, and the loaded models.
 
 mod accepts;
 mod authored;

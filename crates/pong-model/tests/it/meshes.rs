@@ -6,7 +6,7 @@ use pong_model::{Model, ModelErrors};
 use std::fs;
 use std::path::PathBuf;
 
-/// A folder of its own for each test.
+/// Separate folder for each test.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -139,7 +139,7 @@ fn an_obj_mesh_of_triangles_is_read_and_one_of_quads_is_refused() {
     assert!(errors.0.len() == 6 && errors.0.iter().all(|e| e.rule == "not-a-triangle"));
 }
 
-/// The keyword of the first line counts though a mark of UTF-8 stands before it.
+/// The keyword of the first line is recognised after a byte order mark.
 #[test]
 fn a_mark_of_utf8_costs_no_vertex() {
     let folder = Folder::new("mark");
@@ -154,7 +154,7 @@ fn a_mark_of_utf8_costs_no_vertex() {
     assert!(mesh("a.obj").is_ok());
 }
 
-/// Links that lead out of the model's folder are followed only into folders that the host allows.
+/// Links out of the model's folder are followed only into folders that the host allows.
 #[cfg(unix)]
 #[test]
 fn nothing_is_read_outside_the_folder_unless_that_is_allowed() {
@@ -172,7 +172,7 @@ fn nothing_is_read_outside_the_folder_unless_that_is_allowed() {
     }
 }
 
-/// A pipe would keep the reader waiting, a device would fill the memory.
+/// A pipe would block the reader, a device would fill the memory.
 #[cfg(unix)]
 #[test]
 fn a_model_that_is_no_regular_file_is_refused_at_once() {
@@ -190,7 +190,7 @@ fn bad_files_are_told() {
     let folder = Folder::new("bad");
     let mesh = |file: &str| folder.rule(&format!("TriangleMesh(name: \"m\", file: \"{file}\")"));
     assert_eq!(mesh("none.stl"), "mesh-file-unreadable");
-    // Only regular files: a pipe would keep the reader waiting.
+    // Only regular files: a pipe would block the reader.
     assert_eq!(mesh("."), "mesh-file-unreadable");
     let pipe = std::process::Command::new("mkfifo").arg(folder.0.join("pipe.stl")).status();
     if pipe.is_ok_and(|status| status.success()) {
@@ -213,7 +213,7 @@ fn bad_files_are_told() {
     assert_eq!(mesh("nan.stl"), "not-finite");
     let scaled = "TriangleMesh(name: \"m\", file: \"nan.stl\", scale: 0)";
     assert_eq!(folder.rule(scaled), "not-positive");
-    // The file may be damaged in ways that leave a count without triangles behind it.
+    // A damaged file may have a count without triangles after it.
     let mut lying = binary_stl(&[], b"");
     lying[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
     folder.write("lying.stl", &lying);

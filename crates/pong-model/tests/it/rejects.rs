@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 const TRIANGLE: &str = "vertices: ((0,0,0),(1,0,0),(0,1,0))";
 
-/// The text is refused for exactly this reason, there.
+/// Checks that the text is refused for exactly this reason, at this position.
 fn refused(rule: &str, path: &str, text: &str) {
     let errors = faults(text);
     let marked = text.find("/*!*/").expect("a mark");
@@ -232,7 +232,7 @@ fn faults_of_surfaces() {
     );
 }
 
-/// Many unknown names among many: each fault is placed, and none lists them all.
+/// Many unknown names among many: each fault has its position, and no message lists them all.
 #[test]
 fn many_faults_in_one_line_are_placed_and_short() {
     let surfaces: String = (0..2000).map(|k| format!("\"surface {k}\": (stiffness: 1e6), ")).collect();
@@ -401,12 +401,12 @@ fn sizes_beyond_what_can_be_computed_with() {
         }
     }
     primitive("size-range", "root/p", &format!("/*!*/{}", shapes("1e-171")[0]));
-    // A large place is no large size, and a ray needs no reach.
+    // A large coordinate is not a large size, and a ray needs no reach.
     assert!(accepts("Sphere(name: \"p\", center: (1e50, 0, 0), radius: 1)"));
     assert!(accepts("Ray(name: \"p\", origin: (0,0,0), direction: (0,0,1), length: 1, reach: 0)"));
 }
 
-/// Every kind that has a size.
+/// Shapes of every kind that has a size.
 fn shapes(size: &str) -> Vec<String> {
     let s = size;
     vec![
@@ -507,7 +507,7 @@ fn a_polyhedron_that_is_none_is_refused() {
     primitive("zero-volume", "root/h", &poly(&foil, CUBE_FACES));
 }
 
-/// Where several faces are at fault: the rules and paths of all.
+/// Rules and paths of all faults, for several faulty faces.
 fn all(text: &str) -> Vec<(&'static str, String)> {
     faults(&model_of(text)).0.into_iter().map(|error| (error.rule, error.path)).collect()
 }
@@ -587,10 +587,10 @@ fn a_file_that_cannot_be_read_is_an_error_too() {
     assert_eq!(errors.0[0].rule, "unreadable");
 }
 
-/// They need files of gigabytes.
+/// Rules without a test, because they need files of gigabytes.
 const UNTESTED: [&str; 2] = ["text-too-long", "too-many-triangles"];
 
-/// The rules that the source can report, found by reading it.
+/// Every rule that the source can report, found by reading it, is described.
 #[test]
 fn every_rule_of_the_source_is_described_in_the_format() {
     let described = include_str!("../../../../docs/model_format.md");
@@ -599,7 +599,7 @@ fn every_rule_of_the_source_is_described_in_the_format() {
     }
 }
 
-/// Every rule is used here or in the tests of meshes, extensions and files as they are written.
+/// Every rule is tested here or in the tests of meshes, extensions and authored files.
 #[test]
 fn every_rule_of_the_source_has_a_test() {
     let tests = [
@@ -621,7 +621,7 @@ fn rules_of_the_source() -> BTreeSet<String> {
         for entry in std::fs::read_dir(folder).expect("the source") {
             let path = entry.expect("an entry").path();
             if path.is_dir() && path.ends_with("mesh_formats") {
-                // A model tells these as `mesh-file-damaged`; docs/importing.md has them.
+                // A model reports these as `mesh-file-damaged`; docs/importing.md lists them.
             } else if path.is_dir() {
                 folders.push(path);
             } else if path.file_name().is_some_and(|name| name != "tests.rs") {
@@ -633,7 +633,7 @@ fn rules_of_the_source() -> BTreeSet<String> {
     rules
 }
 
-/// Texts in quotes that look like a rule: small letters and hyphens, or a known single word.
+/// Quoted texts that look like a rule: lower-case letters and hyphens, or a known single word.
 fn rules_of(source: &str) -> Vec<String> {
     let single = ["syntax", "format", "version", "negative", "exponent", "bound", "unreadable"];
     let source = source.split("#[cfg(test)]").next().unwrap_or_default();

@@ -1,4 +1,5 @@
-//! Bounding volumes of round parts and of chains of capsules (cables): all of the body is inside, and little else.
+//! Bounding volumes of round parts and of chains of capsules (cables): they contain the whole body and are
+//! tight.
 
 use crate::common;
 use nalgebra::UnitQuaternion;
@@ -7,12 +8,12 @@ use pong_geometry::bounding::{Bounded, Volume};
 use pong_model::Model;
 use pong_testkit::random::Random;
 
-/// What rounding may leave a place outside by, of the size of the coordinates.
+/// Distance by which rounding may leave a point outside, relative to the coordinates.
 const ROUNDING: f64 = 1e-14;
-/// By how much more of that a volume may be larger: every volume has a margin.
+/// Relative amount by which a volume may be larger: every volume has a margin.
 const MARGIN: f64 = 1e-11;
 
-/// A round part: ends, radii, and how far from its hole a bore pushes, m; a capsule has equal radii and is ball-ended.
+/// Round part: ends, radii, and the thickness of a bore, m; a capsule has equal radii and spherical ends.
 #[derive(Clone, Copy)]
 struct Round {
     kind: &'static str,
@@ -54,17 +55,17 @@ impl Round {
         }
     }
 
-    /// The circles (of a capsule balls) whose hull the body is: the two ends. A bore is all within its thickness of them.
+    /// End circles (spheres for a capsule) whose hull is the body. A bore is dilated by its thickness.
     fn circles(&self) -> [(Vec3, f64); 2] {
         [0, 1].map(|end| (self.ends[end], self.radii[end]))
     }
 
-    /// How far around the hull the body goes, m.
+    /// Radius by which the hull is dilated, m.
     fn around(&self) -> f64 {
         if self.kind == "Bore" { self.thickness } else { 0.0 }
     }
 
-    /// A place of the body, often on its surface.
+    /// Random point of the body, often on its surface.
     fn place(&self, random: &mut Random) -> Vec3 {
         let axis = (self.ends[1] - self.ends[0]).normalize();
         let (between, inside, behind) = (random.unit(), random.unit(), random.unit());
@@ -79,7 +80,7 @@ impl Round {
         center + away * (radius * part) + random.direction() * (self.around() * random.pick(&[1.0, behind]))
     }
 
-    /// Largest `direction · x` over the body, m.
+    /// Maximum of `direction · x` over the body, m.
     fn reach(&self, direction: &Vec3) -> f64 {
         let axis = (self.ends[1] - self.ends[0]).normalize();
         let aside =
@@ -88,7 +89,7 @@ impl Round {
         self.circles().into_iter().map(of_circle).fold(f64::NEG_INFINITY, f64::max) + self.around()
     }
 
-    /// Distance along the axis over which the body goes, and the largest distance from the axis, m.
+    /// Extent along the axis and largest distance from it, m.
     fn extent(&self) -> (f64, f64) {
         let axis = (self.ends[1] - self.ends[0]).normalize();
         let widest = self.radii[0].max(self.radii[1]) + self.around();
@@ -99,7 +100,7 @@ impl Round {
 const KINDS: [&str; 4] = ["Capsule", "Cylinder", "Cone", "Bore"];
 const BOUNDS: [&str; 3] = ["Aabb", "Sphere", "Obb"];
 
-/// The parts in one leaf, in a group that is turned and moved in its body.
+/// Model with the parts in one leaf, in a group that is rotated and moved in its body.
 fn model(parts: &[Round], bound: &str, pose: &(Vec3, UnitQuaternion<f64>)) -> Model {
     let (at, turn) = pose;
     let parts: Vec<_> = parts.iter().enumerate().map(|(i, part)| part.ron(&format!("p{i}"))).collect();
@@ -122,7 +123,7 @@ fn some_pose(random: &mut Random) -> (Vec3, UnitQuaternion<f64>) {
     (random.vector(5.0), random.orientation())
 }
 
-/// How far a place is outside of a volume, m; not positive inside.
+/// Distance of a point outside a volume, m; not positive inside.
 fn outside(volume: &Volume, x: &Vec3) -> f64 {
     match volume {
         Volume::Aabb { center, half } => ((x - center).abs() - half).max(),
@@ -158,8 +159,8 @@ fn every_place_of_a_round_part_is_inside_its_volumes() {
     }
 }
 
-/// The box along the axes has the size of the body to rounding. The sphere is at most 1.16 times as large as the least one
-/// could be (the half diameter), and the turned box at most as large as the one along the part's own axis, 1 %.
+/// The axis-aligned box has the size of the body, up to rounding. The sphere is at most 1.16 times the lower
+/// bound (half the diameter), and the oriented box at most 1 % larger than the box along the part's own axis.
 #[test]
 fn volumes_of_a_round_part_are_tight() {
     for (stream, kind) in KINDS.into_iter().enumerate() {
@@ -180,7 +181,7 @@ fn volumes_of_a_round_part_are_tight() {
                 }
             }
             let Volume::Sphere { radius, .. } = volume("Sphere") else { panic!() };
-            // That of a bore is around the hole, and the thickness more.
+            // For a bore: the volume around the hole, plus the thickness.
             let hole = Round { thickness: 0.0, ..part };
             let (least, behind) = (half_diameter(&hole), if kind == "Bore" { part.thickness } else { 0.0 });
             assert!(radius <= 1.16 * least + behind, "{kind} {index}: sphere {}", radius / least);
@@ -191,7 +192,7 @@ fn volumes_of_a_round_part_are_tight() {
     }
 }
 
-/// Half of the largest distance of two places of the body, m: no sphere around it is smaller.
+/// Half of the largest distance between two points of the body, m: no enclosing sphere is smaller.
 fn half_diameter(part: &Round) -> f64 {
     let circles = part.circles();
     let ball = part.kind == "Capsule";
@@ -209,7 +210,7 @@ fn own_box(part: &Round) -> f64 {
     widest * widest * 0.5 * length
 }
 
-/// A cable of capsules along an arc, each beginning where the one before ends.
+/// Cable of capsules along an arc, each beginning where the previous one ends.
 fn cable(count: usize, radius: f64) -> Vec<Round> {
     let knot = |i: usize| {
         let along = i as f64 / count as f64 - 0.5;
@@ -220,7 +221,8 @@ fn cable(count: usize, radius: f64) -> Vec<Round> {
     (0..count).map(part).collect()
 }
 
-/// One volume over the whole chain: all of it inside, the box exact along the axes, sphere and turned box close to the least.
+/// One volume around the whole chain contains it; the axis-aligned box is exact, sphere and oriented box are
+/// close to the minimum.
 #[test]
 fn one_volume_bounds_a_whole_cable() {
     for index in 0..20 {
@@ -246,7 +248,7 @@ fn one_volume_bounds_a_whole_cable() {
                         assert!((volume.support(&d) - reach(&d)).abs() <= 10.0 * MARGIN);
                     }
                 }
-                // Of the chord of 2.0025 m and the radius, half.
+                // Half of the chord of 2.0025 m plus the radius.
                 Volume::Sphere { radius, .. } => assert!(*radius <= 1.05 * (0.5 * 4.01_f64.sqrt() + 0.01)),
                 // The arc lies in a plane: 2.0025 m along the chord, 0.6 m high.
                 Volume::Obb { half, .. } => {

@@ -1,4 +1,4 @@
-//! Round parts in model files: what they come to, what is refused, what the hash knows of them.
+//! Round parts in model files: loaded values, refusals, and the hash.
 
 use crate::common::{faults, load, model_of};
 use pong_geometry::Vec3;
@@ -14,7 +14,7 @@ fn body(primitive: &str) -> MovableGroup {
     load(&model_of(primitive)).bodies.remove(0)
 }
 
-/// Rule, cause and cure of the one fault of a primitive.
+/// Rule, cause and cure of the only fault of a primitive.
 fn refused(primitive: &str) -> (&'static str, String, String) {
     let errors = faults(&model_of(primitive));
     let [error] = &errors.0[..] else { panic!("{primitive}: {errors}") };
@@ -79,7 +79,7 @@ fn the_pose_of_a_group_carries_them() {
     }
 }
 
-/// The numbers of everyone are told with what is wrong and what to do about it.
+/// Every message names the numbers, the fault and the cure.
 #[test]
 fn what_has_no_length_no_radius_or_no_size_is_refused() {
     let kinds = [
@@ -126,7 +126,8 @@ fn one_fault_of_a_round_part_does_not_hide_the_next() {
     assert_eq!(rules, ["zero-length", "negative", "not-positive", "wrong-type"]);
 }
 
-/// Every number counts, and so does the kind: a cone of equal radii is another element than a cylinder. Names do not.
+/// The hash includes every number and the kind: a cone of equal radii differs from a cylinder. Names are left
+/// out.
 #[test]
 fn the_hash_knows_every_number_of_a_round_part() {
     let hash = |primitive: &str| load(&model_of(primitive)).hash;

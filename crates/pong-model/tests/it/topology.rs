@@ -1,4 +1,4 @@
-//! Surfaces: what belongs together, which features push, and that seams leave no trace.
+//! Surfaces: connected pieces, the features that push, and seams without effect.
 
 use crate::common::{CUBE_FACES, cube, cube_vertices, load, model_of};
 use pong_geometry::Vec3;
@@ -31,8 +31,8 @@ fn pushing_edges(pieces: &[Polyhedron]) -> Vec<(Vec3, Vec3)> {
     pieces.iter().flat_map(of).collect()
 }
 
-/// Whether a vertex lies in the middle of a straight edge, where a wall between pieces ends. It has a cone, so that a
-/// centre which rounding puts between the two halves of the edge is held, and pushes nothing that the edge does not.
+/// Returns `true` if a vertex lies in the middle of a straight edge, where an internal face ends. Its cone
+/// catches a centre that rounding puts between the two halves of the edge, and adds no other contact.
 fn is_within_an_edge(cone: &[Vec3]) -> bool {
     cone.iter().any(|one| cone.iter().any(|other| one.dot(other) < -1.0 + 1e-9))
 }
@@ -141,7 +141,8 @@ fn an_inner_corner_never_pushes() {
 
 #[test]
 fn a_step_keeps_the_edges_of_both_heights() {
-    // The taller box is flush with the lower one on one side only in part: walls overlap, edges do not match.
+    // The taller box is flush with the lower one on one side only in part: internal faces overlap, edges do
+    // not match.
     let model = load(&model_of(&format!(
         "{},\n{}",
         cube("low", [0.0; 3], [1.0; 3], "[3]"),
@@ -228,7 +229,7 @@ fn hulls_rounded_to_f32_are_accepted_at_every_size() {
     }
 }
 
-/// Prism over a polygon, turned so that nothing is exact, rounded to `f32`, its sides and lids triangulated.
+/// Prism over a polygon, rotated so that nothing is exact, rounded to `f32`, its sides and caps triangulated.
 fn rough_prism(corners: usize, height: f64, fan: bool) -> String {
     let turn = nalgebra::Rotation3::from_euler_angles(0.3, 0.5, 0.7);
     let place = |i: usize, z: f64| {
@@ -274,7 +275,7 @@ fn triangulated_prisms_rounded_to_f32_have_their_faces_back() {
 
 #[test]
 fn a_vertex_within_a_flat_face_or_edge_never_pushes() {
-    // One side of the cube is a fan around its middle, one edge has a vertex more.
+    // One side of the cube is a fan around its middle, and one edge has an additional vertex.
     let vertices = cube_vertices([0.0; 3], [1.0; 3]).replace(']', ", (0.5,0.5,1), (0.5,0,0)]");
     let faces =
         "[[0,3,2,1,9], [4,5,8],[5,6,8],[6,7,8],[7,4,8], [0,9,1,5,4], [1,2,6,5], [2,3,7,6], [3,0,4,7]]";
@@ -434,7 +435,7 @@ fn large_leaves_are_split_and_everything_stays_inside_its_volume() {
     }
 }
 
-/// Every ball lies in the box that its batch has for it, and in the lane that its place says.
+/// Every sphere lies in its batch's box, and in the lane given by its index.
 fn check_batch(body: &MovableGroup, batch: &pong_model::Batch) {
     batch.boxes.visit(Portable, &NarrowBox::EVERYTHING, |node, met| {
         for lane in lanes(met) {
@@ -451,7 +452,7 @@ fn check_batch(body: &MovableGroup, batch: &pong_model::Batch) {
     });
 }
 
-/// Line segments and capsules by their places in the tree of boxes, in lanes: which were written as they are in the model.
+/// Line segments and capsules are in lanes, in the order of the box tree, with the values of the model.
 #[test]
 fn rods_stand_in_the_lanes_of_their_places() {
     let at = |i: u32, p: u32| f64::from((i + 1).wrapping_mul(p) % 1009) / 100.0;
@@ -474,7 +475,7 @@ fn rods_stand_in_the_lanes_of_their_places() {
         assert_eq!(batch.rods.len(), items.len().div_ceil(8));
         for place in 0..8 * batch.rods.len() {
             let (eight, lane) = (&batch.rods[place / 8], place % 8);
-            // Lanes beyond the last element have that one.
+            // Unused lanes repeat the last element.
             let element = items[place.min(items.len() - 1)].element as usize;
             let (ends, radius) = match batch.kind {
                 PrimitiveKind::LineSegment => (body.segments[element].ends, 0.0),
@@ -488,7 +489,7 @@ fn rods_stand_in_the_lanes_of_their_places() {
     assert_eq!(seen, 75);
 }
 
-/// Every volume below a node holds what it must; returns the items below.
+/// Checks every volume below a node; returns the items below.
 fn check_tree(body: &MovableGroup, node: usize, seen: &mut BTreeSet<usize>) -> Vec<usize> {
     use pong_geometry::bounding::Volume;
     assert!(seen.insert(node));
@@ -581,7 +582,7 @@ fn volumes_have_room_for_radius_reach_and_thickness() {
     let (low, high) = extent("Ray(name: \"r\", origin: (0,0,0), direction: (0,0,1), length: 2, reach: 0.5)");
     assert!(near(low, [0.0, 0.0, -0.5]) && near(high, [0.0, 0.0, 2.0]));
     let (low, high) = extent("Triangle(name: \"t\", vertices: ((0,0,0),(1,0,0),(0,1,0)), thickness: 0.25)");
-    // Half a ball behind the front: a ray that still hits may start beside the prism.
+    // Half a sphere behind the front: a ray that still hits may start beside the prism.
     assert!(near(low, [-0.25, -0.25, -0.25]) && near(high, [1.25, 1.25, 0.0]), "{low} {high}");
     let (low, high) = extent(
         "Ellipsoid(name: \"e\", center: (1,0,0), semi_axes: (3,2,1), \
@@ -592,7 +593,7 @@ fn volumes_have_room_for_radius_reach_and_thickness() {
     assert!(near(low, [1.0 - feet, -3.0, -feet]) && near(high, [1.0 + feet, 3.0, feet]), "{low} {high}");
 }
 
-/// A piece under a triangle with its lowest corner on the axis: a slice of a spire.
+/// Piece under a triangle with its lowest corner on the axis: a slice of a spire.
 fn slice(name: &str, [a, b]: [[f64; 2]; 2], inactive: &str) -> String {
     let ([ax, ay], [bx, by]) = (a, b);
     format!(

@@ -1,4 +1,4 @@
-//! Every block runs once, whatever the number of workers, and whatever else happens to the pool.
+//! Every block runs once, for any number of workers and whatever else happens to the pool.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -40,7 +40,7 @@ fn prewake_and_quiesce_at_any_time_change_no_phase() {
     }
 }
 
-/// A block ends when as many blocks have begun as there are lanes: each lane must have one.
+/// Job whose blocks end when as many blocks have begun as there are lanes: each lane must get one.
 struct All {
     lanes: u32,
     begun: AtomicU32,
@@ -68,7 +68,7 @@ fn sleeping_workers_are_woken_as_many_as_there_are_blocks() {
     }
 }
 
-/// Blocks long enough for anyone who is awake to come for one.
+/// Job with blocks long enough for any awake worker to claim one.
 struct Slow;
 
 impl Job for Slow {
@@ -77,7 +77,8 @@ impl Job for Slow {
     }
 }
 
-/// A phase for some of the workers is left alone by the others, awake or asleep, and the next one is for all again.
+/// A phase for some of the workers is not touched by the others, awake or asleep, and the next phase is for
+/// all again.
 #[test]
 fn a_phase_is_shared_with_no_more_workers_than_it_is_opened_to() {
     let mut pool = start(&Arc::new(Slow), &patient(5));

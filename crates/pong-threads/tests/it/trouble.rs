@@ -12,7 +12,7 @@ fn impatient(workers: usize) -> Settings {
     Settings { worker_timeout: Duration::from_millis(1), ..patient(workers) }
 }
 
-/// While `held`, the first block that a worker gets hangs.
+/// Job whose first block on a worker hangs while `held` is set.
 struct Hang {
     held: AtomicBool,
     hanging: AtomicU32,
@@ -38,7 +38,7 @@ impl Hang {
         self.hanging.load(SeqCst)
     }
 
-    /// Ends when the test lets go, or has forgotten to.
+    /// Hangs until the test releases it, or a time limit passes.
     fn hang(&self) {
         let started = Instant::now();
         self.hanging.store(1, SeqCst);
@@ -67,7 +67,8 @@ fn a_worker_that_hangs_costs_one_phase_and_is_used_again_when_it_returns() {
     let mut pool = start(&hang, &impatient(1));
     assert_eq!(pool.run(8), Outcome::Abandoned);
     assert!(!pool.is_quiet());
-    // The caller had claimed four of the eight before the worker came, which claimed two of the four that were left.
+    // The caller had claimed four of the eight before the worker came, which claimed two of the remaining
+    // four.
     assert_eq!(hang.take().iter().sum::<u32>(), 6);
 
     for _ in 0..100 {
@@ -147,17 +148,17 @@ mod a_worker_that_is_not_run {
         }
     }
 
-    /// The worker is in no block: the handler of a signal of its own keeps it from running, as another thread on its core
+    /// The worker is in no block: a signal handler keeps it from running, as another thread on its core
     /// would.
     #[test]
     fn does_not_keep_the_pool_from_ending() {
         let worker = Arc::new(AtomicU32::new(0));
         let told = worker.clone();
-        // SAFETY: asks the system for the number of the calling thread.
+        // SAFETY: a system call without arguments; it returns the id of the calling thread.
         let meet = Meet::new(move || told.store(unsafe { libc::gettid() } as u32, SeqCst));
         let mut pool = start(&meet, &patient(1));
         assert_eq!(pool.run(2), Outcome::Complete);
-        // SAFETY: a handler for a signal that nothing else here uses, sent to the worker alone.
+        // SAFETY: a handler for a signal that nothing else here uses, sent to the worker only.
         unsafe {
             libc::signal(libc::SIGTRAP, hold as extern "C" fn(libc::c_int) as libc::sighandler_t);
             libc::syscall(libc::SYS_tgkill, libc::getpid(), worker.load(SeqCst), libc::SIGTRAP);

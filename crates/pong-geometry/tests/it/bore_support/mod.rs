@@ -1,10 +1,10 @@
-//! Bores at random and what is done to them, for the tests of what touches them.
+//! Random bores, and operations on them, for the tests of contacts with bores.
 
 use pong_geometry::primitive::{Bore, Frustum};
 use pong_geometry::{Transform, Vec3};
 use pong_testkit::Random;
 
-/// About 1 m in size, straight or tapered, anywhere near the origin.
+/// Random bore, about 1 m in size, straight or tapered, near the origin.
 pub fn random_bore(random: &mut Random) -> Bore {
     let one = random.direction() * random.between(0.0, 1.0);
     let other = one + random.direction() * random.between(0.3, 2.0);
@@ -33,7 +33,7 @@ pub fn swapped(bore: &Bore) -> Bore {
     Bore { hole: Frustum::new([b, a], [s, r]), thickness: bore.thickness, mouths: [n, m] }
 }
 
-/// What a model in single precision holds.
+/// Bore rounded to single precision, as a model file holds it.
 pub fn rounded(bore: &Bore) -> Bore {
     let round = |x: f64| f64::from(x as f32);
     let Frustum { ends, radii, .. } = bore.hole;
@@ -41,13 +41,13 @@ pub fn rounded(bore: &Bore) -> Bore {
     Bore { hole, thickness: round(bore.thickness), mouths: bore.mouths }
 }
 
-/// Two unit vectors across the axis, square to each other.
+/// Two unit vectors perpendicular to the axis and to each other.
 pub fn across(bore: &Bore) -> [Vec3; 2] {
     let one = bore.hole.axis.cross(&Vec3::ith(bore.hole.axis.iamin(), 1.0)).normalize();
     [one, bore.hole.axis.cross(&one)]
 }
 
-/// The place of the wall at a share of the length and an angle.
+/// Point of the wall at a fraction of the length and an angle.
 pub fn on_wall(bore: &Bore, share: f64, angle: f64) -> Vec3 {
     let [one, other] = across(bore);
     let [first, last] = bore.hole.radii;
@@ -57,7 +57,7 @@ pub fn on_wall(bore: &Bore, share: f64, angle: f64) -> Vec3 {
         + (one * angle.cos() + other * angle.sin()) * radius
 }
 
-/// Of two depths and the cosine between their normals.
+/// Squared length of the shortest vector that clears two depths, given the cosine between their normals.
 pub fn shared_square(one: f64, two: f64, cosine: f64) -> f64 {
     let g = cosine.max(0.0);
     let (least, most) = (one.min(two), one.max(two));

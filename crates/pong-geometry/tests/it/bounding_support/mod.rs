@@ -9,7 +9,7 @@ pub const KINDS: [BoundKind; 3] = [BoundKind::Aabb, BoundKind::Sphere, BoundKind
 
 pub use pong_testkit::Random;
 
-/// A unit vector; one in four lies along an axis of the frame.
+/// Unit vector; one in four lies along an axis of the frame.
 pub fn tricky_direction(random: &mut Random) -> Vec3 {
     if random.chance(0.25) {
         let mut axis = Vec3::zeros();
@@ -19,7 +19,7 @@ pub fn tricky_direction(random: &mut Random) -> Vec3 {
     random.direction()
 }
 
-/// Any rotation; often one that leaves axes parallel, exactly or nearly so.
+/// Random rotation; often one that leaves axes parallel, exactly or nearly.
 pub fn tricky_rotation(random: &mut Random) -> Mat3 {
     let axis = nalgebra::Unit::new_normalize(tricky_direction(random));
     let angle = match random.below(4) {
@@ -30,7 +30,7 @@ pub fn tricky_rotation(random: &mut Random) -> Mat3 {
     Quat::from_axis_angle(&axis, angle).to_rotation_matrix().into_inner()
 }
 
-/// Something to be bounded of which single points can be told.
+/// Body with known points, to be bounded.
 pub enum Body {
     Points(Vec<Vec3>),
     Spheres(Vec<Sphere>),
@@ -38,7 +38,8 @@ pub enum Body {
 }
 
 impl Body {
-    /// Of 1e-4 to 1e4 m, round, flat, thin or degenerate, at or far from its frame's origin, along the frame or not.
+    /// Random body of 1e-4 to 1e4 m: round, flat, thin or degenerate, at or far from its frame's origin,
+    /// aligned with the frame or not.
     pub fn random(random: &mut Random) -> Self {
         let scale = random.log_between(1e-4, 1e4);
         let offset = random.vector(1.0) * random.pick(&[0.0, scale, 1e3 * scale, 1e4]);
@@ -76,7 +77,7 @@ impl Body {
         .expect("a good body")
     }
 
-    /// Its point farthest along a direction.
+    /// Point farthest along a direction.
     pub fn extreme(&self, direction: &Vec3) -> Vec3 {
         let points: Vec<_> = match self {
             Self::Points(points) => points.clone(),
@@ -86,7 +87,7 @@ impl Body {
         extreme_of(&points, direction)
     }
 
-    /// Any point of its hull.
+    /// Random point of its convex hull.
     pub fn inside(&self, random: &mut Random) -> Vec3 {
         let (p, q) = (self.extreme(&tricky_direction(random)), self.extreme(&tricky_direction(random)));
         p + (q - p) * random.unit()
@@ -107,7 +108,7 @@ pub fn corner(index: usize, half: &Vec3) -> Vec3 {
     Vec3::from_fn(|i, _| if index >> i & 1 == 1 { half[i] } else { -half[i] })
 }
 
-/// A body with its volume of each kind, in the order of [`KINDS`].
+/// Body with its volume of each kind, in the order of [`KINDS`].
 pub struct Fitted {
     pub body: Body,
     pub volumes: [Volume; 3],
@@ -122,7 +123,7 @@ pub fn fitted_bodies(random: &mut Random, count: usize) -> Vec<Fitted> {
     (0..count).map(one).collect()
 }
 
-/// The transform with a given rotation that takes a point of A to a point of B.
+/// Transform with a given rotation that maps a point of A to a point of B.
 pub fn meeting(rotation: Mat3, in_a: &Vec3, in_b: &Vec3) -> Transform {
     Transform { rotation, translation: in_b - rotation * in_a }
 }

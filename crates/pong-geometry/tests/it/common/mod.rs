@@ -10,7 +10,7 @@ use pong_geometry::{Transform, Vec3};
 
 pub use pong_testkit::Random;
 
-/// A rigid transform, its translation at most `reach` long.
+/// Random rigid transform, its translation at most `reach` long.
 pub fn random_motion(random: &mut Random, reach: f64) -> Transform {
     Transform {
         rotation: random.rotation_matrix(),
@@ -60,8 +60,8 @@ pub fn hull(points: &[Vec3]) -> Polyhedron {
     hull_with_walls(points, &|_, _| false)
 }
 
-/// As [`hull`]; `is_wall` (outward normal, offset) makes a face an inactive inner wall. Edges and vertices on a
-/// wall do not push; other pieces are not looked at.
+/// [`hull`] in which `is_wall` (outward normal, offset) makes a face an inactive internal face. Edges and
+/// vertices on it do not push; other pieces are not considered.
 pub fn hull_with_walls(points: &[Vec3], is_wall: &dyn Fn(&Vec3, f64) -> bool) -> Polyhedron {
     let diameter = largest_distance(points);
     let outlines = hull_outlines(points, 1e-9 * diameter);
@@ -177,7 +177,7 @@ fn hull_outlines(points: &[Vec3], tolerance: f64) -> Vec<(Vec3, Vec<usize>)> {
     let mut found: Vec<(Vec3, Vec<usize>)> = Vec::new();
     let count = points.len();
     let triples = (0..count).flat_map(|i| {
-        // The lowest index first; both turning senses of the other two.
+        // The lowest index first; both orientations of the other two.
         (i + 1..count).flat_map(move |j| (i + 1..count).filter(move |&k| k != j).map(move |k| [i, j, k]))
     });
     for triple in triples {
@@ -298,7 +298,7 @@ pub fn surface_of(polyhedron: &Polyhedron) -> TriangleSet {
     triangle_set(polyhedron.vertices.iter().map(|v| v.position).collect(), &triangles)
 }
 
-/// A level patch of `count`² squares, each cut in two, with corners jittered in the plane and lifted by `lift`.
+/// Level patch of `count`² squares, each cut in two, with corners jittered in the plane and lifted by `lift`.
 pub fn patch(count: u32, random: &mut Random, lift: &dyn Fn(f64, f64) -> f64) -> TriangleSet {
     let mut vertices = Vec::new();
     for i in 0..=count {
@@ -319,7 +319,7 @@ pub fn patch(count: u32, random: &mut Random, lift: &dyn Fn(f64, f64) -> f64) ->
     triangle_set(vertices, &triangles)
 }
 
-/// Convex pieces, some with inner walls, which they hold or the pieces behind them do, as they are and turned.
+/// Convex pieces, some with internal faces, closed or open, as they are and rotated.
 pub fn pieces(random: &mut Random) -> Vec<Polyhedron> {
     let box_corners = cuboid_corners(Vec3::repeat(-1.0), Vec3::repeat(1.0));
     let walled = [
@@ -340,8 +340,8 @@ pub fn pieces(random: &mut Random) -> Vec<Polyhedron> {
     all
 }
 
-/// A place near a piece: anywhere, with coordinates of single precision or of few digits, along an edge or in the plane of some
-/// vertices, or within rounding of these or within the slack of walls.
+/// Random point near a piece: anywhere, with coordinates of single precision or of few digits, along an edge
+/// or in the plane of some vertices, or within rounding of these or within the tolerance of internal faces.
 pub fn place_near(random: &mut Random, piece: &Polyhedron) -> Vec3 {
     let [a, b, c] = [(); 3].map(|()| {
         let vertex = (random.unit() * piece.vertices.len() as f64) as usize;

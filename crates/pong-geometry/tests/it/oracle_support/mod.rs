@@ -1,4 +1,4 @@
-//! Surfaces and slow, plain answers shared by the oracle and feature tests.
+//! Surfaces and slow reference answers shared by the oracle and feature tests.
 
 pub mod rows;
 
@@ -11,7 +11,7 @@ use pong_geometry::primitive::{
 };
 use pong_geometry::{Transform, Vec3};
 
-/// Remembers the largest error seen under a name and prints it when dropped.
+/// Records the largest error under a name and prints it when dropped.
 pub struct Worst {
     name: &'static str,
     value: f64,
@@ -23,7 +23,7 @@ impl Worst {
         Self { name, value: 0.0, count: 0 }
     }
 
-    /// Notes one error and fails if it is above the limit (or not a number).
+    /// Records one error; fails if it is above the limit (or NaN).
     #[track_caller]
     pub fn note(&mut self, error: f64, limit: f64) {
         assert!(error <= limit, "{}: {error:e} > {limit:e} (after {} good ones)", self.name, self.count);
@@ -40,7 +40,7 @@ impl Drop for Worst {
 
 // ---------------------------------------------------------------- triangle surfaces
 
-/// Knits triangles together: neighbours by their common directed edges, one shell.
+/// Connects triangles: neighbours by common directed edges, one shell.
 pub fn surface(vertices: Vec<Vec3>, triangles: &[[u32; 3]]) -> TriangleSet {
     let mut set = TriangleSet { vertices, triangles: Vec::new() };
     let edge = |t: &[u32; 3], k: usize| (t[k], t[(k + 1) % 3]);
@@ -68,7 +68,7 @@ pub fn surface(vertices: Vec<Vec3>, triangles: &[[u32; 3]]) -> TriangleSet {
     set
 }
 
-/// The same surface with its triangles in another order and turned within themselves.
+/// Surface with its triangles in another order and rotated within themselves.
 pub fn shuffled(set: &TriangleSet, random: &mut Random) -> TriangleSet {
     let mut triangles: Vec<[u32; 3]> = set.triangles.iter().map(|t| t.vertices).collect();
     for i in (1..triangles.len()).rev() {
@@ -92,7 +92,7 @@ pub fn rounded_to_f32(set: &TriangleSet) -> TriangleSet {
     map_vertices(set, |v| v.map(|c| f64::from(c as f32)))
 }
 
-/// The closed surface of a polyhedron: its faces as fans.
+/// Closed surface of a polyhedron: its faces as fans.
 pub fn skin(polyhedron: &Polyhedron) -> TriangleSet {
     let mut triangles = Vec::new();
     for face in 0..polyhedron.faces.len() {
@@ -104,7 +104,7 @@ pub fn skin(polyhedron: &Polyhedron) -> TriangleSet {
     surface(polyhedron.vertices.iter().map(|v| v.position).collect(), &triangles)
 }
 
-/// A grid of `nx × ny` squares, each cut into two triangles; `place` gives the vertex of a node.
+/// Grid of `nx × ny` squares, each cut into two triangles; `place` gives the vertex of a node.
 pub fn grid(nx: u32, ny: u32, place: impl Fn(u32, u32) -> Vec3) -> TriangleSet {
     let number = |i: u32, j: u32| j * (nx + 1) + i;
     let vertices = (0..=ny).flat_map(|j| (0..=nx).map(move |i| (i, j))).map(|(i, j)| place(i, j)).collect();
@@ -122,13 +122,13 @@ pub fn grid(nx: u32, ny: u32, place: impl Fn(u32, u32) -> Vec3) -> TriangleSet {
     surface(vertices, &triangles)
 }
 
-/// A flat plate of 2 × 2 m in z = 0, regular.
+/// Regular flat plate of 2 × 2 m in z = 0.
 pub fn regular_plate(n: u32) -> TriangleSet {
     let at = |i: u32| 2.0 * f64::from(i) / f64::from(n) - 1.0;
     grid(n, n, |i, j| Vec3::new(at(i), at(j), 0.0))
 }
 
-/// A flat disc of fans of odd angles around odd points: an inner and an outer ring.
+/// Flat disc of fans with irregular angles around irregular points: an inner and an outer ring.
 pub fn fan_plate(random: &mut Random) -> TriangleSet {
     let count = 11_u32;
     let mut vertices = vec![Vec3::new(0.03, -0.05, 0.0)];
@@ -148,7 +148,7 @@ pub fn fan_plate(random: &mut Random) -> TriangleSet {
     surface(vertices, &triangles)
 }
 
-/// A star-shaped closed surface with valleys and ridges: a sphere of `rings × sectors` with dents.
+/// Star-shaped closed surface with valleys and ridges: a sphere of `rings × sectors` with dents.
 pub fn dented_ball(rings: u32, sectors: u32, dent: f64, random: &mut Random) -> TriangleSet {
     let mut vertices = vec![Vec3::z()];
     for r in 1..rings {
@@ -175,7 +175,7 @@ pub fn dented_ball(rings: u32, sectors: u32, dent: f64, random: &mut Random) -> 
     surface(vertices, &triangles)
 }
 
-/// A hilly open sheet.
+/// Hilly open sheet.
 pub fn hilly_sheet(n: u32, hill: f64, random: &mut Random) -> TriangleSet {
     let heights: Vec<f64> = (0..(n + 1) * (n + 1)).map(|_| random.between(-hill, hill)).collect();
     let at = |i: u32| 2.0 * f64::from(i) / f64::from(n) - 1.0;
@@ -184,7 +184,7 @@ pub fn hilly_sheet(n: u32, hill: f64, random: &mut Random) -> TriangleSet {
 
 // ---------------------------------------------------------------- nearest points
 
-/// Surfaces of every sort, of about the size of one, by name.
+/// Surfaces of every kind, of about unit size, by name.
 pub fn surfaces(random: &mut Random) -> Vec<(&'static str, TriangleSet)> {
     let hull = crate::common::stretched_hull(20, Vec3::new(1.0, 0.8, 0.6));
     let sheet = hilly_sheet(6, 0.2, random);
@@ -197,13 +197,13 @@ pub fn surfaces(random: &mut Random) -> Vec<(&'static str, TriangleSet)> {
     ]
 }
 
-/// The point of a segment nearest to `p`.
+/// Point of a segment nearest to `p`.
 pub fn nearest_on_segment(p: &Vec3, a: &Vec3, b: &Vec3) -> Vec3 {
     let along = b - a;
     a + along * ((p - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0)
 }
 
-/// The point of a triangle nearest to `p`: the foot if its barycentric coordinates allow, else the best of the
+/// Point of a triangle nearest to `p`: the foot if its barycentric coordinates allow, else the best of the
 /// three sides.
 pub fn nearest_on_triangle(p: &Vec3, [a, b, c]: &[Vec3; 3]) -> Vec3 {
     let (u, v, w) = (b - a, c - a, p - a);
@@ -220,19 +220,19 @@ pub fn nearest_on_triangle(p: &Vec3, [a, b, c]: &[Vec3; 3]) -> Vec3 {
         .expect("three sides")
 }
 
-/// A place on a surface that is nearer to the centre than all of its surroundings.
+/// Point of a surface that is a local minimum of the distance to the centre.
 #[derive(Clone, Debug)]
 pub struct Nearest {
     pub foot: Vec3,
     pub distance: f64,
     /// Triangles that contain the foot.
     pub triangles: Vec<u32>,
-    /// The largest height of the centre over one of the triangles.
+    /// Largest height of the centre over one of the triangles.
     pub height_max: f64,
 }
 
-/// All local minima of the distance from `p` to a surface, by definition: a triangle is convex, so its nearest
-/// point is a minimum of the surface if no triangle that touches it comes nearer.
+/// All local minima of the distance from `p` to a surface, by definition: a triangle is convex, so its
+/// nearest point is a local minimum if no adjacent triangle comes nearer.
 pub fn local_minima(set: &TriangleSet, p: &Vec3, within: f64, scale: f64) -> Vec<Nearest> {
     let count = set.triangles.len() as u32;
     let corners: Vec<[Vec3; 3]> = (0..count).map(|t| set.corners(t)).collect();
@@ -270,7 +270,7 @@ pub fn all_contacts(sphere: &Sphere, set: &TriangleSet, thickness: f64) -> Vec<T
     found
 }
 
-/// The contacts that count: spare ones only where nothing else is as deep.
+/// Contacts that count: fallbacks only if nothing else is as deep.
 pub fn counting_contacts(sphere: &Sphere, set: &TriangleSet, thickness: f64) -> Vec<Interference> {
     let all = all_contacts(sphere, set, thickness);
     let deepest = all
@@ -284,7 +284,7 @@ pub fn counting_contacts(sphere: &Sphere, set: &TriangleSet, thickness: f64) -> 
         .collect()
 }
 
-/// The shared force in units of k: the shortest t with n·t ≥ δ for all, by coordinate ascent on its dual.
+/// Shared force in units of k: the shortest t with n·t ≥ δ for all, by coordinate ascent on its dual.
 pub fn shared_push(contacts: &[Interference]) -> Vec3 {
     let mut lambda = vec![0.0_f64; contacts.len()];
     let mut t = Vec3::zeros();
@@ -317,12 +317,12 @@ pub fn winding_number(set: &TriangleSet, p: &Vec3) -> f64 {
 
 // ---------------------------------------------------------------- polyhedra
 
-/// The corners of a face, counter-clockwise.
+/// Corners of a face, counter-clockwise.
 pub fn polygon(polyhedron: &Polyhedron, face: usize) -> Vec<Vec3> {
     polyhedron.rim(face).iter().map(|rim| polyhedron.vertices[rim.start as usize].position).collect()
 }
 
-/// The point of the whole outer surface nearest to `p`, over triangles fanned from every face; its face.
+/// Point of the whole outer surface nearest to `p`, over triangles fanned from every face; and its face.
 pub fn nearest_on_polyhedron(polyhedron: &Polyhedron, p: &Vec3) -> (Vec3, usize) {
     let mut best = (Vec3::zeros(), 0);
     let mut least = f64::INFINITY;
@@ -340,8 +340,8 @@ pub fn nearest_on_polyhedron(polyhedron: &Polyhedron, p: &Vec3) -> (Vec3, usize)
     best
 }
 
-/// Makes the pieces of one body know each other, the way a loader does: an edge of two active faces of the whole
-/// surface that meet convexly pushes, once, from the lowest piece; a vertex if all edges there are convex or flat.
+/// Connects the pieces of one body as the loader does: an edge where two active faces of the whole surface
+/// meet convexly pushes once, from the lowest piece; a vertex pushes if all its edges are convex or flat.
 pub fn join_pieces(pieces: &mut [Polyhedron]) {
     let same = |a: &Vec3, b: &Vec3| a == b;
     let ends = |p: &Polyhedron, e: usize| p.edges[e].vertices.map(|v| p.vertices[v as usize].position);
@@ -416,7 +416,7 @@ pub fn join_pieces(pieces: &mut [Polyhedron]) {
     }
 }
 
-/// The twin walls of pieces belong to the lower piece: marks them closed.
+/// Marks internal faces closed in the lower of the two pieces.
 pub fn close_lower_walls(pieces: &mut [Polyhedron]) {
     for lower in 0..pieces.len() {
         for face in 0..pieces[lower].faces.len() {
@@ -434,7 +434,8 @@ pub fn close_lower_walls(pieces: &mut [Polyhedron]) {
     }
 }
 
-/// A body of two wedges with a slanted wall between them, turned at random and rebuilt from the turned corners.
+/// Body of two wedges with a slanted internal face between them, rotated at random and rebuilt from the
+/// rotated corners.
 pub fn wedges(random: &mut Random) -> Vec<Polyhedron> {
     let motion = random_motion(random, 1.0);
     let lean = random.between(-0.4, 0.4);
@@ -457,7 +458,7 @@ pub fn wedges(random: &mut Random) -> Vec<Polyhedron> {
     for piece in &pieces {
         assert_eq!(piece.faces.iter().filter(|f| !f.active).count(), 1);
     }
-    // The loader makes twin walls exact opposites.
+    // The loader makes opposite internal faces exact opposites.
     let wall = pieces[0].faces.iter().find(|f| !f.active).map(|f| (f.normal, f.offset)).expect("wall");
     pieces[1].change(|parts| {
         for face in parts.faces.iter_mut().filter(|f| !f.active) {
@@ -469,7 +470,7 @@ pub fn wedges(random: &mut Random) -> Vec<Polyhedron> {
     pieces
 }
 
-/// Where the outlines of two pieces abut: both ends and the outward normal of the active face there.
+/// Seams of the outlines of two pieces: both ends, and the outward normal of the active face there.
 pub fn seams(pieces: &[Polyhedron]) -> Vec<(Vec3, Vec3, Vec3)> {
     let piece = &pieces[0];
     let mut seams = Vec::new();
@@ -482,7 +483,7 @@ pub fn seams(pieces: &[Polyhedron]) -> Vec<(Vec3, Vec3, Vec3)> {
     seams
 }
 
-/// The next representable number up (`ulps` > 0) or down.
+/// Next representable number up (`ulps` > 0) or down.
 pub fn nudge(x: f64, ulps: i64) -> f64 {
     let mut x = x;
     for _ in 0..ulps.abs() {

@@ -1,14 +1,14 @@
-//! Pairs of which several in a row have one element.
+//! Batches of pairs in which several consecutive pairs have the same element.
 
 use crate::common::{Random, levels};
 use pong_geometry::primitive::TriangleSet;
 use pong_geometry::simd::{Kernel, LANES, Level, Simd, run, set_level};
 use std::fmt::Debug;
 
-/// Up to eight pairs of an element and a triangle.
+/// Batch of up to eight pairs of an element and a triangle.
 pub trait Pairs: Default {
     type Element;
-    /// What is told of them.
+    /// Classification of the pairs.
     type Told: PartialEq + Debug;
     fn begin_in<S: Simd>(&mut self, simd: S, element: &Self::Element, thickness: f64);
     fn push(&mut self, triangle: u32) -> usize;
@@ -27,8 +27,9 @@ impl<P: Pairs> Kernel for Begin<'_, P> {
     }
 }
 
-/// Pairs that are pushed after their element are told as those that are added with it, whatever stood in their places before and
-/// at every level of instructions. `draw` gives an element, a triangle near it and a thickness; answers what was told.
+/// Pairs pushed after their element are classified like those added together with it, whatever their lanes
+/// held before, and at every instruction-set level. `draw` gives an element, a triangle near it and a
+/// thickness; returns the classifications.
 pub fn tell_in_rows<P: Pairs>(
     set: &TriangleSet,
     random: &mut Random,

@@ -1,20 +1,20 @@
-//! A round solid of the tests of round parts.
+//! Round solids for the tests of round parts.
 
 use pong_geometry::bounding::Bounded;
 use pong_geometry::primitive::{Capsule, Frustum};
 use pong_geometry::{Transform, Vec3};
 
-/// A capsule, or a cylinder or cone.
+/// Capsule, cylinder or cone.
 #[derive(Clone, Copy, Debug)]
 pub enum Solid {
-    /// Its two ends are balls.
+    /// Capsule: its ends are spheres.
     Capsule(Capsule),
-    /// Its two ends are discs.
+    /// Cylinder or cone: its ends are discs.
     Frustum(Frustum),
 }
 
 impl Solid {
-    /// Largest `direction · x` over the solid.
+    /// Maximum of `direction · x` over the solid.
     pub fn support(&self, direction: &Vec3) -> f64 {
         match self {
             Self::Capsule(capsule) => Bounded::support(capsule, direction),
@@ -22,7 +22,7 @@ impl Solid {
         }
     }
 
-    /// In another frame.
+    /// Solid transformed to another frame.
     pub fn carried(&self, x: &Transform) -> Self {
         match self {
             Self::Capsule(capsule) => Self::Capsule(capsule.carried(x)),
@@ -30,7 +30,7 @@ impl Solid {
         }
     }
 
-    /// About the origin.
+    /// Solid scaled about the origin.
     pub fn scaled(&self, factor: f64) -> Self {
         match self {
             Self::Capsule(Capsule { ends, radius }) => {
@@ -42,7 +42,7 @@ impl Solid {
         }
     }
 
-    /// The same solid with its ends exchanged.
+    /// Solid with its ends exchanged.
     pub fn swapped(&self) -> Self {
         match self {
             Self::Capsule(Capsule { ends: [a, b], radius }) => {
@@ -54,7 +54,7 @@ impl Solid {
         }
     }
 
-    /// The two ends of the axis.
+    /// Ends of the axis.
     pub fn ends(&self) -> [Vec3; 2] {
         let (Self::Capsule(Capsule { ends, .. }) | Self::Frustum(Frustum { ends, .. })) = self;
         *ends

@@ -1,15 +1,15 @@
-//! Families of random convex solids: what exporters write, and what is hard to hold.
+//! Families of random convex solids: typical output of exporters, and hard cases.
 
 use super::solids::{Solid, geodesic, prism, uv_sphere};
 use pong_geometry::Vec3;
 use pong_testkit::Random;
 
-/// A family of solids of about unit size around the origin, before they are turned, moved and rounded.
+/// Family of solids of about unit size around the origin, before they are rotated, moved and rounded.
 pub struct Family {
     pub name: &'static str,
-    /// A random one; `None` if these numbers make no solid.
+    /// Creates a random solid; `None` if these numbers make none.
     pub make: fn(&mut Random) -> Option<Solid>,
-    /// How many are made of many faces, as a share of the number of solids of the other families.
+    /// Number of solids relative to other families; smaller for solids of many faces.
     pub share: f64,
 }
 
@@ -25,11 +25,12 @@ pub const FAMILIES: [Family; 9] = [
     Family { name: "frusta of many sides", make: |random| Some(frustum(random, 5000)), share: 0.01 },
 ];
 
-/// A box with a chamfer along every edge, from below the tolerance to a quarter of its size; its faces are polygons.
+/// Box with a chamfer along every edge, from below the tolerance to a quarter of its size; its faces are
+/// polygons.
 fn chamfered_box(random: &mut Random) -> Solid {
     let half = Vec3::new(1.0, random.log_between(0.02, 1.0), random.log_between(0.02, 1.0));
     let chamfer = random.log_between(3e-7, 0.5) * half.min();
-    // A vertex lies at a corner (a bit for each axis) and in the face across one axis.
+    // Each vertex is at a corner (a bit for each axis), in the face perpendicular to one axis.
     let at = |corner: usize, axis: usize| (3 * corner + axis) as u32;
     let vertices = (0..24)
         .map(|number| {
@@ -60,7 +61,7 @@ fn chamfered_box(random: &mut Random) -> Solid {
     if random.chance(0.7) { solid.cut(random) } else { solid }
 }
 
-/// The exact hull of places along chamfers of about ten times the tolerance.
+/// Exact hull of points along chamfers of about ten times the tolerance.
 fn hull_of_chamfers(random: &mut Random) -> Option<Solid> {
     let (wide, count) = (random.log_between(2e-6, 1e-4), 8 + random.below(80));
     let place = |random: &mut Random| {
@@ -79,7 +80,7 @@ fn prism_of(random: &mut Random, most: u32) -> Solid {
     prism(sides(random, most), random.log_between(1e-4, 1e3)).cut(random)
 }
 
-/// A prism whose second cap is smaller, down to a thousandth.
+/// Prism whose second cap is smaller, down to a thousandth.
 fn frustum(random: &mut Random, most: u32) -> Solid {
     let height = random.log_between(1e-3, 30.0);
     let mut solid = prism(sides(random, most), height);
@@ -92,7 +93,7 @@ fn frustum(random: &mut Random, most: u32) -> Solid {
     solid.cut(random)
 }
 
-/// A wedge with an angle down to the tolerance.
+/// Wedge with an angle down to the tolerance.
 fn wedge(random: &mut Random) -> Solid {
     let mut solid = prism(3, random.log_between(1e-3, 10.0));
     let tip = Vec3::new(random.between(0.0, 1.0), random.log_between(1e-5, 0.3), 0.0);
@@ -100,13 +101,13 @@ fn wedge(random: &mut Random) -> Solid {
         let height = vertex.z;
         *vertex = [Vec3::zeros(), Vec3::x(), tip][number % 3] + Vec3::z() * height;
     }
-    // Its second cap is not quite across.
+    // The second cap is not quite perpendicular.
     let slant = random.between(-0.5, 0.5);
     solid.vertices[3..].iter_mut().for_each(|v| v.z *= 1.0 + slant * v.x);
     solid.cut(random)
 }
 
-/// The hull of places on a shallow cap.
+/// Hull of points on a shallow cap.
 fn cap(random: &mut Random) -> Option<Solid> {
     let height = random.log_between(5e-6, 0.3);
     let place = |random: &mut Random| {
@@ -121,7 +122,7 @@ fn cap(random: &mut Random) -> Option<Solid> {
     Solid::hull_of(&places, 2.0_f64.powi(-24))
 }
 
-/// An ellipsoid of triangles of one size, or of circles and meridians.
+/// Ellipsoid of triangles of one size, or of circles and meridians.
 fn ball(random: &mut Random) -> Solid {
     let mut solid = match random.chance(0.5) {
         true => geodesic(1 + random.below(12) as u32),
@@ -133,7 +134,7 @@ fn ball(random: &mut Random) -> Solid {
 }
 
 impl Solid {
-    /// With every face running counter-clockwise seen from outside; the origin is inside.
+    /// Solid with every face counter-clockwise seen from outside; the origin is inside.
     fn outward(mut self) -> Self {
         for face in &mut self.faces {
             let [a, b, c] = [0, 1, 2].map(|k| self.vertices[face[k] as usize]);
@@ -144,7 +145,8 @@ impl Solid {
         self
     }
 
-    /// Every face cut into triangles: by a fan around any corner, by a strip, or ear by ear in any order.
+    /// Solid with every face cut into triangles: a fan around any corner, a strip, or ear by ear in any
+    /// order.
     fn cut(&self, random: &mut Random) -> Self {
         let how = random.below(4);
         if how == 3 {

@@ -1,23 +1,24 @@
-//! What a loaded solid is held against: the solid that was written.
+//! Comparison of a loaded solid with the solid that was written.
 
 use super::solids::Solid;
 use pong_geometry::Vec3;
 use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::Polyhedron;
 
-/// That of docs/model_format.md, in diameters.
+/// Tolerance of docs/model_format.md, in diameters.
 pub const TOLERANCE: f64 = 1e-6;
-/// The loader and this test round a height in another order: by this part of the diameter, and of the distance from the origin.
+/// Difference of heights between loader and test, which round in different orders, relative to the diameter
+/// and to the distance from the origin.
 const ROUNDING: f64 = 1e-14;
 
-/// What the loader makes of a solid, or what it says.
+/// Loads a solid; on refusal returns the message.
 pub fn load(solid: &Solid) -> Result<Polyhedron, String> {
     let text = super::model_of(&solid.text("solid"));
     let mut model = pong_model::parse(&text, "t.ron", None, &Extensions::new()).map_err(|e| e.to_string())?;
     Ok(model.bodies[0].polyhedra.remove(0))
 }
 
-/// Loads a solid and holds it against what it was.
+/// Loads a solid and compares it with the original.
 pub fn holds(solid: &Solid, what: &str) -> Polyhedron {
     let loaded = load(solid).unwrap_or_else(|told| panic!("{what}: {told}\n{}", brief(solid)));
     if let Err(told) = is_held(solid, &loaded) {
@@ -26,8 +27,9 @@ pub fn holds(solid: &Solid, what: &str) -> Polyhedron {
     loaded
 }
 
-/// Whether a loaded solid is the one that was written: no vertex is farther than the tolerance in front of a face, none lies
-/// deeper below the surface than that, and none of a face's own is farther from its plane, or beyond one of its walls.
+/// Compares a loaded solid with the original: no vertex is farther than the tolerance in front of a face,
+/// none is deeper below the surface, and no vertex of a face is farther from its plane or beyond one of its
+/// lateral planes.
 pub fn is_held(solid: &Solid, loaded: &Polyhedron) -> Result<(), String> {
     let far = solid.vertices.iter().map(Vec3::amax).fold(0.0, f64::max);
     let most = TOLERANCE * loaded.diameter + ROUNDING * (loaded.diameter + far);
@@ -49,7 +51,7 @@ pub fn is_held(solid: &Solid, loaded: &Polyhedron) -> Result<(), String> {
             if off.abs() > most {
                 return fault("a corner is off the plane of its face", off);
             }
-            // Every wall of the many of a cap is too much to ask.
+            // Only some of a cap's many lateral planes are tested.
             let walls = rims.iter().step_by(1 + rims.len() / 100);
             let beyond = walls.map(|wall| wall.outward.dot(&(corner - wall.anchor))).fold(0.0, f64::max);
             if beyond > most {
@@ -60,7 +62,8 @@ pub fn is_held(solid: &Solid, loaded: &Polyhedron) -> Result<(), String> {
     is_closed(loaded)
 }
 
-/// Whether every edge has two faces, which run along it in opposite directions, and vertices, edges and faces are a ball's.
+/// Checks that every edge has two faces, which run along it in opposite directions, and that the numbers of
+/// vertices, edges and faces satisfy Euler's formula.
 fn is_closed(loaded: &Polyhedron) -> Result<(), String> {
     let mut runs = vec![[0, 0]; loaded.edges.len()];
     for (index, _) in loaded.faces.iter().enumerate() {
@@ -76,7 +79,7 @@ fn is_closed(loaded: &Polyhedron) -> Result<(), String> {
     if euler == 2 { Ok(()) } else { Err(format!("vertices − edges + faces are {euler}, not 2")) }
 }
 
-/// A loaded solid as it would be written.
+/// Loaded solid in the form in which it would be written.
 pub fn written(loaded: &Polyhedron) -> Solid {
     let outline = |face| loaded.rim(face).iter().map(|rim| rim.start).collect();
     Solid {
@@ -85,7 +88,7 @@ pub fn written(loaded: &Polyhedron) -> Solid {
     }
 }
 
-/// The least distance from a face's plane to the vertex farthest behind it, over the faces whose planes are sure.
+/// Least distance from a face's plane to the vertex farthest behind it, over the faces with reliable planes.
 pub fn thickness(solid: &Solid) -> f64 {
     let plane = |face: &Vec<u32>| {
         let [a, b, c] = [0, 1, 2].map(|k| solid.vertices[face[k] as usize]);
@@ -100,7 +103,7 @@ pub fn thickness(solid: &Solid) -> f64 {
     sure.map(behind).fold(f64::INFINITY, f64::min)
 }
 
-/// Small solids are shown, so that a failure can be followed by hand.
+/// Prints small solids, so that a failure can be analysed by hand.
 pub fn brief(solid: &Solid) -> String {
     if solid.vertices.len() <= 20 {
         solid.text("solid")

@@ -1,4 +1,4 @@
-//! Short ways to write models.
+//! Helpers for writing models.
 
 pub mod families;
 pub mod held;
@@ -35,7 +35,7 @@ pub fn model_of(primitives: &str) -> String {
     )
 }
 
-/// Reads a model that must be good.
+/// Reads a valid model.
 pub fn load(text: &str) -> Model {
     match pong_model::parse(text, "test.ron", None, &Extensions::new()) {
         Ok(model) => model,
@@ -43,7 +43,7 @@ pub fn load(text: &str) -> Model {
     }
 }
 
-/// Reads a model that must be faulty.
+/// Reads an invalid model and returns its faults.
 pub fn faults(text: &str) -> ModelErrors {
     match pong_model::parse(text, "test.ron", None, &Extensions::new()) {
         Ok(_) => panic!("accepted:\n{text}"),

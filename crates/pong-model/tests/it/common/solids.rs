@@ -1,4 +1,4 @@
-//! Solids for tests: an exact convex hull of whole numbers, and shapes of many faces.
+//! Solids for tests: an exact convex hull of integers, and shapes of many faces.
 
 use nalgebra::Matrix3;
 use pong_geometry::Vec3;
@@ -25,8 +25,8 @@ fn on_a_line([a, b, c]: [Whole; 3]) -> bool {
     (0..3).all(|k| u[(k + 1) % 3] * v[(k + 2) % 3] == u[(k + 2) % 3] * v[(k + 1) % 3])
 }
 
-/// The convex hull, triangle by triangle, exactly; `None` if the points have no volume, or if one lies exactly on the line
-/// of an edge where it would make a triangle without area.
+/// Exact convex hull as triangles; `None` if the points have no volume, or if one lies exactly on the line of
+/// an edge where it would make a degenerate triangle.
 pub fn hull(points: &[Whole]) -> Option<Vec<[u32; 3]>> {
     let at = |i: u32| points[i as usize];
     let count = points.len() as u32;
@@ -61,8 +61,8 @@ pub fn hull(points: &[Whole]) -> Option<Vec<[u32; 3]>> {
 }
 
 impl Solid {
-    /// The hull of points rounded to whole multiples of `grid`, which single precision holds exactly while the multiples
-    /// stay below 2^24.
+    /// Hull of points rounded to multiples of `grid`, which single precision holds exactly while the
+    /// multiples stay below 2^24.
     pub fn hull_of(points: &[Vec3], grid: f64) -> Option<Self> {
         let whole: Vec<Whole> =
             points.iter().map(|p| [p.x, p.y, p.z].map(|x| (x / grid).round() as i64)).collect();
@@ -85,19 +85,19 @@ impl Solid {
         Self { vertices, faces }
     }
 
-    /// Turned, moved and rounded to single precision.
+    /// Solid rotated, moved and rounded to single precision.
     pub fn posed(&self, turn: Matrix3<f64>, to: Vec3, size: f64) -> Self {
         let place = |v: &Vec3| (to + turn * v * size).map(|x| f64::from(x as f32));
         Self { vertices: self.vertices.iter().map(place).collect(), faces: self.faces.clone() }
     }
 
-    /// Every face cut into triangles around its first corner.
+    /// Solid with every face cut into triangles around its first corner.
     pub fn triangulated(&self) -> Self {
         let fan = |f: &Vec<u32>| (1..f.len() - 1).map(|k| vec![f[0], f[k], f[k + 1]]).collect::<Vec<_>>();
         Self { vertices: self.vertices.clone(), faces: self.faces.iter().flat_map(fan).collect() }
     }
 
-    /// As a primitive of a model file.
+    /// Solid as a primitive of a model file.
     pub fn text(&self, name: &str) -> String {
         let vertices: Vec<String> =
             self.vertices.iter().map(|v| format!("({:?},{:?},{:?})", v.x, v.y, v.z)).collect();
@@ -112,7 +112,7 @@ impl Solid {
     }
 }
 
-/// A prism of radius 1 with its caps as two polygons.
+/// Prism of radius 1 with its caps as two polygons.
 pub fn prism(sides: u32, height: f64) -> Solid {
     let ring = |z: f64| {
         (0..sides).map(move |k| {
@@ -128,7 +128,7 @@ pub fn prism(sides: u32, height: f64) -> Solid {
     Solid { vertices: ring(0.0).chain(ring(height)).collect(), faces }
 }
 
-/// A ball of meridians and circles of latitude, with quadrilaterals between them.
+/// Sphere of meridians and circles of latitude, with quadrilaterals between them.
 pub fn uv_sphere(circles: u32, meridians: u32) -> Solid {
     let mut vertices = vec![Vec3::new(0.0, 0.0, -1.0), Vec3::new(0.0, 0.0, 1.0)];
     for circle in 1..circles {
@@ -154,7 +154,7 @@ pub fn uv_sphere(circles: u32, meridians: u32) -> Solid {
     Solid { vertices, faces }
 }
 
-/// A box with every face cut into `cuts`² squares.
+/// Box with every face cut into `cuts`² squares.
 pub fn cut_box(size: Vec3, cuts: u32) -> Solid {
     let mut numbers = std::collections::HashMap::new();
     let mut solid = Solid { vertices: Vec::new(), faces: Vec::new() };
@@ -185,7 +185,7 @@ pub fn cut_box(size: Vec3, cuts: u32) -> Solid {
     solid
 }
 
-/// An icosahedron with every triangle cut into `cuts`², its vertices on a ball.
+/// Icosahedron with every triangle cut into `cuts`², its vertices on a sphere.
 pub fn geodesic(cuts: u32) -> Solid {
     let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
     let mut corners = Vec::new();

@@ -1,4 +1,4 @@
-//! Jobs and waits of several tests.
+//! Jobs and waits shared by several tests.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering::SeqCst};
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use pong_threads::{Job, Pool, Settings};
 
-/// Long enough for any machine; a test that gets there has failed.
+/// Long enough for any machine; a test that reaches it has failed.
 pub const FOR_EVER: Duration = Duration::from_secs(60);
 
 pub fn wait_until(what: &str, condition: impl Fn() -> bool) {
@@ -17,7 +17,8 @@ pub fn wait_until(what: &str, condition: impl Fn() -> bool) {
     }
 }
 
-/// As many workers as asked for, wherever they find room, and a caller who waits without end.
+/// Settings with exactly this number of workers, even without free cores, and a caller that waits practically
+/// for ever.
 pub fn patient(workers: usize) -> Settings {
     Settings { workers, oversubscribe: true, worker_timeout: FOR_EVER, ..Settings::default() }
 }
@@ -26,7 +27,7 @@ pub fn start(job: &Arc<impl Job>, settings: &Settings) -> Pool {
     Pool::start(job.clone(), settings).unwrap()
 }
 
-/// Counts how often each block ran, and catches two blocks on one lane.
+/// Counts how often each block ran, and detects two blocks on one lane.
 pub struct Count {
     pub runs: Vec<AtomicU32>,
     lanes: Vec<AtomicBool>,
@@ -46,7 +47,7 @@ impl Count {
 impl Job for Count {
     fn run(&self, block: u32, lane: usize) {
         if lane == 0 {
-            // Workers shall have their share, however short the blocks.
+            // Yields so that workers get their share, even of short blocks.
             std::thread::yield_now();
         }
         assert!(!self.lanes[lane].swap(true, SeqCst), "two blocks on lane {lane}");
@@ -55,14 +56,14 @@ impl Job for Count {
     }
 }
 
-/// For phases of two blocks: that of the caller waits until a worker has the other, and so each has one.
+/// Job for phases of two blocks: the caller's block waits until a worker has the other, so each has one.
 pub struct Meet<F> {
     waiting: AtomicBool,
     on_worker: F,
 }
 
 impl<F: Fn() + Send + Sync + 'static> Meet<F> {
-    /// `on_worker` is what the worker's block does.
+    /// Creates the job; `on_worker` is run in the worker's block.
     pub fn new(on_worker: F) -> Arc<Meet<F>> {
         Arc::new(Meet { waiting: AtomicBool::new(false), on_worker })
     }
