@@ -84,8 +84,9 @@ pub(crate) fn notes(
     Some(StepNote { told: may(worst, together.len() - 1, plan) + &asks })
 }
 
-/// Text of the contact or friction of a pair that gains energy. A contact is judged in line with both mass centres: a wheel never
-/// meets the ground at its longest lever, so what that lever adds is a note. Friction always finds a lever.
+/// Text of the contact or friction of a pair that gains energy. A contact is judged in line with both mass
+/// centres: a wheel never meets the ground at its longest lever, so the effect of that lever is a note. Friction
+/// always has a lever.
 fn unstable(pair: &PairLimits, plan: &StepPlan) -> Option<String> {
     let SpringLimit { spring, .. } = pair.normal;
     let stable_step = longest_stable_step(plan.coupling, spring.stiffness, spring.damping, pair.mass);

@@ -1,7 +1,7 @@
-//! What the C interface does in a frame around the engine's evaluation allocates nothing: states in, commit, wrenches,
-//! contacts and report out.
+//! The calls of the C interface around the engine's evaluation allocate nothing in a frame: states in,
+//! commit, wrenches, contacts and report out.
 //!
-//! A program of its own: it counts what the allocator of the process is asked for.
+//! A program of its own, because it counts the calls of the process's allocator.
 
 use pong::config::pong_default_config;
 use pong::contacts::{pong_contact, pong_get_contacts};
@@ -45,7 +45,7 @@ fn build() -> Scene {
     let mut world = null_mut();
     let mut roots = [pong_interface_id { bits: 0 }; 2];
     let mut objects = [pong_object_id { bits: 0 }; 2];
-    // SAFETY: places on this stack, texts that end with a zero byte.
+    // SAFETY: pointers to variables on this stack, texts that end with a zero byte.
     unsafe {
         ok(pong_create_world(&pong_default_config(), &mut world));
         for (index, text) in [BALL, GROUND].into_iter().enumerate() {
@@ -71,7 +71,7 @@ fn frame(scene: &Scene, number: u32) -> usize {
     let mut count = 0;
     let Scene { world, roots } = scene;
     let start = calls();
-    // SAFETY: places on this stack, as long as the calls say.
+    // SAFETY: pointers to variables on this stack, with the lengths given.
     unsafe {
         ok(pong_set_states(*world, roots.as_ptr(), states.as_ptr(), 2));
         let before = calls();

@@ -1,6 +1,6 @@
-//! What a call of set-up asks for beforehand is enough for what it takes, and not far more.
+//! The memory checked before a call of set-up is enough for the call, and not far more.
 //!
-//! A program of its own: it counts what the allocator of the process is asked for.
+//! A program of its own, because it counts the calls of the process's allocator.
 
 use pong::memory::of_text;
 use pong_engine::{Config, WorkerSettings, WorldBuilder, WrenchCoupling};
@@ -13,7 +13,7 @@ use std::sync::Arc;
 thread_local! {
     static NOW: Cell<isize> = const { Cell::new(0) };
     static PEAK: Cell<isize> = const { Cell::new(0) };
-    // The block that was taken last, and the peak before it.
+    // The block allocated last, and the peak before it.
     static LAST: Cell<(usize, isize)> = const { Cell::new((0, 0)) };
 }
 
@@ -26,7 +26,7 @@ fn count(bytes: isize) {
     });
 }
 
-// SAFETY: everything is handed on to the system's allocator.
+// SAFETY: every call is passed to the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // SAFETY: by the contract of this function.
@@ -38,8 +38,8 @@ unsafe impl GlobalAlloc for Counting {
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
         count(-(layout.size() as isize));
-        // A block that is given back before another is taken is the one that only asks whether there is so much. (So is the
-        // loan of a sort, which is forgotten here.)
+        // A block that is freed before another is allocated only checks that there is enough memory. (The
+        // temporary buffer of a sort is the same, and is ignored here.)
         let _ = LAST.try_with(|last| {
             if last.get().0 == pointer.addr() {
                 PEAK.set(last.get().1);
@@ -53,7 +53,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Most bytes that were in use at once, beyond those before.
+/// Peak of the memory in use during `work`, beyond that before, bytes.
 fn peak_of<T>(work: impl FnOnce() -> T) -> (T, usize) {
     let before = NOW.get();
     PEAK.set(before);
@@ -76,7 +76,7 @@ fn models(folder: &Path) -> Vec<PathBuf> {
 const HEAD: &str = "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {\"s\": (stiffness: 1e4)}, \
                     root: (name: \"m\", surface: \"s\", ";
 
-/// Texts that are as dense as can be: many values in few bytes.
+/// Texts with as many values as possible in few bytes.
 fn dense() -> Vec<(&'static str, String)> {
     let many = |count: usize, each: &dyn Fn(usize) -> String| (0..count).map(each).collect::<String>();
     let point = |i| format!("Point(name:\"{i}\",position:({i},0,0)),");
@@ -117,11 +117,11 @@ fn what_a_text_asks_for_is_enough_and_not_far_more() {
     }
     let mut wrong = Vec::new();
     for (name, text) in texts {
-        // Meshes are counted apart.
+        // Meshes are counted separately.
         let (loaded, taken) = peak_of(|| pong_model::parse(&text, &name, None, &Extensions::new()));
         let asked = of_text(text.as_bytes());
         println!("{name}: {} bytes, {taken} taken, {asked} asked for, {}", text.len(), loaded.is_ok());
-        // A small text is read in what is asked for any.
+        // A small text is covered by the minimum that every call checks.
         let far_more = loaded.is_ok() && text.len() > 10_000 && asked > 25 * taken;
         if taken > asked || far_more {
             wrong.push(format!("{name}: {taken} bytes taken, {asked} asked for"));
@@ -130,7 +130,7 @@ fn what_a_text_asks_for_is_enough_and_not_far_more() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// A world of two models that is ready to be sealed; of one model, paired with itself.
+/// A world ready to be sealed, of two models, or of one model paired with itself.
 fn world(config: Config, files: &[&str]) -> WorldBuilder {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models");
     let mut builder = WorldBuilder::new(config);
@@ -168,7 +168,7 @@ fn what_a_seal_asks_for_is_enough_and_not_far_more() {
             let ((_world, report), taken) = peak_of(|| builder.seal().unwrap());
             println!("{taken} taken, {} asked for: {told}", report.memory);
             assert!(taken <= report.memory, "{taken} bytes taken, {} asked for: {told}", report.memory);
-            // A stack for each worker is beside what is counted here, and so is what is asked for small things.
+            // Allows for the stack of each worker and for the minimum that every call checks.
             let beside = report.workers.len() * (3 << 20) + (1 << 20);
             assert!(
                 report.memory <= 3 * taken + beside,

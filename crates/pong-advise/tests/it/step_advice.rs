@@ -1,4 +1,5 @@
-//! The step check, before anything touches and of what acts: sums over contacts, levers, two bodies. Expectations are closed forms.
+//! The step check, before anything touches and for present contacts: sums over contacts, levers, two bodies.
+//! Expectations are closed forms.
 
 use pong_advise::{
     ActingReport, GroupMass, StepNote, StepPlan, StepReport, StepWarning, WrenchCoupling, acting_report,
@@ -15,7 +16,7 @@ fn model(name: &str, primitives: &str, stiffness: f64, friction: &str) -> String
     ron::model(name, &ron::surface(stiffness, &format!("friction: {friction}")), primitives)
 }
 
-/// Some Objects, of which the first is paired with each of the others.
+/// Several Objects, of which the first is paired with each of the others.
 struct Meeting {
     world: World,
     interfaces: Vec<InterfaceId>,
@@ -30,7 +31,7 @@ impl Meeting {
         Self { world, interfaces, masses }
     }
 
-    /// Evaluates with the origins of the groups at these places.
+    /// Evaluates with the origins of the groups at these positions.
     fn at(&mut self, places: &[[f64; 3]], plan: &StepPlan) -> ActingReport {
         for (interface, position) in self.interfaces.iter().zip(places) {
             self.world.set_state(*interface, &State { position: *position, ..State::identity() }).unwrap();
@@ -48,7 +49,7 @@ impl Meeting {
     }
 }
 
-/// What a step of a plan can hold when these two meet.
+/// Step report of two models that meet.
 fn meet(texts: [&str; 2], masses: [GroupMass; 2], plan: &StepPlan) -> StepReport {
     Meeting::new(&texts, &masses).report(plan)
 }
@@ -57,7 +58,7 @@ fn close(got: f64, expected: f64) -> bool {
     is_near(got, expected, 1e-12)
 }
 
-/// Of undamped semi-implicit Euler.
+/// Longest stable step of undamped semi-implicit Euler.
 fn longest(omega_squared: f64) -> f64 {
     2.0 / omega_squared.sqrt()
 }
@@ -77,7 +78,8 @@ fn plan(step: f64) -> StepPlan {
     StepPlan { accuracy: None, ..StepPlan::new(step, WrenchCoupling::SemiImplicit) }
 }
 
-/// A capsule, cylinder or cone on a plane has one whole spring, however it lies: n of them on one body are one of n·k.
+/// A capsule, cylinder or cone on a plane has one whole spring in any position: n of them on one body are one
+/// of n·k.
 #[test]
 fn round_parts_on_a_floor_are_judged_as_whole_springs() {
     let masses = [GroupMass::point(3.0), GroupMass::immovable()];
@@ -98,7 +100,7 @@ fn round_parts_on_a_floor_are_judged_as_whole_springs() {
     }
 }
 
-/// n springs of k on one mass are one of n·k, however many of them; warned of by none, noted beyond 2√(m/(n·k)).
+/// n springs of k on one mass are one of n·k, for any n; no warning, and a note beyond 2√(m/(n·k)).
 #[test]
 fn equal_springs_on_one_body_add() {
     let masses = [GroupMass::point(3.0), GroupMass::immovable()];
@@ -121,7 +123,7 @@ fn equal_springs_on_one_body_add() {
     }
 }
 
-/// Which of four terms asks for the step, as it is planted, in each way of using the wrench.
+/// The limiting term, among four with known results, for each use of the wrench.
 #[test]
 fn a_note_tells_which_term_asks_for_the_step() {
     let feet = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
@@ -153,14 +155,15 @@ fn a_note_tells_which_term_asks_for_the_step() {
             assert!(told.contains(&asked), "{coupling:?}: {told}");
         }
     }
-    // A warning of one contact: which spring, of which surfaces, by which of its terms.
+    // The warning of one contact names the spring, its surfaces and its limiting term.
     let alone = points(&[[0.0; 3]]).replace("friction: None", "normal: Linear(damping: 1e5)");
     let report = meet([&alone, &floor()], masses, &plan(1e-3));
     let told = report.warnings.iter().map(ToString::to_string).collect::<String>();
     assert!(told.contains("(surfaces `feet/s` and `floor/s`)") && told.contains("by its damping"), "{told}");
 }
 
-/// A point l off the mass centre finds 1/(1/m + l²/I): a rod of 3 kg and 4 m struck at its end weighs ¾ kg.
+/// At a distance l from the mass centre a contact has the inverse mass 1/m + l²/I: a rod of 3 kg and 4 m
+/// struck at its end weighs ¾ kg.
 #[test]
 fn a_lever_makes_a_contact_quicker() {
     let rod = GroupMass { inertia: [1e-3, 4.0, 4.0, 0.0, 0.0, 0.0], ..GroupMass::point(3.0) };
@@ -168,13 +171,14 @@ fn a_lever_makes_a_contact_quicker() {
     let step = longest(K / 0.75);
     let report = meet([&tip, &floor()], [rod, GroupMass::immovable()], &plan(1.001 * step));
     assert!(close(report.surely_stable_step(), step) && close(report.stable_step(), step));
-    // In line with the mass centre it is stable, so that the lever is a note: a wheel never meets the ground at its longest one.
+    // In line with the mass centre it is stable, so the lever is only a note: a wheel never meets the ground at its
+    // longest one.
     assert!(report.warnings.is_empty(), "{:?}", report.warnings);
     let [StepNote { told }] = &report.notes[..] else { panic!("{:?}", report.notes) };
     assert!(told.contains("a contact with its lever and friction can be as stiff as"), "{told}");
     let report = meet([&tip, &floor()], [rod, GroupMass::immovable()], &plan(1.001 * longest(K / 3.0)));
     assert!(matches!(report.warnings[..], [StepWarning::TooLong { .. }]), "{:?}", report.warnings);
-    // Seen from another origin the rod is the same.
+    // The choice of the group's origin does not matter.
     let shifted = GroupMass { mass_center: [0.0, 0.0, 5.0], ..rod };
     let tip = points(&[[2.0, 0.0, 5.0]]);
     let report = meet([&tip, &floor()], [shifted, GroupMass::immovable()], &plan(step));
@@ -184,7 +188,8 @@ fn a_lever_makes_a_contact_quicker() {
     assert!(close(report.surely_stable_step(), longest(K / 3.0)));
 }
 
-/// Springs of k and 3k to two partners are 4k, and friction of k_t > k at two feet is as stiff as twice itself.
+/// Springs of k and 3k to two partners are 4k, and friction of k_t > k at two feet is as stiff as twice
+/// itself.
 #[test]
 fn partners_add_and_friction_counts() {
     let ball = model("b", r#"Sphere(name: "s", center: (0, 0, 0), radius: 0.1)"#, f64::INFINITY, "None");
@@ -195,7 +200,7 @@ fn partners_add_and_friction_counts() {
     let report = between.report(&plan(step));
     assert!(close(report.surely_stable_step(), step) && report.groups[0].contacts == 2, "{report:?}");
     assert!(close(report.stable_step(), longest(1.5 * K)));
-    // Between the two, and at one alone.
+    // Between both, and at one alone.
     let acting = between.at(&[[0.0, 0.0, 0.09], [0.0; 3], [0.0; 3]], &plan(step));
     assert!(close(acting.stable_step, step) && acting.contacts == 2, "{acting:?}");
     let acting = between.at(&[[0.0, 0.0, 0.09], [0.0; 3], [0.0, 0.0, -1.0]], &plan(step));
@@ -231,17 +236,18 @@ fn the_feet_of_a_tripod_add_and_rock() {
         let step = longest(squared);
         let report = meet([&points(&feet), &floor()], masses, &plan(0.999 * step));
         assert_eq!((report.groups.len(), report.groups[0].contacts), (1, 3));
-        // Planes through two feet alone see a longer lever and less stiffness; the tripod's own mode is the bound.
+        // Planes through only two feet have a longer lever and less stiffness; the tripod's own mode is the
+        // bound.
         let told = report.groups[0].stable_step;
         assert!(told <= step * (1.0 + 1e-9) && told > 0.6 * step, "{told} {step}");
-        // One foot alone, pushed across its lever, may be quicker than all three.
+        // One foot alone, pushed across its lever, may have a faster mode than all three.
         let across = f64::max(0.34 / inertia, 0.09 / inertia + 0.25 / 0.3);
         assert!(close(report.stable_step(), longest(K * (1.0 / 3.0 + across))), "{report:?}");
         let plan = plan(1.001 * step);
         let mut stands = Meeting::new(&[&points(&feet), &floor()], &masses);
         let before = stands.report(&plan);
         assert_eq!(before.warnings.len() + before.notes.len(), 1, "{before:?}");
-        // What acts is exact: on all feet, and in the air.
+        // Present contacts are judged exactly: on all feet, and in the air.
         let acting = stands.at(&[[0.0, 0.0, -1e-3], [0.0; 3]], &plan);
         assert!(acting.contacts == 3 && (acting.stiffness_rate / squared - 1.0).abs() < 1e-9, "{acting:?}");
         let air = stands.at(&[[0.0, 0.0, 1.0], [0.0; 3]], &plan);
@@ -249,7 +255,7 @@ fn the_feet_of_a_tripod_add_and_rock() {
     }
 }
 
-/// One point at the mass centre, on a floor: the bound is the single contact, and that is warned of.
+/// One point at the mass centre, on a floor: the bound equals the single contact, which has the warning.
 #[test]
 fn one_contact_is_its_own_sum() {
     let masses = [GroupMass::point(2.0), GroupMass::immovable()];
@@ -259,7 +265,7 @@ fn one_contact_is_its_own_sum() {
     assert!(report.warnings.is_empty() && report.notes.is_empty());
     let report = meet([&points(&[[0.0; 3]]), &floor()], masses, &plan(1.001 * step));
     assert!(matches!(report.warnings[..], [StepWarning::TooLong { .. }]), "{:?}", report.warnings);
-    // What is certain is not told again as possible.
+    // A certain failure is not repeated as a possible one.
     assert!(report.notes.is_empty(), "{:?}", report.notes);
 }
 
@@ -280,8 +286,8 @@ fn two_bodies_share_one_spring() {
     assert!(close(acting.stable_step, step) && acting.contacts == 1, "{acting:?}");
 }
 
-/// A bar between two free balls of m: of the springs k at its ends, M(2k/M) in heave for the bar alone; with the balls
-/// k(1/m + 2/M) when they move against it.
+/// A bar between two free balls of m: with springs k at its ends, the bar alone has 2k/M in heave; with the
+/// balls the mode is k(1/m + 2/M), as they move against it.
 #[test]
 fn a_chain_of_bodies_has_the_mode_known_by_hand() {
     let ends = |x: f64| format!(r#"Point(name: "p{x}", position: ({x:?}, 0, 0)),"#);
@@ -296,7 +302,7 @@ fn a_chain_of_bodies_has_the_mode_known_by_hand() {
     assert!(surely <= step, "a bound above what can happen: {surely} {step}");
 }
 
-/// Sums of damping: held over a frame, n springs are stable to the lesser of 2c/k and 2m/(n·c).
+/// Damping adds: held over a frame, n springs are stable to the lesser of 2c/k and 2m/(n·c).
 #[test]
 fn damping_adds_too() {
     let damped = |c: f64| {
@@ -314,12 +320,13 @@ fn damping_adds_too() {
     }
 }
 
-/// Undamped and held over a frame no step is stable; below ω·T = 0.1 that is left to the host, for the sum as for one.
+/// Undamped and held over a frame no step is stable; below ω·T = 0.1 there is no warning, for the sum as for
+/// one.
 #[test]
 fn undamped_held_wrenches_are_noted_from_the_same_step_on() {
     let feet = points(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]);
     let masses = [GroupMass::point(4.0), GroupMass::immovable()];
-    // ω is 1000 rad/s of all four, half that of one.
+    // ω is 1000 rad/s for all four, half that for one.
     for (step, warnings, notes) in [(0.99e-4, 0, 0), (1.01e-4, 0, 1), (1.99e-4, 0, 1), (2.01e-4, 1, 0)] {
         let held = StepPlan {
             accuracy: None,
@@ -330,7 +337,7 @@ fn undamped_held_wrenches_are_noted_from_the_same_step_on() {
     }
 }
 
-/// What cannot be judged is told, each with its reason.
+/// Contacts that cannot be judged are reported, each with its reason.
 #[test]
 fn what_is_not_known_is_told() {
     let hertz = points(&[[0.0; 3]]).replace(
@@ -349,14 +356,15 @@ fn what_is_not_known_is_told() {
         let fast = StepPlan { closing_speed: Some(0.5), ..plan(step) };
         assert_eq!(meet([&hertz, &floor], masses, &fast).warnings.len(), count);
     }
-    // What acts is judged at the depth that it has.
+    // Present contacts are judged at their depth.
     let mut deep = Meeting::new(&[&hertz, &floor], &masses);
     let acting = deep.at(&[[0.0, 0.0, -depth], [0.0; 3]], &plan(step));
     assert!((acting.stable_step / step - 1.0).abs() < 1e-9, "{acting:?}");
 }
 
-/// Laws that follow depth and load are judged as deep and as hard pressed as their contacts are, without a closing speed: the
-/// tangent 1.5·k·√δ of exponent 3/2, μ·N/v_ε of regularised friction, and half of both at each end of a bar.
+/// Laws that follow depth and load are judged at the depth and load of their contacts, without a closing
+/// speed: the tangent 1.5·k·√δ of exponent 3/2, μ·N/v_ε of regularised friction, and half of both at each end
+/// of a bar.
 #[test]
 fn what_touches_is_judged_as_it_is() {
     let masses = [GroupMass::point(2.0), GroupMass::immovable()];
@@ -373,7 +381,7 @@ fn what_touches_is_judged_as_it_is() {
             let texts = [hertz(&mover, friction), hertz(&rigid, friction)];
             let stiffness = weight * 1.5 * K * depth.sqrt();
             let load = weight * K * depth * depth.sqrt();
-            // Once a step a damper alone bears γ = 2, and is the worse one here.
+            // Once a step, a single damper is stable to γ = 2, and is the limiting one here.
             let step = match friction {
                 "None" => longest(stiffness / 2.0),
                 _ => 2.0 * 2.0 / (0.5 * load / 1e-3),
@@ -390,7 +398,7 @@ fn what_touches_is_judged_as_it_is() {
     }
 }
 
-/// A bar on a floor is carried at both ends by half its spring: together by one.
+/// A bar on a floor has half its spring at each end: one spring together.
 #[test]
 fn contacts_that_share_a_spring_act_by_their_weights() {
     let bar = model("bar", r#"LineSegment(name: "s", ends: ((-1, 0, 0), (1, 0, 0)))"#, K, "None");
@@ -401,16 +409,17 @@ fn contacts_that_share_a_spring_act_by_their_weights() {
     assert!(acting.contacts == 2 && close(acting.stable_step, step), "{acting:?}");
 }
 
-/// A rod leans on a wall: turned as a whole, with the wall or seen from the other side, λ is that of its lever.
+/// A rod leans on a wall: rotated as a whole, with the wall, or with the roles swapped, λ is that of its
+/// lever.
 #[test]
 fn what_acts_is_the_same_from_any_side() {
     let rod = GroupMass { inertia: [1e-3, 4.0, 4.0, 0.0, 0.0, 0.0], ..GroupMass::point(3.0) };
     let tip = points(&[[2.0, 0.0, 0.0]]);
     let plan = plan(1e-4);
-    // About x, and about the diagonal of all axes by a third of a turn.
+    // Rotation about x, and about the diagonal of all axes by a third of a turn.
     for turn in [[0.6, 0.8, 0.0, 0.0], [0.5, 0.5, 0.5, 0.5], [0.8, 0.0, 0.6, 0.0]] {
         let mut leans = Meeting::new(&[&tip, &floor()], &[rod, GroupMass::immovable()]);
-        // The rod along the wall's plane, 1 mm deep, both turned.
+        // The rod along the wall's plane, 1 mm deep, both rotated.
         let quaternion = Pose::new(Vec3::zeros(), turn).orientation;
         let depth = quaternion * Vec3::new(0.3, -0.2, -1e-3);
         let states = [depth.into(), [0.0; 3]];
@@ -421,7 +430,7 @@ fn what_acts_is_the_same_from_any_side() {
         leans.world.evaluate().unwrap();
         let acting = leans.acting(&plan);
         assert!(acting.contacts == 1 && (acting.stiffness_rate * 0.75 / K - 1.0).abs() < 1e-9, "{acting:?}");
-        // Only the wall turned: the rod meets it at an angle, its lever is shorter.
+        // Only the wall rotated: the rod meets it at an angle, with a shorter lever.
         let state = State { position: [0.0; 3], ..State::identity() };
         leans.world.set_state(leans.interfaces[1], &state).unwrap();
         let tip = quaternion * (2.0 * Vec3::x());
@@ -432,7 +441,7 @@ fn what_acts_is_the_same_from_any_side() {
         let acting = leans.acting(&plan);
         let arm = tip.x * tip.x + tip.y * tip.y;
         let expected = K * (1.0 / 3.0 + 0.25 * arm);
-        // About the rod's own axis there is no lever.
+        // A force through the rod's own axis has no lever.
         assert!((acting.stiffness_rate / expected - 1.0).abs() < 1e-9, "{turn:?}: {acting:?} {expected}");
     }
 }

@@ -34,7 +34,7 @@ const PROGRAMS: [&str; 11] = [
     "cpp_smoke",
 ];
 
-/// A host keeps wide instructions away by the environment, as for a tool that does not know them all.
+/// A host limits the vector instructions by the environment, as for a tool that does not support all of them.
 #[test]
 fn the_environment_limits_the_instructions() {
     let out = out_dir("instructions");
@@ -56,8 +56,8 @@ fn the_environment_limits_the_instructions() {
     assert!(!refused.status.success() && told.contains("PONG_SIMD is `sse`"), "{told}");
 }
 
-/// What a C host logged goes through the engine again and comes out with the same bits: forgotten Objects, switched
-/// pairs, commits of some pairs and frames without a commit included.
+/// The log of a C host can be replayed with the same bits, with cleared histories, switched pairs, commits of
+/// some pairs and frames without a commit.
 #[test]
 fn the_log_of_a_c_host_can_be_replayed() {
     let out = out_dir("response_log");

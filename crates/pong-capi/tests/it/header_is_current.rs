@@ -1,4 +1,4 @@
-//! The committed `include/pong.h` is what the sources generate.
+//! The committed `include/pong.h` is equal to the header generated from the sources.
 
 use crate::support;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Sizes, alignments, offsets and numbers as a C compiler and a C++ compiler make them from `pong.h`.
+//! Sizes, alignments, offsets and numbers of `pong.h` in a C compiler and a C++ compiler.
 
 use crate::support::{include_dir, out_dir, run};
 use pong::layout::LAYOUTS;
@@ -44,7 +44,7 @@ fn expected() -> String {
     lines + "status 4\n"
 }
 
-/// Their names in order of their numbers, which begin at 0 and have no gap.
+/// Names of the statuses in the order of their numbers, which begin at 0 and have no gap.
 fn statuses() -> Vec<String> {
     let name = |number| {
         // SAFETY: the name ends with a zero byte and lives as long as the library.

@@ -1,4 +1,4 @@
-//! Tests of the C interface as C and C++ programs see it.
+//! Tests of the C interface with C and C++ programs.
 
 mod c_programs;
 mod header_is_current;

@@ -1,4 +1,4 @@
-//! `pong advise` as a terminal user meets it.
+//! `pong advise` on the command line.
 
 use crate::common;
 use std::path::{Path, PathBuf};
@@ -36,7 +36,7 @@ fn value(text: &str, name: &str) -> f64 {
     line.split_whitespace().next().unwrap().parse().unwrap()
 }
 
-/// A wish without loss: k = m·(v/δ)² = 4 kg·(0.5 m/s / 1 mm)² = 1 MN/m.
+/// A lossless contact: k = m·(v/δ)² = 4 kg·(0.5 m/s / 1 mm)² = 1 MN/m.
 #[test]
 fn an_elastic_wish_has_the_stiffness_that_stores_its_energy() {
     let here = Path::new(env!("CARGO_TARGET_TMPDIR"));
@@ -50,8 +50,8 @@ fn an_elastic_wish_has_the_stiffness_that_stores_its_energy() {
     assert!(both.starts_with("Effective mass 4 kg") && both.contains("(stiffness: 500000.0,"), "{both}");
 }
 
-/// The line that is printed is a surface; with it the scene bounces as wished, is found in order at the advised step and
-/// warned of at three times it.
+/// The printed line is a surface; with it the scene bounces as desired, has no warning at the advised step,
+/// and has one at three times it.
 #[test]
 fn the_advised_surface_does_in_a_scene_what_was_wished() {
     let wish = "advise --mass 4 --coupling step --speed 0.5 --depth 0.001 --restitution 0.4";
@@ -81,7 +81,8 @@ fn the_advised_surface_does_in_a_scene_what_was_wished() {
     );
 }
 
-/// Held over a frame, k·T/2 < c: 1e4 N/m and 5 N·s/m end at 1 ms, and that is said to go wrong first.
+/// Held over a frame, k·T/2 < c: 1e4 N/m and 5 N·s/m are stable to 1 ms, and this is reported as the first
+/// failure.
 #[test]
 fn what_goes_wrong_first_is_told() {
     let surface = r#""advised": (stiffness: 1e4, normal: Linear(damping: 5))"#;
@@ -94,19 +95,19 @@ fn what_goes_wrong_first_is_told() {
         out.contains("gains energy at a step of 2.000e-3 s; the longest stable step is 1.000e-3 s"),
         "{out}"
     );
-    // A model by itself has its surfaces judged against a rigid partner, with the same answer.
+    // The surfaces of a single model are judged against a rigid partner, with the same answer.
     let (_, out, _) = pong(&here, "advise point.ron --mass 4 --rate 500");
     assert!(out.contains("advised · rigid") && out.contains("0.001"), "{out}");
 }
 
-/// Two feet of k: ω² = 2k/m. With 4 kg and 1e6 N/m one alone bears 4 ms of semi-implicit Euler, both together 2.83 ms: what is
-/// beyond is a note, not a warning, and `--acting` tells what touched.
+/// Two feet of k: ω² = 2k/m. With 4 kg and 1e6 N/m a single one is stable to 4 ms with semi-implicit Euler,
+/// both together to 2.83 ms: beyond that there is a note, not a warning, and `--acting` reports the contacts.
 #[test]
 fn what_may_go_wrong_is_a_note() {
     let here = folder("notes", r#""advised": (stiffness: 1e6)"#, "SemiImplicitEuler", 3e-3);
     let point = std::fs::read_to_string(here.join("point.ron")).unwrap();
     let one = r#"Point(name: "tip", position: (0, 0, 0))"#;
-    // Coincident, so that inertia has no part in it; the second may be above the first.
+    // Coincident, so that inertia has no influence; the second may be above the first.
     let two = |height: f64| format!(r#"{one}, Point(name: "other", position: (0, 0, {height}))"#);
     let scene = std::fs::read_to_string(here.join("scene.ron")).unwrap();
     let weighty = scene.replace("integrator:", "gravity: (0, 0, -9.81), integrator:");
@@ -133,7 +134,8 @@ fn what_may_go_wrong_is_a_note() {
     }
 }
 
-/// c_t = 2·√(k_t·m_t): of a rolling ball m_t = 2/7·m, of n contacts each an nth of it. At it nothing rings.
+/// c_t = 2·√(k_t·m_t): for a rolling ball m_t = 2/7·m, for n contacts each an nth of it. With it nothing
+/// rings.
 #[test]
 fn damping_of_friction_follows_from_the_mass_along_the_surface() {
     let bristle = r#""advised": (stiffness: 1.5e6, friction: Bristle(mu: 0.3))"#;
@@ -184,7 +186,8 @@ fn wrong_wishes_are_refused() {
     }
 }
 
-/// A delay counts for every wrench that is held, named or not, and is refused for others: ignored, it would be the optimistic answer.
+/// A delay counts for every held wrench, named or not, and is refused for others: ignoring it would give the
+/// optimistic answer.
 #[test]
 fn a_delay_counts_wherever_the_wrench_is_held() {
     let surface = "\"advised\": (stiffness: 1e6, normal: Linear(damping: 100))";

@@ -1,5 +1,5 @@
-//! A mesh that lies outside its model's folder, behind a link: every command that reads models refuses it, and takes it
-//! where `--allow-files-below` names its folder.
+//! A mesh outside its model's folder, behind a link: every command that reads models refuses it, and accepts
+//! it where `--allow-files-below` names its folder.
 #![cfg(unix)]
 
 use crate::common;
@@ -35,7 +35,7 @@ fn folder(test: &str) -> PathBuf {
     folder
 }
 
-/// The command is refused for the file outside alone, with a cure, and works where that is allowed.
+/// The command is refused only for the file outside, with a cure, and works where that is allowed.
 fn needs_leave(folder: &Path, command: &[&str]) {
     let (code, out, err) = pong(folder, command);
     assert!(
@@ -66,7 +66,7 @@ fn models_and_scenes_read_outside_their_folder_with_leave() {
     }
 }
 
-/// A log has copies of its meshes: it needs no leave, unless somebody puts a link in place of one.
+/// A log has copies of its meshes: it needs no permission, unless a link replaces one of them.
 #[test]
 fn logs_read_outside_their_folder_with_leave() {
     let folder = folder("logs");
@@ -84,6 +84,6 @@ fn logs_read_outside_their_folder_with_leave() {
     ] {
         needs_leave(&folder, &command.split(' ').collect::<Vec<_>>());
     }
-    // What reads no model needs none.
+    // Commands that read no model need no permission.
     assert_eq!(pong(&folder, &["log", "log"]).0, 0);
 }

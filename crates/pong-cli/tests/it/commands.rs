@@ -1,4 +1,4 @@
-//! The program as a terminal user meets it: output, files, exit codes.
+//! The program on the command line: output, files, exit codes.
 
 use crate::common;
 use crate::common::pong;
@@ -42,7 +42,7 @@ fn assert_holds(text: &str, parts: &[&str]) {
     }
 }
 
-/// An undamped ball whose wrench is held over each step: the summary and a warning tell what that makes.
+/// An undamped ball whose wrench is held over each step: the summary and a warning report the energy gained.
 #[test]
 fn run_tells_of_contacts_that_return_more_than_they_take() {
     let folder = folder("held");
@@ -75,7 +75,8 @@ fn run_sums_up_and_ends_with_zero() {
         "Time per step: median ",
     ];
     assert_holds(&out, &parts);
-    // From rest to rest the ground has given back what gravity put in: m·g·t upwards, and the ground felt the opposite.
+    // From rest to rest the ground has returned the impulse of gravity: m·g·t upwards, and the ground
+    // received the opposite.
     for (body, expected) in [("ball", 4.905), ("ground", -4.905)] {
         let row = out.lines().rfind(|line| line.split_whitespace().next() == Some(body)).unwrap();
         let impulse: f64 = row.split_whitespace().last().unwrap().parse().unwrap();
@@ -119,7 +120,7 @@ fn run_writes_csv_files_that_can_be_read() {
     assert!(code == 0 && folder.join("drop_out/states.csv").exists());
 }
 
-/// The state at the end is the one that is looked for first: 500 steps, a record every 300.
+/// The final state is in the files: 500 steps, a record every 300.
 #[test]
 fn the_last_state_of_a_run_is_in_its_csv_files() {
     let folder = folder("csv_end");
@@ -136,7 +137,7 @@ fn the_last_state_of_a_run_is_in_its_csv_files() {
     }
 }
 
-/// Gravity as one number, as other tools have it.
+/// Gravity as one number, the notation of other tools.
 #[test]
 fn a_gravity_of_one_number_is_told_how_to_be_three() {
     let folder = folder("gravity");
@@ -150,7 +151,8 @@ fn a_gravity_of_one_number_is_told_how_to_be_three() {
     }
 }
 
-/// Nothing says that the groups of a model meet each other, but a scene that pairs it with itself.
+/// By default the groups of a model do not meet each other; a scene that pairs the model with itself is
+/// refused.
 #[test]
 fn check_does_not_refuse_what_nobody_pairs() {
     let folder = folder("check_rigid");
@@ -175,7 +177,7 @@ fn check_does_not_refuse_what_nobody_pairs() {
     std::fs::write(folder.join("broken.ron"), rigid.replace("radius: 0.1", "radius: -0.1")).unwrap();
     let (code, _, err) = pong(&folder, &["check", "walls.ron", "floor.ron", "broken.ron"]);
     assert!(code == 1 && err.ends_with("1 fault\n"), "what is wrong with a model is still a fault: {err}");
-    // Who pairs it is told.
+    // A scene that pairs it gets an error.
     let scene = DROP
         .replace("\"ground.ron\"", "\"walls.ron\"")
         .replace("[(motion: Fixed)]", "[(motion: Fixed), (group: \"door\", motion: Fixed)]");
@@ -194,7 +196,7 @@ fn accounts_close_and_hold_what_the_contacts_store(folder: &Path) {
         let cells = |line: Option<&str>| line.unwrap().split(',').map(str::to_owned).collect::<Vec<_>>();
         cells(text.lines().next()).into_iter().zip(cells(text.lines().last())).collect()
     };
-    /// Relative: energies are sums over the steps of the run, each of which rounds.
+    /// Relative tolerance: energies are sums over the steps of the run, each with its rounding.
     const SUMS: f64 = 1e-12;
     let (account, energies) = (last("accounts.csv"), last("energies.csv"));
     let sum = |table: &HashMap<String, String>, columns: &[&str]| -> f64 {
@@ -264,7 +266,7 @@ fn check_describes_models_and_their_meetings() {
     assert!(!out.contains("`frame` and `ground`"), "{out}");
 }
 
-/// Round parts are counted, met and summed like the others; what has no tester is told.
+/// Round parts are counted, met and summed like the others; pairs without a tester are reported.
 #[test]
 fn check_knows_round_parts() {
     let folder = folder("check_round");
@@ -292,7 +294,7 @@ fn check_knows_round_parts() {
     assert_holds(&out, &parts);
 }
 
-/// Boxes without points or edges: nothing built in holds one on the other.
+/// Boxes without points or edges: no built-in test holds one on the other.
 const POST: &str = r#"(format: "pong-model", version: 1, name: "post", surfaces: { "s": (stiffness: 1e5) },
     root: (name: "post", surface: "s", primitives: [Polyhedron(name: "solid",
         vertices: [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1), (1, 1, 1)],
@@ -314,7 +316,7 @@ fn a_run_in_which_paired_objects_cannot_touch_ends_with_three() {
         "write passes_through: [(\"ball\", \"ground\")] in the scene if that is meant",
     ];
     assert_holds(&err, &parts);
-    // On purpose, in whatever order the two are named.
+    // By intention, in either order of the names.
     let meant = scene.replace("gravity:", "passes_through: [(\"ground\", \"ball\")], gravity:");
     std::fs::write(folder.join("meant.ron"), meant).unwrap();
     let (code, _, err) = pong(&folder, &["run", "meant.ron"]);
@@ -353,7 +355,7 @@ fn what_is_there_twice_is_told() {
         err
     };
     assert_holds(&scene("(\"ball\", \"patch\"), ", "0"), &[flush]);
-    // Below the ground it is not flush, and what the ball does not meet pushes once.
+    // Below the ground it is not flush, and a face that the ball does not meet pushes once.
     assert!(!scene("(\"ball\", \"patch\"), ", "-0.01").contains("in one plane"));
     assert!(!scene("", "0").contains("in one plane"));
 }
@@ -383,7 +385,7 @@ fn check_tells_every_fault_and_ends_with_one() {
     let (code, out, err) = pong(&folder, &["check", "bad.ron", "none.ron", "ground.ron", "rigid.ron"]);
     assert_eq!(code, 1);
     assert_holds(&err, &["bad.ron:4:", "[not-positive]", "none.ron:1:1: ", "2 faults"]);
-    // That two of them cannot meet is none.
+    // Two surfaces that cannot meet are not a fault.
     assert_holds(&out, &["cannot be paired:\n  note: surfaces ", "both surfaces are rigid"]);
 }
 
@@ -398,7 +400,7 @@ fn wrong_usage_ends_with_two() {
     assert!(pong(&folder, &["--version"]).1.starts_with("pong "));
 }
 
-/// `pong check` tells the spring and the damper of each bristle, and which bristles are undamped, why, and the cure.
+/// `pong check` prints the spring and the damper of each bristle, and for undamped bristles cause and cure.
 #[test]
 fn check_tells_of_the_damping_of_bristles() {
     let surfaces = r#"

@@ -1,10 +1,10 @@
-//! `pong decompose` as a terminal user meets it.
+//! `pong decompose` on the command line.
 
 use crate::common;
 use crate::common::pong;
 use std::path::PathBuf;
 
-/// An L of 3 m³: outlines at y = 0 and y = 1, and the sides between.
+/// An L of 3 m³: outlines at y = 0 and y = 1, and the sides between them.
 const ELL: &str = "v 0 0 0\nv 2 0 0\nv 2 0 1\nv 1 0 1\nv 1 0 2\nv 0 0 2\n\
                    v 0 1 0\nv 2 1 0\nv 2 1 1\nv 1 1 1\nv 1 1 2\nv 0 1 2\n\
                    f 1 2 3 4 5 6\nf 12 11 10 9 8 7\n\

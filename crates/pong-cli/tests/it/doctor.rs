@@ -1,4 +1,4 @@
-//! `pong doctor` answers on any Linux machine; what it says of one is tested on records of machines in `pong-doctor`.
+//! `pong doctor` works on any Linux machine; its findings are tested on records of machines in `pong-doctor`.
 
 #![cfg(target_os = "linux")]
 
@@ -25,7 +25,7 @@ fn text_and_json_have_the_same_findings() {
     }
     assert!(report["latencies"].as_array().unwrap().is_empty());
 
-    // Advice is no failure, unless that is asked for.
+    // Advice is a failure only on request.
     let is_advised = findings.iter().any(|finding| finding["state"] == "advice");
     assert_eq!(pong(&folder, &["doctor", "--seconds", "0", "--strict"]).0, i32::from(is_advised));
 }

@@ -1,4 +1,5 @@
-//! `pong fmu`: the file, what is told, and what is refused. What FMUs do is tested in their own crate and by ci/fmu.
+//! `pong fmu`: the file, the output, and the refusals. The behaviour of FMUs is tested in their own crate and
+//! by ci/fmu.
 
 use crate::common::{folder, pong};
 use std::path::Path;

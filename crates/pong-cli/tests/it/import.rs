@@ -1,4 +1,4 @@
-//! `pong import` as a terminal user meets it.
+//! `pong import` on the command line.
 
 use crate::common;
 use crate::common::pong;
@@ -41,7 +41,7 @@ fn faults_end_with_one_and_leave_what_was_there() {
     assert_eq!(names.len(), 3, "{names:?}");
 }
 
-/// A prism of 32 sides around z, R 10 mm, 100 mm long, as the page about importing has it.
+/// A prism of 32 sides around z, R 10 mm, 100 mm long, from docs/importing.md.
 #[test]
 fn a_round_part_is_found_within_a_tolerance() {
     let sides = 32_usize;

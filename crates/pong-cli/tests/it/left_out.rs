@@ -1,4 +1,4 @@
-//! What `pong run` says where frames leave contacts out: the cause, and a capacity that is enough.
+//! Messages of `pong run` where frames leave contacts out: the cause, and a sufficient capacity.
 
 use crate::common;
 use crate::common::pong;
@@ -12,7 +12,7 @@ const SCENE: &str = r#"(format: "pong-scene", version: 1, name: "inside",
     pairs: [("balls", "shell")], contact_capacity: CAPACITY,
     integrator: SemiImplicitEuler, step: 1e-3, duration: 1e-3)"#;
 
-/// The causes told on the way from a capacity to one that leaves nothing out.
+/// The causes reported on the way from a capacity to one that leaves nothing out.
 fn causes(name: &str, balls: usize, shell: &str, mut capacity: usize) -> Vec<String> {
     let ball = |index| format!("Sphere(name: \"b{index}\", center: (0, 0, {index}e-5), radius: 0.2)");
     let balls = (0..balls).map(ball).collect::<Vec<_>>().join(",");
@@ -48,7 +48,7 @@ fn more_contacts_than_the_world_keeps() {
     );
 }
 
-/// The contacts fit, and are too many to be shared: to ask for as many as there are would change nothing.
+/// The contacts fit, but are too many to be shared: a capacity equal to their number would change nothing.
 #[test]
 fn more_places_of_a_ball_than_can_be_shared() {
     let told = causes("shared", 1, &shell_mesh(24, 0.25, 2.85, true), 1000);

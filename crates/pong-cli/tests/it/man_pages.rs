@@ -1,10 +1,10 @@
-//! The manual pages say what `--help` says: each command has one, with all its options.
+//! The manual pages agree with `--help`: each command has one, with all its options.
 
 use crate::common;
 use crate::common::pong;
 use std::path::Path;
 
-/// The words of a help text that are commands: the first of each line below `Commands:`.
+/// Commands in a help text: the first word of each line below `Commands:`.
 fn commands(help: &str) -> Vec<&str> {
     let listed = help.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
     listed.lines().filter_map(|line| line.strip_prefix("  ")?.split_whitespace().next()).collect()
@@ -18,7 +18,7 @@ fn options(help: &str) -> Vec<&str> {
     lines.map(|text| &text[..text.find(|c| !is_name(c)).unwrap_or(text.len())]).collect()
 }
 
-/// Without the escapes of the page.
+/// A page without its escapes.
 fn page(folder: &Path, name: &str) -> String {
     let text = std::fs::read_to_string(folder.join(format!("{name}.1"))).unwrap();
     ["\\fB", "\\fI", "\\fR"].iter().fold(text, |text, font| text.replace(font, "")).replace("\\-", "-")

@@ -1,4 +1,4 @@
-//! Logs as a terminal user meets them: `pong run --log`, `pong log`, `pong replay`; a run that is killed; a full disk.
+//! Logs on the command line: `pong run --log`, `pong log`, `pong replay`; a run that is killed; a full disk.
 
 use crate::common;
 use std::path::{Path, PathBuf};
@@ -67,7 +67,7 @@ fn a_change_of_one_bit_is_named() {
     let path = folder.join("log/wrenches.npy");
     let mut bytes = std::fs::read(&path).unwrap();
     let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
-    // Frame 345, second body (the block), the force's z.
+    // Frame 345, second body (the block), z of the force.
     bytes[start + (345 * 2 + 1) * 48 + 16] ^= 1;
     std::fs::write(&path, bytes).unwrap();
     let (code, out, err) = pong(&folder, "replay log");
@@ -119,7 +119,7 @@ fn a_log_is_not_overwritten_by_accident() {
     assert!(code == 1 && err.contains("cannot be written") && err.contains("--log"), "{err}");
 }
 
-/// Reads the header of a table as NumPy does: rows, and where they begin.
+/// Reads the header of a table as NumPy does: number of rows, and their offset.
 fn rows(path: &Path) -> Option<(usize, usize, usize)> {
     let bytes = std::fs::read(path).ok()?;
     let text = usize::from(u16::from_le_bytes([*bytes.get(8)?, *bytes.get(9)?]));
@@ -143,7 +143,7 @@ fn a_run_that_is_killed_keeps_every_row_that_was_flushed() {
         .unwrap();
     let frames = folder.join("log/frames.npy");
     let begun = Instant::now();
-    // Flushed twice, so that there is something behind the rows that count.
+    // Flushed twice, so that there is data beyond the rows flushed first.
     while rows(&frames).is_none_or(|(count, ..)| count == 0) && begun.elapsed() < Duration::from_secs(60) {
         std::thread::sleep(Duration::from_millis(20));
     }
@@ -161,7 +161,7 @@ fn a_run_that_is_killed_keeps_every_row_that_was_flushed() {
     assert!(code == 0 && out.starts_with(&format!("{count} frames with ")), "{out}{err}");
 }
 
-/// Where files may have one MiB only, a table cannot grow further: what a full disk does.
+/// With a limit of 1 MiB for files, a table cannot grow further, as on a full disk.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_told_and_the_run_goes_on() {

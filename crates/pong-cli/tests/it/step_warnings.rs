@@ -1,4 +1,4 @@
-//! `pong run` warns of a step that a law cannot bear, whichever law it is, as `pong advise` does.
+//! `pong run` warns of a step that is too long for a law, for every law, as `pong advise` does.
 
 use crate::common;
 use crate::common::pong;
@@ -16,7 +16,7 @@ const MODEL: &str = r#"(format: "pong-model", version: 1, name: "NAME",
     surfaces: { "s": (stiffness: STIFFNESS, LAW) },
     root: (name: "NAME", surface: "s", primitives: [PRIMITIVE]))"#;
 
-/// What `pong run` and `pong advise` write to a terminal of a ball that falls on ground.
+/// Output of `pong run` and `pong advise` for a ball that falls on ground.
 fn told(name: &str, law: &str, (stiffness, height, speed, step): (&str, &str, &str, &str)) -> [String; 2] {
     let model = |name: &str, stiffness: &str, primitive: &str| {
         let model = MODEL.replace("NAME", name).replace("STIFFNESS", stiffness);
@@ -35,7 +35,7 @@ fn told(name: &str, law: &str, (stiffness, height, speed, step): (&str, &str, &s
 const GAINS: &str = "`ball/ball` and `ground/ground`: a contact of";
 const RUBS: &str = "`ball/ball` and `ground/ground`: friction of";
 
-/// The speed is known from the start: both say so before the first frame, in the same words.
+/// The speed is known from the start: both warn before the first frame, in the same words.
 #[test]
 fn a_known_speed_is_judged_before_the_first_frame() {
     let hertz = "normal: HuntCrossley(dissipation: 0, exponent: 1.5)";
@@ -55,8 +55,8 @@ fn a_known_speed_is_judged_before_the_first_frame() {
     }
 }
 
-/// From rest nobody knows the speed before: the run says so when the contact is as deep, or as hard pressed, as the step
-/// cannot bear.
+/// From rest the speed is not known before: the run warns when the contact is too deep, or too hard pressed,
+/// for the step.
 #[test]
 fn a_fall_from_rest_is_judged_when_it_touches() {
     let hertz = "normal: HuntCrossley(dissipation: 0, exponent: 1.5)";

@@ -1,4 +1,4 @@
-//! What reaches a terminal, and what the exit code says when nothing does.
+//! Output to a terminal, and the exit code when output is lost.
 
 #![cfg(target_os = "linux")]
 
@@ -7,7 +7,7 @@ use std::fs::{File, OpenOptions};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// Names with a clear-screen sequence, a line end, a C1 introducer and a change of direction.
+/// Names with a clear-screen sequence, a line end, a C1 introducer and a bidirectional override.
 const HOSTILE: &str = r#"(format: "pong-model", version: 1, name: "e\u{1b}[2Jvil",
     surfaces: { "so\u{9b}31mft": (stiffness: 1e5) },
     root: (name: "ro\u{1b}]0;title\u{7}ot", surface: "so\u{9b}31mft", primitives: [
@@ -77,7 +77,7 @@ fn names_steer_no_terminal() {
     }
 }
 
-/// Standard error on a full disk, or with nobody at its other end: messages are lost, the exit code is not.
+/// Standard error on a full disk, or with its other end closed: messages are lost, the exit code is not.
 #[test]
 fn a_lost_standard_error_changes_no_exit_code() {
     let folder = folder("errors");
@@ -110,7 +110,7 @@ fn a_lost_standard_error_changes_no_exit_code() {
     assert!(log.status.success() && !told.contains("not closed"), "the log is whole: {told}");
 }
 
-/// An answer that could not be written is no success; one that somebody stopped reading is.
+/// An answer that could not be written is no success; one whose reader closed the pipe is.
 #[test]
 fn a_lost_answer_ends_with_one() {
     let folder = folder("answers");
@@ -125,7 +125,7 @@ fn a_lost_answer_ends_with_one() {
         let told = String::from_utf8(cut.stderr).unwrap();
         assert!(cut.status.success() && !told.contains("standard output"), "{arguments:?}: {told}");
     }
-    // What was wrong anyway keeps its own code.
+    // An error keeps its own exit code.
     let usage = pong(&folder, &["verify", "--only", "V999"], full().into(), Stdio::piped());
     assert_eq!(usage.status.code(), Some(2));
 }

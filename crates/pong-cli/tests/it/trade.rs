@@ -1,4 +1,4 @@
-//! `pong trade` as a terminal user meets it.
+//! `pong trade` on the command line.
 
 use crate::common;
 use crate::common::pong;
@@ -11,7 +11,7 @@ fn folder(test: &str) -> PathBuf {
     common::resting_ball(&format!("trade/{test}"), BALL, 0.064)
 }
 
-/// The page and the files, for a scene and for its log; what was stopped in between does not show in errors.csv.
+/// The report and the files, for a scene and for its log; a stop in between has no effect on errors.csv.
 #[test]
 fn a_scene_and_its_log_are_studied() {
     let folder = folder("studied");

@@ -1,4 +1,4 @@
-//! `pong trim` as a terminal user meets it: what is written loads, and runs to the same bytes.
+//! `pong trim` on the command line: its files load, and runs of them give the same bytes.
 
 use crate::common;
 use crate::common::pong;

@@ -1,4 +1,4 @@
-//! `pong tune` as a terminal user meets it. What is faster is not for a test to say: all that is said is held to be true.
+//! `pong tune` on the command line. The gain in time is not tested; all statements of the report are.
 
 use crate::common;
 use crate::common::pong;
@@ -13,7 +13,8 @@ fn folder(test: &str) -> PathBuf {
     common::resting_ball(&format!("tune/{test}"), BALL, 0.2)
 }
 
-/// A scene and its log. A file is written if and only if the page says so; it loads, and runs of it answer the same bytes.
+/// A scene and its log. A file is written if and only if the report says so; it loads, and runs of it give
+/// the same bytes.
 #[test]
 fn a_scene_and_its_log_are_tuned() {
     let folder = folder("tuned");
@@ -76,7 +77,7 @@ fn what_is_wrong_is_told_with_a_cure() {
     assert_eq!(std::fs::read_to_string(folder.join("ball_tuned.ron")).unwrap(), "mine");
 }
 
-/// `pong check` draws the groups as the file has them, whatever bounds them.
+/// `pong check` draws the groups as in the file, whatever their bounds.
 #[test]
 fn groups_without_volumes_and_cut_leaves_are_drawn() {
     let folder = folder("drawn");
@@ -108,7 +109,8 @@ fn groups_without_volumes_and_cut_leaves_are_drawn() {
     }
 }
 
-/// A cable of capsules, which is one leaf of its author's, may be tuned as any other model: every frame answers the same.
+/// A cable of capsules, with a single leaf chosen by its author, can be tuned as any other model: every frame
+/// is the same.
 #[test]
 fn a_cable_of_capsules_is_tuned() {
     let link = |i: usize| {

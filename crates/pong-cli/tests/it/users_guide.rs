@@ -1,4 +1,4 @@
-//! The files of docs/users_guide.md are written, its commands run, and their output compared. `…` stands for
+//! The files of docs/users_guide.md are written, its commands run, and their output compared. `…` matches
 //! anything.
 
 use std::path::Path;
@@ -17,7 +17,7 @@ fn blocks() -> Vec<(Vec<&'static str>, &'static str)> {
         .collect()
 }
 
-/// Whether a line of output is as the guide shows it.
+/// True if a line of output agrees with the guide.
 fn is_like(line: &str, shown: &str) -> bool {
     let mut rest = line;
     for (index, part) in shown.split('…').map(str::trim).enumerate() {
@@ -64,7 +64,7 @@ fn the_guide_shows_what_happens() {
     }
     assert_eq!(commands, 2);
     assert!(folder.join("slide_out/contacts.csv").exists());
-    // The distance of sliding that the guide's text names.
+    // The sliding distance in the guide's text.
     let states = std::fs::read_to_string(folder.join("slide_out/states.csv")).unwrap();
     let last = states.lines().rfind(|line| line.contains(",block,")).unwrap();
     let distance: f64 = last.split(',').nth(2).unwrap().parse().unwrap();

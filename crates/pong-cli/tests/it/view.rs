@@ -1,4 +1,4 @@
-//! `pong view`: pages of real runs. What a browser makes of them is checked by ci/view.
+//! `pong view`: pages of real runs. Their display in a browser is checked by ci/view.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -20,7 +20,7 @@ fn run(name: &str) -> PathBuf {
     folder
 }
 
-/// What the page is told of the run.
+/// The description of the run in the page.
 fn description(page: &str) -> &str {
     let begin = r#"<script type="application/json" id="run">"#;
     page.split_once(begin).unwrap().1.split_once("</script>").unwrap().0
@@ -111,7 +111,7 @@ fn walk(path: PathBuf) -> Vec<PathBuf> {
     std::fs::read_dir(path).unwrap().flat_map(|entry| walk(entry.unwrap().path())).collect()
 }
 
-/// A disk that takes no more leaves what was there; here, a limit on the length of files.
+/// A full disk leaves the existing files; simulated by a limit on the length of files.
 #[test]
 #[cfg(unix)]
 fn a_full_disk_leaves_the_files_that_were_there() {

@@ -1,4 +1,4 @@
-//! What is found on machines whose files are recorded in `recorded/`.
+//! Findings on machines whose files are recorded in `recorded/`.
 
 use pong_doctor::{Files, Finding, State, examine};
 use std::collections::BTreeMap;
@@ -90,7 +90,7 @@ fn a_container_says_what_it_cannot_know() {
     let findings = examine(&Record::read("container"), refused());
     let expected = [
         ("cores", State::Advice, "16 logical processors on 8 cores (0-15); this process may use 1 (10)"),
-        // The sibling of 10 is not this process's.
+        // The sibling of 10 is not available to this process.
         ("SMT siblings", State::Good, "no two processors of this process share a core"),
         ("isolated cores", State::Good, "8-11; of these this process may use 10"),
         ("cores without tick", State::Unknown, "the kernel has no nohz_full"),
@@ -100,7 +100,7 @@ fn a_container_says_what_it_cannot_know() {
             "the kernel does not set frequencies: firmware or a host does",
         ),
         ("idle states", State::Unknown, "the kernel tells of none: firmware or a host decides"),
-        // Of a80c75fb bit 14, CAP_IPC_LOCK, is set.
+        // In a80c75fb bit 14, CAP_IPC_LOCK, is set.
         ("locked memory", State::Good, "without limit (CAP_IPC_LOCK)"),
         ("kernel preemption", State::Advice, "not preemptible, or only at chosen places"),
         ("clock source", State::Good, "kvm-clock"),

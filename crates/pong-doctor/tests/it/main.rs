@@ -1,3 +1,3 @@
-//! Tests of what the doctor says about machines.
+//! Tests of the doctor's findings on machines.
 
 mod machines;

@@ -1,4 +1,5 @@
-//! The step adviser's promises, kept by the engine and the executive: a hundred random contacts, every coupling.
+//! Promises of the step adviser, checked with engine and executive: a hundred random contacts, every
+//! coupling.
 
 use pong_advise::{
     Accuracy, ContactAdvice, ContactWish, GroupMass, StepPlan, StepWarning, WrenchCoupling, advise_contact,
@@ -29,7 +30,8 @@ struct Case {
 }
 
 impl Case {
-    /// Mass, stiffness, restitution and speed at random; the depth that the stiffness makes, by the closed form.
+    /// Random mass, stiffness, restitution and speed; the depth follows from the stiffness, by the closed
+    /// form.
     fn new(random: &mut Random, coupling: WrenchCoupling) -> Self {
         let mass = random.log_between(1e-2, 1e5);
         let stiffness = random.log_between(1e2, 1e9);
@@ -45,7 +47,7 @@ impl Case {
     }
 }
 
-/// The inverse of V3's formula, by a search of this test's own.
+/// The inverse of V3's formula, by an independent search.
 fn zeta_of(restitution: f64) -> f64 {
     let rebound = |zeta: f64| {
         let s = (1.0 - zeta * zeta).abs().sqrt();
@@ -80,7 +82,7 @@ fn integrator(coupling: WrenchCoupling) -> Integrator {
     }
 }
 
-/// A world with the advised surface, and what the adviser tells of it at mass and step.
+/// A world with the advised surface, and the adviser's warnings at mass and step.
 fn world(wish: &ContactWish, advice: &ContactAdvice, step: f64) -> (World, Vec<StepWarning>) {
     let ContactAdvice { stiffness, damping, friction_stiffness, friction_damping, .. } = advice;
     let point = format!(
@@ -108,7 +110,7 @@ fn bounce(world: World, wish: &ContactWish, step: f64, phase: f64) -> (f64, f64)
     let body = simulation.add_body(body.at(start).moving(falling).touching(interfaces[0])).unwrap();
     simulation.add_body(RigidBody::fixed("ground").touching(interfaces[1])).unwrap();
     let (mut deepest, mut before) = (0.0_f64, [wish.speed; 4]);
-    // It is off when it rises above the plane and even a late wrench changes its speed no more.
+    // It has left when it rises above the plane and even a delayed wrench no longer changes its speed.
     for _ in 0..1_000_000 {
         simulation.step().unwrap();
         let (height, speed) = (simulation.pose(body).position.z, simulation.twist(body).linear.z);
@@ -130,7 +132,7 @@ fn advised_contacts_keep_their_promises_at_the_advised_step_and_warn_at_three_ti
         for (index, coupling) in COUPLINGS.into_iter().enumerate() {
             let Case { stiffness, wish } = Case::new(&mut random, coupling);
             let advice = advise_contact(&wish).unwrap();
-            // A held wrench is never advised without any loss.
+            // A held wrench is never advised without loss.
             let tolerance = if coupling.lag() > 0.0 { 5e-3 } else { 1e-6 };
             assert!((advice.stiffness / stiffness - 1.0).abs() < tolerance, "case {number}: {advice:?}");
             assert!(advice.step < advice.stable_step, "case {number}: {advice:?}");
@@ -154,8 +156,8 @@ fn advised_contacts_keep_their_promises_at_the_advised_step_and_warn_at_three_ti
     }
 }
 
-/// Largest errors of depth and rebound of a point of 1 kg at 1 m/s on a law, at 24 phases of a step that is the duration
-/// π·√(m/k) of an undamped contact over `steps`.
+/// Largest errors of depth and rebound of a point of 1 kg at 1 m/s with a law, at 24 phases of a step. The
+/// step is the duration π·√(m/k) of an undamped contact over `steps`.
 fn law_errors(
     law: &str,
     (depth, rebound): (f64, f64),
@@ -187,7 +189,7 @@ fn law_errors(
     worst
 }
 
-/// The table of the user's guide: printed, and held against its round figures.
+/// The table of the user's guide, printed and compared with its round figures.
 #[test]
 fn steps_per_contact_and_accuracy_of_each_law() {
     let linear = |e: f64| format!("Linear(restitution: (e: {e:?}, mass: 1.0))");

@@ -1,9 +1,10 @@
-//! A simulation that was saved goes on with the same bits, in itself and in another of the same set-up.
+//! A saved simulation goes on with the same bits, in itself and in another with the same set-up.
 
 use crate::common;
 use pong_executive::{Pose, Simulation, Twist, Vec3, Wrench};
 
-/// Two rough balls, one off its mass centre, that fall onto a rough ground and against each other, and roll on it.
+/// Two rough balls, one of them off its mass centre, that fall onto a rough ground and against each other,
+/// and roll on it.
 fn balls(integrator: &str) -> Simulation {
     let text = format!(
         r#"(format: "pong-scene", version: 1, name: "balls",
@@ -50,7 +51,7 @@ fn a_restored_simulation_goes_on_with_the_same_bits() {
         simulation.run_for(0.03).unwrap();
         let end = saved(&simulation);
         assert_ne!(middle, end);
-        // In itself, and in a new one that has never run.
+        // Restored in itself, and in a new one that has never run.
         for mut other in [simulation, balls(integrator)] {
             other.restore(&middle).unwrap();
             assert_eq!(saved(&other), middle, "{integrator}: what is restored is what was saved");

@@ -1,4 +1,4 @@
-//! Bodies that touch: the executive and the engine together.
+//! Contact of bodies: executive and engine together.
 
 use pong_engine::Config;
 use pong_executive::{BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
@@ -11,7 +11,7 @@ fn ball_on_plane(damping: f64, height: f64, integrator: Integrator, step: f64) -
     ball_of(MassProperties::sphere(1.0, 0.1), (damping, "None"), height, integrator, step)
 }
 
-/// The same of other mass properties and friction.
+/// As [`ball_on_plane`], with other mass properties and friction.
 fn ball_of(
     mass: MassProperties,
     (damping, friction): (f64, &str),
@@ -73,8 +73,9 @@ fn an_elastic_ball_bounces_to_its_height_and_the_ledger_closes() {
     assert!((simulation.energy().balance() / start.balance() - 1.0).abs() < 1e-4);
 }
 
-/// Thousands of undamped bounces at a step that is too long for them: the run makes or loses energy, and what it says was lost in
-/// contacts is what the mechanical energy tells. The trapezoid rule between commits, of first order at every touch, says another.
+/// Thousands of undamped bounces at a step that is too long for them: the run gains or loses energy, and the
+/// reported contact loss is the loss of mechanical energy. The trapezoid rule between commits, of first order
+/// at every touch, would give another value.
 #[test]
 fn what_is_lost_in_contacts_is_what_the_mechanical_energy_lost() {
     let (mut simulation, _) = ball_on_plane(0.0, 0.05, Integrator::RungeKutta4, 1e-3);
@@ -96,8 +97,8 @@ fn what_is_lost_in_contacts_is_what_the_mechanical_energy_lost() {
     assert!((of_commits - lost).abs() > 1e-3, "{of_commits}");
 }
 
-/// A body of three different moments of inertia bounces, slips and tumbles: the work of the moments is that of its spin, to the
-/// third order of the step.
+/// A body of three different moments of inertia bounces, slips and tumbles: the work of the moments is
+/// computed from its spin, to the third order of the step.
 #[test]
 fn the_work_of_moments_is_taken_from_the_spin() {
     let drift = |step: f64| {
@@ -160,8 +161,8 @@ fn the_same_run_gives_the_same_bits() {
     assert_eq!(end(), end());
 }
 
-/// The balance of a host that holds wrenches drifts by what that makes, and by nothing else. An undamped contact is warned of
-/// with the damping that it takes; one that has it is not.
+/// The balance of a host that holds wrenches drifts only by the energy of holding them. A warning about an
+/// undamped contact names the damping that it needs; with that damping there is no warning.
 #[test]
 fn a_host_that_holds_wrenches_is_told_what_that_made() {
     let step = 0.1 / 1e5_f64.sqrt();
@@ -190,8 +191,8 @@ fn a_host_that_holds_wrenches_is_told_what_that_made() {
     }
 }
 
-/// A ball that is thrown higher from bounce to bounce is stopped at a million times its energy: contact and time are named, and
-/// a step that would do.
+/// A ball that is thrown higher from bounce to bounce is stopped at a million times its energy; the error has
+/// the contact, the time, and a suitable step.
 #[test]
 fn a_run_whose_contact_makes_energy_stops_at_once() {
     for integrator in [Integrator::SemiImplicitEuler, Integrator::RungeKutta4] {
@@ -205,8 +206,8 @@ fn a_run_whose_contact_makes_energy_stops_at_once() {
     }
 }
 
-/// Violent and right: dropped from 1 km without a loss, and started so deep that it leaves at a hundred times any speed there
-/// was. Neither is stopped.
+/// Violent but correct runs are not stopped: a lossless drop from 1 km, and a start so deep that the ball
+/// leaves at a hundred times any speed before.
 #[test]
 fn violent_runs_go_on() {
     let (mut simulation, ball) = ball_on_plane(0.0, 1e3, Integrator::RungeKutta4, 1e-4);
@@ -217,7 +218,8 @@ fn violent_runs_go_on() {
     assert!(simulation.twist(ball).linear.z > 1e3);
 }
 
-/// Energy ½kδ² of a deep start beside that of the motion; none of a ball at rest on its floor, or of one that is let in slowly.
+/// Energy ½kδ² of a deep start, compared with that of the motion; no note for a ball at rest on its floor, or
+/// one that is let in slowly.
 #[test]
 fn a_deep_start_is_noted_and_a_rest_is_not() {
     let notes = |height: f64, speed: f64| {

@@ -1,9 +1,9 @@
-//! An integrator outside the executive, given the rates alone, gets where the executive gets.
+//! An external integrator, given only the rates, arrives at the executive's states.
 
 use crate::common;
 use pong_executive::{BodyId, Integrator, MassProperties, RigidBody, Simulation, Twist, Vec3, Wrench};
 
-/// A rough ball that falls onto a rough ground 0.1 mm below it, turning.
+/// A rough ball that falls, rotating, onto a rough ground 0.1 mm below it.
 fn ball() -> (Simulation, BodyId) {
     let text = r#"(format: "pong-scene", version: 1, name: "ball",
         models: { "ball": "ball.ron", "ground": "ground.ron" },
@@ -48,7 +48,8 @@ fn runge_kutta_outside_gets_where_the_executive_gets() {
     assert!(outside.world().contact_count() == 1 && outside.contact_wrench(body).force.x.abs() > 0.1);
     let apart = (inside.pose(body).position - outside.pose(body).position).norm();
     let turned = inside.pose(body).orientation.angle_to(&outside.pose(body).orientation);
-    // Quaternions by component stand at another angle at half a step: (ωh)³/96 of each stage that pushes.
+    // Quaternions integrated by component have another angle at half a step: (ωh)³/96 for each stage that
+    // pushes.
     assert!(apart < 1e-9 && turned < 1e-8, "{apart} m, {turned} rad");
 }
 
@@ -83,7 +84,7 @@ fn a_body_that_no_wrench_acts_on_keeps_its_rates() {
     // The mass centre is 0.1 m along x: it moves on with v + ω × c; q' = ½·(0, ω)·(1, 0, 0, 0).
     assert_eq!(x[..6], [0.1, 0.0, 0.0, 1.0, 0.2, 0.0]);
     assert_eq!(rates, [1.0, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
-    // A force at the group's origin turns the body about its mass centre: −c × F.
+    // A force at the group's origin rotates the body about its mass centre: −c × F.
     let push = Wrench { force: Vec3::new(0.0, 4.0, 0.0), moment: Vec3::zeros() };
     simulation.set_external_wrench(body, push).unwrap();
     simulation.try_states(0.0, &x, &mut rates).unwrap();

@@ -1,4 +1,4 @@
-//! Bodies that touch nothing: closed forms of rigid-body mechanics.
+//! Bodies without contact: closed forms of rigid-body mechanics.
 
 use crate::common::empty_world;
 use pong_executive::{Integrator, MassProperties, Mat3, Pose, Quat, RigidBody, Simulation, Twist, Vec3};
@@ -14,7 +14,8 @@ fn tumbler(integrator: Integrator, step: f64, disturbance: f64) -> (Simulation, 
     (simulation, body)
 }
 
-/// ω₁ along the body's axis, which grows as exp(λt) from a small disturbance along the growing direction.
+/// Angular velocity along the body's axes; ω₁ grows as exp(λt) from a small disturbance along the growing
+/// direction.
 fn body_spin(simulation: &Simulation, body: pong_executive::BodyId) -> Vec3 {
     simulation.pose(body).orientation.inverse() * simulation.twist(body).angular
 }
@@ -28,7 +29,7 @@ fn v24_rotation_about_the_middle_axis_grows_at_its_rate() {
     let early = body_spin(&simulation, body).x;
     simulation.run_for(4.0).unwrap();
     let late = body_spin(&simulation, body).x;
-    // cosh(λ·12)/cosh(λ·8): the disturbance holds both the growing and the fading part.
+    // cosh(λ·12)/cosh(λ·8), because the disturbance has both the growing and the decaying part.
     let expected = (12.0 * rate).cosh() / (8.0 * rate).cosh();
     assert!((late / early / expected - 1.0).abs() < 1e-8, "{} against {expected}", late / early);
     let measured = (late / early * (1.0 + (-16.0 * rate).exp()) / (1.0 + (-24.0 * rate).exp())).ln() / 4.0;
@@ -128,6 +129,6 @@ fn far_away_and_fast_a_body_falls_as_at_home() {
     };
     let home = drop_from(Vec3::zeros(), Vec3::zeros());
     let far = drop_from(Vec3::new(0.0, 0.0, 6.8e6), Vec3::new(7.7e3, 0.0, 0.0));
-    // Ten thousand steps, and no more than the rounding of the last position.
+    // After ten thousand steps, at most the rounding of the last position.
     assert!((far - home).norm() < 2e-9, "{}", (far - home).norm());
 }

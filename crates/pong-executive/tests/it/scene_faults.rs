@@ -1,4 +1,4 @@
-//! Faults of scene files are all told, each with thing, cause and cure.
+//! All faults of scene files are reported, each with thing, cause and cure.
 
 use pong_executive::scene::Scene;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,7 @@ fn folder(test: &str) -> PathBuf {
     folder
 }
 
-/// A good scene of one ball with an arm, with one thing replaced.
+/// A valid scene of one ball with an arm, with one part replaced.
 fn scene(replace: &str, by: &str) -> String {
     let text = r#"(
     format: "pong-scene", version: 1, name: "test",
@@ -142,7 +142,7 @@ fn faults_of_notation_are_told_with_their_place() {
     assert!(missing.contains("none.ron: scene: ") && missing.contains("name a scene file"), "{missing}");
 }
 
-/// A field in the notation of other tools: the message names the field and shows how it is written.
+/// A field in the notation of other tools: the message names the field and shows its correct form.
 #[test]
 fn a_field_of_another_notation_is_named_with_its_own() {
     let folder = folder("fields");
@@ -176,7 +176,7 @@ fn a_model_is_no_scene() {
     );
 }
 
-/// That nothing may touch is said by an empty list, not by leaving it out.
+/// Without `pairs` there is a warning; an empty list says that nothing may touch.
 #[test]
 fn left_out_pairs_are_a_warning() {
     let folder = folder("pairs");
@@ -202,7 +202,7 @@ fn all_faults_are_told_at_once() {
     assert_eq!(told.len(), 3, "{told:#?}");
 }
 
-/// Filters of a scene reach its world; names that lead nowhere are told with those there are.
+/// Filters of a scene are set in its world; unknown names are reported with the known ones.
 #[test]
 fn filters_are_taken_and_bad_names_told() {
     let folder = folder("filters");

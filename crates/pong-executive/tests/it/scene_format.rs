@@ -1,4 +1,4 @@
-//! Every example of docs/scene_format.md is read and run; what the page says of names of bodies.
+//! Every example of docs/scene_format.md is read and run, and its statements about names of bodies hold.
 
 use pong_executive::Integrator;
 use pong_executive::scene::{BuiltScene, Scene, Variation};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 const DOCUMENT: &str = include_str!("../../../../docs/scene_format.md");
 
-/// Blocks of the document: what follows `ron` in the fence, and the text.
+/// Code blocks of the document: the text after `ron` in the fence, and the block.
 fn blocks() -> Vec<(&'static str, &'static str)> {
     let mut blocks = Vec::new();
     for (index, part) in DOCUMENT.split("\n```").enumerate() {
@@ -34,7 +34,7 @@ fn build(text: &str, folder: &Path) -> BuiltScene {
     scene.build().unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-/// A scene with the objects that loads and springs name, and room for one example.
+/// A scene with the objects that loads and springs name, and a placeholder for one example.
 fn around(objects: &str, section: &str, integrator: &str) -> String {
     let models = r#""ball": "ball.ron", "ground": "ground.ron", "gripper": "gripper.ron""#;
     format!(
@@ -66,8 +66,8 @@ fn every_example_builds_and_runs() {
     }
 }
 
-/// The scene of the section on preloads: both balls begin with the friction that they are to have. The one that slides has μ·k·δ,
-/// 3 N, from the start; the one that is held stands still where without a preload it would swing.
+/// The scene of the section on preloads: both balls begin with the intended friction. The sliding one has
+/// μ·k·δ, 3 N, from the start; the held one stands still where without a preload it would swing.
 #[test]
 fn preloaded_friction_is_there_at_the_start() {
     let folder = model_folder("preloaded");
@@ -85,10 +85,10 @@ fn preloaded_friction_is_there_at_the_start() {
     let begin = text.find("preload: [").unwrap();
     let end = begin + text[begin..].find("],").unwrap() + 2;
     let without = format!("{}{}", &text[..begin], &text[end..]);
-    // The one that slides has the damping of its bristle from the start, the one at rest nothing.
+    // The sliding one has the damping of its bristle from the start, the one at rest none.
     let [damped, free] = forces(&mut build(&without, &folder))[..] else { unreachable!() };
     assert!(damped.x < 0.0 && damped.norm() <= 3.0 + 1e-9 && free.norm() < 1e-12, "{damped} {free}");
-    // What is wrong with a preload is told.
+    // Faults of a preload are reported.
     let turned = text.replace("(pair: (\"held\", \"ground\")", "(pair: (\"ground\", \"held\")");
     let told = Scene::parse(&turned, "turned.ron", &folder).unwrap().build().err().unwrap().to_string();
     assert!(told.contains("preload/(ground, held): `pairs` has these two the other way round"), "{told}");
@@ -96,7 +96,7 @@ fn preloaded_friction_is_there_at_the_start() {
     assert!(apart.warnings.iter().any(|warning| warning.contains("preload/(held, ground): no bristle")));
 }
 
-/// The alternative's models are in place of the scene's, and what a variation says holds in place of what the file does.
+/// An alternative's models replace the scene's, and a variation overrides the file.
 #[test]
 fn a_scene_is_built_with_something_else_than_it_says() {
     let folder = model_folder("varied");
@@ -126,7 +126,7 @@ fn a_scene_is_built_with_something_else_than_it_says() {
     let plain = scene.build().unwrap();
     let ball = plain.simulation.world().scene().models().next().unwrap().1.name.clone();
     assert_eq!((ball.as_str(), plain.simulation.step_length()), ("ball", 1e-4));
-    // A model at hand is taken for its file, which need not be there.
+    // A ready model replaces its file, which need not exist.
     let at_hand = plain.simulation.world().scene().models().next().unwrap().1.clone();
     let instead = |file: &Path| file.ends_with("ball.ron").then(|| at_hand.clone());
     let variation = Variation { instead: Some(&instead), ..Variation::default() };
@@ -162,7 +162,7 @@ fn the_whole_file_does_what_its_comment_says() {
 fn groups_start_where_their_author_put_them() {
     let folder = model_folder("authored");
     let (_, text) = blocks().into_iter().find(|(head, _)| *head == "objects").unwrap();
-    // The root places the others by whichever of its names it is called.
+    // The root is the reference of the others under each of its names.
     for root in ["(motion: Fixed,", "(group: \"gripper\", motion: Fixed,"] {
         let text = text.replacen("(motion: Fixed,", root, 1);
         let built = build(&around(&text, "", RUNGE_KUTTA), &folder);
@@ -175,8 +175,8 @@ fn groups_start_where_their_author_put_them() {
     }
 }
 
-/// A movable group may be written by its bare name, by its path below the root and by its whole path. Its body has one name,
-/// which is that of logs.
+/// A movable group may be written by its bare name, by its path below the root and by its whole path. Its
+/// body has one name, the same as in logs.
 #[test]
 fn a_body_has_one_name_however_the_scene_writes_its_group() {
     let folder = pong_testkit::scratch(env!("CARGO_TARGET_TMPDIR"), "one_name");

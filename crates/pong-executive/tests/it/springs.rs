@@ -35,7 +35,7 @@ fn an_oscillator_converges_at_the_order_of_its_integrator() {
 
 #[test]
 fn semi_implicit_euler_keeps_its_own_invariant() {
-    // ½mv² + ½kx² − ½h·k·x·v does not change at all, so the energy only ripples, by ½hω.
+    // ½mv² + ½kx² − ½h·k·x·v is constant, so the energy only ripples, by ½hω.
     let (mut simulation, body) = oscillator(Integrator::SemiImplicitEuler, 0.01);
     let invariant = |s: &Simulation| {
         let (x, v) = (s.pose(body).position.x, s.twist(body).linear.x);
@@ -71,7 +71,7 @@ fn a_damped_oscillator_dies_by_its_closed_form_and_the_heat_is_counted() {
     assert!((energy.balance() / start - 1.0).abs() < 1e-5, "{energy:?}");
 }
 
-/// Two bodies joined by a stiff anisotropic spring, off centre, far from its rest by large angles.
+/// Two bodies joined by a stiff anisotropic spring, off centre, rotated far from rest.
 fn tangled(step: f64) -> Simulation {
     let mut simulation = Simulation::new(empty_world(), Integrator::RungeKutta4, step).unwrap();
     let mass = MassProperties::principal(2.0, [0.2, 0.3, 0.4]).with_mass_center(Vec3::new(0.1, 0.0, -0.2));
@@ -105,7 +105,7 @@ fn total_momentum(simulation: &Simulation) -> (Vec3, Vec3) {
 fn a_spring_between_bodies_keeps_energy_and_both_momenta_at_large_angles() {
     let mut simulation = tangled(5e-4);
     let (energy, momentum) = (simulation.energy().balance(), total_momentum(&simulation));
-    // Beyond half a turn of the joint, a little later, the rotation vector has no continuous choice.
+    // A little later the joint exceeds half a turn, where the rotation vector is not continuous.
     simulation.run_for(1.0).unwrap();
     let after = total_momentum(&simulation);
     assert!(
@@ -114,7 +114,8 @@ fn a_spring_between_bodies_keeps_energy_and_both_momenta_at_large_angles() {
         simulation.energy().balance() - energy
     );
     assert!((after.0 - momentum.0).norm() < 1e-12);
-    // x × p is no linear function of the state: kept to the order of the method, here far below 1e-9.
+    // x × p is no linear function of the state: it is kept only to the order of the method, here far below
+    // 1e-9.
     assert!((after.1 - momentum.1).norm() < 1e-10, "{}", (after.1 - momentum.1).norm());
 }
 
@@ -127,7 +128,7 @@ fn a_torsion_spring_swings_at_its_frequency() {
     let ends = (SpringEnd::ground(Pose::identity()), SpringEnd::on(disc, Pose::identity()));
     simulation.add_spring(Spring::new(ends.0, ends.1, [0.0, 0.0, 0.0, 0.0, 0.0, 7.2])).unwrap();
     simulation.run_for(2.0).unwrap();
-    // ω = √(7.2/0.8) = 3, released at 2 rad: linear however large the angle.
+    // ω = √(7.2/0.8) = 3, released at 2 rad: linear at any angle.
     let angle = simulation.pose(disc).orientation.scaled_axis().z;
     assert!((angle - 2.0 * 6.0_f64.cos()).abs() < 1e-9, "{angle}");
 }
@@ -149,8 +150,8 @@ fn loads_act_at_their_point_along_their_axes_and_their_work_is_counted() {
     assert!((energy.work_in / energy.kinetic - 1.0).abs() < 1e-5, "{energy:?}");
 }
 
-/// Loads are about the group's origin, bodies turn about their mass centre: a force through it turns nothing, one at the
-/// origin turns by its lever.
+/// Loads are about the group's origin, bodies rotate about their mass centre: a force through it causes no
+/// rotation, one at the origin does by its lever.
 #[test]
 fn a_force_turns_about_the_mass_centre() {
     let center = Vec3::new(0.5, -0.2, 0.1);
@@ -171,7 +172,7 @@ fn a_force_turns_about_the_mass_centre() {
     assert!((twist.angular - expected).norm() < 1e-9 * expected.norm(), "{twist:?}");
 }
 
-/// The twist must be the derivative of the pose.
+/// Checks that the twist is the derivative of the pose.
 fn assert_consistent(path: &Path, times: &[f64], tolerance: f64) {
     let h = 1e-5;
     for &time in times {
@@ -208,7 +209,7 @@ fn prescribed_twists_are_the_derivatives_of_prescribed_poses() {
     assert_consistent(&Path::Oscillation(oscillation), &times, 1e-7);
     let table = Path::Table(PathTable::new(&winding_table()).unwrap());
     assert_consistent(&table, &[0.1, 0.5, 0.999, 1.2, 2.9], 1e-7);
-    // Accelerations jump at the rows, velocities do not.
+    // Accelerations are discontinuous at the rows, velocities are not.
     assert_consistent(&table, &[1.0, 1.5], 1e-3);
 }
 
@@ -276,7 +277,7 @@ fn another_mass_and_another_spring_swing_at_their_own_frequency() {
     // 50 N/m and 8 kg: ω = 2.5 rad/s.
     let (x, v) = (5.0_f64.cos(), -2.5 * 5.0_f64.sin());
     assert!((simulation.pose(body).position.x - x).abs() < 1e-9);
-    // In mid-flight pose and twist stay, and the motion goes on from there: 200 N/m and 2 kg, ω = 10 rad/s.
+    // In flight pose and twist stay, and the motion goes on from there: 200 N/m and 2 kg, ω = 10 rad/s.
     simulation.set_mass(body, MassProperties::sphere(2.0, 0.1)).unwrap();
     let spring = Spring { stiffness: [200.0, 0.0, 0.0, 0.0, 0.0, 0.0], ..simulation.springs()[0] };
     simulation.set_spring(0, spring).unwrap();
@@ -300,7 +301,7 @@ fn a_body_that_turns_keeps_its_angular_velocity_when_its_inertia_changes() {
     let twist = simulation.twist(body);
     assert!((twist.angular - spin).norm() < 1e-14 && (twist.linear - Vec3::x()).norm() < 1e-14);
     assert!((simulation.pose(body).position - turned.position).norm() < 1e-14);
-    // L = R·I·Rᵀ·ω of the new tensor.
+    // L = R·I·Rᵀ·ω with the new tensor.
     let rotation = turned.orientation.to_rotation_matrix();
     let momentum = rotation * mass.inertia * rotation.transpose() * spin;
     assert!((simulation.angular_momentum(body).unwrap() - momentum).norm() < 1e-14);
@@ -324,8 +325,8 @@ fn masses_and_springs_that_cannot_be_are_refused_and_change_nothing() {
     assert!((simulation.pose(body).position.x - 10.0_f64.cos()).abs() < 1e-9);
 }
 
-/// A link of 1 kg whose hinge is springs, to a base that is held; its stiffest mode by hand is that of the lever:
-/// k·(1/m + l²/I), 4 times that of the mass alone.
+/// A link of 1 kg whose hinge consists of springs, to a fixed base; its stiffest mode, computed by hand, is
+/// that of the lever: k·(1/m + l²/I), 4 times that of the mass alone.
 #[test]
 fn springs_of_the_scene_count_for_the_step() {
     let link = |integrator, step: f64| {
@@ -359,8 +360,8 @@ fn springs_of_the_scene_count_for_the_step() {
     }
 }
 
-/// The bound of springs between two bodies against all their modes, at any poses: not below the largest eigenvalue, and not
-/// far above.
+/// The bound of springs between two bodies against all their modes, in any poses: never below the largest
+/// eigenvalue, and not far above.
 #[test]
 fn the_bound_of_springs_is_above_every_mode() {
     let mut random = pong_testkit::Random(0x5b71);
@@ -379,7 +380,7 @@ fn the_bound_of_springs_is_above_every_mode() {
             orientation: random.orientation(),
         };
         for _ in 0..=random.below(2) {
-            // At rest where the bodies are, so that nothing is stretched.
+            // The rest pose is the present one, so that nothing is stretched.
             let (first, second) = (frame(&mut random), frame(&mut random));
             let in_common = |i: usize, frame: &Pose| simulation.pose(bodies[i]).compose(frame);
             let rest = in_common(0, &first).inverse().compose(&in_common(1, &second));
@@ -390,7 +391,7 @@ fn the_bound_of_springs_is_above_every_mode() {
             let ends = (SpringEnd::on(bodies[0], first), SpringEnd::on(bodies[1], second));
             simulation.add_spring(Spring { rest, ..Spring::new(ends.0, ends.1, stiffness) }).unwrap();
         }
-        // Semi-implicit Euler without damping: told = 2/√λ.
+        // Semi-implicit Euler without damping: the reported step is 2/√λ.
         let told = simulation.step_report(&simulation.step_plan()).unwrap().surely_stable_step();
         let bound = (2.0 / told) * (2.0 / told);
         let largest = largest_mode(&mut simulation, bodies);
@@ -404,7 +405,7 @@ fn the_bound_of_springs_is_above_every_mode() {
     assert!(shares[shares.len() / 2] > 0.5);
 }
 
-/// ω² of the fastest mode: by powers of the rate of change of momentum with place, differenced.
+/// ω² of the fastest mode, by power iteration of the numerical derivative of momentum rate by position.
 fn largest_mode(simulation: &mut Simulation, bodies: [BodyId; 2]) -> f64 {
     let start = simulation.state_numbers();
     let half = start.len() / 2;

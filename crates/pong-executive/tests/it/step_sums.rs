@@ -1,5 +1,6 @@
-//! Contacts that act together need shorter steps than any of them alone: at 0.99 times the step that the adviser calls
-//! surely stable nothing grows, at 1.01 times it everything does. The scenes are such that its bound is exact.
+//! Contacts that act together need shorter steps than any of them alone: at 0.99 times the step that the
+//! adviser calls surely stable no disturbance grows, at 1.01 times it every disturbance does. The scenes are
+//! chosen so that the bound is exact.
 
 use pong_engine::Config;
 use pong_executive::{BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
@@ -18,7 +19,7 @@ fn plane(name: &str, up: f64) -> String {
     model(name, "stiffness: inf", &format!(r#"Plane(name: "p", normal: (0, 0, {up:?}), offset: 0)"#))
 }
 
-/// A free body between or on Objects that are fixed at some heights, in equilibrium but for a twist.
+/// A free body between or on Objects that are fixed at some heights, in equilibrium except for a twist.
 struct Rig {
     simulation: Simulation,
     body: BodyId,
@@ -51,13 +52,13 @@ impl Rig {
         Self { simulation, body, rest, integrator }
     }
 
-    /// How far from rest it is, m and rad.
+    /// Distance from rest, m and rad.
     fn off(&self) -> f64 {
         let pose = self.simulation.pose(self.body);
         (pose.position - self.rest.position).norm().max(pose.orientation.angle_to(&self.rest.orientation))
     }
 
-    /// Whether a disturbance grows a hundredfold before 4,000 steps are over.
+    /// True if a disturbance grows a hundredfold within 4,000 steps.
     fn grows(&mut self) -> bool {
         let mut first = 0.0_f64;
         for step in 0..4000 {
@@ -72,13 +73,13 @@ impl Rig {
         false
     }
 
-    /// At 0.99 and 1.01 of a step that is told: what grows is noted, what is not noted does not grow.
+    /// Checks 0.99 and 1.01 of the reported step: growth has a note, and without a note there is no growth.
     fn holds_to(step: f64, make: impl Fn(f64) -> Self) {
         let rig = make(step);
         let plan = rig.simulation.step_plan();
         let report = rig.simulation.step_report(&plan).unwrap();
         let told = report.surely_stable_step();
-        // The growth of Runge-Kutta is flat at its limit, which is searched for.
+        // The growth of Runge-Kutta is flat at its limit, which is found by search.
         assert!((told / step - 1.0).abs() < 1e-5, "{:?}: told {told}, expected {step}", rig.integrator);
         assert!(report.stable_step() > 1.1 * step, "one contact alone is not what limits: {report:?}");
         for (factor, unstable) in [(0.99, false), (1.01, true)] {
@@ -110,7 +111,7 @@ const R: f64 = 0.5;
 const MASS: f64 = 3.0;
 const K: f64 = 1e6;
 
-/// Heave: ω² = 4k/m, with so much inertia that nothing rocks sooner.
+/// Heave: ω² = 4k/m, with so much inertia that rocking does not come first.
 #[test]
 fn four_feet_heave_at_the_fourfold_stiffness() {
     let up = Twist { linear: Vec3::z() * 1e-6, angular: Vec3::zeros() };
@@ -120,7 +121,7 @@ fn four_feet_heave_at_the_fourfold_stiffness() {
     }
 }
 
-/// Rocking: two feet at R on either side, ω² = 2kR²/I, with a height of the mass centre that counts for nothing without
+/// Rocking: two feet at R on either side, ω² = 2kR²/I; the height of the mass centre has no effect without
 /// friction.
 #[test]
 fn four_feet_rock_by_their_lever() {

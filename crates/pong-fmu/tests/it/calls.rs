@@ -57,7 +57,8 @@ fn a_step_that_is_no_multiple_ends_where_it_should() {
     let (scene, unit) = unit("odd_steps", &Options::default());
     let mut odd = Importer::new(&unit, false).unwrap();
     assert_eq!(odd.begin(0.0), OK);
-    // The same by hand: two steps of 1e-4 s and what is left to the communication point, as times are rounded.
+    // The same by hand: two steps of 1e-4 s and the rest to the communication point, with the same rounding
+    // of times.
     let mut executive = simulation(&scene);
     let ball = executive.bodies().next().unwrap().0;
     let mut touched = false;
@@ -80,7 +81,7 @@ fn a_step_that_is_no_multiple_ends_where_it_should() {
     assert!(odd.last().contains("begins at 0.5 s, and the instance is at 0.025"), "{}", odd.last());
     assert_eq!(odd.do_step(0.025, f64::NAN), ERROR);
     assert_eq!(odd.do_step(0.025, -1.0), ERROR);
-    // A hundred million steps of the scene are the most: a time in other units is told at once.
+    // The limit is a hundred million steps of the scene, so that a wrong unit of time is refused at once.
     for length in [1e300, 2e4] {
         assert_eq!(odd.do_step(0.025, length), ERROR);
         assert!(odd.last().contains("steps of the scene (0.0001 s)"), "{}", odd.last());
@@ -88,7 +89,8 @@ fn a_step_that_is_no_multiple_ends_where_it_should() {
     assert_eq!(odd.do_step(0.025, 1e-4), OK, "what was refused has changed nothing");
 }
 
-/// Classic Runge-Kutta as an importer does it: derivatives at each stage, completed step at the end, events where asked for.
+/// Classic Runge-Kutta as an importer does it: derivatives at each stage, completed step at the end, events
+/// on request.
 fn run_exchange(fmu: &mut Importer, from: u32, to: u32, h: f64) -> u32 {
     let mut events = 0;
     let mut x = fmu.states();
@@ -173,7 +175,7 @@ fn saved_states_go_on_to_the_same_bits_in_both_kinds() {
         run(&mut other, 400, 600);
         assert_eq!(other.save(), end, "another instance");
 
-        // What is no state of this instance is refused, and nothing changes.
+        // Bytes that are not a state of this instance are refused, and nothing changes.
         let mut damaged = middle.clone();
         damaged[200] ^= 4;
         for (bytes, told) in [
@@ -192,8 +194,8 @@ fn saved_states_go_on_to_the_same_bits_in_both_kinds() {
     }
 }
 
-/// The momentum from contact in a communication step is the mean force times the step: the momentum that is not gravity's.
-/// The wrench of the instant misses a bounce that begins and ends within the step.
+/// The impulse of contact in a communication step is the mean force times the step: the change of momentum
+/// less that by gravity. The wrench at an instant misses a bounce that begins and ends within the step.
 #[test]
 fn mean_forces_are_momentum_over_the_step() {
     let options = Options { step_means: true, ..Options::default() };
@@ -220,7 +222,7 @@ fn mean_forces_are_momentum_over_the_step() {
             let after: [f64; 3] = fmu.get_vector(&format!("{BALL}.state.velocity"));
             let (mean, instant) = (mean(&mut fmu), fmu.get_vector::<3>(&format!("{BALL}.contact_force")));
             for (axis, gravity) in [0.0, 0.0, -9.81].into_iter().enumerate() {
-                // 1 kg.
+                // The mass is 1 kg.
                 let expected = (after[axis] - before[axis]) / length - gravity;
                 assert!(
                     (mean[axis] - expected).abs() < 1e-10 * (1.0 + expected.abs()),
@@ -293,7 +295,7 @@ fn the_importer_moves_the_bodies_that_it_says() {
             true => begin_exchange(&mut fmu),
             false => assert_eq!(fmu.begin(0.0), OK),
         }
-        // At rest in height: k·δ. Sideways the bristle has not moved yet; its damper has: c·v.
+        // No vertical velocity: k·δ. Sideways the bristle has not moved yet, but its damper acts: c·v.
         let force = |fmu: &mut Importer| fmu.get_vector::<3>(&format!("{BALL}.contact_force"));
         let [x, _, z] = force(&mut fmu);
         assert!((z - 10.0).abs() < 1e-9 && (x + 0.05).abs() < 1e-3, "{x} N, {z} N");
@@ -306,7 +308,7 @@ fn the_importer_moves_the_bodies_that_it_says() {
         let [moved, ..] = force(&mut fmu);
         assert!((moved - x + 1e5 * 2.0 / 3.0 * 1e-6).abs() < 1e-3 * 0.07, "{is_exchange}: {x} N, {moved} N");
 
-        // A quaternion that is none.
+        // An invalid quaternion.
         assert_eq!(fmu.set(&format!("{BALL}.orientation[2]"), 0.5), OK);
         let status = match is_exchange {
             true => fmu.try_get(&format!("{BALL}.contact_force[1]")).unwrap_err(),
@@ -334,7 +336,7 @@ fn a_quaternion_that_has_left_unit_length_is_normalised_at_an_event() {
     assert!(fmu.update());
     let norm = fmu.states()[6..10].iter().map(|part| part * part).sum::<f64>();
     assert!((norm - 1.0).abs() < 1e-15);
-    // States that are none are refused, and others may succeed.
+    // Invalid states are refused, and others may succeed.
     let good = fmu.states();
     assert_eq!(fmu.enter_event(), OK);
     for quaternion in [0.0, f64::NAN, f64::INFINITY, 1e200] {
@@ -405,7 +407,7 @@ fn files_that_have_changed_are_refused_with_their_names() {
     assert!(Importer::new(&unit, true).is_ok());
 }
 
-/// A list that names files outside, with a token that fits: nothing of them is opened, and nothing of them is told.
+/// A list that names files outside, with a matching token: none of them is opened or revealed.
 #[test]
 fn nothing_outside_its_folder_is_read() {
     let (scene, unit) = unit("outside", &Options::default());
@@ -425,7 +427,7 @@ fn nothing_outside_its_folder_is_read() {
         refused(&good.replace("\"models/0/ball.ron\"", &format!("{place:?}")), "leads out of the folder");
     }
     refused(&good.replacen("\"models/0/ball.ron\"", "\"models/9/ball.ron\"", 1), "not among its files");
-    // A link inside that leads out, in place of each file.
+    // A link that leads out, in place of each file.
     for file in ["models/0/ball.ron", "models/2/tile.obj", "scene.ron", "contents.ron"] {
         let path = unit.resources.join(file);
         std::fs::write(&list, &good).unwrap();

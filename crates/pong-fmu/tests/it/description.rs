@@ -1,10 +1,10 @@
-//! What an FMU holds: the description, the files, and what is refused when it is made.
+//! Contents of an FMU: the description, the files, and the refusals while it is made.
 
 use crate::support;
 use crate::support::{library, make, scratch, unzip, write_scene};
 use pong_fmu::{Fmi, Options, package};
 
-/// Elements in document order, as a path of names with the attributes; refuses what is not well formed.
+/// Elements in document order, as paths of names with attributes; refuses XML that is not well formed.
 fn elements(xml: &str) -> Vec<(String, Vec<(String, String)>)> {
     let mut stack: Vec<String> = Vec::new();
     let mut found = Vec::new();
@@ -64,7 +64,7 @@ fn the_descriptions_name_every_variable_alike() {
         let count = |causality| variables.iter().filter(|v| value(v, "causality") == Some(causality)).count();
         // One free body: 6 inputs, 13 start values, 13 states and as many rates; three bodies with 13 + 6 outputs, and 5.
         assert_eq!([count("input"), count("output"), count("local")], [6, 3 * 19 + 5, 26]);
-        // Two surfaces of finite stiffness with three factors; of the rigid one damping and friction.
+        // Two surfaces of finite stiffness with three factors each; for the rigid one damping and friction.
         assert_eq!(count("parameter"), 13 + 3 + 3 + 2);
         assert_eq!(package.counts, [6, 62, 21, 13]);
         let names: Vec<_> = variables.iter().map(|v| value(v, "name").unwrap().to_owned()).collect();
@@ -112,7 +112,7 @@ fn an_fmu_holds_all_that_it_reads_and_the_same_bytes_each_time() {
     );
     let second = unzip(&make(&scene, Fmi::V2, &Options::default()).bytes);
     assert!(second.contains_key("binaries/linux64/drop_of__2___balls_.so"));
-    // A change of any file is another token.
+    // A change of any file changes the token.
     let token = |files: &support::Files| {
         let xml = String::from_utf8(files["modelDescription.xml"].clone()).unwrap();
         value(&elements(&xml)[0].1, "instantiationToken").unwrap().to_owned()

@@ -1,4 +1,4 @@
-//! Logs that were cut off or damaged: read as far as they go, or refused by name.
+//! Truncated or damaged logs: read up to the damage, or refused with the file's name.
 
 use crate::support::{folder, scene};
 use pong_record::{Event, Log, LogError, RecordOptions, ReplayOptions};
@@ -48,7 +48,7 @@ fn damage_is_told_with_file_and_cause() {
     let place = scene(&folder).record(&folder, 5, &RecordOptions::default());
     let replace = |from: &'static str, to: &'static str| {
         move |bytes: Vec<u8>| {
-            // One byte, one character: tables are no text.
+            // One character for each byte, because tables are not text.
             let text: String = bytes.iter().map(|byte| char::from(*byte)).collect();
             assert!(text.contains(from), "no {from} to replace");
             text.replace(from, to).chars().map(|c| c as u8).collect()
@@ -86,7 +86,7 @@ fn last_pair_is_99(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// Pipes and devices in place of files are refused at once: nobody waits for a writer, nobody reads until memory ends.
+/// Pipes and devices in place of files are refused at once, because they would block or never end.
 #[test]
 #[cfg(unix)]
 fn only_regular_files_are_read() {
@@ -136,7 +136,7 @@ fn a_log_of_version_1_reads_as_it_is() {
         let at = bytes.windows(from.len()).position(|window| window == from).expect("what is replaced");
         bytes.splice(at..at + from.len(), to.iter().copied());
         if file.ends_with(".npy") {
-            // The header keeps its length: NumPy pads it with blanks in front of the line's end.
+            // The header keeps its length: NumPy pads it with blanks before the line end.
             let end = bytes.iter().position(|byte| *byte == b'\n').expect("the end of the header");
             bytes.splice(end..end, std::iter::repeat_n(b' ', from.len() - to.len()));
         }
@@ -151,7 +151,7 @@ fn a_log_of_version_1_reads_as_it_is() {
     assert_eq!(Log::open(&place).unwrap().events()[0].event, cleared);
 }
 
-/// A line that was being written when the run was cut off.
+/// A line that was being written when the run was cut off is skipped.
 #[test]
 fn half_a_line_of_events_is_passed_over() {
     let folder = folder("half_event");

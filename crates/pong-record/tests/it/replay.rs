@@ -1,4 +1,4 @@
-//! A log that is replayed gives the same bits; anything that was changed in it is named.
+//! A log replays with the same bits; any change in it is reported by name.
 
 use crate::support::{HeldDisk, folder, scene};
 use pong_engine::Laws;
@@ -16,7 +16,7 @@ fn exactly(place: &Path) -> ReplayReport {
     replayed(place, &ReplayOptions::default())
 }
 
-/// Turns the lowest bit of one byte of a row.
+/// Flips the lowest bit of one byte of a row.
 fn plant(place: &Path, table: &str, row: usize, row_size: usize, at: usize) {
     let path = place.join(format!("{table}.npy"));
     let mut bytes = std::fs::read(&path).unwrap();
@@ -35,7 +35,7 @@ fn every_frame_comes_again() {
     assert!(replayed(&place, &ReplayOptions { workers: Some(two), ..Default::default() }).agrees());
 }
 
-/// Told to end after some frames, it does so, and does not say that the log agrees.
+/// Ended after some frames, a replay does not say that the log agrees.
 #[test]
 fn a_replay_can_be_ended() {
     let folder = folder("ended");
@@ -81,7 +81,7 @@ fn a_planted_change_is_named() {
     }
 }
 
-/// Friction remembers: a state that is moved by a hair changes wrenches from its frame on.
+/// Friction has memory: a tiny change of a state changes wrenches from its frame on.
 #[test]
 fn a_planted_change_of_a_state_is_seen_in_what_follows_from_it() {
     let folder = folder("planted_state");
@@ -98,7 +98,7 @@ fn what_the_host_did_between_frames_is_done_again() {
     let folder = folder("events");
     let mut scene = scene(&folder);
     let place = folder.join("log");
-    // A past before the log, a surface and a pair that are not as at the beginning.
+    // A history before the log, with a surface and a pair changed since the start.
     for n in 0..50 {
         scene.place(n);
         scene.world.step().unwrap();
@@ -156,7 +156,7 @@ fn what_the_host_did_between_frames_is_done_again() {
     let report = exactly(&place);
     assert!(report.agrees() && report.contacts > 200, "{report:?}");
 
-    // Each event counts: without it the replay differs.
+    // Each event matters: without it the replay differs.
     let events = std::fs::read_to_string(place.join("events.jsonl")).unwrap();
     let kinds = ["\"surface\"", "\"pair\"", "\"clear_contact_history\"", "\"restore\"", "\"commit\""];
     for kind in kinds {
@@ -169,7 +169,7 @@ fn what_the_host_did_between_frames_is_done_again() {
     assert!(exactly(&place).agrees());
 }
 
-/// Stages are evaluated and thrown away, the step is committed: as a Runge-Kutta host does.
+/// Stages are evaluated and discarded, the step is committed: as a Runge-Kutta host does.
 #[test]
 fn stages_that_are_not_committed_need_not_be_in_the_log() {
     let folder = folder("stages");

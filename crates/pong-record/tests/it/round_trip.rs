@@ -1,4 +1,4 @@
-//! What is read from a log is, bit for bit, what the world gave.
+//! Values read from a log are, bit for bit, those of the world.
 
 use crate::support::{HeldDisk, folder, scene};
 use pong_engine::{Contact, EngineError};
@@ -161,7 +161,7 @@ fn frames_for_which_there_is_no_room_are_lost_whole_and_counted() {
     assert!(log.is_whole() && status.buffer_peak <= size);
     let rows = log.frame_rows(0, u64::MAX).unwrap();
     let gap = rows.iter().position(|row| row.commits_missed > 0).unwrap();
-    // The frame after the gap tells of every commit that went with the frames.
+    // The frame after the gap counts every commit of the lost frames.
     assert_eq!(rows[gap].frame, gap as u64 + status.lost);
     assert_eq!(u64::from(rows[gap].commits_missed), status.lost);
     assert!(rows.iter().all(|row| row.time == row.frame as f64));
@@ -202,11 +202,11 @@ fn files_that_take_nothing_are_given_up() {
         let error = recorder.finish().unwrap_err().to_string();
         assert!(error.contains("took nothing for 0.02 s; the log ends after 0 frames"), "{error}");
     }
-    // However slow the machine is.
+    // Generous limit, for slow machines.
     assert!(started.elapsed() < Duration::from_secs(15), "{:?}", started.elapsed());
 }
 
-/// As of a variable that a shell does not know.
+/// An empty name, as from an undefined shell variable.
 #[test]
 fn a_folder_without_a_name_is_refused_as_that() {
     let scene = scene(&folder("unnamed"));

@@ -23,7 +23,7 @@ pub(crate) struct Player {
 
 /// Result of a comparison.
 pub(crate) enum Compared {
-    /// The same bits in every frame, with the counts.
+    /// Equal bits in every frame, with the counts.
     Same(Counts),
     /// The first frame that differs, and the quantity.
     Differs(String),

@@ -1,7 +1,7 @@
 //! The reference: Runge-Kutta with smaller and smaller steps, whose differences estimate its own error.
 //!
-//! Of three runs at steps 4h, 2h and h (errors ε of order p: ε ≈ C·hᵖ) the differences d₁ = |4h − 2h| and d₂ = |2h − h|
-//! give the observed order and the error of the last (Richardson):
+//! Three runs at steps 4h, 2h and h (errors ε of order p: ε ≈ C·hᵖ) have the differences d₁ = |4h − 2h| and
+//! d₂ = |2h − h|, which give the observed order and the error of the last run (Richardson):
 //!
 //! ```text
 //! p = log₂(d₁/d₂)        ε(h) ≈ d₂/(2ᵖ − 1)

@@ -1,4 +1,4 @@
-//! Errors of a study against errors that are known without it.
+//! Errors of a study against errors computed independently.
 
 use crate::common::{GRAVITY, RADIUS, STIFFNESS, ball_scene, row, run, settings};
 use pong_study::sweep::{Quantity, Settings};
@@ -6,14 +6,14 @@ use pong_study::sweep::{Quantity, Settings};
 /// Depth less the depth at rest, and its rate.
 type State = [f64; 2];
 
-/// A step of a method.
+/// One step of a method.
 type Method = fn(State, f64) -> State;
 
 /// ω² of a ball of 1 kg.
 const SQUARE: f64 = STIFFNESS;
 /// Depth at rest.
 const REST: f64 = GRAVITY / STIFFNESS;
-/// Small enough that the ball never leaves the ground, though a held wrench makes it swing wider.
+/// Amplitude at which the ball never leaves the ground, even though a held wrench makes it swing wider.
 const AMPLITUDE: f64 = 0.1 * REST;
 
 fn euler([y, v]: State, h: f64) -> State {
@@ -32,7 +32,7 @@ fn held([y, v]: State, h: f64) -> State {
     [y + h * v - 0.5 * SQUARE * h * h * y, v - SQUARE * h * y]
 }
 
-/// Errors that a method must have on the oscillator: wrench, peak, pose.
+/// Errors of a method on the oscillator: wrench, peak, pose.
 fn expected(method: Method, h: f64, steps: usize) -> [f64; 3] {
     let omega = SQUARE.sqrt();
     let (mut state, mut squares, mut peak) = ([AMPLITUDE, 0.0], 0.0, AMPLITUDE);
@@ -52,7 +52,8 @@ fn expected(method: Method, h: f64, steps: usize) -> [f64; 3] {
     ]
 }
 
-/// A ball swings on the ground without leaving it: a linear oscillator, on which every method is a known matrix.
+/// A ball swings on the ground without leaving it: a linear oscillator, on which every method is a known
+/// matrix.
 #[test]
 fn errors_on_an_oscillator_are_those_of_each_method() {
     let scene = ball_scene("oscillator", (RADIUS - REST - AMPLITUDE, 0.0), (1e-4, 0.0512), "");
@@ -80,14 +81,14 @@ fn errors_on_an_oscillator_are_those_of_each_method() {
     assert!((order - 4.0).abs() < 0.1, "the reference sees order {order}");
 }
 
-/// From the two shortest steps.
+/// Order of convergence from the two shortest steps.
 fn order(study: &pong_study::sweep::Study, name: &str) -> f64 {
     let error =
         |step: &str| row(study, &format!("{name}, {step}")).answer.errors().unwrap().of(Quantity::Wrench);
     (error("100 µs") / error("50 µs")).log2()
 }
 
-/// Height of an undamped ball at a time after it was let go from a height.
+/// Height of an undamped ball at a time after its release from a height.
 fn bounce(height: f64, time: f64) -> f64 {
     let fall = (2.0 * (height - RADIUS) / GRAVITY).sqrt();
     let (speed, omega) = (GRAVITY * fall, SQUARE.sqrt());
@@ -104,7 +105,8 @@ fn bounce(height: f64, time: f64) -> f64 {
     }
 }
 
-/// A ball bounces once. The place where semi-implicit Euler leaves it is computed here step by step, the true one by formula.
+/// A ball bounces once. Its final position with semi-implicit Euler is computed here step by step, the true
+/// one by formula.
 #[test]
 fn errors_of_a_bounce_are_those_of_the_closed_form() {
     let (height, duration) = (0.12, 0.1024);
@@ -120,7 +122,7 @@ fn errors_of_a_bounce_are_those_of_the_closed_form() {
         }
         let found = row(&study, &format!("Euler, {step}")).answer.errors().unwrap().position_m;
         let known = (z - exact).abs();
-        // Travel of a few centimetres: what the reference may be off in m.
+        // Error of the reference in m, for a travel of a few centimetres.
         let reference = 0.05 * study.reference.as_ref().unwrap().of(Quantity::Pose).error;
         assert!(
             (found - known).abs() <= 2.0 * reference + 1e-3 * known,
@@ -129,14 +131,15 @@ fn errors_of_a_bounce_are_those_of_the_closed_form() {
     }
 }
 
-/// A ball on springs half as stiff: the load is the same at rest, and it swings √½ as fast.
+/// A ball on springs half as stiff: the load at rest is the same, and it swings √½ as fast.
 #[test]
 fn an_alternative_has_the_errors_of_its_model() {
     let more = r#"alternatives: [(name: "soft", models: { "ball": "soft_ball.ron" })],"#;
     let scene = ball_scene("alternative", (RADIUS - REST - AMPLITUDE, 0.0), (1e-4, 0.0512), more);
     let study = run(&scene, &Settings { within: 0.01, ..settings(4e-4, 3) });
     let found = row(&study, "RK4, 100 µs, `soft`").answer.errors().unwrap().of(Quantity::Wrench);
-    // The soft ball starts above its rest, so that it leaves nothing: y'' = −½ω²·y about a rest twice as deep.
+    // The soft ball starts above its rest, and does not leave the ground: y'' = −½ω²·y about a rest twice as
+    // deep.
     let (stiff, soft) = (SQUARE.sqrt(), (0.5 * SQUARE).sqrt());
     let start = REST + AMPLITUDE - 2.0 * REST;
     let steps = 512;

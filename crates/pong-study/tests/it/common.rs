@@ -12,7 +12,7 @@ const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground",
     surfaces: { "rigid": (stiffness: inf) },
     root: (name: "ground", surface: "rigid", primitives: [Plane(name: "floor", normal: (0, 0, 1), offset: 0)]))"#;
 
-/// A ball of 1 kg without damping, at a height and a speed, with fields beside the others.
+/// A ball of 1 kg without damping, at a height and a speed; `more` adds fields.
 pub fn ball_scene(
     test: &str,
     (height, speed): (f64, f64),
@@ -44,7 +44,7 @@ pub fn ball_scene(
     folder.join("scene.ron")
 }
 
-/// One round of everything with frames of a length.
+/// One round of everything, with frames of the given length.
 pub fn settings(frame_s: f64, halvings: u32) -> Settings {
     let plan = PlanSettings { frame_s: Some(frame_s), halvings: Some(halvings), ..PlanSettings::default() };
     Settings { plan, rounds: 1, ..Settings::default() }

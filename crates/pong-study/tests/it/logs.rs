@@ -12,7 +12,8 @@ const FREQUENCY: f64 = 5.0;
 const MEAN: f64 = 1e-3;
 const SWING: f64 = 5e-4;
 
-/// A ball that is moved up and down in the ground, never out of it, with every step in a log of 256 frames.
+/// A ball that is moved up and down in the ground, without leaving it, with every step in a log of 256
+/// frames.
 fn logged(test: &str) -> PathBuf {
     let scene = ball_scene(test, (RADIUS - MEAN, 0.0), (STEP, 0.255), "");
     let text = std::fs::read_to_string(&scene).unwrap();
@@ -51,7 +52,7 @@ fn load(frame: usize) -> f64 {
     STIFFNESS * (MEAN - SWING * phase.sin())
 }
 
-/// The wrench of every n-th frame is held: what that is off is known without the engine.
+/// The wrench of every n-th frame is held: its error is known without the engine.
 #[test]
 fn errors_of_a_held_wrench_are_those_of_the_load() {
     let study = run(&logged("held"), &[]);
@@ -77,7 +78,7 @@ fn errors_of_a_held_wrench_are_those_of_the_load() {
     assert!(judged.len() >= 7 && judged.iter().all(|same| *same), "{judged:?}");
 }
 
-/// A ball half as stiff presses half as much at the same depth.
+/// A ball half as stiff has half the force at the same depth.
 #[test]
 fn an_alternative_is_run_through_the_same_motions() {
     let log = logged("log_alternative");

@@ -10,7 +10,7 @@ fn scene(test: &str) -> PathBuf {
     ball_scene(test, (RADIUS + 0.001, -0.3), (2e-4, 0.016), more)
 }
 
-/// The study, or `None` if it was stopped after so many runs; and how many it made.
+/// The study, or `None` if it was stopped after a number of runs; and the number of runs.
 fn after(
     scene: &Path,
     output: &str,
@@ -28,7 +28,7 @@ fn after(
     (study.ok(), made)
 }
 
-/// The table without the columns that hold times or follow from them.
+/// The table without the columns that hold times or are derived from them.
 fn without_times(csv: &str) -> String {
     csv.lines().map(|line| line.rsplitn(6, ',').last().unwrap().to_owned() + "\n").collect()
 }
@@ -46,7 +46,7 @@ fn a_study_that_was_stopped_goes_on_and_ends_as_one_that_was_not() {
         let resumed = resumed.unwrap();
         assert_eq!(report::errors_csv(&resumed), report::errors_csv(&whole), "{stop}");
         assert_eq!(without_times(&report::csv(&resumed)), report::errors_csv(&whole), "{stop}");
-        // The reference, which is three runs, is kept when it is whole.
+        // The reference, which is three runs, is kept only when complete.
         let kept = if stop < 3 { 0 } else { stop };
         assert_eq!(rest, all - kept, "{stop}");
     }
@@ -56,7 +56,7 @@ fn a_study_that_was_stopped_goes_on_and_ends_as_one_that_was_not() {
     assert_eq!(fresh, all, "nothing was used");
 }
 
-/// What is kept belongs to the inputs: another text of a model is another study.
+/// Kept results belong to the inputs: another text of a model is another study.
 #[test]
 fn a_changed_model_is_run_again() {
     let (scene, settings) = (scene("changed"), settings(8e-4, 1));
@@ -69,7 +69,7 @@ fn a_changed_model_is_run_again() {
     assert_ne!(report::errors_csv(&first.unwrap()), report::errors_csv(&second.unwrap()));
 }
 
-/// Levers that change no answer change none: the rows say so, and there are such rows.
+/// Levers that must not change an answer do not: the rows say so, and there are such rows.
 #[test]
 fn bounds_leaves_and_workers_change_no_bit() {
     let study = after(&scene("bits"), "out", &settings(8e-4, 2), usize::MAX).0.unwrap();

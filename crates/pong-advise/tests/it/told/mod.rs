@@ -1,6 +1,6 @@
-//! Steps that are told against the true limits of random contacts: of free bodies, and of links that hang by a hinge on a free
-//! base. The true limit is the first step at which the linearised map of one step has an eigenvalue beyond the unit circle. It
-//! is found here from generalised coordinates, without the adviser's code.
+//! Advised steps against the true limits of random contacts: of free bodies, and of links on the hinge of a
+//! free base. The true limit is the first step at which the linearised map of one step has an eigenvalue
+//! outside the unit circle. It is computed here from generalised coordinates, without the adviser's code.
 
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, Vector3};
 use pong_advise::{GroupMass, Joints, StepPlan, WrenchCoupling, acting_report, step_report};
@@ -13,7 +13,7 @@ type Vec3 = Vector3<f64>;
 /// A rigid body in the common axes.
 struct Link {
     mass: f64,
-    /// About the mass centre, in the group's axes.
+    /// Inertia about the mass centre, in the group's axes.
     inertia: Matrix3<f64>,
     center: Vec3,
 }
@@ -23,7 +23,7 @@ impl Link {
         let mass = random.log_between(0.1, 100.0);
         let size = random.log_between(0.05, 1.0);
         let points: [Vec3; 3] = std::array::from_fn(|_| random.vector(size));
-        // Of mass points and a little ball: moments that a body can have.
+        // Inertia of mass points and a small ball: moments that a real body can have.
         let inertia =
             points.iter().map(|p| (Matrix3::identity() * p.norm_squared() - p * p.transpose()) * mass / 3.0);
         let inertia = inertia.sum::<Matrix3<f64>>() + Matrix3::identity() * 0.01 * mass * size * size;
@@ -39,7 +39,8 @@ impl Link {
         }
     }
 
-    /// Mass matrix of a motion whose velocity of the group's origin and spin are the columns of `jacobian`.
+    /// Adds to the mass matrix the inertia of a motion; the columns of `jacobian` are the velocity of the
+    /// group's origin and the angular velocity.
     fn add_to(&self, mass: &mut DMatrix<f64>, jacobian: &DMatrix<f64>, turn: &Matrix3<f64>) {
         let (linear, spin) = (jacobian.rows(0, 3), jacobian.rows(3, 3));
         let at_center = linear - skew(&(turn * self.center)) * spin;
@@ -52,10 +53,10 @@ fn skew(v: &Vec3) -> Matrix3<f64> {
     Matrix3::new(0.0, -v.z, v.y, v.z, 0.0, -v.x, -v.y, v.x, 0.0)
 }
 
-/// A body in contact and what it hangs on.
+/// A body in contact and its mechanism.
 struct Case {
     link: Link,
-    /// Velocity of the link's origin and its spin, by the generalised speeds; common axes.
+    /// Velocity of the link's origin and its angular velocity, by the generalised speeds; common axes.
     jacobian: DMatrix<f64>,
     /// Inverse mass matrix.
     inverse: DMatrix<f64>,
@@ -75,7 +76,8 @@ impl Case {
         let mut jacobian = DMatrix::<f64>::identity(6, 6);
         let mut mass = DMatrix::zeros(6, 6);
         if hinged {
-            // Six speeds of the base's origin, which is at `arm` from the hinge; the link's origin is the hinge.
+            // Six speeds of the base's origin, which is at `arm` from the hinge; the link's origin is the
+            // hinge.
             let base = Link::random(random);
             let (arm, axis) = (random.vector(1.0), random.direction());
             let mut of_base = DMatrix::zeros(6, 7);
@@ -95,7 +97,7 @@ impl Case {
         if !self.hinged {
             return self.link.told();
         }
-        // Into the group's axes.
+        // Rotates to the group's axes.
         let mut turn = SMatrix::<f64, 6, 6>::zeros();
         turn.fixed_view_mut::<3, 3>(0, 0).copy_from(&self.turn.transpose());
         turn.fixed_view_mut::<3, 3>(3, 3).copy_from(&self.turn.transpose());
@@ -105,7 +107,7 @@ impl Case {
         GroupMass { joints: Some(Joints { inverse_inertia, mechanism: 3 }), ..self.link.told() }
     }
 
-    /// Inverse inertia at a place (from the origin, common axes).
+    /// Inverse inertia at a point (from the origin, common axes).
     fn at(&self, arm: &Vec3) -> DMatrix<f64> {
         let velocity = self.jacobian.rows(0, 3) - skew(arm) * self.jacobian.rows(3, 3);
         let at = &velocity * &self.inverse * velocity.transpose();
@@ -113,14 +115,15 @@ impl Case {
     }
 }
 
-/// Stiffness and damping over mass of the motions that a contact sees.
+/// Stiffness and damping over mass of the motions at a contact.
 struct Modes {
     stiffness: DMatrix<f64>,
     damping: DMatrix<f64>,
 }
 
 impl Modes {
-    /// s″ = −G·(k·s + c·s′) with G the inverse inertia of the displacements s that have a spring or damper.
+    /// From s″ = −G·(k·s + c·s′), with G the inverse inertia of the displacements s that have a spring or
+    /// damper.
     fn new(inertia: &DMatrix<f64>, k: [f64; 3], c: [f64; 3]) -> Self {
         let seen: Vec<usize> = (0..3).filter(|i| k[*i] > 0.0 || c[*i] > 0.0).collect();
         let inertia = inertia.select_rows(&seen).select_columns(&seen);
@@ -150,7 +153,7 @@ impl Modes {
             }
             all
         };
-        // Of places, h times speeds and h² times accelerations, so that all are of one size.
+        // Positions, h times velocities and h² times accelerations, so that all are of one size.
         let (k, c) = (&(h * h * &self.stiffness), &(h * &self.damping));
         let map = match coupling {
             WrenchCoupling::SemiImplicit => {
@@ -176,7 +179,7 @@ impl Modes {
         self.growth(coupling, h) <= 1.0 + 1e-9
     }
 
-    /// The first step at which something grows, from one that holds.
+    /// The first unstable step, searched from a stable one.
     fn limit(&self, coupling: WrenchCoupling, from: f64) -> f64 {
         let (mut inside, mut factor) = (from, 1.02);
         while factor > 1.0 + 1e-7 {
@@ -189,7 +192,7 @@ impl Modes {
     }
 }
 
-/// Told over true.
+/// Ratios of the advised step to the true limit.
 #[derive(Default)]
 struct Shares(Vec<f64>);
 
@@ -201,13 +204,13 @@ impl Shares {
     }
 }
 
-/// No told step is beyond the true one; how far below it they are is printed (`--nocapture`).
+/// No advised step is beyond the true limit; the ratios are printed (`--nocapture`).
 #[test]
 fn told_steps_are_never_beyond_the_true_limit() {
     draw_and_compare(600);
 }
 
-/// The figures of docs/advise.md.
+/// The ratios in docs/advise.md.
 #[test]
 #[ignore = "10,000 contacts"]
 fn told_steps_are_never_beyond_the_true_limit_of_10_000_contacts() {
@@ -228,7 +231,7 @@ fn draw_and_compare(count: u64) {
         let case = Case::random(&mut random);
         let coupling = random.pick(&COUPLINGS);
         let k = random.log_between(1e2, 1e8);
-        // Damping ratios about those of a contact on the whole mass.
+        // Damping ratios near those of a contact on the whole mass.
         let damping =
             |random: &mut Random, k: f64| random.log_between(0.01, 2.0) * (k * case.link.mass).sqrt();
         let held = matches!(coupling, WrenchCoupling::ZeroOrderHold { .. });
@@ -268,7 +271,7 @@ fn draw_and_compare(count: u64) {
         let masses = [(interfaces[0], case.told()), (interfaces[1], GroupMass::immovable())];
         let plan = StepPlan { accuracy: None, ..StepPlan::new(1e-3, coupling) };
         let before = step_report(&world, &plan, &masses).unwrap();
-        // The lowest end a little deep.
+        // The lowest end is slightly deep.
         let height = |end: &Vec3| (case.turn * end).z - tip_radius;
         let lowest = ends.iter().map(height).fold(f64::INFINITY, f64::min);
         let up = Vec3::z() * (-lowest - 1e-6);
@@ -280,7 +283,7 @@ fn draw_and_compare(count: u64) {
         let acting = acting_report(&world, &plan, &masses).unwrap();
 
         let arm = contact.point - up;
-        // At rest the force is that of the spring; one end of two has half of it.
+        // At rest the force is that of the spring; each of two ends has half of it.
         let weight = contact.normal_force / (k * contact.depth);
         let [kt, ct] = friction.unwrap_or_default();
         let modes = Modes::new(&case.at(&arm), [kt, kt, weight * k], [ct, ct, weight * c]);

@@ -4,7 +4,7 @@
 use cbindgen::{Builder, DocumentationStyle, EnumConfig, ItemType, Language, RenameRule, Style};
 use std::path::Path;
 
-/// Source files in the order in which a reader of the header should meet them.
+/// Source files in the reading order of the header.
 const FILES: [&str; 30] = [
     "status",
     "abi",

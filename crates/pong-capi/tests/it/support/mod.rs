@@ -1,4 +1,4 @@
-//! Where things are, and running programs.
+//! Paths, and running programs.
 
 pub mod header;
 
@@ -10,12 +10,12 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
 }
 
-/// Where `pong.h` is.
+/// The folder of `pong.h`.
 pub fn include_dir() -> PathBuf {
     root().join("include")
 }
 
-/// Where cargo put the libraries that belong to this test.
+/// The folder of the libraries that cargo built for this test.
 pub fn lib_dir() -> PathBuf {
     std::env::current_exe().unwrap().parent().unwrap().to_owned()
 }
@@ -27,7 +27,7 @@ pub fn out_dir(name: &str) -> PathBuf {
     dir
 }
 
-/// Runs a program that must succeed; what it printed.
+/// Runs a program that must succeed; returns its output.
 pub fn run(command: &mut Command) -> String {
     let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
     let out = String::from_utf8_lossy(&output.stdout).into_owned();

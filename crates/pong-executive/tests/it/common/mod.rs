@@ -1,4 +1,4 @@
-//! What several tests need.
+//! Helpers of several tests.
 
 use pong_engine::{Config, World, WorldBuilder};
 use pong_executive::Simulation;

@@ -1,4 +1,4 @@
-//! What the tests share: an FMU of a scene, unpacked, and the functions of FMI 3.0 as an importer calls them.
+//! Helpers of the tests: an FMU of a scene, unpacked, and the functions of FMI 3.0 as an importer calls them.
 
 #![allow(non_snake_case, reason = "the standard names them")]
 
@@ -17,7 +17,8 @@ pub fn library() -> Vec<u8> {
     std::fs::read(test.with_file_name(LIBRARY_FILE)).unwrap()
 }
 
-/// A rough ball that falls onto a ground, turning, beside an arm that swings; `extra` stands among the fields.
+/// A rough ball that falls, rotating, onto a ground, beside a swinging arm; `extra` is inserted among the
+/// fields.
 pub fn write_scene(folder: &Path, extra: &str) -> PathBuf {
     std::fs::create_dir_all(folder.join("parts")).unwrap();
     let model = |name: &str, surface: &str, primitive: &str| {
@@ -118,7 +119,7 @@ pub const ERROR: c_int = 3;
 
 type Log = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
 
-// What an importer finds in the library; here it is linked in.
+// Functions that an importer loads from the library; here they are linked in.
 unsafe extern "C" {
     fn fmi3InstantiateModelExchange(
         name: *const c_char,
@@ -203,24 +204,24 @@ unsafe extern "C" {
     ) -> c_int;
 }
 
-/// Takes a message; the environment is the list of all.
+/// Logger callback; the environment is the list of all messages.
 unsafe extern "C" fn log(
     environment: *mut c_void,
     status: c_int,
     _category: *const c_char,
     message: *const c_char,
 ) {
-    // SAFETY: the list that the instance was made with; a text that ends with a zero byte.
+    // SAFETY: the list with which the instance was made; a text that ends with a zero byte.
     unsafe {
         let told = &mut *environment.cast::<Vec<(c_int, String)>>();
         told.push((status, CStr::from_ptr(message).to_str().unwrap().to_owned()));
     }
 }
 
-/// An instance as an importer has it. All calls answer the status.
+/// An instance in an importer's hands. All calls return the status.
 pub struct Importer {
     instance: *mut c_void,
-    // The unit holds its address, so it may not move with this struct.
+    // The instance holds its address, so it may not move with this struct.
     #[expect(clippy::box_collection)]
     pub told: Box<Vec<(c_int, String)>>,
     references: BTreeMap<String, u32>,
@@ -237,7 +238,7 @@ impl Drop for Importer {
 // SAFETY of every call below: the instance lives, and the arrays have the lengths that are given.
 impl Importer {
     /// # Errors
-    /// What the logger was told, if there is no instance.
+    /// The logged messages, if there is no instance.
     pub fn new(unit: &Unpacked, is_exchange: bool) -> Result<Self, String> {
         Self::with_token(unit, is_exchange, &unit.token)
     }
@@ -376,12 +377,12 @@ impl Importer {
         unsafe { fmi3EnterContinuousTimeMode(self.instance) }
     }
 
-    /// Whether the event has changed states.
+    /// Updates discrete states; returns true if the event has changed states.
     pub fn update(&mut self) -> bool {
         self.try_update().unwrap_or_else(|_| panic!("{}", self.last()))
     }
 
-    /// Whether the event has changed states, or the status.
+    /// Updates discrete states; returns true if the event has changed states, or the status as the error.
     pub fn try_update(&mut self) -> Result<bool, c_int> {
         let (mut a, mut b, mut c, mut changed, mut d, mut next) = (true, true, true, false, true, 0.0);
         let status = unsafe {
@@ -415,7 +416,7 @@ impl Importer {
         if status == OK { Ok(dx) } else { Err(status) }
     }
 
-    /// Whether an event must follow.
+    /// Completes a step; returns true if an event must follow.
     pub fn completed(&mut self) -> bool {
         let (mut event, mut end) = (false, true);
         let status = unsafe { fmi3CompletedIntegratorStep(self.instance, false, &mut event, &mut end) };
@@ -431,7 +432,7 @@ impl Importer {
             let mut bytes = vec![0; size];
             assert_eq!(fmi3SerializeFMUState(self.instance, state, bytes.as_mut_ptr(), size - 1), ERROR);
             assert_eq!(fmi3SerializeFMUState(self.instance, state, bytes.as_mut_ptr(), size), OK);
-            // Written anew into the same state.
+            // Overwrites the existing state.
             assert_eq!(fmi3GetFMUState(self.instance, &mut state), OK);
             assert_eq!(fmi3FreeFMUState(self.instance, &mut state), OK);
             assert!(state.is_null());

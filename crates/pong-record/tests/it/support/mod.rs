@@ -1,4 +1,4 @@
-//! A world whose bodies come, slide and go, and a folder for its log.
+//! A world with bodies that arrive, slide and leave, and a folder for its log.
 
 use pong_engine::{Config, InterfaceId, ObjectId, PairId, State, World, WorldBuilder};
 use pong_geometry::extension::Extensions;
@@ -31,7 +31,7 @@ pub fn folder(test: &str) -> PathBuf {
     pong_testkit::scratch(env!("CARGO_TARGET_TMPDIR"), test)
 }
 
-/// Model files in `folder/given`, and the world.
+/// Writes model files to `folder/given`, and makes the world.
 pub fn scene(folder: &Path) -> Scene {
     let given = folder.join("given");
     std::fs::create_dir_all(&given).unwrap();
@@ -54,11 +54,12 @@ pub fn scene(folder: &Path) -> Scene {
 }
 
 impl Scene {
-    /// Puts everything where it is at step `n`: the cart sticks, slips and hops, the arm knocks.
+    /// Sets the states of step `n`: the cart sticks, slips and hops, the arm knocks.
     pub fn place(&mut self, n: u32) {
         let t = f64::from(n) * 0.01;
         let mut cart = State::identity();
-        // No unit quaternion to the last bit: what was set must come back, not what it was made into.
+        // Not a unit quaternion to the last bit: the log must have the value that was set, not the normalised
+        // one.
         cart.orientation = [0.9999, 0.0, 0.0141 * (3.0 * t).sin(), 0.0];
         cart.position = [0.003 * (2.0 * t).sin(), 2e-4 * t, 0.099 + 0.003 * (7.0 * t).sin()];
         cart.linear_velocity = [0.006 * (2.0 * t).cos(), 2e-4, 0.021 * (7.0 * t).cos()];
@@ -71,7 +72,7 @@ impl Scene {
         self.world.set_states(&states).unwrap();
     }
 
-    /// A step that the recorder is told of.
+    /// A step reported to the recorder.
     pub fn step(&mut self, recorder: &mut Recorder, n: u32) {
         self.place(n);
         self.world.step().unwrap();
@@ -92,9 +93,9 @@ impl Scene {
     }
 }
 
-/// A disk that takes nothing before it is released: the thread that writes is kept from starting.
+/// A disk that accepts nothing until it is released: the writing thread is kept from starting.
 pub struct HeldDisk {
-    /// Tests that hold the disk take turns.
+    /// Lock, so that tests with a held disk run one at a time.
     _turn: MutexGuard<'static, ()>,
 }
 
@@ -110,7 +111,7 @@ impl HeldDisk {
         Self { _turn: turn }
     }
 
-    /// Of a log on this disk, with the least room for what waits for it.
+    /// Options of a log on this disk, with the smallest buffer.
     pub fn options(&self) -> RecordOptions {
         let wait: fn() = || {
             while IS_HELD.load(Ordering::Acquire) {
@@ -120,7 +121,7 @@ impl HeldDisk {
         RecordOptions { buffer_bytes: Some(0), on_thread_start: Some(wait), ..RecordOptions::default() }
     }
 
-    /// Lets the disk take what waits for it, and waits until it has.
+    /// Lets the disk accept the buffered data, and waits until it has.
     pub fn release(self, recorder: &Recorder) {
         drop(self);
         let begun = Instant::now();

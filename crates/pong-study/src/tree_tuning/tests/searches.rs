@@ -53,7 +53,7 @@ fn a_leaf_of_clusters_far_apart_is_cut() {
     assert_cut(&ready, 512);
 }
 
-/// The same with a thousand triangles, and a ball between them.
+/// A thousand triangles in the same two clusters, and a ball between them.
 #[test]
 fn a_mesh_of_clusters_far_apart_is_cut() {
     let folder = Folder::new("far_triangles");
