@@ -53,7 +53,7 @@ def _bring_models(folder, keys):
 
 
 def compare(program, in_c):
-    """Answers what is wrong, or nothing."""
+    """Returns the differences, or nothing."""
     with tempfile.TemporaryDirectory() as made:
         folder = pathlib.Path(made)
         machine = in_c.machine()

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the step costs a mechanism, and what it is off: its shown scene at its own step and at a part of that.
+"""Cost and error of a mechanism's step: its shown scene at its own step and at a fraction of it.
 
     python3 mechanisms/levels.py NAME               its step and a quarter of it; with the plugin as for mechanisms/run.py
     python3 mechanisms/levels.py NAME --part 0.5    its step and twice that, where the scene is shown at level analysis
@@ -24,7 +24,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 class Timed:
-    """Runs the shown scene with its step divided; keeps the time of each step and the greatest load."""
+    """Runs the shown scene with its step divided; records the time of each step and the largest load."""
 
     def __init__(self, shown, part):
         self.part, self.spent, self.peak, self.machine = part, [], 0.0, None
@@ -45,7 +45,7 @@ class Timed:
         self.machine = machine
         machine.model.opt.timestep /= self.part
         machine.step = machine.model.opt.timestep
-        # The account of energy works within MuJoCo's step.
+        # The energy account works within MuJoCo's step.
         machine.ledger = contextlib.nullcontext()
         machine.watchers.append(self.look)
 

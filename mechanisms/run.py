@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs a mechanism and holds what comes out against what is predicted.
+"""Runs a mechanism and compares its outcome with predictions.
 
     python3 mechanisms/run.py NAME              the short checks
     python3 mechanisms/run.py NAME --thorough   all of them: minutes
@@ -70,7 +70,7 @@ def run_campaign(given, parser):
 
 
 def write_log(outcome, folder, drawn):
-    """Runs the scene that the mechanism shows. The log's own contact world must come to the same wrenches."""
+    """Runs the scene that the mechanism shows. The log's own contact world must give the same wrenches."""
     from kit.record import Recorder
 
     recorders = []

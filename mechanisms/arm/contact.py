@@ -26,7 +26,7 @@ def pressed(made, normal):
 
 
 def press(step):
-    """Pressed with a force, unloaded to less, then driven by a rate: what the law must come to with its dead band."""
+    """Response to a pressing force, its reduction, and a commanded rate, compared with the law and its dead band."""
     law = Law()
     made, arm, normal = rig.machine(step)
     commanded(arm, normal, PUSH)
@@ -51,7 +51,7 @@ def press(step):
 
 
 def again(made, arm, middle, remembered, first):
-    """From the middle of the run, twice."""
+    """Two runs from the middle of the run, for comparison."""
     ends = []
     for _ in range(2):
         made.restore(middle)
@@ -69,7 +69,7 @@ def halved(step, normal, first):
 
 
 def limits():
-    """Free motion that is commanded too fast: the tip goes straight, and no faster than the law or a joint allows."""
+    """Free motion commanded too fast: the tip moves straight, and no faster than the law or a joint allows."""
     made, arm, normal = rig.machine(step=4e-3, gap=5.0)
     along = np.array([0.6, 0.0, 0.8])
     # At full speed of a joint the servos lag behind a Jacobian that changes.
@@ -89,7 +89,7 @@ def limits():
 
 
 def trips():
-    """Pressed by its operator beyond the force at which it trips: brakes on, until the next command."""
+    """Pressed by its operator beyond the trip force: brakes on, until the next command."""
     made, arm, normal = rig.machine(law=Law(trip=200.0))
     commanded(arm, normal, PUSH)
     made.run(4.0, arm.control, lambda m: arm.state.mode == "tripped")
@@ -105,7 +105,8 @@ def trips():
 
 
 def margins(stiffnesses):
-    """Contact dies away below the admittance that the linearised arm gives, and grows above, as fast as it says."""
+    """Contact oscillations decay below the admittance limit of the linearised arm, and grow above it, at the predicted
+    rate."""
     for stiffness in stiffnesses:
         law = Law(admittance=1e-4, band=0.0, band_turn=1e9)
         made, arm, normal = rig.machine(stiffness=stiffness, law=law)
@@ -129,7 +130,7 @@ def margins(stiffnesses):
 
 
 def _swing(made, arm, normal, factor, root, critical):
-    """Over whole oscillations of the mode that loses its stability; below the limit other modes die away as well."""
+    """Growth over whole oscillations of the mode that loses stability; below the limit the other modes decay as well."""
     turn = 2 * np.pi / abs(np.angle(root if factor > 1.0 else critical)) * arm.law.period
     grown = growth(made, arm, normal, turn)
     what = f"{factor:g} of the limit: growth in one oscillation of {turn:.3f} s"
@@ -139,7 +140,7 @@ def _swing(made, arm, normal, factor, root, critical):
 
 
 def growth(made, arm, normal, turn):
-    """How the swing of the force changes over whole oscillations, once the other modes have died away."""
+    """Growth of the force's oscillation over whole periods, once the other modes have decayed."""
     made.run(2.0, arm.control)
     swings = []
     for _ in range(3):

@@ -1,4 +1,4 @@
-"""Of the tool and the pad that the arm is checked with; the arm itself: kit/arm/dimensions.py. All is chosen."""
+"""Dimensions of the tool and the pad for the arm's checks; the arm itself: kit/arm/dimensions.py. All are chosen."""
 
 TOOL_RADIUS = 0.05  # m
 PAD_STIFFNESS = 2e4  # N/m: a berthing interface with soft guides

@@ -13,7 +13,7 @@ from kit.arm import kinematics
 
 
 def exponential(matrix):
-    """Of a square matrix, by its series, scaled and squared."""
+    """Exponential of a square matrix, by scaling and squaring of its series."""
     squarings = max(0, int(np.ceil(np.log2(max(1e-12, np.abs(matrix).sum(axis=1).max())))) + 4)
     scaled, total = matrix / 2.0**squarings, np.eye(len(matrix))
     term = total
@@ -26,7 +26,7 @@ def exponential(matrix):
 
 
 class Linear:
-    """An arm in a posture that presses along `normal` (world) on a spring and damper, with dead band passed."""
+    """An arm in a posture that presses along `normal` (world) on a spring and damper, with the dead band exceeded."""
 
     def __init__(self, made, controller, normal, stiffness, damping):
         self.law, self.step = controller.law, made.step
@@ -39,7 +39,7 @@ class Linear:
         self.moved, self.pushed = self._arm()
 
     def _arm(self):
-        """One step of motors and links for a torque of the motors that is held: x = (motor, link, their speeds)."""
+        """One step of motors and links under a constant motor torque: x = (motor, link, their speeds)."""
         gear, loss = np.diag(d.GEAR_STIFFNESS), np.diag(d.GEAR_DAMPING)
         pad = np.outer(self.along, self.along)
         stiff = np.block([[gear, -gear], [-gear, gear + self.spring[0] * pad]])
@@ -50,7 +50,7 @@ class Linear:
         whole[:14, 14:28] = np.eye(14)
         whole[14:28, :28] = -back @ np.hstack([stiff, damp])
         whole[14:28, 28:] = back[:, :7]
-        # What the sensor feels: the spring and damper, less the inertia of the tip, which acts across as well.
+        # Sensor force: spring and damper, less the inertia of the tip, which acts sideways as well.
         self.felt = -d.TIP_MASS * self.jacobian[:3] @ whole[21:28, :28]
         self.felt[:, 7:14] -= self.spring[0] * np.outer(self.normal, self.along)
         self.felt[:, 21:28] -= self.spring[1] * np.outer(self.normal, self.along)
@@ -62,19 +62,19 @@ class Linear:
 
         The state: x, how far the aim has gone in three directions, the filtered force.
         """
-        # Rates of the joints for one newton in each direction.
+        # Joint rates for one newton in each direction.
         ways = np.stack([kinematics.resolve(self.jacobian, rates, self.law.damping) for rates in np.eye(6)[:3]]).T
         share = 1.0 - np.exp(-self.law.period / self.law.filter)
         law = np.eye(34)
         law[31:, :28], law[31:, 31:] = share * self.felt, (1.0 - share) * np.eye(3)
         steps = round(self.law.period / self.step)
         roots = np.linalg.eigvals(np.linalg.matrix_power(self._servo(admittance * ways), steps) @ law)
-        # Where the tip stands across does not matter to anything: two eigenvalues are one.
+        # The tip's sideways position affects nothing: two eigenvalues are one.
         roots = roots[np.abs(roots - 1.0) > 1e-6]
         return roots[np.abs(roots).argmax()]
 
     def _servo(self, ways):
-        """One step of servos and arm."""
+        """Matrix of one step of servos and arm."""
         matrix = np.eye(34)
         matrix[28:31, 31:] = self.step * np.eye(3)
         torque = np.zeros((7, 34))
@@ -86,7 +86,7 @@ class Linear:
         return matrix
 
     def limit(self):
-        """The admittance at which contact stops being stable, by bisection."""
+        """Admittance at the limit of stable contact, by bisection."""
         low, high = 1e-6, 1e-1
         for _ in range(60):
             middle = np.sqrt(low * high)

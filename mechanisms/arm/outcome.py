@@ -1,4 +1,4 @@
-"""What the arm must come to. Run by mechanisms/run.py."""
+"""Outcomes of the arm and their predictions. Run by mechanisms/run.py."""
 
 import itertools
 
@@ -10,20 +10,20 @@ from kit.arm import kinematics
 from kit.arm import dimensions as d
 from kit.rows import Limit, Row
 
-# N and N·m on the tip, such that each joint has its part: near to ±100 N·m on each.
+# N and N·m on the tip, chosen so that every joint carries a share: about ±100 N·m each.
 LOAD = np.linalg.lstsq(
     kinematics.jacobian(d.READY, *rig.BASE).T, 100.0 * np.array([1.0, -1.0, 1.0, 1.0, -1.0, 1.0, 1.0]), rcond=None
 )[0]
 
 
 def smooth(share):
-    """From 0 to 1 without a jump of acceleration."""
+    """Smooth step from 0 to 1 with continuous acceleration."""
     share = min(1.0, max(0.0, share))
     return share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
 
 
 def kinematic():
-    """MuJoCo's tip and Jacobian against products of rotations; inverse kinematics comes back."""
+    """MuJoCo's tip and Jacobian compared with products of rotations; round trip of the inverse kinematics."""
     made, arm, _ = rig.machine()
     random = np.random.default_rng(1)
     tip, off, slope, back = made.model.body("tip").id, 0.0, 0.0, 0.0
@@ -45,7 +45,7 @@ def kinematic():
 
 
 def comes_back(random):
-    """From the ready posture to a place up to a few metres away."""
+    """Inverse kinematics from the ready posture to a pose up to a few metres away."""
     wanted = np.array(d.READY) + random.uniform(-0.3, 0.3, 7)
     _, _, place, attitude = kinematics.forward(wanted)
     found = kinematics.reach(d.READY, place, attitude)
@@ -62,7 +62,7 @@ def stretched():
 
 
 def stiffness():
-    """The tip under a load with all brakes on: what it gives way is J·K⁻¹·Jᵀ·w."""
+    """Deflection of the tip under a load with all brakes on: J·K⁻¹·Jᵀ·w."""
     made, arm, _ = rig.machine(step=4e-3, gap=1.0)
     tip = made.model.body("tip").id
     place, attitude = made.place("tip"), made.data.xmat[tip].reshape(3, 3).copy()
@@ -95,7 +95,7 @@ def turned(six):
 
 
 def stall(joint=2):
-    """One motor drives the ball into the pad until it stands; the others are braked."""
+    """One motor drives the ball into the pad until it stalls; the others are braked."""
     made, arm, normal = rig.machine(step=4e-3)
     rates = np.zeros(7)
     rates[joint] = -0.0015 * np.sign(normal @ arm.jacobian()[:3, joint])
@@ -164,7 +164,7 @@ DRAWN = ("base", "link_*", "tip")  # bodies that logs and films show beside what
 
 
 def shown(prepare):
-    """For logs and films: the arm presses on the pad, then with half the force, and moves away."""
+    """Run for logs and films: the arm presses on the pad, then with half the force, and retreats."""
     made, arm, normal = rig.machine(gap=0.25)
     prepare(made)
     commanded(arm, normal, 300.0)

@@ -17,26 +17,26 @@ TRAINING, ANALYSIS = 1e-3, 2.5e-4  # s
 
 
 def model_text(name, stiffness=PAD_STIFFNESS):
-    """A model file on one line, as the plugin wants it, with another stiffness of the pad on request."""
+    """A model file on one line, as the plugin requires, optionally with another stiffness of the pad."""
     lines = (HERE / f"{name}.ron").read_text(encoding="utf-8").splitlines()
     text = " ".join(line.strip() for line in lines if not line.lstrip().startswith("//"))
     return text if name != "pad" else re.sub(r"stiffness: [0-9.e]+", f"stiffness: {float(stiffness)!r}", text)
 
 
 def standing(posture=READY):
-    """Place and attitude of the tip in a posture."""
+    """Position and attitude of the tip in a posture."""
     return kinematics.forward(posture, *BASE)[2:]
 
 
 def pad_pose(posture=READY, gap=0.002, tilt=0.3):
-    """Where the pad's face stands and how: before the ball, leaning against the direction of the tool."""
+    """Pose of the pad's face: in front of the ball, tilted against the direction of the tool."""
     place, attitude = standing(posture)
     turned = attitude @ kinematics.rotation(np.array([0.6, 0.8, 0.0]), tilt)
     return place - (TOOL_RADIUS + gap) * turned[:, 2], turned
 
 
 def machine(step=TRAINING, stiffness=PAD_STIFFNESS, gap=0.002, law=Law(), posture=READY, integrator="RK4"):
-    """Answers the machine, its arm in that posture at rest with brakes on, and the normal of the pad."""
+    """Returns the machine, its arm in that posture at rest with brakes on, and the normal of the pad."""
     arm = body(place=BASE[0], quaternion=kinematics.quaternion(BASE[1]), payload=_ball())
     where, turned = pad_pose(posture, gap)
     pad = (

@@ -1,4 +1,4 @@
-"""What holds the module: a spring and a damper in six axes at the grapple point, toward a pose that is commanded.
+"""Holder of the module: a six-axis spring and damper at the grapple point, toward a commanded pose.
 
 Replaceable: whoever brings a real arm gives these three pieces of MJCF and a function with the meaning of `command`.
 """
@@ -13,7 +13,7 @@ AXES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
 def in_world():
-    """Where the grapple point is when the module sits in its place."""
+    """Site of the grapple point in the berthed module."""
     return f'<site name="arm" pos="{mjcf.numbers(common.GRAPPLE)}"/>'
 
 
@@ -22,7 +22,7 @@ def on_module():
 
 
 def actuators():
-    """Controls are the wanted pose of the grapple point, m and rad, relative to its place in the berthed module."""
+    """Controls are the commanded pose of the grapple point, m and rad, relative to its pose in the berthed module."""
     return "".join(
         f'<general name="arm_{name}" site="grapple" refsite="arm" group="{GROUP}" gear="{_axis(i)}" gaintype="fixed" '
         f'gainprm="{k:.12g}" biastype="affine" biasprm="0 {-k:.12g} {-c:.12g}"/>'

@@ -19,7 +19,7 @@ LATCHES = range(seq.LATCHES)
 
 @dataclass(frozen=True)
 class Case:
-    """How the module comes, and what fails."""
+    """Approach of the module, and failures."""
 
     level: Level = TRAINING
     offset: tuple = (0.020, -0.015)  # of the passive ring, m
@@ -44,7 +44,7 @@ class Berthing(Machine):
         self.start()
 
     def told(self):
-        """What the sequencer is told; a dead indicator tells nothing."""
+        """Sensor values for the sequencer; a dead indicator reports nothing."""
         dead = self.case.dead_indicator
         stroke = [0.0 if i == dead else self.joint(f"plunger_{i}") for i in LATCHES]
         turn = [0.0 if i == dead else self.joint(f"paddle_{i}") for i in LATCHES]
@@ -64,7 +64,7 @@ class Berthing(Machine):
         self._watch(sensed)
 
     def _watch(self, sensed):
-        """The loops stay closed; no latch moves before it may."""
+        """Checks that the loops stay closed and no latch moves too early."""
         followers = [self.joint(f"follower_{i}") for i in LATCHES]
         self.off_loop = max(self.off_loop, *(abs(linkage.freudenstein(*p)) for p in zip(sensed.crank, followers)))
         if self.sequencer.phase == seq.APPROACH:
@@ -72,7 +72,7 @@ class Berthing(Machine):
             self.moved_early = max(self.moved_early, moved)
 
     def until(self, phase, seconds=60.0):
-        """Runs until a phase has begun; answers whether it has."""
+        """Runs until a phase has begun; returns whether it has."""
         return self.run(seconds, self.control, lambda m: m.sequencer.phase >= phase)
 
     def phase(self):
@@ -87,12 +87,12 @@ class Berthing(Machine):
         return 2.0 * np.array(v) * np.sign(w)
 
     def roller_force(self, i):
-        """On the roller of a latch, along z."""
+        """Force on the roller of a latch along z, N."""
         return float(self.wrench(f"coupler_{i}")[2])
 
 
 def same_bits_after_restart(case, before, after):
-    """Runs for `before` s, then for `after` s; goes back in another machine, and compares the bits of both ends."""
+    """Runs for `before` s, then for `after` s, repeats the latter in another machine, and compares the bits of both ends."""
     first = Berthing(case)
     first.run(before, first.control)
     middle, sequencer = first.save(), copy.deepcopy(first.sequencer)
@@ -105,7 +105,7 @@ def same_bits_after_restart(case, before, after):
 
 
 def without_friction(root):
-    """Copies the contact models below a folder, with μ = 0 everywhere; answers the folder that takes the place of ours."""
+    """Copies the contact models below a folder, with μ = 0 everywhere; returns the folder that replaces ours."""
     for folder in (mechanism.HERE, mechanism.d.COMMON):
         copied = root / folder.relative_to(mechanism.HERE.parent.parent)
         copied.mkdir(parents=True)

@@ -15,7 +15,7 @@ from kit.files import module_of  # noqa: E402
 
 
 def _own(name):
-    """A file of this folder, under a name of its own: the models' scripts have one called `dimensions` as well."""
+    """A file of this folder, imported under a unique name: the models' scripts have one called `dimensions` as well."""
     return module_of(HERE / f"{name}.py", f"berthing_{name}")
 
 
@@ -33,7 +33,7 @@ common = d.common
 
 
 def surfaces_of_active():
-    """Those of the models; standoffs lose little, and a roller passes on only what its bearing holds back."""
+    """Surfaces of the models; standoffs have little loss, and a roller transmits only the friction of its bearing."""
     of_standoff = common_build.rough(
         common.STANDOFF_STIFFNESS, d.STANDOFF_DAMPING, common.STANDOFF_FRICTION, common.STANDOFF_STICKING
     )
@@ -41,14 +41,14 @@ def surfaces_of_active():
 
 
 def duckhead():
-    """The bill of a bumper: round, across the fin that it meets."""
+    """Bill of a bumper: round, across the fin that it meets."""
     x = common.RING_INNER - common.BUMPER_CLEARANCE - common.BUMPER_RADIUS
     ends = [(x, side * d.BILL_HALF_WIDTH, common.BUMPER_Z) for side in (-1, 1)]
     return a.capsule("bill", *ends, common.BUMPER_RADIUS)
 
 
 def stowed(azimuth_deg):
-    """Place and attitude of a coupler, which carries the roller, when its latch is stowed."""
+    """Pose of a coupler, which carries the roller, when its latch is stowed."""
     pose = linkage.pose(d.STOWED)
     radius = d.CRANK_PIVOT[0] + d.CRANK * math.cos(pose.crank)
     z = d.CRANK_PIVOT[1] + d.CRANK * math.sin(pose.crank)
@@ -57,7 +57,7 @@ def stowed(azimuth_deg):
 
 
 def latch(i, azimuth_deg):
-    """The coupler of a linkage, from its pin on the crank; only its roller touches anything."""
+    """Coupler of a linkage, from its pin on the crank; only its roller makes contact."""
     along, across = d.ROLLER_AT
     ends = [(along, side * d.ROLLER_HALF_WIDTH, across) for side in (-1, 1)]
     position, orientation = stowed(azimuth_deg)
@@ -84,14 +84,15 @@ def active():
 
 
 def plunger():
-    """Slides on a spring of the host; the frame is at its tip."""
+    """A plunger on a spring of the host; the frame is at its tip."""
     tip = a.sphere("tip", (0.0, 0.0, -d.PLUNGER_TIP_RADIUS), d.PLUNGER_TIP_RADIUS)
     place = (common.PLUNGER_RADIUS, 0.0, common.PLUNGER_TIP_Z)
     return a.group("plunger", primitives=[tip], surface="tip", movable=True, position=place)
 
 
 def indicator():
-    """One of four, at azimuth 0. Without friction: the paddle's edge rolls, and the plunger points at what it meets."""
+    """One of four indicators, at azimuth 0. Without friction: the paddle's edge rolls, and the plunger points at its
+    target."""
     surfaces = {
         "paddle": a.surface(common.PADDLE_STIFFNESS, a.linear(common.PADDLE_DAMPING, ramp=common.DAMPING_RAMP)),
         "tip": a.surface(d.TIP_STIFFNESS, a.linear(d.TIP_DAMPING, ramp=common.DAMPING_RAMP)),

@@ -63,7 +63,7 @@ PUSHED_GAP = 0.030  # to which the arm is commanded; the guides stop the module 
 
 @dataclass(frozen=True)
 class Level:
-    """How finely the machine is computed.
+    """Numerical resolution of the machine.
 
     `armature`: of the pins of coupler and follower, kg·m². It slows what the stiff closure of the loop has to hold.
     `closure`: time constant of that closure, s; MuJoCo wants two steps at least.

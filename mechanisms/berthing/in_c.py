@@ -1,4 +1,4 @@
-"""What hosts/mujoco/realtime/berthing.c is told: a berthing and unberthing at level training, its sequence as numbers."""
+"""Input of hosts/mujoco/realtime/berthing.c: a berthing and unberthing at level training, with its sequence as numbers."""
 
 import arm
 import berth
@@ -41,7 +41,7 @@ def rows(_):
 
 
 def _pressed():
-    """How far the latches press the rings together; friction of the rollers takes a share of what they pull with."""
+    """Compression of the rings by the latches; friction of the rollers takes a share of the pull."""
     gap = statics.rest()[0]
     least = statics.latch(gap, 1.0, d.ROLLER_FRICTION) / statics.latch(gap, 1.0)
     yield ["pressed_gap", gap]
@@ -49,6 +49,6 @@ def _pressed():
 
 
 def run(made):
-    """The same run in Python."""
+    """Runs the same case in Python."""
     while made.sequencer.phase < seq.AWAY or made.time - made.sequencer.since <= AWAY_FOR:
         made.hurry(made.control)

@@ -8,7 +8,7 @@ from dimensions import COUPLER, CRANK, CRANK_PIVOT, FOLLOWER, FOLLOWER_PIVOT, RO
 
 @dataclass(frozen=True)
 class Pose:
-    """Angles of the links and their speeds for one rad/s of the crank; place of the roller and its speed likewise."""
+    """Angles of the links and their rates per rad/s of the crank; position of the roller and its rate likewise."""
 
     crank: float
     coupler: float
@@ -28,7 +28,7 @@ def _add(*vectors):
 
 
 def pose(crank):
-    """Where a crank of this angle puts the other links: triangle of crank pin, joint and follower pivot."""
+    """Pose of the other links for a crank angle: triangle of crank pin, joint and follower pivot."""
     pin = _add(CRANK_PIVOT, _toward(crank, CRANK))
     across = (FOLLOWER_PIVOT[0] - pin[0], FOLLOWER_PIVOT[1] - pin[1])
     distance = math.hypot(*across)
@@ -45,7 +45,7 @@ def pose(crank):
 
 
 def freudenstein(crank, follower):
-    """What is left of Freudenstein's equation K1·cos φ − K2·cos θ + K3 = cos(θ − φ); angles from the fixed link."""
+    """Residual of Freudenstein's equation K1·cos φ − K2·cos θ + K3 = cos(θ − φ); angles from the fixed link."""
     fixed = (FOLLOWER_PIVOT[0] - CRANK_PIVOT[0], FOLLOWER_PIVOT[1] - CRANK_PIVOT[1])
     length, turned = math.hypot(*fixed), math.atan2(fixed[1], fixed[0])
     theta, phi = crank - turned, follower - turned
@@ -55,7 +55,7 @@ def freudenstein(crank, follower):
 
 
 def crank_at(z, low, high):
-    """The angle of the crank, between two of which the roller comes down, at which it stands at a height."""
+    """Angle of the crank for a height of the roller, which descends between the two given angles."""
     for _ in range(60):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if pose(middle).roller[1] > z else (low, middle)

@@ -1,4 +1,4 @@
-"""The berthing mechanism as MJCF: four driven four-bar latches, four indicators, the module and what holds it.
+"""The berthing mechanism as MJCF: four driven four-bar latches, four indicators, the module and its holder.
 
 `training_mjcf()` gives the text of level training without running it, for hosts in other languages.
 """
@@ -21,7 +21,7 @@ STEEL, BRASS, BLUE = "0.55 0.57 0.6 1", "0.75 0.6 0.3 1", "0.3 0.45 0.65 1"
 
 @dataclass(frozen=True)
 class Load:
-    """What berths: mass, inertia about its centre along its axes, place of the centre in the passive frame."""
+    """The berthed body: mass, inertia about its centre along its axes, position of the centre in the passive frame."""
 
     mass: float = common.MODULE_MASS
     inertia: tuple = common.MODULE_INERTIA
@@ -30,7 +30,7 @@ class Load:
 
 @dataclass(frozen=True)
 class Start:
-    """Where the passive frame is at first: x and y, rotation vector, gap; and its speed inwards."""
+    """Initial pose of the passive frame: x and y, rotation vector, gap; and its closing speed."""
 
     offset: tuple = (0.0, 0.0)
     turn: tuple = (0.0, 0.0, 0.0)
@@ -52,12 +52,12 @@ class Scene:
 
 
 def about_y(angle):
-    """Raises x toward z."""
+    """Rotation about y that raises x toward z."""
     return mjcf.numbers((math.cos(angle / 2), 0.0, -math.sin(angle / 2), 0.0))
 
 
 def link(name, length, mass, place, angle, armature, more="", limits=""):
-    """A bar along x from its pin, at the angle of its joint above x of what carries it."""
+    """A bar along x from its pin, at its joint's angle above x of the parent."""
     rod = (1e-4, mass * length**2 / 12, mass * length**2 / 12)
     return (
         f'<body name="{name}" pos="{mjcf.numbers(place)}" quat="{about_y(angle)}">'
@@ -132,7 +132,7 @@ def module(scene):
 
 
 def station(scene):
-    """The active half: part of the world, or a ring that flies freely."""
+    """The active half: part of the world, or a free-flying ring."""
     inside = "".join(quadrant(i, scene.level) for i in LATCHES)
     if scene.station is None:
         return inside
@@ -145,7 +145,7 @@ def station(scene):
 
 
 def drawn_pedestals():
-    """Shown only: what carries the pivots."""
+    """Visual geoms of the pivots' pedestals."""
     return "".join(
         f'<geom type="capsule" fromto="{x} {y} {DECK} {x} {y} {z}" size="0.007" rgba="0.3 0.3 0.32 1"/>'
         for x, z in (d.CRANK_PIVOT, d.FOLLOWER_PIVOT, (common.HINGE[0], common.HINGE[2]))
@@ -154,7 +154,7 @@ def drawn_pedestals():
 
 
 def drawn_passive():
-    """Shown only."""
+    """Visual geoms of the passive half."""
     fittings = []
     for azimuth in common.LATCH_AZIMUTHS:
         place = common.radial((common.FITTING_INNER + common.FITTING_OUTER) / 2, azimuth, -0.0175)
@@ -171,7 +171,7 @@ PAIRS = [(name, "passive") for name in OBJECTS if name != "passive"]
 
 
 def carried(scene):
-    """Which body carries which movable group, in the order of the sensor."""
+    """Carrier body of each movable group, in the order of the sensor."""
     base = "world" if scene.station is None else "station"
     bodies = {
         "active": base,

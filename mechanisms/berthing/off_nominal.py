@@ -1,4 +1,4 @@
-"""What happens when something fails, and how a module leaves again."""
+"""Failures during a berthing, and the departure of a module."""
 
 import math
 
@@ -23,7 +23,7 @@ ALIGNED = {"offset": (0.0, 0.0), "turn": (0.0, 0.0, 0.0), "gap": 0.075}
 
 
 def mean_tilt(machine, seconds):
-    """Toward the side of the latch that does not pull, rad, over a while: positive if that side stands higher."""
+    """Mean tilt toward the side of the latch that does not pull, rad: positive if that side is higher."""
     tilts = []
     machine.run(seconds, machine.control, lambda m: tilts.append(m.tilt()) and False)
     about_x, about_y, _ = np.mean(tilts, axis=0)
@@ -36,7 +36,7 @@ def predicted_tilt(share, start):
 
 
 def dead_indicator(seconds=5.5):
-    """The nominal case is ready after 4.4 s; this one waits for the rest of its time."""
+    """The nominal case is ready after 4.4 s; this one waits until the timeout."""
     machine = berth.Berthing(berth.Case(dead_indicator=2))
     machine.run(seconds, machine.control)
     told = machine.told()
@@ -56,7 +56,7 @@ def stalled_latch(load, name, folder, until_stops=True):
     machine = berth.Berthing(case)
     machine.until(seq.LIMP)
     if bare:
-        # Before the current rises: the arm is limp, three latches hold against the standoffs.
+        # Before the current rises: the arm is limp, and three latches hold against the standoffs.
         machine.run(0.8, machine.control)
         tilt = mean_tilt(machine, 0.15)
         yield Row(f"{name}: tilt on the standoffs", tilt, predicted_tilt(d.CAPTURE_SHARE, 0.015), 0.01, "rad")
@@ -76,7 +76,7 @@ def stalled_latch(load, name, folder, until_stops=True):
 
 
 def unberthing(level):
-    """From the approach to the departure."""
+    """Run from the approach to the departure."""
     machine = berth.Berthing(berth.Case(level=level, unberth=True))
     machine.until(seq.AWAY)
     yield Fact(

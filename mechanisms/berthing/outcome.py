@@ -1,4 +1,5 @@
-"""What the berthing mechanism must come to. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
+"""Outcomes of the berthing mechanism and their predictions. Run by mechanisms/run.py: `rows(thorough)` yields (title,
+rows)."""
 
 import pathlib
 import tempfile
@@ -40,7 +41,7 @@ class Seen:
 
 
 def berthed(case, after=0.0):
-    """Until the latches have stalled; then a while longer. Answers the machine and the mean forces."""
+    """Runs until the latches have stalled, then for `after` s. Returns the machine and the mean forces."""
     machine, seen = berth.Berthing(case), Seen()
     machine.until(seq.HOLD)
     machine.run(after, machine.control)
@@ -57,7 +58,7 @@ def order(machine):
 
 
 def held(forces, friction):
-    """Against springs and linkage alone; friction of the rollers takes a share of what the motors give."""
+    """Forces compared with springs and linkage; friction of the rollers takes a share of the motors' torque."""
     supports, latches, plungers, paddles, _ = forces
     z = statics.rest()[0]
     full = 4 * statics.latch(z, 1.0)
@@ -79,7 +80,7 @@ def held(forces, friction):
 
 
 def rested():
-    """When the module rocks no more."""
+    """Forces once the module has stopped rocking."""
     _, forces = berthed(berth.Case(), RESTED)
     yield from held(forces, ROLLER_FRICTION)
     yield Row("the rings are pressed together by", -forces[-1] * 1e6, -statics.rest()[0] * 1e6, 0.03, "µm")
@@ -108,7 +109,7 @@ def restarts(moments):
 
 
 def cost():
-    """Of a step alone, without the account of energy."""
+    """Cost of a step alone, without the energy account."""
     import mujoco
 
     machine, spent = berth.Berthing(berth.Case()), []
@@ -123,7 +124,7 @@ def cost():
 
 
 def halved(level):
-    """The same berthing at half the step."""
+    """A berthing at its step and at half of it."""
     finer = Level(f"{level.name}, half the step", level.step / 2, level.armature, level.closure)
     (whole, forces), (half, others) = berthed(berth.Case(level=level)), berthed(berth.Case(level=finer))
     yield from honest(whole)
@@ -153,7 +154,7 @@ DRAWN = ("world", "crank_*", "coupler_*", "follower_*")  # bodies that logs and 
 
 
 def shown(prepare):
-    """For logs and films: `prepare` sees the machine before it moves."""
+    """Run for logs and films: `prepare` receives the machine before it moves."""
     machine = berth.Berthing(berth.Case(unberth=True))
     prepare(machine)
     machine.until(seq.AWAY)

@@ -36,7 +36,7 @@ WAITED = 8.0  # s that an approach by the arm may take
 
 
 def measured(offset, tilt):
-    """The gap at which all are ready, and the gap at which a guide is touched first; None where that never is so."""
+    """Gap at which all indicators are ready, and gap of the first contact with a guide; None if there is none."""
     start = mechanism.Start((offset, 0.0), (0.0, tilt, 0.0), HIGH)
     scene = mechanism.Scene(TRAINING, IMMOVABLE, start)
     machine = Machine(mechanism.text(scene), mechanism.carried(scene).values())
@@ -63,13 +63,13 @@ def ready(machine):
 
 
 def predicted(offset, tilt):
-    """The same gap without any dynamics, or None."""
+    """Predicted gap from geometry alone, or None."""
     gaps = [f(azimuth, offset, tilt) for azimuth in common.LATCH_AZIMUTHS for f in (plunger_gap, paddle_gap)]
     return None if None in gaps or min(gaps) < LOW else min(gaps)
 
 
 def plunger_gap(azimuth, offset, tilt):
-    """At which a plunger is pushed in as far as it must be; its round tip is pressed in by 1 % of that."""
+    """Gap at which a plunger reaches its required stroke; its round tip is compressed by 1 % of that."""
     x, y, _ = common.radial(common.PLUNGER_RADIUS, azimuth)
     pushed = d.READY_STROKE * (1.0 + d.PLUNGER_SPRING / d.TIP_STIFFNESS)
     z = common.PLUNGER_TIP_Z - pushed + d.PLUNGER_TIP_RADIUS * (1.0 / math.cos(tilt) - 1.0)
@@ -79,12 +79,13 @@ def plunger_gap(azimuth, offset, tilt):
     )
     if beyond >= d.PLUNGER_TIP_RADIUS:
         return None
-    # Past the rim, the round tip touches the edge beside its top.
+    # Past the edge, the round tip touches the edge beside its top.
     return gap - d.PLUNGER_TIP_RADIUS + math.sqrt(d.PLUNGER_TIP_RADIUS**2 - beyond**2)
 
 
 def paddle_gap(azimuth, offset, tilt):
-    """At which the edge of a paddle has been turned so far: one of its ends meets the face, and did where it stood free."""
+    """Gap at which the edge of a paddle reaches its required angle: one of its ends meets the face, as it did in its
+    free position."""
     raised, turned, reached = math.radians(common.PADDLE_DEG), math.radians(azimuth), []
     for side in (-common.PADDLE_HALF_WIDTH, common.PADDLE_HALF_WIDTH):
         free, last = (edge(turned, side, angle) for angle in (raised, raised - d.READY_TURN))
@@ -94,7 +95,7 @@ def paddle_gap(azimuth, offset, tilt):
 
 
 def edge(turned, side, raised):
-    """Where an end of a paddle's edge is."""
+    """Position of an end of a paddle's edge."""
     radius = common.HINGE[0] + common.PADDLE_LENGTH * math.cos(raised)
     x, y = radius * math.cos(turned) - side * math.sin(turned), radius * math.sin(turned) + side * math.cos(turned)
     return x, y, common.HINGE[2] + common.PADDLE_LENGTH * math.sin(raised)
@@ -106,7 +107,7 @@ def covered(place, azimuth, offset, tilt):
 
 
 def at_face(place, azimuth, offset, tilt):
-    """The gap at which the plane of the undersides passes a place; where that is in the frame of a fitting."""
+    """Gap at which the plane of the undersides passes a point, if that is in the frame of a fitting."""
     x, y, z = place[0] - offset, place[1], place[2]
     sine, cosine = math.sin(tilt), math.cos(tilt)
     gap = z + (sine * x - common.FITTING_BOTTOM) / cosine
@@ -119,7 +120,7 @@ def at_face(place, azimuth, offset, tilt):
 
 
 def approached(offset, tilt):
-    """Whether the arm, which gives way to the guides, makes all four ready from an offset and a tilt."""
+    """True if the arm, which yields to the guides, makes all four ready from an offset and a tilt."""
     machine = berth.Berthing(berth.Case(offset=(offset, 0.0), turn=(0.0, tilt, 0.0)))
     while machine.time < WAITED and machine.sequencer.phase == seq.APPROACH:
         machine.control()

@@ -1,4 +1,4 @@
-"""A duckhead bumper alone: a module that comes in off-centre meets it before the guides, and it pushes back as a spring."""
+"""A single duckhead bumper: an off-centre module meets it before the guides, and it pushes back as a spring."""
 
 import math
 
@@ -16,14 +16,14 @@ AZIMUTH = math.radians(common.GUIDE_AZIMUTHS[0])
 
 
 def play():
-    """What the guides leave free at this gap, m."""
+    """Lateral clearance of the guides at this gap, m."""
     return common.GUIDE_CLEARANCE + (GAP - common.FIN_STRAIGHT - common.POST_THROAT) * math.tan(
         math.radians(common.FLARE_DEG)
     )
 
 
 def depth():
-    """Of the bill in the inner face of the fin, which leans outwards below its straight part."""
+    """Depth of the bill in the inner face of the fin, which leans outwards below its straight part."""
     slope = common.FIN_LEAN / (common.FIN_HEIGHT - common.FIN_STRAIGHT)
     below = -common.FIN_STRAIGHT - (common.BUMPER_Z - GAP)
     axis = common.RING_INNER - common.BUMPER_CLEARANCE - common.BUMPER_RADIUS
@@ -45,6 +45,6 @@ def rows():
         1e-6,
         "N",
     )
-    # The face leans outwards as it goes down: it is pushed out and up, the bumper in and down.
+    # The face leans outwards on its way down: it is pushed out and up, the bumper in and down.
     outward = float(force[0] * math.cos(AZIMUTH) + force[1] * math.sin(AZIMUTH))
     yield Row("its share across the axis", outward, spring / math.hypot(1.0, slope), 1e-6, "N")

@@ -1,4 +1,4 @@
-"""Latches by themselves: the linkage over its whole stroke, what the motor's power becomes, what a stalled motor holds.
+"""Latches alone: the linkage over its whole stroke, the flow of the motor's power, the holding force of a stalled motor.
 
 The module slides along z and does nothing else. In the free stroke it is out of reach.
 """
@@ -32,7 +32,7 @@ def drive(machine):
 
 
 class Loop:
-    """Watches how far off the closed form the linkages are."""
+    """Records the deviation of the linkages from the closed form."""
 
     def __init__(self):
         self.equation, self.pin, self.roller = 0.0, 0.0, 0.0
@@ -51,7 +51,7 @@ class Loop:
 
 
 def free_stroke(level):
-    """From stowed to closed, and back to stowed."""
+    """Full stroke from stowed to closed and back."""
     machine, loop = rig(level, 0.5), Loop()
     machine.watchers.append(loop)
     machine.run(12.0, drive, lambda m: m.joint("crank_0") > CLOSED)
@@ -66,7 +66,7 @@ def back(machine):
 
 
 def energy_of_latches(machine):
-    """Of motion, J."""
+    """Kinetic energy of the latches, J."""
     model, data = machine.model, machine.data
     alone, product = np.zeros(model.nv), np.zeros(model.nv)
     for i in LATCHES:
@@ -78,7 +78,7 @@ def energy_of_latches(machine):
 
 
 def load_at_crank(machine, i):
-    """What the contact asks of the crank, N·m: the virtual work of its force and moment for one rad, by closed form."""
+    """Contact torque at the crank, N·m: virtual work of the contact's force and moment per rad, by closed form."""
     pose = linkage.pose(machine.joint(f"crank_{i}"))
     azimuth = np.radians(common.LATCH_AZIMUTHS[i])
     wrench, pin = machine.wrench(f"coupler_{i}"), machine.place(f"coupler_{i}")
@@ -89,21 +89,22 @@ def load_at_crank(machine, i):
 
 
 def powers(machine):
-    """Of the motors, τω; of the rollers, F·v of the place that touches, with v from the closed form of the linkage."""
+    """Powers of the motors, τω, and of the rollers, F·v at the contact point, with v from the closed form of the linkage."""
     omega = [machine.speed(f"crank_{i}") for i in LATCHES]
     torque = [float(machine.data.actuator(f"latch_{i}").force[0]) for i in LATCHES]
     return np.array([np.dot(torque, omega), sum(load_at_crank(machine, i) * omega[i] for i in LATCHES)])
 
 
 def under_load(level):
-    """The latches pull the module in against a constant force: work of the motors is work at the rollers and motion."""
+    """The latches pull the module in against a constant force: the motors' work equals that at the rollers plus kinetic
+    energy."""
     machine, loop = rig(level, 0.060), Loop()
     machine.watchers.append(loop)
     pulled = machine.model.joint("module").dofadr[0]
 
     def control(m):
         drive(m)
-        # Only while the rollers hold it: before, nothing would.
+        # Applied only while the rollers hold it: before, nothing would.
         m.data.qfrc_applied[pulled] = RESISTANCE if m.wrench("coupler_0")[2] > 0.0 else 0.0
 
     machine.run(12.0, control, lambda m: m.place("passive")[2] < LOADED_FROM)

@@ -1,4 +1,4 @@
-"""Bolts let go, and standoffs, plungers and paddles push what was berthed away: speeds from their energy.
+"""Push-off by standoffs, plungers and paddles after the release of the bolts: speeds from their energy.
 
 The latches are stowed. Either the active half stands still and the module leaves, or two bare halves part in free flight.
 """
@@ -31,7 +31,7 @@ def predicted(mass):
 
 
 def pushed(z, v):
-    """By all parts at a height and a speed, N; a part does not pull."""
+    """Force of all parts at a height and a speed, N; a part does not pull."""
     paddle, raised = statics.paddle(z), 0.0
     if paddle > 0.0:
         sine = (z + common.FITTING_BOTTOM - common.HINGE[2]) / common.PADDLE_LENGTH
@@ -94,7 +94,7 @@ def module(level):
 
 
 def bare(level, station):
-    """Both halves of the mechanism alone; the active one with its links and indicators."""
+    """Both halves of the mechanism alone; the active one with its linkages and indicators."""
     machine = rig(level, BARE, station)
     part(machine)
     away, back = speed(machine, "module"), speed(machine, "station")
@@ -110,7 +110,7 @@ def bare(level, station):
 
 
 def momentum(machine):
-    """Along z, of both halves with all that hangs on them, N·s."""
+    """Momentum along z of both halves with all their parts, N·s."""
     mujoco.mj_subtreeVel(machine.model, machine.data)
     bodies = [machine.model.body(name).id for name in ("station", "passive")]
     return sum(float(machine.model.body_subtreemass[i] * machine.data.subtree_linvel[i][2]) for i in bodies)

@@ -33,7 +33,7 @@ STOWED_WITHIN = 0.03  # of the stowed angle
 
 @dataclass
 class Sensed:
-    """What the sequencer is told. Of four indicators: strokes of plungers, turns of paddles; of four latches: cranks."""
+    """Sensor values: strokes of four plungers, angles of four paddles, angles of four cranks."""
 
     time: float
     stroke: list
@@ -44,7 +44,7 @@ class Sensed:
 
 @dataclass
 class Commands:
-    """Voltages −1 to 1 of the latches; the height that the arm's tip is to have; is the arm on, are the bolts fast."""
+    """Commands: voltages −1 to 1 of the latches; height of the arm's tip; arm on or off; bolts fixed or released."""
 
     voltage: list = field(default_factory=lambda: [0.0] * LATCHES)
     gap: float = d.START_GAP
@@ -96,7 +96,7 @@ class Sequencer:
         return False
 
     def _lasting(self, holds, seconds, time):
-        """Whether something has been so for a time."""
+        """True if a condition has held for a time."""
         if not holds:
             self.quiet_since = time
         return holds and time - self.quiet_since > seconds
@@ -116,7 +116,7 @@ class Sequencer:
 
 
 def driven(share, speed):
-    """The voltage at which a motor that turns acts as one with this share of the stall torque, and the same free speed."""
+    """Voltage at which a turning motor acts as one with this share of the stall torque, and the same free speed."""
     return min(1.0, max(-1.0, share + (1.0 - share) * speed / d.FREE_SPEED))
 
 

@@ -1,4 +1,4 @@
-"""Where the module comes to rest and what carries it, from springs alone: an independent closed form of each part.
+"""Equilibrium of the module and its supports, from springs alone: an independent closed form of each part.
 
 The module is rigid. Height z of the passive frame and small tilts about x and y are unknown; each part gives a force
 along z at a place. Guides, friction and the arm are left out.
@@ -35,7 +35,7 @@ def plunger(z):
 
 
 def paddle(z):
-    """A hinge spring; its edge, sunk in by F/k, stands at the underside of the fitting, which pushes along z."""
+    """Force of a hinge spring whose edge, sunk in by F/k, touches the underside of the fitting, which pushes along z."""
     raised, force = math.radians(common.PADDLE_DEG), 0.0
     for _ in range(5):
         sine = (z + force / EDGE + common.FITTING_BOTTOM - common.HINGE[2]) / common.PADDLE_LENGTH
@@ -51,7 +51,7 @@ def paddle_energy(z):
 
 
 def latch(z, share, friction=0.0):
-    """A stalled motor: τ = F·(−dz/dθ + μ·|dr/dθ|) at the height at which the roller stands, sunk in by F/k.
+    """Force of a stalled motor: τ = F·(−dz/dθ + μ·|dr/dθ|) at the height of the roller, which is sunk in by F/k.
 
     r is the way of the point where the roller touches: friction holds it back where it slid in to the last.
     """
@@ -69,7 +69,7 @@ def roller_radius(z):
 
 
 def forces(state, shares):
-    """(x, y, force upwards on the module) of every part at (z, tilt about x, tilt about y)."""
+    """(x, y, upward force on the module) of every part at (z, tilt about x, tilt about y)."""
     z, about_x, about_y = state
 
     def height(place):
@@ -94,7 +94,7 @@ def pulled(share, z):
 
 
 def line(radius, azimuth, half, stiffness, law, height):
-    """A roller or an edge across the radius: its two ends share what the law gives, more where they are pressed in more."""
+    """A radial roller or edge: its two ends share the force by their depths."""
     middle, turned = common.radial(radius, azimuth), math.radians(azimuth)
     whole = law(height(middle))
     for side in (-half, half):
@@ -108,7 +108,7 @@ def residual(state, shares):
 
 
 def rest(shares=FULL, start=1e-3):
-    """(z, tilt about x, tilt about y) at which all balances; `shares`: of the stall torque, by latch. Newton's method."""
+    """Equilibrium (z, tilt about x, tilt about y), by Newton's method; `shares`: of the stall torque, by latch."""
     state = np.array([start, 0.0, 0.0])
     for _ in range(60):
         now, step = residual(state, shares), 1e-9
@@ -119,6 +119,6 @@ def rest(shares=FULL, start=1e-3):
 
 
 def stored(z):
-    """Energy of standoffs, plungers and paddles that are pushed down to a height, J."""
+    """Energy of standoffs, plungers and paddles pushed down to a height, J."""
     deep = (max(0.0, common.STANDOFF_STROKE - z), max(0.0, common.PLUNGER_TIP_Z - common.FITTING_BOTTOM - z))
     return 8 * 0.5 * STANDOFF * deep[0] ** 2 + 4 * 0.5 * PLUNGER * deep[1] ** 2 + 4 * paddle_energy(z)

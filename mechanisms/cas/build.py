@@ -16,7 +16,7 @@ FRICTION = a.bristle(d.FRICTION)
 
 
 def flank(name, side):
-    """One half of a groove along x: below a slope that rises from the root to the crest."""
+    """One half of a groove along x: below a slope from the root up to the crest."""
     outer, below = d.OPENING + d.CREST, d.BASE - d.ROOT_Z
     slope = (0.0, -side * math.sin(d.FLANK), math.cos(d.FLANK))
     half_spaces = [
@@ -57,7 +57,7 @@ def platform():
 
 
 def payload():
-    """Balls of the three pins, and the bar; the platform gives the stiffness."""
+    """Balls of the three pins, and the bar; the platform provides the stiffness."""
     pins = [
         a.sphere(f"pin_{i + 1}", (d.RADIUS * math.cos(azimuth), d.RADIUS * math.sin(azimuth), 0.0), d.PIN)
         for i, azimuth in enumerate(d.AZIMUTHS.values())

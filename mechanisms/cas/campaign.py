@@ -1,4 +1,4 @@
-"""A payload that is led in out of line, dispersed: do the vanes capture it, and does the claw seat it?
+"""Dispersed misaligned approaches of a payload: capture by the vanes, and seating by the claw.
 
 It is captured if each ball comes down between the crests of its vane (`statics.out_of_line` below 1). In the last
 μr/√(1 + μ²) before that, 5 % of the opening at the greatest friction here, friction on the edge of a crest may hold it:

@@ -42,7 +42,8 @@ STIFFNESS, DAMPING, RAMP = 5e6, 6e4, 2e-4
 FRICTION = 0.1
 
 
-# --- arms: springs and dampers between a fixture and where it is led --------------------------------------------------------
+# --- arms: springs and dampers between a fixture and its commanded pose
+# -------------------------------------------------------
 @dataclass(frozen=True)
 class Holder:
     """Stiffness along x, y, z in N/m and about them in N·m/rad, damping in N·s/m and N·m·s/rad."""
@@ -55,7 +56,7 @@ class Holder:
 
 FIRST = Holder("first", (0.6, 0.0, 0.5), (5e3,) * 3 + (2e4,) * 3, (3.5e3,) * 3 + (4e3,) * 3)
 SECOND = Holder("second", (-0.6, 0.0, 0.5), (8e3,) * 3 + (3e4,) * 3, (4.5e3,) * 3 + (5e3,) * 3)
-# Leads along z and holds tilt; sideways and about z the payload only meets a damper.
+# Guides along z and holds tilt; sideways and about z the payload only meets a damper.
 LIMP = Holder("limp", CENTER, (0.0, 0.0, 5e3, 3e4, 3e4, 0.0), (500.0, 500.0, 3.5e3, 5e3, 5e3, 100.0))
 
 

@@ -24,7 +24,7 @@ PHASES = (*LASTS, "done")
 
 @dataclass
 class Sequence:
-    """What it remembers is all here, so `copy.deepcopy` saves it beside the state of the machine."""
+    """Sequencer with its complete state, so `copy.deepcopy` saves it beside the state of the machine."""
 
     off: tuple = OFF
     voltage: float = -1.0  # of the claw
@@ -60,7 +60,7 @@ class Sequence:
         rig.lead(made, d.SECOND, pose, off)
 
     def _over(self, gone):
-        """First to above the vanes, then down."""
+        """Moves first above the vanes, then down."""
         over = ASIDE + (0, 0, ABOVE, 0, 0, 0)
         start = MEETING + self.off
         down = smooth((gone - 9.0) / 7.0) * (BELOW - ABOVE)
@@ -68,7 +68,7 @@ class Sequence:
 
 
 def smooth(share):
-    """From 0 to 1 with no speed at both ends."""
+    """Smooth step from 0 to 1 with no speed at both ends."""
     return 0.5 - 0.5 * np.cos(np.pi * min(max(share, 0.0), 1.0))
 
 
@@ -80,7 +80,7 @@ def machine(step):
 
 
 def run(step, prepare=None, until="done", **options):
-    """To the beginning of a phase. `prepare(machine)` sees what it begins with."""
+    """Runs to the beginning of a phase. `prepare(machine)` receives the initial machine."""
     made, sequence = machine(step), Sequence(**options)
     if prepare is not None:
         prepare(made)
@@ -89,7 +89,7 @@ def run(step, prepare=None, until="done", **options):
 
 
 def expected(off=OFF):
-    """Wrench that the second arm gives when both hold, about its fixture, from springs in series."""
+    """Wrench of the second arm when both hold, about its fixture, from springs in series."""
     arm = np.array(d.SECOND.fixture) - d.CENTER
     at_center = statics.motion(-arm) @ np.asarray(off)
     wrench = statics.series(d.FIRST, d.SECOND, at_center)

@@ -1,4 +1,4 @@
-"""What the attachment must come to. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
+"""Outcomes of the attachment and their predictions. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
 
 import time
 
@@ -46,7 +46,7 @@ def vane_loads(step):
 
 
 def seated(step):
-    """From several places beside the seat, without friction and with."""
+    """Final poses from several starts beside the seat, without and with friction."""
     load = (0.0, 0.0, -PULL, 0.0, 0.0, 0.0)
     runs = [seat.pulled(step, load, start, seconds=6.0) for start in STARTS]
     poses = np.array([rig.pose(made) for made in runs])
@@ -75,7 +75,7 @@ def turned(step):
 
 
 def at_the_edge(direction, share):
-    """Offset and yaw at which the pin that is most out of line is at that share of half the opening."""
+    """Offset and yaw at which the most misaligned pin is at that share of half the opening."""
     low, high = 0.0, 2.0
     for _ in range(60):
         middle = (low + high) / 2
@@ -89,7 +89,7 @@ def claw_row(what, made, share=1.0):
 
 
 def captures(step, directions):
-    """From 5 % within the opening of the vanes it is captured, from 5 % beyond it stands on a crest."""
+    """Starts 5 % within the opening of the vanes are captured; 5 % beyond it the payload stops on a crest."""
     within, beyond = 0.95, 1.05
     yield Limit("5 % within the opening: friction of the crest holds no ball", within, statics.surely_in())
     for direction in directions:
@@ -124,7 +124,7 @@ def handed_over(step):
 
 
 def clamped(made):
-    """The claw is stalled and no arm holds the payload."""
+    """Run in which the claw is stalled and no arm holds the payload."""
     yield claw_row("no arm holds it: preload of the claw, torque over lever", made)
     for name, force in zip(rig.VANES, rig.on_vanes(made)[:, 2]):
         yield Row(f"of this {name} bears a third", force, seat.preload(made) / 3, 0.02, "N")
@@ -135,7 +135,7 @@ def clamped(made):
 
 
 def any_misalignment(step):
-    """Six components at once, against the two stiffness matrices in series."""
+    """Six components at once, compared with the two stiffness matrices in series."""
     off = (0.010, -0.008, 0.006, 0.004, 0.003, -0.005)
     _, sequence = handover.run(step, until="release", off=off)
     measured, predicted = sequence.seen["both"][d.SECOND.name], handover.expected(off)
@@ -144,12 +144,12 @@ def any_misalignment(step):
 
 
 def turned_by(made):
-    """About the line of the balls of vanes 2 and 3, which is along x, rad."""
+    """Rotation about the line of the balls of vanes 2 and 3, which is along x, rad."""
     return abs(rig.pose(made)[3])
 
 
 def off_nominal(step):
-    """The claw gives half of its torque; a pin is missing."""
+    """Failures: the claw gives half of its torque; a pin is missing."""
     made = seat.Capture(step, voltage=-0.5).run(14.0)
     yield Fact("half of the torque: captured", made.seated())
     yield claw_row("preload of the claw", made.machine, 0.5)
@@ -189,7 +189,7 @@ DRAWN = ("payload", "claw")  # bodies that logs and films show beside what touch
 
 
 def shown(prepare):
-    """For logs and films: `prepare` sees the machine before it moves."""
+    """Run for logs and films: `prepare` receives the machine before it moves."""
     handover.run(TRAINING.step, prepare)
 
 

@@ -12,12 +12,12 @@ GROUPS = ["platform", *VANES, "claw", "payload"]
 STEEL, BLUE, GOLD = "0.55 0.57 0.6 1", "0.3 0.45 0.65 0.35", "0.75 0.6 0.3 1"
 ROUGH = f"friction: Bristle(mu: {d.FRICTION})"
 SMOOTH = "friction: None"
-# Bristles so stiff that all of them slip within what the flanks give way.
+# Bristles stiff enough that all of them slip within the deflection of the flanks.
 SOON_SLIPS = f"friction: Bristle(mu: {d.FRICTION}, stiffness: {4 * d.STIFFNESS})"
 
 
 def radial(name):
-    """Along the groove of a vane, and where its pin is seated: R times that."""
+    """Unit vector along the groove of a vane; its pin is seated at R times that."""
     return np.array([np.cos(d.AZIMUTHS[name]), np.sin(d.AZIMUTHS[name]), 0.0])
 
 
@@ -54,7 +54,7 @@ def payload(fixtures, missing):
 
 
 def claw():
-    """Its angle is 0 where it is closed; it grows as it opens."""
+    """Claw, with angle 0 when closed and a positive angle when open."""
     middle = ((d.CLAW_REACH - d.CLAW_HEEL) / 2, 0.0, d.CLAW_THICKNESS / 2)
     half = ((d.CLAW_REACH + d.CLAW_HEEL) / 2, d.CLAW_HALF_WIDTH, d.CLAW_THICKNESS / 2)
     return (
@@ -66,7 +66,7 @@ def claw():
 
 
 def vanes():
-    """Bodies that carry their groups, drawn as thin boxes."""
+    """Carrier bodies of the groups, drawn as thin boxes."""
     width = d.OPENING / np.cos(d.FLANK)
     boxes = ""
     for name, azimuth in d.AZIMUTHS.items():
@@ -81,7 +81,7 @@ def vanes():
 
 
 def holder(group, h):
-    """Controls are the wanted pose of the fixture relative to that in the seated payload, m and rad."""
+    """Controls are the commanded pose of the fixture relative to that in the seated payload, m and rad."""
     return "".join(
         f'<general name="{h.name}_{axis}" site="{h.name}" refsite="at_{h.name}" group="{group}" '
         f'gear="{mjcf.numbers(np.eye(6)[i])}" gaintype="fixed" gainprm="{k:.12g}" biastype="affine" '
@@ -91,7 +91,8 @@ def holder(group, h):
 
 
 def machine(step, holders=(), friction=None, missing=None, pose=(0.0,) * 6, opened=d.OPEN, mu=None):
-    """The payload at a pose (m and a rotation vector, from its seat), the claw at an angle; arms lead to where they are.
+    """Machine with the payload at a pose (m and a rotation vector, from its seat) and the claw at an angle; arms hold
+    their poses.
 
     `friction`: see `platform_text`; `mu`: coefficient of friction of all surfaces.
     """
@@ -117,7 +118,7 @@ def machine(step, holders=(), friction=None, missing=None, pose=(0.0,) * 6, open
 
 
 def place(made, pose, opened):
-    """Pose of the payload from its seat, and angle of the claw."""
+    """Sets the pose of the payload from its seat, and the angle of the claw."""
     made.data.qpos[made.model.joint("claw").qposadr[0]] = opened
     first = made.model.body("payload").jntadr[0]
     first = made.model.jnt_qposadr[first]
@@ -139,7 +140,7 @@ def rotation(turn):
 
 
 def lead(made, h, pose, off=(0.0,) * 6):
-    """An arm leads its fixture to where it is in a payload at `pose`, and beside that by `off`."""
+    """Commands an arm to its fixture's pose in a payload at `pose`, displaced by `off`."""
     fixture = np.array(h.fixture)
     shift = np.asarray(pose[:3]) + rotation(pose[3:]) @ fixture - fixture
     wanted = np.r_[shift, pose[3:]] + off
@@ -148,18 +149,18 @@ def lead(made, h, pose, off=(0.0,) * 6):
 
 
 def grasping(made, holders, holding):
-    """Only the arms whose names are in `holding` are closed on their fixtures."""
+    """Closes only the arms named in `holding` on their fixtures."""
     off = [1 + i for i, h in enumerate(holders) if h.name not in holding]
     made.model.opt.disableactuator = sum(1 << group for group in off)
 
 
 def drive(made, voltage):
-    """Of the claw: −1 closes it."""
+    """Sets the voltage of the claw: −1 closes it."""
     made.data.ctrl[made.model.actuator("claw").id] = voltage
 
 
 def pose(made):
-    """Of the payload from its seat: m, and a rotation vector."""
+    """Pose of the payload from its seat: m, and a rotation vector."""
     w, *v = made.data.xquat[made.model.body("payload").id]
     sine = float(np.linalg.norm(v))
     turn = np.zeros(3) if sine == 0.0 else np.array(v) / sine * 2.0 * np.arctan2(sine, w)
@@ -167,7 +168,7 @@ def pose(made):
 
 
 def wrench_of(made, h):
-    """What an arm gives to its fixture, along the axes of the world: N and N·m."""
+    """Wrench of an arm on its fixture, along the axes of the world: N and N·m."""
     return np.array([made.data.actuator_force[made.model.actuator(f"{h.name}_{axis}").id] for axis in AXES])
 
 

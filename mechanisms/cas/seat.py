@@ -1,4 +1,4 @@
-"""The payload in its vanes: pulled with a given load, let in from beside, and pulled by the claw."""
+"""The payload in its vanes: pulled with a given load, released beside them, and pulled by the claw."""
 
 import dimensions as d
 import numpy as np
@@ -8,7 +8,7 @@ PULL = 6000.0  # N
 
 
 def pulled(step, load, pose=(0.0,) * 6, friction=rig.SMOOTH, seconds=4.0):
-    """No arm holds it; a wrench about the origin of the platform acts on it."""
+    """Payload under a wrench about the origin of the platform, without an arm."""
     made = rig.machine(step, friction=friction, pose=pose)
     made.run(seconds, lambda machine: push(machine, load))
     return made
@@ -22,7 +22,7 @@ def push(made, load):
 
 
 def turned(step, most, rise=3.0):
-    """With friction, under a pull of 6 kN: turned about z by a moment that rises slowly, then falls again.
+    """Response with friction under a pull of 6 kN: a moment about z rises slowly, then falls again.
 
     The turns at both ends.
     """
@@ -61,14 +61,14 @@ class Capture:
         rig.drive(machine, self.voltage if self.closing else 0.0)
 
     def run(self, seconds=9.0):
-        """Ends early if the payload stands on a crest."""
+        """Ends early if the payload stops on a crest."""
         self.machine.run(4.0, self.control)
         if self.closing:
             self.machine.run(seconds - 4.0, self.control)
         return self
 
     def seated(self):
-        """All three pins are within 2 mm of where they sit."""
+        """True if all three pins are within 2 mm of their seats."""
         pose = rig.pose(self.machine)
         turn = rig.rotation(pose[3:])
         pins = [d.RADIUS * rig.radial(name) for name in rig.VANES]
@@ -76,20 +76,20 @@ class Capture:
 
 
 def claw_force(made):
-    """Of the claw on the bar, square to the face that pulls, N."""
+    """Force of the claw on the bar, normal to the pulling face, N."""
     angle = made.joint("claw")
     return float(made.on("claw")[:3] @ (-np.sin(angle), 0.0, np.cos(angle)))
 
 
 def preload(made, share=1.0):
-    """Of a claw that is stalled where it stands: torque over lever, which is the way of the bar along the face, N."""
+    """Force of a claw stalled in its place, N: torque over the lever of the bar along the face."""
     angle = made.joint("claw")
     bar = made.place("payload") + rig.rotation(rig.pose(made)[3:]) @ (0.0, 0.0, d.BAR_Z)
     return share * d.CLAW_STALL / float((bar - d.HINGE) @ (np.cos(angle), 0.0, np.sin(angle)))
 
 
 def on_two(step, share, holders, missing=1, seconds=8.0):
-    """One pin is missing; the claw pulls with a share of its torque, and an arm holds the payload or none."""
+    """Payload with one pin missing; the claw pulls with a share of its torque, and one arm or none holds the payload."""
     made = rig.machine(step, holders, friction=rig.SMOOTH, missing=missing, opened=0.05)
 
     def control(machine):
@@ -100,7 +100,7 @@ def on_two(step, share, holders, missing=1, seconds=8.0):
 
 
 def same_bits_after_restart(step, before, after):
-    """Of a capture: runs on, goes back in another machine, and compares the bits of both ends."""
+    """Restart of a capture: continues, repeats that in another machine, and compares the bits of both ends."""
     first, second = Capture(step, (0.02, 0.01)), Capture(step, (0.02, 0.01))
     first.machine.run(before, first.control)
     middle, second.closing = first.machine.save(), first.closing

@@ -8,12 +8,12 @@ SINE, COSINE = np.sin(d.FLANK), np.cos(d.FLANK)
 
 
 def lateral(name):
-    """Across the groove of a vane."""
+    """Unit vector across the groove of a vane."""
     return np.cross((0.0, 0.0, 1.0), rig.radial(name))
 
 
 def flanks(missing=None):
-    """(vane, place of the ball, normal) of each contact."""
+    """(vane, position of the ball, normal) of each contact."""
     for i, name in enumerate(rig.VANES, 1):
         if i != missing:
             for side in (1.0, -1.0):
@@ -22,7 +22,7 @@ def flanks(missing=None):
 
 
 def wrenches():
-    """Columns: force and moment about the origin of one newton of each flank."""
+    """Force and moment about the origin of one newton at each flank, as columns."""
     return np.array([np.r_[normal, np.cross(place, normal)] for _, place, normal in flanks()]).T
 
 
@@ -36,17 +36,17 @@ def loads(load):
 
 
 def shares(pull, beside):
-    """Of a pull towards the platform at (x, y) beside the middle: what each vane bears along z, N."""
+    """Vertical load of each vane under a pull towards the platform at (x, y) beside the middle, N."""
     return np.array([pull * (1 + 2 * rig.radial(name)[:2] @ beside / d.RADIUS) / 3 for name in rig.VANES])
 
 
 def sunk(pull, friction=0.0):
-    """How far the payload goes in, m. With friction that holds it (positive) or that pulls it in (negative)."""
+    """Displacement of the payload, m, with friction that resists it (positive) or has reversed (negative)."""
     return pull / (6 * d.STIFFNESS * COSINE * (COSINE + friction * SINE))
 
 
 def band():
-    """By how much friction may keep each newton of pull from the seat: sideways m/N, about the axis of the pull rad/N.
+    """Displacement from the seat that friction can hold per newton of pull: sideways m/N, about the axis of the pull rad/N.
 
     About the axis: both flanks of each vane slip. Sideways, an upper bound: all friction there is, against the flanks.
     """
@@ -57,7 +57,7 @@ def band():
 
 
 def slipped(pull, moment):
-    """Turn about the axis of a pull under a moment that makes all flanks slip.
+    """Rotation about the axis of a pull under a moment at which all flanks slip.
 
     Of a vane with the pull P and the side force L both flanks slip the same way; then N2 − N1 = (L − μP)/(sinβ·(1 + μ²)).
     """
@@ -67,12 +67,12 @@ def slipped(pull, moment):
 
 
 def surely_in():
-    """Share of the opening from which the edge of a crest pushes a ball inwards by more than friction holds it."""
+    """Share of the opening from which the edge of a crest pushes a ball inwards against friction."""
     return 1.0 - d.PIN * d.FRICTION / np.hypot(1.0, d.FRICTION) / d.OPENING
 
 
 def out_of_line(offset, yaw):
-    """How far the pins are beside their grooves at most, over half of the opening."""
+    """Largest offset of a pin from its groove, relative to half of the opening."""
     turn = rig.rotation((0.0, 0.0, yaw))
     beside = [
         lateral(name) @ (turn @ (d.RADIUS * rig.radial(name)) + (*offset, 0.0)) / d.OPENING for name in rig.VANES
@@ -81,7 +81,7 @@ def out_of_line(offset, yaw):
 
 
 def series(first, second, off):
-    """Wrench of the second arm about the mass centre when it is led beside by `off` there: springs in series."""
+    """Wrench of the second arm about the mass centre for a commanded displacement `off`: springs in series."""
     compliance = np.linalg.inv(about_center(first)) + np.linalg.inv(about_center(second))
     return np.linalg.solve(compliance, off)
 
@@ -100,7 +100,7 @@ def motion(arm):
 
 
 def released_speed(h, force):
-    """Greatest speed when the other arm lets go and this one has `force` along x: one damped spring, m/s."""
+    """Largest speed after the other arm lets go while this one has `force` along x: one damped spring, m/s."""
     k, c = h.stiffness[0], h.damping[0]
     rate = np.sqrt(k / d.MASS)
     ratio = c / (2 * d.MASS * rate)
@@ -108,7 +108,7 @@ def released_speed(h, force):
 
 
 def tilt_on_two(h, pull, missing):
-    """Of a payload on two vanes, held by an arm: turn about the line of both pins, and what both bear along z.
+    """Payload on two vanes, held by an arm: rotation about the line of both pins, and the load of both along z.
 
     Two motions are free: that turn, and one about the axis along z that is 2·R from the middle, in which both balls
     slide along their grooves. The arm's stiffness balances the pull, and so does the claw's, as long as both ends of the

@@ -30,13 +30,13 @@ SURFACES = {
 
 
 def hook_frame(azimuth):
-    """x towards the docking axis, y along the rim, z out of the vehicle."""
+    """Frame with x towards the docking axis, y along the ring, z out of the vehicle."""
     inwards = g.on_circle(-1.0, azimuth)
     return inwards, g.cross(UP, inwards), UP
 
 
 def hook(i):
-    """Origin on its pivot, arm along x. The edge at its tip presses; the arm is there to be seen."""
+    """Hook with its origin on the pivot and the arm along x. Only the edge at its tip makes contact; the arm is visual."""
     half, arm = d.HOOK_HALF_WIDTH, d.HOOK_ARM
     box = [
         ((1.0, 0.0, 0.0), arm),
@@ -79,7 +79,7 @@ def active():
 
 
 def sector(i):
-    """A twelfth of the flange; its ends are inner walls."""
+    """A twelfth of the flange; its ends are internal faces."""
     outwards, azimuth = g.on_circle(1.0, i * STEP), i * STEP
     ends = [g.cross(UP, g.on_circle(1.0, azimuth + STEP / 2)), g.cross(g.on_circle(1.0, azimuth - STEP / 2), UP)]
     walls = [
@@ -99,9 +99,9 @@ def passive():
 
 
 def soft_passive():
-    """That of models/idss_docking, but for the strikers' outer walls: they are inner walls, behind them is the ring.
+    """Soft model of models/idss_docking, with the strikers' outer faces inactive: the ring is behind them.
 
-    Where they pushed, a latch that came far off the middle was pushed outwards there and wedged between bar and ring.
+    If they made contact, a latch far off the middle would be pushed outwards there and wedge between bar and ring.
     """
     mine, sys.modules["dimensions"] = sys.modules["dimensions"], d.IDSS
     interface = module_of(d.ROOT / "models/idss_docking/build.py", "idss_build")

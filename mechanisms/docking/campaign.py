@@ -1,4 +1,4 @@
-"""Approaches dispersed over the initial contact conditions: how often is the target captured, and with which loads?
+"""Approaches dispersed over the initial contact conditions: probability of capture, and loads.
 
 Level training, without hooks and pads, until AFTER s from capture or until GIVE_UP. The sequencer has a tick of TICK
 and holds its commands between; loads are seen in each step. No closed form says which approach is captured.
@@ -48,7 +48,7 @@ def case(values):
 
 
 class Peaks:
-    """What a row of results needs of each step, with little work: many steps are kept, and then looked at together."""
+    """Cheap recorder of the per-step data for a row of results: many steps are stored, then processed together."""
 
     def __init__(self, made):
         self.force = self.moment = self.leg = self.stroke = 0.0
@@ -61,7 +61,7 @@ class Peaks:
         self.seen, self.pushed, self.kept = np.empty((SEEN, len(self.sensed))), np.empty((SEEN, stewart.LEGS)), 0
 
     def go(self, made):
-        """One tick."""
+        """Runs one tick."""
         for i in range(self.kept, self.kept + TICK):
             mujoco.mj_step(made.model, made.data)
             self.seen[i], self.pushed[i] = self.sensed, self.legs

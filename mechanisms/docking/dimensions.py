@@ -12,7 +12,7 @@ ROOT = HERE.parents[1]
 
 
 def _interface():
-    """Dimensions of the two sides whose petals and latches touch: models/idss_docking."""
+    """Dimensions of the two sides with their petals and latches: models/idss_docking."""
     sys.path.append(str(ROOT / "models"))
     return module_of(ROOT / "models/idss_docking/dimensions.py", "idss_dimensions")
 
@@ -37,7 +37,7 @@ CYLINDER_MASS, ROD_MASS, LEG_INERTIA = 1.5, 1.0, (0.02, 0.02, 1e-3)
 
 @dataclass(frozen=True)
 class Impedance:
-    """Of each leg: N/m and N·s/m."""
+    """Impedance of each leg: N/m and N·s/m."""
 
     stiffness: float
     damping: float
@@ -88,6 +88,6 @@ ANALYSIS = Level(2.5e-4, "RK4", 2e-3)
 
 
 def on_circle(radius, azimuth, z=0.0):
-    """Azimuth in degrees."""
+    """Azimuth, degrees."""
     a = math.radians(azimuth)
     return (radius * math.cos(a), radius * math.sin(a), z)

@@ -1,4 +1,4 @@
-"""A docking from the approach to the push-off: cases, runs, and what comes of them."""
+"""A docking from the approach to the push-off: cases, runs, and results."""
 
 import math
 from dataclasses import dataclass, field
@@ -19,7 +19,7 @@ MEETING = 0.17
 
 @dataclass(frozen=True)
 class Case:
-    """How the chaser comes, when the petals meet; and what fails. SI units, angles in rad."""
+    """State of the chaser when the petals meet, and failures. SI units, angles in rad."""
 
     speed: float = 0.10
     lateral: tuple = (0.05, 0.0)
@@ -40,7 +40,7 @@ def approach(case, hard=True, drawn=None, assets="", kind=Machine):
 
 
 def placed(made, case, hard):
-    """Both vehicles where the case begins. The middle of the ring's face is where lateral and speed are meant."""
+    """Places both vehicles at the start of the case. Lateral offset and speed refer to the middle of the ring's face."""
     ahead = max(case.gap - MEETING, 0.0) / case.speed
     angles = [angle - rate * ahead for angle, rate in zip((*case.tilt, case.roll), case.rates)]
     frame = vehicles.about("z", angles[2]) @ vehicles.about("y", angles[1]) @ vehicles.about("x", angles[0])
@@ -56,7 +56,7 @@ def placed(made, case, hard):
 
 
 def turn(made, frame, shift):
-    """Turns and moves both vehicles together: nothing may change but where they are."""
+    """Rotates and moves both vehicles together, which must not change the result."""
     for name in ("chaser", "target"):
         joint = made.model.joint(made.model.body(name).jntadr[0])
         place, rate = joint.qposadr[0], joint.dofadr[0]
@@ -72,7 +72,7 @@ def turn(made, frame, shift):
 
 
 def captured(height, level):
-    """At rest, the latches behind their strikers, the ring's face at a height above the hard plane."""
+    """Captured state at rest: the latches behind their strikers, the ring's face at a height above the hard plane."""
     made = vehicles.machine(level)
     stewart.set_pose(made.model, made.data, np.array([0.0, 0.0, height]))
     vehicles.set_vehicle(made, "chaser", (0, 0, -height), np.eye(3))
@@ -80,7 +80,8 @@ def captured(height, level):
 
 
 def mated_and_free(level, petals):
-    """At rest, the hard faces meet, pushers 1 and 2 are pressed; ring and latches are drawn back and hold nothing."""
+    """Mated state at rest: hard faces in contact, pushers 1 and 2 compressed; ring and latches are retracted and hold
+    nothing."""
     made = vehicles.machine(level, dead_pusher=True, petals=petals)
     height = d.MATED - d.PULLED_DEEPER
     stewart.set_pose(made.model, made.data, np.array([0.0, 0.0, height]))
@@ -103,7 +104,7 @@ def _open_hooks(made, hard):
 
 
 class Watch:
-    """Peaks on the way, by phase; the kinematics of the legs at each tenth step."""
+    """Recorder of peaks by phase, and of the legs' kinematics at each tenth step."""
 
     def __init__(self):
         self.force, self.moment, self.leg, self.stroke = {}, {}, {}, 0.0
@@ -132,7 +133,7 @@ class Watch:
 
 
 def wrong_kinematics(made):
-    """(greatest difference of a slide from the closed form of the ring's pose, greatest gap of a closure), m."""
+    """(largest difference of a slide from the closed form of the ring's pose, largest gap of a closure), m."""
     place, turned = stewart.pose(made.model, made.data)
     slides = np.array([made.joint(f"leg_{i}") for i in range(stewart.LEGS)])
     ring = made.data.body("ring")
@@ -142,7 +143,7 @@ def wrong_kinematics(made):
 
 
 def motion(made, name):
-    """Velocity of the mass centre of a vehicle with all that it carries, and its angular velocity, in the world's axes."""
+    """Velocity of the mass centre of a vehicle with all its parts, and its angular velocity, in the world's axes."""
     mujoco.mj_subtreeVel(made.model, made.data)
     spin = np.empty(6)
     mujoco.mj_objectVelocity(made.model, made.data, mujoco.mjtObj.mjOBJ_BODY, made.model.body(name).id, spin, 0)
@@ -168,7 +169,7 @@ class Result:
 
 
 def run(case, until, limit=60.0, prepare=None, watched=None):
-    """Until the sequencer has entered the phase `until` or aborts, `limit` s at most."""
+    """Runs until the sequencer enters the phase `until` or aborts, at most `limit` s."""
     made = approach(case)
     sequencer = Sequencer(case.dead_latch, case.stuck_leg, case.give_up)
     return go_on(made, sequencer, until, limit, prepare, watched)

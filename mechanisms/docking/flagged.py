@@ -1,4 +1,4 @@
-"""An approach in which the engine once said that something went through something else: it must not say so.
+"""An approach with a former false report of tunnelling: there must be none.
 
 A catch snaps over the edge of its striker, as it shall: in one step its end is in front of the inclined face, in the
 next behind the back face. The two meet at 45°, a wedge, round whose edge a catch may go. The engine took it for a wall,
@@ -15,7 +15,7 @@ from kit.rows import Fact, Limit, Row
 from sequence import STRIKER_EDGE, Sequencer, catch
 from vehicles import LATCHES
 
-# Drawn by a campaign, rounded.
+# From a campaign, rounded.
 CASE = docking.Case(
     speed=0.0955,
     lateral=(0.0551, -0.0273),
@@ -29,7 +29,7 @@ NEAR = 2e-4  # m
 
 
 def passage(step):
-    """(flagged, how near a catch came to the edge of its striker, time of capture)."""
+    """(flagged, least distance of a catch from the edge of its striker, time of capture)."""
     made = docking.approach(replace(CASE, level=replace(d.TRAINING, step=step)), hard=False)
     sequencer, nearest = Sequencer(hard=False), np.inf
     while sequencer.phase == "capture":

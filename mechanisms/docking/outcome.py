@@ -1,4 +1,4 @@
-"""What the docking must come to. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
+"""Outcomes of the docking and their predictions. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
 
 import math
 import time
@@ -22,14 +22,14 @@ ALIGNED = Case(lateral=(0.0, 0.0), tilt=(0.0, 0.0), roll=0.0)
 
 
 def honest(result):
-    """What holds of every run: energy, reactions, no tunnelling, the legs' kinematics."""
+    """Rules for every run: energy, reactions, no tunnelling, the legs' kinematics."""
     yield from rules.honest(result.machine)
     yield Limit("closures of the legs open by", result.watch.closure, 1e-5, "m")
     yield Limit("slides differ from the closed form by more than the closures' gap", result.watch.beyond, 1e-12, "m")
 
 
 class Seen:
-    """What a docking comes to on the way: where the catches are at capture, and how the hooks hold at the end of that."""
+    """Data of a docking: positions of the catches at capture, and forces of the hooks at the end of `hold`."""
 
     def __init__(self):
         self.hooked, self.catches = None, None
@@ -43,7 +43,7 @@ class Seen:
 
 
 def whole(level):
-    """From the approach to the push-off."""
+    """Run from the approach to the push-off."""
     seen = Seen()
     result = docking.run(replace(NOMINAL, level=level), "done", watched=seen)
     yield Fact("captured, hooked, released", result.sequencer.phase == "done")
@@ -62,13 +62,13 @@ def whole(level):
 
 
 def caught(seen):
-    """How far the three catches lie behind and over the edges of their strikers, the least of each, m."""
+    """Least distances of the three catches behind and over the edges of their strikers, m."""
     behind = min(-d.IDSS.STRIKER_BACK - place[2] for place in seen.catches)
     return behind, min(math.hypot(place[0], place[1]) - STRIKER_EDGE for place in seen.catches)
 
 
 def trained():
-    """Level training, and what it costs."""
+    """Level training, and its cost."""
     began = time.process_time()
     yield from whole(d.TRAINING)
     print(f"      {time.process_time() - began:.1f} s of processor time with the account of energy")
@@ -80,7 +80,7 @@ def restarts():
 
 
 def attenuation(level):
-    """An aligned approach: when the vehicles no longer close in, the legs hold ½mv² less what capture took."""
+    """An aligned approach: when the closing speed is zero, the legs store ½mv² less the energy of capture."""
     made, sequencer = docking.approach(replace(ALIGNED, level=level)), Sequencer()
     result = docking.Result(made, sequencer, docking.Watch())
     moving = 0.5 * vehicles.reduced_mass() * ALIGNED.speed**2
@@ -98,7 +98,7 @@ def attenuation(level):
 
 
 def analysed():
-    """Soft capture at level analysis, and at half the step."""
+    """Soft capture at level analysis, also at half the step."""
     found = {}
     for label, level in (("", d.ANALYSIS), (" at half the step", replace(d.ANALYSIS, step=d.ANALYSIS.step / 2))):
         result = docking.run(replace(NOMINAL, level=level), "align")
@@ -119,7 +119,7 @@ def analysed():
 
 
 def hard_analysed():
-    """From the last 12 mm of retraction to the push-off."""
+    """Run from the last 12 mm of retraction to the push-off."""
     for label, level in (("", d.ANALYSIS), (" at half the step", replace(d.ANALYSIS, step=d.ANALYSIS.step / 2))):
         seen = Seen()
         made = docking.captured(d.MATED + d.SLOW_FROM, level)
@@ -131,12 +131,12 @@ def hard_analysed():
 
 
 def latch_energy():
-    """Of three latches that are pushed over the edges of their strikers, J."""
+    """Energy of three latches pushed over the edges of their strikers, J."""
     return 1.5 * d.LATCH_STIFFNESS * d.IDSS.LATCH_ENGAGEMENT**2
 
 
 def too_slow():
-    """With less energy than the latches take to open there is no capture.
+    """An approach with less energy than the latches need to open, and therefore without capture.
 
     Half the step of level training: at the end the latches spring back, and semi-implicit Euler has ½h·F·v of their springs
     more than the forces explain, which is 1.2e-3 of the little that went through at 1 ms.
@@ -172,7 +172,7 @@ def failures():
 
 
 def limits():
-    """All at the limits of the initial contact conditions at once."""
+    """Approaches at all limits of the initial contact conditions at once."""
     for speed in d.CLOSING:
         for side in (1, -1):
             case = Case(
@@ -190,7 +190,7 @@ def limits():
 
 
 def elsewhere():
-    """The same approach in another attitude, 1 km away."""
+    """An approach repeated in another attitude, 1 km away."""
     frame = vehicles.about("z", 0.7) @ vehicles.about("y", 1.1) @ vehicles.about("x", 0.4)
     results = []
     for moved in (False, True):
@@ -210,7 +210,7 @@ DRAWN = ("cylinder_*", "rod_*")  # bodies that logs and films show beside what t
 
 
 def shown(prepare):
-    """For logs and films: `prepare` sees the machine before it moves."""
+    """Run for logs and films: `prepare` receives the machine before it moves."""
     docking.run(NOMINAL, "done", prepare=prepare)
 
 

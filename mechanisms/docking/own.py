@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The same approaches with the contact of MuJoCo and of Drake: captured or not, when, and with which forces?
+"""Comparison of the same approaches with the contact of MuJoCo and of Drake: capture, its time, and forces.
 
 python3 mechanisms/docking/own.py        with the plugin as for mechanisms/run.py; with Drake where `pip install drake` was
 python3 mechanisms/docking/own.py Drake-sap/2 6    this column, and of the ten approaches this one
@@ -72,7 +72,7 @@ def other(engine, how, structure=STRUCTURE):
 
 
 def converged(kind):
-    """The same with a solver of MuJoCo that goes on until nothing changes.
+    """The set with a MuJoCo solver that iterates to convergence.
 
     Its tolerance is a share of the mean inertia, and the target has 420 t: by default it ends when legs of 2.5 kg may
     still be far off.
@@ -88,13 +88,13 @@ def converged(kind):
 
 
 def within_disc(radius, a, b):
-    """Even over a disc, of two numbers from 0 to 1."""
+    """Uniform point of a disc from two numbers in 0…1."""
     way = 2 * math.pi * b
     return (radius * math.sqrt(a) * math.cos(way), radius * math.sqrt(a) * math.sin(way))
 
 
 def case(run):
-    """Each run has a generator of its own."""
+    """Random case of a run; each run has its own generator."""
     u = np.random.default_rng([1, run]).uniform(size=11)
     return docking.Case(
         speed=d.CLOSING[0] + (d.CLOSING[1] - d.CLOSING[0]) * u[0],
@@ -108,13 +108,13 @@ def case(run):
 
 
 def gap(made):
-    """The greatest gap of the six closures, m."""
+    """Largest gap of the six closures, m."""
     return docking.wrong_kinematics(made)[1]
 
 
 def attempt(run, kind):
-    """One approach: captured, when, greatest force between the vehicles, stroke, gap of the closures, processor time of a
-    simulated second."""
+    """Result of one approach: capture and its time, largest force between the vehicles, stroke, gap of the closures,
+    processor time of a simulated second."""
     made = docking.approach(case(run), hard=False, kind=kind)
     sequencer, spent, force, stroke, opened = Sequencer(give_up=campaign.GIVE_UP, hard=False), 0.0, 0.0, 0.0, 0.0
     while sequencer.phase != "abort" and not campaign.ended(made, sequencer):
@@ -145,13 +145,15 @@ def figures(kind, runs=range(RUNS)):
     yield "processor time of a simulated second, s", float(np.mean(spent))
 
 
-# --- what must be alike: nothing touches ------------------------------------------------------------------------------
+# --- common parts: nothing touches
+# -------------------------------------------------------------------------------------
 
 ASIDE, LEANING, SECONDS = np.array((0.03, -0.02, -0.04)), np.array((0.05, -0.08, 0.10)), 3.0  # m, rad, s
 
 
 def let_go(kind, step):
-    """The ring, led aside and let go on its legs, far from the target: pose, slides of the legs and chaser each 10 ms."""
+    """The ring, displaced sideways and released on its legs, far from the target: its pose, slides of the legs and the
+    chaser each 10 ms."""
     made = docking.approach(docking.Case(gap=3.0, level=replace(d.TRAINING, step=step)), hard=False, kind=kind)
     stewart.set_pose(made.model, made.data, stewart.NEUTRAL + ASIDE, turned(LEANING))
     made.start()
@@ -168,7 +170,8 @@ def let_go(kind, step):
 
 
 def free():
-    """Both take semi-implicit Euler, so they differ by the step and by how hard the loops are."""
+    """Free motion in both engines: semi-implicit Euler in each, so they differ by the step and by the stiffness of the
+    loops."""
     differences = []
     for step in (STEP, STEP / 2):
         (mine, _), (theirs, opened) = (
@@ -184,7 +187,7 @@ def free():
 
 
 def kinds():
-    """Name of a column → class of machine."""
+    """Classes of machine by column name."""
     springs, damped = own_contact.SPRINGS, replace(STRUCTURE, damping=STRUCTURE.damping / 10)
     made = {"Pong": Machine, **{name: other(own_contact.Own, contact) for name, contact in SETS.items()}}
     # Added after the comparison, to explain it.
@@ -200,7 +203,7 @@ def kinds():
 
 
 def main():
-    """Columns and numbers of approaches may be named. If no column is, those of the table on the page are made."""
+    """Makes a table of the named columns and approaches; without names, the table of the page."""
     named = sys.argv[1:]
     if named == ["free"]:
         sys.exit(show("the ring let go, nothing touches", free()) if drake.at_hand() else 0)

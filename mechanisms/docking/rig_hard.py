@@ -1,4 +1,4 @@
-"""Hard capture and undocking: what hooks and pushers must come to, and the vehicles pushed apart by unequal pushers."""
+"""Hard capture and undocking: predictions for hooks and pushers, and a push-off by unequal pushers."""
 
 import math
 
@@ -12,7 +12,7 @@ from sequence import Sequencer
 
 
 def predicted_hook():
-    """(force of a stalled hook, N; its angle, rad): τ = F·a·cos θ, with the springs of hook and pad giving way, a·sin θ."""
+    """(force of a stalled hook, N; its angle, rad): τ = F·a·cos θ, with the springs of hook and pad deflected by a·sin θ."""
     force, angle = d.HOOK_STALL / d.HOOK_ARM, 0.0
     pushed = d.PUSHERS * d.PUSHER_STIFFNESS * d.PUSHER_LENGTH / d.HOOKS
     for _ in range(20):
@@ -23,7 +23,7 @@ def predicted_hook():
 
 
 def hooked(made):
-    """To be asked at the end of the phase `hold`."""
+    """Rows for the end of the phase `hold`."""
     axis = made.data.body("chaser").xmat.reshape(3, 3)[:, 2]
     forces = [float(made.wrench(f"hook_{i}")[:3] @ axis) for i in range(d.HOOKS)]
     force, angle = predicted_hook()
@@ -37,7 +37,7 @@ def pusher_energy(count=d.PUSHERS):
 
 
 def separated(made):
-    """After the push-off: ½Σkδ² with the reduced mass."""
+    """Rows after the push-off: ½Σkδ² with the reduced mass."""
     speed = float(docking.motion(made, "target")[0][2] - docking.motion(made, "chaser")[0][2])
     yield Row(
         "speed of separation, √(2·½Σkδ²/m)",
@@ -49,14 +49,14 @@ def separated(made):
 
 
 def chaser_inertia():
-    """Across its axis, about the mass centre of all; what it carries stands near the hard plane."""
+    """Inertia of the chaser across its axis, about the common mass centre; its parts are near the hard plane."""
     carried = vehicles.chaser_mass() - d.CHASER_MASS
     reduced = carried * d.CHASER_MASS / vehicles.chaser_mass()
     return d.CHASER_INERTIA[0] + reduced * d.CHASER_CENTER[2] ** 2
 
 
 def unequal(level):
-    """One pusher of three is dead: the other two act as one of twice the stiffness, off the axis."""
+    """Push-off with one dead pusher of three: the other two act as one of twice the stiffness, off the axis."""
     arm = d.PUSHER_RADIUS * math.cos(math.pi / d.PUSHERS)
     inertia = {"chaser": chaser_inertia(), "target": d.TARGET_INERTIA[0]}
     mass = {"chaser": vehicles.chaser_mass(), "target": d.TARGET_MASS}

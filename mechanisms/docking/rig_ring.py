@@ -36,7 +36,7 @@ def random_poses(count, seed=1):
 
 
 def kinematics():
-    """Joint angles and slides of the closed form, given to MuJoCo, close all six loops."""
+    """The closed form's joint angles and slides close all six loops in MuJoCo."""
     m, data = model()
     gap, rates = 0.0, 0.0
     for place, attitude in random_poses(50):
@@ -49,7 +49,7 @@ def kinematics():
 
 
 def _wrong_rates(m, data, place, attitude, step=1e-5):
-    """J against central differences of MuJoCo's own distance between base and ring joints."""
+    """J compared with central differences of MuJoCo's distance between base and ring joints."""
     found = np.empty((stewart.LEGS, 6))
     for column in range(6):
         ends = []
@@ -66,7 +66,7 @@ def _wrong_rates(m, data, place, attitude, step=1e-5):
 
 
 def settled(wrench, laws, seconds=25.0):
-    """Twist coordinates at which the ring comes to rest under a wrench about its origin."""
+    """Twist coordinates of the ring's equilibrium under a wrench about its origin."""
     m, data = model()
     stewart.command(m, data, np.zeros(stewart.LEGS), laws)
     data.xfrc_applied[m.body("ring").id] = wrench
@@ -78,13 +78,13 @@ def settled(wrench, laws, seconds=25.0):
 
 
 def stiffness():
-    """Compliance by six small wrenches, against the inverse of JᵀKJ; the same with one leg stuck."""
+    """Compliance from six small wrenches, compared with the inverse of JᵀKJ; the same with one leg stuck."""
     jacobian = stewart.jacobian()
     for label, laws in (("six legs", [LAW] * 6), ("one leg stuck", [d.STUCK] + [LAW] * 5)):
         springs = np.diag([law.stiffness for law in laws])
         predicted = np.linalg.inv(jacobian.T @ springs @ jacobian)
         measured = np.column_stack([settled(0.01 * unit, laws) / 0.01 for unit in np.eye(6)])
-        # Each entry against the geometric mean of its two diagonals: metres and radians stand side by side.
+        # Each entry relative to the geometric mean of its two diagonals: metres and radians are mixed.
         scale = np.sqrt(np.outer(np.diag(predicted), np.diag(predicted)))
         yield Row(
             f"{label}: compliance against (JᵀKJ)⁻¹, greatest entry off",

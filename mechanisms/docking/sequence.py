@@ -41,32 +41,32 @@ RELEASED = ("unlatch", "away", "done", "abort")
 
 
 def catch(made, i):
-    """Tip of a latch, seen from the target's port."""
+    """Tip of a latch in the frame of the target's port."""
     target, latch = made.data.body("target"), made.data.body(f"latch_{i}")
     return target.xmat.reshape(3, 3).T @ (latch.xpos - target.xpos)
 
 
 def holds(made, i):
-    """What the sensor of a latch says: behind its striker, over its edge, and back in its place."""
+    """Sensor of a latch: behind its striker, over its edge, and returned to its position."""
     place = catch(made, i)
     over = np.hypot(place[0], place[1]) > STRIKER_EDGE + BEHIND
     return place[2] < -IDSS.STRIKER_BACK and over and abs(made.joint(f"latch_{i}")) < BACK_IN_PLACE
 
 
 def smooth(share):
-    """From 0 to 1 without a jump of speed or acceleration."""
+    """Smooth step from 0 to 1 with continuous speed and acceleration."""
     s = min(max(share, 0.0), 1.0)
     return s**3 * (10.0 - 15.0 * s + 6.0 * s * s)
 
 
 def blend(one, other, share):
-    """The impedance that lies so far on the way from one to the other."""
+    """Impedance interpolated between two."""
     stiffness = one.stiffness + share * (other.stiffness - one.stiffness)
     return d.Impedance(stiffness, one.damping + share * (other.damping - one.damping))
 
 
 class Sequencer:
-    """All that it remembers is in its attributes, so `copy.deepcopy` saves it beside the state of the machine.
+    """Sequencer with its state in its attributes, so `copy.deepcopy` saves it beside the state of the machine.
 
     `dead_latch`: number of a latch that stays retracted; `stuck_leg`: number of a leg that keeps its length;
     `give_up`: s after which a capture that has not come is aborted.
@@ -101,13 +101,13 @@ class Sequencer:
         self.began[phase] = made.time
 
     def _law(self, time):
-        """Impedance of the legs: from that of the phase before to that of this one."""
+        """Impedance of the legs, blended from the phase before to this one."""
         goal = {"capture": d.CAPTURING, "abort": d.CAPTURING, "attenuate": d.ATTENUATING}.get(self.phase, d.ALIGNING)
         share = min((time - self.since) / d.RAMP, 1.0)
         return blend(self.before, goal, share)
 
     def height(self, time):
-        """Of the ring's face above the hard plane, as commanded."""
+        """Commanded height of the ring's face above the hard plane."""
         slow_at, deepest = d.MATED + d.SLOW_FROM, d.MATED - d.PULLED_DEEPER
         if self.phase in ("capture", "attenuate", "align", "abort"):
             return d.EXTENDED
@@ -130,7 +130,7 @@ class Sequencer:
             made.data.ctrl[made.model.actuator(f"latch_{i}").id] = -d.LATCH_PULL if opened else 0.0
 
     def _hooks(self, made):
-        """Open hooks stand on a brake; while they open, each stops where it began."""
+        """Open hooks are braked; while opening, each stops at its initial angle."""
         for i in range(d.HOOKS):
             number, dof = made.model.actuator(f"hook_{i}").id, made.model.joint(f"hook_{i}").dofadr[0]
             braked = self.phase not in HOOK_VOLTAGE or (

@@ -18,7 +18,7 @@ def _joints(radius, height, middles, half_angle):
     return np.array([d.on_circle(radius, middle + side * half_angle, height) for middle, side in middles])
 
 
-# Leg i goes from the base at 0 + 14° to the ring at 60 − 20°, and so on round.
+# Leg i runs from the base at 0 + 14° to the ring at 60 − 20°, and so on around.
 BASE = _joints(
     d.BASE_RADIUS, d.BASE_HEIGHT, [(0, 1), (120, -1), (120, 1), (240, -1), (240, 1), (0, -1)], d.BASE_HALF_ANGLE
 )
@@ -41,7 +41,7 @@ LENGTHS = np.linalg.norm(legs(NEUTRAL), axis=1)
 
 
 def frames():
-    """Of each leg in the neutral pose: columns are the two hinge axes and the slide."""
+    """Frame of each leg in the neutral pose: columns are the two hinge axes and the slide."""
     made = []
     for axis, base in zip(AXES, BASE):
         radial = base * (1, 1, 0)
@@ -55,7 +55,7 @@ FRAMES = frames()
 
 
 def joints(place, turned=UPRIGHT):
-    """Of each leg: the two angles and the slide that bring its end to the ring, in closed form."""
+    """Two angles and the slide of each leg for a pose of the ring, in closed form."""
     answer = []
     for vector, frame, neutral in zip(legs(place, turned), FRAMES, LENGTHS):
         x, y, z = frame.T @ vector
@@ -64,7 +64,7 @@ def joints(place, turned=UPRIGHT):
 
 
 def slides(height):
-    """Of the legs when the ring stands in the axis with its face at a height: all alike."""
+    """Slides of the legs for a centred ring with its face at a height; all are equal."""
     return np.linalg.norm(legs(np.array([0.0, 0.0, height])), axis=1) - LENGTHS
 
 
@@ -76,7 +76,7 @@ def jacobian(place=NEUTRAL, turned=UPRIGHT):
 
 
 def bodies():
-    """To stand in the chaser."""
+    """Bodies of the legs, in the chaser."""
     text = ""
     for i, (base, frame, length) in enumerate(zip(BASE, FRAMES, LENGTHS)):
         inertia = numbers(d.LEG_INERTIA)
@@ -93,7 +93,7 @@ def bodies():
 
 
 def ring(inside=""):
-    """The ring, free against the chaser but for its legs."""
+    """The ring, free relative to the chaser except for its legs."""
     slides_ = "".join(
         f'<joint name="ring_{name}" type="slide" axis="{axis}"/>'
         for name, axis in (("x", "1 0 0"), ("y", "0 1 0"), ("z", "0 0 1"))
@@ -123,13 +123,13 @@ def actuators():
 
 
 def actuator_slice(model):
-    """Where the six stand among the actuators."""
+    """Slice of the six legs among the actuators."""
     first = model.actuator("leg_0").id
     return slice(first, first + LEGS)
 
 
 def command(model, data, slides_, impedances):
-    """The law of each leg, one `Impedance` for each."""
+    """Sets the law of each leg, one `Impedance` for each."""
     six = actuator_slice(model)
     stiffness = [law.stiffness for law in impedances]
     model.actuator_gainprm[six, 0] = stiffness
@@ -139,7 +139,7 @@ def command(model, data, slides_, impedances):
 
 
 def set_pose(model, data, place, turned=UPRIGHT):
-    """Puts ring and legs where the closed form says."""
+    """Sets ring and legs to the closed form's pose."""
     for name, value in zip("xyz", place - NEUTRAL):
         data.qpos[model.joint(f"ring_{name}").qposadr[0]] = value
     first = model.joint("ring_turn").qposadr[0]
@@ -150,7 +150,7 @@ def set_pose(model, data, place, turned=UPRIGHT):
 
 
 def pose(model, data):
-    """Of the ring, seen from the chaser: place of its origin and rotation matrix."""
+    """Pose of the ring relative to the chaser: position of its origin and rotation matrix."""
     chaser, ring_ = data.body("chaser"), data.body("ring")
     frame = chaser.xmat.reshape(3, 3)
     return frame.T @ (ring_.xpos - chaser.xpos), frame.T @ ring_.xmat.reshape(3, 3)

@@ -23,7 +23,7 @@ def body(name, mass, inertia, inside="", center=(0, 0, 0), place=(0, 0, 0), quat
 
 
 def latches(drawn):
-    """Each slides along the radius of the ring on a spring without preload, outwards against a stop."""
+    """Latches, each on a radial slide of the ring, on a spring without preload, outwards against a stop."""
     text = ""
     for i, azimuth in enumerate(d.IDSS.ACTIVE_PETALS):
         frame = np.array(d.IDSS.latch_frame(azimuth)).T
@@ -40,7 +40,7 @@ def latches(drawn):
 
 
 def hooks():
-    """Each turns on a pivot outside the hard face; zero: its arm lies across the axis. It starts open."""
+    """Hooks, each on a pivot outside the hard face; at angle zero its arm lies across the axis. It starts open."""
     text = ""
     for i in range(d.HOOKS):
         azimuth = i * 360.0 / d.HOOKS
@@ -62,7 +62,7 @@ def hooks():
 
 
 def world(hard, drawn):
-    """Everything stands at the origin: `set_vehicle` puts it in its place."""
+    """Bodies at the origin: `set_vehicle` places them."""
     inside = stewart.bodies() + stewart.ring(latches(drawn) + drawn.get("ring", "")) + (hooks() if hard else "")
     chaser = body(
         "chaser", d.CHASER_MASS, d.CHASER_INERTIA, "<freejoint/>" + drawn.get("chaser", "") + inside, d.CHASER_CENTER
@@ -80,7 +80,7 @@ def actuators(hard):
 
 
 def without_pusher():
-    """The hard model of the chaser with pusher 0 too short to reach anything."""
+    """Hard model of the chaser with pusher 0 too short to reach anything."""
     text = " ".join((d.ROOT / HARD["hard_chaser"]).read_text().split())
     before, after = text.split('name: "pusher_0"')
     return before + 'name: "pusher_0"' + after.replace(f"length: {d.PUSHER_LENGTH}", "length: 1e-4", 1)
@@ -118,7 +118,7 @@ def machine(level, hard=True, drawn=None, assets="", dead_pusher=False, petals=T
 
 
 def set_vehicle(made, name, place, frame, velocity=(0, 0, 0), spin=(0, 0, 0)):
-    """Place and rotation matrix of a vehicle's frame, velocity of its origin, angular velocity along its own axes."""
+    """Position and rotation matrix of a vehicle's frame, velocity of its origin, angular velocity along its own axes."""
     joint = made.model.joint(made.model.body(name).jntadr[0])
     first, rate = joint.qposadr[0], joint.dofadr[0]
     made.data.qpos[first : first + 7] = np.hstack([place, mjcf.quaternion_of(frame)])
@@ -126,7 +126,7 @@ def set_vehicle(made, name, place, frame, velocity=(0, 0, 0), spin=(0, 0, 0)):
 
 
 def flipped():
-    """The target's port looks along −z: its frame is turned by 180° about x."""
+    """Frame of the target, whose port faces −z: rotated by 180° about x."""
     return np.diag([1.0, -1.0, -1.0])
 
 
@@ -141,7 +141,7 @@ def about(axis, angle):
 
 
 def reduced_mass():
-    """Of the two vehicles along the axis; the chaser with ring, legs, latches and hooks."""
+    """Reduced mass of the two vehicles along the axis; the chaser with ring, legs, latches and hooks."""
     return 1.0 / (1.0 / chaser_mass() + 1.0 / d.TARGET_MASS)
 
 

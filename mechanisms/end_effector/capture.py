@@ -1,4 +1,4 @@
-"""A capture and a release: the sequencer of the end effector, and what a run of it comes to. The machine: scene.py."""
+"""Capture and release: the sequencer of the end effector, and the result of a run. The machine: scene.py."""
 
 import math
 from dataclasses import dataclass
@@ -17,9 +17,9 @@ APART_FOR = 0.1  # s without contact after which plungers and payload are apart
 
 
 class Sequencer:
-    """The phases one after the other: each begins when the one before is finished, or has had its time.
+    """Phases in sequence: each begins when the one before is finished or has timed out.
 
-    What it remembers is all in its attributes, so `copy.deepcopy` saves it beside the state of the machine.
+    Its state is in its attributes, so `copy.deepcopy` saves it beside the state of the machine.
     """
 
     # s
@@ -32,8 +32,9 @@ class Sequencer:
         "open": 6.0,
         "push": 6.0,
     }
-    # Ring: voltage and brake; screw: voltage; plungers: let go. Slow while a payload is pulled in, so that a heavy one
-    # follows, and slower while the preload is let off, so that what sticks to the cables is not taken along.
+    # Ring: voltage and brake; screw: voltage; plungers: released. Slow while a payload is pulled in, so that a heavy
+    # one follows, and slower while the preload is released, so that a payload sticking to the cables is not dragged
+    # along.
     MOTORS = {
         "approach": (0, True, 0.0, 0),
         "snare": (1, False, 0.0, 0),
@@ -45,7 +46,7 @@ class Sequencer:
         "push": (0, True, 0.0, 1),
         "done": (0, True, 0.0, 1),
     }
-    # What has come to rest ends a phase: the joint, below which speed (rad/s or m/s), for how long, s.
+    # Joint whose rest ends a phase, the limit of its speed (rad/s or m/s), and the duration, s.
     CALM = {"snare": ("turn", 0.02, 0.5), "retract": ("retract", 1e-3, 0.3), "rigidize": ("retract", 3e-4, 0.3)}
 
     def __init__(self, snare, held_for=0.3, first="snare"):
@@ -64,7 +65,7 @@ class Sequencer:
         self._drive(machine)
 
     def _next(self, machine):
-        """The phase that follows; after a failure it is the end."""
+        """Next phase; after a failure it is the end."""
         if self._failed(machine):
             self.missed = self.phase
             return "done"
@@ -72,7 +73,8 @@ class Sequencer:
         return phases[phases.index(self.phase) + 1]
 
     def _failed(self, machine):
-        """Nothing came into the mouth; the closed snare touches nothing; nothing presses the pads."""
+        """True if the phase failed: nothing entered the mouth, the closed snare touches nothing, or nothing presses the
+        pads."""
         return {
             "approach": lambda: not self._near(machine),
             "snare": lambda: not np.any(machine.on("fixture")),
@@ -89,13 +91,13 @@ class Sequencer:
         )
 
     def _turn(self, machine, voltage):
-        """The ring's motor, its current limited."""
+        """Voltage of the ring's motor, limited by its current."""
         limit = self.snare.snare_torque / self.snare.stall_torque
         turning = machine.speed("turn") / self.snare.free_speed
         machine.data.ctrl[machine.model.actuator("ring").id] = min(limit + turning, max(turning - limit, voltage))
 
     def close(self, machine):
-        """Closes the snare, whatever the phase."""
+        """Closes the snare in any phase."""
         self._turn(machine, 1.0)
 
     def _finished(self, machine):
@@ -112,11 +114,11 @@ class Sequencer:
         )(machine)
 
     def _near(self, machine):
-        """What an operator sees in the camera: the target is near enough."""
+        """The operator's camera view: the target is near enough."""
         return in_shell(machine)[2] <= PLATE_HEIGHT
 
     def _unloaded(self, machine):
-        """What a load cell behind the pads tells."""
+        """Signal of a load cell behind the pads."""
         moved = self.carriage - machine.joint("retract")
         return moved > EXTENDED or pressed(machine) < UNLOADED * screw_force()
 
@@ -141,7 +143,7 @@ def in_shell(machine):
 
 
 def axial(machine, group):
-    """Force on one of the shell's groups along its axis, N: positive where it is pushed inwards."""
+    """Force on one of the shell's groups along its axis, N: positive inwards."""
     return -float(machine.data.xmat[machine.model.body("shell").id].reshape(3, 3)[:, 2] @ machine.on(group)[:3])
 
 
@@ -160,7 +162,7 @@ def machine(case: Case):
 
 @dataclass
 class Result:
-    """What a capture came to; forces in N."""
+    """Result of a capture; forces in N."""
 
     captured: bool  # the pads were pressed with more than half of the preload
     missed: str  # the phase after which the sequencer gave up, or ""
@@ -177,15 +179,15 @@ class Result:
 
 
 def look(made):
-    """What is asked of a pressed joint."""
+    """Measurements of a preloaded joint."""
     parts = {name: axial(made, name) for name in ("pads", "teeth", "rollers") if name in made.groups}
     place = in_shell(made)
     return parts["pads"], sum(parts.values()), parts["teeth"], roll_deg(made), math.hypot(place[0], place[1])
 
 
 def run(case, until="done", watch=None, accounts=True, prepare=None):
-    """`watch(machine, sequencer)` sees every step, `prepare(machine)` what it begins with. Without `accounts` of energy
-    and reactions it takes half the time.
+    """Runs a case. `watch(machine, sequencer)` is called at every step, `prepare(machine)` at the start. Without
+    `accounts` of energy and reactions it takes half the time.
     """
     made, sequencer = machine(case), sequencer_of(case)
     if prepare is not None:
@@ -217,25 +219,25 @@ def run(case, until="done", watch=None, accounts=True, prepare=None):
 
 
 def roll_deg(made):
-    """Of the payload about the shell's axis."""
+    """Roll of the payload about the shell's axis, degrees."""
     shell, payload = (made.data.xmat[made.model.body(name).id].reshape(3, 3) for name in ("shell", "payload"))
     seen = shell.T @ payload
     return math.degrees(math.atan2(seen[1, 0] - seen[0, 1], seen[0, 0] + seen[1, 1]))
 
 
 def speed_apart(made):
-    """Of the payload's origin from the world along the shell's axis, m/s."""
+    """Velocity of the payload's origin in the world along the shell's axis, m/s."""
     return float(made.data.xmat[made.model.body("shell").id].reshape(3, 3)[:, 2] @ velocity(made))
 
 
 def velocity(made):
-    """Of the payload's origin, m/s."""
+    """Velocity of the payload's origin, m/s."""
     first = made.model.body("payload").dofadr[0]
     return made.data.qvel[first : first + 3]
 
 
 def push_off_speed(mass, gap=0.0, before=0.0):
-    """What the springs of the plungers still have at the gap becomes motion of payload and plungers, m/s."""
+    """Speed from the plunger springs' remaining energy at the gap, shared by payload and plungers, m/s."""
     energy = 0.5 * PLUNGERS.spring * (PLUNGERS.stroke - gap) ** 2 + 0.5 * mass * before**2
     return math.sqrt(2.0 * energy / (mass + PLUNGERS.mass))
 

@@ -39,7 +39,7 @@ SEED = 15
 
 @dataclass(frozen=True)
 class Point:
-    """One case: which panel, where in it, and whether geometry says that it is snared; None where it does not say."""
+    """One case: its panel, its coordinates there, and whether geometry predicts a capture; None if undecided."""
 
     panel: str
     x: float
@@ -49,12 +49,12 @@ class Point:
 
 
 def open_aperture():
-    """From the axis to the open cables: to the middles of their links."""
+    """Distance from the axis to the open cables: to the middles of their links."""
     return TRAINING.ring_radius * math.cos(0.5 * s.bend(TRAINING)) - TRAINING.radius
 
 
 def entering(offset, tilt_deg):
-    """Whether the knob goes in: the farthest place of its edge from the axis, against cables and the lip's crest."""
+    """True if the knob enters: the point of its edge farthest from the axis, against cables and the lip's crest."""
     tilt = math.radians(tilt_deg)
     radius = FIXTURE.knob_radius * math.cos(tilt) + 0.5 * FIXTURE.knob_length * abs(math.sin(tilt))
     edge = math.hypot(*offset) + radius
@@ -70,7 +70,7 @@ def from_above(panel, x, y, offset, tilt_deg=0.0):
 
 
 def closing_time():
-    """How long a snare that closes on nothing takes until its aperture is as narrow as the knob, s."""
+    """Time in which an empty snare narrows its aperture to the knob, s."""
     machine, sequencer = s.rig(TRAINING), capture.Sequencer(TRAINING)
     narrow = FIXTURE.knob_radius + TRAINING.radius
     axis = np.array([(0.0, 0.0, -1.0), (0.0, 0.0, 1.0)])
@@ -84,7 +84,7 @@ def closing_time():
 
 
 def leaving(offset, rate, time):
-    """A payload whose shaft is inside when the snare is triggered, and that moves away at a rate, m/s.
+    """A payload whose shaft is inside when the snare is triggered, and which retreats at a rate, m/s.
 
     Captured if the knob is still below all cables when the aperture is as narrow as it; missed if it is above them all.
     """
@@ -110,7 +110,7 @@ def points():
 
 
 def offsets():
-    """The snare looks the same from azimuths that are 120 degrees apart."""
+    """The snare is symmetric under rotations by 120 degrees."""
     azimuths = {0.0: (0,), 0.040: (0, 60), 0.065: (0, 30, 60, 90), 0.074: (0, 30, 60, 90), 0.080: (0, 30, 60, 90)}
     for radius, around in azimuths.items():
         for azimuth in around:
@@ -129,7 +129,7 @@ def tilts():
 
 
 def ran(case):
-    """seated, snared or missed."""
+    """Outcome: seated, snared or missed."""
     result = capture.run(case, until="release", accounts=False)
     if result.captured:
         return "seated"
@@ -137,19 +137,19 @@ def ran(case):
 
 
 def found():
-    """(point, what it came to) of every case."""
+    """(point, outcome) of every case."""
     return [(point, ran(point.case)) for point in points()]
 
 
 def repeated(results, share):
-    """How many of a random part were run again at half the step, and which came to something else."""
+    """Number of random cases repeated at half the step, and those with another outcome."""
     chosen = random.Random(SEED).sample(results, round(share * len(results)))
     halves = [(point, came, ran(replace(point.case, step=TRAINING.step / 2))) for point, came in chosen]
     return len(chosen), [f"{point.panel} {point.x:g}, {point.y:g}: {a}, {b}" for point, a, b in halves if a != b]
 
 
 def rows(picture=None, share=REPEATED):
-    """`picture`: the file that the map is drawn into. `share`: of the cases, what is run again at half the step."""
+    """Writes the map into the file `picture`, and repeats the `share` of the cases at half the step."""
     results = found()
     if picture is not None:
         plot(results, picture)
@@ -180,7 +180,7 @@ MARKS = (("seated", "o", "tab:green"), ("snared", "^", "tab:orange"), ("missed",
 
 
 def plot(results, path):
-    """Lines: the edge that geometry gives, between which and the next it does not say."""
+    """Lines of the predicted edge; between adjacent ones geometry does not decide."""
     from matplotlib import pyplot
 
     figure, places = pyplot.subplots(1, len(PANELS), figsize=(15, 4), layout="constrained")

@@ -1,4 +1,4 @@
-"""Dimensions of the end effector, the grapple fixture and the payload. SI units. Where each comes from: README.md.
+"""Dimensions of the end effector, the grapple fixture and the payload, in SI units. Their sources: README.md.
 
 Public numbers are few. What is chosen is marked so; checks in outcome.py that name a closed form hold for any choice.
 """
@@ -33,7 +33,7 @@ class Snare:
 
 
 def training(snare):
-    """Heavy cables of few links: a step ten times as long, for a trainer at 1 kHz."""
+    """Heavy cables of few links: a step ten times longer, for a trainer at 1 kHz."""
     return replace(
         snare,
         links=8,
@@ -72,7 +72,7 @@ FRICTION = 0.2  # steel on steel, lubricated; chosen
 
 @dataclass(frozen=True)
 class Pads:
-    """Balls on the shell that meet the plate of the payload; they take the preload."""
+    """Balls on the shell that meet the plate of the payload and take the preload."""
 
     count: int = 12  # chosen
     circle: float = 0.150  # radius on which they lie; chosen
@@ -98,7 +98,7 @@ class Teeth:
 
 @dataclass(frozen=True)
 class Cams:
-    """Three wedges on the payload's plate, and between two rollers on the shell each; they turn the payload upright."""
+    """Three wedges on the payload's plate, each between two rollers on the shell; they turn the payload upright."""
 
     count: int = 3  # public: three, 120 degrees apart
     first_deg: float = 15.0  # azimuth of the first: between two pads
@@ -116,7 +116,7 @@ class Cams:
 
 @dataclass(frozen=True)
 class Lip:
-    """The rounded edge of the shell's mouth, through which the knob comes in."""
+    """Rounded edge of the shell's mouth, through which the knob enters."""
 
     pieces: int = 24
     aperture: float = 0.100  # from the axis to the lip's inner edge: the radius of the open snare
@@ -144,7 +144,7 @@ class Plungers:
 
 @dataclass(frozen=True)
 class Screw:
-    """The carriage's motor and ball screw."""
+    """Motor and ball screw of the carriage."""
 
     stall_torque: float = 4.8  # at the screw, N·m; chosen: presses with 6.4 kN
     lead: float = 4.0e-3  # m a turn; chosen
@@ -157,7 +157,7 @@ class Screw:
 
 @dataclass(frozen=True)
 class Arm:
-    """What holds the shell: springs and dampers along and about three axes at the arm's tip."""
+    """Holder of the shell: springs and dampers along and about three axes at the arm's tip."""
 
     behind: float = 0.6  # of the tip behind the plane of the snare, m; chosen
     stiffness: float = 2e4  # N/m; chosen: a shell that sways at 1.6 Hz

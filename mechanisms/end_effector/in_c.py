@@ -1,4 +1,4 @@
-"""What hosts/mujoco/realtime/end_effector.c is told: a capture at level training, its sequence as rows of numbers."""
+"""Input of hosts/mujoco/realtime/end_effector.c: a capture at level training, with its sequence as rows of numbers."""
 
 import capture
 import snare as s
@@ -32,7 +32,7 @@ def rows(made):
 
 
 def _phases(sequencer):
-    """Limit, ring, its brake, screw, plungers; the joint whose rest ends the phase, below which speed, for how long."""
+    """Limit, ring, its brake, screw, plungers; the joint whose rest ends the phase, its speed limit, and the duration."""
     for phase, (ring, brake, screw, plungers) in sequencer.MOTORS.items():
         brake = CASE.snare.brake_torque if brake else 0.0
         calm = sequencer.CALM.get(phase, ("-", 0.0, 0.0))
@@ -40,7 +40,7 @@ def _phases(sequencer):
 
 
 def run(made):
-    """The same run in Python."""
+    """Runs the same case in Python."""
     sequencer = capture.sequencer_of(CASE)
     while sequencer.phase != "done":
         made.hurry(sequencer)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Capture and release loads of a free flyer of 16 t, the greatest in each phase, at both levels: the table of README.md.
+"""Capture and release loads of a free flyer of 16 t, the largest in each phase, at both levels: the table of README.md.
 
 python3 mechanisms/end_effector/loads.py [LEVEL…]        with the plugin as for mechanisms/run.py; minutes
 """
@@ -24,7 +24,7 @@ PHASES = ("snare", "retract", "rigidize", "hold", "release", "open", "push")
 
 
 class Loads:
-    """Greatest in each phase: force along and across the shell's axis, moment about the plate's centre, tension."""
+    """Largest loads of each phase: force along and across the shell's axis, moment about the plate's centre, tension."""
 
     def __init__(self, snare):
         self.snare, self.most = snare, {}
@@ -45,7 +45,7 @@ def measured(case):
 
 
 def table(found):
-    """`found`: (name of the level, loads, result); figures of several levels stand beside each other."""
+    """Table of `found`: (name of the level, loads, result), with the levels side by side."""
     yield "| phase | along the axis, N | across, N | moment about the plate's centre, N·m | tension of a cable, N |"
     yield "|---|---|---|---|---|"
     for phase in PHASES:

@@ -16,7 +16,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 @dataclass(frozen=True)
 class Surface:
-    """N/m (None: rigid, the other surface of a pair gives the stiffness), N·s/m."""
+    """N/m (None: rigid, with the stiffness of the pair's other surface), N·s/m."""
 
     stiffness: float | None
     damping: float = 0.0
@@ -47,7 +47,8 @@ def part(kind, name, **fields):
 
 @dataclass(frozen=True)
 class Model:
-    """`links`: names of movable groups below the root, each of which carries `parts`; without them the root does."""
+    """Model with `links`: names of movable groups below the root, each of which carries `parts`; without them the root
+    does."""
 
     name: str
     surface: Surface
@@ -61,13 +62,13 @@ class Model:
 
 
 def around(count, radius, first_deg=0.0):
-    """Places on a circle about z."""
+    """Points on a circle about z."""
     angles = [math.radians(first_deg + 360.0 * i / count) for i in range(count)]
     return [(radius * math.cos(a), radius * math.sin(a)) for a in angles]
 
 
 def turned(azimuth_deg, x, y, z):
-    """A place given outwards, along the circumference and along the axis, at an azimuth."""
+    """Point given by its outward, tangential and axial coordinates at an azimuth."""
     a = math.radians(azimuth_deg)
     return (x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a), z)
 
@@ -76,7 +77,7 @@ def turned(azimuth_deg, x, y, z):
 
 
 def chain(length, radius, count, surface, name="cable"):
-    """Links of capsules, each on a movable group of its own; the root has nothing and stays where the chain begins."""
+    """Chain of capsules, each on its own movable group; the root is empty and fixed to the start of the chain."""
     wire = part("Capsule", "wire", ends=((0, 0, 0), (length, 0, 0)), radius=radius)
     return Model(name, surface, (wire,), tuple(f"link_{i:02}" for i in range(count)))
 
@@ -105,7 +106,7 @@ def fixture(fixture, friction=FRICTION):
 
 
 def pads(count=PADS.count, first_deg=0.0, height=SEAT, friction=FRICTION):
-    """Balls whose tops are at `height`."""
+    """Balls with their tops at `height`."""
     balls = tuple(
         part("Sphere", f"pad_{i:02}", center=(x, y, height - PADS.radius), radius=PADS.radius)
         for i, (x, y) in enumerate(around(count, PADS.circle, first_deg))
@@ -114,7 +115,7 @@ def pads(count=PADS.count, first_deg=0.0, height=SEAT, friction=FRICTION):
 
 
 def plate(friction=FRICTION):
-    """All that lies above z = 0 of the payload."""
+    """Half space below the payload's face z = 0."""
     return Model("plate", Surface(None, friction=friction), (part("Plane", "face", normal=(0, 0, -1), offset=0),))
 
 
@@ -122,7 +123,7 @@ FACES = ((0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6), (0, 4, 6, 2), (
 
 
 def wedge(name, azimuth_deg, circle, half_length, low, high):
-    """A prism along the radius; `low` and `high`: (half width, height), of which the first is the lower."""
+    """A radial prism; `low` and `high`: (half width, height), of which the first is lower."""
     corners = tuple(
         turned(azimuth_deg, radius, side * half, z)
         for radius in (circle - half_length, circle + half_length)
@@ -145,7 +146,7 @@ def teeth(friction=FRICTION, height=SEAT):
 
 
 def crowns(friction=FRICTION):
-    """The payload's half: a ball for each flank, which it touches in the pitch plane when the payload is seated."""
+    """The payload's half: a ball for each flank, in contact in the pitch plane when the payload is seated."""
     flank = math.radians(TEETH.flank_deg)
     out, up = TEETH.half_width + TEETH.crown * math.cos(flank), TEETH.crown * math.sin(flank)
     balls = tuple(
@@ -166,7 +167,7 @@ def cam_azimuths():
 
 
 def cams(friction=FRICTION):
-    """On the payload's plate, pointing at the shell."""
+    """Cams on the payload's plate, pointing at the shell."""
     tip = CAMS.half_root - CAMS.height * math.tan(math.radians(CAMS.flank_deg))
     wedges = tuple(
         wedge(f"cam_{i}", azimuth, CAMS.circle, CAMS.half_length, (tip, -CAMS.height), (CAMS.half_root, 0.0))
@@ -176,14 +177,14 @@ def cams(friction=FRICTION):
 
 
 def roller_place():
-    """Of a roller's axis from the middle of a seated cam, along the circumference, m."""
+    """Distance of a roller's axis from the middle of a seated cam, along the circumference, m."""
     flank = math.radians(CAMS.flank_deg)
     side = CAMS.half_root - CAMS.sunk * math.tan(flank)
     return side + (CAMS.roller + CAMS.clearance) / math.cos(flank)
 
 
 def rollers(friction=FRICTION):
-    """On the shell, two to each cam, with their axes along the radius; shorter than the cams, so that flanks carry them."""
+    """Rollers on the shell, two for each cam, with radial axes; shorter than the cams, so that flanks carry them."""
     half = 0.5 * CAMS.half_length
     capsules = tuple(
         part(
@@ -201,7 +202,7 @@ def rollers(friction=FRICTION):
 
 
 def lip(friction=FRICTION):
-    """A polygon of bars with ball ends, whose sides keep the aperture."""
+    """A polygon of bars with spherical ends, whose sides preserve the aperture."""
     corners = around(LIP.pieces, (LIP.aperture + LIP.radius) / math.cos(math.pi / LIP.pieces))
     bars = tuple(
         part("Capsule", f"edge_{i:02}", ends=((*a, LIP.height), (*b, LIP.height)), radius=LIP.radius)
@@ -211,7 +212,7 @@ def lip(friction=FRICTION):
 
 
 def plungers():
-    """On a body that slides along the axis; held back, their tips are at the seat."""
+    """Plungers on an axial slide; when latched, their tips are at the seat."""
     rods = tuple(
         part(
             "Ray",
@@ -230,7 +231,7 @@ def plungers():
 
 
 def committed():
-    """Models whose files stand beside this one, by the name of the file."""
+    """Models in files beside this one, by file name."""
     snares = [cable(Snare()), cable(training(Snare()))]
     fixtures = [fixture(Fixture()), fixture(LARGE_FIXTURE)]
     seat = [pads(), plate(), teeth(), crowns(), cams(), rollers(), lip(), plungers()]
@@ -238,7 +239,7 @@ def committed():
 
 
 def sources(objects):
-    """What the plugin is to load: name → file or text key, and the texts, for Objects given as models."""
+    """Model sources for the plugin: name → file or text key, and the texts, for Objects given as models."""
     files = {model: name for name, model in committed().items()}
     texts = sorted({model.text() for model in objects.values() if model not in files})
     keys = {text: f"text{i + 1}" for i, text in enumerate(texts)}

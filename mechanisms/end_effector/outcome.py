@@ -1,4 +1,4 @@
-"""What the end effector must come to. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
+"""Outcomes of the end effector and their predictions. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
 
 import math
 import time
@@ -30,7 +30,7 @@ def closed_forms():
 
 
 def honest(result):
-    """What holds of every run: energy, reactions, no tunnelling."""
+    """Rules for every run: energy, reactions, no tunnelling."""
     yield from rules.honest(result.machine)
 
 
@@ -47,7 +47,7 @@ def released(result, mass=1000.0):
 
 
 def nominal():
-    """Level analysis, and the same at half the step; what the levels cost and are off by."""
+    """Level analysis, also at half the step; cost and error of the levels."""
     half_given, whole_given, *rest = trade.LEVELS
     whole_level = trade.measured(*whole_given, until="done", accounts=True)
     whole = whole_level.result
@@ -65,7 +65,8 @@ def nominal():
 
 
 class Farthest:
-    """Of the cables' axes from the shell's: while they hold or close, and ever. The ring has no wall that keeps them in."""
+    """Largest distance of the cables' axes from the shell's: while holding or closing, and overall. No wall of the ring
+    limits it."""
 
     def __init__(self):
         self.held, self.most, self.steps = 0.0, 0.0, 0
@@ -82,7 +83,7 @@ class Farthest:
 
 
 def trained():
-    """Level training: 1 ms, and what it costs."""
+    """Level training: 1 ms, and its cost."""
     began, far = time.process_time(), Farthest()
     result = capture.run(LIGHT, watch=far)
     spent = (time.process_time() - began) / (result.machine.time / result.machine.step)
@@ -113,7 +114,7 @@ def off_nominal():
 
 
 def held_by_an_arm():
-    """The shell sways on springs and dampers; the outcome is that of the fixed shell."""
+    """Capture with the shell on springs and dampers: the outcome is that of the fixed shell."""
     result = capture.run(replace(LIGHT, holder=scene.arm()))
     yield Fact("captured, pressed, released", result.captured)
     yield Row("preload", result.preload, scene.screw_force(), 0.01, "N")
@@ -124,7 +125,7 @@ def held_by_an_arm():
 
 
 def cams_turn():
-    """Of a payload that is rolled as far as its cams still go between the rollers."""
+    """Capture of a payload at the largest roll for which its cams enter between the rollers."""
     rolled = replace(LIGHT, roll_deg=0.95 * scene.cam_roll_deg())
     seated = capture.run(rolled, until="release", accounts=False)
     what = f"a roll of {rolled.roll_deg:.1f} deg, 95 % of what lets the cams between the rollers, is turned back to"
@@ -134,7 +135,7 @@ def cams_turn():
 
 
 def shown(prepare):
-    """For logs and films: `prepare` sees the machine before it moves."""
+    """Run for logs and films: `prepare` receives the machine before it moves."""
     capture.run(capture.Case(snare=TRAINING), prepare=prepare)
 
 

@@ -1,4 +1,4 @@
-"""A cable wrapped round a shaft: the tension that it holds grows as exp(μφ·r/(r + rc))."""
+"""A cable wrapped around a shaft: its holding ratio of tensions grows as exp(μφ·r/(r + rc))."""
 
 import math
 
@@ -17,7 +17,7 @@ FAR = 2.0  # m: so far away is what pulls at an end
 
 
 def layout(reach, angle):
-    """Length of a link, and the angle between links, that touch the circle `reach` in their middles."""
+    """Length of a link and angle between links whose middles touch the circle `reach`."""
     bend = angle / WRAPPED
     return 2.0 * reach * math.tan(bend / 2.0), bend
 
@@ -31,7 +31,7 @@ def chain(snare, reach, angle):
     )
     text = f'<site name="high" pos="{length:.12g} 0 0"/>'
     for index in reversed(range(count)):
-        # The cable begins along +y beside the shaft and turns to the left.
+        # The cable begins along +y beside the shaft and turns left.
         turned = FREE <= index <= FREE + WRAPPED
         share = 0.5 if index in (FREE, FREE + WRAPPED) else 1.0
         start = (reach, -FREE * length, 0.0) if index == 0 else (length, 0.0, 0.0)
@@ -73,7 +73,7 @@ def rig(snare, fixture, angle):
 
 
 def holds(snare, fixture, angle, predicted):
-    """The ratio of tensions at which the cable begins to slide."""
+    """Ratio of tensions at which the cable begins to slide."""
     machine = rig(snare, fixture, angle)
     ratio = 1.0
 

@@ -1,4 +1,4 @@
-"""Carriage and pads: what the ball screw presses, and when the joint opens."""
+"""Carriage and pads: preload by the ball screw, and opening of the joint."""
 
 import math
 
@@ -13,7 +13,7 @@ RAISED = 0.5  # s in which a moment rises
 
 
 def joint_rig(count, first=0.0):
-    """A payload whose plate the stalled carriage pulls on a ring of pads; its rod ends in a ball on the carriage."""
+    """A payload whose plate the stalled carriage pulls onto a ring of pads; its rod ends in a ball on the carriage."""
     motor, mass = screw("retract")
     world = (
         '<body name="carriage" pos="0 0 -0.1"><joint name="retract" type="slide" axis="0 0 -1" damping="200" '
@@ -35,7 +35,7 @@ def joint_rig(count, first=0.0):
 
 
 def opening_moment(machine, count, direction, predicted):
-    """A moment across the axis is raised, slowly near the prediction, until fewer than `count` pads touch, N·m."""
+    """Moment across the axis, raised slowly near the prediction, at which fewer than `count` pads touch, N·m."""
     payload = machine.model.body("payload").id
     start, most, below = machine.time, 0.0, 0.9 * predicted
 
@@ -67,7 +67,7 @@ def rows():
             yield Row("preload is the stall torque·2πη/lead", force, screw_force(), 2e-3, "N")
         moment = opening_moment(machine, count, 0.0, screw_force() * PADS.circle / 2)
         yield Row(f"a ring of {count} pads opens at M = P·r/2", moment, screw_force() * PADS.circle / 2, 0.005, "N m")
-    # Three pads: the moment that unloads one of them lifts it at P·r/2; turned half round it unloads two, at P·r.
+    # Three pads: a moment that unloads one of them lifts it at P·r/2; rotated by half a turn it unloads two, at P·r.
     for direction, predicted in ((math.pi / 2, 1.0), (-math.pi / 2, 0.5)):
         machine = joint_rig(3)
         press(machine)

@@ -1,4 +1,4 @@
-"""The snare against closed forms: where free cables are straight, when they grip, what they pull, how they wrap."""
+"""The snare compared with closed forms: straightening of free cables, grip, tension, wrapping."""
 
 import math
 from dataclasses import replace
@@ -18,7 +18,7 @@ def held(place):
 
 
 def drive(torque, snare, speed=None):
-    """A constant voltage: that of a stalled torque, N·m, or that of a speed, rad/s, with the current of the torque as limit."""
+    """A constant voltage: for a stall torque, N·m, or for a speed, rad/s, with the current of the torque as limit."""
     stalled = torque / snare.stall_torque
 
     def control(machine):
@@ -32,7 +32,7 @@ def drive(torque, snare, speed=None):
 
 
 def ring_torque(machine):
-    """What the motor gives less what the gear loses, N·m: a ring that still creeps is not quite stalled."""
+    """Motor torque less the gear's loss, N·m: a creeping ring is not quite stalled."""
     freedom = machine.model.joint("turn").dofadr[0]
     return float(machine.data.qfrc_actuator[freedom] + machine.data.qfrc_damper[freedom])
 
@@ -67,7 +67,7 @@ def free_cables(level):
 
 
 def closes(level, fixture, aperture):
-    """Cables whose straight aperture is given, closed round a shaft that is held: do they touch it?"""
+    """Cables of known straight aperture, closed around a fixed shaft: contact or not."""
     turn = 2.0 * math.acos(aperture / level.ring_radius)
     snare = replace(level, length=2.0 * level.ring_radius * math.sin(turn / 2.0))
     machine = s.rig(snare, fixture, held("0 0 0.08"), friction=0.0)
@@ -86,7 +86,7 @@ def grip(level, fixture):
 
 
 def squeeze(level, fixture):
-    """Without friction the stalled ring pulls each cable round the shaft with τ/(3·(r + rc))."""
+    """Without friction the stalled ring pulls each cable around the shaft with τ/(3·(r + rc))."""
     machine = s.rig(level, fixture, held("0 0 0.08"), friction=0.0)
     torque, reach = 3.0, fixture.shaft_radius + level.radius
     machine.run(10.0, drive(torque, level, SLOW), watch=lambda m: s.tension(m, level, 0) > 0.9 * torque / (3 * reach))
@@ -128,7 +128,7 @@ def axes(machine, snare, cable):
 
 
 def crossing(level):
-    """Taut cables that cross are pushed against each other: the upper stays the upper."""
+    """Taut crossing cables are pushed against each other: the upper one stays above."""
     snare = replace(level, length=1.8 * level.ring_radius)
     machine = s.rig(snare, step=level.step / 2)
     push = 5.0  # N on each link

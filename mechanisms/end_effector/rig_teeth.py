@@ -1,4 +1,4 @@
-"""Curvic teeth: how much axial force holds them together against a torque.
+"""Curvic teeth: axial force that holds them together against a torque.
 
 A torque T on teeth whose flanks are at α from the axis pushes the halves apart with T·tan α/r; with friction, ρ its angle, the
 halves slide apart once the axial force falls below T·tan(α − ρ)/r.
@@ -18,7 +18,7 @@ SLID = 2e-4  # m of way apart that is more than what springs give back
 
 
 def separating_force(friction):
-    """The axial force under which the halves slide apart, N: lowered slowly at the torque TORQUE."""
+    """Axial force at which the halves slide apart, N: lowered slowly at the torque TORQUE."""
     world = (
         '<body name="half"><joint name="lift" type="slide" axis="0 0 1" damping="500"/><joint name="turn" axis="0 0 1" damping="5"/>'
         '<inertial pos="0 0 0" mass="30" diaginertia="0.3 0.3 0.3"/></body>'
@@ -42,7 +42,7 @@ def separating_force(friction):
 
 
 def share_bounds(friction=FRICTION):
-    """Of the preload, what teeth take that came together and stick: friction on the flanks acts one way or the other.
+    """Share of the preload carried by teeth that came together and stick: friction on the flanks acts in either direction.
 
     Both halves give way along the axis by the same: a ball by sin α of it along its normal.
     """

@@ -1,4 +1,4 @@
-"""The whole end effector and a free-flying payload as MJCF text: `mjcf_text(case)` makes it without running anything.
+"""The whole end effector and a free-flying payload as MJCF text: `mjcf_text(case)` makes it without running a simulation.
 
 Frames: z points out of the shell to the payload, the plane of the open snare is z = 0. The ring and the cables ride on a
 carriage that a ball screw pulls inwards. The payload's origin is the centre of its plate, the grapple shaft goes along −z
@@ -19,7 +19,7 @@ PAYLOADS = {1000.0: 400.0, 16000.0: 60000.0}  # mass, kg: inertia about each axi
 
 @dataclass(frozen=True)
 class Case:
-    """A capture: how the payload comes, what holds the shell, and what fails."""
+    """A capture: state of the payload, holder of the shell, and failures."""
 
     mass: float = 1000.0
     offset: tuple = (0.030, 0.0)  # of the knob's middle from the axis, m
@@ -43,7 +43,7 @@ def screw_force():
 
 
 def screw(joint):
-    """The motor through the screw, and the rotor's inertia as it is felt along the slide (kg)."""
+    """The motor through the screw, and the rotor's inertia reflected to the slide (kg)."""
     ratio = 2.0 * math.pi / SCREW.lead
     return mjcf.motor("screw", joint, screw_force(), SCREW.free_speed / ratio), SCREW.inertia * ratio**2
 
@@ -61,7 +61,7 @@ def arm(held=ARM):
 
 
 def cam_roll_deg():
-    """Roll of a payload up to which the flat tips of the cams go between the rollers, degrees."""
+    """Largest roll of a payload at which the flat tips of the cams enter between the rollers, degrees."""
     tip = CAMS.half_root - CAMS.height * math.tan(math.radians(CAMS.flank_deg))
     return math.degrees(math.asin((models.roller_place() - tip - CAMS.roller) / CAMS.circle))
 
@@ -103,7 +103,7 @@ def groups(case):
 
 
 def quaternion(tilt_deg, roll_deg):
-    """First the roll about z, then the tilt about y."""
+    """Rotation by the roll about z, then the tilt about y."""
     t, r = math.radians(tilt_deg) / 2, math.radians(roll_deg) / 2
     return (
         math.cos(t) * math.cos(r),
@@ -114,7 +114,7 @@ def quaternion(tilt_deg, roll_deg):
 
 
 def payload_place(case):
-    """Of the plate's centre: such that the middle of the knob is at the offset."""
+    """Position of the plate's centre for which the middle of the knob is at the offset."""
     shape, tilt = case.fixture, math.radians(case.tilt_deg)
     reach = shape.shaft_length + shape.cone_length + 0.5 * shape.knob_length
     return (case.offset[0] + reach * math.sin(tilt), case.offset[1], PLATE_HEIGHT + case.approach)
@@ -130,7 +130,7 @@ def payload(case):
 
 
 def shell(case):
-    """The shell with all that it carries, on the joints of `Case.holder`."""
+    """The shell with all its parts, on the joints of `Case.holder`."""
     _, reflected = screw("retract")
     inertia = mjcf.numbers([ARM.shell_inertia] * 3)
     carriage = (
@@ -149,7 +149,7 @@ def shell(case):
 
 
 def actuators(case):
-    """Ring, screw, and the springs of the plungers: control 0 latches these, 1 lets them go."""
+    """Ring, screw, and the springs of the plungers: control 0 latches these, 1 releases them."""
     snare = case.snare
     ring = mjcf.motor("ring", "turn", snare.stall_torque * case.motor_share, snare.free_speed)
     push = (
@@ -160,7 +160,7 @@ def actuators(case):
 
 
 def mjcf_text(case, folder=models.HERE):
-    """The whole machine as MJCF text. `folder`: where its model files are, as the plugin shall see it."""
+    """The whole machine as MJCF text. `folder`: location of its model files, as seen by the plugin."""
     things, pairs = objects(case)
     sources, texts = models.sources({name: model for name, (model, _) in things.items()})
     bodies = {name: body for name, (_, body) in things.items()}

@@ -1,4 +1,4 @@
-"""The snare: a ring that turns, three cables from it to a fixed ring, and what they close round.
+"""The snare: a turning ring, and three cables from it to a fixed ring, which close around a shaft.
 
 Each cable is a chain of rigid links on pairs of hinges; its last link is a tendon that pulls only. The ring's angle
 `turn` is that from the fixed to the turning end of a cable: at `open_turn` the cables lie round the ring's wall.
@@ -18,7 +18,7 @@ def pitch(snare):
 
 
 def bend(snare):
-    """Angle between links that lie round the ring."""
+    """Angle between links that lie along the ring."""
     return 2.0 * math.asin(pitch(snare) / (2.0 * snare.ring_radius))
 
 
@@ -27,7 +27,7 @@ def open_turn(snare):
 
 
 def straight_turn(snare):
-    """Ring angle at which a cable that touches nothing is straight."""
+    """Ring angle at which a cable without contact is straight."""
     return 2.0 * math.asin(snare.length / (2.0 * snare.ring_radius))
 
 
@@ -41,7 +41,7 @@ def height(snare, cable):
 
 
 def _link(snare, cable, index):
-    """A link and all that hang on it."""
+    """A link and all that follow it."""
     length, mass = pitch(snare), snare.mass / snare.links
     if index == 0:
         azimuth = 2.0 * math.pi * cable / CABLES
@@ -82,7 +82,7 @@ def _ring(snare):
 
 
 def _drawn_circle(radius, thickness, colour, height=0.0, pieces=36):
-    """Shown only: a ring of short capsules."""
+    """Visual ring of short capsules."""
     angles = [2.0 * math.pi * i / pieces for i in range(pieces + 1)]
     places = [(radius * math.cos(a), radius * math.sin(a), height) for a in angles]
     return "".join(
@@ -92,12 +92,12 @@ def _drawn_circle(radius, thickness, colour, height=0.0, pieces=36):
 
 
 def bodies(snare):
-    """Bodies of the ring and the cables, fixed to the frame that they are put into."""
+    """Bodies of the ring and the cables, fixed to their parent frame."""
     return _ring(snare) + "".join(_link(snare, cable, 0) for cable in range(CABLES))
 
 
 def tendons(snare, slack=0.0):
-    """The last link of each cable, which pulls only; its stiffness is that of the whole cable. Cable 0 is longer by `slack`."""
+    """Last link of each cable, which only pulls; its stiffness is that of the whole cable. Cable 0 is longer by `slack`."""
     return (
         "<tendon>"
         + "".join(
@@ -110,7 +110,7 @@ def tendons(snare, slack=0.0):
 
 
 def tension(machine, snare, cable):
-    """Of a cable's end at the ring, N, that of the spring."""
+    """Tension at a cable's end at the ring, N, from its spring."""
     length = machine.data.ten_length[machine.model.tendon(f"cable_{cable}").id]
     return max(0.0, snare.tension_stiffness * (float(length) - pitch(snare)))
 
@@ -126,7 +126,7 @@ def objects(snare):
 
 
 def rig(snare, fixture=None, payload="", more="", integrator="RK4", step=None, friction=None, capacity=128):
-    """The snare on its own, its ring driven by a motor `ring`, round a fixture on a body `payload` given as text."""
+    """The snare alone, its ring driven by a motor `ring`, around a fixture on a body `payload` given as text."""
     things, pairs, carried, carriers = objects(snare)
     texts = [models.cable(snare).text()]
     if fixture is not None:

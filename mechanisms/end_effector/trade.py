@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a step of each level costs, and what a capture at that level is off by: prints the table of README.md.
+"""Cost of a step at each level, and error of a capture at that level: prints the table of README.md.
 
 python3 mechanisms/end_effector/trade.py        with the plugin as for mechanisms/run.py; minutes. It is part of
 the thorough checks.
@@ -44,7 +44,7 @@ class Level:
 
 
 class Timer:
-    """Times steps of a machine, and of the same one without the plugin; leaves the machine as it is."""
+    """Times steps of a machine, and of the same one without the plugin; restores the machine."""
 
     def __init__(self, case):
         tree = xml.fromstring(mjcf_text(case))
@@ -97,13 +97,13 @@ def measured(name, snare, share, until="release", accounts=False):
 
 
 def figures(result):
-    """What is compared: N, N, N, s, s."""
+    """Compared figures: N, N, N, s, s."""
     peaks, ends = result.peaks, result.ends
     return result.preload, peaks["snare"], peaks["retract"], ends["snare"], ends["retract"]
 
 
 def table(levels):
-    """Of levels, of which the first is the reference."""
+    """Table of levels, of which the first is the reference."""
     reference = figures(levels[0].result)
     yield "| level | step | µs a step: MuJoCo, contact | s for 1 s | preload | peak, snare | peak, retract | closed | seated |"
     yield "|---|---|---|---|---|---|---|---|---|"

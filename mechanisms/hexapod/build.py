@@ -29,7 +29,7 @@ def plane():
 
 
 def height(x, y):
-    """Of the terrain; the same at both ends of a tile."""
+    """Height of the terrain; equal at both ends of a tile."""
     turns = (
         (tall, along * x / d.TILE + across * y / (2 * d.TILE_HALF_WIDTH), p) for tall, along, across, p in d.WAVES
     )

@@ -1,4 +1,4 @@
-"""On three feet on a slope, dispersed: does it stand, or does it slip or tip as statics says?
+"""Dispersed stands on three feet on a slope: whether it stands, slips or tips, compared with statics.
 
 The slope rises slowly, towards any azimuth, under a hexapod whose body is shifted and whose mass centre is raised. All
 three feet slip together at tan θ = μ; a foot is empty where gravity through the mass centre meets the plane on the line
@@ -43,7 +43,7 @@ def begin(values):
 
 
 def steepest(made, values):
-    """tan θ at which a rigid hexapod slips or tips. Loads of the feet change evenly with tan θ, so two slopes tell."""
+    """tan θ at which a rigid hexapod slips or tips. Loads of the feet are linear in tan θ, so two slopes suffice."""
     feet, centre = rig.feet(made)[list(scenes.THREE)], rig.mass_centre(made)
     level, tilted = (
         scenes.loads(feet, centre, np.array(rig.slope(math.atan(t), values["azimuth"]))) * math.hypot(1.0, t)

@@ -14,7 +14,7 @@ SWINGS = (1.0 - d.DUTY) * d.PERIOD  # s
 
 
 class Gait:
-    """`speed`: that of the body, m/s. All standing feet are moved as the body's motion wants it, so none must slip."""
+    """`speed`: that of the body, m/s. All standing feet move with the body's motion, so none must slip."""
 
     def __init__(self, speed=d.STRIDE / d.PERIOD):
         self.speed = speed
@@ -27,7 +27,7 @@ class Gait:
             self._touched(i)
 
     def control(self, hexapod):
-        """Every TICK."""
+        """Runs every TICK."""
         if round(hexapod.time / hexapod.step) % round(d.TICK / hexapod.step):
             return
         self.advance(hexapod.forces(), hexapod.data.qpos)
@@ -47,7 +47,7 @@ class Gait:
             self.clock, self.tripod, self.began = 0.0, 1 - self.tripod, None
 
     def _stand(self, speed, pose):
-        """The body moves by a velocity and an angular velocity; seen from it, standing feet move the other way."""
+        """Moves the standing feet against the body's velocity and angular velocity, in the body's frame."""
         standing = [i for i in rig.LEGS if self.states[i] == STAND]
         mean = sum(self.places[i][2] for i in standing) / len(standing)
         w, x, y, z = pose[3:7]
@@ -65,7 +65,7 @@ class Gait:
             self._roll(i)
 
     def _roll(self, i):
-        """A foot is a ball: as its tibia rises by an angle, its middle rolls to the hip by radius · angle."""
+        """Correction for a spherical foot: as its tibia rises by an angle, its middle rolls to the hip by radius · angle."""
         yaw, femur, knee = leg.angles(i, self.places[i])
         rolled = d.FOOT_RADIUS * (femur + knee - self.leans[i])
         self.places[i][0] -= rolled * math.cos(d.AZIMUTHS[i] + yaw)
@@ -88,12 +88,12 @@ class Gait:
                 self._touched(i)
 
     def _touched(self, i):
-        """From here on the ball rolls."""
+        """Marks the start of rolling."""
         _, femur, knee = leg.angles(i, self.places[i])
         self.leans[i] = femur + knee
 
     def _move(self, i, start, share):
-        """Up, ahead to where half of the stance lies before the neutral place, down to where the ground should be.
+        """Swing: up, ahead to half a stance before the neutral position, and down to the expected ground.
 
         Both ends are fixed on the ground: seen from the body they move back, so no foot leaves or lands sliding.
         """
@@ -120,5 +120,5 @@ def _raised(start, end, share):
 
 
 def _eased(t):
-    """0 to 1 with level ends."""
+    """Smooth step from 0 to 1 with zero slope at the ends."""
     return 0.5 - 0.5 * math.cos(math.pi * min(max(t, 0.0), 1.0))

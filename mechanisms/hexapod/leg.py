@@ -6,17 +6,17 @@ import dimensions as d
 
 
 def hip(i):
-    """Place of a hip in the body."""
+    """Position of a hip in the body."""
     return d.HIPS * math.cos(d.AZIMUTHS[i]), d.HIPS * math.sin(d.AZIMUTHS[i])
 
 
 def neutral(i, height=d.HEIGHT):
-    """Where a foot stands below the body."""
+    """Neutral position of a foot below the body."""
     return d.STANCE * math.cos(d.AZIMUTHS[i]), d.STANCE * math.sin(d.AZIMUTHS[i]), -height
 
 
 def angles(i, place):
-    """That bring foot `i` to a place in the body, knee up; None where the leg does not reach.
+    """Joint angles that bring foot `i` to a position in the body, knee up; None out of reach.
 
     In the plane of femur and tibia the law of cosines gives the knee, and two arc tangents the femur.
     """
@@ -33,7 +33,7 @@ def angles(i, place):
 
 
 def all_angles(places):
-    """Of eighteen joints, leg by leg."""
+    """All eighteen joint angles, leg by leg."""
     found = [angles(i, place) for i, place in enumerate(places)]
     if None in found:
         raise ValueError(f"leg {found.index(None)} does not reach {places[found.index(None)]}")

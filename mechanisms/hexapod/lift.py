@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""One foot drawn over the plane at an even speed: how deep does it stand? Why feet hop with some contacts (README.md).
+"""Depth of one foot drawn over the plane at a constant speed: why feet hop with some contacts (README.md).
 
 python3 mechanisms/hexapod/lift.py        with the plugin as for mechanisms/run.py; with Drake where `pip install drake` was
 
@@ -51,7 +51,7 @@ def text():
 
 
 def depth(kind, speed):
-    """Mean of the third second, m: what is left of the beginning swings about it."""
+    """Mean of the third second, m: the remaining transient oscillates about it."""
     made = kind(text(), ["world", "foot"])
     made.data.qvel[0] = speed
     made.start()
@@ -85,7 +85,7 @@ def engines():
 
 
 def limits():
-    """Of a foot of the standing hexapod with each set of own.py: what it is as a spring, and what follows."""
+    """Spring of a foot of the standing hexapod with each set of own.py, and its consequences."""
     load = d.MASS * d.GRAVITY / 6
     across = load * math.sin(math.atan(0.5 * d.FRICTION))
     for name in ("MuJoCo", "springs", "hard"):

@@ -1,4 +1,4 @@
-"""What the hexapod must come to. Run by mechanisms/run.py."""
+"""Outcomes of the hexapod and their predictions. Run by mechanisms/run.py."""
 
 import copy
 import math
@@ -22,7 +22,7 @@ SHARE_OF_SLIP = 0.05  # of the way, at most
 
 
 def kinematics():
-    """The angles of the closed form, put into MuJoCo's own kinematics, at random places of all feet."""
+    """The closed form's angles in MuJoCo's own kinematics, at random positions of all feet."""
     hexapod, draw, off, tried = rig.machine(STEP), random.Random(1), 0.0, 0
     while tried < 500:
         places = [[c + draw.uniform(-0.08, 0.08) for c in leg.neutral(i, 0.14)] for i in rig.LEGS]
@@ -57,7 +57,7 @@ def tipping(feet=(0,)):
 
 
 def tipping_stiff():
-    """What is left of the difference when the servos give way less."""
+    """Remaining difference with stiffer servos."""
     edge = scenes.edge_shift(0)
     empty, _ = scenes.shifted(d.ANALYSIS.step, 0, 1.01 * edge, STIFF)
     yield Row(f"shift at which foot 0 is empty, servos {STIFF:g} times stiffer", empty or math.nan, edge, 5e-3, "m")
@@ -72,7 +72,7 @@ def slopes(seconds):
 
 
 def level_walk():
-    """Soft servos let the feet roll as they take and lose load; stiffer ones less."""
+    """Soft servos let the feet roll as load shifts; stiffer ones less."""
     for step, stiffer, within in ((STEP, 1.0, 2e-2), (STEP / 2, STIFF, 5e-3)):
         walk = scenes.Walk(step, stiffer=stiffer)
         walk.go(2.5)
@@ -88,7 +88,7 @@ def level_walk():
 
 
 def analysed(level, tiles, seconds=1.7):
-    """Walks with the accounts."""
+    """Walk with the energy account."""
     walk = scenes.Walk(level.step, tiles)
     walk.go(seconds, walk.hexapod.advance)
     print(f"      {walk.hexapod.ledger.through:.2f} J went through")
@@ -114,7 +114,7 @@ def terrain(metres):
 
 
 def restarted():
-    """On the terrain, in the middle of a swing."""
+    """Restart on the terrain, in the middle of a swing."""
     walk = scenes.Walk(STEP, 1)
     walk.go(2.3)
     middle, ends = (walk.hexapod.save(), walk.gait), []
@@ -140,7 +140,7 @@ DRAWN = ("body", "coxa_*", "femur_*", "tibia_*")  # bodies that logs and films s
 
 
 def shown(prepare):
-    """For logs and films: it walks over the terrain."""
+    """Run for logs and films: it walks over the terrain."""
     walk = scenes.Walk(STEP, 2)
     prepare(walk.hexapod)
     walk.go(12.0, walk.hexapod.advance)

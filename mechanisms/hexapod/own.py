@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The same hexapod with MuJoCo's own contact and in Drake, beside Pong's: standing, slopes, a walk on the plane.
+"""Comparison of the same hexapod with MuJoCo's contact, in Drake and with Pong: standing, slopes, a walk on the plane.
 
 python3 mechanisms/hexapod/own.py        with the plugin as for mechanisms/run.py; with Drake where `pip install drake` was
 """
@@ -26,17 +26,17 @@ SETS = {
     "MuJoCo": own_contact.DEFAULT,
     "springs": own_contact.SPRINGS,
     "hard": own_contact.hard(STEP),
-    # Added after the comparison: which of the differences come from the friction's regularization alone.
+    # Added after the comparison: differences caused by the friction's regularization alone.
     "impratio": replace(own_contact.DEFAULT, impratio=100.0),
 }
 FEET = {f"foot_{i}": own_contact.Surface(d.STIFFNESS, d.DAMPING, d.FRICTION) for i in rig.LEGS}
 
 
 class Feet:
-    """What the scenes ask of a hexapod."""
+    """Interface of a hexapod for the scenes."""
 
     def forces(self):
-        """On each foot, along the axes of the world, N."""
+        """Force on each foot, along the axes of the world, N."""
         forces, feet = np.zeros((6, 3)), [self.model.geom(name).id for name in FEET]
         for first, second, _, force in self.pushes():
             foot, sign = (second, 1.0) if second in feet else (first, -1.0)
@@ -58,7 +58,7 @@ def other(engine, how):
 
 
 def settled(made):
-    """On level ground, put down just touching: the same start for every contact."""
+    """Hexapod at rest on level ground, set down just touching: the same start for every contact."""
     hexapod = rig.machine(STEP, made=made)
     for _ in range(round(1.0 / STEP)):
         hexapod.hurry()
@@ -66,7 +66,7 @@ def settled(made):
 
 
 def tilted(share, made):
-    """Settled, then the slope rises within two seconds to a share of tan θ = μ; half a second to come to rest."""
+    """Settled, then the slope rises within two seconds to a share of tan θ = μ, and half a second of rest."""
     hexapod, steps = settled(made), round(2.0 / STEP)
     for k in range(steps):
         hexapod.model.opt.gravity[:] = rig.slope(math.atan(share * d.FRICTION) * (k + 1) / steps)
@@ -77,7 +77,7 @@ def tilted(share, made):
 
 
 def moves(hexapod, seconds):
-    """Way of the body, m; its mean acceleration down the slope, m/s²; forces of the feet in each step, N."""
+    """Displacement of the body, m; its mean acceleration down the slope, m/s²; forces of the feet in each step, N."""
     start, speed, forces = hexapod.place("body"), hexapod.data.qvel[0], []
     for _ in range(round(seconds / STEP)):
         hexapod.hurry()
@@ -87,7 +87,7 @@ def moves(hexapod, seconds):
 
 
 def figures(made):
-    """Of one contact: depth of the feet, creep, slide, walk."""
+    """Figures of one contact: depth of the feet, creep, slide, walk."""
     stands = settled(made)
     yield "sum of loads at rest, N", stands.forces()[:, 2].sum()
     yield "feet are deep, µm", 1e6 * float(np.mean(d.FOOT_RADIUS - rig.feet(stands)[:, 2]))
@@ -112,7 +112,7 @@ def figures(made):
 
 
 def main():
-    """One column after another: `own.py Pong hard` makes these two."""
+    """Makes one column after another: `own.py Pong hard` makes these two."""
     columns = {"Pong": partial(figures, None)}
     columns |= {name: partial(figures, other(Own, contact)) for name, contact in SETS.items()}
     if drake.at_hand():

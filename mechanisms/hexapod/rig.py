@@ -19,7 +19,7 @@ BEHIND = 1.0  # m of terrain behind the start
 
 class Hexapod(Machine):
     def forces(self):
-        """On each foot, along the axes of the world, N."""
+        """Force on each foot, along the axes of the world, N."""
         return wrenches(self.data.sensordata[self.sensed])[-6:, :3]
 
 
@@ -61,7 +61,7 @@ def body():
 
 
 def servos(stiffer):
-    """Hold angles: torque k·(told − angle) − c·speed, limited."""
+    """Servos that hold angles: torque k·(commanded − angle) − c·speed, limited."""
     k, c, most = stiffer * d.SERVO_STIFFNESS, math.sqrt(stiffer) * d.SERVO_DAMPING, d.SERVO_TORQUE
     return "".join(
         f'<general name="{name}_{i}" joint="{name}_{i}" gainprm="{k}" biastype="affine" biasprm="0 {-k} {-c}" '
@@ -72,13 +72,13 @@ def servos(stiffer):
 
 
 def slope(angle, azimuth=0.0):
-    """Gravity over a slope that rises towards an azimuth; the ground stays in the plane z = 0."""
+    """Gravity on a slope that rises towards an azimuth; the ground stays in the plane z = 0."""
     down = math.sin(angle)
     return tuple(-d.GRAVITY * x for x in (down * math.cos(azimuth), down * math.sin(azimuth), math.cos(angle)))
 
 
 def ground(tiles):
-    """MJCF, Objects, carriers: the plane, or so many tiles of terrain one after another."""
+    """MJCF, Objects, carriers: the plane, or a row of terrain tiles."""
     if not tiles:
         drawn = '<geom name="ground" type="plane" size="20 20 1" rgba="0.72 0.7 0.66 1" contype="1" conaffinity="0"/>'
         return drawn, {"ground": "plane.ron"}, {"ground": "world"}
@@ -92,7 +92,7 @@ def ground(tiles):
 
 
 def text(step, tiles=0, gravity=LEVEL, stiffer=1.0, friction=None):
-    """MJCF, and the bodies that carry what touches."""
+    """MJCF, and the carrier bodies of the contact groups."""
     drawn, objects, bodies = ground(tiles)
     under = list(objects)
     for i in LEGS:
@@ -105,12 +105,12 @@ def text(step, tiles=0, gravity=LEVEL, stiffer=1.0, friction=None):
 
 
 def sunk():
-    """How deep six feet sink into level ground together."""
+    """Depth of six feet in level ground."""
     return d.MASS * d.GRAVITY / (6 * d.STIFFNESS)
 
 
 def machine(step, tiles=0, gravity=LEVEL, height=d.HEIGHT, above=0.0, stiffer=1.0, made=None, friction=None):
-    """Standing with all feet; `above`: how much higher than where they just touch the plane, m.
+    """Stand on all feet; `above`: height above the position of first contact with the plane, m.
 
     `stiffer`: by what its servos are stiffer. `made`: the class of machine, for other contacts. `friction`: of feet and ground.
     """
@@ -120,7 +120,7 @@ def machine(step, tiles=0, gravity=LEVEL, height=d.HEIGHT, above=0.0, stiffer=1.
 
 
 def pose(hexapod, places, height):
-    """Joints where places of the feet in the body want them, the body level at a height above its start."""
+    """Joint angles for positions of the feet in the body, with a level body at a height above its start."""
     told = leg.all_angles(places)
     hexapod.data.qpos[:7] = (0.0, 0.0, height, 1.0, 0.0, 0.0, 0.0)
     hexapod.data.qpos[7:] = told
@@ -133,7 +133,7 @@ def tell(hexapod, places):
 
 
 def feet(hexapod):
-    """Middles of the feet in the world."""
+    """Positions of the feet in the world."""
     return np.array([hexapod.data.site(f"foot_{i}").xpos for i in LEGS])
 
 
@@ -147,7 +147,7 @@ def tilt(hexapod):
 
 
 def foot_velocity(hexapod, i):
-    """Of the place where a foot touches level ground, m/s."""
+    """Velocity of a foot's contact point on level ground, m/s."""
     velocity = np.empty(6)
     site = hexapod.model.site(f"foot_{i}").id
     mujoco.mj_objectVelocity(hexapod.model, hexapod.data, mujoco.mjtObj.mjOBJ_SITE, site, velocity, 0)

@@ -1,4 +1,4 @@
-"""What the hexapod does: stands, shifts until it tips, stands and slides on slopes, walks."""
+"""Motions of the hexapod: standing, shifting until it tips, standing and sliding on slopes, walking."""
 
 import math
 
@@ -18,7 +18,7 @@ THREE = d.TRIPODS[0]
 
 
 def loads(feet, centre, gravity):
-    """Of three feet on the plane z = 0, N: the balance across it and about the two axes in it."""
+    """Loads of three feet on the plane z = 0, N, from balance normal to it and about its two axes."""
     places = np.array([(x, y, 1.0) for x, y, _ in feet]).T
     # Gravity through the mass centre meets the plane here.
     met = centre - gravity * (centre[2] / gravity[2])
@@ -26,7 +26,7 @@ def loads(feet, centre, gravity):
 
 
 def on_three(height=d.HEIGHT, shift=(0.0, 0.0)):
-    """Places of the feet: one tripod stands, the other is lifted."""
+    """Positions of the feet: one tripod stands, the other is lifted."""
     places = []
     for i in rig.LEGS:
         x, y, z = leg.neutral(i, height)
@@ -54,12 +54,12 @@ def tripod_loads(step, slope, azimuth):
 
 
 def away(foot):
-    """Direction in which the body leaves a foot."""
+    """Direction of the body away from a foot."""
     return -math.cos(d.AZIMUTHS[foot]), -math.sin(d.AZIMUTHS[foot])
 
 
 def edge_shift(foot, height=d.LOW):
-    """How far the body must shift until the mass centre stands over the other two feet, m.
+    """Shift of the body that moves the mass centre over the line of the other two feet, m.
 
     Bisection for a rigid hexapod, less what it leans forward because two feet bear all and sink, and the third none.
     """
@@ -77,7 +77,7 @@ def edge_shift(foot, height=d.LOW):
 
 
 def centre(places):
-    """Of mass, in the body, from the places of the feet."""
+    """Mass centre in the body, from the positions of the feet."""
     total = np.zeros(3)
     for i, place in enumerate(places):
         yaw, up, knee = leg.angles(i, place)
@@ -95,7 +95,7 @@ def pointing(yaw, up):
 
 
 def shifted(step, foot, far, stiffer=1.0):
-    """The body shifts slowly away from a foot, and stops after `far`: shift where its load became zero, or None."""
+    """Shift at which a foot's load became zero, or None, as the body shifts slowly away from it by `far`."""
     hexapod = standing_on_three(step, rig.LEVEL, d.LOW, stiffer)
     hexapod.run(SETTLED)
     x, y = away(foot)
@@ -113,7 +113,7 @@ def shifted(step, foot, far, stiffer=1.0):
 
 
 def creeps(step, share, seconds, made=None):
-    """On six feet at a share of tan θ = μ: way of the body across and along the slope, m, and the hexapod."""
+    """Creep on six feet at a share of tan θ = μ: displacement of the body across and along the slope, m, and the hexapod."""
     hexapod = on_slope(step, math.atan(share * d.FRICTION), made)
     for _ in range(round(2 * SETTLED / step)):
         hexapod.hurry()
@@ -124,7 +124,7 @@ def creeps(step, share, seconds, made=None):
 
 
 def slides(step, share, made=None):
-    """Above it: acceleration, measured and predicted, m/s²."""
+    """Sliding above tan θ = μ: acceleration, measured and predicted, m/s²."""
     angle = math.atan(share * d.FRICTION)
     hexapod = on_slope(step, angle, made)
     speeds = []
@@ -143,7 +143,7 @@ def on_slope(step, angle, made=None):
 
 
 class Walk:
-    """Walks, and watches on the way: slip of the feet, tilt, the greatest torque."""
+    """Walk with records of slip of the feet, tilt and largest torque."""
 
     def __init__(self, step, tiles=0, stiffer=1.0, made=None):
         above = sum(wave[0] for wave in d.WAVES) if tiles else 0.0  # it drops onto the terrain
@@ -171,7 +171,7 @@ class Walk:
         return float(self.hexapod.data.qpos[0])
 
     def slip_share(self):
-        """What the feet slid on the way, over the way."""
+        """Sliding distance of the feet, relative to the distance walked."""
         return float(self.slipped.mean()) / self.way()
 
 

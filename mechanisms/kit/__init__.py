@@ -1,1 +1,1 @@
-"""What the mechanisms share: MuJoCo moves the bodies, Pong's plugin touches them (docs/mujoco.md)."""
+"""Shared parts of the mechanisms: MuJoCo moves the bodies, Pong's plugin computes their contacts (docs/mujoco.md)."""

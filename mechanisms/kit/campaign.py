@@ -26,7 +26,7 @@ class Uniform:
     high: float
 
     def at(self, share):
-        """The value below which lies a share of all values."""
+        """Quantile function: the value below which lies a share of all values."""
         return self.low + (self.high - self.low) * share
 
 
@@ -41,7 +41,7 @@ class Normal:
 
 @dataclass(frozen=True)
 class OverDisc:
-    """Distance from the middle of points that lie even over a disc; with a uniform direction."""
+    """Radius of points uniform over a disc; use with a uniform direction."""
 
     radius: float
 
@@ -54,7 +54,7 @@ ANY_WAY = Uniform(0.0, 2.0 * math.pi)  # direction, rad
 
 @dataclass(frozen=True)
 class Study:
-    """What the campaign of a mechanism is.
+    """Definition of a mechanism's campaign.
 
     `attempt(values)` runs a case: a dict with `success` (0 or 1), the quantities, and `tunnelled` (0 or 1). If a closed
     form says what must come out, the dict has `margin` as well: how far the case lies within the limit of success (above
@@ -77,13 +77,13 @@ class Study:
 
 
 def drawn(study, run, seed):
-    """Values of a run: they depend on seed, run and the place of the dispersion in the list, on nothing else."""
+    """Values of a run, which depend only on seed, run and index of the dispersion in the list."""
     shares = np.random.default_rng([seed, run]).random(len(study.dispersed))
     return {name: float(spread.at(share)) for (name, spread), share in zip(study.dispersed.items(), shares)}
 
 
 def row_of(study, seed, run):
-    """A run that MuJoCo or Pong refuses to compute has failed; it is no success, and has no loads."""
+    """Runs a case; one that MuJoCo or Pong refuses to compute has failed: it is no success, and has no loads."""
     values = drawn(study, run, seed)
     try:
         came = {**study.attempt(values), "failed": 0}
@@ -96,7 +96,7 @@ def row_of(study, seed, run):
 
 
 def read(study, path):
-    """Rows that are there, by number; one that was cut off when a campaign was stopped does not count."""
+    """Complete rows by run number; one cut off when a campaign was stopped does not count."""
     if not path.exists():
         return {}
     with path.open(newline="", encoding="utf-8") as file:
@@ -105,7 +105,7 @@ def read(study, path):
 
 
 def same_plan(study, folder, seed):
-    """A folder holds one campaign: its rows are those of one study and one seed."""
+    """Checks that the folder belongs to this campaign: its rows are those of one study and one seed."""
     dispersed = {name: repr(spread) for name, spread in study.dispersed.items()}
     plan, path = {"mechanism": study.name, "seed": seed, "dispersed": dispersed}, folder / "plan.json"
     if path.exists() and json.loads(path.read_text(encoding="utf-8")) != plan:
@@ -114,7 +114,7 @@ def same_plan(study, folder, seed):
 
 
 def go_on(study, folder, runs, seed=1, workers=1):
-    """Computes the runs that the folder lacks; each row is on the disk when its run has ended. All rows, in order."""
+    """Computes the missing runs of the folder; each row is on the disk when its run has ended. Returns all rows, in order."""
     folder.mkdir(parents=True, exist_ok=True)
     same_plan(study, folder, seed)
     path = folder / "rows.csv"
@@ -130,7 +130,7 @@ def go_on(study, folder, runs, seed=1, workers=1):
 
 
 def _mend(study, path, rows):
-    """Writes the file without a row that was cut off, so that the next one begins on a line of its own."""
+    """Rewrites the file without an incomplete row, so that the next one begins on a new line."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, study.columns)
         writer.writeheader()

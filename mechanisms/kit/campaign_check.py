@@ -1,4 +1,4 @@
-"""Short checks of the kit's campaigns with a few runs of one mechanism: nothing is lost, nothing is run twice."""
+"""Short checks of the kit's campaigns with a few runs of one mechanism: no run is lost or repeated."""
 
 import contextlib
 import io
@@ -10,7 +10,7 @@ from kit.rows import Fact
 
 
 def rows(study):
-    """Two runs; the last row is cut off as a kill would; a third run is asked for."""
+    """Two runs; the last row is cut off as by a kill; then three runs are requested."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder) / "campaign"
         first = go_on(study, folder, 2)

@@ -1,4 +1,4 @@
-"""What a campaign of a mechanism comes to: probability, agreement with the prediction, quantiles, the worst case."""
+"""Conclusions of a mechanism's campaign: probability, agreement with the prediction, quantiles, the worst case."""
 
 import json
 import math
@@ -12,7 +12,7 @@ TOLD = 20  # disagreements that are printed
 
 
 def command(study, home, given):
-    """What `mechanisms/run.py NAME --campaign DIR` does; `home`: folder of the mechanism."""
+    """Runs the command `mechanisms/run.py NAME --campaign DIR`; `home`: folder of the mechanism."""
     rows = go_on(study, given.campaign, given.runs, given.seed, given.workers)
     conclude(study, rows)
     worst = max(rows, key=lambda row: badness(study, row))
@@ -37,7 +37,7 @@ def conclude(study, rows):
 
 
 def agreement(study, rows):
-    """Cases near the limit of the prediction are counted apart."""
+    """Counts cases near the limit of the prediction separately."""
     rows = [row for row in rows if not row["failed"]]
     near = [row for row in rows if abs(row["margin"]) < study.band]
     clear = [row for row in rows if abs(row["margin"]) >= study.band]
@@ -54,7 +54,7 @@ def agreement(study, rows):
 
 
 def table(study, rows):
-    """Quantiles as a table of Markdown; a bound that so few runs do not have is a dash."""
+    """Quantiles as a Markdown table; a dash for a bound that needs more runs."""
     from pong.campaign import quantile_interval
 
     print("| quantity |" + "".join(f" {share * 100:g} % |" for share in QUANTILES))
@@ -63,7 +63,7 @@ def table(study, rows):
         values = np.array([row[name] for row in rows if not math.isnan(row[name])]) * factor
         cells = []
         for share in QUANTILES:
-            # The value is an order statistic as its bounds are: no value is made up between two runs.
+            # The value is an order statistic, as its bounds are, without interpolation between two runs.
             value = np.quantile(values, share, method="inverted_cdf")
             bounds = (f"{bound:.4g}" if math.isfinite(bound) else "–" for bound in quantile_interval(values, share))
             cells.append(f" {value:.4g} ({' to '.join(bounds)}) |")
@@ -95,7 +95,7 @@ def keep(study, row, seed, path):
 
 
 def again(study, home):
-    """The kept case, run again: rows for the thorough checks of a mechanism."""
+    """The stored case, run again: rows for the thorough checks of a mechanism."""
     kept = json.loads((home / "worst_case.json").read_text(encoding="utf-8"))
     came = study.attempt(kept["values"])
     yield Fact(
@@ -103,5 +103,5 @@ def again(study, home):
     )
     for name in sorted(kept["came"].keys() & study.quantities.keys()):
         what, unit, factor = study.quantities[name]
-        # Other compilers may round otherwise, and an impact tells.
+        # Other compilers may round differently, and an impact amplifies that.
         yield Row(f"its {what}", came[name] * factor, kept["came"][name] * factor, 1e-6, unit)

@@ -1,4 +1,4 @@
-"""What a machine looks like: geoms of MuJoCo as a contact model that no pair names, so that logs and films show them.
+"""Appearance of a machine: MuJoCo's geoms as a contact model without pairs, so that logs and films show them.
 
 A contact model has only what touches. Without this, a pallet in a film is its wheels, and an arm is not there.
 """
@@ -14,7 +14,7 @@ FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (
 
 
 def model(of, patterns):
-    """Text of a model with a movable group for each body whose name is like one of the patterns and which has geoms."""
+    """Text of a model with a movable group for each body with geoms whose name matches one of the patterns."""
     names = [of.body(number).name for number in range(of.nbody)]
     chosen = [name for name in names if any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns)]
     groups = [(name, parts) for name in chosen if (parts := list(_parts(of, of.body(name).id)))]

@@ -1,4 +1,4 @@
-"""The same machine in Drake (`pip install drake`): Drake moves the bodies and computes the contacts.
+"""A machine in Drake (`pip install drake`), which moves the bodies and computes the contacts.
 
 Drake's own reader takes bodies, joints and masses from the MJCF. Motors, springs and dampers of joints and what a host
 applies are computed by MuJoCo at the same state, and given to Drake as forces on the joints at the beginning of each step.
@@ -33,7 +33,7 @@ def at_hand():
 
 
 class InDrake(Own):
-    """Stands for a `Machine`. Its MuJoCo model holds the state that Drake came to, and computes forces of joints."""
+    """Replacement of a `Machine`. Its MuJoCo model holds Drake's state, and computes forces of joints."""
 
     def __init__(self, text, carriers, way, movers, grounds):
         self.simulator, self.steps = None, 0
@@ -43,7 +43,7 @@ class InDrake(Own):
         self.start()
 
     def start(self):
-        """After positions or velocities were set in the MuJoCo model."""
+        """Call after setting positions or velocities in the MuJoCo model."""
         mujoco.mj_forward(self.model, self.data)
         if self.simulator is not None:
             self._give_state()
@@ -54,13 +54,14 @@ class InDrake(Own):
             control(self)
         mujoco.mj_forward(self.model, self.data)
         self._give_forces()
-        # Drake steps at whole multiples of the step; half a step beyond, rounding can neither lose a step nor add one.
+        # Drake steps at whole multiples of the step; half a step more, so that rounding can neither lose a step nor add
+        # one.
         self.simulator.AdvanceTo((self.steps + 0.5) * self.step)
         self.steps += 1
         self._take_state()
 
     def pushes(self):
-        """(geom, geom, place, force on the second) of each contact, along the axes of the world."""
+        """(geom, geom, position, force on the second) of each contact, along the axes of the world."""
         mujoco.mj_forward(self.model, self.data)
         self._give_forces()
         found = self.plant.get_contact_results_output_port().Eval(self.context)
@@ -93,7 +94,8 @@ class InDrake(Own):
         self.port = self.plant.get_applied_generalized_force_input_port()
 
     def _shapes(self, way, movers, grounds):
-        """Grounds are rigid; movers have the stiffness of the pair. Friction: of the pair, see `_of_mover`."""
+        """Adds contact geometry: grounds are rigid; movers have the stiffness of the pair. Friction: of the pair, see
+        `_of_mover`."""
         from pydrake.geometry import CollisionFilterDeclaration, GeometrySet
 
         self.geoms, ground = {}, max(surface.friction for surface in movers.values())
@@ -116,7 +118,7 @@ class InDrake(Own):
         return self.plant.RegisterCollisionGeometry(carrier, place, _shape(self.model, geom), name, about)
 
     def _rotors(self):
-        """MuJoCo's `armature` is the inertia of a rotor without a gear."""
+        """MuJoCo's `armature` is the inertia of a rotor without a gear ratio."""
         for j in range(self.model.njnt):
             inertia = self.model.dof_armature[self.model.jnt_dofadr[j]]
             if inertia > 0.0:
@@ -126,7 +128,7 @@ class InDrake(Own):
                 motor.set_default_gear_ratio(1.0)
 
     def _loops(self):
-        """Of MuJoCo's `connect`: a point of one body stays at a point of another."""
+        """Adds the constraints of MuJoCo's `connect`: a point of one body stays at a point of another."""
         for k in range(self.model.neq):
             if self.model.eq_type[k] != mujoco.mjtEq.mjEQ_CONNECT:
                 raise ValueError("this constraint is not among those that are given to Drake")
@@ -135,8 +137,8 @@ class InDrake(Own):
             self.plant.AddBallConstraint(one, self.model.eq_data[k, :3], other, self.model.eq_data[k, 3:6])
 
     def _places(self):
-        """Where the numbers of joints begin, MuJoCo's two and Drake's two: of free ones, of balls, and, as columns, of all
-        others."""
+        """Start indices of joints in MuJoCo's two and Drake's two vectors: of free ones, of balls, and, as columns, of
+        all others."""
         free, balls, others = [], [], []
         for j in range(self.model.njnt):
             joint, own = self.model.joint(j), (self.model.jnt_qposadr[j], self.model.jnt_dofadr[j])
@@ -150,8 +152,8 @@ class InDrake(Own):
         return free, balls, np.array(others, dtype=int).reshape(-1, 4).T
 
     def _give_state(self):
-        """Drake has the quaternion before the place, the spin before the velocity, and the spin in the world. A ball has
-        roll, pitch and yaw, and its spin in the axes of what carries it."""
+        """Converts the state. Drake has the quaternion before the position, the angular velocity before the velocity,
+        and in the world. A ball joint has roll, pitch and yaw, and its angular velocity in the axes of its parent."""
         from pydrake.math import RollPitchYaw, RotationMatrix
 
         d, positions, speeds = self.data, np.zeros(self.plant.num_positions()), np.zeros(self.plant.num_velocities())
@@ -191,7 +193,7 @@ class InDrake(Own):
         return self.plant.GetPositions(self.context), self.plant.GetVelocities(self.context)
 
     def _give_forces(self):
-        """Those of motors, springs, dampers, hosts and gravity on the joints."""
+        """Applies the forces of motors, springs, dampers, hosts and gravity on the joints."""
         d, forces = self.data, np.zeros(self.plant.num_velocities())
         given = d.qfrc_actuator + d.qfrc_passive + d.qfrc_applied + self._weight()
         add_applied(self.model, d, given)
@@ -205,7 +207,7 @@ class InDrake(Own):
         self.port.FixValue(self.context, forces)
 
     def _weight(self):
-        """Gravity may turn while a machine runs; Drake's does not, so it has none."""
+        """Gravity as a joint force: it may turn while a machine runs; Drake's cannot, so Drake has none."""
         if not self.model.opt.gravity.any():
             return 0.0
         gravity, without = self.model.opt.gravity.copy(), np.empty(self.model.nv)
@@ -216,7 +218,7 @@ class InDrake(Own):
 
 
 def _for_drake(text):
-    """Bodies, joints and masses; all else is given in other ways."""
+    """Bodies, joints and masses only; everything else is passed in other ways."""
     root = xml.fromstring(text)
     for child in list(root):
         if child.tag not in ("compiler", "worldbody"):
@@ -235,7 +237,7 @@ def _for_drake(text):
 
 
 def _split(parent, body):
-    """A body with several joints becomes bodies with one each: of several, Drake's reader gives the last one the place."""
+    """Splits a body with several joints into bodies with one each: Drake's reader places only the last one correctly."""
     *first, _ = body.findall("joint") or [None]
     for number, joint in enumerate(first):
         place = {key: body.attrib.pop(key) for key in ("pos", "quat") if key in body.attrib}
@@ -249,7 +251,7 @@ def _split(parent, body):
 
 
 def _of_mover(pair, ground):
-    """Coefficient of friction of a mover: of two surfaces Drake takes 2·a·b/(a + b), and the pair must have its own."""
+    """Coefficient of friction of a mover: for two surfaces Drake takes 2·a·b/(a + b), and the pair must have its own."""
     return pair * ground / (2.0 * ground - pair) if pair else 0.0
 
 
@@ -259,11 +261,11 @@ def _properties(surface, friction, way):
     from pydrake.multibody.plant import CoulombFriction
 
     made = ProximityProperties()
-    # Infinite is as good as a thousand million times the other.
+    # A factor of 1e9 over the other's is as good as infinite.
     stiffness = surface.stiffness if surface else 1e16
     AddContactMaterial(made, point_stiffness=stiffness, friction=CoulombFriction(friction, friction))
     if way == SAP:
-        # Times of relaxation of a pair add.
+        # Relaxation times of a pair are added.
         made.AddProperty("material", "relaxation_time", surface.damping / surface.stiffness if surface else 0.0)
     return made
 

@@ -1,4 +1,4 @@
-"""The account of energy of a machine: what each kind of force did in each step, as the integrator applied it."""
+"""Energy account of a machine: work of each kind of force in each step, as the integrator applied it."""
 
 import mujoco
 import numpy as np
@@ -11,7 +11,7 @@ MOTORS, CONTACT, DAMPERS, CONSTRAINTS = range(4)
 
 
 def add_applied(model, data, forces):
-    """Adds the wrenches that a host applies to bodies, as forces on the joints."""
+    """Adds the wrenches applied by a host to bodies, as generalized forces."""
     for body in np.flatnonzero(data.xfrc_applied.any(axis=1)):
         applied = data.xfrc_applied[body]
         mujoco.mj_applyFT(model, data, applied[:3], applied[3:], data.xipos[body], body, forces)
@@ -40,11 +40,11 @@ class Ledger:
         self.began_with = self._held()
 
     def opened(self):
-        """What the bodies hold more than the work explains, J."""
+        """Energy of the bodies not explained by the work, J."""
         return self._held() - self.began_with - sum(self.work.values())
 
     def open_share(self):
-        """What does not close, over what went through."""
+        """Imbalance relative to the energy transferred."""
         return abs(self.opened()) / self.through if self.through else 0.0
 
     def _held(self):
@@ -67,7 +67,7 @@ class Ledger:
             mujoco.set_mjcb_control(None)
         if failed:
             return
-        # What the data hold now is that of the last stage; a step of one stage has only this.
+        # The data now hold the last stage; a step of one stage has only this.
         if len(self._weights) == 1:
             self._passive(1.0)
         self._active(self._weights[-1])
@@ -78,7 +78,8 @@ class Ledger:
             self.through += abs(work)
 
     def _at_stage(self, *_):
-        """MuJoCo asks for controls in each stage: by then passive forces are those of this stage, all others of the last."""
+        """Callback of MuJoCo for the controls in each stage: passive forces are those of this stage by then, all others
+        of the last."""
         if self._stage > 0:
             self._active(self._weights[self._stage - 1])
         self._passive(self._weights[self._stage])
@@ -100,7 +101,7 @@ class Ledger:
         self._forces[CONSTRAINTS] += weight * self.data.qfrc_constraint
 
     def _implicit(self, change):
-        """What forces become by the change of speed in the step, where the integrator takes that into account."""
+        """Force change by the change of speed in the step, where the integrator includes it."""
         option = self.model.opt
         explicit = option.integrator == EULER and option.disableflags & mujoco.mjtDisableBit.mjDSBL_EULERDAMP
         if option.integrator == RK4 or explicit:
@@ -111,7 +112,7 @@ class Ledger:
             self._forces[MOTORS] += self._derivative() @ change - damped
 
     def _derivative(self):
-        """Of all forces by the speeds, as MuJoCo keeps it: rows of a sparse matrix."""
+        """Derivative of all forces by the speeds, in MuJoCo's layout: rows of a sparse matrix."""
         m, matrix = self.model, np.zeros((self.model.nv, self.model.nv))
         for row, (first, count) in enumerate(zip(m.D_rowadr, m.D_rownnz)):
             matrix[row, m.D_colind[first : first + count]] = self.data.qDeriv[first : first + count]

@@ -1,4 +1,4 @@
-"""A mechanism in MuJoCo with Pong's contact: steps, and keeps account of energy, reactions and flags on the way."""
+"""A mechanism in MuJoCo with Pong's contact: steps it and records energy, reactions and flags."""
 
 import os
 
@@ -13,12 +13,12 @@ _loaded = False
 
 
 def wrenches(sensed):
-    """Of each movable group force (N) and moment (N·m), from what the sensor says in one step or in many, row by row."""
+    """Force (N) and moment (N·m) of each movable group, from sensor values of one step or of many, row by row."""
     return sensed[..., 3:].reshape(*sensed.shape[:-1], -1, 6)
 
 
 def load_plugin():
-    """From the file in PLUGIN, as ci/mechanisms sets it, or from the wheel pong_mujoco."""
+    """Loads the plugin from the file in PLUGIN, as ci/mechanisms sets it, or from the wheel pong_mujoco."""
     global _loaded
     if _loaded:
         return
@@ -51,7 +51,7 @@ class Machine:
         self.start()
 
     def start(self):
-        """After positions or velocities were set: the account of energy begins here."""
+        """Call after setting positions or velocities: the energy account begins here."""
         mujoco.mj_forward(self.model, self.data)
         self.ledger = Ledger(self.model, self.data)
 
@@ -64,7 +64,7 @@ class Machine:
         return self.data.time
 
     def advance(self, control=None):
-        """One step. `control(machine)` sets the controls before it."""
+        """Runs one step. `control(machine)` sets the controls before it."""
         if control is not None:
             control(self)
         with self.ledger:
@@ -76,14 +76,14 @@ class Machine:
             watch(self)
 
     def hurry(self, control=None):
-        """One step without the accounts of energy and reactions; forces that are read are those of its beginning."""
+        """Runs one step without the accounts of energy and reactions; forces read afterwards are those of its beginning."""
         if control is not None:
             control(self)
         mujoco.mj_step(self.model, self.data)
         self._computed()
 
     def stride(self, seconds):
-        """Steps with controls that stay as they are and without the accounts: what the sensor says in each, row by row."""
+        """Runs steps with constant controls and without the accounts; returns the sensor values of each, row by row."""
         sensed = self.data.sensordata[self.sensed]  # a view of MuJoCo's memory
         seen = np.empty((round(seconds / self.step), len(sensed)))
         for row in seen:
@@ -93,13 +93,13 @@ class Machine:
         return seen
 
     def judge(self, seen):
-        """Flags and status of many steps, as rows of the sensor."""
+        """Records flags and status of many steps, given as rows of the sensor."""
         if seen[:, 2].any():
             raise RuntimeError(f"before {self.time:.6f} s a step could not be computed")
         self.flags |= int(np.bitwise_or.reduce(seen[:, 1].astype(int)))
 
     def run(self, seconds, control=None, watch=None):
-        """Steps for so long, or until `watch(machine)` is true; answers whether it was."""
+        """Runs for a duration, or until `watch(machine)` is true; returns whether it was."""
         for _ in range(round(seconds / self.step)):
             self.advance(control)
             if watch is not None and watch(self):
@@ -107,7 +107,7 @@ class Machine:
         return False
 
     def _computed(self):
-        """What the sensor says of a step that could be computed; its flags are kept."""
+        """Sensor values of a valid step; records its flags."""
         sensed = self.data.sensordata[self.sensed]
         if sensed[2] != 0:
             raise RuntimeError(f"at {self.time:.6f} s a step could not be computed: status {int(sensed[2])}")
@@ -142,7 +142,7 @@ class Machine:
         return found[[i for i, other in enumerate(self.carriers) if other == body]].sum(axis=0)
 
     def on(self, group):
-        """Force (N) and moment (N·m) on one of the movable groups that were named."""
+        """Force (N) and moment (N·m) on a named movable group."""
         first = self.sensed.start + 3 + 6 * self.groups[group]
         return self.data.sensordata[first : first + 6]
 
@@ -153,7 +153,7 @@ class Machine:
         return float(self.data.qvel[self.model.joint(name).dofadr[0]])
 
     def scale_mass(self, body, factor):
-        """A body so many times as heavy. `mujoco.mj_setConst` is the caller's: it puts joints to their reference."""
+        """Multiplies the mass of a body. Call `mujoco.mj_setConst` yourself: it resets joints to their reference."""
         number = self.model.body(body).id
         self.model.body_mass[number] *= factor
         self.model.body_inertia[number] *= factor

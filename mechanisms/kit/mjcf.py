@@ -15,7 +15,7 @@ def quaternion_about_z(angle):
 
 
 def quaternion_of(attitude):
-    """Of any rotation matrix, by its largest component."""
+    """Quaternion of any rotation matrix, by its largest component."""
     import mujoco
     import numpy as np
 
@@ -25,7 +25,7 @@ def quaternion_of(attitude):
 
 
 def motor(name, joint, stall, free_speed, gear=1.0):
-    """A direct-current motor behind a gear: its control −1 to 1 is the voltage over the greatest one.
+    """A direct-current motor behind a gear: its control −1 to 1 is the voltage relative to the largest.
 
     At the joint the torque is stall·(control − speed/free_speed), never more than `stall`, N·m (N for a slide).
     """
@@ -61,7 +61,7 @@ def contact_instance(objects, pairs, bodies, texts=(), folder=None, capacity=64,
 
 
 def with_friction(text, friction):
-    """The text of a contact model whose surfaces all have this coefficient of friction."""
+    """Text of a contact model with this coefficient of friction for all of its surfaces."""
     changed, count = re.subn(r"\bmu: [-+.0-9e]+", f"mu: {friction:.12g}", text)
     if not count:
         raise ValueError("no surface of the model has friction")

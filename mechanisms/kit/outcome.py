@@ -1,4 +1,5 @@
-"""What the account of energy must come to, under each integrator. Run by mechanisms/run.py, as a mechanism is."""
+"""Outcomes of the energy account under each integrator, and their predictions. Run by mechanisms/run.py, as a mechanism
+is."""
 
 from kit import mjcf, ron
 from kit.machine import Machine
@@ -10,7 +11,7 @@ SPRING, DAMPER = 400.0, 20.0  # N/m, N·s/m of the joint
 
 
 def ball(integrator, joint="", drive="", height=2 * RADIUS, step=STEP, damping=0.0, gravity=0.0):
-    """On a joint along z over a plane."""
+    """A ball on a joint along z over a plane."""
     sphere = ron.primitive("Sphere", "shell", center=(0, 0, 0), radius=RADIUS)
     plane = ron.primitive("Plane", "floor", normal=(0, 0, 1), offset=0)
     texts = [
@@ -38,7 +39,7 @@ def kinetic(made):
 
 
 def bounce(integrator):
-    """Contact begins and ends within steps, with and without damping: the account closes to rounding all the same."""
+    """Contact begins and ends within steps, with and without damping: the account still closes to rounding."""
     for damping in (0.0, 100.0):
         made = moving(ball(integrator, damping=damping, height=RADIUS + 1.3e-4), 0.0, -1.0)
         made.run(0.05)
@@ -54,7 +55,7 @@ def bounce(integrator):
 
 
 def oscillator(integrator):
-    """Semi-implicit steps make ½h·k·Δ(q·v) in a spring, whatever else acts; Runge–Kutta leaves a second order."""
+    """Semi-implicit steps create ½h·k·Δ(q·v) in a spring in any case; Runge–Kutta leaves a second-order error."""
     left = []
     for step in (STEP, STEP / 2):
         made = moving(
@@ -75,7 +76,7 @@ def oscillator(integrator):
 
 
 def motor(integrator):
-    """A motor with a torque-speed line against a damper, from rest: Δ½mv² is what the motor gives less the damper's."""
+    """A motor with a torque-speed line against a damper, from rest: Δ½mv² is the motor's work less the damper's."""
     drive = f"<actuator>{mjcf.motor('push', 'z', 20.0, 2.0)}</actuator>"
     made = ball(integrator, f'damping="{DAMPER:g}"', drive, height=1.0)
     made.start()
@@ -112,7 +113,7 @@ def pushed(integrator):
 
 
 def inserted(integrator, more=0.02):
-    """Energy that comes from no force: the account must show it."""
+    """Energy without a force: the account must show it."""
     made = moving(ball(integrator, damping=100.0, height=RADIUS + 1.3e-4), 0.0, -1.0)
     made.run(0.05)
     before = kinetic(made)
@@ -125,7 +126,7 @@ def inserted(integrator, more=0.02):
 
 
 def pendulums(integrator):
-    """Two arms swing, with dampers: here inertia depends on the place."""
+    """Two swinging arms with dampers, whose inertia depends on the pose."""
     left = []
     for step in (STEP, STEP / 2):
         made = Machine(arms(integrator, step), ["world", "low"])

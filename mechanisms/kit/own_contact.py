@@ -1,4 +1,4 @@
-"""MuJoCo's own contact instead of the plugin: the same bodies, joints and motors, with geoms that touch.
+"""MuJoCo's own contact instead of the plugin: the same bodies, joints and motors, with colliding geoms.
 
 Three sets of parameters, by rules that were fixed before anything was compared; the cone is elliptic in all of them.
 
@@ -27,7 +27,7 @@ from kit.machine import Machine
 
 @dataclass(frozen=True)
 class Contact:
-    """`solref`: None where it follows from stiffness and damping of each surface.
+    """`solref`: None to derive it from stiffness and damping of each surface.
 
     `one_point`: only the deepest point of two convex geoms, instead of up to four where faces and edges meet.
     """
@@ -48,7 +48,7 @@ def hard(step):
 
 @dataclass(frozen=True)
 class Surface:
-    """Of a pair: stiffness N/m, damping N·s/m, coefficient of friction."""
+    """Surface of a pair: stiffness N/m, damping N·s/m, coefficient of friction."""
 
     stiffness: float
     damping: float
@@ -56,7 +56,7 @@ class Surface:
 
 
 def impedance(contact, depth):
-    """MuJoCo's d: from the first to the second number of `solimp` while the depth grows by the third."""
+    """MuJoCo's d: from the first to the second number of `solimp` as the depth grows by the third."""
     least, most, width, middle, power = contact.solimp
     share = min(1.0, depth / width)
     if share < middle:
@@ -67,14 +67,14 @@ def impedance(contact, depth):
 
 
 def as_springs(contact, inverse_mass, depth):
-    """N/m and N·s/m that a set with a time constant has at rest at a depth; see the head of this file."""
+    """N/m and N·s/m of a set with a time constant, at rest at a depth; see the head of this file."""
     (constant, ratio), most, d = contact.solref, contact.solimp[1], impedance(contact, depth)
     stiffness, damping = 1.0 / (most * constant * ratio) ** 2, 2.0 / (most * constant)
     return stiffness * d**2 / ((1.0 - d) * inverse_mass), damping * d / ((1.0 - d) * inverse_mass)
 
 
 class Own(Machine):
-    """Stands for a `Machine`; it has no account of energy and no flags.
+    """Replacement of a `Machine`, without energy account and flags.
 
     `movers`: geom → the surface it has with everything it touches. `grounds`: the geoms that movers touch. Both are names
     of geoms in the text; other geoms touch nothing, nor do movers each other.
@@ -93,7 +93,7 @@ class Own(Machine):
         self.start()
 
     def _set(self, name, surface, contact, under):
-        """A mover has the say in what it touches (`priority`)."""
+        """Gives a mover priority over its partners (`priority`)."""
         geom = self.model.geom(name)
         geom.friction[:] = (surface.friction, 0.0, 0.0)
         if contact.solref is None:
@@ -118,7 +118,7 @@ class Own(Machine):
         return int(self.data.ncon)
 
     def pushes(self):
-        """(geom, geom, place, force on the second) of each contact, along the axes of the world."""
+        """(geom, geom, position, force on the second) of each contact, along the axes of the world."""
         wrench = np.empty(6)
         for k, contact in enumerate(self.data.contact):
             mujoco.mj_contactForce(self.model, self.data, k, wrench)
@@ -135,7 +135,7 @@ class Own(Machine):
 
 
 def _prepared(text, contact, movers, grounds):
-    """Without the plugin; with geoms that may touch."""
+    """Text without the plugin, with colliding geoms."""
     root = xml.fromstring(text)
     root.remove(root.find("extension"))
     root.remove(root.find("sensor"))
@@ -151,7 +151,7 @@ def _prepared(text, contact, movers, grounds):
 
 
 def _let_touch(geom, contact, side):
-    """`side`: 0 touches nothing, 1 a mover, 2 a ground."""
+    """`side`: 0 collides with nothing, 1 a mover, 2 a ground."""
     geom.set("contype", str(side))
     geom.set("conaffinity", str((0, 2, 1)[side]))
     geom.set("priority", str(int(side == 1)))
@@ -160,7 +160,7 @@ def _let_touch(geom, contact, side):
 
 
 def with_geoms(text, geoms, assets=""):
-    """A text of MJCF with more geoms: body (or `world`) → MJCF."""
+    """MJCF text with additional geoms: body (or `world`) → MJCF."""
     root = xml.fromstring(text)
     bodies = {body.get("name"): body for body in root.iter("body")} | {"world": root.find("worldbody")}
     for body, more in geoms.items():
@@ -171,7 +171,7 @@ def with_geoms(text, geoms, assets=""):
 
 
 def processor_time(made, seconds, control=None):
-    """Per simulated second, of steps without any account."""
+    """Processor time per simulated second, of steps without accounts."""
     began = time.process_time()
     for _ in range(round(seconds / made.step)):
         made.hurry(control)
@@ -179,13 +179,13 @@ def processor_time(made, seconds, control=None):
 
 
 def compare(columns):
-    """`columns`: name → function that yields (what, value). Those named on the command line, or all of them."""
+    """Columns (name → function that yields (what, value)) named on the command line, or all of them."""
     names = sys.argv[1:] or list(columns)
     table({name: list(columns[name]()) for name in names})
 
 
 def table(columns, width=46):
-    """`columns`: name → list of (what, value). A value may be a word."""
+    """Table of `columns`: name → list of (what, value). A value may be a word."""
     print(f"{'':{width}} " + " ".join(f"{name:>12}" for name in columns), flush=True)
     for rows in zip(*columns.values()):
         values = (f"{value:>12}" if isinstance(value, str) else f"{value:12.5g}" for _, value in rows)

@@ -1,4 +1,4 @@
-"""Pictures of a machine, drawn without a screen, with its contacts and their forces."""
+"""Offscreen pictures of a machine, with its contacts and their forces."""
 
 import struct
 import zlib
@@ -22,7 +22,7 @@ def take(machine, path, lookat, distance, azimuth, elevation, force_scale=2e-4):
 
 
 def _write_png(path, pixels):
-    """Eight bits, red, green and blue."""
+    """Colour as eight-bit red, green and blue."""
 
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))

@@ -1,4 +1,4 @@
-"""A response log (docs/response_logs.md) of what MuJoCo moves and Pong touches: for films, viewers and `pong trade`.
+"""Response log (docs/response_logs.md) of a MuJoCo run with Pong's contact: for films, viewers and `pong trade`.
 
 A contact world in the wheel `pong` writes it. That world has the Objects and pairs of the plugin's instance, gets the
 states of the bodies after each step of MuJoCo, and must come to the wrenches of the plugin's sensor.
@@ -18,7 +18,7 @@ UNTURNED = (1.0, 0.0, 0.0, 0.0)
 
 
 class Recorder:
-    """Sees every step of a `Machine` (its `watchers`); each `every`-th is a row of the log.
+    """Watcher of every step of a `Machine`; each `every`-th is a row of the log.
 
     `drawn`: patterns of names of bodies whose geoms the log shows beside what touches, such as "link_*".
     `off` is the greatest difference between wrenches of this world and of the plugin, over the greatest force or moment.
@@ -32,7 +32,7 @@ class Recorder:
         self.states = np.zeros((len(self.bodies), STATE))
         self._move()
         self.world.evaluate()
-        # Made first: the writer makes a folder, but not those above it.
+        # Created first: the writer creates a folder, but not its parents.
         pathlib.Path(folder).parent.mkdir(parents=True, exist_ok=True)
         self.world.start_log(folder, name=machine.name, step=machine.step, commits_per_frame=every, overwrite=True)
         self.world.log_frame(machine.time)
@@ -46,7 +46,7 @@ class Recorder:
             self.world.log_frame(machine.time)
 
     def close(self):
-        """Answers how many rows were written."""
+        """Closes the log and returns its number of rows."""
         return self.world.stop_log()
 
     def _move(self):
@@ -62,13 +62,13 @@ class Recorder:
         sensed = machine.data.sensordata[machine.sensed][SENSED_BEFORE_WRENCHES:].reshape(-1, 6)
         greatest = np.abs(sensed).max(initial=0.0)
         if greatest > 0.0:
-            # What is only drawn comes last, and nothing touches it.
+            # Visual Objects come last, without contact.
             wrenches = self.world.wrenches()[: len(sensed)]
             self.off = max(self.off, float(np.abs(wrenches - sensed).max() / greatest))
 
 
 def _keys(text):
-    """Of the instance of pong.contact in a text of MJCF."""
+    """Configuration of the pong.contact instance in an MJCF text."""
     return {config.get("key"): config.get("value") for config in xml.fromstring(text).iterfind(".//instance/config")}
 
 
@@ -100,13 +100,13 @@ def _model(pong, keys, name):
 
 
 def _group(interface):
-    """As the plugin names it: an Interface OBJECT/ROOT/PATH is the group OBJECT/PATH, and OBJECT/ROOT is OBJECT."""
+    """Name of a group in the plugin: an Interface OBJECT/ROOT/PATH is the group OBJECT/PATH, and OBJECT/ROOT is OBJECT."""
     name, _, *path = interface.split("/")
     return "/".join([name, *path])
 
 
 def _body(model, keys, group):
-    """The number of the body that carries a group: that of the key `bodies`, or the one with the group's name."""
+    """Id of the body that carries a group: from the key `bodies`, or the one with the group's name."""
     if group == figure.NAME or group.startswith(f"{figure.NAME}/"):
         return model.body(group.partition("/")[2] or "world").id
     carriers = dict(_entries(keys, "bodies", "="))

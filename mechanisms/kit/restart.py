@@ -1,10 +1,10 @@
-"""A machine that is restarted in the middle of a run must continue to the same bits."""
+"""Restart of a machine in the middle of a run, which must continue to the same bits."""
 
 import copy
 
 
 def same_bits(begin, control, before, after):
-    """Runs for `before` s, then for `after` s; goes back in another machine, and compares the bits of both ends.
+    """Runs for `before` s, then for `after` s, repeats the latter in another machine, and compares the bits of both ends.
 
     `begin()` makes a machine. All that `control` remembers must be saved by `copy.deepcopy`.
     """

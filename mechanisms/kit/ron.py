@@ -1,4 +1,4 @@
-"""Contact models as text (docs/model_format.md), on one line, as the plugin's key `text1` wants it."""
+"""Contact models as text (docs/model_format.md), on one line, as the plugin's key `text1` requires."""
 
 
 def elastic(stiffness, damping, friction=0.0, friction_damping=None):
@@ -7,7 +7,7 @@ def elastic(stiffness, damping, friction=0.0, friction_damping=None):
 
 
 def rigid(friction=0.0):
-    """The other surface of a pair gives the stiffness."""
+    """A rigid surface, with the stiffness of the pair's other surface."""
     return f"(stiffness: inf{_friction(friction)})"
 
 
@@ -29,7 +29,7 @@ def primitive(kind, name, **fields):
 
 
 def _list(key, value):
-    """What the format writes as a list."""
+    """Text of a list field."""
     if key == "vertices":
         return "[" + ", ".join(map(vector, value)) + "]"
     if key == "faces":
@@ -48,7 +48,7 @@ def _field(value):
 
 
 def model(name, surface, primitives=(), groups=()):
-    """One surface for all. `groups`: (name, primitives) of movable groups below the root."""
+    """A model with one surface for all. `groups`: (name, primitives) of movable groups below the root."""
     inside = "" if groups else f", primitives: [{', '.join(primitives)}]"
     if groups:
         made = ", ".join(f'(name: "{n}", movable: true, primitives: [{", ".join(p)}])' for n, p in groups)

@@ -1,4 +1,4 @@
-"""A table of what was measured beside what a closed form predicts; the program fails if one is off."""
+"""Table of measured values beside closed-form predictions; the program fails if one is off."""
 
 from dataclasses import dataclass
 
@@ -19,7 +19,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Limit:
-    """What must not be exceeded, or, with `least`, not fallen short of."""
+    """An upper limit or, with `least`, a lower limit."""
 
     what: str
     measured: float
@@ -49,7 +49,7 @@ def line(row):
 
 
 def show(title, rows):
-    """Prints the rows; answers how many do not hold."""
+    """Prints the rows; returns the number of failures."""
     off = 0
     print(f"== {title}")
     for row in rows:

@@ -1,9 +1,9 @@
-"""Rules that every mechanism keeps, as rows of its outcome; and a tally of which of them a run has checked."""
+"""Rules for every mechanism, as rows of its outcome, and a tally of the rules that a run has checked."""
 
 from kit.rows import Fact, Limit
 
 CLOSES, REACTS = 1e-3, 1e-9
-# Each rule, and the words that its rows have; `honest` below makes those of the first three.
+# Rules, and the words in their rows; `honest` below makes those of the first three.
 ENERGY, REACTIONS, TUNNELLING = (
     "energy that does not close, of what went through",
     "forces that have no reaction, of the greatest",
@@ -19,14 +19,14 @@ WORDS = {
 
 
 def honest(*machines):
-    """What holds of every run with accounts, at every level: energy, reactions, no tunnelling."""
+    """Rules for every run with accounts, at every level: energy, reactions, no tunnelling."""
     yield Limit(ENERGY, max(made.ledger.open_share() for made in machines), CLOSES)
     yield Limit(REACTIONS, max(made.imbalance for made in machines), REACTS)
     yield Fact(TUNNELLING, not any(made.flags for made in machines))
 
 
 class Tally:
-    """Sees all rows of a run."""
+    """Counts the rows of a run."""
 
     def __init__(self):
         self.rows = {rule: [] for rule in WORDS}
@@ -42,7 +42,7 @@ class Tally:
         return [rule for rule, rows in self.rows.items() if not rows]
 
     def lines(self):
-        """One for each rule: how many rows, how many hold, and of limits the greatest value."""
+        """One line per rule: number of rows, number that hold, and the largest value of limits."""
         for rule, rows in self.rows.items():
             held = sum(row.holds for row in rows)
             values = [row.measured for row in rows if isinstance(row, Limit) and rule in ("energy", "reactions")]

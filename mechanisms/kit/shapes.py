@@ -8,13 +8,13 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def read(path):
-    """A model file, from the root of the repository, as dictionaries and lists."""
+    """A model file as dictionaries and lists, by its path from the root of the repository."""
     reader = module_of(ROOT / "hosts/mujoco/docking/ron.py", "ron_of_models")
     return reader.read((ROOT / path).read_text(encoding="utf-8"))
 
 
 def polyhedra(group, carrier):
-    """(movable group that carries it, or `carrier`; the polyhedron) of a group and those below it."""
+    """(carrying movable group, or `carrier`; polyhedron) of a group and those below it."""
     for primitive in group.get("primitives", []):
         if primitive["is"] == "Polyhedron":
             yield carrier, primitive
@@ -23,5 +23,5 @@ def polyhedra(group, carrier):
 
 
 def mesh(name, vertices):
-    """An asset of MJCF: the convex hull of these places."""
+    """An asset of MJCF: the convex hull of these points."""
     return f'<mesh name="{name}" inertia="legacy" vertex="{" ".join(f"{x:.12g}" for v in vertices for x in v)}"/>'

@@ -1,4 +1,4 @@
-"""What holds the pallet at its grapple fixture: a six-axis drive with compliance and limits of force and moment.
+"""Holder of the pallet at its grapple fixture: a six-axis drive with compliance and limits of force and moment.
 
 It stands for the arm. Another one takes its place if it has `lead(place, yaw)`, `accommodating`, `force`, `moment` and the
 call `arm(machine)` before each step, which puts its wrench on the pallet into `data.xfrc_applied`.
@@ -9,13 +9,13 @@ import numpy as np
 
 
 def within(vector, most):
-    """Shortened to a length."""
+    """Vector limited to a length."""
     length = np.linalg.norm(vector)
     return vector if length <= most else vector * (most / length)
 
 
 class Drive:
-    """Springs and dampers from where the tip is led to where the fixture is.
+    """Springs and dampers between the commanded pose of the tip and the fixture.
 
     `limp`: the tip's wrist gives way, with its damping. `accommodating`: the tip yields to the moment about `about` (a place in the
     pallet), at ACCOMMODATION rad/s for each N·m beyond the dead band. All that it remembers is in its attributes.
@@ -39,15 +39,15 @@ class Drive:
         self.force, self.moment = np.zeros(3), np.zeros(3)
 
     def lead(self, place, rate=(0.0, 0.0, 0.0)):
-        """Where the tip is to be now, and how fast it goes there."""
+        """Sets the commanded position of the tip, and its rate."""
         self.place, self.rate = np.array(place), np.array(rate)
 
     def follow(self, machine):
-        """From now on the wrist holds the attitude that the pallet has."""
+        """Lets the wrist hold the present attitude of the pallet."""
         self.yaw, self.pitch, self.limp = *attitude(machine), False
 
     def at(self, machine):
-        """Place and velocity of the fixture in the world."""
+        """Position and velocity of the fixture in the world."""
         arm = rotation(machine) @ self.fixture
         spin = rotation(machine) @ machine.data.qvel[3:6]
         return machine.place("pallet") + arm, machine.data.qvel[:3] + np.cross(spin, arm), arm, spin
@@ -73,7 +73,7 @@ class Drive:
 
 
 def attitude(machine):
-    """Yaw and pitch of a pallet that is turned by a few degrees only."""
+    """Yaw and pitch of a pallet rotated by a few degrees only."""
     q = machine.data.qpos[3:7]
     return 2.0 * q[3], 2.0 * q[2]
 

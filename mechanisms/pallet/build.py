@@ -36,7 +36,7 @@ def tie_downs():
 
 
 def pins():
-    """Two pins with crowned barrels, on the pallet; the hooks give the stiffness."""
+    """Two pins with crowned barrels, on the pallet; the hooks provide the stiffness."""
     barrels = [a.sphere(f"pin_{name}", (d.PIN_X, side * d.PIN_Y, 0.0), d.PIN_RADIUS) for name, side in d.SIDES.items()]
     surface = a.surface(float("inf"), a.linear(0.0, ramp=d.model.DAMPING_RAMP), FRICTION)
     return a.model("pins", {"steel": surface}, a.group("pins", primitives=barrels, surface="steel"))

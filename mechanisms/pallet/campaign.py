@@ -1,4 +1,4 @@
-"""Pushes beside the middle, dispersed: does the pallet go in, or does it jam as the law of a drawer says?
+"""Dispersed off-centre pushes: whether the pallet enters or jams, compared with the law of a drawer.
 
 A push F at e beside the middle, a drag D in the middle, and seized side rollers a base L apart. The pallet stands turned
 against its rails; both loads rise together, and stay; a damper takes its momentum. It goes where 2·μ·e/L < 1 − D/F,
@@ -33,7 +33,7 @@ DISPERSED = {
 
 
 def turned(base, give=0.0):
-    """Angle of a pallet whose rollers, a base apart, touch both rails and sink in by `give`, rad."""
+    """Angle of a pallet whose rollers, a base apart, touch both rails with a depth of `give`, rad."""
     room, low, high = model.LATERAL_CLEARANCE / 2 + give, 0.0, 0.5
     for _ in range(60):
         middle = 0.5 * (low + high)
@@ -43,7 +43,7 @@ def turned(base, give=0.0):
 
 
 def margin(values):
-    """By how much 2·μ·e/L is below 1 − D/F, of that."""
+    """Relative margin of 2·μ·e/L below 1 − D/F."""
     load = 0.0
     for _ in range(50):
         angle = turned(values["base"], load / STIFFNESS)
@@ -56,7 +56,7 @@ def margin(values):
 def begin(values, side):
     made = rig.machine(model.SEATED_X - 0.35, d.TRAINING, values["base"], True, friction=values["friction"])
     made.scale_mass("pallet", values["mass"])
-    # The wrist gives way, damped, as that of the push of drawer.py does.
+    # The wrist yields with damping, as in the push of drawer.py.
     made.model.dof_damping[:6] = (DAMPER, 10.0, 10.0, *[drawer.STRUT_TURNING] * 3)
     half = -side * turned(values["base"]) / 2
     made.data.qpos[3:7] = (math.cos(half), 0.0, 0.0, math.sin(half))

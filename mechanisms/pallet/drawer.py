@@ -24,7 +24,7 @@ BEFORE_STOPS = {SHORT: 0.350, LONG: 0.150}  # m from the stops where it begins: 
 
 
 class Push:
-    """A tip that goes inwards at an even speed and pushes at (FIXTURE x, e); it holds nothing but that, until told."""
+    """A tip that moves inwards at a constant speed and pushes at (FIXTURE x, e); it holds nothing else until commanded."""
 
     def __init__(self, offset, base, most):
         along = (STRUT[0], 0.0, 0.0), (STRUT[1], 10.0, 10.0)
@@ -39,7 +39,7 @@ class Push:
         self.arm(machine)
 
     def lever(self, machine):
-        """By which the push acts beside the drag, with the moment of the wrist, m."""
+        """Lever of the push about the drag, including the moment of the wrist, m."""
         return self.arm.at(machine)[2][1] - self.arm.moment[2] / self.arm.force[0]
 
 
@@ -48,13 +48,13 @@ def machine(base, level, step=None, kind=Machine):
 
 
 def share(made, push):
-    """2·μ·e/L with the lever and the base as they are: a pallet that is turned brings its rollers nearer to each other."""
+    """2·μ·e/L with the present lever and base: a rotated pallet has its rollers nearer to each other."""
     front, rear = made.place("roller_front_right"), made.place("roller_rear_left")
     return 2.0 * model.FRICTION * push.lever(made) / (front[0] - rear[0])
 
 
 def steady(offset, base, level, step=None, seconds=5.5, kind=Machine):
-    """Push, and what the law makes of lever and base, while it slides evenly; and the machine."""
+    """Push, and prediction of the law for lever and base, in steady sliding; and the machine."""
     made, push = machine(base, level, step, kind), Push(offset, base, 1e6)
     made.run(seconds - 0.5, push)
     seen = []
@@ -64,7 +64,7 @@ def steady(offset, base, level, step=None, seconds=5.5, kind=Machine):
 
 
 def jammed(offset, base, most, level, step=None, kind=Machine):
-    """A pallet that a push of so much does not move: machine, push, and how far it went in the last second, m."""
+    """A pallet that a push does not move: machine, push, and its displacement in the last second, m."""
     made, push = machine(base, level, step, kind), Push(offset, base, most)
     made.run(3.5, push)
     before = made.place("pallet")[0]
@@ -73,7 +73,7 @@ def jammed(offset, base, most, level, step=None, kind=Machine):
 
 
 def accommodate(made, push, seconds=10.0):
-    """The wrist yields to the moment about the middle of the rollers. 2·μ·e/L at which the pallet begins to go."""
+    """2·μ·e/L at which the pallet begins to move, as the wrist yields to the moment about the middle of the rollers."""
     push.arm.follow(made)
     push.arm.accommodating = True
     seen, stood = [], made.place("pallet")[0]

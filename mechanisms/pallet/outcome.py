@@ -1,4 +1,4 @@
-"""What the pallet must come to. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
+"""Outcomes of the pallet and their predictions. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
 
 import time
 
@@ -23,7 +23,7 @@ def law():
 
 
 def jam(most=1000.0, offset=1.6):
-    """Beyond e = L/(2·μ) no push moves it; it is freed where the moment that is left lets the push through."""
+    """Beyond e = L/(2·μ) no push moves it; it is freed when the remaining moment lets the push through."""
     made, push, went = drawer.jammed(offset, drawer.SHORT, most, TRAINING)
     yield Limit("2·μ·e/L of the jammed pallet", drawer.share(made, push), 1.0, least=True)
     yield Limit("how far a second of pushing with 1 kN moves it", went, 2e-4, "m")
@@ -37,7 +37,7 @@ def jam(most=1000.0, offset=1.6):
 
 
 def harder():
-    """Half as much again does not move it either."""
+    """A push half as large again does not move it either."""
     _, _, went = drawer.jammed(1.6, drawer.SHORT, 1500.0, TRAINING)
     yield Limit("how far a second of pushing with 1.5 kN moves it", went, 2e-4, "m")
 
@@ -60,7 +60,7 @@ def stowed(case):
 
 
 def off_nominal():
-    """A hook whose motor goes on closing holds the pallet against the arm."""
+    """A hook whose motor keeps closing holds the pallet against the arm."""
     made, sequencer, _ = stowage.run(stowage.Case(stuck=True))
     x = made.place("pallet")[0]
     yield Limit("the pallet stays: how far from the stops", model.SEATED_X - x, 0.010, "m")
@@ -87,7 +87,7 @@ DRAWN = ("pallet", "hook_*")  # bodies that logs and films show beside what touc
 
 
 def shown(prepare):
-    """For logs and films: `prepare` sees the machine before it moves."""
+    """Run for logs and films: `prepare` receives the machine before it moves."""
     stowage.run(stowage.Case(start=OUTSIDE), prepare)
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The same pallet in the same rails with the contact of MuJoCo and of Drake, beside Pong's and the law of a drawer.
+"""Comparison of the same pallet and rails with the contact of MuJoCo, of Drake and of Pong, and the law of a drawer.
 
 python3 mechanisms/pallet/own.py        with the plugin as for mechanisms/run.py; with Drake where `pip install drake` was
 
@@ -73,7 +73,7 @@ def figures(kind):
 
 
 def apart(kind):
-    """Share of half a second of even sliding in which nothing touches."""
+    """Share of half a second of steady sliding without any contact."""
     made, push, without = drawer.machine(drawer.SHORT, TRAINING, kind=kind), drawer.Push(0.7, drawer.SHORT, 1e6), []
     made.run(5.0, push)
     made.run(0.5, push, lambda m: without.append(m.contacts() == 0))
@@ -81,7 +81,7 @@ def apart(kind):
 
 
 def main():
-    """One column after another: `own.py Pong hard` makes these two."""
+    """Makes one column after another: `own.py Pong hard` makes these two."""
     columns = {"Pong": partial(figures, rig.Machine)}
     columns |= {name: partial(figures, other(own_contact.Own, contact)) for name, contact in SETS.items()}
     if drake.at_hand():

@@ -13,7 +13,7 @@ STEEL, BLUE, GOLD = "0.55 0.57 0.6 1", "0.3 0.45 0.65 0.5", "0.75 0.6 0.3 1"
 
 
 def wheel(name, base, seized):
-    """On a hinge with the drag of its bearings; a seized roller has none. `base`: along x between the side rollers."""
+    """Wheel on a hinge with the drag of its bearings; a seized roller has none. `base`: along x between the side rollers."""
     mass, radius, half = model.wheel_mass(name), model.wheel_radius(name), model.wheel_half_width(name)
     inertia = [mass * (3 * radius**2 + (2 * half) ** 2) / 12] * 3
     inertia[model.axle(name)] = mass * radius**2 / 2
@@ -47,7 +47,7 @@ def pallet(x, base, seized):
 
 
 def hook(name, side):
-    """Its angle is 0 where it is square to the way in, and grows as it closes."""
+    """Hook, with angle 0 across the direction of entry and a positive angle when closing."""
     place = (d.FACE_X, side * (d.PIN_Y + d.LEVER), 0.0)
     length = d.LEVER + d.HOOK_BEYOND
     inertia = d.HOOK_MASS * length**2 / 12
@@ -61,7 +61,7 @@ def hook(name, side):
 
 
 def drawn_rails():
-    """Shown only: the webs."""
+    """Visual geoms of the webs."""
     middle, half = (model.STOP_X - model.FLARE_LENGTH) / 2, (model.STOP_X + model.FLARE_LENGTH) / 2
     return "".join(
         f'<geom type="box" pos="{middle} {side * (model.WEB_Y + model.WEB_THICKNESS / 2)} 0" '
@@ -82,7 +82,7 @@ def carried():
 
 
 def machine(x, level, base=2 * model.SIDE_ROLLER_X, seized=False, step=None, friction=None, kind=Machine):
-    """A pallet whose origin is at `x`, its hooks open. `base`: see `wheel`; `friction`: of all surfaces.
+    """A pallet with its origin at `x`, its hooks open. `base`: see `wheel`; `friction`: of all surfaces.
 
     `kind`: of machine, for other contacts.
     """

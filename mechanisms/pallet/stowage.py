@@ -1,4 +1,4 @@
-"""The whole: the arm pushes the pallet in and presses it against the stops, hooks tie it down and let go, the arm pulls.
+"""The whole sequence: the arm pushes the pallet in and onto the stops, hooks tie it down and release it, the arm pulls.
 
 Phases: *in*, *press* (the arm comes into line), *tie*, *held* (the arm gives way), *untie*, *out*, *done*.
 """
@@ -23,7 +23,7 @@ STALLED = 2e-4  # rad/s
 
 @dataclass(frozen=True)
 class Case:
-    """A pallet from `start` to the stops and back. `offset`, `yaw`: by which the arm is out of line with the rails."""
+    """A pallet from `start` to the stops and back. `offset`, `yaw`: misalignment of the arm to the rails."""
 
     level: Level = TRAINING
     start: float = model.SEATED_X - 0.150
@@ -34,7 +34,7 @@ class Case:
 
 
 class Sequencer:
-    """What it remembers is all in its attributes, so `copy.deepcopy` saves it beside the state of the machine."""
+    """Sequencer with its state in its attributes, so `copy.deepcopy` saves it beside the state of the machine."""
 
     PHASES = ("in", "press", "tie", "held", "untie", "out", "done")
     HOOKS = {"tie": 1.0, "held": 1.0, "untie": -1.0}
@@ -93,7 +93,8 @@ def machine(case):
 
 
 def run(case, prepare=None):
-    """`prepare(machine)` sees what it begins with. The machine, the sequencer, and greatest force of the arm on the way."""
+    """Runs the case; `prepare(machine)` is called at the start. Returns the machine, the sequencer, and the largest
+    force of the arm."""
     made, sequencer = machine(case), Sequencer(case)
     if prepare is not None:
         prepare(made)
@@ -112,7 +113,7 @@ def pressed():
 
 
 def tied():
-    """Of both hooks with stalled motors, N."""
+    """Force of both hooks with stalled motors, N."""
     return 2.0 * d.HOOK_STALL / d.LEVER
 
 

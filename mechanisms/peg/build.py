@@ -24,17 +24,17 @@ from dimensions import (  # noqa: E402
 
 
 def peg():
-    """The origin is the middle of the tip; z points along the peg, out of the hole."""
+    """Peg with its origin at the middle of the tip; z points along it, out of the hole."""
     surface = a.surface(STIFFNESS, a.linear(DAMPING), a.bristle(FRICTION, damping=STICKING_DAMPING))
     body = a.cylinder("body", (0.0, 0.0, 0.0), (0.0, 0.0, LENGTH), RADIUS)
     return a.model("peg", {"steel": surface}, a.group("peg", primitives=[body], surface="steel"))
 
 
 def hole():
-    """The origin is where the chamfer ends and the hole begins; z points out of it."""
+    """Hole with its origin where the chamfer ends; z points out of it."""
     wide = HOLE + CHAMFER * math.tan(SLOPE)
-    # Where the chamfer ends is an edge, on which the side of the peg leans. It belongs to the chamfer: a rim that comes
-    # down the chamfer passes it smoothly. As the mouth of the wall it would push a tilted rim back out of the hole.
+    # The end of the chamfer is an edge, on which the side of the peg leans. It belongs to the chamfer: a tip that comes
+    # down the chamfer passes it smoothly. As the edge of the wall it would push a tilted tip back out of the hole.
     chamfer = a.bore("chamfer", (0.0, 0.0, CHAMFER), (0.0, 0.0, 0.0), (wide, HOLE), mouths=(True, True))
     wall = a.bore("wall", (0.0, 0.0, 0.0), (0.0, 0.0, -DEPTH), HOLE, mouths=(False, False))
     surface = a.surface("inf", friction=a.bristle(FRICTION))

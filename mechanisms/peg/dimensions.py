@@ -1,4 +1,4 @@
-"""Of the peg, its hole and the wrist that holds it. All is chosen, in proportions of parts that are assembled."""
+"""Dimensions of the peg, its hole and the wrist that holds it. All are chosen, in proportions of assembly parts."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The peg in the hand of the arm, without a wrist: accommodation alone finds the way, or the arm insists."""
+"""The peg on the arm, without a wrist: with accommodation, or with a stiff arm."""
 
 import numpy as np
 import rig
@@ -13,14 +13,14 @@ from kit.rows import Fact, Limit, Row
 
 STEP = 2e-3  # s
 RATE = 0.005  # m/s along the tool
-# Chosen for a peg: it turns easily, about the point where the peg ends.
+# Chosen for a peg: it turns easily, about the end of the peg.
 YIELDING = Law(admittance=1e-4, admittance_turn=5e-4, band=2.0, band_turn=0.3)
 INSISTING = Law(admittance=0.0, admittance_turn=0.0, trip=100.0)
 BOTTOM = 0.08  # m
 
 
 def machine(law, step=STEP):
-    """The tip of the peg stands beside and leans against the axis of the hole as that on the feed does."""
+    """The tip of the peg is offset and tilted to the axis of the hole as on the feed."""
     _, _, place, attitude = kinematics.forward(READY)
     turned = attitude @ kinematics.rotation(np.array([0.0, 1.0, 0.0]), -TILT)
     tip = place - LENGTH * attitude[:, 2]
@@ -36,19 +36,19 @@ def machine(law, step=STEP):
 
 
 def push(controller):
-    """Along the tool, all the way."""
+    """Commands motion along the tool."""
     attitude = kinematics.forward(READY)[3]
     controller.command("tip", rates=np.r_[-RATE * attitude[:, 2], 0, 0, 0])
 
 
 def sunk(made):
-    """How much wider than the hole the leaning peg is, m: what both places sink in."""
+    """Interference of the tilted peg, m: the sum of both contact depths."""
     depth, lean = -rig.height(made), rig.lean(made)
     return depth * np.sin(lean) + 2 * RADIUS * np.cos(lean) - 2 * HOLE
 
 
 def inserted(step=STEP):
-    """Accommodation about the end of the peg lets the hole turn it; without, its places are pressed into the walls."""
+    """Accommodation about the end of the peg lets the hole turn it; without, its contacts are pressed into the walls."""
     made, controller = machine(YIELDING, step)
     push(controller)
     made.run(5.0, controller.control, lambda m: rig.height(m) < -0.01)

@@ -1,4 +1,4 @@
-"""What the peg must come to. Run by mechanisms/run.py."""
+"""Outcomes of the peg and their predictions. Run by mechanisms/run.py."""
 
 import held
 import rig
@@ -18,13 +18,13 @@ def deep(depth):
 
 
 def phases(name, step, depths):
-    """Force and lean against depth: chamfer, one place, two places."""
+    """Force and tilt against depth: chamfer, one contact, two contacts."""
     support = whitney.Support(rig.CENTRES[name])
     made = rig.machine(support.centre, step)
     for depth in depths:
         made.run(10.0, rig.feed, deep(depth))
         phase, force, lean = whitney.insertion(support, rig.height(made))
-        # In the chamfer the wrist moves across, against its dampers.
+        # In the chamfer the wrist moves sideways, against its dampers.
         within = 0.03 if phase == "chamfer" else 0.01
         at = f"{name} centre, {phase}, {depth * 1e3:g} mm deep"
         yield Row(f"{at}: force of insertion", rig.resistance(made), force, within, "N")
@@ -33,7 +33,7 @@ def phases(name, step, depths):
 
 
 def second_place(step):
-    """Slowly on: how deep the peg is when it touches for the second time."""
+    """Slow insertion: depth of the second contact."""
     for name, centre in rig.CENTRES.items():
         made = rig.machine(centre, step)
         made.run(4.0, rig.feed, deep(0.004))
@@ -43,7 +43,7 @@ def second_place(step):
 
 
 def limited(step):
-    """A feed of limited force: it goes through with the centre at the tip, and jams with the centre far away."""
+    """A feed of limited force: it passes with the centre at the tip, and jams with the centre far away."""
     near = rig.machine(rig.CENTRES["near"], step, LIMIT)
     yield Fact(f"pushed with at most {LIMIT:g} N, centre at the tip: through", near.run(9.0, rig.feed, deep(BOTTOM)))
     far = rig.machine(rig.CENTRES["far"], step, LIMIT)
@@ -59,7 +59,7 @@ def limited(step):
 
 
 def halved(step):
-    """The same at half the step."""
+    """Outcome at the step and at half of it."""
     results = []
     for each in (step, step / 2):
         made = rig.machine(rig.CENTRES["far"], each)
@@ -87,7 +87,7 @@ DRAWN = ("hole",)  # bodies that logs and films show beside what touches
 
 
 def shown(prepare):
-    """For logs and films: the arm inserts the peg."""
+    """Run for logs and films: the arm inserts the peg."""
     made, controller = held.machine(held.YIELDING)
     prepare(made)
     held.push(controller)

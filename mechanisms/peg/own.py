@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The same peg on the same wrist with the contact of MuJoCo and of Drake, beside Pong's and beside Whitney's theory.
+"""Comparison of the same peg and wrist with the contact of MuJoCo, of Drake and of Pong, and Whitney's theory.
 
 python3 mechanisms/peg/own.py        with the plugin as for mechanisms/run.py; with Drake where `pip install drake` was
 
@@ -30,7 +30,7 @@ SIDES, THICK = 16, 0.02  # m of the wall
 DEPTHS = {"near": (-1e-3, 0.01, 0.03, 0.05, 0.07), "far": (-1.5e-3, 0.01, 0.03, 0.05, 0.07)}  # m, as in outcome.py
 SETS = {"MuJoCo": own_contact.DEFAULT, "springs": own_contact.SPRINGS, "hard": own_contact.hard(STEP)}
 ONE_POINT = replace(own_contact.SPRINGS, one_point=True)  # added after the comparison, to explain it
-# Pong's peg has its stiffness shared by its two ends; so has each place here.
+# Pong's peg shares its stiffness between its two ends; so does each contact here.
 SURFACE = own_contact.Surface(d.STIFFNESS / 2, d.DAMPING / 2, d.FRICTION)
 
 
@@ -68,7 +68,7 @@ def in_drake(way, sides=SIDES):
 
 
 def figures(made):
-    """Force and lean against depth, the jam, processor time."""
+    """Force and tilt against depth, the jam, processor time."""
     for name, centre in rig.CENTRES.items():
         peg, greatest = rig.machine(centre, STEP, made=made), []
         for depth in DEPTHS[name]:
@@ -85,7 +85,7 @@ def figures(made):
 
 
 def around(peg, depth, greatest):
-    """Means over the last quarter of a millimetre before a depth and the first one after it: some contacts chatter.
+    """Means over the last quarter of a millimetre before a depth and the first one after it, since some contacts chatter.
 
     `greatest` gets the forces between the first such place and the depth of 3 mm.
     """
@@ -102,7 +102,7 @@ def around(peg, depth, greatest):
 
 
 def predicted(spring):
-    """By Whitney's theory with springs of contact, N/m. `None`: rigid, for depths only; not where one place becomes two."""
+    """Whitney's theory with contact springs, N/m. `None`: rigid, for depths only; not at the transition to two contacts."""
     whitney.SPRING = spring or 1e9
     for name, depths in DEPTHS.items():
         support = whitney.Support(rig.CENTRES[name])
@@ -122,12 +122,12 @@ def predicted(spring):
 
 
 def main():
-    """One column after another: `own.py theory Pong` makes these two."""
+    """Makes one column after another: `own.py theory Pong` makes these two."""
     columns = {"theory": lambda: predicted(d.STIFFNESS / 2), "Pong": partial(figures, rig.Machine)}
     columns |= {name: partial(figures, own(contact)) for name, contact in SETS.items()}
     ways = (drake.SAP, drake.LAGGED) if drake.at_hand() else ()
     columns |= {f"Drake-{way}": partial(figures, in_drake(way)) for way in ways}
-    # What explains the differences: four flats, and one point for each of them; a rigid contact.
+    # Sets that explain the differences: four flats, and one point for each of them; a rigid contact.
     columns["4-springs"] = partial(figures, own(ONE_POINT, 4))
     columns |= {f"4-Drake-{way}": partial(figures, in_drake(way, 4)) for way in ways[:1]}
     columns["rigid theory"] = lambda: predicted(None)

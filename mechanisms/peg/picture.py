@@ -22,7 +22,7 @@ from kit import picture  # noqa: E402
 
 
 def in_two_places():
-    """Seen through the cut in the wall."""
+    """View through the cut in the wall."""
     made = rig.machine(rig.CENTRES["far"], 5e-4)
     made.run(6.0, rig.feed, lambda m: rig.height(m) < -0.06)
     made.model.vis.scale.contactwidth, made.model.vis.scale.forcewidth = 0.004, 0.003
@@ -33,7 +33,7 @@ def in_two_places():
 
 
 def run(centre):
-    """Depth, force and lean along a way in."""
+    """Depth, force and tilt of an insertion."""
     made, rows = rig.machine(centre, 5e-4), []
     every = 20
 

@@ -31,7 +31,7 @@ ABOVE = CHAMFER + 0.002  # m, height of the tip at the start
 
 
 def hole(place, quaternion):
-    """Its walls for pictures, cut open."""
+    """Visual walls of the hole, cut open."""
     plates = "".join(
         f'<geom type="box" size="0.003 {HOLE * 0.27:.6f} 0.05" pos="{(HOLE + 0.003) * np.cos(a):.6f} '
         f'{(HOLE + 0.003) * np.sin(a):.6f} -0.05" euler="0 0 {a:.6f}" mass="0" rgba="0.5 0.55 0.6 0.6"/>'
@@ -65,7 +65,7 @@ def extension():
 
 
 def machine(centre, step, limit=2000.0, made=Machine):
-    """On a feed that pushes with at most `limit`, N. `made`: the class of machine, for other contacts."""
+    """Machine with a feed that pushes with at most `limit`, N. `made`: the class of machine, for other contacts."""
     feed = (
         f'<body name="stand" pos="{mjcf.numbers(STAND[0])}" quat="{mjcf.numbers(STAND[1])}"><body name="feed">'
         '<joint name="feed" type="slide" axis="0 0 -1"/><inertial pos="0 0 0.3" mass="2" diaginertia="0.01 0.01 0.01"/>'
@@ -79,28 +79,28 @@ def machine(centre, step, limit=2000.0, made=Machine):
 
 
 def axes(machine):
-    """Of the hole: its rotation matrix."""
+    """Rotation matrix of the hole."""
     return machine.data.xmat[machine.model.body("hole").id].reshape(3, 3)
 
 
 def height(machine):
-    """Of the tip over the end of the chamfer, m."""
+    """Height of the tip over the end of the chamfer, m."""
     return float(axes(machine)[:, 2] @ (machine.place("peg") - machine.place("hole")))
 
 
 def lean(machine):
-    """Of the peg against the axis of the hole, rad."""
+    """Tilt of the peg to the axis of the hole, rad."""
     along = machine.data.xmat[machine.model.body("peg").id].reshape(3, 3)[:, 2]
     return float(np.arctan2(along @ axes(machine)[:, 0], along @ axes(machine)[:, 2]))
 
 
 def resistance(machine):
-    """What the hole pushes back along its axis, N."""
+    """Axial force of the hole on the peg, N."""
     return float(machine.wrench("peg")[:3] @ axes(machine)[:, 2])
 
 
 def feed(machine):
-    """Sets its aim; a feed that stands does not aim further than it can push."""
+    """Sets its aim; a stalled feed does not aim further than it can push."""
     time = machine.time
     aim = SLOW * min(time, SLOWLY) + SPEED * max(0.0, time - SLOWLY)
     machine.data.ctrl[0] = min(aim, machine.joint("feed") + 0.02)

@@ -8,7 +8,7 @@ from kit.machine import Machine
 from kit.rows import Fact, Limit
 
 MODELS = pathlib.Path(__file__).resolve().parents[2] / "models" / "peg_in_hole"
-# Of scene_shallow.ron and scene_deep.ron: depth, place and attitude, in which both places have sunk in by 0.02 mm.
+# Scenes scene_shallow.ron and scene_deep.ron: depth and pose, in which both contacts are 0.02 mm deep.
 SCENES = {
     0.03: ((-0.000550016, 0.0, -0.03), (0.999849906978035, 0.0, 0.017325227733444, 0.0)),
     0.08: ((-0.000524224, 0.0, -0.08), (0.999978877468634, 0.0, 0.006499585876932, 0.0)),
@@ -17,7 +17,7 @@ LIMIT = 0.05  # m: friction times diameter
 
 
 def released(depth):
-    """Without gravity, for half a second, from rest."""
+    """Release without gravity, for half a second, from rest."""
     place, turned = SCENES[depth]
     body = (
         f'<body name="peg" pos="{mjcf.numbers(place)}" quat="{mjcf.numbers(turned)}"><freejoint/>'
@@ -40,5 +40,6 @@ def rows():
             yield Limit("and swings on its springs by no more than they were pressed", way, 1e-4, "m")
         else:
             yield Fact(f"{depth * 1e3:g} mm deep: it comes free", not held)
-            # Damped bristles give back less of what they have stored, so it goes slowly: farther than the springs were pressed.
+            # Damped bristles return less energy than stored, so the motion is slow; success is a distance beyond the
+            # springs' depth.
             yield Limit("and has gone", way, 1e-4, "m", least=True)

@@ -23,21 +23,21 @@ class Support:
 
 
 def moved(support, pushes, lean):
-    """Where the tip is, and how far the peg leans, for forces (x, z) at places (x and height from the tip).
+    """Position of the tip and tilt of the peg, for forces (x, z) at points (x and height from the tip).
 
     `lean` as last found: it says how far beside the tip the centre of compliance is.
     """
     across, turn = 0.0, 0.0
     for (x, height), (force, lift) in pushes:
         across += force / ACROSS
-        # A turn moves a place above the centre across, and one beside it down.
+        # A rotation moves a point above the centre sideways, and one beside it down.
         turn += (force * (height - support.centre) - lift * (x - lean * support.centre)) / TURN
     new = support.tilt + turn
     return support.offset + support.tilt * support.centre + across - new * support.centre, new
 
 
 def chamfer(z, lean):
-    """The rim's place on the side of the offset leans on the chamfer: direction, place and depth of its push."""
+    """Contact of the tip circle, on the side of the offset, with the chamfer: direction, position and depth of its force."""
     sine, cosine = np.sin(SLOPE), np.cos(SLOPE)
     direction = np.array([-cosine, sine]) + FRICTION * np.array([sine, cosine])
     rim = (RADIUS * np.cos(lean), -RADIUS * np.sin(lean))
@@ -46,7 +46,7 @@ def chamfer(z, lean):
 
 
 def mouth(z, lean):
-    """The side leans on the edge of the hole, whose push is square to the side."""
+    """Contact of the peg's side with the edge of the hole; its force is normal to the side."""
     sine, cosine = np.sin(lean), np.cos(lean)
     place = (RADIUS - z * sine, -z)
     direction = np.array([-cosine, sine]) + FRICTION * np.array([sine, cosine])
@@ -54,19 +54,19 @@ def mouth(z, lean):
 
 
 def wall(z, lean):
-    """The rim on the other side leans on the wall."""
+    """Contact of the tip circle's other side with the wall."""
     place = (-RADIUS, RADIUS * np.sin(lean))
     return np.array([1.0, FRICTION]), place, lambda tip, angle: -HOLE - (tip - RADIUS * np.cos(lean))
 
 
 def pushes(support, z, kinds):
-    """The pushes of places of these kinds that the support and the springs of contact bear, N."""
+    """Contact forces of these kinds in balance with the support and the contact springs, N."""
     lean = support.tilt
     for _ in range(20):  # how far the peg leans, in the sines and cosines
         places = [kind(z, lean) for kind in kinds]
 
         def gap(found, places=places, lean=lean):
-            """How deep each place stands in what it leans on, less what its spring gives."""
+            """Depth of each contact point less the deflection of its spring."""
             pushed = [(place, n * way) for n, (way, place, _) in zip(found, places)]
             tip, angle = moved(support, pushed, lean)
             return np.array([depth(tip, angle) - n / SPRING for n, (_, _, depth) in zip(found, places)])
@@ -92,7 +92,7 @@ def insertion(support, z):
 
 
 def second(support):
-    """The depth from which two places touch (bisection)."""
+    """Depth from which two contacts exist (bisection)."""
     low, high = 0.003, 0.09
     for _ in range(60):
         middle = 0.5 * (low + high)
@@ -101,7 +101,7 @@ def second(support):
 
 
 def jams(support, limit):
-    """The depth at which a feed of that force stops, or None."""
+    """Depth at which a feed of that force stops, or None."""
     for depth in np.arange(0.002, 0.09, 1e-4):
         if insertion(support, -depth)[1] > limit:
             return float(depth)

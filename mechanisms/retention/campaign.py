@@ -1,4 +1,4 @@
-"""The arm pulls a truss that is still latched, dispersed: does a joint stall, and does it stall where JᵀF is its torque?
+"""Dispersed pulls by the arm at a latched truss: whether a joint stalls, and whether JᵀF is its torque then.
 
 The claws have closed on the pins. Then the arm is told to move the tip, as in pull.py, until a joint stalls or the way of
 the tip is over. The truss does not move, so that statics of the elastic arm (elastic.py) says at which way a joint
@@ -40,7 +40,7 @@ def limits(values):
 
 
 def begin(values):
-    """The machine and its arm, whose servos are actuators with limits of their own."""
+    """The machine and its arm, whose servos are force-limited actuators."""
     made = rig.machine(pull.START, friction=values["friction"])
     made.model.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
     made.scale_mass("truss", values["mass"])
@@ -60,7 +60,7 @@ def begin(values):
 
 
 def asked(made, arm):
-    """JᵀF: what the wrench of the latches on the truss, carried to the tip, asks of each motor, N·m."""
+    """JᵀF: motor torques for the latches' wrench on the truss, transferred to the tip, N·m."""
     wrench, beside = made.wrench("truss"), made.place("truss") - made.place("tip")
     return arm.jacobian().T @ np.r_[wrench[:3], wrench[3:] + np.cross(beside, wrench[:3])]
 

@@ -1,4 +1,4 @@
-"""What statics says of a pull at a truss that its latches hold: the torque of each joint for a way of the tip.
+"""Statics of a pull at a latched truss: torque of each joint for a displacement of the tip.
 
 A joint is a spring: gear and servo in series. The tip does not move, so its six forces take back what the motors have
 turned: τ = Jᵀλ with J·K⁻¹·Jᵀ·λ = J·Δ, with Δ the angles to which the servos lead. Their damping acts on the rate that a
@@ -19,20 +19,20 @@ LEAD = SERVO_DAMPING / SERVO_STIFFNESS * GEARS / (GEARS + SERVO_STIFFNESS)  # s
 
 
 def rate(way):
-    """Of the tip, which gains its rate evenly, when it has been led so far."""
+    """Rate of the tip, which rises linearly, after a commanded displacement."""
     risen = pull.RATE[0] * pull.RISE / 2
     return pull.RATE[0] * min(1.0, math.sqrt(way / risen))
 
 
 def torques(direction, way):
-    """Of the joints, N·m, when the tip was led so far along a direction."""
+    """Torques of the joints, N·m, after a commanded displacement of the tip along a direction."""
     moves = kinematics.jacobian(READY)
     led = kinematics.resolve(moves, np.array((*direction, 0.0, 0.0, 0.0)), 0.05) * (way + LEAD * rate(way))
     return moves.T @ np.linalg.solve(moves / STIFFNESS @ moves.T, moves @ led)
 
 
 def stalls_at(direction, limits, most=1.0):
-    """Way of the tip at which the first joint needs what its motor can give, m."""
+    """Displacement of the tip at which the first joint needs its motor's limit, m."""
     low, high = 0.0, most
     for _ in range(40):
         middle = 0.5 * (low + high)

@@ -1,4 +1,4 @@
-"""The arm lowers the truss into its guides; keel jaws centre it, claws draw it down."""
+"""Lowering of the truss into its guides by the arm; keel jaws centre it, claws pull it down."""
 
 import copy
 
@@ -17,7 +17,7 @@ TIMES = {"lower": 18.0, "keel": 22.0, "claws": 31.0}  # s at which each phase en
 
 
 class Berthing:
-    """The machine, its arm and the sequence. `dead`: a claw whose motor has no power."""
+    """The machine, its arm and the sequence. `dead`: a claw without motor power."""
 
     def __init__(self, step=d.TRAINING, dead=None):
         self.machine, self.dead, self.phase = rig.machine(OFF, step), dead, None
@@ -53,12 +53,12 @@ class Berthing:
 
 
 def preload(x):
-    """Of a claw whose motor is stalled: torque over the lever about the hinge of a pin that is at x in its socket, N."""
+    """Force of a claw with a stalled motor: torque over the lever about the hinge of a pin at x in its socket, N."""
     return d.CLAW_STALL / (model.HINGE_X - x)
 
 
 def same_bits_after_restart(before, after):
-    """Runs for `before` s, then for `after` s; goes back in another machine, and compares the bits of both ends."""
+    """Runs for `before` s, then for `after` s, repeats the latter in another machine, and compares the bits of both ends."""
     first = Berthing()
     first.run(before)
     saved = copy.deepcopy(first.save())

@@ -1,4 +1,5 @@
-"""What the retention latches must come to. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
+"""Outcomes of the retention latches and their predictions. Run by mechanisms/run.py: `rows(thorough)` yields (title,
+rows)."""
 
 import time
 
@@ -17,7 +18,7 @@ BEFORE, STANDS, END = 6.0, 15.0, 26.0  # s: before the stall; the truss stands a
 
 
 def pulled(torque, step=d.TRAINING, prepare=None):
-    """A pull to its end; bits before the stall, torques and place when the truss stands, and how far it went then."""
+    """A pull to its end; bits before the stall, torques and position at standstill, and the displacement."""
     made, began = pull.Pull(torque, step), time.process_time()
     if prepare is not None:
         prepare(made.machine)
@@ -32,7 +33,7 @@ def pulled(torque, step=d.TRAINING, prepare=None):
 
 
 def conclusion(step=d.TRAINING):
-    """Uncommanded motion where joints stall, and not with unlimited joints; the same commands."""
+    """Uncommanded motion when joints stall, and none with unlimited joints, under the same commands."""
     limited, early, torques, went = pulled(TORQUE, step)
     joint, when, asked, _ = limited.stalled
     print(f"      {LINKS[joint].name} stalls at {when:.2f} s")
@@ -63,7 +64,7 @@ def berthed(step=d.TRAINING):
 
 
 def off_nominal():
-    """One claw does not close; the others hold."""
+    """Latching with one claw that does not close; the others hold."""
     made = latch.Berthing(dead="claw_primary_port")
     made.run()
     held = made.held()
@@ -81,7 +82,7 @@ DRAWN = ("base", "link_*", "truss", "claw_*", "keel_jaw_*")  # bodies that logs 
 
 
 def shown(prepare):
-    """For logs and films: `prepare` sees the machine before it moves."""
+    """Run for logs and films: `prepare` receives the machine before it moves."""
     made = latch.Berthing()
     prepare(made.machine)
     made.run()

@@ -1,4 +1,4 @@
-"""The arm pulls the truss along x while two pins are still in their sockets: a joint stalls, and the truss goes aside.
+"""Pull by the arm at a truss with two pins still in their sockets: a joint stalls, and the truss moves sideways.
 
 The walls of the primary sockets hold the pins. The force on them rises, and with it the torque of each joint, JᵀF. Where
 it reaches what a motor can give, that joint stalls: it no longer follows, the others do, and the tip leaves its line.
@@ -19,7 +19,7 @@ START = (model.PRIMARY_CLEARANCE, 0.0, 1e-4)  # m from the seat: pins touch thei
 
 
 class Pull:
-    """The machine and its arm; what is seen in each step."""
+    """The machine and its arm, with a record of each step."""
 
     def __init__(self, torque=TORQUE, step=d.TRAINING):
         self.machine = rig.machine(START, step)
@@ -36,7 +36,7 @@ class Pull:
         self.arm.control(machine)
 
     def torques(self):
-        """JᵀF of the joints: what the wrench of the latches on the truss, carried to the tip, asks of each motor, N·m."""
+        """JᵀF: motor torques for the latches' wrench on the truss, transferred to the tip, N·m."""
         wrench = self.machine.wrench("truss")
         arm = self.machine.place("truss") - self.machine.place("tip")
         moment = wrench[3:] + np.cross(arm, wrench[:3])

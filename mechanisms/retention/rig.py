@@ -15,7 +15,7 @@ STEEL, BLUE, GOLD = "0.55 0.57 0.6 1", "0.3 0.45 0.65 0.35", "0.75 0.6 0.3 1"
 
 
 def claw(name):
-    """Its angle is 0 where it is closed."""
+    """Claw, with angle 0 when closed."""
     reach, heel = model.CLAW_REACH, model.CLAW_HEEL
     face = model.PIN_RADIUS - model.HINGE_Z - model.CLAW_BITE
     middle = (-(reach + heel) / 2, 0.0, face + model.CLAW_THICKNESS / 2)
@@ -29,7 +29,7 @@ def claw(name):
 
 
 def jaw(label, side):
-    """Its way is 0 where it is open, and grows towards the pin."""
+    """Keel jaw, with position 0 when open, growing towards the pin."""
     return (
         f'<body name="keel_jaw_{label}" pos="{mjcf.numbers(model.keel_jaw(side))}"><joint name="keel_jaw_{label}" '
         f'type="slide" axis="0 {-side} 0" armature="{d.JAW_ARMATURE}" limited="true" range="0 {d.JAW_TRAVEL:.12g}" '
@@ -40,7 +40,7 @@ def jaw(label, side):
 
 
 def truss(attitude):
-    """On the tip of the arm, its axes along those of the bay; the contact frame is where all pins are seated."""
+    """Truss on the tip of the arm, its axes along those of the bay; the contact frame is at the seat of all pins."""
     middle = mjcf.numbers(model.MASS_CENTER)
     pins = "".join(
         f'<geom type="cylinder" fromto="{x} {side * (model.SILL_Y - 0.12)} 0 {x} {side * (model.SILL_Y + 0.12)} 0" '

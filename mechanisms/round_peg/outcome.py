@@ -1,4 +1,4 @@
-"""What the round peg must come to. Run by mechanisms/run.py."""
+"""Outcomes of the round peg and their predictions. Run by mechanisms/run.py."""
 
 import math
 
@@ -13,12 +13,12 @@ NEAR = 0.08  # loads so near to the sides are left out: the springs of contact s
 
 
 def diagram(count, seed=1):
-    """Random loads: a peg in two-place contact slides in if they are within Whitney's parallelogram, else it jams."""
+    """Random loads: a peg in two-point contact slides in if they are within Whitney's parallelogram, else it jams."""
     random = np.random.default_rng(seed)
     slope = SHALLOW / (rig.DIAMETER * rig.FRICTION)
     wrong, slid, tried, imbalance = [], 0, 0, 0.0
     while tried < count:
-        # Even over twice the parallelogram: across ±1/μ, and along its slanted sides.
+        # Uniform over twice the parallelogram: across ±1/μ, and along its slanted sides.
         across, beyond = random.uniform(-1.8, 1.8) / rig.FRICTION, random.uniform(-2.0, 2.0) * slope
         moment = rig.FRICTION * (1 + slope) * across + beyond
         out = rig.whitney(SHALLOW, across, moment)
@@ -37,7 +37,7 @@ def diagram(count, seed=1):
 
 
 def held(tilt, stiffness=None):
-    """A peg that goes in slowly, free across; its tilt is held, or by a spring about its tip, N·m/rad."""
+    """A peg that enters slowly, free sideways; its tilt is held, or by a spring about its tip, N·m/rad."""
     half = tilt / 2
     turn = "" if stiffness is None else f'<joint name="turn" axis="0 1 0" stiffness="{stiffness:g}" damping="0.5"/>'
     return (
@@ -48,7 +48,7 @@ def held(tilt, stiffness=None):
 
 
 def driven(made, speed=0.02):
-    """A stiff feed: position and speed of the joint `down`; the force that it takes stands in `feed`, N."""
+    """A stiff feed: position and speed of the joint `down`; its force is in `feed`, N."""
     drive = made.model.joint("down").dofadr[0]
 
     def control(m):
@@ -59,12 +59,12 @@ def driven(made, speed=0.02):
 
 
 def two_places():
-    """With its tilt held, the peg touches a second place exactly at the depth l where l·sin θ + d·cos θ = D."""
+    """With its tilt held, the peg makes a second contact exactly at the depth l where l·sin θ + d·cos θ = D."""
     for depth in (0.02, 0.05):
         tilt = rig.tilt_at(depth)
-        # Both joints turn with the body, so the way is along its own axis.
+        # Both joints turn with the body, so the displacement is along its own axis.
         made = rig.machine(held(tilt))
-        # A light push to one side keeps the first place.
+        # A light push to one side keeps the first contact.
         push = made.model.joint("across").dofadr[0]
         feed = driven(made)
 
@@ -86,7 +86,7 @@ def two_places():
 
 
 def tip(made):
-    """Height of the lowest place of the peg's tip circle's middle, m."""
+    """Lowest height of the middle of the peg's tip circle, m."""
     return float(made.place("peg")[2])
 
 
@@ -94,7 +94,7 @@ TILT, STIFFNESS = rig.tilt_at(0.012), 50.0  # rad; N·m/rad of the spring that h
 
 
 def compliant(step):
-    """Held by a spring about its tip, the peg turns upright as it goes in; friction in two places is 2μ·K(θ₀ − θ)/l."""
+    """Held by a spring about its tip, the peg turns upright as it enters; friction in two contacts is 2μ·K(θ₀ − θ)/l."""
     made = rig.machine(held(TILT, STIFFNESS), step=step)
     feed = driven(made)
     for depth in (0.03, 0.045, 0.06):
@@ -123,7 +123,7 @@ def half_step(depth=0.03):
 
 
 def restarted():
-    """While both places touch."""
+    """Valid while both points touch."""
     made = rig.machine(held(TILT, STIFFNESS), step=rig.TRAINING)
     feed = driven(made)
     made.run(5.0, feed, watch=lambda m: -tip(m) > 0.03)
@@ -136,7 +136,7 @@ def restarted():
 
 
 def shown(prepare):
-    """For logs and films: the compliant insertion."""
+    """Run for logs and films: the compliant insertion."""
     made = rig.machine(held(TILT, STIFFNESS))
     prepare(made)
     made.run(10.0, driven(made), watch=lambda m: -tip(m) > 0.08)

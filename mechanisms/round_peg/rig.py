@@ -45,7 +45,7 @@ INERTIAL = f'<inertial pos="0 0 0" mass="{MASS:g}" diaginertia="0.005 0.005 0.00
 
 
 def tilt_at(depth, push=0.0):
-    """The tilt at which a peg inserted so far touches in two places: l·sin θ + d·cos θ = D (bisection).
+    """Tilt at which an inserted peg has two contacts: l·sin θ + d·cos θ = D (bisection).
 
     Two places that push with so many newtons sink in, each on half of the spring: D grows by what both sink.
     """
@@ -61,7 +61,7 @@ def tilt_at(depth, push=0.0):
 
 
 def resistance(depth, across, moment):
-    """Friction against sliding in, over the force Fz along the hole: the peg jams if it is more than 1.
+    """Friction against sliding in, relative to the axial force Fz: the peg jams if it is above 1.
 
     Loads are at the tip: `across` is Fx/Fz, `moment` is M/(r·Fz) about y. Two places push, at the tip or at the mouth, on
     one side or on both, each with friction upwards: those two that can be in balance with the loads.
@@ -78,13 +78,13 @@ def resistance(depth, across, moment):
 
 
 def whitney(depth, across, moment):
-    """The same by Whitney's parallelogram: how far out the loads are, 1 on its sides."""
+    """Load factor by Whitney's parallelogram, 1 on its sides."""
     slope = depth / (DIAMETER * FRICTION)
     return max(abs(across) * FRICTION, abs(moment - FRICTION * (1 + slope) * across) / slope)
 
 
 def moves(depth, across, moment, force=100.0):
-    """The same, tried: loads across and moment come first, then the force along the hole."""
+    """Load factor by experiment: lateral load and moment first, then the axial force."""
     made = machine(f'<body name="peg" pos="0 0 {-depth:g}"><freejoint/>{INERTIAL}</body>')
     index = made.model.body("peg").id
 

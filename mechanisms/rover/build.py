@@ -16,13 +16,13 @@ STONE = {"stone": a.surface(float("inf"), a.linear(0.0, ramp=d.RIGID_RAMP), a.br
 
 
 def floor():
-    """Level and endless, for rigid wheels."""
+    """Infinite level floor for rigid wheels."""
     plane = a.flat_ground("plane", (0.0, 0.0, 1.0), 0.0)
     return a.model("floor", STONE, a.group("floor", primitives=[plane], surface="stone"))
 
 
 def step():
-    """A block whose top is at z = 0 and whose face is at x = 0: the body that carries it stands at any height."""
+    """A block with its top at z = 0 and its face at x = 0: its carrier is at any height."""
     half_spaces = [
         ((0.0, 0.0, 1.0), 0.0),
         ((0.0, 0.0, -1.0), DEPTH),
@@ -36,7 +36,7 @@ def step():
 
 
 def rigid_wheel():
-    """As models/rover/rig_rigid.ron, but for damping that sets in at once: on level ground it sinks in by 0.4 mm only."""
+    """Rigid wheel of models/rover/rig_rigid.ron with damping from zero depth: on level ground its depth is 0.4 mm only."""
     semi_axes = (d.model.WHEEL_RADIUS, d.model.WHEEL_WIDTH / 2, d.model.WHEEL_RADIUS)
     damping = a.linear(d.model.RIGID_DAMPING, ramp=d.RIGID_RAMP)
     friction = a.bristle(d.model.FRICTION, stiffness=2 * d.model.RIGID_STIFFNESS, damping=d.model.BALL_DAMPING)

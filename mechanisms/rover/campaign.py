@@ -1,4 +1,4 @@
-"""The front wheels at a step, dispersed: do the motors lift them over its edge as statics says?
+"""Dispersed step heights at the front wheels: whether the motors lift them over the edge, compared with statics.
 
 The rover stands with its front wheels at the edge. All motors' torques rise slowly to what they can give, and stay. The
 wheels come off the ground if there is a balance of forces with this torque (`statics.needed`). They rise slowly near
@@ -42,7 +42,7 @@ def begin(values):
 
 
 def motors(made):
-    """As `scenes.crawl` controls them, in MuJoCo's own terms: GAIN·(told − speed), within what `cap` gives."""
+    """Motor control of `scenes.crawl` in MuJoCo's own terms: GAIN·(commanded − speed), within the limit of `cap`."""
     numbers = [made.model.actuator(f"drive_{name}").id for name in rig.WHEELS]
     made.model.actuator_gainprm[numbers, 0] = scenes.GAIN
     made.model.actuator_biasprm[numbers, 2] = -scenes.GAIN
@@ -50,7 +50,7 @@ def motors(made):
 
 
 def torque_needed(values):
-    """N·m. Statics counts in weights, and with more cargo the same torque is less of the weight."""
+    """Motor torque, N·m. Statics counts in weights: with more cargo the same torque is a smaller share."""
     mass = model.GROSS_MASS + (values["cargo"] - 1.0) * d.CHASSIS_MASS
     ahead = values["ahead"] * d.CHASSIS_MASS * values["cargo"] / mass * model.GROSS_MASS / d.CHASSIS_MASS
     of_weight = statics.needed("front", values["height"], values["friction"], ahead, STRONGEST, 14)

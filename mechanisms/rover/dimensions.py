@@ -56,7 +56,7 @@ RIGID = Level("rigid", 1e-3)
 
 
 def _tyre_heights():
-    """Of the axle under the weight of one wheel of six, by tyre."""
+    """Height of the axle under the weight of one wheel of six, by tyre."""
     sys.modules["dimensions"], kept = model, sys.modules.get("dimensions")
     tyre = _of_the_model("tyre")
     sys.modules["dimensions"] = kept

@@ -1,4 +1,4 @@
-"""What the rover must come to. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
+"""Outcomes of the rover and their predictions. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
 
 import math
 import time
@@ -41,7 +41,7 @@ def slopes():
 
 
 def step_up(name, climbed, missed):
-    """A step that statics allows with what the motors can give, and the next."""
+    """The highest step that statics allows with the motors' torque, and the next."""
     highest = statics.highest(d.STALL_TORQUE, (name,))
     print(f"      statics: the {name} wheels come up {highest * 1e3:.0f} mm")
     torque, up, made = scenes.climbs(name, climbed)
@@ -53,7 +53,7 @@ def step_up(name, climbed, missed):
 
 
 def trade():
-    """The stone with both tyres: what the coarse one costs and how far it is off."""
+    """The stone with both tyres: cost and error of the coarse one."""
     fine, exact = timed(d.ANALYSIS)
     coarse, rough = timed(d.TRAINING)
     yield from honest(fine)
@@ -101,7 +101,7 @@ def off_nominal():
 
 
 def restarted():
-    """In the middle of the stone, level training."""
+    """Restart in the middle of the stone, at level training."""
 
     def begin():
         made = rig.machine(d.TRAINING, ground="stone", x=-1.6)
@@ -122,7 +122,7 @@ DRAWN = ("chassis", "rocker_*", "bogie_*")  # bodies that logs and films show be
 
 
 def shown(prepare):
-    """For logs and films: `prepare` sees the machine before it moves."""
+    """Run for logs and films: `prepare` receives the machine before it moves."""
     scenes.over_rocks(d.ANALYSIS, seconds=12.0, prepare=prepare)
 
 

@@ -28,7 +28,7 @@ def wheel(name, locked):
 
 
 def hub(name, x, z, locked):
-    """What bears a wheel; those at the corners turn about the upright to steer."""
+    """Hub of a wheel; those at the corners turn about the upright to steer."""
     steer = f'<joint name="steer_{name}" axis="0 0 1" armature="1"/>' if name in CORNERS and not locked else ""
     return (
         f'<body name="hub_{name}" pos="{x:.12g} 0 {z:.12g}">{steer}<inertial pos="0 0 0" mass="{d.STEER_MASS}" '
@@ -72,7 +72,7 @@ def chassis(place, locked):
     )
 
 
-# The chassis turns by the mean of both rockers: what one turns up, the other turns down.
+# The chassis turns by the mean of both rockers: one rocker's rise is the other's descent.
 DIFFERENTIAL = (
     '<equality><joint joint1="rocker_left" joint2="rocker_right" polycoef="0 -1 0 0 0" solref="0.01 1" '
     'solimp="0.999 0.9999 0.001"/></equality>'
@@ -95,7 +95,8 @@ def slope(angle):
 def machine(
     level, ground="floor", angle=0.0, x=0.0, more_ground="", locked=False, step=None, height=0.0, friction=None
 ):
-    """On the floor, with rigid wheels, or on a ground of models/rover. `more_ground`: height of a step up at x = 0, m, if any.
+    """Rover on the floor, with rigid wheels, or on a ground of models/rover. `more_ground`: height of a step up at x =
+    0, m, if any.
 
     `angle`: of a slope that rises ahead. `locked`: wheels and steering do not turn. `friction`: of all surfaces.
     """
@@ -133,7 +134,7 @@ def machine(
 
 
 def voltages(machine, value):
-    """The same for all drive motors; `value` may be a dict by wheel."""
+    """Sets one voltage for all drive motors; `value` may be a dict by wheel."""
     for name in WHEELS:
         machine.data.ctrl[machine.model.actuator(f"drive_{name}").id] = (
             value[name] if isinstance(value, dict) else value
@@ -141,7 +142,7 @@ def voltages(machine, value):
 
 
 def rolling(machine, level, speed):
-    """Sets the rover moving ahead at a speed with wheels that roll."""
+    """Sets the rover in motion with rolling wheels."""
     machine.data.qvel[0] = speed
     for name in WHEELS:
         machine.data.qvel[machine.model.joint(f"drive_{name}").dofadr[0]] = speed / d.AXLE_HEIGHT[level.tyre]

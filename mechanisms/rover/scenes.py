@@ -1,4 +1,4 @@
-"""What the rover does: stands, turns, drives up slopes and steps, slides, drives over a stone and over rocks."""
+"""Motions of the rover: standing, turning, driving up slopes and steps, sliding, driving over a stone and over rocks."""
 
 import math
 
@@ -19,7 +19,7 @@ VOLTAGE = 0.6  # on slopes: at more, the front wheels would slip
 
 
 def crawl(speeds, level, steer=None, cap=None):
-    """Motors that hold speeds of their wheels (m/s; by wheel or one), within what their torque-speed line gives.
+    """Motors that hold speeds of their wheels (m/s; by wheel or one), within their torque-speed line.
 
     `cap(time)`: greatest torque, N·m.
     """
@@ -44,7 +44,7 @@ def crawl(speeds, level, steer=None, cap=None):
 
 
 def ackermann(radius):
-    """Angles of the corner wheels and way of each wheel for one metre of the chassis's middle, which goes round to the left."""
+    """Angles of the corner wheels and path of each wheel for one metre of the chassis's middle in a left turn."""
     steer, way = {}, {}
     for name in rig.WHEELS:
         where, side = name.split("_")
@@ -56,7 +56,7 @@ def ackermann(radius):
 
 
 def turned(radius, level, speed=0.6, seconds=5.0):
-    """Radius of the circle that the middle of the chassis goes round, m, and the machine."""
+    """Radius of the circle of the chassis's middle, m, and the machine."""
     steer, way = ackermann(radius)
     made = rig.machine(level)
     for name, angle in steer.items():
@@ -73,7 +73,7 @@ def turned(radius, level, speed=0.6, seconds=5.0):
 
 
 def circle(places):
-    """Radius of the circle through places, by least squares of x² + y² = 2·a·x + 2·b·y + c."""
+    """Radius of the circle through points, by least squares of x² + y² = 2·a·x + 2·b·y + c."""
     system = np.column_stack((2 * places, np.ones(len(places))))
     a, b, c = np.linalg.lstsq(system, (places**2).sum(axis=1), rcond=None)[0]
     return math.sqrt(c + a * a + b * b)
@@ -83,7 +83,7 @@ def circle(places):
 
 
 def stall_slope(motors=6):
-    """Where so many motors' torques at standstill hold the weight along the slope, rad."""
+    """Slope on which the stall torque of this number of motors holds the weight, rad."""
     return math.asin(motors * VOLTAGE * d.STALL_TORQUE / d.AXLE_HEIGHT["rigid"] / (model.GROSS_MASS * model.GRAVITY))
 
 
@@ -100,14 +100,14 @@ def pulled(angle, dead=(), step=None):
 
 
 def _without_power(made, name):
-    """Its motor neither drives nor brakes."""
+    """Removes the power of a motor: it neither drives nor brakes."""
     motor = made.model.actuator(f"drive_{name}").id
     made.model.actuator_gainprm[motor] = 0.0
     made.model.actuator_biasprm[motor] = 0.0
 
 
 def stalls_at(predicted, dead=()):
-    """The slope at which the acceleration is zero, from one below and one above, rad; and the last machine."""
+    """Slope of zero acceleration, from one below and one above, rad; and the last machine."""
     sines = [share * math.sin(predicted) for share in (0.98, 1.02)]
     found = [pulled(math.asin(sine), dead) for sine in sines]
     (up, _), (down, made) = found
@@ -127,7 +127,7 @@ def slides(angle):
 
 
 def climbs(name, height, step=None):
-    """Torque with which the wheels `name` (front, middle or rear) come off the ground, N·m; they are up at the end, or not.
+    """Torque with which the wheels `name` (front, middle or rear) leave the ground, N·m; and whether they are up at the end.
 
     The rover is let down onto ground and step, rolls to the edge and stands there; then all motors' torques rise slowly
     to what they can give. Without the stand, momentum would help. And the machine.
@@ -148,12 +148,13 @@ def climbs(name, height, step=None):
 
 
 def rising(time):
-    """Greatest torque of each motor, N·m."""
+    """Largest torque of each motor, N·m."""
     return LEAST + (d.STALL_TORQUE - LEAST) * max(0.0, min(1.0, (time - STANDS) / RISE))
 
 
 def over_stone(level, step=None, seconds=6.0, speed=0.7):
-    """With the left wheels over a stone of 0.15 m: the machine; place and pitch of the chassis, and loads, by time."""
+    """Drive with the left wheels over a stone of 0.15 m: the machine; position and pitch of the chassis, and loads, by
+    time."""
     made = rig.machine(level, ground="stone", x=-2.2, step=step)
     rig.rolling(made, level, speed)
     every = round(0.01 / made.step)
@@ -174,7 +175,7 @@ def over_stone(level, step=None, seconds=6.0, speed=0.7):
 
 
 def over_rocks(level, seconds=8.0, speed=1.0, prepare=None):
-    """The relief of models/rover with its rocks."""
+    """Terrain of models/rover with its rocks."""
     made = rig.machine(level, ground="terrain", x=-2.3, height=0.01)
     if prepare is not None:
         prepare(made)

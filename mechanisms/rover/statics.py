@@ -1,4 +1,4 @@
-"""Which step a rocker-bogie rover can begin to climb: balance of forces in the plane of one side, by limits of friction.
+"""Highest step that a rocker-bogie rover can begin to climb: planar balance of one side, with limits of friction.
 
 Three wheels bear N and pull with T, |T| ≤ μ·N and |T| ≤ τ/r. The whole must be in balance (three equations), and each
 bogie about its pivot (one). A wheel can lift off the ground where there is any such balance with the wheel at the edge.
@@ -16,7 +16,8 @@ SLACK = 1e-9  # of a weight
 
 
 def at_edge(axle, height):
-    """Place, normal and tangent (ahead and up) of a wheel at the edge of a step; at a wall if it is higher than the axle."""
+    """Position, normal and tangent (ahead and up) of a wheel at the edge of a step; at a wall if it is higher than the
+    axle."""
     radius = model.WHEEL_RADIUS
     angle = math.acos(max(0.0, 1.0 - height / radius))
     normal = np.array((-math.sin(angle), math.cos(angle)))
@@ -32,7 +33,7 @@ def cross(a, b):
 
 
 def contacts(climbs, height, ahead=0.0):
-    """Of the three wheels when `climbs` is at the edge; those ahead stand on the step. And pivot and centre of mass.
+    """Contacts of the three wheels with `climbs` at the edge and those ahead on the step; pivot and centre of mass.
 
     `ahead`: by how much the mass centre of the chassis is ahead of its middle, m.
     """
@@ -48,7 +49,7 @@ def contacts(climbs, height, ahead=0.0):
 
 
 def mass_center(ahead=0.0):
-    """Of the rover on level ground, x and z from the axles."""
+    """Centre of mass of the rover on level ground, x and z from the axles."""
     parts = [
         (d.CHASSIS_MASS, ahead, d.CHASSIS_Z),
         (2 * d.ROCKER_MASS, 0.0, d.ROCKER_Z),
@@ -60,7 +61,7 @@ def mass_center(ahead=0.0):
 
 
 def can_climb(climbs, height, torque, friction=model.FRICTION, ahead=0.0):
-    """Whether there is a balance; torque of each motor, N·m. Forces in weights of one side of the rover."""
+    """Existence of a balance, and torque of each motor, N·m. Forces in weights of one side of the rover."""
     made, bogie, center = contacts(climbs, height, ahead)
     pull = torque / model.WHEEL_RADIUS / (model.GROSS_MASS * model.GRAVITY / 2)
     columns, limits, room = [], [], []
@@ -78,7 +79,7 @@ def can_climb(climbs, height, torque, friction=model.FRICTION, ahead=0.0):
 
 
 def feasible(balance, loads, limits, room):
-    """Whether balance·x = loads with limits·x ≤ room: corners of what two of the limits leave are tried."""
+    """True if balance·x = loads with limits·x ≤ room has a solution: tries the vertices of pairs of limits."""
     some = np.linalg.lstsq(balance, loads, rcond=None)[0]
     free = np.linalg.svd(balance)[2][4:].T
     across, left = limits @ free, room - limits @ some
@@ -92,7 +93,7 @@ def feasible(balance, loads, limits, room):
 
 
 def highest(torque, climbs=NAMES, most=1.0):
-    """The highest step that each of the wheels can begin to climb, m."""
+    """Highest step that each of the wheels can begin to climb, m."""
     low, high = 0.0, most
     for _ in range(40):
         middle = 0.5 * (low + high)
@@ -101,7 +102,7 @@ def highest(torque, climbs=NAMES, most=1.0):
 
 
 def needed(name, height, friction=model.FRICTION, ahead=0.0, most=500.0, halvings=40):
-    """The least torque of each motor with which a wheel can come off the ground, N·m; `most` if none is enough."""
+    """Least torque of each motor with which a wheel can leave the ground, N·m; `most` if none suffices."""
     low, high = 0.0, most
     for _ in range(halvings):
         middle = 0.5 * (low + high)

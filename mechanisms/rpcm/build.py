@@ -36,7 +36,7 @@ def model(name, made, primitives):
 
 
 def rail(name, side):
-    """A channel: web, lips above and below. Its mouth is rounded where the sides of the box lean on it."""
+    """A channel: web, lips above and below. Its mouth is rounded where the box's sides lean on it."""
     web, lip = sorted((side * d.GAP / 2, side * (d.GAP / 2 + d.WALL))), sorted((side * d.GAP / 2, side * inner()))
     high, end = d.HEIGHT / 2 + d.CLEARANCE, d.STOP
     yield block(f"web_{name}", (0.0, web[0], -high - d.WALL), (end, web[1], high + d.WALL))
@@ -105,7 +105,7 @@ def plug():
 
 
 def socket():
-    """Bores with funnels before them, and a strip between them on which the sprung contacts press."""
+    """Bores with funnels in front of them, and a strip between them against the sprung contacts."""
     mouth = d.STOP + d.SPRING_STROKE - d.FUNNEL_LENGTH
     holes = []
     for name, side in d.SIDES.items():
@@ -121,14 +121,14 @@ def socket():
 
 
 def cone(trial):
-    """Its origin is the middle of its root; it points out, along −x."""
+    """Cone with its origin at the middle of its base; it points out, along −x."""
     tip = d.CONE_RADIUS - d.CONE_LENGTH * math.tan(d.half_angle(trial))
     part = a.cone("cone", (0, 0, 0), (-d.CONE_LENGTH, 0, 0), (d.CONE_RADIUS, tip))
     return model(f"cone_{trial}", surface(d.GRIP_STIFFNESS, d.GRIP_DAMPING, d.GRIP_FRICTION), [part])
 
 
 def jaw(name, side, trial):
-    """A plane along a line of the cone; it just touches it when the jaw's way is zero."""
+    """A plane along a line of the cone; it just touches the cone at the jaw's position zero."""
     slope = d.half_angle(trial)
     # Out of the solid, against the outward normal of the cone, which leans to its tip.
     normal = (math.sin(slope), -side * math.cos(slope), 0.0)

@@ -1,4 +1,4 @@
-"""A box that is brought to the mouth of its rails beside the middle and turned, dispersed: does it go in, or jam?
+"""Dispersed offsets and angles of a box at the mouth of its rails: whether it enters or jams.
 
 The box begins just before its second touch. It goes on if the arm holds it nearer to the middle than the limit of the
 jam (`statics.jams_from`), which depends on tilt, friction and the wrist. Springs of contact and a box that moves on while
@@ -28,7 +28,7 @@ DISPERSED = {
 
 
 def place(tilt, side):
-    """Of a box whose front corner touches the rail to which it is turned."""
+    """Position of a box whose front corner touches the rail to which it is turned."""
     x, y = d.LENGTH / 2 - d.ROUNDING, d.WIDTH / 2 - d.ROUNDING
     deep = statics.second_touch(tilt) - BEFORE
     across = d.GAP / 2 - d.ROUNDING - x * math.sin(tilt) - y * math.cos(tilt)

@@ -1,4 +1,4 @@
-"""The whole: a gripper on the arm takes the box by its cone, pushes it home, pulls it out again, lets go and backs away.
+"""The whole sequence: a gripper on the arm takes the box by its cone, inserts it, pulls it out, releases it and retreats.
 
 Phases: *close*, *in*, *press*, *out*, *halt*, *open*, *away*, *done*. The gripper comes aside of the cone and turned.
 """
@@ -22,7 +22,7 @@ WAYS = {"in": 1.0, "press": 1.0, "out": -1.0, "away": -1.0}
 
 
 def tool():
-    """The gripper: its origin is where the root of the cone is to be. One linkage moves both jaws."""
+    """The gripper: its origin is the target of the cone's base. One linkage moves both jaws."""
     turned = mjcf.numbers(mjcf.quaternion_about_z(TURNED))
     place = rig.root() + (BEGIN, ASIDE, 0.0)
     inertia = mjcf.numbers((0.05, 0.05, 0.05))
@@ -50,7 +50,7 @@ def machine(step=d.TRAINING.step):
 
 
 class Sequencer:
-    """What it remembers is all in its attributes, so `copy.deepcopy` saves it beside the state of the machine.
+    """Sequencer with its state in its attributes, so `copy.deepcopy` saves it beside the state of the machine.
 
     `voltage`: of closing motors, of the greatest.
     """
@@ -90,12 +90,12 @@ class Sequencer:
 
 
 def along(made):
-    """Place of the box from the gripper along the rails, m."""
+    """Position of the box relative to the gripper along the rails, m."""
     return float(made.place("box")[0] - made.place("tool")[0])
 
 
 def run(step=d.TRAINING.step, voltage=1.0, until="done"):
-    """To the beginning of a phase; the machine and the sequencer."""
+    """Runs to the beginning of a phase; returns the machine and the sequencer."""
     made, sequencer = machine(step), Sequencer(voltage)
     while sequencer.phase != until:
         made.advance(sequencer)
@@ -103,7 +103,7 @@ def run(step=d.TRAINING.step, voltage=1.0, until="done"):
 
 
 def driven_in(voltage):
-    """Force on the stop where the push overcomes weak jaws: the cone goes into them at the speed of the arm, N."""
+    """Force on the stop when the push overcomes weak jaws: the cone enters them at the speed of the arm, N."""
     opening = d.SPEED * math.tan(d.HALF_ANGLE) / d.JAW_SPEED
     return statics.push_in(d.HALF_ANGLE) * (voltage + opening) - statics.spring()
 

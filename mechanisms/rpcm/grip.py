@@ -1,4 +1,4 @@
-"""The cone in the jaws of the gripper: it holds by itself, or slips out; what pulls it out and drives it in."""
+"""The cone in the jaws of the gripper: self-locking or slipping; forces that pull it out and drive it in."""
 
 import dimensions as d
 import numpy as np
@@ -14,7 +14,7 @@ STEEL = "0.55 0.57 0.6 1"
 
 
 def jaw(name, side, at):
-    """On a slide towards the cone; its way is 0 where it just touches a cone whose root is at `at`."""
+    """Jaw on a slide towards the cone; its position is 0 where it just touches a cone with its base at `at`."""
     beyond = side * (d.CONE_RADIUS + 0.012)
     drawn = rig.geom("box", (-d.CONE_LENGTH / 2, beyond, 0), (d.CONE_LENGTH / 2, 0.012, 0.012), STEEL)
     return (
@@ -33,18 +33,18 @@ def motors():
 
 
 def cone_body():
-    """What carries the cone: it is fixed to the box."""
+    """Carrier of the cone, fixed to the box."""
     return f'<body name="cone" pos="{mjcf.numbers(rig.root())}"/>'
 
 
 def carried(trial, tool="world"):
-    """Groups of cone and jaws, and the bodies that carry them."""
+    """Groups of cone and jaws, and their carrier bodies."""
     fingers = {f"jaws/jaw_{name}": f"jaw_{name}" for name in d.SIDES}
     return {"cone": "cone", "jaws": tool, **fingers}, {"cone": f"cone_{trial}.ron", "jaws": f"jaws_{trial}.ron"}
 
 
 def machine(trial, joint=rig.FREE, step=d.ANALYSIS.step):
-    """A box, free or on a slide along x, with its cone between jaws on the ground, which just touch it."""
+    """A box, free or on a slide along x, with its cone between grounded jaws, which just touch it."""
     groups, objects = carried(trial)
     extension = mjcf.contact_instance(objects, [("cone", "jaws")], groups, folder=str(d.HERE))
     world = rig.body((0, 0, 0), inside=cone_body(), slope=d.half_angle(trial), joint=joint) + jaws(rig.root())
@@ -60,14 +60,14 @@ def close(made, voltage=1.0):
 
 
 def slips(trial, seconds=0.7):
-    """Whether a cone that nothing else holds leaves the jaws, how far it went, m, and the machine."""
+    """Release of an otherwise free cone: whether it leaves the jaws, its displacement, m, and the machine."""
     made = machine(trial)
     slipped = made.run(seconds, close, watch=lambda m: m.place("box")[0] > SLIPPED)
     return slipped, made.place("box")[0], made
 
 
 def drawn_through(way, step=d.ANALYSIS.step):
-    """Force along `way` (1 out, −1 in) that moves the nominal cone evenly through stalled jaws, N; and the machine."""
+    """Force along `way` (1 out, −1 in) that moves the nominal cone steadily through stalled jaws, N; and the machine."""
     made = machine("nominal", rig.ALONG, step)
     box = made.model.body("box").id
     begun = 1.5 * RISE
@@ -83,7 +83,7 @@ def drawn_through(way, step=d.ANALYSIS.step):
 
 
 def predicted(way):
-    """A motor that moves loses force with its speed, and pushes harder if it is driven back; the stall law is for one that stands."""
+    """A moving motor loses force with its speed, and pushes harder if driven back; the stall law holds at standstill."""
     slope = d.HALF_ANGLE
     closing = way * SPEED * np.tan(slope) / d.JAW_SPEED
     return (statics.pull_out if way > 0 else statics.push_in)(slope) * (1 - closing)

@@ -1,4 +1,4 @@
-"""An arm brings the box into the rails: beside the middle and turned, it jams; aligned, it does not."""
+"""Insertion of the box into the rails by an arm: offset and turned, it jams; aligned, it does not."""
 
 import dimensions as d
 import numpy as np
@@ -13,7 +13,8 @@ FREED = 1e-4  # m: a box that went so far is free
 
 
 class Wrist:
-    """A six-axis drive that holds a body, the box at its rear or else the gripper: a feed along x with a limit, free across, springs against turning.
+    """A six-axis drive on a body, the box at its rear or the gripper: a limited feed along x, free sideways, springs
+    against rotation.
 
     `most`: of its push; `turning`: of the springs. `accommodating`: the attitude that it holds turns at a rate in proportion to the moment about the middle line of the rails.
     What it remembers is all in its attributes.
@@ -39,7 +40,7 @@ class Wrist:
         made.data.xfrc_applied[held.id] = (*force, *(twist + np.cross(arm, force)))
 
     def _feed(self, made, x, speed):
-        """The goal goes on evenly, but never further ahead than the greatest push needs."""
+        """Advances the goal steadily, but never further ahead than the largest push needs."""
         rate, ahead = self.way * d.SPEED, self.most / d.ARM_STIFFNESS
         goal = x if self.goal is None else self.goal + rate * made.step
         self.goal = float(np.clip(goal, x - ahead, x + ahead))
@@ -52,27 +53,27 @@ class Wrist:
 
 
 def depth(made, side=1):
-    """Of the left front corner, or with −1 of the right one, m."""
+    """Depth of the left front corner, or with −1 of the right one, m."""
     x, y = d.LENGTH / 2 - d.ROUNDING, d.WIDTH / 2 - d.ROUNDING
     angle = rig.yaw(made)
     return float(made.place("box")[0] + x * np.cos(angle) - side * y * np.sin(angle))
 
 
 def start(offset, tilt=TILT, step=d.TRAINING.step):
-    """The machine with a box as the arm holds it, in the middle of the mouth; and the wrist."""
+    """The machine with a box held by the arm, in the middle of the mouth; and the wrist."""
     x, y = d.LENGTH / 2 - d.ROUNDING, d.WIDTH / 2 - d.ROUNDING
     place = BEGIN - x * np.cos(tilt) + y * np.sin(tilt), -x * np.sin(tilt), 0.0
     return rig.machine(place, tilt, step=step), Wrist((-d.LENGTH / 2, -offset, 0.0), tilt)
 
 
 def second_touch(made, wrist):
-    """Pushed until the box touches two places, each with its upper and its lower corner; depth, m."""
+    """Depth at which the pushed box has two contacts, each with its upper and its lower corner, m."""
     made.run(3.0, wrist, watch=lambda m: m.contacts() >= 4)
     return depth(made)
 
 
 def pushed(offset, tilt=TILT, step=d.TRAINING.step, seconds=2.0):
-    """Pushed for so long: machine, wrist, depth of the second touch, and how far the last half second went, m."""
+    """Push for a duration: machine, wrist, depth of the second contact, and displacement in the last half second, m."""
     made, wrist = start(offset, tilt, step)
     touched = second_touch(made, wrist)
     made.run(seconds - 0.5 - made.time, wrist)
@@ -82,14 +83,14 @@ def pushed(offset, tilt=TILT, step=d.TRAINING.step, seconds=2.0):
 
 
 def released(made, wrist, seconds=5.0):
-    """The wrist accommodates until the box goes on: whether it did, moment of the wrist at that time, and depth before."""
+    """Accommodation of the wrist until the box moves on: whether it did, moment of the wrist then, and depth before."""
     stood, wrist.accommodating = depth(made), True
     free = made.run(seconds, wrist, watch=lambda m: depth(m) - stood > FREED)
     return free, wrist.moment, stood
 
 
 def home(made, wrist, seconds=14.0):
-    """Pushed on until the box stands at the stop; force on the stop, N."""
+    """Push until the box is at the stop; force on the stop, N."""
     rest = d.STOP - d.LENGTH / 2
     arrived = made.run(seconds, wrist, watch=lambda m: m.place("box")[0] > rest - 1e-5)
     made.run(0.5, wrist)
@@ -97,7 +98,7 @@ def home(made, wrist, seconds=14.0):
 
 
 def predicted_release(stood):
-    """Moment of the wrist at which the greatest push slides the box again; that push makes the places sink in."""
+    """Moment of the wrist at which the largest push slides the box again, including the contact depths under that push."""
     mouth = 0.0
     for _ in range(20):
         push, moment = statics.wedge(stood, statics.tilt_at(stood, mouth), OFFSET)

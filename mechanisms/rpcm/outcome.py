@@ -1,4 +1,5 @@
-"""What box, connector and gripper must come to. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
+"""Outcomes of box, connector and gripper and their predictions. Run by mechanisms/run.py: `rows(thorough)` yields
+(title, rows)."""
 
 import campaign
 import dimensions as d
@@ -16,7 +17,7 @@ NEAR = 0.03  # loads so near to the sides of the parallelogram are left out: tur
 
 
 def loads(random):
-    """Even over nearly twice the parallelogram: Fy/Fx, and M/Fx in m."""
+    """Random loads, uniform over nearly twice the parallelogram: Fy/Fx, and M/Fx in m."""
     across = random.uniform(-1.8, 1.8) / d.FRICTION
     beyond = random.uniform(-1.8, 1.8) * d.BETWEEN / (2 * d.FRICTION)
     return across, beyond - d.FRICTION * d.WIDTH / 2 * across
@@ -48,7 +49,7 @@ def diagram(count, seed=1):
 
 
 def jammed(level=d.TRAINING):
-    """Beside the middle and turned: it jams where it touches the second place, and the wrist that yields frees it."""
+    """Offset and turned: it jams at the second contact, and a yielding wrist frees it."""
     made, wrist, touched, went = jam.pushed(jam.OFFSET, step=level.step)
     yield Row("depth of the second touch", touched, statics.second_touch(jam.TILT), 0.02, "m")
     yield Limit("further way from there with 120 N", jam.depth(made) - touched, 1.5e-3, "m")
@@ -62,7 +63,7 @@ def jammed(level=d.TRAINING):
 
 
 def moved_push():
-    """The other cure: the arm takes the jammed box in the middle and goes on pushing."""
+    """The other cure: the arm takes the jammed box in the middle and continues to push."""
     made, wrist, _, went = jam.pushed(jam.OFFSET)
     yield Limit("way in the last half second of the jam", went, 1e-5, "m")
     wrist.grip[1] = 0.0
@@ -78,7 +79,7 @@ def seated(made, wrist):
 
 
 def opposite(level=d.TRAINING):
-    """The same tilt, pushed in the middle: it goes in, with the push of the closed form."""
+    """A push in the middle at the same tilt: the box enters, with the push of the closed form."""
     made, wrist = jam.start(0.0, step=level.step)
     for deep in (0.040, 0.060, 0.080):
         made.run(5.0, wrist, watch=lambda m, deep=deep: jam.depth(m) > deep)
@@ -89,7 +90,7 @@ def opposite(level=d.TRAINING):
 
 
 def limit():
-    """Just within and just beyond the offset from which it jams."""
+    """Offsets just within and just beyond the jamming limit."""
     most = statics.jams_from(jam.TILT)
     for part, jams in ((0.9, False), (1.1, True)):
         _, _, _, went = jam.pushed(part * most)
@@ -101,7 +102,7 @@ def limit():
 
 
 def cone():
-    """It holds by itself if tan α is below the friction, and else slips out; so much pulls it out and drives it in."""
+    """Self-locking if tan α is below the friction, else slipping; forces that pull the cone out and drive it in."""
     for trial, part in d.ABOUT_LIMIT.items():
         slipped, way, _ = grip.slips(trial)
         word = "holds by itself" if part < 1 else "slips out"
@@ -113,7 +114,7 @@ def cone():
 
 
 def exchanged(level):
-    """A gripper takes the box by its cone, pushes it home, pulls it out, lets go and backs away."""
+    """A gripper takes the box by its cone, inserts it, pulls it out, releases it and retreats."""
     made, sequencer = exchange.run(level.step)
     force = d.ARM_FORCE - statics.spring()
     yield Row("force on the stop: push less the springs of the connector", sequencer.stop, force, 0.01, "N")
@@ -125,7 +126,7 @@ def exchanged(level):
 
 
 def weak_jaws(voltage=0.6):
-    """The push overcomes the jaws: the cone goes into them, and the stop bears what the wedge lets through."""
+    """A push that overcomes the jaws: the cone enters them, and the stop bears the force that the wedge transmits."""
     made, sequencer = exchange.run(voltage=voltage, until="out")
     predicted = exchange.driven_in(voltage)
     yield Row(f"jaws at {voltage:g} of their voltage: force on the stop", sequencer.stop, predicted, 0.02, "N")
@@ -147,7 +148,8 @@ def half_step():
 
 
 def shown(prepare):
-    """For logs and films: the jam, the wrist that yields, and the way home. `prepare` sees the machine before it moves."""
+    """Run for logs and films: the jam, the yielding wrist, and the way home. `prepare` receives the machine before it
+    moves."""
     made, wrist = jam.start(jam.OFFSET)
     prepare(made)
     made.run(2.0, wrist)

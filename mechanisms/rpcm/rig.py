@@ -21,12 +21,12 @@ def drawn_box():
 
 
 def root():
-    """Place of the root of the cone in the box."""
+    """Position of the cone's base in the box."""
     return np.array((-d.LENGTH / 2, 0.0, 0.0))
 
 
 def drawn_cone(slope):
-    """Shown only, as three cylinders."""
+    """Visual geoms of the cone: three cylinders."""
     parts = []
     for i in range(3):
         middle = (i + 0.5) / 3 * d.CONE_LENGTH
@@ -50,7 +50,7 @@ FREE, ALONG = "<freejoint/>", '<joint name="along" type="slide" axis="1 0 0"/>'
 
 
 def body(place, yaw=0.0, inside="", joint=FREE, slope=d.HALF_ANGLE):
-    """A box whose middle is at `place`; `slope`: half-angle of its cone; `inside`: what is on it besides."""
+    """A box with its middle at `place`; `slope`: half-angle of its cone; `inside`: additional contents."""
     turned = mjcf.numbers(mjcf.quaternion_about_z(yaw))
     return (
         f'<body name="box" pos="{mjcf.numbers(place)}" quat="{turned}">{joint}<inertial pos="0 0 0" '
@@ -71,7 +71,7 @@ def machine(place, yaw=0.0, connector=True, step=d.TRAINING.step, friction=None)
 
 
 def yaw(made):
-    """Of a box that is turned by a few degrees only."""
+    """Yaw of a box turned by a few degrees only."""
     matrix = made.data.xmat[made.model.body("box").id]
     return float(np.arctan2(matrix[3], matrix[0]))
 
@@ -84,7 +84,7 @@ SLID = 2e-3  # m: a box that slides goes further in that time; one that jams mov
 
 
 def moves(across, moment):
-    """Whether a box slides under FORCE along, `across` times as much across, and a moment of `moment` m times as much."""
+    """True if a box slides under FORCE along, `across` times as much sideways, and a moment of `moment` m times as much."""
     made = machine((INSIDE, 0, 0), connector=False, step=d.ANALYSIS.step)
     index = made.model.body("box").id
 

@@ -1,4 +1,4 @@
-"""What statics predicts, in closed form: the box between its rails, the wedged box at the mouth, the cone in its jaws.
+"""Closed-form statics: the box between its rails, the wedged box at the mouth, the cone in its jaws.
 
 x is the way in, y to the left; moments are about z. A push on the box is along x.
 """
@@ -12,7 +12,7 @@ import numpy as np
 
 
 def parallelogram(across, moment):
-    """How far out loads are, 1 on the sides: `across` = Fy/Fx, `moment` = M/Fx in m, about the middle of the box.
+    """Load factor, 1 on the sides: `across` = Fy/Fx, `moment` = M/Fx in m, about the middle of the box.
 
     Loads on one side: |Fy|·μ < Fx. Loads on two opposite corners: N₁ + N₂ = (2/l)·|M + μ·(w/2)·Fy|, and μ·(N₁ + N₂) < Fx.
     """
@@ -21,7 +21,7 @@ def parallelogram(across, moment):
 
 
 def resistance(across, moment):
-    """The same from the balance: friction over Fx if the two corners rub that can be in balance with the loads."""
+    """Load factor from balance: friction over Fx at the two corners that can balance the loads."""
     half_length, half_width = d.BETWEEN / 2, d.WIDTH / 2
     places = [(x, side) for side in (1, -1) for x in (half_length, -half_length)]
     found = []
@@ -37,12 +37,12 @@ def resistance(across, moment):
 
 
 def second_touch(tilt):
-    """Depth of the front corners at which a turned box touches the second place: W·cos θ − l·sin θ = w."""
+    """Depth of the front corners at which a turned box makes its second contact: W·cos θ − l·sin θ = w."""
     return (d.GAP * math.cos(tilt) - d.WIDTH) / math.sin(tilt)
 
 
 def tilt_at(depth, push=0.0):
-    """The same, solved for the tilt; places that push sink in, each on two springs, and that widens the gap."""
+    """Tilt for a depth of the second contact; under a push, the contact depths, on two springs each, widen the gap."""
     gap = d.GAP + push / d.STIFFNESS
     low, high = 0.0, 0.5 * math.atan2(gap, depth)
     for _ in range(60):
@@ -68,7 +68,7 @@ def wedge(depth, tilt, offset, friction=d.FRICTION):
 
 
 def jams_from(tilt, friction=d.FRICTION, turning=d.ARM_TURNING):
-    """Offset from which a box held at this tilt jams, where it touches the second place.
+    """Offset from which a box held at this tilt jams at its second contact.
 
     A force N at the mouth sinks in and turns the box further by N·give; the wrist then turns it back with K·N·give (K: `turning`).
     So the limit is not at M/N = 0, but at M/N = −K·give.
@@ -80,12 +80,13 @@ def jams_from(tilt, friction=d.FRICTION, turning=d.ARM_TURNING):
 
 
 def turning_back(depth, tilt):
-    """Rate at which the mouth turns a box that goes in at the speed of the arm, rad/s."""
+    """Rate at which the mouth turns a box that enters at the speed of the arm, rad/s."""
     return -d.SPEED * math.sin(tilt) / (d.GAP * math.sin(tilt) + depth * math.cos(tilt))
 
 
 def feed(depth, tilt_held, offset):
-    """Push that slides the box while spring and damper of the wrist want it at `tilt_held`, and both places sink in."""
+    """Push that slides the box with the wrist's spring and damper commanded to `tilt_held`, including the depths of
+    both contacts."""
     mouth = 0.0
     for _ in range(100):
         tilt = tilt_at(depth, mouth)
@@ -109,5 +110,5 @@ def push_in(slope):
 
 
 def spring():
-    """Of both contacts of the connector when the box is home."""
+    """Force of both contacts of the connector when the box is home."""
     return 2 * d.SPRING_STIFFNESS * d.SPRING_STROKE

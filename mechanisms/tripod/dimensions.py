@@ -1,4 +1,4 @@
-"""Of the tripod, its grounds and its fall. Those of models/tripod (validation case V2) but for damping; all chosen."""
+"""Dimensions of the tripod, its grounds and its fall: models/tripod (validation case V2) except for damping; all chosen."""
 
 RADIUS = 0.5  # m, circle of the feet
 STIFFNESS = 1e5  # N/m of a foot on rigid ground

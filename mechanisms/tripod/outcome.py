@@ -1,4 +1,4 @@
-"""What the tripod must come to. Run by mechanisms/run.py."""
+"""Outcomes of the tripod and their predictions. Run by mechanisms/run.py."""
 
 import math
 
@@ -14,12 +14,12 @@ SET_DOWN = 60.0  # s that the arm presses: where it is soft, 1e3 N/m, forces acr
 
 
 def above(made, attitude, start):
-    """How far the origin has moved across the ground, m."""
+    """Displacement of the origin normal to the ground, m."""
     return float((made.place("tripod") - start) @ attitude[:, 2])
 
 
 def drop(step):
-    """Let go with its feet just touching, without damping: it heaves about mg/3k between nothing and twice that."""
+    """Released with its feet just touching, without damping: it heaves about mg/3k between zero and twice that."""
     made, attitude = rig.free(step, sunk=False, plain=True)
     start, heights = made.place("tripod"), []
     made.run(0.5, watch=lambda m: heights.append(above(m, attitude, start)))
@@ -30,7 +30,7 @@ def drop(step):
 
 
 def frequency(heights, step):
-    """From the first to the last crossing of the mean, upwards, between samples by straight lines."""
+    """Frequency from the first to the last upward crossing of the mean, with linear interpolation between samples."""
     swing = np.array(heights) - 0.5 * (max(heights) + min(heights))
     at = np.flatnonzero((swing[:-1] < 0) & (swing[1:] >= 0))
     times = (at - swing[at] / (swing[at + 1] - swing[at])) * step
@@ -57,7 +57,7 @@ def settle(step):
 
 
 def stands(step):
-    """On a slope on which it neither slides nor tips, turned on it."""
+    """Stand on a slope without sliding or tipping, turned on it."""
     slope, yaw = math.radians(15.0), math.radians(40.0)
     made, attitude = rig.free(step, slope, yaw)
     made.run(1.5)
@@ -66,7 +66,7 @@ def stands(step):
 
 
 def slides(step):
-    """Below tan θ = μ it sticks without creep, above it slides as Coulomb says."""
+    """Below tan θ = μ it sticks without creep, above it slides by Coulomb's law."""
     made, attitude = rig.free(step, math.atan(0.97 * FRICTION))
     made.run(1.5)
     start = made.place("tripod")
@@ -103,7 +103,7 @@ def leaning(made, up):
 
 
 def set_down(step):
-    """The arm presses it onto a slope: the law turns it until no moment is left, so all feet bear the same."""
+    """The arm presses it onto a slope: the law turns it until no moment is left, so all feet have equal loads."""
     made, arm, normal = rig.held(step)
     press(arm, normal)
     made.run(1.0, arm.control, watch=lambda m: m.contacts() > 0)
@@ -116,7 +116,7 @@ def set_down(step):
 
 
 def press(arm, normal, moment=(0.0, 0.0, 0.0)):
-    """Against the slope."""
+    """Commands a push against the slope."""
     arm.command("tip", push=np.r_[-PUSH * normal, moment])
 
 
@@ -137,7 +137,7 @@ DRAWN = ("base", "link_*", "tripod")  # bodies that logs and films show beside w
 
 
 def shown(prepare):
-    """For logs and films: the arm sets the tripod down."""
+    """Run for logs and films: the arm sets the tripod down."""
     made, arm, normal = rig.held(HOLDING, gap=0.2)
     prepare(made)
     press(arm, normal)

@@ -18,7 +18,7 @@ X, Z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
 def made(text, more, step, folder, gravity, legs):
-    """`legs`: whether each foot is a movable group of its own, as in the models here."""
+    """`legs`: True if each foot is a separate movable group, as in the models here."""
     feet = {f"tripod/foot_{i}": "tripod" for i in range(3)} if legs else {}
     extension = mjcf.contact_instance(
         {"tripod": "tripod.ron", "ground": "ground.ron"}, [("tripod", "ground")], feet, folder=str(folder)
@@ -29,7 +29,7 @@ def made(text, more, step, folder, gravity, legs):
 
 
 def shape(height):
-    """For pictures: three legs from the centre of mass, and feet."""
+    """Visual geoms: three legs from the centre of mass, and feet."""
     legs = "".join(
         f'<geom type="capsule" size="0.015" fromto="0 0 {height:g} {RADIUS * x:.6f} {RADIUS * y:.6f} 0.015" mass="0" '
         f'rgba="0.8 0.6 0.3 1"/>'
@@ -46,7 +46,7 @@ def floor(place, attitude):
 
 
 def free(step, slope=0.0, yaw=0.0, height=HEIGHT, sunk=True, plain=False):
-    """On a slope that rises along the y of the ground, turned by `yaw` on it; in balance, or just touching."""
+    """Tripod on a slope that rises along the y of the ground, turned by `yaw` on it; in balance, or just touching."""
     attitude = kinematics.rotation(Z, 0.4) @ kinematics.rotation(X, slope)
     place = np.array([2.0, -1.0, 0.7])
     depth, tilt = balance(slope, height) if sunk else (0.0, 0.0)
@@ -61,13 +61,13 @@ def free(step, slope=0.0, yaw=0.0, height=HEIGHT, sunk=True, plain=False):
 
 
 def balance(slope, height):
-    """How deep the middle of the feet stands in the ground, m, and how far they turn about x, rad: statics."""
+    """Depth of the middle of the feet in the ground, m, and their rotation about x, rad: statics."""
     weight = MASS * GRAVITY
     return weight * np.cos(slope) / (3 * STIFFNESS), height * weight * np.sin(slope) / (1.5 * STIFFNESS * RADIUS**2)
 
 
 def loads(slope, yaw, height=HEIGHT):
-    """Of each foot on a slope, N: forces across it and moments about the middle of the feet."""
+    """Load of each foot on a slope, N: forces normal to it and moments about the middle of the feet."""
     weight = MASS * GRAVITY
     uphill = np.array([np.sin(yaw), np.cos(yaw)])  # in the frame of the tripod
     share = 2.0 * height * weight * np.sin(slope) / (3.0 * RADIUS)
@@ -80,7 +80,7 @@ def feet(machine, normal):
 
 
 def held(step, gap=0.005):
-    """At the tip of the arm, `gap` before a slope that leans against its feet. The law has no dead band here."""
+    """Tripod at the tip of the arm, `gap` before a slope that leans against its feet. The law has no dead band here."""
     place, attitude = kinematics.forward(READY)[2:]
     lean = kinematics.rotation(np.array([0.6, 0.8, 0.0]), LEAN)
     ground = place + attitude @ np.array([0.0, 0.0, -REACH - RADIUS * LEAN - gap])

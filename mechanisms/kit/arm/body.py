@@ -15,7 +15,7 @@ class Body:
 
 
 def body(prefix="", place=(0, 0, 0), quaternion=(1, 0, 0, 0), payload="", rgba="0.85 0.85 0.82 1"):
-    """An arm whose base stands at a place in the frame that it is put into.
+    """An arm with its base at a pose in the frame of its parent.
 
     `payload`: text of what the body at the tip carries (geoms, bodies). All names begin with `prefix`.
     """
@@ -34,7 +34,8 @@ def body(prefix="", place=(0, 0, 0), quaternion=(1, 0, 0, 0), payload="", rgba="
 
 
 def _link(prefix, number, inside, rgba):
-    """The motor hinge has the rotor's inertia; the gear hinge is the spring between motor and link."""
+    """Motor and gear hinge of a joint: the former has the rotor's inertia, the latter is the spring between motor and
+    link."""
     link = d.LINKS[number]
     axis = mjcf.numbers(link.axis)
     return (
@@ -48,7 +49,7 @@ def _link(prefix, number, inside, rgba):
 
 
 def _shape(number, rgba):
-    """For pictures only: a tube to the next joint and a drum at this one."""
+    """Visual geoms: a tube to the next joint and a drum at this one."""
     link = d.LINKS[number]
     end = d.LINKS[number + 1].offset if number + 1 < len(d.LINKS) else d.TIP
     drum = [0.2 * component for component in link.axis]

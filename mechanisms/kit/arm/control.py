@@ -22,7 +22,7 @@ from ..machine import wrenches
 
 @dataclass(frozen=True)
 class Law:
-    """Rate of the tip = commanded rate + admittance · (what is measured and commanded, beyond the dead band).
+    """Rate of the tip = commanded rate + admittance · (measured and commanded force, beyond the dead band).
 
     Vectors are shortened, never turned: limits and dead bands are those of magnitudes. All values are chosen.
     """
@@ -41,7 +41,7 @@ class Law:
     damping: float = 0.05  # of the least squares, as a singular value of the Jacobian
 
     def answer(self, rates, push, measured):
-        """Rates that are commanded to the tip, for the force and moment that act on it."""
+        """Commanded rates of the tip for the force and moment on it."""
         wanted = np.concatenate([shortened(push[:3], self.push), shortened(push[3:], self.push_turn)])
         felt = measured + wanted
         linear = rates[:3] + self.admittance * beyond(felt[:3], self.band)
@@ -55,7 +55,7 @@ def shortened(vector, greatest):
 
 
 def beyond(vector, band):
-    """What of a vector is longer than the dead band."""
+    """Part of a vector beyond the dead band."""
     length = float(np.linalg.norm(vector))
     return vector * (1.0 - band / length) if length > band else np.zeros(3)
 
@@ -100,7 +100,7 @@ class Arm:
     # --- commands ---------------------------------------------------------------------------------------------------
 
     def pose(self, angles):
-        """Sets motors there, gears without load, everything of the arm at rest, brakes on."""
+        """Sets the motors to angles, gears without load, the whole arm at rest, brakes on."""
         data = self.machine.data
         data.qpos[self.places], data.qpos[self.places + 1] = angles, 0.0
         data.qvel[self.dofs], data.qvel[self.dofs + 1] = 0.0, 0.0
@@ -122,7 +122,7 @@ class Arm:
         free = np.zeros(7, bool) if mode == "brakes" else np.ones(7, bool)
         if released is not None:
             free = np.isin(np.arange(7), released)
-        # A brake that comes on grips where its motor stands; a servo that comes on aims there.
+        # An engaging brake grips at its motor's angle; an engaging servo aims there.
         state.anchor = np.where(state.released & ~free, now, state.anchor)
         state.aim = np.where(~state.released & free, now + self._load() / d.SERVO_STIFFNESS, state.aim)
         state.released = free
@@ -131,7 +131,7 @@ class Arm:
     # --- one step ---------------------------------------------------------------------------------------------------
 
     def control(self, machine):
-        """Before each step: for `Machine.advance`, or called from another control."""
+        """Called before each step: for `Machine.advance`, or by another control."""
         if machine.time >= (self.state.due - 1e-6) * self.law.period:
             self.state.due += 1
             self._decide()
@@ -139,7 +139,7 @@ class Arm:
         machine.data.ctrl[self.motors] = np.where(self.state.released, self._servo(), self._brake())
 
     def _decide(self):
-        """Each period: the state machine, and the rates of the joints."""
+        """Runs once per period: state machine, and joint rates."""
         state, law = self.state, self.law
         share = 1.0 - np.exp(-law.period / law.filter)
         state.felt = state.felt + share * (self.sensed(self.machine) - state.felt)
@@ -152,13 +152,13 @@ class Arm:
         elif state.mode == "tip":
             rates = law.answer(state.rates, state.push, state.felt)
             speed = kinematics.resolve(self.jacobian(), rates, law.damping)
-        # All joints slow down together, so the tip keeps its direction.
+        # All joints slow down together, which preserves the tip's direction.
         fastest = np.abs(speed).max()
         state.speed = speed * (d.SPEED / fastest) if fastest > d.SPEED else speed
 
     def _servo(self):
         state, limit = self.state, self.torque / d.SERVO_STIFFNESS
-        # While a motor is at its limit, its aim does not run away.
+        # While a motor is at its limit, its aim does not run away (anti-windup).
         state.aim = np.where(
             state.released, np.clip(state.aim, self.angles() - limit, self.angles() + limit), state.aim
         )
@@ -166,7 +166,7 @@ class Arm:
         return np.clip(torque, -self.torque, self.torque)
 
     def _brake(self):
-        """A spring from its anchor up to the slip torque; beyond it the anchor is dragged along."""
+        """Brake as a spring from its anchor up to the slip torque; beyond it the anchor is dragged along."""
         state, limit = self.state, d.BRAKE_TORQUE / d.BRAKE_STIFFNESS
         gripped = np.clip(state.anchor, self.angles() - limit, self.angles() + limit)
         state.anchor = np.where(state.released, state.anchor, gripped)
@@ -176,7 +176,8 @@ class Arm:
     def _load(self):
         return np.clip(self.machine.data.ctrl[self.motors], -self.torque, self.torque)
 
-    # --- what it knows ----------------------------------------------------------------------------------------------
+    # --- measured and computed state
+    # ------------------------------------------------------------------------------------
 
     def angles(self):
         return self.machine.data.qpos[self.places]
@@ -185,7 +186,7 @@ class Arm:
         return self.machine.data.qvel[self.dofs]
 
     def jacobian(self):
-        """Of the point where the law acts, by the angles of the motors."""
+        """Jacobian of the control point, by the angles of the motors."""
         data = self.machine.data
         base = data.xpos[self.base], data.xmat[self.base].reshape(3, 3)
         matrix = kinematics.jacobian(self.angles(), *base)
@@ -195,7 +196,7 @@ class Arm:
         return matrix
 
     def _sensor(self, machine):
-        """Force and moment about the point of the law that act beyond the sensor, less inertia, along world axes.
+        """Force and moment about the control point from beyond the sensor, less inertia, along world axes.
 
         MuJoCo's sensor gives the inertia less the forces that it knows of; the contacts of the plugin are passive
         forces to it and are not in there, so they are added.
@@ -210,7 +211,7 @@ class Arm:
         return np.concatenate([force, moment - np.cross(axes @ self.point, force)])
 
     def _carries(self, carrier):
-        """Whether a body hangs, directly or not, on the tip."""
+        """True if a body depends, directly or not, on the tip."""
         while carrier not in (0, self.tip):
             carrier = self.machine.model.body_parentid[carrier]
         return carrier == self.tip
