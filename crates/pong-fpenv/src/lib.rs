@@ -35,7 +35,8 @@ pub fn guarded<T>(call: impl FnOnce() -> T) -> T {
     result
 }
 
-/// Runs a function of the host inside a call. Its changes to the environment are undone afterwards.
+/// Runs a function of the host inside a call, then sets the engine's environment again, whatever the function
+/// changed.
 pub fn lent<T>(function: impl FnOnce() -> T) -> T {
     #[cfg(all(pong_traps, target_arch = "x86_64"))]
     unit::mask();

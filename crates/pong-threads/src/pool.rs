@@ -165,7 +165,7 @@ impl Pool {
         &self.start_report
     }
 
-    /// Work of each lane in the last phase, the caller first.
+    /// Work of each thread in the last phase, the caller first.
     pub fn work(&self) -> impl Iterator<Item = LaneWork> + '_ {
         self.caller.work()
     }

@@ -90,7 +90,7 @@ fn over(
 /// ones the positive one pushes.
 fn outside(edge: &ConvexEdge, across: &Vec3) -> f64 {
     let in_front = edge.normals_b.iter().sum::<Vec3>().dot(across);
-    // For an axis perpendicular to a face only rounding tells what is in front.
+    // For an axis perpendicular to a face only rounding decides what is in front.
     edge.free_outward_b.filter(|_| in_front.abs() <= ROUNDING).map_or(in_front, |outward| outward.dot(across))
 }
 

@@ -143,8 +143,8 @@ impl Lead {
     fn find<S: Simd>(simd: S, e: &PreparedEllipsoid, p: &Polyhedron) -> Option<(Self, Suspects)> {
         let planes = p.planes();
         let highest = highest_of_many(simd, &e.center, planes, Whereabouts::Below(e.largest))?;
-        // Upper bound of the overlap from the highest face. Faces that the centre is not higher above than
-        // this cannot have less.
+        // Height threshold: half widths differ by at most `largest − smallest`, so a face that the centre is
+        // not higher above than this has no less overlap than the highest face.
         let least_height = (e.smallest - e.largest) + highest.height - BOUND_SLACK * e.largest;
         let face = least_overlap(simd, e, planes, least_height)?;
         let lead = Self::at(e, p, face);

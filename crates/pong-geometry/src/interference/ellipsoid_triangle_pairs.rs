@@ -123,7 +123,8 @@ fn may_touch(pairs: &EllipsoidTrianglePairs) -> LaneBits {
 /// Distance that counts as beyond an edge, relative to the lengths involved: far above rounding and the foot
 /// tolerance.
 const FAR_SLACK: f64 = 1e-9;
-/// Margin of a squared distance outside the unit ball: ten times that of the test of one edge.
+/// Margin by which a squared distance must exceed 1 to count as outside the unit ball: ten times that of the
+/// single test.
 const OUTSIDE_SLACK: f64 = 1e-5;
 /// Same margin relative to the squared distances it is computed from: covers rounding at distant corners.
 const OUTSIDE_SHARE: f64 = 1e-12;

@@ -104,8 +104,8 @@ impl RodEnd<'_> {
     }
 
     /// Combines the contacts at the wall and at the mouth. Past the mouth, the side contacts the circle of
-    /// the mouth. Within the depth before the mouth, the end takes the one that is continuous there: leaning
-    /// outward the less deep, otherwise the deeper.
+    /// the mouth. Before the mouth, within a distance equal to the depth, the end takes the contact that
+    /// stays continuous there: the less deep one if the rod leans outward, otherwise the deeper one.
     fn with_corner(&self, wall: &AtWall) -> BallContacts {
         let [own, other] = wall.inside;
         if self.bore.is_past(1 - self.mouth, other) {

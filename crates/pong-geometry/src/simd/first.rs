@@ -98,7 +98,7 @@ impl<S: Simd, const N: usize> Finder<S> for FirstOf<S, N> {
 
     #[inline(always)]
     fn offer(&mut self, block: usize, values: S::Eight) {
-        // The order of the operands lets a NaN never replace a number.
+        // With this order of operands a NaN never replaces a number.
         self.kept[block] = self.simd.larger(values, self.kept[block]);
     }
 

@@ -314,8 +314,8 @@ pub(super) fn straighten(vertices: &[Vec3], merged: &mut [Merged], tolerance: f6
     faces.iter_mut().for_each(|face| face.outline.retain(|&v| !dropped[v as usize]));
 }
 
-/// Drops the vertices between the ends of a chain, or keeps the one farthest from their line and repeats on
-/// both sides.
+/// Simplifies a chain (Ramer-Douglas-Peucker): drops the vertices within the tolerance of the line between
+/// its ends, or keeps the farthest one and repeats on both sides.
 fn drop_between(vertices: &[Vec3], chain: &[u32], tolerance: f64, dropped: &mut [bool]) {
     let place = |v: u32| vertices[v as usize];
     let mut open = vec![(0, chain.len() - 1)];

@@ -40,7 +40,7 @@ fn prewake_and_quiesce_at_any_time_change_no_phase() {
     }
 }
 
-/// Job whose blocks end when as many blocks have begun as there are lanes: each lane must get one.
+/// Job whose blocks end when as many blocks have begun as there are threads, so each thread must get one.
 struct All {
     lanes: u32,
     begun: AtomicU32,

@@ -27,7 +27,7 @@ pub fn start(job: &Arc<impl Job>, settings: &Settings) -> Pool {
     Pool::start(job.clone(), settings).unwrap()
 }
 
-/// Counts how often each block ran, and detects two blocks on one lane.
+/// Counts how often each block ran, and detects two blocks on one thread at once.
 pub struct Count {
     pub runs: Vec<AtomicU32>,
     lanes: Vec<AtomicBool>,
