@@ -1,7 +1,6 @@
 //! Warnings and notes of the step check before the first frame.
 
 use crate::asking::of_spring;
-use crate::coupling::longest_stable_step;
 use crate::limits::{GroupLimits, PairLimits, SpringLimit};
 use crate::mass::StepPlan;
 use crate::spring::Spring;
@@ -84,16 +83,10 @@ pub(crate) fn notes(
     Some(StepNote { told: may(worst, together.len() - 1, plan) + &asks })
 }
 
-/// Text of the contact or friction of a pair that gains energy. A contact is judged in line with both mass
-/// centres: a wheel never meets the ground at its longest lever, so the effect of that lever is a note. Friction
-/// always has a lever.
 fn unstable(pair: &PairLimits, plan: &StepPlan) -> Option<String> {
-    let SpringLimit { spring, .. } = pair.normal;
-    let stable_step = longest_stable_step(plan.coupling, spring.stiffness, spring.damping, pair.mass);
-    let in_line = SpringLimit { spring, mass: pair.mass, stable_step };
-    if grows(&in_line, plan) {
-        let cure = cure(stable_step, "give the surfaces some");
-        return Some(gains(pair, "a contact", &in_line, &pair.surfaces[0], plan) + &cure);
+    if grows(&pair.normal, plan) {
+        let cure = cure(pair.normal.stable_step, "give the surfaces some");
+        return Some(gains(pair, "a contact", &pair.normal, &pair.surfaces[0], plan) + &cure);
     }
     let friction = pair.friction.filter(|friction| grows(friction, plan))?;
     let cure = cure(friction.stable_step, "give the friction some");
