@@ -1,5 +1,19 @@
 //! Features of a triangle surface and the normals along which they push: faces, edges, vertices
 //! (docs/theory.md, 2.2).
+//!
+//! A triangle surface is a set of one-sided facets joined at edges. For a support point *p*:
+//!
+//! * a face pushes along its normal if *p* lies over it;
+//! * a convex edge pushes only along normals strictly between those of its two faces;
+//! * a convex vertex pushes only inside its normal cone;
+//! * concave and flat edges are silent;
+//! * a free edge (one face only) pushes from the edge towards the centre, while the centre is in front.
+//!
+//! The regions of faces, edges and vertices partition the space in front. Each bounding plane is computed once,
+//! from the same numbers, for the features on both sides, so rounding opens no gap between them. A silent edge
+//! has no region of its own, and a point that rounding puts outside both faces belongs to the lower one. Behind
+//! two faces that meet concavely there is a wedge beyond both: it belongs to both, as does the space in front of
+//! their common edge.
 
 use super::{Feature, FeatureKind, Interference};
 use crate::Vec3;
