@@ -80,6 +80,28 @@ void drop(pong::World& world) {
     require(lowest < 0.1 && std::fabs(highest - height) < 1e-4, "the ball bounces back");
 }
 
+// Groups that are kept apart never touch, in clones as well.
+void keep_apart() {
+    pong::World world;
+    const pong::ObjectId ball = world.create_object(world.load_model_text(ball_model, "ball"), "ball");
+    const pong::ObjectId ground = world.create_object(world.load_model_text(ground_model, "ground"), "ground");
+    world.pair(ball, ground);
+    world.filter_groups(ball, "", ground, "ground");
+    pong::Mass mass{};
+    mass.mass = 1.0;
+    world.set_mass(world.interface(ball), mass);
+    world.set_joints(world.interface(ball), pong::Joints{});
+    require(world.seal().group_pairs == 0, "nothing is left to test");
+    pong::World clone = world.clone();
+    for (pong::World* each : {&world, &clone}) {
+        pong::State state;
+        each->set_state(each->interface(ground), state);
+        each->set_state(each->interface(ball), state);
+        each->step();
+        require(each->contacts().empty(), "no contact of what is kept apart");
+    }
+}
+
 void refuse(pong::World& world) {
     try {
         world.object("moon");
@@ -202,6 +224,7 @@ int main() {
         pong::World built = build();
         pong::World world = std::move(built);
         drop(world);
+        keep_apart();
         refuse(world);
         list_and_restore(world);
         use_memory_again(world);

@@ -52,6 +52,7 @@ using Tally = pong_tally;
 using Worker = pong_worker;
 using LogOptions = pong_log_options;
 using Mass = pong_mass;
+using Joints = pong_joints;
 using StepPlan = pong_step_plan;
 using StepCheck = pong_step_check;
 using Acting = StepCheck;
@@ -152,8 +153,14 @@ public:
     PairId pair(const std::string& a, const std::string& b) {
         return result<PairId>([&](PairId* out) { return pong_pair_by_name(get(), a.c_str(), b.c_str(), out); });
     }
+    /// Keeps two groups apart, each with everything below it, by path or name; an empty one is the whole Object.
+    void filter_groups(ObjectId a, const std::string& group_a, ObjectId b, const std::string& group_b) {
+        check(pong_filter_groups(get(), a, group_a.c_str(), b, group_b.c_str()));
+    }
     /// Masses for the check that plan_step() asks for; no frame reads them.
     void set_mass(InterfaceId interface, const Mass& mass) { check(pong_set_mass(get(), interface, &mass)); }
+    /// How a group on joints yields, after its mass. Start from zeros.
+    void set_joints(InterfaceId interface, const Joints& joints) { check(pong_set_joints(get(), interface, &joints)); }
     /// Start from pong_default_step_plan() and set the step.
     void plan_step(const StepPlan& plan) { check(pong_plan_step(get(), &plan)); }
     SealReport seal() {

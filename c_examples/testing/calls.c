@@ -251,6 +251,42 @@ static void surfaces(scene *s)
     TEST(memcmp(&before, &after, sizeof after) == 0);
 }
 
+/* The arm's tip lies in the ground as deep as the ball; what is kept apart has no contact, in a clone as well. */
+static void filters(void)
+{
+    pong_config config = pong_default_config();
+    size_t count = 9;
+    int kept_apart;
+    for (kept_apart = 0; kept_apart < 2; kept_apart += 1) {
+        scene s;
+        pong_world *clone = NULL;
+        pong_seal_report sealed;
+        open_scene(&s, &config);
+        s.states[1].position[2] = -0.101;
+        if (kept_apart) {
+            REFUSED(pong_filter_groups(s.world, s.ball, "leg", s.ground, ""), UNKNOWN_NAME, "`ball/leg`");
+            REFUSED(pong_filter_groups(s.world, s.ball, NULL, s.ground, ""), NULL_ARGUMENT, "group_a");
+            REFUSED(pong_filter_groups(s.world, s.ball, "body", s.ball, "body"), BAD_VALUE, "one rigid body");
+            OK(pong_filter_groups(s.world, s.ball, "arm", s.ground, ""));
+            REFUSED(pong_filter_groups(s.world, s.ground, "ground", s.ball, "ball/arm"), DUPLICATE, "already there");
+        }
+        OK(pong_seal(s.world, &sealed));
+        TEST(sealed.group_pairs == (kept_apart ? 1u : 2u) && sealed.warning_count == 0);
+        OK(pong_clone_world(s.world, &clone));
+        OK(pong_set_states(s.world, s.interfaces, s.states, 3));
+        OK(pong_set_states(clone, s.interfaces, s.states, 3));
+        OK(pong_step(s.world));
+        OK(pong_step(clone));
+        OK(pong_contact_count(s.world, &count));
+        TEST(count == (kept_apart ? 1u : 2u));
+        OK(pong_contact_count(clone, &count));
+        TEST(count == (kept_apart ? 1u : 2u));
+        REFUSED(pong_filter_groups(s.world, s.ball, "body", s.ground, ""), WRONG_PHASE, "");
+        OK(pong_destroy_world(clone));
+        OK(pong_destroy_world(s.world));
+    }
+}
+
 static void pairs_and_rates(scene *s)
 {
     size_t count = 9;
@@ -285,6 +321,44 @@ static pong_seal_report planned(scene *s, const pong_step_plan *plan, double mas
     OK(pong_plan_step(s->world, plan));
     OK(pong_seal(s->world, &sealed));
     return sealed;
+}
+
+/* A slide along the normal that carries 4 kg holds the step of a free ball of 4 kg, whatever the mass of the ball itself is. */
+static void joints(void)
+{
+    double limits[2];
+    int on_slide;
+    for (on_slide = 0; on_slide < 2; on_slide += 1) {
+        pong_config config = pong_default_config();
+        pong_step_plan plan = pong_default_step_plan();
+        pong_seal_report sealed;
+        pong_mass ball = {0}, fixed = {0};
+        pong_joints slide = {0};
+        scene s;
+        open_scene(&s, &config);
+        plan.step = 1e-3;
+        ball.mass = on_slide ? 1.0 : 4.0;
+        fixed.mass = INFINITY;
+        slide.inverse_inertia[2 * 6 + 2] = 0.25;
+        REFUSED(pong_set_joints(s.world, s.interfaces[0], &slide), BAD_VALUE, "pong_set_mass()");
+        OK(pong_set_mass(s.world, s.interfaces[0], &ball));
+        OK(pong_set_mass(s.world, s.interfaces[1], &fixed));
+        OK(pong_set_mass(s.world, s.interfaces[2], &fixed));
+        if (on_slide) {
+            slide.inverse_inertia[2 * 6 + 1] = 0.1;
+            REFUSED(pong_set_joints(s.world, s.interfaces[0], &slide), BAD_VALUE, "not symmetric");
+            slide.inverse_inertia[2 * 6 + 1] = 0.0;
+            slide.reserved = 1;
+            REFUSED(pong_set_joints(s.world, s.interfaces[0], &slide), BAD_VALUE, "reserved");
+            slide.reserved = 0;
+            OK(pong_set_joints(s.world, s.interfaces[0], &slide));
+        }
+        OK(pong_plan_step(s.world, &plan));
+        OK(pong_seal(s.world, &sealed));
+        limits[on_slide] = sealed.stable_step;
+        OK(pong_destroy_world(s.world));
+    }
+    TEST(limits[0] > 0.0 && fabs(limits[1] / limits[0] - 1.0) < 1e-9);
 }
 
 /* Two surfaces of 2e4 N/m and 40 N s/m are 1e4 N/m and 20 N s/m: held over a frame they gain energy beyond 2 c/k = 4 ms. */
@@ -652,6 +726,8 @@ int main(void)
     pairs_and_rates(&s);
     threads(&s);
     OK(pong_destroy_world(s.world));
+    filters();
+    joints();
     certain_steps();
     possible_steps();
     refused_plans();
