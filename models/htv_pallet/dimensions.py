@@ -50,7 +50,7 @@ SEATED_X = STOP_X - BUMPER_TIP_X  # of the pallet's origin when its bumpers touc
 
 # --- surfaces --------------------------------------------------------------------------------------------------------
 WHEEL_STIFFNESS = 1e6
-WHEEL_DAMPING = 600.0
+WHEEL_DAMPING = 630.0
 STEEL_STIFFNESS = 1e7
 STEEL_DAMPING = 600.0
 BUMPER_STIFFNESS = 2e5

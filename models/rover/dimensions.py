@@ -53,7 +53,7 @@ FRAME_STIFFNESS = 1e5  # of hubs and frame
 FRAME_DAMPING = 500.0
 FRICTION = 0.6
 RIGID_STIFFNESS = 5e5  # of a wheel that hardly yields, for the step
-RIGID_DAMPING = 2000.0
+RIGID_DAMPING = 1800.0
 DAMPING_RAMP = 2e-3
 
 # --- chassis -----------------------------------------------------------------------------------------------------------
