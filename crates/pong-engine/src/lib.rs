@@ -61,4 +61,4 @@ pub use report::{
 pub use scene::{Config, Scene, State, WorkerSettings};
 pub use seal::{MetIn, SealReport, SetupNote, SetupWarning, leave_room_for_small_things, require_memory};
 pub use state::StateError;
-pub use world::World;
+pub use world::{Continuation, World};

@@ -6,17 +6,18 @@ use crate::energy::contact::ContactEnergies;
 use crate::energy::episodes::{PairEnergies, PairEnergy};
 use crate::error::EngineError;
 use crate::frame::{
-    self, EvaluationBuffers, EvaluationInput, FrictionPreload, MOTIONS_AT_ONCE, ROUND, WorkerInput,
-    WorkerPool, fresh, remember,
+    self, EvaluationBuffers, EvaluationInput, FrictionPreload, MOTIONS_AT_ONCE, ROUND, TunnellingEvents,
+    WorkerInput, WorkerPool, fresh, remember,
 };
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
 use crate::seal::leave_room_for_small_things;
 use crate::sealed::{GroupPair, Sealed, SurfaceTable};
 use crate::state::{
-    CommittedPoses, ContactKey, ContactMemory, ContactRole, StateError, largest_len, needed_len, read_block,
-    write_block,
+    CarryOutcome, CommittedPoses, ContactKey, ContactMemory, ContactRole, Counterparts, StateError,
+    largest_len, needed_len, read_block, write_block,
 };
+use pong_geometry::Pose;
 use pong_threads::{LaneWork, WorkerStart};
 use std::sync::Arc;
 use std::time::Duration;
@@ -168,7 +169,7 @@ impl Runtime {
             .map(|spare| &spare.poses)
             .filter(|poses| (1..now.frame()).contains(&poses.frame()));
         let before = earlier.max_by_key(|poses| poses.frame())?;
-        (now.frame() == self.frame.number).then_some((before, now))
+        (self.frame.computed && now.frame() == self.frame.number).then_some((before, now))
     }
 
     /// Commits the contact state of the last frame.
@@ -318,6 +319,57 @@ impl Runtime {
         outcome?;
         self.changed();
         Ok(())
+    }
+
+    /// Checks that the contact state of another world fits into this one.
+    ///
+    /// # Errors
+    /// [`EngineError::BadValue`] if it has not.
+    pub fn require_room_for(&self, from: &Self, counterparts: &Counterparts<'_>) -> Result<(), EngineError> {
+        let refused = |cause: String| {
+            Err(EngineError::BadValue { what: "continue from another world".to_owned(), cause })
+        };
+        let records = from.memory.records_to_carry(counterparts.group_pairs);
+        let room = self.memory.records.capacity();
+        if records > room {
+            let least = records.div_ceil(2);
+            return refused(format!(
+                "it remembers {records} contacts, and there is room for {room}; seal with a `contact_capacity` of {least} or \
+                 more"
+            ));
+        }
+        let moments = from.memory.poses.moments_to_carry(counterparts.pairs);
+        let room = self.memory.poses.capacity();
+        if moments > room {
+            return refused(format!(
+                "its pairs were last committed at {moments} different moments, and there is room for {room}; commit all pairs \
+                 at once first"
+            ));
+        }
+        Ok(())
+    }
+
+    /// Replaces the contact state by that of another world, which must fit ([`require_room_for`](Self::require_room_for)).
+    /// Results of the last frame are dropped. `poses` are those of the states that are set.
+    pub fn carry(
+        &mut self,
+        from: &Self,
+        counterparts: &Counterparts<'_>,
+        poses: &[Pose],
+        keeps_ledger: bool,
+    ) -> CarryOutcome {
+        self.let_go_of_memory();
+        self.frame.begin(&self.sealed);
+        self.frame.computed = false;
+        self.frame.tunnelling = TunnellingEvents::default();
+        let frame = self.frame.number;
+        let mut carried = CarryOutcome::default();
+        take_turns(&mut self.memory, &mut self.spares, |old, next| {
+            next.copy_from(old);
+            carried = next.carry(&from.memory, counterparts, (poses, frame), keeps_ledger);
+        });
+        self.changed();
+        carried
     }
 
     /// Replaces the surface values.

@@ -29,7 +29,7 @@ pub(crate) use input::{Block, EvaluationInput, WorkerInput};
 pub(crate) use near_pairs::{MOTIONS_AT_ONCE, NearPairs};
 pub use output::preload::FrictionPreload;
 pub(crate) use output::remember::{fresh, remember};
-pub(crate) use tunnelling::events::TunnellingEvent;
+pub(crate) use tunnelling::events::{TunnellingEvent, TunnellingEvents};
 pub(crate) use tunnelling::travel::{least_travel_m, reach_m};
 pub(crate) use worker_context::WorkerContext;
 pub(crate) use worker_pool::WorkerPool;

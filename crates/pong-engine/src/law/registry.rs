@@ -32,6 +32,14 @@ impl Laws {
         self.friction.get(name).cloned().ok_or_else(|| missing("friction law", name))
     }
 
+    /// First friction law whose namesake in another registry remembers another count of numbers per contact.
+    pub(crate) fn first_of_other_state(&self, others: &Self) -> Option<&str> {
+        let differs = |name: &String, law: &Arc<dyn FrictionForce>| {
+            others.friction.get(name).is_some_and(|other| other.state_len() != law.state_len())
+        };
+        self.friction.iter().find(|(name, law)| differs(name, law)).map(|(name, _)| name.as_str())
+    }
+
     /// Names of all laws, for the hash of a world.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.normal.keys().chain(self.friction.keys()).map(String::as_str)

@@ -1,6 +1,7 @@
 //! Scene: everything that set-up defines. States and surface values may change between frames.
 
 mod names;
+mod shared;
 mod states;
 mod surfaces;
 
@@ -10,6 +11,7 @@ use crate::law::registry::Laws;
 use pong_geometry::extension::Extensions;
 use pong_model::{Model, MovableGroup};
 pub use pong_threads::Settings as WorkerSettings;
+pub(crate) use shared::{Shared, refused};
 pub use states::State;
 pub(crate) use states::States;
 use std::sync::Arc;

@@ -48,6 +48,21 @@ impl States {
         Ok(changed)
     }
 
+    /// Copies the states and switched pairs of another world; `bodies` and `pairs` hold the numbers there. States never set there
+    /// stay as they are.
+    pub fn take_over(&mut self, from: &Self, bodies: &[Option<usize>], pairs: &[Option<usize>]) {
+        for (body, earlier) in bodies.iter().enumerate() {
+            let set = earlier.filter(|&earlier| from.bodies[earlier].is_some());
+            if let Some(earlier) = set {
+                self.bodies[body] = from.bodies[earlier];
+                self.poses[body] = from.poses[earlier];
+            }
+        }
+        for (enabled, earlier) in self.enabled.iter_mut().zip(pairs) {
+            *enabled = earlier.map_or(*enabled, |earlier| from.enabled[earlier]);
+        }
+    }
+
     /// State last set for a movable group, as it was set; `None` if never set.
     pub fn of(&self, scene: &Scene, interface: InterfaceId) -> Result<Option<&State>, EngineError> {
         Ok(self.bodies[scene.body_index(interface)?].as_ref())

@@ -1,6 +1,7 @@
 //! Contact state: everything that the engine remembers between frames (docs/theory.md, 5).
 
 mod block;
+mod carry;
 mod lookup;
 mod memory;
 mod merge;
@@ -13,6 +14,7 @@ mod tests;
 
 pub use block::StateError;
 pub(crate) use block::{largest_len, needed_len, read_block, write_block};
+pub(crate) use carry::{CarryOutcome, Counterparts};
 pub(crate) use lookup::{RecordsOfKey, SAME_WAY_COSINE_MIN};
 pub(crate) use memory::{ContactMemory, Remembered};
 pub(crate) use poses::{CommittedPoses, Past};

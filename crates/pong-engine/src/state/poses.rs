@@ -217,6 +217,54 @@ impl CommittedPoses {
         (number, count)
     }
 
+    /// Number of epochs among the pairs that exist in the other world.
+    pub fn moments_to_carry(&self, pairs: &[Option<usize>]) -> usize {
+        let mut moments: Vec<u8> = pairs.iter().flatten().map(|&pair| self.moment_of[pair]).collect();
+        moments.retain(|moment| *moment != NEVER);
+        moments.sort_unstable();
+        moments.dedup();
+        moments.len()
+    }
+
+    /// Replaces everything by the poses of another world; pairs that only this one has are forgotten. `bodies` and `pairs` hold
+    /// the numbers in the other world. There must be room for the epochs. Movable groups that the other world has no pose of
+    /// are `elsewhere`; no remembered pair reads that. `frame` is the number of the frame if a commit of all pairs made the poses.
+    pub fn carry(
+        &mut self,
+        from: &Self,
+        (bodies, pairs): (&[Option<usize>], &[Option<usize>]),
+        elsewhere: &[Pose],
+        frame: u64,
+    ) {
+        let mut number = [NEVER; NEVER as usize + 1];
+        let mut moments = Vec::new();
+        let mut is_known = vec![false; from.stride];
+        from.bodies.iter().for_each(|&body| is_known[body] = true);
+        for (moment_of, pair) in self.moment_of.iter_mut().zip(pairs) {
+            let earlier = pair.map_or(NEVER, |pair| from.moment_of[pair]);
+            let numbered = &mut number[usize::from(earlier)];
+            if earlier != NEVER && *numbered == NEVER {
+                *numbered = moments.len() as u8;
+                moments.push(earlier);
+            }
+            *moment_of = *numbered;
+        }
+        for (moment, earlier) in moments.iter().enumerate() {
+            for &body in &*Arc::clone(&self.bodies) {
+                let known = bodies[body].filter(|&body| is_known[body]);
+                let pose = known.map_or(&elsewhere[body], |body| from.pose(*earlier, body));
+                self.put_pose(moment as u8, body, *pose);
+            }
+        }
+        self.put_count(moments.len());
+        self.frame = if from.frame > 0 && moments.len() == 1 { frame } else { 0 };
+    }
+
+    /// Whether anything is remembered of a pair of Objects.
+    pub fn knows(&self, pair: usize) -> bool {
+        self.moment_of[pair] != NEVER
+    }
+
     /// Stores a pose read from a block.
     pub fn put_pose(&mut self, moment: u8, body: usize, pose: Pose) {
         self.poses[usize::from(moment) * self.stride + body] = pose;
@@ -224,12 +272,17 @@ impl CommittedPoses {
 
     /// Stores the epochs of all pairs read from a block.
     pub fn put_moments(&mut self, count: u8, moments: impl Iterator<Item = u8>) {
-        self.past = match count {
+        self.moment_of.iter_mut().zip(moments).for_each(|(known, moment)| *known = moment);
+        self.put_count(usize::from(count));
+    }
+
+    /// Sets the number of epochs after the epochs of pairs have changed.
+    fn put_count(&mut self, moments: usize) {
+        self.past = match moments {
             0 => Past::Nothing,
             1 => Past::OneMoment,
             _ => Past::Several,
         };
-        self.moment_of.iter_mut().zip(moments).for_each(|(known, moment)| *known = moment);
         self.is_changed();
     }
 }

@@ -10,15 +10,19 @@
 //! | `standing.rs` | poses that contradict velocities |
 //! | `workers.rs` | workers, and the times of a frame |
 //! | `clone.rs` | clones of a world |
+//! | `continuation.rs` | continuation of a run in a world of more or fewer Objects |
 
 mod changes;
 mod clone;
 mod contact_state;
+mod continuation;
 mod energy;
 mod frame;
 mod results;
 mod standing;
 mod workers;
+
+pub use continuation::Continuation;
 
 use crate::inspect::Inspection;
 use crate::runtime::Runtime;

@@ -7,6 +7,7 @@ mod clone;
 mod closed_paths;
 mod common;
 mod contact_state;
+mod continuation;
 mod deep_ellipsoids;
 mod drops;
 mod ellipsoids_on_pieces;

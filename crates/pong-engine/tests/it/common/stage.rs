@@ -102,6 +102,11 @@ impl Scene {
 
     /// A sealed world of the scene.
     pub fn set_up(&self, workers: Option<WorkerSettings>) -> Stage<'_> {
+        self.set_up_beside(&[], workers)
+    }
+
+    /// A sealed world of the scene and of newcomers: at these places among its Objects, far away, each paired with all.
+    pub fn set_up_beside(&self, newcomers: &[usize], workers: Option<WorkerSettings>) -> Stage<'_> {
         let Self { contact_capacity, ledger, accounts, .. } = *self;
         let config = Config { contact_capacity, ledger, accounts, workers };
         let mut builder = match self.own_kinds {
@@ -118,10 +123,18 @@ impl Scene {
             builder.add_model(Arc::new(model))
         };
         let models: Vec<_> = self.models.iter().map(add).collect();
-        let create = |(index, model): (usize, &usize)| {
-            builder.create_object(models[*model], &format!("object_{index}")).unwrap()
-        };
-        let objects: Vec<_> = self.objects.iter().enumerate().map(create).collect();
+        let (mut objects, mut strange) = (Vec::new(), Vec::new());
+        for place in 0..=self.objects.len() {
+            if newcomers.contains(&place) {
+                strange.push(newcomer(&mut builder, place));
+            }
+            let model = self.objects.get(place).map(|model| models[*model]);
+            objects
+                .extend(model.map(|model| builder.create_object(model, &format!("object_{place}")).unwrap()));
+        }
+        for newcomer in &strange {
+            objects.iter().for_each(|object| _ = builder.pair(*object, *newcomer).unwrap());
+        }
         let pairs = self.pairs.iter().map(|&(a, b)| builder.pair(objects[a], objects[b]).unwrap()).collect();
         let (world, _) = builder.seal().unwrap_or_else(|error| panic!("{}: {error}", self.name));
         let groups: Vec<_> =
@@ -129,6 +142,21 @@ impl Scene {
         assert_eq!(groups.len(), self.paths.len(), "{}: one path per movable group", self.name);
         Stage { scene: self, world, models, objects, pairs, groups }
     }
+}
+
+/// An Object of several kinds of primitives, 1 km away.
+fn newcomer(builder: &mut WorldBuilder, place: usize) -> ObjectId {
+    let parts = "Point(name: \"p\", position: (0,0,0)), Sphere(name: \"b\", center: (1,0,0), radius: 0.1), \
+                 Capsule(name: \"c\", ends: ((0,1,0), (1,1,0)), radius: 0.1)";
+    let text = pong_testkit::ron::model("newcomer", "\"s\": (stiffness: inf)", parts);
+    let model = pong_model::parse(&text, "newcomer.ron", None, builder.scene().extensions()).unwrap();
+    let model = builder.add_model(Arc::new(model));
+    let object = builder.create_object(model, &format!("newcomer_{place}")).unwrap();
+    let interface = builder.scene().interface(object, "").unwrap();
+    // Beside posts without ends, and above planes that swing.
+    let position = [1e2, 2e1 * place as f64, 1e3];
+    builder.set_states(&[(interface, State { position, ..State::identity() })]).unwrap();
+    object
 }
 
 /// So many, whoever else is busy.
