@@ -86,7 +86,7 @@
 /// `verdict`: more energy came out than went in.
 #define PONG_VERDICT_GAINED 2
 
-/// `what` of a tally of tests of the bounding volumes that models give.
+/// `what` of a tally of tests of the models' bounding volumes.
 #define PONG_TALLY_VOLUMES 0
 
 /// `what` of a tally of contact tests.
@@ -249,12 +249,12 @@ typedef struct pong_config {
     /// outside the affinity mask, and their number is the limit of the workers. 0 (default) for the cores of the
     /// affinity mask after the first.
     uint64_t worker_cores;
-    /// PONG_COUPLING_...: keeps energy accounts of contacts and pairs, see pong_get_pair_energy_account(). The coupling says
-    /// what the host does with wrenches, because their work depends on it. Keeps the ledger as well. 0 (default) keeps no
-    /// accounts and costs nothing.
+    /// PONG_COUPLING_...: keeps energy accounts of contacts and pairs, see pong_get_pair_energy_account().
+    /// The coupling is the host's use of wrenches, on which their work depends. Keeps the ledger as well. 0
+    /// (default) keeps no accounts and costs nothing.
     uint32_t energy_accounts;
-    /// With PONG_COUPLING_ZERO_ORDER_HOLD: how many whole frames later than the first possible one the wrenches act, at
-    /// most 16; 0 by default.
+    /// With PONG_COUPLING_ZERO_ORDER_HOLD: delay of the wrenches in whole frames after the first possible
+    /// one, at most 16; 0 by default.
     uint32_t delay_frames;
     /// Zero.
     uint64_t reserved[7];
@@ -372,14 +372,14 @@ typedef struct pong_pair_id {
     uint64_t bits;
 } pong_pair_id;
 
-/// The host's step and what it does with the wrench. Make it with pong_default_step_plan() and change what you like.
+/// The host's step and its use of the wrench. Make it with pong_default_step_plan() and change what you like.
 typedef struct pong_step_plan {
     /// The step or frame, s; must be set.
     double step;
-    /// How the wrench is used: one of PONG_COUPLING_...; PONG_COUPLING_ZERO_ORDER_HOLD by default.
+    /// Use of the wrench: one of PONG_COUPLING_...; PONG_COUPLING_ZERO_ORDER_HOLD by default.
     uint32_t wrench_coupling;
-    /// With PONG_COUPLING_ZERO_ORDER_HOLD: how many whole frames later than the first possible one
-    /// the wrench acts, at most 100; 0 by default.
+    /// With PONG_COUPLING_ZERO_ORDER_HOLD: delay of the wrench in whole frames after the first possible one,
+    /// at most 100; 0 by default.
     uint32_t delay_frames;
     /// Speed at which things touch, m/s; 0 (default) if it is not known. Laws whose stiffness or damping follows the
     /// depth are judged at the depth that this speed makes.
@@ -587,8 +587,8 @@ typedef struct pong_energy_account {
     double work_in;
     /// Energy that the bodies got back: work of the wrench on them, where it was positive.
     double work_out;
-    /// Stored without work: where the host put bodies into each other, less what it cleared. For a contact
-    /// that began while its pair was already in contact: what it may have taken over from another contact.
+    /// Energy stored without work: where the host put bodies into each other, less what it cleared. For a
+    /// contact that began while its pair was already in contact: energy taken over from another contact.
     double inserted;
     /// Error of holding the wrench: its work less that of the force as it would have followed the motion.
     double hold_error;
@@ -643,8 +643,8 @@ typedef struct pong_tally {
     uint32_t what;
     /// Tests.
     uint32_t tested;
-    /// Volumes: tests that did not find the two apart; the others were rejected. Primitives: contacts found, of which
-    /// one test may find several.
+    /// For volumes, tests that did not find the two apart; the others were rejected. For primitives, contacts
+    /// found; one test may find several.
     uint32_t met;
     /// Zero.
     uint32_t reserved;
@@ -718,7 +718,8 @@ typedef struct pong_log_options {
     const char *name;
     /// Step of the host's integrator, s, for readers of the log; 0 (default) if it varies.
     double step;
-    /// Bytes that may wait for the disk; raised to what the largest frame takes. 0 (default) for 16 MiB.
+    /// Most bytes that may wait for the disk; raised to the size of the largest frame. 0 (default) for 16
+    /// MiB.
     uint64_t buffer_bytes;
     /// Time between two flushes, ms; 1000 by default. A run that is cut off keeps what was flushed.
     uint32_t flush_ms;

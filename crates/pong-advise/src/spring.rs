@@ -132,8 +132,8 @@ mod tests {
         assert!((made.damping / (force(depth, 1.0) - force(depth, 0.0)) - 1.0).abs() < 1e-8);
     }
 
-    /// The power law's spring and damper at that depth; q = 0 on a linear spring is the linear law, q = p that of Hunt and
-    /// Crossley.
+    /// The power law's spring and damper at that depth; q = 0 on a linear spring is the linear law, q = p
+    /// that of Hunt and Crossley.
     #[test]
     fn a_power_law_is_judged_at_the_depth_of_the_bounce() {
         let springs_of = |law, speed| springs(&props(law, FrictionProps::None), 2.0, speed).unwrap();

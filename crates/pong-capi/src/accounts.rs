@@ -25,8 +25,8 @@ pub struct pong_energy_account {
     pub work_in: f64,
     /// Energy that the bodies got back: work of the wrench on them, where it was positive.
     pub work_out: f64,
-    /// Stored without work: where the host put bodies into each other, less what it cleared. For a contact
-    /// that began while its pair was already in contact: what it may have taken over from another contact.
+    /// Energy stored without work: where the host put bodies into each other, less what it cleared. For a
+    /// contact that began while its pair was already in contact: energy taken over from another contact.
     pub inserted: f64,
     /// Error of holding the wrench: its work less that of the force as it would have followed the motion.
     pub hold_error: f64,

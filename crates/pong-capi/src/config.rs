@@ -51,12 +51,12 @@ pub struct pong_config {
     /// outside the affinity mask, and their number is the limit of the workers. 0 (default) for the cores of the
     /// affinity mask after the first.
     pub worker_cores: u64,
-    /// PONG_COUPLING_...: keeps energy accounts of contacts and pairs, see pong_get_pair_energy_account(). The coupling says
-    /// what the host does with wrenches, because their work depends on it. Keeps the ledger as well. 0 (default) keeps no
-    /// accounts and costs nothing.
+    /// PONG_COUPLING_...: keeps energy accounts of contacts and pairs, see pong_get_pair_energy_account().
+    /// The coupling is the host's use of wrenches, on which their work depends. Keeps the ledger as well. 0
+    /// (default) keeps no accounts and costs nothing.
     pub energy_accounts: u32,
-    /// With PONG_COUPLING_ZERO_ORDER_HOLD: how many whole frames later than the first possible one the wrenches act, at
-    /// most 16; 0 by default.
+    /// With PONG_COUPLING_ZERO_ORDER_HOLD: delay of the wrenches in whole frames after the first possible
+    /// one, at most 16; 0 by default.
     pub delay_frames: u32,
     /// Zero.
     pub reserved: [u64; 7],

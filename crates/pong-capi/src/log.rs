@@ -39,7 +39,8 @@ pub struct pong_log_options {
     pub name: *const c_char,
     /// Step of the host's integrator, s, for readers of the log; 0 (default) if it varies.
     pub step: f64,
-    /// Bytes that may wait for the disk; raised to what the largest frame takes. 0 (default) for 16 MiB.
+    /// Most bytes that may wait for the disk; raised to the size of the largest frame. 0 (default) for 16
+    /// MiB.
     pub buffer_bytes: u64,
     /// Time between two flushes, ms; 1000 by default. A run that is cut off keeps what was flushed.
     pub flush_ms: u32,

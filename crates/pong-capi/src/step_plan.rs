@@ -43,16 +43,16 @@ pub struct pong_joints {
     pub reserved: u32,
 }
 
-/// The host's step and what it does with the wrench. Make it with pong_default_step_plan() and change what you like.
+/// The host's step and its use of the wrench. Make it with pong_default_step_plan() and change what you like.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct pong_step_plan {
     /// The step or frame, s; must be set.
     pub step: f64,
-    /// How the wrench is used: one of PONG_COUPLING_...; PONG_COUPLING_ZERO_ORDER_HOLD by default.
+    /// Use of the wrench: one of PONG_COUPLING_...; PONG_COUPLING_ZERO_ORDER_HOLD by default.
     pub wrench_coupling: u32,
-    /// With PONG_COUPLING_ZERO_ORDER_HOLD: how many whole frames later than the first possible one
-    /// the wrench acts, at most 100; 0 by default.
+    /// With PONG_COUPLING_ZERO_ORDER_HOLD: delay of the wrench in whole frames after the first possible one,
+    /// at most 100; 0 by default.
     pub delay_frames: u32,
     /// Speed at which things touch, m/s; 0 (default) if it is not known. Laws whose stiffness or damping follows the
     /// depth are judged at the depth that this speed makes.

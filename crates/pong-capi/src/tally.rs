@@ -7,7 +7,7 @@ use crate::status::pong_status;
 use pong_engine::{FrameCounts, Tally, World};
 use std::ffi::c_char;
 
-/// `what` of a tally of tests of the bounding volumes that models give.
+/// `what` of a tally of tests of the models' bounding volumes.
 pub const PONG_TALLY_VOLUMES: u32 = 0;
 /// `what` of a tally of contact tests.
 pub const PONG_TALLY_PRIMITIVES: u32 = 1;
@@ -20,8 +20,8 @@ pub struct pong_tally {
     pub what: u32,
     /// Tests.
     pub tested: u32,
-    /// Volumes: tests that did not find the two apart; the others were rejected. Primitives: contacts found, of which
-    /// one test may find several.
+    /// For volumes, tests that did not find the two apart; the others were rejected. For primitives, contacts
+    /// found; one test may find several.
     pub met: u32,
     /// Zero.
     pub reserved: u32,

@@ -10,8 +10,9 @@ use std::process::ExitCode;
 /// Makes a group of convex polyhedra of a closed mesh that need not be convex: glTF (.glb, .gltf),
 /// Collada (.dae), OBJ or STL.
 ///
-/// Walls between the pieces are marked inactive. Prints how far the pieces protrude from the mesh and what of it they
-/// leave uncovered. docs/importing.md tells what the figures mean and when to model by hand instead.
+/// Faces between the pieces are marked inactive. Prints how far the pieces protrude from the mesh and how
+/// much of it they leave uncovered. docs/importing.md explains the figures, and when to model by hand
+/// instead.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -26,8 +27,8 @@ pub(crate) struct Arguments {
     /// Most pieces.
     #[arg(long, value_name = "PIECES", default_value_t = 64, value_parser = at_least_one)]
     pieces_max: usize,
-    /// By how much pieces may exceed what they hold, as a share of the whole hull's volume [default: 0.005]; with
-    /// CoACD its threshold [default: 0.05].
+    /// Most volume by which pieces may exceed the mesh, as a share of the whole hull's volume [default:
+    /// 0.005]; with CoACD its threshold [default: 0.05].
     #[arg(long, value_name = "SHARE")]
     concavity: Option<f64>,
     /// Voxels along the longest side [default: 100]; with CoACD samples on the surface [default: 2000].

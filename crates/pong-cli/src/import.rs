@@ -82,7 +82,7 @@ pub(crate) struct MeshFile {
 /// The default surface.
 #[derive(clap::Args)]
 pub(crate) struct Surface {
-    /// Name of the surface for whatever names none.
+    /// Name of the surface of parts without one.
     #[arg(id = "surface_name", long = "surface", value_name = "NAME", default_value = "default")]
     name: String,
     /// Its stiffness, N/m.

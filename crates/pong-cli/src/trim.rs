@@ -19,14 +19,14 @@ pub(crate) struct Arguments {
     /// came near stay.
     #[arg(long, value_name = "SCENE.ron|LOG")]
     also: Vec<PathBuf>,
-    /// A primitive that came no nearer than this to any partner goes, m.
+    /// Removes a primitive that came no nearer than this to any partner, m.
     #[arg(long, value_name = "METRES", default_value_t = 0.1)]
     margin: f64,
     /// Folder for the trimmed models, with the meshes that they need; beside each model unless given, for a log
     /// `<log>_trimmed`.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Replaces trimmed models that are there.
+    /// Replaces existing trimmed models.
     #[arg(long)]
     force: bool,
     /// Another duration than the run's, s.

@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     /// `<log>_tuned`.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Replaces tuned models that are there.
+    /// Replaces existing tuned models.
     #[arg(long)]
     force: bool,
     /// Another duration than the run's, s.

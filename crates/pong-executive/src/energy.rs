@@ -44,7 +44,7 @@ pub struct Energy {
     pub contact_made: f64,
     /// Energy lost in dampers of springs since the start, J.
     pub spring_loss: f64,
-    /// Work since the start of loads on free bodies, and of prescribed bodies on what they push, J.
+    /// Work since the start of loads on free bodies, and of prescribed bodies on others, J.
     pub work_in: f64,
 }
 

@@ -15,13 +15,13 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-/// Checks model files (docs/model_format.md) and tells what each holds and how each two of them would meet.
+/// Checks model files (docs/model_format.md) and describes the contents of each and the contact of every two.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// The model files.
     #[arg(value_name = "MODEL.ron", required = true)]
     models: Vec<PathBuf>,
-    /// Checks each model by itself, not how they would meet.
+    /// Checks each model by itself, without the contacts between them.
     #[arg(long)]
     alone: bool,
     #[command(flatten)]

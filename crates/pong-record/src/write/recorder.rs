@@ -60,9 +60,9 @@ pub struct RecordStatus {
     pub frames: u64,
     /// Frames flushed to the files: a run that is cut off now keeps them.
     pub flushed: u64,
-    /// Frames that are not and will not be in the log.
+    /// Frames missing in the log for good.
     pub lost: u64,
-    /// Events likewise.
+    /// Events missing in the log for good.
     pub events_lost: u64,
     /// Bytes of the rows flushed.
     pub bytes: u64,
