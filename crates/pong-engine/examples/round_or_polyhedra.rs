@@ -1,10 +1,10 @@
-//! What a round part costs, and how far off polyhedra and meshes of N sides are that stand for it.
+//! Cost of round parts, and accuracy of polyhedra and meshes of N sides in their place.
 //!
 //!     cargo run --release -p pong-engine --example round_or_polyhedra
 //!
-//! A ball, a point and a bar go around a pin, and a ball around the wall of a hole, 3 mm deep in what they touch. Shown are the
-//! time of a frame (states in, contacts, wrenches out; the least of the rounds) and by how much the depth that the force
-//! tells differs from 3 mm at most.
+//! A ball, a point and a bar move around a pin, and a ball around the wall of a hole, 3 mm deep in contact.
+//! Printed are the time of a frame (states in, contacts, wrenches out; the least of the rounds), and the
+//! largest error of the depth that follows from the force.
 
 use pong_engine::{Config, InterfaceId, State, World, WorldBuilder};
 use pong_geometry::extension::Extensions;
@@ -20,7 +20,7 @@ const DEPTH_M: f64 = 3e-3;
 const PLACES: usize = 719;
 const ROUNDS: usize = 40;
 
-/// A body that goes around, and how far its origin is from the axis while it is so deep.
+/// A moving body, and the distance of its origin from the axis at this depth.
 struct Body {
     name: &'static str,
     text: &'static str,
@@ -93,7 +93,7 @@ fn row(body: &Body, made_of: &str, part: &str) {
     println!("| {:24} | {made_of:28} | {least_ns:10.0} | {:18.3} |", body.name, 1e3 * worst_m);
 }
 
-/// A world of two Objects, and the root of the first.
+/// A world of two Objects, with the root of the first.
 fn paired(texts: &[String; 2]) -> (World, InterfaceId) {
     let mut builder = WorldBuilder::new(Config::default());
     let objects = ["a", "b"].map(|name| {
@@ -109,7 +109,7 @@ fn paired(texts: &[String; 2]) -> (World, InterfaceId) {
     (world, moving)
 }
 
-/// On the first body in a frame of its own: nothing is committed.
+/// Force on the first body, N, in the common frame; nothing is committed.
 fn force(world: &mut World, body: InterfaceId, state: &State) -> [f64; 3] {
     world.set_states(&[(body, *state)]).expect("a state");
     world.evaluate().expect("a sealed world");
@@ -136,7 +136,7 @@ fn prism(sides: usize) -> String {
     format!("Polyhedron(name: \"p\", vertices: [{}], faces: [{}])", corners(sides), faces.join(","))
 }
 
-/// Facing the axis.
+/// Faces that look towards the axis.
 fn wall(sides: usize) -> String {
     let triangles = (0..sides).map(|i| {
         let j = (i + 1) % sides;

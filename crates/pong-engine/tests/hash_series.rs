@@ -1,8 +1,8 @@
-//! One scene, one series of answers: whoever does the work, with whichever instructions, however often it is
-//! evaluated, from wherever it is resumed, whether or not workers stall; and from version to version.
+//! Recorded hashes of scenes: the answers are the same for any number of workers, any SIMD level and any
+//! number of evaluations, after a restore from any frame, with stalling workers, and in every version.
 //!
-//! A program of its own: `ci/series` builds it with and without optimisation, and it chooses the level of instructions and
-//! stalls workers of the whole process.
+//! A program of its own: `ci/series` builds it with and without optimisation, and it sets the SIMD level and
+//! stalls workers for the whole process.
 
 #[allow(dead_code, unused_imports, reason = "these tests use some of it")]
 #[path = "it/common/mod.rs"]
@@ -19,8 +19,8 @@ use std::sync::OnceLock;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-/// The answers and the contact state of every scene, summed up. They may change only with a change of the physics
-/// that the CHANGELOG tells.
+/// Hashes of the answers and of the contact state of every scene. They may change only with a change of the
+/// physics that the CHANGELOG states.
 const KNOWN: [(&str, u64, u64); 9] = [
     ("stations", 0xc7f81cf58fe1d253, 0x204cd49004958a92),
     ("arms", 0x62b37b605bd52856, 0x64fc0690f8907a8f),
@@ -33,7 +33,7 @@ const KNOWN: [(&str, u64, u64); 9] = [
     ("round", 0xa8b83a5cd3bcdd64, 0x29172c69aeb1b248),
 ];
 
-/// A scene run by the caller alone, with what is needed to go on from any frame.
+/// A scene run by the caller alone, with the data needed to continue from any frame.
 struct Alone {
     scene: Scene,
     series: Vec<FrameHash>,
@@ -43,7 +43,7 @@ struct Alone {
 
 const SAVED_EVERY: usize = 6;
 
-/// Every scene, run once.
+/// All scenes, each run once.
 fn alone() -> &'static [Alone] {
     static ALONE: OnceLock<Vec<Alone>> = OnceLock::new();
     ALONE.get_or_init(|| all().into_iter().map(run_alone).collect())
@@ -62,7 +62,7 @@ fn run_alone(scene: Scene) -> Alone {
     Alone { scene, series, saved }
 }
 
-/// Runs frames and compares each with the caller's own.
+/// Runs frames and compares each with the caller's own hash.
 fn must_repeat(case: &str, alone: &Alone, stage: &mut Stage<'_>, frames: std::ops::Range<usize>) {
     for frame in frames {
         let got = stage.step(frame);
@@ -105,7 +105,7 @@ fn any_number_of_workers_gives_the_same_series() {
             let mut stage = alone.scene.set_up(workers(count));
             let mut shared = 0;
             for frame in 0..alone.scene.frames {
-                // Frames that are rare and small wake nobody, and on a busy machine all are rare.
+                // Rare and small frames wake no worker, and on a busy machine all frames are rare.
                 stage.world.prewake(Duration::from_secs(60));
                 must_repeat(&format!("{count} workers"), alone, &mut stage, frame..frame + 1);
                 shared += usize::from(stage.world.lane_work().any(|lane| lane.blocks > 0));
@@ -141,7 +141,7 @@ fn resumed_from_any_frame_the_series_is_the_same() {
             stage.world.restore_state(&alone.saved[saved]).unwrap();
             must_repeat(&format!("resumed after {after}"), alone, stage, after + 1..until.min(frames));
         };
-        // In one world, back and forth; then in new ones, with workers and without.
+        // First in one world, back and forth; then in new worlds, with workers and without.
         let mut stage = alone.scene.set_up(workers(2));
         let count = alone.saved.len();
         for step in 0..count {
@@ -154,7 +154,8 @@ fn resumed_from_any_frame_the_series_is_the_same() {
     }
 }
 
-/// A block restored while a pair is off: what the world did before has no part in the frame, nor has who runs it.
+/// Restores a block while a pair is off: neither the world's earlier frames nor the number of workers affect
+/// the result.
 #[test]
 fn what_a_world_did_before_a_restore_does_not_count() {
     let alone = alone().iter().find(|alone| alone.scene.name == "arms").unwrap();
@@ -174,7 +175,7 @@ fn what_a_world_did_before_a_restore_does_not_count() {
     assert_eq!(resumed(&mut fresh), resumed(&mut used));
 }
 
-/// Trial evaluations elsewhere, and again in the same place, change nothing that a commit accepts.
+/// Trial evaluations at other states, and repeated ones at the same states, do not affect the commit.
 #[test]
 fn evaluated_four_times_a_frame_the_series_is_the_same() {
     for alone in alone() {
@@ -204,7 +205,7 @@ fn workers_that_stall_do_not_change_the_series() {
     println!("{calls} calls on workers, every 301st of which stalled");
 }
 
-/// The scenes are worth running: they use what the series is to guard.
+/// The scenes are worth running: they use every tester and reach every limit.
 #[test]
 fn the_scenes_use_every_tester_and_every_limit() {
     let mut met = BTreeSet::new();

@@ -1,7 +1,7 @@
-//! Workers and trouble: too many of them, stalls, panics, the end of a world. What a frame answers is the same with
-//! all of it, and every frame returns.
+//! Workers in trouble: too many of them, stalls, panics, the end of a world. The answers are always the same,
+//! and every frame returns.
 //!
-//! A program of its own: with the threads of other tests beside them, none of its workers may come in time.
+//! A program of its own: beside the threads of other tests its workers may never come in time.
 
 #[allow(dead_code, unused_imports, reason = "these tests use some of it")]
 #[path = "it/common/mod.rs"]
@@ -19,18 +19,18 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};
 use std::time::{Duration, Instant};
 
-/// What the law of the tests does on workers.
+/// Behaviour of the test law on workers.
 #[derive(Debug, Default)]
 struct Trap {
-    /// A worker that enters while this is set stays until it is cleared.
+    /// While set, a worker that enters the law stays there.
     holds: AtomicBool,
-    /// Workers that are held now.
+    /// Number of workers held now.
     held: AtomicU32,
-    /// At most so many are held at once; 0 is no bound.
+    /// Maximum number of workers held at once; 0 means no limit.
     at_most: AtomicU32,
     panics_on_workers: AtomicBool,
     panics_on_caller: AtomicBool,
-    /// The caller waits in its first contact until a worker has pressed one.
+    /// The caller waits in its first contact until a worker has computed one.
     caller_waits: AtomicBool,
     pressed_by_workers: AtomicU32,
 }
@@ -57,8 +57,8 @@ impl Trap {
 
     fn visit_of_caller(&self) {
         assert!(!self.panics_on_caller.load(Ordering::SeqCst), "the law fails on the caller");
-        // Not for ever: of a frame that is not shared, as one while all workers sleep, no worker presses any. The tests go on
-        // to the next frame, and fail where no worker comes in many.
+        // The wait is limited: in a frame that is not shared, for example because all workers sleep, no
+        // worker computes a contact. The tests then try the next frame, and fail if no worker comes in many.
         let started = Instant::now();
         while self.caller_waits.load(Ordering::SeqCst)
             && self.pressed_by_workers.load(Ordering::SeqCst) == 0
@@ -69,7 +69,7 @@ impl Trap {
         self.caller_waits.store(false, Ordering::SeqCst);
     }
 
-    /// Lets the caller wait for a worker in the next frame, so that one surely takes part.
+    /// Makes the caller wait for a worker in the next frame, so that one takes part.
     fn wait_for_a_worker(&self) {
         self.pressed_by_workers.store(0, Ordering::SeqCst);
         self.caller_waits.store(true, Ordering::SeqCst);
@@ -90,7 +90,7 @@ impl NormalForce for Trapped {
     }
 }
 
-/// A brush of many points on a plane, under the law of a trap.
+/// A brush of many points on a plane, with a trap as its law.
 struct Brush {
     world: World,
     model: ModelId,
@@ -99,7 +99,7 @@ struct Brush {
     report: SealReport,
 }
 
-/// What the brush does not meet.
+/// A part that the brush does not touch.
 const POST: &str =
     "(name: \"post\", bound: Sphere, primitives: [Sphere(name: \"top\", center: (9,9,9), radius: 0.1)])";
 
@@ -120,7 +120,7 @@ impl Brush {
             })
             .collect();
         let plane = "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)";
-        // In groups below the root, whose volumes are asked for every block.
+        // In groups below the root, whose volumes are tested for every block.
         let floor = model("floor", &own, plane).replace(
             &format!("primitives: [ {plane} ]"),
             &format!("groups: [{POST}, (name: \"slab\", primitives: [{plane}])]"),
@@ -142,7 +142,7 @@ impl Brush {
         self.world.set_state(self.brush, &at(Vec3::new(x, 0.5 * x, -depth), Quat::identity())).unwrap();
     }
 
-    /// Steps a frame and hashes what it answers.
+    /// Steps a frame and hashes its answers.
     fn step(&mut self, frame: u32) -> Hash {
         self.place(frame);
         let report = self.world.step().unwrap();
@@ -160,12 +160,12 @@ impl Brush {
         hash
     }
 
-    /// Blocks of the last phase that workers did.
+    /// Number of blocks of the last phase that workers ran.
     fn blocks_of_workers(&self) -> u32 {
         self.world.lane_work().skip(1).map(|lane| lane.blocks).sum()
     }
 
-    /// Steps frames until a worker takes part, comparing each; the number of the next.
+    /// Steps and compares frames until a worker takes part; returns the index of the next frame.
     fn until_a_worker_takes_part(&mut self, expected: &[Hash], from: usize) -> usize {
         for (frame, expected) in expected.iter().enumerate().skip(from) {
             self.trap.wait_for_a_worker();
@@ -186,19 +186,19 @@ fn settings(workers: usize, worker_timeout: Duration) -> Option<WorkerSettings> 
 const SHORT: Duration = Duration::from_millis(1);
 const LONG: Duration = Duration::from_secs(30);
 
-/// What the caller alone answers.
+/// Answers of the caller alone.
 fn alone(frames: u32) -> Vec<Hash> {
     let mut brush = Brush::new(None);
     (0..frames).map(|frame| brush.step(frame)).collect()
 }
 
-/// Each of these tests wants the cores for itself: with a dozen workers of others none may come in time.
+/// These tests run one at a time: with a dozen workers of other tests, none may come in time.
 fn one_at_a_time() -> MutexGuard<'static, ()> {
     static ONE: Mutex<()> = Mutex::new(());
     ONE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Runs a test that must not hang: it fails, and takes the process with it, where it does.
+/// Runs a test that must not hang; on a timeout it fails and ends the process.
 fn within_a_minute(test: impl FnOnce() + Send + 'static) {
     let _one = one_at_a_time();
     let (done, wait) = mpsc::channel();
@@ -243,7 +243,7 @@ fn a_crew_of_none_is_the_caller_alone() {
     });
 }
 
-/// A worker is held in a block: the frame returns, and so do the next; when it is let go it works again.
+/// A worker is held in a block: this frame and the next ones return; once released, the worker works again.
 #[test]
 fn a_held_worker_stops_no_frame_and_is_used_again() {
     within_a_minute(|| {
@@ -275,7 +275,8 @@ fn a_held_worker_stops_no_frame_and_is_used_again() {
     });
 }
 
-/// The contact state that a held worker reads is never written: forgetting, restoring and committing go on around it.
+/// The contact state that a held worker reads is never written, although history is cleared, restored and
+/// committed meanwhile.
 #[test]
 fn contact_state_changes_around_a_held_worker() {
     within_a_minute(|| {
@@ -333,7 +334,7 @@ fn a_panic_on_a_worker_is_the_callers_panic() {
         let message = outcome.downcast_ref::<&str>().map(|text| (*text).to_owned());
         let message = message.or_else(|| outcome.downcast_ref::<String>().cloned()).unwrap();
         assert!(message.contains("fails on a worker"), "{message}");
-        // The frame can be had again, and the series goes on.
+        // The frame can be repeated, and the series continues.
         brush.trap.panics_on_workers.store(false, Ordering::SeqCst);
         assert_eq!(brush.step(frame as u32), expected[frame]);
         brush.until_a_worker_takes_part(&expected, frame + 1);
@@ -384,7 +385,7 @@ fn a_world_ends_while_a_worker_is_held() {
         }
         drop(brush);
         assert!(trap.held.load(Ordering::SeqCst) > 0, "the world did not wait for the worker");
-        // The worker still reads the world's memory, and lets go of it when it comes back.
+        // The worker still reads the world's memory, and releases it when it comes back.
         trap.holds.store(false, Ordering::SeqCst);
         let started = Instant::now();
         while Arc::strong_count(&trap) > 1 {
@@ -426,7 +427,7 @@ fn sealing_tells_how_the_workers_started() {
         for start in &brush.report.workers {
             assert!(start.to_string().contains("not asked for"), "{start}");
         }
-        // Whatever this machine grants: pinned and with a priority, each is told, and the answers are the same.
+        // Whatever this machine grants, pinning and priority are reported, and the answers are the same.
         let wanted = settings(2, SHORT).map(|settings| WorkerSettings {
             pin: true,
             fifo_priority: Some(10),

@@ -1,5 +1,5 @@
-//! Energy accounts: what bodies gave to contacts, got back, and lost, against closed forms; a contact that returns more
-//! than it took is told, and one that does not is not.
+//! Energy accounts against closed forms: energy that bodies gave to contacts, got back, and lost. A contact
+//! that returns more than it received is reported, and no other is.
 
 use crate::common::drop::Drop;
 use crate::common::scenes;
@@ -17,7 +17,7 @@ const USES: [WrenchCoupling; 5] = [
     WrenchCoupling::ZeroOrderHold { delay_frames: 3 },
 ];
 
-/// Sixteen phases of touch of 1 kg at 1 m/s with ω = 100 rad/s.
+/// Sixteen phases of first touch of 1 kg at 1 m/s with ω = 100 rad/s.
 fn drops(coupling: WrenchCoupling, omega_step: f64, damping: f64) -> impl Iterator<Item = Drop> {
     (0..16).map(move |phase| {
         let step = omega_step / 100.0;
@@ -26,8 +26,8 @@ fn drops(coupling: WrenchCoupling, omega_step: f64, damping: f64) -> impl Iterat
     })
 }
 
-/// The work of a held wrench is that over the displacement: what the mass gained, to rounding, however late it comes. So
-/// is the trapezoid rule's for semi-implicit Euler.
+/// The work of a held wrench over the displacement is the mass's energy gain, to rounding, for any delay. So
+/// is the work by the trapezoidal rule for semi-implicit Euler.
 #[test]
 fn work_is_what_the_mass_gained() {
     for coupling in USES.into_iter().filter(|coupling| *coupling != WrenchCoupling::Stages) {
@@ -42,9 +42,9 @@ fn work_is_what_the_mass_gained() {
     }
 }
 
-/// V28: the rebound of an undamped contact whose wrench is held is e = exp(πωT/4) in the mean over the phase of touch. The
-/// account says the same, and tells every such touch. For short steps what was made is ½·k·T·∫v²dt = ½·m·v²·πωT/2, and
-/// 1 + 2n times that if the wrench comes n frames late, to first order in ωT.
+/// V28: the rebound of an undamped contact with a held wrench is e = exp(πωT/4) on average over the phase of
+/// touch. The account agrees, and reports every such contact. For short steps the energy created is
+/// ½·k·T·∫v²dt = ½·m·v²·πωT/2, and 1 + 2n times that for a delay of n frames, to first order in ωT.
 #[test]
 fn an_undamped_contact_that_is_held_gains_energy() {
     for (delay_frames, omega_step, tolerance) in
@@ -77,7 +77,8 @@ fn an_undamped_contact_that_is_held_gains_energy() {
     }
 }
 
-/// c > k·T·(½ + n) is what it takes: twice that loses in every phase of touch, half of it gains in every one.
+/// The threshold is c > k·T·(½ + n): twice that loses energy in every phase of touch, half of it gains in
+/// every one.
 #[test]
 fn damping_beyond_the_remedy_loses_and_below_it_gains() {
     for delay_frames in 0..3 {
@@ -99,7 +100,8 @@ fn damping_beyond_the_remedy_loses_and_below_it_gains() {
     }
 }
 
-/// One bounce of a host that evaluates at stages: it gives ½mv², and 1 − e² of that is lost, e of the clamped law.
+/// One bounce of a host that evaluates at stages: the contact receives ½mv², and 1 − e² of that is lost, with
+/// e of the law without pull.
 #[test]
 fn a_bounce_takes_its_kinetic_energy_and_loses_what_restitution_says() {
     let zeta = 0.2_f64;
@@ -120,8 +122,8 @@ fn a_bounce_takes_its_kinetic_energy_and_loses_what_restitution_says() {
     assert!((lost / (0.5 * (1.0 - e * e)) - 1.0).abs() < 2e-3, "{lost}");
 }
 
-/// Where nothing damps, the accounts of a host that evaluates at stages cannot tell, and say so; they never say that
-/// energy was made or lost for certain.
+/// Without damping, the accounts of a host that evaluates at stages are undecided, and never report a certain
+/// gain or loss.
 #[test]
 fn an_elastic_bounce_at_stages_is_left_open() {
     for drop in drops(WrenchCoupling::Stages, 0.05, 0.0) {
@@ -134,7 +136,7 @@ fn an_elastic_bounce_at_stages_is_left_open() {
     }
 }
 
-/// A point on a rigid plane; without friction if μ is zero.
+/// A point on a rigid plane; no friction if μ is zero.
 fn point_and_ground(mu: f64) -> [String; 2] {
     let friction =
         if mu > 0.0 { format!("friction: Bristle(mu: {mu:?}, stiffness: 1e5)") } else { String::new() };
@@ -145,8 +147,8 @@ fn point_and_ground(mu: f64) -> [String; 2] {
     ]
 }
 
-/// A point that is pressed with N and dragged by s loses μ·N·s to friction, less what its bristle takes to break away; and
-/// nothing to damping.
+/// A point pressed with N and dragged by s loses μ·N·s to friction, less the share for stretching its bristle
+/// to break-away, and nothing to damping.
 #[test]
 fn friction_heat_of_a_sliding_point_is_mu_n_s() {
     let [tip, ground] = point_and_ground(0.4);
@@ -163,7 +165,7 @@ fn friction_heat_of_a_sliding_point_is_mu_n_s() {
         let account = rig.world.account();
         let contact = rig.world.contacts()[0];
         let (normal, bristle) = (contact.normal_force, 0.4 * contact.normal_force / 1e5);
-        // It stretches the bristle over its length, and slides on from there.
+        // It stretches the bristle over its length, and slides from there.
         let heat = 0.4 * normal * (0.2 - bristle);
         assert!((account.friction_loss / heat - 1.0).abs() < 1e-3, "{} {heat}", account.friction_loss);
         assert!(account.damping_loss.abs() < 1e-15 * heat, "{}", account.damping_loss);
@@ -178,7 +180,7 @@ fn friction_heat_of_a_sliding_point_is_mu_n_s() {
     }
 }
 
-/// Round a closed path friction loses μ·N·s and nothing is gained; without friction nothing is gained or lost.
+/// On a closed path friction loses μ·N·s and nothing is gained; without friction nothing is gained or lost.
 #[test]
 fn closed_paths_return_nothing() {
     for friction in [0.4, 0.0] {
@@ -202,7 +204,7 @@ fn closed_paths_return_nothing() {
             }
         }
         let lap = laps[3].net_work() - laps[2].net_work();
-        // The load is the mean one round the circle; the bristle goes with it.
+        // The load is the mean over the circle; the bristle turns with the path.
         let expected = -friction * 1e5 * depth * 2.0 * PI * radius;
         assert!((lap - expected).abs() < 5e-3 * expected.abs() + 1e-12, "{lap} {expected}");
         assert!(lap < 1e-12);
@@ -210,7 +212,8 @@ fn closed_paths_return_nothing() {
     }
 }
 
-/// What the host puts inside another body was put in, not made; what is forgotten is taken out again.
+/// Energy of bodies that the host places inside each other is inserted, not created; clearing the history
+/// removes it again.
 #[test]
 fn what_begins_inside_was_inserted() {
     for coupling in USES {
@@ -231,7 +234,7 @@ fn what_begins_inside_was_inserted() {
         stand(&mut other, -1e-3);
         other.world.clear_contact_history(other.objects[0]).unwrap();
         assert!(other.world.account().inserted.abs() < 1e-15);
-        // Led out slowly: it returns what was put in, and no more than the rule of work can tell.
+        // Moved out slowly, the contact returns what was inserted, to the accuracy of the work rule.
         for i in 0..200 {
             stand(&mut rig, -1e-3 + 1.001e-5 * f64::from(i));
         }
@@ -239,7 +242,7 @@ fn what_begins_inside_was_inserted() {
         assert!((account.total.work_out / inserted - 1.0).abs() < 0.1, "{account:?}");
         assert!(account.total.imbalance().abs() < 1e-12);
         assert_eq!(account.episodes, 1);
-        // What was put in was not made; and the touch is over.
+        // Inserted energy does not count as created, and the episode has ended.
         assert!(account.worst_excess < 0.1 * inserted, "{account:?}");
         assert_eq!(account.episode, EnergyAccount::default());
     }
@@ -250,8 +253,8 @@ fn with_accounts(mut scene: Scene, coupling: WrenchCoupling) -> Scene {
     scene
 }
 
-/// Every scene of the series, for every use of the wrench: the accounts close, their sums are the ledger's, and no answer
-/// is another than without them.
+/// Every scene of the series, for every use of the wrench: the accounts balance, their sum is the ledger, and
+/// all answers are the same as without accounts.
 #[test]
 fn accounts_close_and_change_no_answer() {
     for coupling in USES {
@@ -275,7 +278,8 @@ fn accounts_close_and_change_no_answer() {
                     assert!(account.imbalance().abs() < 1e-11 * size, "{}: {account:?}", scene.name);
                 }
                 assert_eq!(world.contact_accounts().count(), world.contacts().len());
-                // The work as it follows the motion, and the losses, are those of the ledger; a forget is not in it.
+                // Work along the motion and losses agree with the ledger, which does not include cleared
+                // history.
                 forgotten |= (scene.forgets)(frame).is_some()
                     || (0..scene.pairs.len()).any(|p| !(scene.is_on)(frame, p));
                 assert!(
@@ -296,7 +300,7 @@ fn accounts_close_and_change_no_answer() {
     }
 }
 
-/// The accounts belong to the contact state: they are saved and restored with it, and the same for any number of workers.
+/// Accounts are part of the contact state: saved and restored with it, and equal for any number of workers.
 #[test]
 fn accounts_are_part_of_the_contact_state() {
     let numbers = |world: &World| {
@@ -327,7 +331,8 @@ fn accounts_are_part_of_the_contact_state() {
     assert!(alone.world.account().hold_error != 0.0 && alone.world.contact_count() > 0);
 }
 
-/// Without accounts there are none, and the contact state is no larger; a wrench later than can be kept is refused.
+/// Without accounts there are no values, and the contact state is smaller; a delay beyond the maximum is
+/// refused.
 #[test]
 fn accounts_are_kept_on_request_alone() {
     let [tip, ground] = point_and_ground(0.4);

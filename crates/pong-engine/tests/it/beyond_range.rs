@@ -1,5 +1,5 @@
-//! Numbers at the ends of their range: what cannot be computed is refused, and the next good frame is as it would have
-//! been. Found by the fuzz targets (docs/fuzzing.md).
+//! Values at the ends of their range: a frame that cannot be computed is refused, and the next good frame is
+//! unaffected. Found by the fuzz targets (docs/fuzzing.md).
 
 use pong_engine::{
     Config, EngineError, FrictionProps, InterfaceId, Laws, NormalForce, NormalInput, State, StateError,
@@ -10,7 +10,7 @@ use pong_model::{Exponent, FrictionLaw, NormalLaw, Surface};
 use std::sync::Arc;
 
 const CHECKSUM: usize = 8;
-/// Bytes of a block before its first number: magic, version, count, world (`state/block.rs`).
+/// Bytes of a block before its first f64: magic, version, count, world (`state/block.rs`).
 const HEAD: usize = 24;
 
 struct Rig {
@@ -19,7 +19,7 @@ struct Rig {
 }
 
 impl Rig {
-    /// A ball of 1 m on a ball of 1 m, of this stiffness (N/m) and normal law.
+    /// A ball of 1 m on a ball of 1 m, with this stiffness (N/m) and normal law.
     fn new(stiffness: &str, normal: &str) -> Self {
         let text = format!(
             r#"(format: "pong-model", version: 1, name: "ball",
@@ -61,7 +61,7 @@ impl Rig {
     }
 }
 
-/// A host's law near the largest number there is: at 0.1 m/s it is a force, at 100 m/s none.
+/// A host's law near the largest number: finite at 0.1 m/s, overflowing at 100 m/s.
 #[derive(Debug)]
 struct Steep;
 
@@ -115,7 +115,7 @@ fn a_block_with_a_number_that_is_not_finite_is_refused_though_its_checksum_is_ri
     rig.world.step().unwrap();
     let good = rig.saved();
     let body = good.len() - CHECKSUM;
-    // One that is refused below is refused for its number.
+    // The unchanged block is valid, so that a refusal below is due to the changed number.
     let mut same = good.clone();
     make_checksum_right(&mut same);
     assert_eq!(same, good);
@@ -131,7 +131,7 @@ fn a_block_with_a_number_that_is_not_finite_is_refused_though_its_checksum_is_ri
                     assert_eq!(rig.saved(), good);
                     refused += 1;
                 }
-                // Not the place of a number, but of whole ones that may be anything.
+                // Not the position of an f64, but of integers with arbitrary values.
                 Ok(()) => {
                     let frame = rig.world.step();
                     assert!(frame.is_ok(), "a number that is not finite was accepted at {at}: {frame:?}");
@@ -158,7 +158,8 @@ fn surface(stiffness: f64, exponent: Exponent) -> Surface {
     Surface { name: "s".to_owned(), stiffness, normal, friction }
 }
 
-/// Two springs in series yield more than either and less than the softer alone twice over, whatever their stiffness.
+/// Two springs in series are softer than either, and at least half as stiff as the softer one, for any
+/// stiffness.
 #[test]
 fn stiffnesses_at_the_ends_of_their_range_are_springs_in_series() {
     let ends = [Surface::SOFTEST, 1.0, Surface::STIFFEST];
@@ -175,7 +176,8 @@ fn stiffnesses_at_the_ends_of_their_range_are_springs_in_series() {
     }
 }
 
-/// Whatever the built-in laws can be told, at the greatest speeds and turns that a state may have: a frame of numbers.
+/// Extreme parameters of the built-in laws at the greatest speeds and rotations of a state: all results are
+/// finite.
 #[test]
 fn what_a_model_may_say_stays_within_the_range_of_numbers() {
     for normal in [
@@ -192,7 +194,7 @@ fn what_a_model_may_say_stays_within_the_range_of_numbers() {
     }
 }
 
-/// As stiff as may be, a metre deep and more: a frame of numbers.
+/// Maximum stiffness, at a depth of a metre and more: all results are finite.
 #[test]
 fn the_stiffest_contact_has_a_force() {
     let mut rig = Rig::new("1e100", SOFT);
@@ -230,14 +232,15 @@ fn stiffnesses_beyond_their_range_are_refused_by_name_and_change_nothing() {
     assert_eq!(rig.world.surface(model, "s").unwrap(), &good);
 }
 
-/// FNV-1a of all before it.
+/// Rewrites the checksum, FNV-1a of everything before it.
 fn make_checksum_right(block: &mut [u8]) {
     let body = block.len() - CHECKSUM;
     let checksum = pong_model::Fnv::of(&block[..body]);
     block[body..].copy_from_slice(&checksum.to_le_bytes());
 }
 
-/// Whatever whole number of a block is another one: it is refused, or frames go on, also when nothing touches any more.
+/// Any integer of a block is changed: the block is refused, or frames continue, also after the contacts have
+/// ended.
 #[test]
 fn a_block_that_names_what_is_not_there_is_refused_or_harmless() {
     let mut rig = Rig::new("1e6", SOFT);

@@ -1,4 +1,4 @@
-//! Bores in a world: what came from behind, what lies on a seam, pins that wedge.
+//! Bores in a world: contacts from behind, seams, wedging pins.
 
 use crate::common::*;
 use pong_geometry::{Quat, Vec3};
@@ -11,7 +11,7 @@ fn rig(a: &str, b: &str) -> Rig {
     Rig::new(&model("a", &steel, a), &model("b", &steel, b))
 }
 
-/// The force on A along x, one committed frame after another.
+/// Forces on A along x, over consecutive committed frames.
 fn pushes(rig: &mut Rig, places: &[f64]) -> Vec<f64> {
     let push = |x: &f64| {
         rig.place_a(Vec3::new(*x, 0.0, 0.02), Quat::identity());
@@ -21,7 +21,8 @@ fn pushes(rig: &mut Rig, places: &[f64]) -> Vec<f64> {
     places.iter().map(push).collect()
 }
 
-/// Set down behind the wall a body is pushed into the hole; what comes from behind is not, until it has left the wall.
+/// A body placed behind the wall is pushed into the hole; one that comes from behind is not, until it has
+/// left the wall.
 #[test]
 fn what_comes_from_behind_is_not_pushed_into_the_hole() {
     for (a, size) in [
@@ -41,7 +42,7 @@ fn what_comes_from_behind_is_not_pushed_into_the_hole() {
     }
 }
 
-/// A ball that is too large for a hole feels nothing in its middle, and twice the stiffness about it.
+/// A ball too large for a hole feels no force in its middle, and twice the stiffness around it.
 #[test]
 fn a_ball_too_large_for_a_hole_is_held_in_its_middle() {
     let mut rig = rig("Sphere(name: \"s\", center: (0,0,0), radius: 0.101)", HOLE);
@@ -53,7 +54,7 @@ fn a_ball_too_large_for_a_hole_is_held_in_its_middle() {
     );
 }
 
-/// A ray that stands in a hole is pressed by the wall that its tip has passed, from within alone.
+/// A ray in a hole is pushed by the wall that its tip has passed, only from inside.
 #[test]
 fn a_ray_is_pressed_by_the_wall_that_it_comes_to_from_within() {
     let ray = "Ray(name: \"r\", origin: (0,0,0), direction: (1,0,0), length: 0.05)";
@@ -66,7 +67,8 @@ fn a_ray_is_pressed_by_the_wall_that_it_comes_to_from_within() {
     );
 }
 
-/// A pin of 0.1 m that is `depth` in a hole 1 mm wider, tilted, 20 µm in the wall with its rim and in the mouth with its side.
+/// Pose of a pin of 0.1 m that is `depth` deep in a hole 1 mm wider, tilted, with its rim 20 µm in the wall
+/// and its side 20 µm in the mouth.
 fn jammed(depth: f64) -> (Vec3, Quat) {
     let (diameter, hole, press) = (0.1_f64, 0.101_f64, 2e-5);
     let (mut low, mut high) = (0.0_f64, 0.2_f64);
@@ -79,7 +81,7 @@ fn jammed(depth: f64) -> (Vec3, Quat) {
     (tip, Quat::from_scaled_axis(Vec3::y() * -low))
 }
 
-/// What is stored half a second after a jammed pin of 1 kg has been let go, J.
+/// Stored energy half a second after a jammed pin of 1 kg is released, J.
 fn stored_at_last(depth: f64, friction: f64) -> f64 {
     const MASS: f64 = 1.0;
     const STEP: f64 = 5e-5;
@@ -108,8 +110,8 @@ fn stored_at_last(depth: f64, friction: f64) -> f64 {
     rig.world.contacts().iter().map(|contact| contact.stored).sum()
 }
 
-/// A pin that is pressed into two places wedges only if the line between them is in both friction cones: L < μD. Else it turns out
-/// of its tilt, and nothing is stored.
+/// A pin pressed in at two points wedges only if the line between them lies in both friction cones: L < μD.
+/// Otherwise it rotates out of its tilt, and no energy is stored.
 #[test]
 fn a_pin_wedges_only_if_it_is_less_deep_than_friction_times_its_diameter() {
     for (depth, friction, wedges) in

@@ -1,4 +1,4 @@
-//! A clone of a sealed world continues to the same bits, and goes its own way when it is given other calls.
+//! A clone of a sealed world continues bit-identically, and independently if it gets other calls.
 
 use crate::common::*;
 use pong_engine::*;
@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 const FLOOR: &str = "Plane(name: \"f\", normal: (0, 0, 1), offset: 0)";
 
-/// Balls that rub over a floor, energies and accounts kept.
+/// Balls that rub over a floor, with energies and accounts.
 fn rig(workers: Option<WorkerSettings>) -> Rig {
     let rough = surface(1e5, "normal: Linear(damping: 50.0), friction: Bristle(mu: 0.5, static_excess: 0.2)");
     let balls: Vec<String> = (0..40)
@@ -22,7 +22,7 @@ fn workers() -> Option<WorkerSettings> {
     Some(WorkerSettings { workers: 2, oversubscribe: true, ..WorkerSettings::default() })
 }
 
-/// Both states of a frame: a path that sticks, slips, turns, lifts off and comes down again.
+/// States of both bodies in a frame: a path that sticks, slips, rotates, lifts off and comes down again.
 fn states(frame: usize) -> [State; 2] {
     let t = frame as f64 * 0.05;
     let height = -2e-3 * (t.sin() + 0.6);
@@ -34,7 +34,7 @@ fn states(frame: usize) -> [State; 2] {
     ]
 }
 
-/// Everything that a step shows, as bits.
+/// All results of a step, as bits.
 fn step(world: &mut World, sides: [InterfaceId; 2], states: [State; 2]) -> Vec<u64> {
     world.set_states(&[(sides[0], states[0]), (sides[1], states[1])]).unwrap();
     world.step().unwrap();
@@ -95,7 +95,7 @@ fn a_clone_and_its_origin_go_their_own_ways() {
         assert_eq!(step(&mut world, sides, states(frame)), expected, "{frame}");
     }
     assert_eq!(differ, [true, true]);
-    // What was changed before the clone is in it.
+    // Changes before the clone are part of it.
     let second = clone.try_clone().unwrap();
     assert_eq!(second.surface(models[0], "s"), Ok(&hard));
     assert_eq!(second.state_as_set(sides[0]), Ok(Some(&states(59)[0])));
@@ -109,12 +109,12 @@ fn a_clone_has_no_frame_before_its_first() {
     let mut clone = world.try_clone().unwrap();
     assert!(matches!(clone.wrench(sides[0]), Err(EngineError::WrongPhase { .. })));
     assert_eq!((clone.contact_count(), clone.is_evaluated()), (0, false));
-    // The states are there: nothing need be set.
+    // The states are copied; none need be set.
     clone.evaluate().unwrap();
     world.evaluate().unwrap();
     assert_eq!(clone.wrench(sides[0]), world.wrench(sides[0]));
     assert!(!expected.is_empty());
-    // The origin may go.
+    // The original may be dropped.
     drop(world);
     clone.step().unwrap();
 }

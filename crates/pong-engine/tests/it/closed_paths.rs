@@ -1,5 +1,5 @@
-//! Without friction and damping a closed path does no net work (docs/theory.md, 6): force is the gradient of a
-//! stored energy. Where memory, free edges or segment ends are involved it may lose, never gain.
+//! Without friction and damping a closed path does no net work (docs/theory.md, 6), because the force is the
+//! gradient of a stored energy. With memory, free edges or segment ends it may lose energy, never gain.
 
 use crate::common::*;
 use pong_geometry::{Quat, Vec3};
@@ -7,7 +7,7 @@ use pong_testkit::Random;
 
 const K: f64 = 1e4;
 
-/// A loop of the mover around and into the other body.
+/// A closed path of the mover around and into the other body.
 struct Loop {
     center: Vec3,
     /// Complex amplitudes of the position and of the rotation vector.
@@ -30,18 +30,18 @@ impl Loop {
 /// Energies of one lap.
 #[derive(Default)]
 struct Lap {
-    /// Work of the contact wrench on the mover, plus the change of stored energy, over smooth stretches: the error
-    /// of the quadrature.
+    /// Work of the contact wrench on the mover plus the change of stored energy, over smooth stretches: the
+    /// error of the quadrature.
     smooth: f64,
-    /// The same at jumps: what appeared (positive) or vanished (negative) at once.
+    /// Energy that appears (positive) or vanishes (negative) at discontinuities.
     gained: f64,
     lost: f64,
-    /// Largest stored energy on the way.
+    /// Largest stored energy on the path.
     largest: f64,
 }
 
-/// Follows the loop, halving each interval until work and stored energy agree, down to intervals so short that
-/// what still disagrees is a jump.
+/// Follows the loop, halving each interval until work and stored energy agree. If very short intervals still
+/// disagree, there is a discontinuity.
 struct Follower<'a> {
     rig: &'a mut Rig,
     path: &'a Loop,
@@ -49,7 +49,7 @@ struct Follower<'a> {
     lap: Lap,
 }
 
-/// A place on the loop with what the engine says there.
+/// A point of the loop with the engine's results there.
 #[derive(Clone, Copy)]
 struct Sample {
     s: f64,
@@ -73,7 +73,7 @@ impl Follower<'_> {
         sample
     }
 
-    /// From a committed sample to the place `to`, which is committed in turn.
+    /// Advances from a committed sample to the point `to`, which is then committed.
     fn advance(&mut self, from: Sample, to: f64, halvings: u32) -> Sample {
         let middle = self.sample(0.5 * (from.s + to));
         let end = self.sample(to);
@@ -107,7 +107,7 @@ impl Follower<'_> {
     }
 }
 
-/// What a path may do with energy.
+/// Permitted energy balance of a path.
 #[derive(Clone, Copy, PartialEq)]
 enum Allowed {
     Nothing,
@@ -128,7 +128,7 @@ fn check_closed_paths(
         let path = Loop::random(&mut random, center, size, turn);
         let object = rig.objects[0];
         rig.world.clear_contact_history(object).unwrap();
-        // The first lap settles what is remembered; the second starts and ends with the same past.
+        // The first lap sets up the history; the second starts and ends with the same history.
         Follower { rig: &mut rig, path: &path, tolerance: 1e-3, lap: Lap::default() }.lap();
         let tolerance = 1e-6;
         let lap = Follower { rig: &mut rig, path: &path, tolerance, lap: Lap::default() }.lap();
@@ -142,7 +142,7 @@ fn check_closed_paths(
         "{name}: {touched} loops, largest gain {worst_gain:.1e}, loss {worst_loss:.1e} of the stored energy"
     );
     assert!(touched >= 6, "{name}: the loops must touch");
-    // What the shortest intervals leave of a mere jump of the force.
+    // Remainder of a mere discontinuity of the force over the shortest intervals.
     const FORCE_JUMP_REST: f64 = 1e-6;
     assert!(worst_gain <= FORCE_JUMP_REST, "{name}: gained {worst_gain:e}");
     assert!(allowed == Allowed::Loss || worst_loss <= FORCE_JUMP_REST, "{name}: lost {worst_loss:e}");
@@ -268,8 +268,8 @@ fn balls_around_round_parts() {
     }
 }
 
-/// Lying, over an end, on a rim, a tip on a side: as long as the rod does not come to stand square to the part with an end of the
-/// one beside an end of the other (docs/theory.md, 2.8).
+/// Lying, over an end, on a rim, a tip on a side; as long as the rod is never perpendicular to the part with
+/// one of its ends beside an end of the other (docs/theory.md, 2.8).
 #[test]
 fn rods_around_round_parts() {
     let long = "Capsule(name: \"l\", ends: ((-0.9,0,0),(0.9,0.1,0)), radius: 0.1)";
@@ -287,8 +287,8 @@ fn rods_around_round_parts() {
     }
 }
 
-/// Over a face with one end and with both ends past its edges, over an edge, past a corner; over seams, in a valley and over a
-/// ridge of triangles.
+/// Over a face with one or both ends past its edges, over an edge, past a corner; over seams, in a valley and
+/// over a ridge of triangles.
 #[test]
 fn capsules_on_boxes_and_triangles() {
     let capsule = |half: f64| {
@@ -347,8 +347,8 @@ fn round_parts_on_a_plane() {
     }
 }
 
-/// In the hole, through one mouth and through both; a segment with its axis behind the wall, and a pin that its hole is too small
-/// for.
+/// In the hole, through one mouth and through both; a segment with its axis behind the wall, and a pin too
+/// large for its hole.
 #[test]
 fn rods_in_bores() {
     let long = "ends: ((-0.8,0,0),(0.8,0,0))";

@@ -84,7 +84,7 @@ fn a_rejected_step_leaves_no_trace() {
     }
 }
 
-/// Commit evaluates by itself when the states are not those last evaluated, and does not evaluate twice.
+/// Commit evaluates the states if they were not evaluated last, and does not evaluate twice.
 #[test]
 fn commit_accepts_the_states_presently_set() {
     let (mut stepped, mut committed) = (rig(), rig());
@@ -118,7 +118,8 @@ fn a_restored_block_continues_bit_for_bit() {
     assert_eq!(saved(&original.world), saved(&fresh.world));
 }
 
-/// Put back right after a commit: the way since the last commit begins where the block says, not where the world has been.
+/// Restored right after a commit: the displacement since the last commit starts at the block's poses, not at
+/// the world's.
 #[test]
 fn a_world_put_back_to_an_earlier_block_goes_the_same_way_again() {
     let mut rig = rig();
@@ -131,7 +132,7 @@ fn a_world_put_back_to_an_earlier_block_goes_the_same_way_again() {
     }
 }
 
-/// Where a child process finds the block it continues from.
+/// Environment variable with the file of the block for the child process.
 const BLOCK_FILE: &str = "PONG_TEST_BLOCK";
 
 fn steps(rig: &mut Rig, range: std::ops::Range<u32>) -> Vec<Vec<u64>> {
@@ -144,7 +145,8 @@ fn steps(rig: &mut Rig, range: std::ops::Range<u32>) -> Vec<Vec<u64>> {
         .collect()
 }
 
-/// The test runs itself once more: the child restores the block from a file and prints the bits of every wrench.
+/// The test runs itself again as a child, which restores the block from a file and prints the bits of every
+/// wrench.
 #[test]
 fn a_block_continues_in_a_new_process() {
     let mut rig = rig();
@@ -190,7 +192,7 @@ fn a_foreign_or_damaged_block_is_refused_and_loses_nothing() {
     }
 }
 
-/// The size that a host asks for once is enough for ever; what is kept is as long as what is remembered.
+/// The size returned after the seal is always sufficient; the saved block is as long as its contents.
 #[test]
 fn a_state_takes_no_room_for_contacts_that_there_are_not() {
     let mut rig = rig();
@@ -265,7 +267,7 @@ fn bad_states_are_refused_by_name_and_the_frame_before_stays() {
     for state in bad {
         let error = rig.world.set_state(object, &state).unwrap_err();
         assert!(error.to_string().contains("a/movers"), "{error}");
-        // A batch is taken as a whole or not at all.
+        // A batch is accepted as a whole or not at all.
         let batch = [(rig.interfaces[1], path(0.2)), (object, state)];
         assert!(rig.world.set_states(&batch).is_err());
         assert_eq!((bits(&rig), saved(&rig.world)), before);

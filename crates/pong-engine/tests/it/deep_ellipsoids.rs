@@ -1,5 +1,6 @@
-//! Which feature pushes an ellipsoid that lies deeper than its smallest radius of curvature: turning and moving the whole
-//! scene does not change the answer, above and below valleys of any angle, over ridges, in pits, on solids.
+//! Feature that pushes an ellipsoid deeper than its smallest radius of curvature: the answer is invariant
+//! under rotation and translation of the scene, above and below valleys of any angle, over ridges, in pits,
+//! on solids.
 
 use crate::common::*;
 use pong_engine::State;
@@ -7,9 +8,9 @@ use pong_geometry::{Quat, Vec3};
 use pong_testkit::Random;
 
 const STIFFNESS: f64 = 1e5;
-/// Both surfaces are equally stiff, N/m.
+/// Both surfaces have the same stiffness, N/m.
 const SERIES: f64 = 0.5 * STIFFNESS;
-/// Force that rounding may make, as a share of stiffness times a metre.
+/// Rounding of a force, as a fraction of stiffness times one metre.
 const ROUNDING: f64 = 1e-9;
 
 fn steel() -> String {
@@ -27,7 +28,7 @@ fn mesh(vertices: &[Vec3], triangles: &str) -> String {
     model("mesh", &steel(), &text)
 }
 
-/// Two walls z = slope·|x| that meet along the y axis, their fronts up: a valley, or a ridge.
+/// Two walls z = slope·|x| that meet along the y axis, with their fronts up: a valley or a ridge.
 fn walls(slope: f64) -> [Vec3; 6] {
     let corner = |x: f64, y: f64| Vec3::new(x, y, slope * x.abs());
     [
@@ -82,14 +83,14 @@ fn ellipsoid(semi_axes: &Vec3) -> String {
     model("ellipsoid", &steel(), &text)
 }
 
-/// The force on the ellipsoid, N, seen from the scene's own axes.
+/// Force on the ellipsoid, N, in the scene's own axes.
 fn force(rig: &mut Rig, place: &Vec3, turn: &Quat, frame: &Quat, shift: &Vec3) -> Vec3 {
     rig.place([at(frame * place + shift, frame * turn), at(*shift, *frame)]);
     rig.world.evaluate().unwrap();
     frame.inverse() * rig.wrench(0).force
 }
 
-/// Poses of which some turned scene answers otherwise, and poses that touch.
+/// Number of poses for which some rotated scene gives another answer, and number of poses in contact.
 fn changed_by_turning(body: &str, seed: u64) -> (usize, usize) {
     let mut random = Random(seed);
     let tenths = |x: f64| (10.0 * x).round() / 10.0;
@@ -132,8 +133,8 @@ fn turning_the_whole_scene_changes_nothing() {
     assert!(all.iter().all(|changed| *changed == 0), "{all:?}");
 }
 
-/// A needle stands in a valley, so deep that its lowest points along both normals have gone through the line in which
-/// the walls meet. Both walls push it, as the centre is in front of both, and over both.
+/// A needle stands so deep in a valley that its lowest points along both normals have passed the line in
+/// which the walls meet. Both walls push it, because the centre is in front of both and over both.
 #[test]
 fn a_needle_sunk_through_the_line_of_a_valley_is_pushed_by_both_walls() {
     let semi_axes = Vec3::new(0.1, 0.1, 1.0);
@@ -152,7 +153,7 @@ fn a_needle_sunk_through_the_line_of_a_valley_is_pushed_by_both_walls() {
             for _ in 0..20 {
                 let (frame, shift) = (random.rotation(), random.vector(1.0));
                 let got = force(&mut rig, &center, &Quat::identity(), &frame, &shift);
-                // More than 90° apart the walls do not couple: each pushes by itself.
+                // More than 90° apart, the walls do not couple: each pushes on its own.
                 let coupled =
                     if slope >= 1.0 { Vec3::z() * (2.0 * SERIES * depth * normal.z) } else { expected };
                 assert!((got - coupled).norm() < ROUNDING * SERIES, "slope {slope}: {got:?} {coupled:?}");
@@ -161,8 +162,8 @@ fn a_needle_sunk_through_the_line_of_a_valley_is_pushed_by_both_walls() {
     }
 }
 
-/// Below a valley folded to less than a right angle a centre may be in front of one wall and behind the other, outside
-/// the fold: there neither pushes.
+/// Below a valley narrower than a right angle, a centre outside the fold may be in front of one wall and
+/// behind the other; neither pushes there.
 #[test]
 fn outside_a_narrow_fold_neither_wall_pushes() {
     let poses = [
@@ -189,7 +190,7 @@ fn outside_a_narrow_fold_neither_wall_pushes() {
     }
 }
 
-/// A centre on the rim of a two-sided plate is pushed by one of its sides, as beside the rim.
+/// A centre on the rim of a two-sided plate is pushed by one of its sides, as it is beside the rim.
 #[test]
 fn a_centre_on_a_rim_is_pushed_once() {
     let sheet = "TriangleMesh(name: \"m\", two_sided: true, \

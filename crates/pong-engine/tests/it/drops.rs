@@ -1,5 +1,6 @@
-//! Drops of masses on springs, over four decades of the step and every use of a wrench: the normal force never pulls, the
-//! accounts close at the integrator's order, and no mass rises above the height it was dropped from without being told.
+//! Drops of masses on springs, over four decades of the step and every use of a wrench: the normal force
+//! never pulls, the accounts balance to the integrator's order, and every mass that rises above its initial
+//! height is reported.
 
 use crate::common::drop::{Drop, G, Landed};
 use pong_engine::WrenchCoupling;
@@ -14,12 +15,13 @@ const USES: [WrenchCoupling; 5] = [
     WrenchCoupling::ZeroOrderHold { delay_frames: 2 },
 ];
 
-/// A power of ten, evenly between two.
+/// Random number, uniform in its logarithm.
 fn decade(random: &mut Random, low: f64, high: f64) -> f64 {
     10_f64.powf(random.between(low, high))
 }
 
-/// A drop at a step of 10 µs to 10 ms, with ω·dt from 0.005 to 1 and any damping that the step allows, none in every fifth.
+/// A drop with a step of 10 µs to 10 ms, ω·dt from 0.005 to 1, and any damping that the step allows; none in
+/// every fifth.
 fn random_drop(random: &mut Random, coupling: WrenchCoupling) -> Drop {
     let step = decade(random, -5.0, -2.0);
     let omega = decade(random, -2.3, 0.0) / step;
@@ -31,7 +33,7 @@ fn random_drop(random: &mut Random, coupling: WrenchCoupling) -> Drop {
     };
     let share = decade(random, -3.0, 0.3);
     let damping = if random.unit() < 0.2 { 0.0 } else { (share * critical).min(stable) };
-    // Fast enough that the weight does not hold it down, and it leaves at all.
+    // Fast enough to leave the plane against its weight.
     let speed = decade(random, 0.3, 2.0) * G / omega;
     let start = [random.unit() * speed * step, -speed];
     Drop { mass, stiffness: mass * omega * omega, damping, gravity: G, start, step, coupling }
@@ -40,26 +42,26 @@ fn random_drop(random: &mut Random, coupling: WrenchCoupling) -> Drop {
 #[derive(Debug, Default)]
 struct Tally {
     drops: u32,
-    /// Rose above the drop height; of those, certain and open.
+    /// Drops that rose above the initial height; of those, certain and undecided.
     above: u32,
     told: u32,
     left_open: u32,
-    /// Told to have returned more, and did not rise above it.
+    /// Reported as gained, without rising above the initial height.
     falsely: u32,
-    /// Still bouncing or resting when the time was over.
+    /// Still bouncing or resting at the end.
     stayed: u32,
     worst_error: f64,
     least_normal_force: f64,
 }
 
-/// Rounding, over the energy.
+/// Rounding, relative to the energy.
 const ROUNDING: f64 = 1e-9;
 
 impl Tally {
     fn note(&mut self, drop: &Drop, landed: &Landed) {
         let account = &landed.account;
         let energy = landed.before + drop.mass * G * G / (drop.stiffness / drop.mass);
-        // What the mass gained is the work of the contact, and the account knows where that is.
+        // The mass's energy gain is the work of the contact, and the account must agree.
         let error = ((landed.after - landed.before) - account.total.net_work()).abs() / energy;
         let closes = account.total.imbalance().abs() < 1e-10 * energy;
         assert!(closes, "{drop:?}: {:?}", account.total);
@@ -118,7 +120,7 @@ fn drops(count: u32, seed: u64) {
     }
 }
 
-/// Largest error of the accounts against the mass in 16 phases of touch, J of 1 J.
+/// Largest error of the accounts against the mass's energy over 16 phases of touch, J per J.
 fn worst_error(coupling: WrenchCoupling, omega_step: f64, zeta: f64) -> f64 {
     let drop = |phase: u32| {
         let (mass, omega, step) = (2.0, 300.0, omega_step / 300.0);
@@ -130,13 +132,14 @@ fn worst_error(coupling: WrenchCoupling, omega_step: f64, zeta: f64) -> f64 {
     (0..16).map(|phase| error(drop(phase).run(20_000))).fold(0.0, f64::max)
 }
 
-/// At stages the accounts close at the order that Runge-Kutta itself has over such a touch: the second where the force has
-/// a kink there, the first where damping makes it jump. Elsewhere they are exact.
+/// At stages, the accounts balance to the order of Runge-Kutta over such a contact: second order for the kink
+/// of the force, first order for its jump with damping. With the other couplings they are exact.
 #[test]
 fn the_accounts_close_at_the_order_of_the_integrator() {
     for (zeta, order) in [(0.0, 2.0), (0.2, 1.0)] {
         for coupling in USES {
-            // As many and a half in the half wave of a touch: beginning and end do not cancel.
+            // Half a contact duration is an odd number of half steps, so that the errors at its beginning and
+            // end do not cancel.
             let steps = [31.5, 63.5, 127.5, 255.5, 511.5].map(|count| PI / count);
             let errors = steps.map(|omega_step| worst_error(coupling, omega_step, zeta));
             let slope = (errors[0] / errors[4]).log2() / 4.0;
@@ -155,7 +158,7 @@ fn no_drop_rises_above_its_height_untold() {
     drops(500, 1);
 }
 
-/// All of them: `cargo test --release -p pong-engine --test it drops:: -- --ignored --nocapture`.
+/// All drops: `cargo test --release -p pong-engine --test it drops:: -- --ignored --nocapture`.
 #[test]
 #[ignore = "10,000 drops take a while without optimisation"]
 fn ten_thousand_drops() {

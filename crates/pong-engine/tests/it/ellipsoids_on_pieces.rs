@@ -1,5 +1,5 @@
-//! A convex solid that is cut into pieces answers an ellipsoid like the uncut solid: wherever the walls run, however many
-//! there are, in any pose, shallow and deep.
+//! A convex solid cut into pieces acts on an ellipsoid like the uncut solid: for any position and number of
+//! internal faces, in any pose, shallow and deep.
 
 use crate::common::*;
 use pong_geometry::extension::Extensions;
@@ -9,14 +9,15 @@ use pong_geometry::{Quat, Vec3};
 use pong_testkit::Random;
 
 const STIFFNESS: f64 = 1e5;
-/// Both surfaces are equally stiff, N/m.
+/// Both surfaces have the same stiffness, N/m.
 const SERIES: f64 = 0.5 * STIFFNESS;
 
 fn steel() -> String {
     surface(STIFFNESS, "normal: Linear(damping: 0.0)")
 }
 
-/// A convex solid by its faces, each an outline seen counter-clockwise from outside; a wall is an inactive face.
+/// A convex solid by its faces, each an outline counter-clockwise from outside; the flag is false for an
+/// internal face.
 #[derive(Clone)]
 struct Solid {
     faces: Vec<(Vec<Vec3>, bool)>,
@@ -35,7 +36,7 @@ impl Solid {
         Self { faces: self.faces.iter().map(|(outline, wall)| (moved(outline), *wall)).collect() }
     }
 
-    /// The part behind a plane, `None` if there is none; `wall` says what the cut face is.
+    /// The part behind a plane, if any; `wall` marks the cut as an internal face.
     fn behind(&self, normal: &Vec3, offset: f64, wall: bool) -> Option<Self> {
         let height = |p: &Vec3| normal.dot(p) - offset;
         let mut faces = Vec::new();
@@ -95,13 +96,13 @@ impl Solid {
     }
 }
 
-/// Where the edge between two points crosses a plane: the same bits from either end.
+/// Intersection of the edge between two points with a plane; bit-identical from either end.
 fn crossing(p: &Vec3, q: &Vec3, height: &impl Fn(&Vec3) -> f64) -> Vec3 {
     let (p, q) = if (p.x, p.y, p.z) < (q.x, q.y, q.z) { (p, q) } else { (q, p) };
     p + (q - p) * (height(p) / (height(p) - height(q)))
 }
 
-/// Cuts all pieces by one plane after another: the pieces meet face to face.
+/// Cuts all pieces by one plane after another, so that the pieces meet face to face.
 fn cut(solid: &Solid, planes: &[(Vec3, f64)]) -> Vec<Solid> {
     let mut pieces = vec![solid.clone()];
     for (normal, offset) in planes {
@@ -144,12 +145,13 @@ struct Tally {
     /// Deeper than the smallest radius of curvature.
     deep: usize,
     off: usize,
-    /// The ellipsoid does not reach the piece that has the place where the uncut solid pushes: that piece takes no part.
+    /// The ellipsoid does not reach the piece with the uncut solid's contact point; that piece takes no part.
     out_of_reach: usize,
     out_of_reach_and_off: usize,
 }
 
-/// Compares a solid and its pieces; `reach`: how far from the surface the centre is, in smallest semi-axes.
+/// Compares a solid with its pieces; `reach` is the distance of the centre from the surface in smallest
+/// semi-axes.
 fn compare(cuts: usize, reach: f64, random: &mut Random) -> Tally {
     let mut tally = Tally::default();
     for _ in 0..30 {
@@ -173,7 +175,7 @@ fn compare(cuts: usize, reach: f64, random: &mut Random) -> Tally {
             let smallest = semi_axes.min();
             let place = a_point_of(&solid, random) + random.vector(reach * smallest);
             let turn = random.rotation();
-            // The whole scene turned and moved.
+            // The whole scene is rotated and moved.
             let (frame, shift) = (random.rotation(), random.vector(3.0));
             let orientation = frame * turn;
             let forces = [&mut whole, &mut pieces].map(|rig| {
@@ -215,8 +217,8 @@ fn a_cut_solid_is_the_solid() {
     }
 }
 
-/// The centre a little beyond the wall between two boxes of a turned body, 1e-5 to 1e-3 from it: the wall must not take
-/// the contact from the piece that has the foot.
+/// The centre is 1e-5 to 1e-3 beyond the internal face between two boxes of a rotated body: the internal face
+/// must not take the contact from the piece that has the foot point.
 #[test]
 fn a_wall_beside_the_centre_takes_nothing_away() {
     let mut random = Random(8);
@@ -243,7 +245,8 @@ fn a_wall_beside_the_centre_takes_nothing_away() {
     }
 }
 
-/// The lower of two slabs has a far side below, the upper one a top: the ellipsoid at their wall goes out by the nearer.
+/// The lower of two slabs has a free face below, the upper one a free top: the ellipsoid at their internal
+/// face is pushed out by the nearer.
 #[test]
 fn of_two_far_sides_the_nearer_pushes() {
     let slab = Solid::cuboid(Vec3::new(3.0, 3.0, 1.0));

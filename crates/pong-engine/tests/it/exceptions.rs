@@ -1,5 +1,5 @@
-//! Frames in degenerate poses raise no floating-point exception, at any level of instructions: neither 0/0 nor a quotient by
-//! zero, in lanes that nobody looks at included.
+//! Frames in degenerate poses raise no floating-point exception at any SIMD level: neither 0/0 nor a division
+//! by zero, including unused lanes.
 
 use crate::common::*;
 use pong_geometry::simd::{Level, set_level};
@@ -7,15 +7,15 @@ use pong_geometry::{Quat, Vec3};
 use pong_testkit::exceptions::are_raised_by;
 use std::sync::Mutex;
 
-/// The level of instructions is one for the whole process: tests that choose it take turns. Tests beside them do not notice,
-/// as answers are the same bits at every level.
+/// The SIMD level is global to the process, so tests that set it take turns. Other tests are not affected,
+/// because the answers are bit-identical at every level.
 static TURN: Mutex<()> = Mutex::new(());
 
 fn steel() -> String {
     surface(1e5, "")
 }
 
-/// Two models, A at each of the places for three frames.
+/// Two models, with A at each of the positions for three frames.
 fn assert_none(what: &str, a: &str, b: &str, places: &[Vec3]) {
     let _turn = TURN.lock();
     for level in Level::available() {
@@ -34,7 +34,7 @@ fn assert_none(what: &str, a: &str, b: &str, places: &[Vec3]) {
     set_level(Level::best());
 }
 
-/// A ball whose centre rests in a two-sided sheet: its line since the last commit has no length.
+/// A ball whose centre rests in a two-sided sheet: its path since the last commit has length zero.
 #[test]
 fn a_ball_that_rests_in_a_sheet() {
     let mesh = plate_mesh("m", 2, 1.0, |x, y| Vec3::new(0.0, x, y));

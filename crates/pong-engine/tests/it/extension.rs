@@ -1,4 +1,4 @@
-//! What a Rust user can add: force laws, primitives, bounding volumes.
+//! Extensions by a Rust user: force laws, primitives, bounding volumes.
 
 use crate::common::own_kinds;
 use crate::common::*;
@@ -50,7 +50,7 @@ fn registered_laws_are_used_and_their_state_is_saved() {
     assert_eq!(place(&mut world, 0.03), last);
 }
 
-/// Tells what it was given, and pulls at the surface, which no friction may.
+/// Reports its input, and pulls at the surface, which no friction may do.
 #[derive(Debug)]
 struct Witness;
 
@@ -70,8 +70,8 @@ impl FrictionForce for Witness {
     }
 }
 
-/// A registered friction law is given the stiffness of a bristle by default, ⅔·k of the pair, and its force stays in the
-/// contact plane.
+/// By default a registered friction law is given the bristle stiffness ⅔·k of the pair, and its force is
+/// projected into the contact plane.
 #[test]
 fn a_registered_friction_law_is_given_the_pair_and_kept_in_the_plane() {
     let own = |k: f64| surface(k, "friction: Custom(name: \"witness\", parameters: [500.0])");

@@ -1,11 +1,12 @@
-//! Groups that never touch: the rest of a pair is as if they were not there, to the bit.
+//! Filters: groups that never touch. The rest of a pair is bit-identical to a scene without these groups.
 
 use pong_engine::{Config, EngineError, InterfaceId, ObjectId, State, WorkerSettings, World, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
 use std::sync::Arc;
 
-/// A plug with lugs that reach past the bore of a socket, as in a bayonet: the lugs touch the slots, the pin the bore.
+/// A plug with lugs that reach past the bore of a socket, as in a bayonet: the lugs touch the slots, the pin
+/// the bore.
 fn plug(lugs: &str, bound: &str) -> String {
     let lugs = if lugs.is_empty() {
         String::new()
@@ -43,7 +44,7 @@ fn model(text: &str) -> Arc<Model> {
     )
 }
 
-/// A world of the Objects `plug` and `socket`, paired, with filters by group.
+/// A world of the paired Objects `plug` and `socket`, with filters by group.
 fn world(
     plug: &str,
     socket: &str,
@@ -65,7 +66,8 @@ fn world(
     (world, roots, report.filters)
 }
 
-/// The wrenches of some frames on a way into the socket, as bits, and the most contacts; nothing goes through anything.
+/// Wrenches of some frames on a path into the socket, as bits, and the largest contact count; there must be
+/// no tunnelling.
 fn run(
     (mut world, [plug, socket], _): (World, [InterfaceId; 2], usize),
     is_quiet: bool,
@@ -114,7 +116,7 @@ fn the_rest_of_a_pair_is_as_without_the_filtered_groups_to_the_bit() {
     }
 }
 
-/// A hinged arm beside a base: balls of both overlap, and so do those of a part of each.
+/// A hinged arm beside a base: balls of both overlap, and so do those of a subgroup of each.
 fn hinge(filters: &str, arm: &str) -> String {
     format!(
         "(format: \"pong-model\", version: 1, name: \"hinge\", surfaces: {{ \"s\": (stiffness: 1e5) }}, {filters}
@@ -131,7 +133,7 @@ fn hinge(filters: &str, arm: &str) -> String {
 const NEAR: &str = "(name: \"near\", bound: Above, groups: [(name: \"deep\", bound: Above, primitives: [
     Sphere(name: \"n\", center: (0.0, 0.15, 0.0), radius: 0.1)])]),";
 
-/// The wrench on the arm, as bits, with the Object paired with itself.
+/// Wrench on the arm, as bits, with the Object paired with itself.
 fn hinged(text: &str, filters: &[(&str, &str)]) -> (Vec<u64>, usize) {
     let mut builder = WorldBuilder::new(Config::default());
     let model = builder.add_model(model(text));
@@ -156,12 +158,12 @@ fn nested_groups_of_one_object_are_kept_apart_by_its_model_or_by_the_host() {
     }
     let of_model = hinge("filters: [(\"near\", \"base\")],", NEAR);
     assert_eq!(hinged(&of_model, &[]), (expected, 1));
-    // The arm with all of itself: no pair of movable groups is left.
+    // With the arm filtered as a whole, no pair of movable groups is left.
     let (none, filters) = hinged(&of_model, &[("arm", "base")]);
     assert!(filters == 2 && none.iter().all(|&bits| f64::from_bits(bits) == 0.0));
 }
 
-/// A flight through a filtered group is no tunnelling.
+/// A path through a filtered group is no tunnelling.
 #[test]
 fn filtered_groups_raise_no_tunnelling_event_and_combine_no_surfaces() {
     let wall = "(format: \"pong-model\", version: 1, name: \"wall\", surfaces: { \"w\": (stiffness: inf) }, root: (name: \"wall\",

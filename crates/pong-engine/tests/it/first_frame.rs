@@ -1,6 +1,6 @@
-//! A ball that touches a surface of triangles while nothing is remembered: in the first frame, after Forget, when a pair
-//! is switched on. It is pushed to the side on which it is, judged by the surface's nearest point, which an independent
-//! search of all triangles tells.
+//! A ball that touches a triangle surface without contact history: in the first frame, after a clear, and
+//! when a pair is switched on. It is pushed to the side where it is, judged by the nearest point of the
+//! surface, which an independent search over all triangles confirms.
 
 use crate::common::mesh::{Mesh, SERIES, steel};
 use crate::common::*;
@@ -11,7 +11,7 @@ use pong_testkit::Random;
 use std::collections::HashMap;
 
 impl Mesh {
-    /// A box, each side cut into `cells`² squares and each of them into two triangles.
+    /// A box with each side cut into `cells`² squares of two triangles.
     fn cuboid(half: Vec3, cells: usize) -> Self {
         let mut mesh = Self::new(Vec::new(), Vec::new());
         let mut known: HashMap<[usize; 3], usize> = HashMap::new();
@@ -36,7 +36,7 @@ impl Mesh {
         mesh
     }
 
-    /// A roof over the y axis, its flanks cut into strips.
+    /// A roof over the y axis with its flanks cut into strips.
     fn ridge(slope: f64) -> Self {
         let ys = [-5.0, -1.0, 2.0, 5.0];
         let vertices =
@@ -49,17 +49,17 @@ impl Mesh {
         Self::new(vertices.collect(), triangles)
     }
 
-    /// A floor, and above it a shelf of some thickness, joined by a wall: two faces that face up, one above the other.
+    /// A floor and a thick shelf above it, joined by a wall: two faces that face up, one above the other.
     fn shelf(gap: f64) -> Self {
         Self::extruded(&[(2.0, 0.0), (0.0, 0.0), (0.0, gap), (2.0, gap), (2.0, gap + 0.1), (-0.5, gap + 0.1)])
     }
 
-    /// A floor and a sheet above a part of it that faces up as well, joined by walls far away.
+    /// A floor and a sheet above part of it that also faces up, joined by walls far away.
     fn sheet_above(gap: f64) -> Self {
         Self::extruded(&[(6.0, 0.0), (-4.0, 0.0), (-4.0, -5.0), (9.0, -5.0), (9.0, gap), (0.0, gap)])
     }
 
-    /// A line in the plane of x and z, drawn out along y.
+    /// A line in the plane of x and z, extruded along y.
     fn extruded(line: &[(f64, f64)]) -> Self {
         let row = |y: f64| line.iter().map(move |&(x, z)| Vec3::new(x, y, z));
         let count = line.len();
@@ -67,7 +67,7 @@ impl Mesh {
         Self::new(row(-2.0).chain(row(2.0)).collect(), (0..count - 1).flat_map(strip).collect())
     }
 
-    /// In other axes; in single precision on request.
+    /// The mesh in other axes, optionally rounded to single precision.
     fn elsewhere(&self, turn: &Quat, shift: &Vec3, single: bool) -> Self {
         let mut mesh = self.turned(turn, shift);
         if single {
@@ -85,8 +85,8 @@ impl Mesh {
         (b - a).cross(&(c - a)).normalize()
     }
 
-    /// The nearest point of the surface, by trying all triangles, and the sum of the normals around it, each weighted by
-    /// its triangle's angle there.
+    /// Nearest point of the surface, by a search over all triangles, and the sum of the normals around it,
+    /// weighted by the triangles' angles there.
     fn nearest(&self, p: &Vec3) -> (Vec3, Vec3) {
         let points: Vec<Vec3> =
             (0..self.triangles.len()).map(|t| nearest_point(p, &self.corners(t))).collect();
@@ -104,7 +104,7 @@ impl Mesh {
     }
 }
 
-/// The point of a triangle nearest to another point, by its seven regions.
+/// Point of a triangle nearest to another point, by its seven regions.
 fn nearest_point(p: &Vec3, [a, b, c]: &[Vec3; 3]) -> Vec3 {
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let gram = solved(ab.dot(&ab), ab.dot(&ac), ac.dot(&ac), ab.dot(&ap), ac.dot(&ap));
@@ -135,7 +135,7 @@ fn ball(semi_axes: &Vec3) -> String {
     model("ball", &steel(), &text)
 }
 
-/// How high the centre of the ball is above each face that pushes it, m.
+/// Heights of the ball's centre above each face that pushes it, m.
 fn heights(rig: &Rig, center: &Vec3) -> Vec<f64> {
     let faces = rig.world.contacts_iter().filter(|c| Feature(c.feature).is_face());
     faces.map(|c| c.normal.dot(&(center - c.point)) - 0.5 * c.depth).collect()
@@ -150,7 +150,7 @@ struct Tally {
     behind: usize,
 }
 
-/// Sets a ball down at random places near a mesh, and lets it stay, drift and come again.
+/// Places a ball at random points near a mesh, and lets it stay, drift and return.
 fn set_down(mesh: &Mesh, semi_axes: Vec3, poses: usize, convex: bool, random: &mut Random) -> Tally {
     let mut rig = Rig::new(&ball(&semi_axes), &mesh.text());
     let mut tally = Tally::default();
@@ -167,7 +167,7 @@ fn set_down(mesh: &Mesh, semi_axes: Vec3, poses: usize, convex: bool, random: &m
             continue;
         }
         let turn = random.rotation();
-        // The whole scene turned.
+        // The whole scene is rotated.
         let (frame, shift) = (random.rotation(), random.vector(2.0));
         let base = at(shift, frame);
         let state = |center: &Vec3| at(frame * center + shift, frame * turn);
@@ -185,7 +185,7 @@ fn set_down(mesh: &Mesh, semi_axes: Vec3, poses: usize, convex: bool, random: &m
             continue;
         }
         tally.in_front += 1;
-        // Set down, kept, and drifting by little.
+        // Placed, kept, and drifting slightly.
         let drift = random.vector(1e-3 * distance);
         for (step, center) in [center, center, center + drift, center + drift * 2.0].into_iter().enumerate() {
             rig.place([state(&center), base]);
@@ -213,7 +213,7 @@ fn check(name: &str, mesh: &Mesh, poses: usize, convex: bool, random: &mut Rando
     for (single, semi_axes) in
         [(false, Vec3::repeat(1.0)), (true, Vec3::repeat(0.5)), (true, Vec3::new(0.4, 1.0, 0.7))]
     {
-        // In single precision flat faces are folded, and a ball on two of them is pushed by both.
+        // In single precision flat faces are slightly folded, and a ball on two of them is pushed by both.
         let mesh = mesh.elsewhere(&turn, &shift, single);
         let tally = set_down(&mesh, semi_axes, poses, convex && !single, random);
         println!("{name}, {} triangles, semi-axes {semi_axes:?}: {tally:?}", mesh.triangles.len());
@@ -247,11 +247,11 @@ fn no_ball_is_pushed_from_behind_that_is_set_down_in_front() {
     check("shelf", &Mesh { thickness: Some(2.0), ..Mesh::shelf(0.6) }, 300, false, &mut random);
 }
 
-/// A ball that rolls on a floor under a sheet of the same surface comes behind that sheet, and not through it: the floor alone
-/// pushes it, though the sheet is as level as the floor.
+/// A ball that rolls on a floor under a sheet of the same surface gets behind that sheet, but not through it:
+/// only the floor pushes it, although the sheet is as level as the floor.
 #[test]
 fn no_ball_that_rolls_under_a_sheet_is_pushed_by_its_back() {
-    /// Corners in single precision, some 10 m from the origin, are off by 1e-6 m.
+    /// Single-precision corners, some 10 m from the origin, have errors of 1e-6 m.
     const SINGLE: f64 = 1e-5;
     let mut random = Random(24);
     for trial in 0..60 {
@@ -273,7 +273,7 @@ fn no_ball_that_rolls_under_a_sheet_is_pushed_by_its_back() {
     }
 }
 
-/// In the plane of a two-sided sheet a centre counts as on its front.
+/// In the plane of a two-sided sheet, a centre counts as on its front.
 #[test]
 fn a_centre_in_a_two_sided_sheet_is_pushed_to_the_front_alone() {
     let square = [(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)].map(|(x, y)| Vec3::new(x, y, 0.0));
@@ -295,7 +295,7 @@ fn a_centre_in_a_two_sided_sheet_is_pushed_to_the_front_alone() {
     }
 }
 
-/// Inside a closed mesh the way out is through the nearest face, as before.
+/// Inside a closed mesh a ball is pushed out through the nearest face, as before.
 #[test]
 fn a_ball_set_down_inside_is_pushed_out() {
     let cube = Mesh { thickness: Some(2.0), ..Mesh::cuboid(Vec3::repeat(1.0), 3) };
@@ -315,7 +315,8 @@ fn a_ball_set_down_inside_is_pushed_out() {
     }
 }
 
-/// A ball that crosses from over one flank of a roof to below the other in one step, over the ridge, came from the front.
+/// A ball that crosses the ridge of a roof in one step, from above one flank to below the other, came from
+/// the front.
 #[test]
 fn a_ball_that_dives_over_a_ridge_is_pushed_back() {
     let ridge = Mesh { thickness: Some(1.0), ..Mesh::ridge(0.5) };

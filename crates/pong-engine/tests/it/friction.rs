@@ -1,4 +1,4 @@
-//! Friction against closed forms, and what no rounding may decide (theory manual, section 4).
+//! Friction against closed forms, and independence of rounding (theory manual, section 4).
 
 use crate::common::*;
 use pong_engine::{Contact, State};
@@ -23,7 +23,7 @@ impl Pair {
                 self.mu, self.excess
             )
         };
-        // The bristle of a rigid surface takes no share of the displacement, nor its damper.
+        // The bristle of a rigid surface takes no share of the displacement, nor does its damper.
         let bristle = format!(", stiffness: {:?}, damping: {:?}", self.bristle, self.damping);
         let (rigid, yields) = (law("inf", ""), law(&format!("{:?}", self.stiffness), &bristle));
         Rig::new(&model("mover", &rigid, mover), &model("ground", &yields, ground))
@@ -46,8 +46,8 @@ fn evaluated(rig: &mut Rig, state: State) -> Vec3 {
     rig.world.contacts()[0].friction_force
 }
 
-/// False friction of a ball that is led without slip and spins about its normal all the while, after 0.4 s, N. On the plane it
-/// goes straight, over the ball along a great circle: each place is a closed form.
+/// Spurious friction after 0.4 s on a ball that is moved without slip while it spins about its normal, N. It
+/// moves straight on the plane, along a great circle over the ball: each pose is a closed form.
 fn rolled_and_spun(ground: &str, hill: Option<f64>, step: f64) -> f64 {
     let pair = Pair { mu: 1e6, bristle: 1e5, ..SOFT };
     let mut rig = pair.rig(BALL, ground);
@@ -66,7 +66,7 @@ fn rolled_and_spun(ground: &str, hill: Option<f64>, step: f64) -> f64 {
                 let lever = hill + radius - depth;
                 let rate = radius * roll / lever;
                 let swing = Quat::from_scaled_axis(Vec3::new(0.0, rate * t, 0.0));
-                // In axes that go round with the contact the ball turns evenly.
+                // In axes that move with the contact, the ball rotates uniformly.
                 let within = Quat::from_scaled_axis(Vec3::new(0.0, roll - rate, spin) * t);
                 let velocity = swing * Vec3::new(radius * roll, 0.0, 0.0);
                 let omega = swing * Vec3::new(0.0, roll, spin);
@@ -78,7 +78,8 @@ fn rolled_and_spun(ground: &str, hill: Option<f64>, step: f64) -> f64 {
     force
 }
 
-/// The lever of the step's start alone makes 18 N over the ball at 1 ms, and falls with the step; the mean lever, with its square.
+/// Only with the lever at the start of the step the error is 18 N over the ball at 1 ms, and falls with the
+/// step; with the mean lever it falls with its square.
 #[test]
 fn rolling_with_spin_stretches_nothing_of_first_order() {
     let hill = "Sphere(name: \"hill\", center: (0,0,0), radius: 1.0)";
@@ -86,17 +87,18 @@ fn rolling_with_spin_stretches_nothing_of_first_order() {
         let [coarse, middle, fine] = [4e-3, 2e-3, 1e-3].map(|step| rolled_and_spun(ground, hill, step));
         println!("{coarse:.3e} {middle:.3e} {fine:.3e}");
         assert!(fine < 0.1, "{fine} N at 1 ms");
-        // Where it is exact, as on the plane, only rounding is left.
+        // Where the mean lever is exact, as on the plane, only rounding is left.
         assert!(middle < 0.3 * coarse || coarse < 1e-7, "{coarse} then {middle}");
         assert!(fine < 0.3 * middle || middle < 1e-7, "{middle} then {fine}");
     }
 }
 
-/// Of the step in which a contact is born only the part since the touch counts: the way across times δ/Δn.
+/// In the step in which a contact begins, only the part since first touch counts: the tangential displacement
+/// times δ/Δn.
 #[test]
 fn a_new_contact_counts_from_the_touch() {
     let at = |x: f64, z: f64| at(Vec3::new(x, 0.0, z), Quat::identity());
-    // Above by 1.5 mm, then below by 0.5 mm: the last quarter of the way of 2 mm across.
+    // From 1.5 mm above to 0.5 mm below: the last quarter of the displacement of 2 mm.
     let mut rig = SOFT.rig(TIP, FLOOR);
     rig.place([at(0.0, 1.5e-3), State::identity()]);
     rig.world.step().unwrap();
@@ -108,10 +110,10 @@ fn a_new_contact_counts_from_the_touch() {
     short.world.step().unwrap();
     let contact = stepped(&mut short, at(0.8e-3, -0.5e-3));
     assert!((contact.friction_force.x + 1e4 * 0.2e-3).abs() < 1e-9, "{}", contact.friction_force.x);
-    // Without an earlier pose nothing is known of the way.
+    // Without an earlier pose the displacement is unknown.
     let mut first = SOFT.rig(TIP, FLOOR);
     assert_eq!(stepped(&mut first, at(2e-3, -0.5e-3)).friction_force, Vec3::zeros());
-    // Nor after the pair was off.
+    // The same after the pair was off.
     rig.world.set_pair_enabled(rig.pair, false).unwrap();
     stepped_off(&mut rig, at(0.0, 1e-3));
     rig.world.set_pair_enabled(rig.pair, true).unwrap();
@@ -123,7 +125,7 @@ fn stepped_off(rig: &mut Rig, state: State) {
     rig.world.step().unwrap();
 }
 
-/// A ball that turns while it lands: the way across is that of its surface where it touches.
+/// A ball that rotates while it lands: the slip is that of its surface at the contact point.
 #[test]
 fn a_landing_ball_that_rolls_stretches_nothing() {
     let mut rig = SOFT.rig(BALL, FLOOR);
@@ -136,8 +138,8 @@ fn a_landing_ball_that_rolls_stretches_nothing() {
     assert!(contact.friction_force.norm() < 1e-9, "{:?}", contact.friction_force);
 }
 
-/// Round a circle at constant load, slip without a change of speed: the bristle goes round with the velocity, behind it by
-/// the angle whose sine is p_k over the circle's radius (a rod dragged by its tip: its tail goes round with it).
+/// Around a circle at constant load and slip speed, the bristle follows the velocity, behind it by the angle
+/// whose sine is p_k over the circle's radius (like the tail of a rod dragged by its tip).
 #[test]
 fn slip_round_a_circle_lags_by_its_closed_form() {
     let (depth, rate, circle) = (5e-4, 8.0, 1e-2);
@@ -165,12 +167,13 @@ fn slip_round_a_circle_lags_by_its_closed_form() {
     }
 }
 
-/// Slides along x and turns towards y, as fast as given.
+/// Slides along x and turns towards y by this angle.
 fn turning(angle: f64, place: Vec3) -> State {
     moving(place, Quat::identity(), Vec3::new(libm::cos(angle), libm::sin(angle), 0.0) * 0.5, Vec3::zeros())
 }
 
-/// The states of a commit, evaluated again after it, give the same friction; states 1e-12 m away one within 1e-12·K.
+/// The committed states evaluated again give the same friction; states 1e-12 m away give friction within
+/// 1e-12·K of it.
 #[test]
 fn rounding_never_picks_the_branch() {
     for (excess, damping) in [(0.0, 0.0), (0.0, 20.0), (0.0, 100.0), (0.3, 0.0), (0.3, 20.0), (0.3, 400.0)] {
@@ -178,7 +181,7 @@ fn rounding_never_picks_the_branch() {
         let mut place = Vec3::new(0.0, 0.0, 0.0995);
         for frame in 0..2000 {
             let angle = 1e-3 * f64::from(frame);
-            // The load swells and fades, so that the bristle comes inside its circle and back to it.
+            // The load varies, so that the bristle comes inside its circle and back to it.
             place.z = 0.0995 - 2e-4 * libm::sin(0.037 * f64::from(frame));
             place += turning(angle, place).twist().linear * 1e-3;
             let committed = stepped(&mut rig, turning(angle, place)).friction_force;
@@ -189,7 +192,7 @@ fn rounding_never_picks_the_branch() {
             );
             for aside in [Vec3::x(), Vec3::y(), -Vec3::x(), -Vec3::y(), Vec3::z(), -Vec3::z()] {
                 let beside = evaluated(&mut rig, turning(angle, place + aside * 1e-12));
-                // Across, the bristle's K; along the normal, the load's k.
+                // Across the normal acts the bristle's K, along it the load's k.
                 let stiffest = 2e4;
                 assert!(
                     (beside - again).norm() <= 1e-12 * stiffest + 1e-12 * again.norm(),
@@ -200,7 +203,8 @@ fn rounding_never_picks_the_branch() {
     }
 }
 
-/// What slipped is evaluated in small steps of place, velocity and load, over every border there is: the force has none.
+/// Friction of a slipping contact is continuous: evaluated in small steps of position, velocity and load,
+/// across every border between cases.
 #[test]
 fn what_slipped_has_no_step_in_place_velocity_or_load() {
     const STEPS: u32 = 40_000;
@@ -214,14 +218,14 @@ fn what_slipped_has_no_step_in_place_velocity_or_load() {
         let along = |s: f64, path: u32| {
             let (sine, cosine) = libm::sincos(std::f64::consts::TAU * s);
             let (place, velocity, depth) = match path {
-                // The velocity turns right round over one displacement.
+                // The velocity makes a full turn over one displacement.
                 0 => (Vec3::new(1.5e-4, 1e-4, 0.0), Vec3::new(cosine, sine, 0.0) * 0.15, 5e-4),
-                // Straight back through the circle of the bristle and out on the other side, and past it.
+                // Straight back through the circle of the bristle, out on the other side, and past it.
                 1 => (Vec3::new(-1.2e-3 * s, 1e-5, 0.0), Vec3::new(-0.1, 0.0, 0.0), 5e-4),
                 2 => (Vec3::new(-1.2e-3 * s, 3.9e-4 * s, 0.0), Vec3::new(-0.1, 0.02, 0.0), 5e-4),
-                // Round a loop, ahead of which the velocity turns.
+                // Around a loop, with the velocity turning ahead of it.
                 3 => (Vec3::new(cosine, sine, 0.0) * 3e-4, Vec3::new(-sine, cosine, 0.0) * 0.05, 5e-4),
-                // The load falls and rises while it creeps back.
+                // The load falls and rises during a slow motion back.
                 _ => (Vec3::new(-2e-4, 1e-4, 0.0), Vec3::new(-0.02, 0.03, 0.0), 5e-4 + 4.5e-4 * cosine),
             };
             let place = place + Vec3::new(origin, 0.0, -depth);
@@ -232,7 +236,8 @@ fn what_slipped_has_no_step_in_place_velocity_or_load() {
             for step in 0..=STEPS {
                 let force = evaluated(&mut rig, along(f64::from(step) / f64::from(STEPS), path));
                 if let Some(last) = last {
-                    // Smooth, it would change by some 1e-3 N; where a way touches the circle, as a root.
+                    // A smooth change would be about 1e-3 N; where a path touches the circle, the change is
+                    // like a square root.
                     let change = (force - last).norm();
                     assert!(change < 0.02, "{excess} {damping}: path {path} at {step}: {change} N");
                 }
@@ -242,8 +247,8 @@ fn what_slipped_has_no_step_in_place_velocity_or_load() {
     }
 }
 
-/// Tangential speed after an oblique impact that sticks throughout, over the one before: a point mass that meets the floor at 1 m/s
-/// along both axes, without normal damping, so that it stays for π/ω_n.
+/// Ratio of tangential speeds after and before an oblique impact that sticks throughout: a point mass that
+/// meets the floor at 1 m/s along both axes, without normal damping, so that the contact lasts π/ω_n.
 fn thrown_back(friction: &str) -> f64 {
     const MASS: f64 = 2.0;
     let steps = 20_000;
@@ -268,8 +273,8 @@ fn thrown_back(friction: &str) -> f64 {
     velocity.x
 }
 
-/// Undamped the bristle has thrown back cos(√⅔·π) = −0.84 of the tangential speed when the contact ends; critically damped it
-/// has taken it up, but for (1 − x)·exp(−x) with x = √⅔·π.
+/// The undamped bristle has thrown back cos(√⅔·π) = −0.84 of the tangential speed when the contact ends. The
+/// critically damped one has absorbed it, except for (1 − x)·exp(−x) with x = √⅔·π.
 #[test]
 fn an_undamped_bristle_throws_back_along_the_floor_and_the_default_does_not() {
     let x = std::f64::consts::PI * (2.0_f64 / 3.0).sqrt();
@@ -283,8 +288,8 @@ fn an_undamped_bristle_throws_back_along_the_floor_and_the_default_does_not() {
     }
 }
 
-/// A belt whose pose is left where it is and that says it moves: it is named, and with `Coulomb` friction it carries all the
-/// same, for that looks at velocities alone.
+/// A belt whose pose is constant although it has a velocity is reported; with `Coulomb` friction, which uses
+/// only velocities, it still conveys.
 #[test]
 fn a_group_that_stands_and_says_it_moves_is_named() {
     let mut rig = SOFT.rig(TIP, FLOOR);
@@ -300,7 +305,7 @@ fn a_group_that_stands_and_says_it_moves_is_named() {
     assert_eq!(commit([tip(0.0), belt(0.2, 0.0)]), [], "one commit tells nothing");
     let standing = commit([tip(1e-5), belt(0.2, 0.0)]);
     assert_eq!(standing.len(), 1);
-    // A speed that rounding swallows, a group at rest, one that moves as it says, and none in contact.
+    // A speed lost to rounding, a group at rest, one that moves as it should, and one without contact.
     assert_eq!(commit([tip(2e-5), belt(1e-17, 0.0)]), []);
     assert_eq!(commit([tip(2e-5), belt(0.0, 0.0)]), []);
     assert_eq!(commit([tip(2e-5), belt(0.2, 2e-4)]), []);

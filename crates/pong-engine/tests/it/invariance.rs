@@ -1,5 +1,5 @@
-//! What must not matter: where the common origin is, how the common frame turns and drifts, which Object is named
-//! first, and the unit of length (docs/theory.md, 1, 2 and 6; docs/extremes.md).
+//! Invariances: position of the common origin, rotation and drift of the common frame, order of the Objects,
+//! and unit of length (docs/theory.md, 1, 2 and 6; docs/extremes.md).
 
 use crate::common::*;
 use pong_engine::{Config, State, WorldBuilder};
@@ -14,7 +14,7 @@ fn everything() -> (String, String) {
 }
 
 fn everything_scaled(s: f64) -> (String, String) {
-    // Stiffness scales with length so that forces scale with its square.
+    // Stiffness scales with length, so that forces scale with its square.
     let steel = surface(
         K * s,
         "normal: Linear(damping: 300.0), friction: Bristle(mu: 0.3, static_excess: 0.2, damping: 40.0)",
@@ -70,14 +70,14 @@ fn every_pair_of_kinds_is_met() {
     rig.world.step().unwrap();
     let met: std::collections::BTreeSet<_> =
         rig.world.contacts().iter().map(|c| (c.a.primitive, c.b.primitive)).collect();
-    // Point: box, floor, knob, egg. Segment: box, floor. Ray: the first of the three it could hit. Balls: box,
-    // floor, mesh, and one of them the knob. Ellipsoid: box, floor, mesh.
+    // Point: box, floor, knob, egg. Segment: box, floor. Ray: the first of the three it could hit. Balls:
+    // box, floor, mesh, and one of them the knob. Ellipsoid: box, floor, mesh.
     let count = |a| met.iter().filter(|(first, _)| *first == a).count();
     assert_eq!([0, 1, 2, 3, 4, 5].map(count), [4, 2, 1, 3, 4, 3], "{met:?}");
 }
 
-/// The same docking at rest, in a turned frame, at 6.8e6 m, at 7.7 km/s: the wrench agrees within the stiffness
-/// times the rounding of the positions plus the damping times that of the velocities.
+/// One docking at rest, in a rotated frame, at 6.8e6 m, at 7.7 km/s: the wrench agrees within stiffness
+/// times the rounding of positions plus damping times the rounding of velocities.
 #[test]
 fn the_common_frame_does_not_matter() {
     let (a, b) = everything();
@@ -100,7 +100,8 @@ fn the_common_frame_does_not_matter() {
             let moved = Pose { position: pose.position + drift * t, ..pose };
             far.place([seen_from(&states[0], &moved, &drift), seen_from(&states[1], &moved, &drift)]);
             far.world.step().unwrap();
-            // Rounding: of a far position ε·|x|, of a velocity ε·|v|, of the near geometry ε·1 m; 30 contacts.
+            // Rounding: ε·|x| for a far position, ε·|v| for a velocity, ε·1 m for the near geometry; 30
+            // contacts.
             let position = 4.0 * f64::EPSILON * (origin.norm() + 2.0);
             let velocity = 4.0 * f64::EPSILON * (drift.norm() + 1.0);
             let allowed = 30.0 * (K * position + 400.0 * velocity);
@@ -117,7 +118,7 @@ fn the_common_frame_does_not_matter() {
     }
 }
 
-/// A host may hand in a quaternion in one frame and its negative in the next: it is one orientation, to the last bit.
+/// A quaternion and its negative, in alternating frames, are the same orientation, bit for bit.
 #[test]
 fn a_quaternion_and_its_negative_are_one_orientation() {
     let (a, b) = everything();
@@ -146,7 +147,7 @@ fn scaling_the_scene_scales_the_result() {
     for s in [1e-3, 1e3] {
         let (a, b) = everything();
         let (a_scaled, b_scaled) = everything_scaled(s);
-        // Forces go with s² when stiffness goes with s; damping in N·s/m must then go with s as well.
+        // Forces scale with s² if stiffness scales with s; damping in N·s/m must then scale with s as well.
         let damp = |text: &str| {
             text.replace("damping: 300.0", &format!("damping: {:?}", 300.0 * s))
                 .replace("damping: 40.0", &format!("damping: {:?}", 40.0 * s))
@@ -180,8 +181,8 @@ fn scaling_the_scene_scales_the_result() {
     }
 }
 
-/// Listed contacts sum to the wrenches, and action plus reaction is zero, force and moment, to 1e-12 of the
-/// largest term.
+/// Listed contacts sum to the wrenches, and action and reaction cancel in force and moment, to 1e-12 of the
+/// largest contribution.
 #[test]
 fn contacts_sum_to_the_wrenches_and_action_balances_reaction() {
     let (a, b) = everything();
@@ -215,11 +216,11 @@ fn contacts_sum_to_the_wrenches_and_action_balances_reaction() {
     }
 }
 
-/// For different kinds, naming the Objects the other way round changes no number.
+/// For different kinds, naming the Objects in the other order changes no number.
 #[test]
 fn the_order_of_pairing_does_not_matter() {
     let (a, b) = everything();
-    // Sphere against sphere is the one pair of equal kinds: there the order says which of the two is A.
+    // Sphere against sphere is the only pair of equal kinds; there the order decides which of the two is A.
     let knob = b.lines().find(|line| line.contains("knob")).unwrap();
     let b = b.replace(knob, "");
     let mut worlds = [false, true].map(|swapped| {

@@ -1,4 +1,4 @@
-//! Single contacts with answers from the formulas of docs/theory.md, 2 to 4, worked out here by hand.
+//! Single contacts against the formulas of docs/theory.md, 2 to 4, evaluated here by hand.
 
 use crate::common::*;
 use pong_engine::State;
@@ -83,14 +83,14 @@ fn a_dragged_point_sticks_then_slips_then_sticks_again() {
         let (force, sticks) = pull(x, 0.1);
         assert!((force + drag).abs() < 1e-9 && !sticks, "{x}: {force}");
     }
-    // Turned back by 1 mm: sticks at once and unloads along its spring.
+    // Reversed by 1 mm: sticks at once and unloads along its spring.
     let (force, sticks) = pull(0.049, -0.1);
     assert!((force + drag - k_t * 1e-3).abs() < 1e-9 && sticks, "{force}");
     let (force, _) = pull(0.030, -0.1);
     assert!(force > 0.0, "{force}");
 }
 
-/// c_t of both in series as c is: 120·√⅔ N·s/m, at the first touch, before the bristle has moved.
+/// Both c_t in series, as c is: 120·√⅔ N·s/m, at first touch, before the bristle has moved.
 #[test]
 fn friction_has_the_damping_ratio_of_the_normal_law() {
     let (a, b) = unequal("friction: Bristle(mu: 50)");
@@ -119,7 +119,7 @@ fn friction_damping_is_cut_to_the_limit() {
     }
 }
 
-/// When the load falls the bristle shrinks at once: the force never exceeds what the present load allows.
+/// If the load falls, the bristle shrinks at once: the force never exceeds the limit at the current load.
 #[test]
 fn a_falling_load_shrinks_the_bristle() {
     let friction = "friction: Bristle(mu: 0.5, stiffness: 4e4)";
@@ -134,12 +134,13 @@ fn a_falling_load_shrinks_the_bristle() {
     assert!((at_depth(0.005, 4e-3) + 100.0).abs() < 1e-9);
     // μ·F = 0.5·75 N.
     assert!((at_depth(0.005, 1e-3) + 37.5).abs() < 1e-9);
-    // And it does not come back with the load.
+    // It does not recover with the load.
     assert!((at_depth(0.005, 4e-3) + 37.5).abs() < 1e-9);
 }
 
-/// Slipping, then turned back under a quarter of the load: the bristle is cut at once to what that load drags. The static
-/// limit takes part only when the force has come inside the kinetic one: sticking again is no step.
+/// Slipping, then reversed under a quarter of the load: the bristle is cut at once to the kinetic limit of
+/// that load. The static limit applies only once the force is below the kinetic one, so sticking again causes
+/// no jump.
 #[test]
 fn what_sticks_again_under_less_load_holds_no_more_than_that_load_allows() {
     let friction = "friction: Bristle(mu: 0.5, static_excess: 0.4, stiffness: 4e4, damping: 0.0)";
@@ -154,7 +155,7 @@ fn what_sticks_again_under_less_load_holds_no_more_than_that_load_allows() {
         (contact.friction_force.x, contact.sticks)
     };
     pull(0.0, 4e-3, 0.1);
-    // Standing still is no turning back.
+    // Standing still is no reversal.
     for (x, v) in [(0.05, 0.1), (0.051, 0.0)] {
         let (force, sticks) = pull(x, 4e-3, v);
         assert!((force + 150.0).abs() < 1e-9 && !sticks, "{force}");
@@ -169,7 +170,7 @@ fn what_sticks_again_under_less_load_holds_no_more_than_that_load_allows() {
     }
 }
 
-/// A bristle stores ½·K·p², at every load, and nothing beyond its limit.
+/// A bristle stores ½·K·p² at every load, and nothing beyond its limit.
 #[test]
 fn a_bristle_stores_half_its_stiffness_times_its_square() {
     let (a, b) = unequal("friction: Bristle(mu: 0.5, stiffness: 4e4)");
@@ -183,7 +184,7 @@ fn a_bristle_stores_half_its_stiffness_times_its_square() {
     }
 }
 
-/// Without a coefficient a bristle holds nothing, wherever it is pulled; no number turns into none.
+/// With μ = 0 the bristle force is zero for any displacement, and nothing becomes NaN.
 #[test]
 fn a_bristle_without_a_coefficient_holds_nothing() {
     let (a, b) = unequal("friction: Bristle(mu: 0.0, stiffness: 4e4, damping: 100.0)");
@@ -197,7 +198,7 @@ fn a_bristle_without_a_coefficient_holds_nothing() {
     }
 }
 
-/// F_t = −μ·F_n·v/max(|v|, v_ε), against the motion in the plane, without a memory of earlier frames.
+/// F_t = −μ·F_n·v/max(|v|, v_ε), against the tangential motion, without memory of earlier frames.
 #[test]
 fn coulomb_friction_follows_its_formula() {
     let coulomb = |mu: f64| format!("friction: Coulomb(mu: {mu:?}, slip_speed: 0.02)");
@@ -212,7 +213,7 @@ fn coulomb_friction_follows_its_formula() {
         rig.place([state, State::identity()]);
         rig.world.step().unwrap();
         let contact = rig.world.contacts()[0];
-        // The harmonic mean of 0.3 and 0.6, and 300 N.
+        // Harmonic mean of 0.3 and 0.6, and 300 N.
         let expected = direction * (-0.4 * 300.0 * share);
         assert!((contact.friction_force - expected).norm() < 1e-9, "{speed}: {:?}", contact.friction_force);
         assert_eq!(contact.sticks, speed < 0.02, "{speed}");
@@ -252,7 +253,8 @@ fn rolling_and_drilling_are_free() {
     }
 }
 
-/// A bristle survives the crossing from facet to facet of a faceted roller: the block on top keeps its hold.
+/// A bristle survives the transition from facet to facet of a faceted roller: the block on top keeps its
+/// grip.
 #[test]
 fn a_bristle_crosses_facets() {
     let rough = surface(1e5, "friction: Bristle(mu: 0.5)");
@@ -268,7 +270,7 @@ fn a_bristle_crosses_facets() {
     let mut rig = Rig::new(&ball, &ridge);
     let mut hold = f64::NAN;
     for step in 0..=40 {
-        // Dragged without rolling by 0.2 mm a step over the ridge, always 1 mm deep below the present facet.
+        // Dragged over the ridge without rolling, 0.2 mm per step, always 1 mm deep below the current facet.
         let x = 2e-4 * f64::from(step - 20);
         let angle = slope.atan();
         let height = if x.abs() < 0.1 * angle.sin() { 0.099 } else { 0.0 };
@@ -300,7 +302,7 @@ fn a_bristle_crosses_the_ridge_of_a_solid() {
     );
     let mut rig = Rig::new(&tip, &model("ridge", &rough, &ridge));
     for step in 0..=40 {
-        // 1 mm deep, 0.2 mm a step up the one face and down the other.
+        // 1 mm deep, 0.2 mm per step up one face and down the other.
         let x = 2e-4 * f64::from(step) - 3.9e-3;
         let z = -x.abs() * slope.tan() - 1e-3 / slope.cos();
         rig.place_a(Vec3::new(x, 0.0, z), Quat::identity());
@@ -308,7 +310,7 @@ fn a_bristle_crosses_the_ridge_of_a_solid() {
         let contact = rig.world.contacts()[0];
         let lean = if x < 0.0 { -slope } else { slope };
         assert!((contact.normal - Vec3::new(lean.sin(), 0.0, lean.cos())).norm() < 1e-12, "{step}");
-        // Every step stretches by its length along the face. Over the ridge it points to neither: that costs a little.
+        // Each step stretches the bristle by its length along the face; across the ridge a little is lost.
         let expected = 0.5e4 * 2e-4 / slope.cos() * f64::from(step);
         let force = contact.friction_force.norm();
         let lost = if x < 0.0 { 1e-9 } else { 0.1 };
@@ -316,7 +318,7 @@ fn a_bristle_crosses_the_ridge_of_a_solid() {
     }
 }
 
-/// A bar that lies flat is one spring: each end carries half of the stiffness, of the damping and of the bristle.
+/// A bar that lies flat is one spring: each end carries half of the stiffness, the damping and the bristle.
 #[test]
 fn the_two_ends_of_a_bar_share_one_spring_and_one_bristle() {
     let friction = "friction: Bristle(mu: 0.5, stiffness: 4e4)";
@@ -365,7 +367,7 @@ fn facets_less_than_sixty_degrees_apart_share_one_bristle() {
     assert!((up - 5e4 * 1e-3 / slope.cos()).abs() < 1e-9, "{up}");
 }
 
-/// Over a round body the bristle turns with the contact plane: friction stays in it.
+/// Over a round body the bristle rotates with the contact plane, and friction stays in it.
 #[test]
 fn a_bristle_stays_in_the_contact_plane() {
     let rough = surface(1e5, "friction: Bristle(mu: 5.0, stiffness: 1e4)");
@@ -373,7 +375,7 @@ fn a_bristle_stays_in_the_contact_plane() {
     let mut rig = Rig::new(&ball, &ball);
     let mut last = 0.0;
     for step in 0..=100 {
-        // Round the other ball by 0.2 rad without rolling, always 1 mm deep.
+        // Around the other ball by 0.2 rad without rolling, always 1 mm deep.
         let angle = 2e-3 * f64::from(step);
         let outward = Vec3::new(angle.sin(), 0.0, angle.cos());
         rig.place_a(outward * 0.199, Quat::identity());
@@ -384,17 +386,17 @@ fn a_bristle_stays_in_the_contact_plane() {
         assert!(lean <= 1e-12 * (1.0 + contact.friction_force.norm()), "step {step}: leans by {lean}");
         last = contact.friction_force.norm();
     }
-    // Every step stretches by the displacement of the centre along the plane; none of it is lost on the way.
+    // Each step stretches the bristle by the displacement of the centre along the plane; nothing is lost.
     let expected = 0.5e4 * 0.199 * 0.2;
     assert!((last / expected - 1.0).abs() < 1e-2, "{last} {expected}");
 }
 
-/// Force of a point 4 mm deep that closes at 0.5 m/s, both surfaces alike.
+/// Force of a point 4 mm deep that closes at 0.5 m/s, with equal surfaces.
 fn force_of(surface_values: &str) -> f64 {
     pressed(surface_values, 4e-3, 0.5).0
 }
 
-/// Normal force and stored energy of a point, both surfaces alike.
+/// Normal force and stored energy of a point, with equal surfaces.
 fn pressed(surface_values: &str, depth: f64, closing: f64) -> (f64, f64) {
     let alike = surface(2e5, surface_values);
     let tip = model("tip", &alike, "Point(name: \"p\", position: (0,0,0))");
@@ -430,14 +432,14 @@ fn every_normal_law_follows_its_formula() {
         let damped = 2.0 * 900.0 * 0.5_f64.powf(2.0 + q) * 4e-3_f64.powf(q) * 0.5;
         assert!((force_of(&law) / (2e5 * 2e-3_f64.powf(1.5) + damped) - 1.0).abs() < 1e-12, "{q}");
     }
-    // No exponent of the damping is the linear law, to the bit.
+    // A damping exponent of zero is the linear law, bit for bit.
     assert_eq!(
         force_of("normal: PowerLaw(exponent: 1.0, damping_exponent: 0.0, damping: 120.0)"),
         force_of("normal: Linear(damping: 120.0)")
     );
 }
 
-/// On a rigid floor, with q = p, the law is that of Hunt and Crossley with χ = c/k.
+/// On a rigid floor, with q = p, the law is Hunt and Crossley's with χ = c/k.
 #[test]
 fn a_power_law_with_equal_exponents_is_that_of_hunt_and_crossley() {
     for exponent in ["1.0", "1.5"] {
@@ -467,13 +469,14 @@ fn a_power_law_with_equal_exponents_is_that_of_hunt_and_crossley() {
             ));
             let hunt = on_rigid(&format!("HuntCrossley(dissipation: 0.8, exponent: {exponent})"));
             assert!((own - hunt).abs() <= 1e-14 * hunt, "{exponent} {depth} {rate}: {own} {hunt}");
-            // It lets go, and never pulls.
+            // The force drops to zero and never pulls.
             assert_eq!(hunt == 0.0, rate == -5.0);
         }
     }
 }
 
-/// What a spring stores is the integral of its force at rest, of every law: its slope is that force, and it begins at zero.
+/// The stored energy of every law is the integral of its static force: its slope is that force, and it is
+/// zero at depth zero.
 #[test]
 fn every_law_stores_the_integral_of_its_force() {
     for law in [

@@ -1,5 +1,5 @@
-//! The ledger of a world: whatever a host does between frames, work, store and losses balance, and pairs that are committed one
-//! by one book what they book alone.
+//! The ledger of a world: work, stored energy and losses balance for anything that a host does between
+//! frames, and pairs committed one by one have the same ledger as in worlds of their own.
 
 use crate::common::{Rig, at, load, model, moving, surface};
 use pong_engine::*;
@@ -17,7 +17,7 @@ fn floor() -> String {
     model("floor", "\"s\": (stiffness: inf)", "Plane(name: \"f\", normal: (0, 0, 1), offset: 0)")
 }
 
-/// A turned floor, and feet that come down on it, rub and leave, each at its own pace.
+/// A tilted floor, and feet that come down on it, rub and leave, each at its own pace.
 struct Dance {
     q: Quat,
     origin: Vec3,
@@ -40,7 +40,7 @@ impl Dance {
     }
 }
 
-/// A floor that is paired with each of so many feet.
+/// A floor paired with each of this many feet.
 fn world_of(feet: usize) -> (World, Vec<InterfaceId>) {
     let mut builder = WorldBuilder::new(Config { ledger: true, ..Config::default() });
     let models = [floor(), foot()].map(|text| load(&mut builder, &text));
@@ -62,8 +62,8 @@ fn unbalanced(ledger: &Ledger) -> f64 {
     (ledger.stored + ledger.work + ledger.dissipated).abs()
 }
 
-/// Work on the bodies, what is stored and what is lost sum up to nothing, whatever is forgotten, switched or preloaded. What is
-/// forgotten has left the contacts, and a preload is no work.
+/// Work on the bodies, stored energy and losses sum to zero, with cleared history, switched pairs and
+/// preloads. Cleared energy counts as dissipated, and a preload does no work.
 #[test]
 fn it_balances_whatever_a_host_does() {
     let mut random = Random(11);
@@ -111,7 +111,7 @@ fn it_balances_whatever_a_host_does() {
     assert!(forgotten > 10 && preloaded > 10 && largest > 0.01, "{forgotten} {preloaded} {largest}");
 }
 
-/// A world whose pairs are committed at their own rates has the ledger of as many worlds of one pair each.
+/// A world whose pairs are committed at different rates has the ledger of separate worlds with one pair each.
 #[test]
 fn pairs_book_alone_what_they_book_together() {
     let mut random = Random(5);
@@ -132,7 +132,7 @@ fn pairs_book_alone_what_they_book_together() {
                 world.step().unwrap();
             }
         }
-        // Two that come together are committed by two calls as well as by one.
+        // Two pairs committed together may be committed by one call or by two.
         let (first, rest) = accepted.split_at(1);
         together.commit_pairs(first).unwrap();
         together.commit_pairs(rest).unwrap();
@@ -150,8 +150,8 @@ fn pairs_book_alone_what_they_book_together() {
     assert!(together.ledger().work < -1e-3, "{:?}", together.ledger());
 }
 
-/// Accounts say of a preload that the host put it in: they still balance, an elastic ball that rests loses nothing, and one that is
-/// unloaded and lifted off has gained nothing.
+/// Accounts book a preload as inserted by the host: they still balance, an elastic ball at rest loses
+/// nothing, and one that is unloaded and lifted off has gained nothing.
 #[test]
 fn accounts_know_a_preload() {
     let elastic = "friction: Bristle(mu: 0.5, stiffness: 1e5)";
@@ -170,7 +170,7 @@ fn accounts_know_a_preload() {
             assert!((in_and_out - rest).abs() < 1e-12, "{account:?}");
             account
         };
-        // From touch to touch the trapezoid rule is exact for a force that is linear in the way.
+        // Between two touches, the trapezoidal rule is exact for a force linear in the displacement.
         for i in 0..=11 {
             go(&mut rig, 0.0, 1e-4 * f64::from(1 - i));
         }
@@ -186,7 +186,7 @@ fn accounts_know_a_preload() {
         let rests = go(&mut rig, 0.0, -1e-3);
         assert!((rests.damping_loss - before.damping_loss).abs() < 1e-12, "{rests:?}");
         assert!((rests.friction_loss - before.friction_loss).abs() < 1e-12, "{rests:?}");
-        // Friction holds +x on the ball; it follows and is empty.
+        // Friction holds +x on the ball; the ball follows, and the bristle is empty.
         for i in 1..=10 {
             go(&mut rig, 3e-5 * f64::from(i), -1e-3);
         }

@@ -1,5 +1,5 @@
-//! Where there are more contacts than room: the deepest stay, the frame says so and says how much room is enough,
-//! whoever does the work; and the next frame that fits is exact again.
+//! More contacts than capacity: the deepest are kept, and the frame reports the limit and a sufficient
+//! capacity, for any number of workers; the next frame that fits is exact again.
 
 use crate::common::stage::{Hash, Path, Scene, Stage, workers};
 use crate::common::{box_polyhedron, model, points, rough, shell_mesh};
@@ -26,7 +26,7 @@ fn brush(count: usize) -> Scene {
     scene
 }
 
-/// What a frame answers, without its report.
+/// Answers of a frame, without its report.
 fn answers(stage: &Stage<'_>) -> Hash {
     let mut hash = Hash::default();
     for group in &stage.groups {
@@ -38,7 +38,7 @@ fn answers(stage: &Stage<'_>) -> Hash {
     hash
 }
 
-/// Steps a frame: its report and a hash of its answers.
+/// Steps a frame; returns its report and a hash of its answers.
 fn step(stage: &mut Stage<'_>, frame: usize) -> (FrameReport, Hash) {
     stage.prepare(frame);
     let report = stage.world.step().unwrap();
@@ -50,14 +50,14 @@ fn with_capacity(mut scene: Scene, capacity: usize) -> Scene {
     scene
 }
 
-/// Of independent contacts those that are kept are the deepest of an unlimited world, with the same forces.
+/// For independent contacts, the kept ones are the deepest of an unlimited world, with the same forces.
 #[test]
 fn the_deepest_are_kept() {
     let (roomy, tight) = (with_capacity(brush(1500), 2000), with_capacity(brush(1500), 100));
     let (mut roomy, mut tight) = (roomy.set_up(None), tight.set_up(None));
     let mut limited = 0;
     for frame in 0..60 {
-        // The same past for both: none.
+        // No history, for both alike.
         for stage in [&mut roomy, &mut tight] {
             stage.world.clear_contact_history(stage.objects[0]).unwrap();
         }
@@ -79,7 +79,7 @@ fn the_deepest_are_kept() {
     assert!((10..60).contains(&limited), "{limited} frames limited");
 }
 
-/// Which contacts are kept does not depend on who found them, at any capacity, ties included.
+/// The kept contacts do not depend on the threads that found them, at any capacity, including ties.
 #[test]
 fn the_choice_is_the_same_for_any_number_of_workers() {
     for capacity in [1, 7, 64, 300, 999] {
@@ -95,7 +95,7 @@ fn the_choice_is_the_same_for_any_number_of_workers() {
     }
 }
 
-/// Points at one depth: the order of sums decides.
+/// Points at one depth: ties go by summation order.
 #[test]
 fn ties_go_by_the_order_of_sums() {
     let grid = |index: usize| {
@@ -115,8 +115,8 @@ fn ties_go_by_the_order_of_sums() {
     }
 }
 
-/// Sets the capacity that a limited frame asks for, and nothing less: the bit is gone, and the answer is that of a
-/// world with room to spare.
+/// Sets exactly the capacity that a limited frame asks for: the flag is gone, and the answer is that of a
+/// world with ample capacity.
 fn check_what_is_wanted(scene: &dyn Fn(usize) -> Scene, tight: usize, roomy: usize, frames: usize) {
     let (tight, roomy) = (scene(tight), scene(roomy));
     let (mut tight, mut roomy) = (tight.set_up(None), roomy.set_up(None));
@@ -177,14 +177,14 @@ fn what_rays_want_is_enough() {
     check_what_is_wanted(&|capacity| with_capacity(rays_on_two_groups(300), capacity), 20, 4000, 20);
 }
 
-/// Frames over the limit leave nothing behind. A contact that was always kept is that of a roomy world, past and all;
-/// and so is a whole frame once the contacts that were left out have ended.
+/// Frames over the limit have no lasting effect. A contact that was always kept equals that of a world with
+/// ample capacity, including its history, and so does a whole frame once the dropped contacts have ended.
 #[test]
 fn after_the_limit_a_frame_that_fits_is_exact() {
     for crew in [None, workers(3)] {
         let (tight, roomy) = (with_capacity(brush(1500), 300), with_capacity(brush(1500), 2000));
         let (mut tight, mut roomy) = (tight.set_up(crew), roomy.set_up(None));
-        // Points whose contact was left out once and has gone on in the roomy world.
+        // Points whose contact was dropped once and continued in the roomy world.
         let mut left_out = BTreeSet::new();
         let (mut limited, mut exact) = (0, 0);
         for frame in 0..120 {
@@ -250,22 +250,22 @@ fn balls_in(shell: String, balls: usize) -> Scene {
     scene
 }
 
-/// With its centre under a convex surface a ball is pushed by one face, and all others are remembered.
+/// With its centre below a convex surface, a ball is pushed by one face, and the others are only remembered.
 #[test]
 fn what_is_only_remembered_is_wanted_too() {
     let scene = |capacity| with_capacity(balls_in(shell_mesh(16, 0.3, 2.8, false), 1), capacity);
     check_what_is_wanted(&scene, 40, 2000, 6);
 }
 
-/// More interferences of one chunk than there is room for, of which few push.
+/// More candidates of one chunk than its capacity, few of which push.
 #[test]
 fn what_one_ball_wants_is_enough() {
     let scene = |capacity| with_capacity(balls_in(shell_mesh(34, 0.05, 0.7, true), 1), capacity);
     check_what_is_wanted(&scene, 40, 4000, 3);
 }
 
-/// Interferences of one chunk beyond any room for them, and more of them than can be shared: the frame says so, and
-/// says the same whoever works.
+/// Far more candidates of one chunk than its capacity, and more than can be shared: the frame reports it, the
+/// same for any number of workers.
 #[test]
 fn ten_thousand_contacts_of_one_ball() {
     for (cells, capacity) in [(72, 10_000), (72, 300), (24, 600), (24, 40)] {
@@ -280,7 +280,8 @@ fn ten_thousand_contacts_of_one_ball() {
             assert!(expected.0.status.contains(StatusBits::LOAD_SHARING_LIMIT), "{:?}", expected.0);
             assert!(expected.0.contacts > 0);
         }
-        // Lifted out of the shell by its own width the balls touch little; nothing of the limit is left.
+        // Lifted out of the shell by their own width, the balls touch little, and the limit has no effect any
+        // more.
         for stage in [&mut alone, &mut crew] {
             stage.world.clear_contact_history(stage.objects[0]).unwrap();
             let ball = stage.groups[0];
@@ -291,7 +292,7 @@ fn ten_thousand_contacts_of_one_ball() {
     }
 }
 
-/// A host that asks for what each report advises comes to a frame that leaves nothing out.
+/// A host that sets the capacity advised by each report reaches a frame that leaves nothing out.
 #[test]
 fn what_is_advised_is_enough_in_the_end() {
     for start in [40, 600, 1000] {
@@ -312,8 +313,8 @@ fn what_is_advised_is_enough_in_the_end() {
     }
 }
 
-/// Room that no machine should be asked for is refused before any of it is taken; the message says how much it would be
-/// and how much may be had. More workers need more room.
+/// An unreasonable capacity is refused before any of it is allocated; the message states its size and the
+/// maximum. More workers need more memory.
 #[test]
 fn a_capacity_that_takes_too_much_memory_is_refused() {
     let refusal = |wanted: usize, workers: Option<WorkerSettings>| {

@@ -1,5 +1,5 @@
-//! An element by itself goes through the trees of the other movable group on a way of its own, together with others by
-//! themselves. It finds what the same element finds among others, and in a world of its own, to the last bit.
+//! A single element traverses the trees of the other movable group on its own, in turns with other single
+//! elements. It finds what the same element finds among others, and in a world of its own, bit for bit.
 
 use crate::common::*;
 use pong_engine::{Config, State, StatusBits, WorldBuilder};
@@ -9,8 +9,8 @@ use pong_testkit::ron::carried_box;
 
 const CELLS: usize = 40;
 
-/// An uneven sheet of `2 CELLS²` triangles, 4 m wide, in other axes; a thick one that goes through it; and a bed of as many
-/// boxes as there are cells in a quarter of it.
+/// An uneven sheet of `2 CELLS²` triangles, 4 m wide, in other axes; a thick one that intersects it; and a
+/// bed of as many boxes as there are cells in a quarter of it.
 fn ground(random: &mut Random, turn: &Quat, shift: &Vec3) -> String {
     let at = |i: usize, cells: usize| 4.0 * (i as f64 / cells as f64 - 0.5);
     let mut sheet = || {
@@ -66,7 +66,7 @@ fn element(shape: &str, name: &str, center: f64) -> String {
     shape.replace("NAME", name).replace("CENTER", &text(center)).replace("END", &text(center + 0.7))
 }
 
-/// How far the element reaches below its centre when it stands upright, m.
+/// Extent of an upright element below its centre, m.
 fn reach(name: &str) -> f64 {
     match name {
         "sphere" => 0.25,
@@ -92,7 +92,7 @@ fn an_element_by_itself_finds_what_it_finds_among_others() {
         let (mut found, mut most) = (0, 0);
         for frame in 0..40 {
             let along = Vec3::new(random.between(-1.2, 1.2), random.between(-1.2, 1.2), 0.0);
-            // Now and then the centre is near the sheets, or as far behind them as it is large.
+            // In some frames the centre is near the sheets, or as far behind them as its size.
             let deep =
                 reach(name) * [random.between(2.0, 2.2), random.between(0.9, 1.1), 0.0, 0.0][frame % 4];
             let height = reach(name) - deep + random.between(-0.04, 0.01);
@@ -113,8 +113,9 @@ fn an_element_by_itself_finds_what_it_finds_among_others() {
     }
 }
 
-/// Elements of every kind, three of each, against two grounds of two batches and one that is cut into many leaves: more than go
-/// together, of kinds that are asked in other ways, and one whose trees are more than there are ways.
+/// Elements of every kind, three of each, against two grounds of two batches and one cut into many leaves:
+/// more elements than run together, of kinds with different queries, and one with more trees than there are
+/// traversals.
 #[test]
 fn elements_together_find_what_each_finds_alone() {
     let mut random = Random::new(92, 0, 0);
@@ -141,7 +142,7 @@ fn elements_together_find_what_each_finds_alone() {
         let of_element = load(&mut builder, &model_of(number));
         objects.push(builder.create_object(of_element, &format!("element {number}")).unwrap());
     }
-    // After the elements: pairs with one ground are not side by side.
+    // After the elements, so that the pairs of one ground are not consecutive.
     let beds = grounds.map(|text| load(&mut builder, text));
     let beds = [0, 1, 2].map(|bed| builder.create_object(beds[bed], &format!("bed {bed}")).unwrap());
     for (number, &object) in objects.iter().enumerate() {
@@ -171,7 +172,7 @@ fn elements_together_find_what_each_finds_alone() {
         let report = together.step().unwrap();
         assert!(!report.status.contains(StatusBits::CONTACT_LIMIT));
         let mut contacts = told(&together);
-        // In the order of pairs of movable groups, of which a world with several grounds has another.
+        // In the order of pairs of movable groups, which differs in a world with several grounds.
         contacts.sort();
         expected.sort();
         assert!(contacts == expected, "frame {frame}: {} contacts, {} alone", contacts.len(), expected.len());

@@ -1,4 +1,4 @@
-//! Many Objects, all paired: every pair finds what it finds in a world of its own, where every pair is visited.
+//! Many Objects, all paired: every pair finds the same as in a world of its own, where every pair is visited.
 
 use crate::common::*;
 use pong_engine::{Config, InterfaceId, State, StatusBits, World, WorldBuilder};
@@ -24,7 +24,8 @@ fn world_of(count: usize, contacts: usize) -> (World, Vec<InterfaceId>) {
     (world, interfaces)
 }
 
-/// Where ball `i` is: a swarm of balls of 0.1 m that cross each other's ways, every third fast enough to go through others.
+/// State of ball `i`: a swarm of balls of 0.1 m with crossing paths, every third fast enough to pass through
+/// others.
 fn state(i: usize, frame: usize) -> State {
     let speed = if i.is_multiple_of(3) { 0.35 } else { 0.02 };
     let angle = 2.4 * i as f64;
@@ -73,11 +74,12 @@ fn each_pair_finds_what_it_finds_alone() {
     assert!((sum - many.ledger().work).abs() < 1e-12 * many.ledger().work.abs());
 }
 
-/// A ball flies past another, 10 mm out of its reach along axes that do not turn. The other turns by 14° meanwhile, and seen
-/// from there the first has come right through it: 1.5 m away at the start, of which it was turned by a quarter.
+/// A ball flies past another at a clearance of 10 mm, in axes that do not rotate. The other rotates by 14°
+/// meanwhile. Seen from there, the first has come right through it: it started 1.5 m away, and the rotation
+/// moves it by a quarter of that.
 #[test]
 fn what_a_turn_brings_into_the_way_is_told() {
-    // The middle of each ball is 0.1 m along its x-axis.
+    // The centre of each ball is 0.1 m along its x-axis.
     let ball_at = |middle: Vec3, angle: f64| {
         let position = middle - Vec3::new(angle.cos(), angle.sin(), 0.0) * 0.1;
         let orientation = [(0.5 * angle).cos(), 0.0, 0.0, (0.5 * angle).sin()];
@@ -103,7 +105,7 @@ fn what_a_turn_brings_into_the_way_is_told() {
     }
 }
 
-/// A pair that was committed by itself keeps its own past, as many as there are.
+/// Pairs that were committed alone keep their own history, up to the maximum number of epochs.
 #[test]
 fn pairs_committed_at_many_moments_keep_their_own() {
     let (mut many, interfaces) = world_of(COUNT, 500);
@@ -112,7 +114,7 @@ fn pairs_committed_at_many_moments_keep_their_own() {
         let states: Vec<_> = (0..COUNT).map(|i| (interfaces[i], state(i, frame))).collect();
         world.set_states(&states).unwrap();
     };
-    // 630 pairs, of which 255 moments can be told apart.
+    // 630 pairs, but only 255 epochs.
     for (frame, pair) in pairs[..255].iter().enumerate() {
         place(&mut many, &interfaces, frame % FRAMES);
         many.commit_pairs(&[*pair]).unwrap();
@@ -126,7 +128,7 @@ fn pairs_committed_at_many_moments_keep_their_own() {
     let mut after = Vec::new();
     many.save_state_packed(&mut after);
     assert!(before == after && before.len() <= many.state_size());
-    // Pairs that go together make room.
+    // Pairs that are committed together free epochs.
     many.commit_pairs(&pairs[..2]).unwrap();
     many.commit_pairs(&pairs[300..301]).unwrap();
     many.commit().unwrap();
@@ -140,7 +142,7 @@ fn pairs_committed_at_many_moments_keep_their_own() {
     assert_eq!(told(&many), told(&other));
 }
 
-/// A block of an older format says what it is, and what to do.
+/// A block of an older format is refused with its version and a remedy.
 #[test]
 fn a_block_of_an_older_format_is_refused() {
     let (mut world, interfaces) = world_of(3, 4);

@@ -18,7 +18,7 @@ const LAWS: [&str; 9] = [
     "normal: PowerLaw(exponent: 1.5, damping_exponent: 1.0, damping: 4e4)",
 ];
 
-/// A tip on a floor, alike.
+/// A tip on a floor, with equal surfaces.
 fn rig(law: &str) -> Rig {
     let rest = format!("{law}, friction: None");
     Rig::new(
@@ -28,7 +28,7 @@ fn rig(law: &str) -> Rig {
 }
 
 impl Rig {
-    /// The tip so deep and closing at this rate; its normal force and tangent.
+    /// Normal force and tangent of the tip at this depth and closing rate.
     fn pressed(&mut self, depth: f64, rate: f64) -> (f64, f64, f64) {
         let tip =
             moving(Vec3::new(1.0, 2.0, -depth), Quat::identity(), Vec3::new(0.3, 0.0, -rate), Vec3::zeros());
@@ -45,7 +45,8 @@ fn a_tangent_is_the_slope_of_the_force() {
         let mut rig = rig(law);
         for (depth, rate) in [(2e-3, 0.0), (2e-3, 0.2), (4e-3, -0.1), (7e-3, 0.5), (3e-4, 0.05)] {
             let (_, stiffness, damping) = rig.pressed(depth, rate);
-            // Central differences: their error is a third derivative, 1e-8 of the value at a step of 1e-4 of the depth.
+            // Central differences: their error is a third derivative, 1e-8 of the value at a step of 1e-4 of
+            // the depth.
             let (by_depth, by_rate) = (1e-4 * depth, 1e-3);
             let slope = |up: f64, down: f64, width: f64| (up - down) / (2.0 * width);
             let seen = [
@@ -78,13 +79,13 @@ fn a_tangent_is_the_slope_of_the_force() {
 
 #[test]
 fn closed_forms() {
-    // Two springs of 2e5 in a row: 1e5 N/m; two dampers of 300 N·s/m likewise 150.
+    // Two springs of 2e5 in series: 1e5 N/m; likewise two dampers of 300 N·s/m: 150.
     assert_eq!(rig(LAWS[0]).pressed(2e-3, 0.2).1, 1e5);
     assert!((rig(LAWS[0]).pressed(2e-3, 0.2).2 - 150.0).abs() < 1e-10);
-    // Where the slope of the power law's damper is nearly without end.
+    // The slope of the power law's damper is nearly unbounded here.
     let touching = rig(LAWS[6]).pressed(1e-300, 0.2);
     assert!(touching.1.is_finite() && touching.2.is_finite(), "{touching:?}");
-    // What leaves so fast that the force is cut off at zero has no slope.
+    // A force that is cut at zero, at fast separation, has no slope.
     assert_eq!(rig(LAWS[0]).pressed(1e-3, -9.0), (0.0, 0.0, 0.0));
 }
 

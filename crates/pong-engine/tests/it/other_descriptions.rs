@@ -1,12 +1,13 @@
-//! One scene described in two ways, in many poses: meshes that are cut or listed in another order, bodies that are turned
-//! and moved. The answer is the same, and where it can be told beforehand it is that (docs/theory.md, 2.2).
+//! One scene described in two ways, in many poses: meshes that are cut or listed in another order, bodies
+//! that are rotated and moved. The answers are equal, and match the expected value where there is one
+//! (docs/theory.md, 2.2).
 
 use crate::common::mesh::{Mesh, SERIES, steel};
 use crate::common::*;
 use pong_geometry::{Quat, Vec3};
 use pong_testkit::Random;
 
-/// Of a force, as a share of stiffness times a metre.
+/// Rounding of a force, as a fraction of stiffness times one metre.
 const ROUNDING: f64 = 1e-9;
 const POSES: usize = 60;
 
@@ -24,7 +25,8 @@ impl Mesh {
         Self { two_sided: true, ..self }
     }
 
-    /// Cut from one more vertex to the corners of a triangle, or of the two that share the edge on which it lies.
+    /// The mesh with one more vertex, connected to the corners of the triangle around it, or of the two that
+    /// share the edge on which it lies.
     fn split(mut self, at: Vec3) -> Self {
         let new = self.vertices.len();
         self.vertices.push(at);
@@ -46,7 +48,7 @@ impl Mesh {
         self
     }
 
-    /// The same triangles named in another order.
+    /// This mesh with its triangles in another order.
     fn shuffled(&self, random: &mut Random) -> Self {
         let mut mesh = self.clone();
         for last in (1..mesh.triangles.len()).rev() {
@@ -66,8 +68,8 @@ fn sphere(radius: f64) -> String {
     model("sphere", &steel(), &format!("Sphere(name: \"s\", center: (0,0,0), radius: {radius:?})"))
 }
 
-/// The force on A in the last of some places, N, in the scene's own axes; all are committed. The mesh is given in other
-/// axes, and the whole scene stands elsewhere.
+/// Force on A at the last of some committed positions, N, in the scene's own axes. The mesh is given in other
+/// axes, and the whole scene is moved.
 fn force(a: &str, mesh: &Mesh, places: &[Vec3], random: &mut Random) -> Vec3 {
     let (frame, inner) = (random.rotation(), random.rotation());
     let [shift, moved] = [random.vector(2.0), random.vector(2.0)];
@@ -81,7 +83,7 @@ fn force(a: &str, mesh: &Mesh, places: &[Vec3], random: &mut Random) -> Vec3 {
     frame.inverse() * rig.wrench(0).force
 }
 
-/// All descriptions answer alike in every pose.
+/// Checks that all descriptions agree in every pose.
 fn must_agree(a: &str, meshes: &[Mesh], places: &[Vec3], expected: Option<Vec3>) {
     let mut random = Random(7);
     let expected = expected.unwrap_or_else(|| force(a, &meshes[0], places, &mut random));
@@ -99,7 +101,8 @@ fn square() -> Mesh {
     mesh(&[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]], &[[0, 1, 2], [0, 2, 3]])
 }
 
-/// Exactly below a vertex in the middle of a flat plate each triangle may find that another has the centre.
+/// Exactly below a vertex in the middle of a flat plate, each triangle may decide that another one has the
+/// centre.
 #[test]
 fn behind_a_vertex_of_a_flat_plate_a_ball_is_not_lost() {
     let plate = square().thick(1.0);
@@ -114,7 +117,8 @@ fn behind_a_vertex_of_a_flat_plate_a_ball_is_not_lost() {
     }
 }
 
-/// The wedge behind a fold ends where the fold does: beyond its ends the line of an edge goes on, but no wall is near.
+/// The wedge behind a fold ends where the fold does: beyond its ends the line of the edge continues, but no
+/// wall is near.
 #[test]
 fn the_wedge_behind_a_fold_ends_with_the_fold() {
     let rows = [-1.0, -0.46, -0.065, 0.62, 1.0];
@@ -146,7 +150,7 @@ fn the_wedge_behind_a_fold_ends_with_the_fold() {
     }
 }
 
-/// Several faces of a wavy sheet reach a ball that is far behind it; one covers a second, and that would cover a third.
+/// Several faces of a wavy sheet reach a ball far behind it; one culls a second, which would cull a third.
 #[test]
 fn the_order_of_the_triangles_does_not_choose_among_the_faces_behind_which_a_ball_lies() {
     let vertices = [
@@ -200,7 +204,8 @@ fn the_order_of_the_triangles_does_not_choose_among_the_faces_behind_which_a_bal
     }
 }
 
-/// From the back into the plane: nothing has been crossed as yet, and the side that holds the ball goes on holding it.
+/// From the back into the plane: nothing has been crossed yet, and the side that holds the ball continues to
+/// hold it.
 #[test]
 fn a_ball_that_comes_into_the_plane_of_a_two_sided_plate_from_its_back_is_pushed_to_the_back_alone() {
     let plate = square().two_sided();
@@ -211,8 +216,8 @@ fn a_ball_that_comes_into_the_plane_of_a_two_sided_plate_from_its_back_is_pushed
     }
 }
 
-/// A face yields to a less deep edge or face only if that one pushes. Which edges a triangle has is a matter of how the
-/// plate is cut: beside this rim the edge does not push, as the centre is behind it.
+/// A face yields to a less deep edge or face only if that one pushes. The edges of a triangle depend on how
+/// the plate is cut: beside this rim the edge does not push, because the centre is behind it.
 #[test]
 fn a_deep_ellipsoid_beside_a_rim_does_not_depend_on_how_the_plate_is_cut() {
     let vertices = [[-1.0, -1.0, 2.8], [0.0, -1.0, 0.0], [-1.0, -0.33, 2.8]];
@@ -225,8 +230,8 @@ fn a_deep_ellipsoid_beside_a_rim_does_not_depend_on_how_the_plate_is_cut() {
     must_agree(&ellipsoid([1.0, 0.5, 1.0]), &[plate, cut], &places, Some(normal * (SERIES * depth)));
 }
 
-/// An ellipsoid so deep over the corner of a plate that its side is nearer to the rim than its bottom: the rim pushes, even
-/// where rounding makes it a spare contact in the same place as the face.
+/// An ellipsoid so deep over the corner of a plate that its side is nearer to the rim than its bottom: the
+/// rim pushes, even if rounding turns it into a fallback candidate at the contact point of the face.
 #[test]
 fn over_the_corner_of_a_plate_the_less_deep_minimum_pushes() {
     let size = 0.0566794834218851;
@@ -245,7 +250,7 @@ fn over_the_corner_of_a_plate_the_less_deep_minimum_pushes() {
     }
 }
 
-/// Deep over a ridge both faces have a minimum, and as deep as each other: one pushes.
+/// Deep over a ridge, both faces have a minimum of the same depth: one pushes.
 #[test]
 fn a_rod_exactly_above_a_ridge_is_pushed_by_one_of_two_equal_faces() {
     let vertices = [[0.0, -1.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, -1.0], [-1.0, 0.0, -1.0]];
@@ -262,8 +267,8 @@ fn a_rod_exactly_above_a_ridge_is_pushed_by_one_of_two_equal_faces() {
     }
 }
 
-/// Three slivers of one plane, 1e-5 of their length wide, with the foot on the seam and the centre behind: a contact that
-/// another has dropped as its double does not drop that one in turn.
+/// Three slivers of one plane, 1e-5 of their length wide, with the foot point on the seam and the centre
+/// behind: of two duplicate contacts, one culls the other and is not culled in turn.
 #[test]
 fn on_the_seam_of_slivers_one_of_two_equal_faces_pushes() {
     let (long, step) = (0.55, 1.3e-5);
@@ -275,8 +280,8 @@ fn on_the_seam_of_slivers_one_of_two_equal_faces_pushes() {
     must_agree(&ellipsoid([0.23, 0.18, 0.17]), &[mesh], &[foot - Vec3::z() * 0.03], Some(up));
 }
 
-/// An edge that has the centre behind it is no face: which of its two triangles it is counted with does not choose what it
-/// yields to.
+/// An edge with the centre behind it is no face: what it yields to does not depend on the triangle that it is
+/// counted with.
 #[test]
 fn what_an_edge_yields_to_does_not_depend_on_the_triangle_that_owns_it() {
     let vertices = [
@@ -310,8 +315,8 @@ fn pong_quaternion(w: f64, i: f64, j: f64, k: f64) -> nalgebra::Quaternion<f64> 
     nalgebra::Quaternion::new(w, i, j, k)
 }
 
-/// Below the vertex where a wall ends, its face pushes a ball one way and the vertex the other: one of the two does. The tester
-/// of ellipsoids finds both there: then it is the face.
+/// Below the vertex at which a wall ends, its face pushes a ball one way and the vertex the other: only one
+/// of them does. The ellipsoid tester finds both there, and then it is the face.
 #[test]
 fn no_place_pushes_both_ways() {
     let vertices = [
@@ -335,7 +340,7 @@ fn no_place_pushes_both_ways() {
     }
 }
 
-/// What stood in for a face at the commit stands in after it, and nothing else.
+/// The fallback candidate of a face at the commit is the same one after it.
 #[test]
 fn a_commit_does_not_change_which_wall_of_a_deep_valley_stands_in() {
     let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 1.0], [0.62, 0.78, 1.0], [-0.22, 0.97, 1.0]];

@@ -1,4 +1,4 @@
-//! Friction that is there before the first frame. Expectations are Coulomb's law and the sum of parallel springs.
+//! Preloaded friction, against Coulomb's law and the sum of parallel springs.
 
 use crate::common::{Rig, at, load, model, moving, surface};
 use pong_engine::{Config, EngineError, FrictionPreload, State, WorldBuilder};
@@ -27,7 +27,7 @@ fn floor() -> String {
     model("floor", "\"s\": (stiffness: inf)", "Plane(name: \"f\", normal: (0, 0, 1), offset: 0)")
 }
 
-/// A floor turned and placed somewhere, and feet on it that move along it and turn about its normal.
+/// A tilted and moved floor, and feet on it that slide along it and rotate about its normal.
 fn place(rig: &mut Rig, q: Quat, origin: Vec3, velocity: Vec3, spin: f64, swapped: bool) {
     let ground = at(origin, q);
     let feet =
@@ -35,7 +35,8 @@ fn place(rig: &mut Rig, q: Quat, origin: Vec3, velocity: Vec3, spin: f64, swappe
     rig.place(if swapped { [ground, feet] } else { [feet, ground] });
 }
 
-/// Every foot has the kinetic friction against its own velocity in the first frame; without a preload it has none.
+/// Every foot has kinetic friction against its own velocity in the first frame; without a preload it has
+/// none.
 #[test]
 fn what_slides_has_its_kinetic_friction_from_the_first_frame_on() {
     let mut random = Random(3);
@@ -55,7 +56,7 @@ fn what_slides_has_its_kinetic_friction_from_the_first_frame_on() {
             for contact in rig.world.contacts_iter() {
                 let expected = contact.slip_velocity * (-MU * K * DEPTH / contact.slip_velocity.norm());
                 let off = (contact.friction_force - expected).norm() / (MU * K * DEPTH);
-                // Places up to 17 m away round a depth of 0.1 mm to 2e-11 of it.
+                // Positions up to 17 m away round a depth of 0.1 mm to 2e-11 of it.
                 assert!(off < 1e-9 && !contact.sticks, "round {round}, frame {frame}: {off:e}");
             }
             rig.world.commit().unwrap();
@@ -63,7 +64,7 @@ fn what_slides_has_its_kinetic_friction_from_the_first_frame_on() {
     }
 }
 
-/// Three feet hold a force by a third each; what is more than sticks is cut to μ_s·F_n; what points out of the floor is no
+/// Three feet hold a third of the force each, limited to μ_s·F_n; a component out of the floor is no
 /// friction. At rest it stays so.
 #[test]
 fn what_holds_a_force_holds_it_from_the_first_frame_on() {
@@ -92,7 +93,7 @@ fn what_holds_a_force_holds_it_from_the_first_frame_on() {
                 assert!((contact.friction_force * 3.0 - sum).norm() < 1e-9 * size);
             }
         }
-        // ½K|p|² each. No work was done: all that springs and bristles hold, the host put in.
+        // ½K|p|² each. No work was done: the host inserted all that springs and bristles store.
         let pressed = 3.0 * 0.5 * K * DEPTH * DEPTH;
         let stored = pressed + 3.0 * 0.5 * (held.norm() / 3.0).powi(2) / 7e4;
         let ledger = rig.world.ledger();
@@ -104,7 +105,7 @@ fn what_holds_a_force_holds_it_from_the_first_frame_on() {
     }
 }
 
-/// What has no bristle, no load or another pair is left alone.
+/// Contacts without a bristle, without load, or of another pair are unchanged.
 #[test]
 fn only_bristles_of_the_pair_are_preloaded() {
     for friction in ["None", "Coulomb(mu: 0.4, slip_speed: 1e-3)"] {

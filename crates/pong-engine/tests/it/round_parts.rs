@@ -1,4 +1,4 @@
-//! Round parts in the engine: springs, ends of contacts and directions as the theory manual (2.8) tells them.
+//! Round parts in the engine: springs, ends of contacts and directions against the theory manual (2.8).
 
 use crate::common::*;
 use pong_engine::StatusBits;
@@ -11,7 +11,7 @@ fn part(text: &str) -> String {
     model("part", &surface(K, "friction: None"), text)
 }
 
-/// Force on A, N, and the ends of the contacts, of a part set down on something.
+/// Force on A, N, and the ends of the contacts, for a part placed on another.
 fn set_down(a: &str, b: &str) -> (Vec3, Vec<u32>) {
     let mut rig = Rig::new(&part(a), &part(b));
     rig.place_a(Vec3::zeros(), Quat::identity());
@@ -19,7 +19,7 @@ fn set_down(a: &str, b: &str) -> (Vec3, Vec<u32>) {
     (rig.wrench(0).force, rig.world.contacts().iter().map(|contact| contact.end).collect())
 }
 
-/// A part so deep, with such a share of the pair's spring: two equal springs in series.
+/// Checks a part at this depth with this share of the pair's spring: two equal springs in series.
 fn check(a: &str, b: &str, depth: f64, share: f64, ends: &[u32]) {
     let (force, found) = set_down(a, b);
     let expected = 0.5 * K * share * depth;
@@ -61,13 +61,13 @@ fn solid() -> String {
     box_polyhedron("b", [0.0, 0.0, 0.0], [0.5, 0.4, 0.3], "")
 }
 
-/// Poses of A about a place.
+/// Random pose of A about a position.
 fn random_pose(random: &mut Random, center: Vec3, size: f64, turn: f64) -> (Vec3, Quat) {
     (center + random.vector(size), Quat::from_scaled_axis(random.vector(turn)))
 }
 
 impl Rig {
-    /// Without an earlier pose.
+    /// Places A without an earlier pose.
     fn set_down(&mut self, (place, orientation): (Vec3, Quat)) -> Wrench {
         self.world.clear_contact_history(self.objects[0]).unwrap();
         self.place_a(place, orientation);
@@ -76,7 +76,7 @@ impl Rig {
     }
 }
 
-/// The wrench is minus the derivative of the stored energy along any motion, whatever of the capsule and of B touches.
+/// The wrench is minus the derivative of the stored energy along any motion, for any features in contact.
 #[test]
 fn the_wrench_of_a_capsule_derives_from_its_energy() {
     const STEP: f64 = 1e-6;
@@ -102,7 +102,7 @@ fn the_wrench_of_a_capsule_derives_from_its_energy() {
             };
             let ((before, _), (after, _), (middle, wrench)) = (at(-STEP), at(STEP), at(0.0));
             let force = wrench.force.norm();
-            // Where another feature is nearest within the step the energy has a kink, and no derivative.
+            // The energy has a kink where another feature becomes the nearest one, and no derivative there.
             let halves = [(after - middle) / STEP, (middle - before) / STEP];
             if force == 0.0 || (halves[0] - halves[1]).abs() > 1e-3 * force {
                 continue;
@@ -116,7 +116,8 @@ fn the_wrench_of_a_capsule_derives_from_its_energy() {
     }
 }
 
-/// The deepest contact of a capsule with a box is the radius less the distance of its axis from the box, by halving.
+/// The deepest contact of a capsule with a box is the radius minus the distance of its axis from the box,
+/// found by bisection.
 #[test]
 fn capsules_are_as_deep_in_a_box_as_its_distance_tells() {
     let solid = solid();
@@ -152,7 +153,7 @@ fn capsules_are_as_deep_in_a_box_as_its_distance_tells() {
     }
 }
 
-/// Lying with both ends on a face it carries kδ; a tip, and a crossing of one edge, half of it.
+/// A capsule that lies with both ends on a face carries kδ; a tip, and a crossing of one edge, half of that.
 #[test]
 fn a_capsule_that_lies_carries_its_spring_and_an_edge_half_of_it() {
     let solid = solid();
@@ -162,7 +163,7 @@ fn a_capsule_that_lies_carries_its_spring_and_an_edge_half_of_it() {
         check(&at("(-0.2,0,0.38),(0.33,0.1,0.38)"), b, 0.02, 1.0, &[0, 1]);
         check(&at("(-0.2,0,0.38),(0.33,0.1,0.6)"), b, 0.02, 0.5, &[0]);
     }
-    // Square to the edge x = 0.5, z = 0.3 along its bisector.
+    // Perpendicular to the edge x = 0.5, z = 0.3 along its bisector.
     let depth = 0.02;
     let over = (0.1 - depth) / 2.0_f64.sqrt();
     let across = |sign: f64| format!("({:?},0.03,{:?})", 0.5 + over + 0.7 * sign, 0.3 + over - 0.7 * sign);
@@ -173,8 +174,8 @@ fn a_capsule_that_lies_carries_its_spring_and_an_edge_half_of_it() {
     assert_eq!(ends, [2]);
 }
 
-/// A capsule that lies across a box, both ends past its sides, so deep that its axis is below the face: the edges hold it, however
-/// rounding decides what is beside a face.
+/// A capsule that lies across a box, with both ends past its sides, so deep that its axis is below the face:
+/// the edges hold it, however rounding decides the boundary cases of the face.
 #[test]
 fn a_capsule_sunk_in_along_a_face_is_held_by_the_edges() {
     let mut random = Random(77);
@@ -193,7 +194,7 @@ fn a_capsule_sunk_in_along_a_face_is_held_by_the_edges() {
     }
 }
 
-/// A plate cut into triangles, and a box cut into pieces, answer as what is not cut.
+/// A plate cut into triangles, and a box cut into pieces, act like the uncut ones.
 #[test]
 fn cuts_have_no_effect_on_a_capsule() {
     let tilted = Quat::from_scaled_axis(Vec3::new(0.3, -0.2, 0.5));
@@ -233,7 +234,8 @@ fn cuts_have_no_effect_on_a_capsule() {
     }
 }
 
-/// Across and along prisms of many sides the wrench comes to that of the cylinder as the square of their number.
+/// Across and along prisms of many sides, the wrench converges to the cylinder's with the square of their
+/// number.
 #[test]
 fn prisms_of_many_sides_come_closer_to_the_cylinder_as_the_square_of_their_number() {
     let prism = |sides: usize| {
@@ -272,7 +274,7 @@ fn prisms_of_many_sides_come_closer_to_the_cylinder_as_the_square_of_their_numbe
     assert!(falls.iter().all(|fall| (3.0..5.0).contains(fall)), "{worst:?}");
 }
 
-/// A capsule that is thrown through a thin wall is told, whichever of its places goes through.
+/// A capsule thrown through a thin wall is reported, whichever of its points passes through.
 #[test]
 fn a_capsule_that_went_through_a_wall_is_told() {
     let wall = box_polyhedron("b", [0.0, 0.0, 0.0], [0.5, 0.4, 0.01], "");
@@ -289,7 +291,7 @@ fn a_capsule_that_went_through_a_wall_is_told() {
     }
 }
 
-/// The unit plate of the corners 0 and 1, and the middles of its rims with the directions out of it.
+/// The unit plate of corners 0 and 1, and the midpoints of its rims with the outward directions.
 const PLATE: &str = "vertices: [(0,0,0),(1,0,0),(1,1,0),(0,1,0)], triangles: [(0,1,2),(0,2,3)]";
 const RIMS: [([f64; 2], [f64; 2]); 4] = [
     ([1.0, 0.4], [1.0, 0.0]),
@@ -302,7 +304,8 @@ fn plate(two_sided: bool) -> String {
     part(&format!("TriangleMesh(name: \"m\", two_sided: {two_sided}, {PLATE})"))
 }
 
-/// Force of a plate on a capsule along `axis` whose middle is `apart` from the middle of a rim, and straight out of the plate.
+/// Force of a plate on a capsule along `axis` whose middle is `apart` from the middle of a rim: the
+/// components outward and across.
 fn force_beside(plate: &str, axis: &Vec3, rim: ([f64; 2], [f64; 2]), apart: f64, q: &Quat) -> (f64, f64) {
     let ([x, y], [out_x, out_y]) = rim;
     let (middle, out) = (Vec3::new(x, y, 0.0), Vec3::new(out_x, out_y, 0.0));
@@ -316,8 +319,8 @@ fn force_beside(plate: &str, axis: &Vec3, rim: ([f64; 2], [f64; 2]), apart: f64,
     (force.dot(&out), (force - out * force.dot(&out)).norm())
 }
 
-/// A capsule that stands upright beside a plate, and one that lies in its plane, are as much in front of it as behind: the rim pushes
-/// them straight out of the plate, and once, whichever way the capsule is written and the scene is turned.
+/// A capsule that stands upright beside a plate, or lies in its plane, is as much in front of it as behind:
+/// the rim pushes it straight outward, once, for either order of its ends and any rotation of the scene.
 #[test]
 fn the_rim_of_a_plate_pushes_what_is_in_its_plane_once() {
     let mut random = Random(77);
@@ -343,11 +346,11 @@ fn the_rim_of_a_plate_pushes_what_is_in_its_plane_once() {
                     "{rim:?} turn {index}: {along} {aside}"
                 );
             }
-            // One side alone has it where nothing tells front from back.
+            // The same force on a one-sided plate, for centres exactly in its plane (scene not rotated).
             let (along, aside) =
                 force_beside(&plate(false), &(Vec3::z() * sign), rim, 0.08, &Quat::identity());
             assert!((along - 0.25 * K * 0.02).abs() < 1e-9 && aside < 1e-9, "{rim:?}: {along} {aside}");
-            // Nothing pushes into the plate.
+            // No contact pushes into the plate.
             let (along, aside) =
                 force_beside(&plate(false), &(Vec3::z() * sign), rim, -0.08, &Quat::identity());
             assert!(along >= 0.0 && aside < 1e-9, "{rim:?}: {along} {aside}");

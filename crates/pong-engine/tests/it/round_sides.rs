@@ -1,4 +1,4 @@
-//! Polyhedra of N sides come closer to round parts as 1/N², in what a ball feels on them.
+//! Polyhedra of N sides converge to round parts as 1/N², in the force on a ball.
 
 use crate::common::*;
 use pong_geometry::{Quat, Vec3};
@@ -9,7 +9,7 @@ const RADIUS: f64 = 0.1;
 const BALL: &str = "Sphere(name: \"s\", center: (0,0,0), radius: 0.02)";
 const CYLINDER: &str = "Cylinder(name: \"c\", ends: ((0,0,-0.2),(0,0,0.2)), radius: 0.1)";
 
-/// A prism over a regular polygon whose corners lie on the circle.
+/// A prism over a regular polygon with corners on the circle.
 fn prism(sides: usize) -> String {
     let corner = |i: usize, z: f64| {
         let turn = TAU * i as f64 / sides as f64;

@@ -1,4 +1,4 @@
-//! Setting up: many Objects of one model, several movable groups, pairs, limits, surfaces, wrong calls.
+//! Set-up: many Objects of one model, several movable groups, pairs, limits, surfaces, wrong calls.
 
 use crate::common::*;
 use pong_engine::{Config, EngineError, SetupWarning, State, StatusBits, WorldBuilder};
@@ -77,7 +77,7 @@ fn every_movable_group_has_its_own_interface() {
     world.step().unwrap();
     assert!((world.wrench(left).unwrap().force.z - 50.0).abs() < 1e-9);
     assert_eq!(world.wrench(palm).unwrap().force, Vec3::zeros());
-    // Brought together the two pads press each other: the hand is paired with itself.
+    // Brought together, the two pads press each other, because the hand is paired with itself.
     world.set_state(right, &at(Vec3::new(0.19, 0.0, -1e-3), Quat::identity())).unwrap();
     world.step().unwrap();
     assert!((world.wrench(left).unwrap().force.x + 5e4 * 0.01).abs() < 1e-6);
@@ -107,7 +107,8 @@ fn a_ray_stops_at_the_first_surface_of_an_object() {
     );
 }
 
-/// With fewer places than contacts the deepest are kept and the frame says so; the next frame that fits is exact.
+/// With more contacts than capacity, the deepest are kept and the frame reports it; the next frame that fits
+/// is exact.
 #[test]
 fn the_contact_limit_keeps_the_deepest_and_tells() {
     let points: Vec<String> = (0..10)
@@ -185,7 +186,7 @@ fn calls_that_come_twice_too_early_or_of_another_world_are_refused() {
     let second = builder.create_object(tips, "b").unwrap();
     builder.pair(object, second).unwrap();
     assert!(matches!(builder.pair(second, object), Err(EngineError::Duplicate { .. })));
-    // Points meet points: nothing to test, and that is said.
+    // Points against points: nothing to test, which is reported.
     let (world, report) = builder.seal().unwrap();
     assert!(report.warnings.iter().any(|w| matches!(w, SetupWarning::NothingToTest { .. })));
     assert!(report.warnings.iter().any(|w| matches!(w, SetupWarning::IgnoredPair { .. })));
@@ -215,7 +216,7 @@ fn surfaces_that_do_not_go_together_are_all_named_at_seal() {
     assert_eq!(problems.len(), 2, "{problems:?}");
 }
 
-/// Nothing is lost: what is wrong can be mended in the builder that comes back.
+/// Nothing is lost: the fault can be corrected in the builder that is returned.
 #[test]
 fn a_refused_seal_gives_the_builder_back() {
     let rigid = "\"s\": (stiffness: inf, normal: Linear(damping: 0), friction: None)";
@@ -240,7 +241,7 @@ fn a_refused_seal_gives_the_builder_back() {
     assert!((world.wrench(roots[0]).unwrap().force.z - 100.0).abs() < 1e-9);
 }
 
-/// Stored + work + dissipated: the ledger closes over a bounce, with and without damping.
+/// Stored energy, work and dissipation: the ledger balances over a bounce, with and without damping.
 #[test]
 fn the_ledger_closes() {
     for damping in [0.0, 30.0] {
@@ -276,12 +277,13 @@ fn the_ledger_closes() {
             assert!(ledger.dissipated > 0.0, "friction slid and dissipated");
             errors.push(ledger.dissipated);
         }
-        // The trapezoid settles with the step.
+        // The trapezoidal error converges with the step.
         assert!((errors[2] - errors[1]).abs() <= 0.6 * (errors[1] - errors[0]).abs() + 1e-9);
     }
 }
 
-/// Finite states whose squares are not would end in NaN: they are refused, and the frame before stays valid.
+/// Finite states with infinite squares would produce NaN: they are refused, and the previous frame stays
+/// valid.
 #[test]
 fn a_state_beyond_any_scene_is_refused() {
     let mut rig = Rig::new(&tip(), &floor());

@@ -1,5 +1,5 @@
-//! Seams do not exist (docs/theory.md, 2.2): however finely a plate is cut, into triangles or into convex pieces,
-//! it answers like one plane.
+//! Seams have no effect (docs/theory.md, 2.2): a plate cut into triangles or convex pieces of any size acts
+//! like one plane.
 
 use crate::common::*;
 use pong_geometry::{Quat, Vec3};
@@ -22,7 +22,7 @@ fn plane() -> String {
     model("plane", &steel(), "Plane(name: \"p\", normal: (0,0,1), offset: 0.0)")
 }
 
-/// The plate turned by an awkward rotation and rounded to f32, as a modelling tool stores it.
+/// The plate rotated by an awkward rotation and rounded to f32, as a modelling tool stores it.
 fn tilted(q: &Quat, f32_vertices: bool) -> impl Fn(f64, f64) -> Vec3 + '_ {
     move |x, y| {
         let p = q * Vec3::new(x, y, 0.0);
@@ -34,15 +34,15 @@ fn mesh(cells: usize, q: &Quat, f32_vertices: bool) -> String {
     model("mesh", &steel(), &plate_mesh("mesh", cells, SIZE, tilted(q, f32_vertices)))
 }
 
-/// Slides the balls over plate and plane alike and returns the worst differences, relative to the normal force:
-/// along the normal, and across it.
+/// Slides the balls over plate and plane alike and returns the worst differences, relative to the normal
+/// force: along the normal, and across it.
 fn worst_difference(plate: &str, q: &Quat, random: &mut Random, places: &[Vec3]) -> (f64, f64) {
     let mut on_plate = Rig::new(&balls(), plate);
     let mut on_plane = Rig::new(&balls(), &plane());
     let normal = q * Vec3::z();
     let (mut along, mut across) = (0.0_f64, 0.0_f64);
     for place in places {
-        // The plane lies flat: its scene is the plate's, seen from the plate's own axes.
+        // The plane lies flat: its scene is the plate's, in the plate's own axes.
         let local = Vec3::new(place.x, place.y, -1e-3);
         let spin = Quat::from_scaled_axis(random.vector(0.2));
         on_plate.place_a(q * local, q * spin);
@@ -58,7 +58,7 @@ fn worst_difference(plate: &str, q: &Quat, random: &mut Random, places: &[Vec3])
     (along, across)
 }
 
-/// Random places, and the worst ones: over vertices, edge middles and along edges of the grid.
+/// Random positions, and the worst ones: over vertices, edge midpoints and along edges of the grid.
 fn places(cells: usize, random: &mut Random) -> Vec<Vec3> {
     let step = SIZE / cells as f64;
     let mut places: Vec<Vec3> = (0..300).map(|_| random.vector(0.3)).collect();
@@ -90,8 +90,8 @@ fn a_plate_of_two_to_twenty_thousand_triangles_is_one_plane() {
     }
 }
 
-/// With vertices in f32 the plate itself is wavy: slopes of the rounding over the cell, heights of the rounding
-/// over the depth of 1 mm.
+/// With vertices in f32 the plate itself is wavy: slopes are the rounding over the cell size, height errors
+/// the rounding over the depth of 1 mm.
 #[test]
 fn f32_vertices_show_only_their_own_waviness() {
     let mut random = Random(10);
@@ -113,7 +113,7 @@ fn pieces(count: usize) -> String {
     let width = SIZE / count as f64;
     let boxes: Vec<String> = (0..count)
         .map(|i| {
-            // Faces 4 and 5 look along −x and +x: the walls to the neighbours.
+            // Faces 4 and 5 look along −x and +x: the internal faces to the neighbours.
             let walls = match (i > 0, i + 1 < count) {
                 (true, true) => "4,5",
                 (true, false) => "4",
@@ -165,7 +165,7 @@ fn abutting_pieces_are_one_plate_for_points_and_bars() {
         for step in 0..400 {
             let mut place = random.vector(0.15);
             if step % 4 == 0 {
-                // The point exactly over a wall.
+                // The point exactly over an internal face.
                 place.x = (place.x / (SIZE / count as f64)).round() * (SIZE / count as f64) - 0.1;
             }
             place.z = -1e-3;
@@ -206,7 +206,7 @@ fn friction_does_not_see_the_seams() {
     }
 }
 
-/// A roof in two pieces, its ridge where their inner walls meet, and the same roof in one.
+/// A roof in two pieces, with the ridge where their internal faces meet, and the same roof in one.
 fn roofs() -> [String; 2] {
     let halves = "Polyhedron(name: \"l\", vertices: [(-1,-1,0),(0,-1,0),(0,1,0),(-1,1,0),(0,-1,0.5),(0,1,0.5)], \
                   faces: [[0,3,2,1],[0,4,5,3],[1,2,5,4],[0,1,4],[2,3,5]], inactive_faces: [2]), \

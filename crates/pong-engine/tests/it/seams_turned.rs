@@ -1,5 +1,5 @@
-//! Seams in any pose: what is one plate or one solid answers as one however it is cut and turned, with its vertices in
-//! double or single precision, flat or folded by a little (docs/theory.md, 2.2).
+//! Seams in any pose: a plate or a solid acts the same for any cut and rotation, with vertices in double or
+//! single precision, flat or slightly folded (docs/theory.md, 2.2).
 
 use crate::common::*;
 use pong_engine::Contact;
@@ -24,7 +24,7 @@ fn list(places: &[Vec3]) -> String {
     places.iter().map(tuple).collect::<Vec<_>>().join(",")
 }
 
-/// What the contacts of one primitive of A come to.
+/// Sums over the contacts of one primitive of A.
 struct Push {
     weights: f64,
     force: Vec3,
@@ -46,7 +46,7 @@ fn push(contacts: &[Contact], primitive: u32) -> Push {
     }
 }
 
-/// A ball and an egg, one right above the other.
+/// A ball and an egg, one directly above the other.
 fn balls() -> String {
     model(
         "balls",
@@ -56,8 +56,8 @@ fn balls() -> String {
     )
 }
 
-/// Both rest on the body with the centre this far from the origin, turned at random. The weights of either sum to one,
-/// but for the square of the angle between the normals that share; so does the force.
+/// Places both on the body with the centre at this distance from the origin, randomly rotated. For each,
+/// weights and force sum to one, up to the square of the angle between the normals that share.
 fn must_weigh_one(rig: &mut Rig, random: &mut Random, center: Vec3, case: &str) -> usize {
     rig.world.clear_contact_history(rig.objects[0]).unwrap();
     let turn = random.rotation();
@@ -77,7 +77,7 @@ fn must_weigh_one(rig: &mut Rig, random: &mut Random, center: Vec3, case: &str) 
     most
 }
 
-/// A plate of six vertices round one, folded up by an angle at each seam, or of two triangles.
+/// A plate of six vertices around one, folded up by an angle at each seam, or of two triangles.
 fn plate(random: &mut Random, turn: &Quat, fold: f64, in_single: bool) -> String {
     let rim = if random.unit() < 0.5 { 4 } else { 3 + (random.unit() * 5.0) as usize };
     let mut vertices = Vec::new();
@@ -117,7 +117,8 @@ fn plates_in_any_pose_carry_like_one_plane() {
         let in_single = round % 4 >= 2;
         let mut rig = Rig::new(&balls(), &plate(&mut random, &turn, fold, in_single));
         for pose in 0..8 {
-            // Right over the seams and the vertex, within what the fold lets both sides push, and anywhere.
+            // Directly over the seams and the vertex, within the range where the fold lets both sides push,
+            // and anywhere.
             let beside = [0.0, 0.3 * fold, 0.05][pose % 3];
             let along = if pose < 4 { random.between(-0.3, 0.3) } else { 0.0 };
             let height = random.between(0.5, 0.86);
@@ -131,7 +132,7 @@ fn plates_in_any_pose_carry_like_one_plane() {
     assert!(shared > 1000, "{shared}");
 }
 
-/// Boxes that abut along planes through the middle: cut once, twice or three times, in any order.
+/// Boxes that abut at planes through the middle: cut once, twice or three times, in any order.
 struct Cut {
     /// Corners of the pieces, low and high.
     pieces: Vec<[Vec3; 2]>,
@@ -189,7 +190,7 @@ fn abutting_boxes_in_any_pose_carry_like_one_plane() {
         let body = Cut::new(1 + round % 2, &mut random).model(&turn, in_single);
         let mut rig = Rig::new(&balls(), &body);
         for pose in 0..8 {
-            // On the top, over the wall between two pieces or the line between four.
+            // On the top, over the internal face between two pieces or the line between four.
             let beside = [0.0, 1e-12, 0.05][pose % 3];
             let along = if pose < 4 { random.between(-0.2, 0.2) } else { 0.0 };
             let place = Vec3::new(0.0, along, 1.0 + random.between(0.5, 0.86)) + random.vector(beside);
@@ -200,8 +201,8 @@ fn abutting_boxes_in_any_pose_carry_like_one_plane() {
     println!("{shared} of 4800 poses shared");
 }
 
-/// On the walls between pieces, the lines where four meet and the point where eight do: one contact, as deep as in the
-/// whole box.
+/// On internal faces between pieces, lines where four meet and the point where eight do: one contact, as deep
+/// as in the whole box.
 #[test]
 fn a_point_where_pieces_meet_has_one_contact() {
     let mut random = Random(53);
@@ -216,7 +217,7 @@ fn a_point_where_pieces_meet_has_one_contact() {
         let cut = Cut::new(1 + round % 3, &mut random);
         let mut rig = Rig::new(&movers, &cut.model(&turn, in_single));
         for pose in 0..60 {
-            // Beside each cut by nothing, by rounding, or by much.
+            // At each cut: exactly on it, off by rounding, or far from it.
             let beside = |axis: usize, random: &mut Random| match (axis < cut.axes, pose % 4) {
                 (true, 0 | 1) => 0.0,
                 (true, 2) => random.between(-3e-16, 3e-16),
@@ -271,8 +272,8 @@ fn a_tip_where_pieces_meet_is_in_one_of_them() {
     }
 }
 
-/// A bar that lies flat below the seams of pieces is carried by its two tips alone, also where single precision makes
-/// slight ridges of the seams.
+/// A bar that lies flat below the seams of pieces is carried only by its two tips, also if single precision
+/// turns the seams into slight ridges.
 #[test]
 fn a_bar_below_seams_is_carried_by_its_tips() {
     let mut random = Random(55);
@@ -298,7 +299,8 @@ fn a_bar_below_seams_is_carried_by_its_tips() {
     }
 }
 
-/// A roof whose ridge lies in the wall between its halves; on request each half cut once more, across the ridge.
+/// A roof whose ridge lies in the internal face between its halves; optionally each half is cut once more,
+/// across the ridge.
 fn roof(cuts: &[f64]) -> String {
     let mut pieces = Vec::new();
     for (number, ends) in cuts.windows(2).enumerate() {
@@ -307,7 +309,7 @@ fn roof(cuts: &[f64]) -> String {
             let corners = [(side, 0.0), (0.0, 0.0), (0.0, 0.5)];
             let places: Vec<Vec3> =
                 [near, far].iter().flat_map(|&y| corners.map(|(x, z)| Vec3::new(x, y, z))).collect();
-            // Bottom, wall, slope, then the two ends.
+            // Bottom, internal face, slope, then the two ends.
             let mut faces =
                 vec![vec![0, 1, 4, 3], vec![1, 2, 5, 4], vec![2, 0, 3, 5], vec![0, 2, 1], vec![3, 4, 5]];
             if side < 0.0 {
@@ -326,19 +328,19 @@ fn roof(cuts: &[f64]) -> String {
     model("roof", &steel(), &pieces.join(","))
 }
 
-/// Beside a ridge in which an inner wall ends, a point just outside is outside, though the slope of the piece beyond the
-/// wall would pass above it.
+/// Beside a ridge at which an internal face ends, a point just outside the body has no contact, although the
+/// slope of the piece beyond the internal face would extend above it.
 #[test]
 fn beyond_a_wall_that_ends_in_a_ridge_there_is_no_contact() {
     let tip = model("tip", &steel(), "Point(name: \"p\", position: (0,0,0))");
     for cuts in [&[-1.0, 1.0][..], &[-1.0, 0.1, 1.0]] {
         let mut rig = Rig::new(&tip, &roof(cuts));
-        // Clearly beside the wall and within its slack; above the slope, and below it.
+        // Clearly beside the internal face and within its slack; above the slope, and below it.
         let aside =
             [(1e-7, 1e-8), (1e-12, 1e-13)].into_iter().flat_map(|(x, above)| [(x, above), (-x, above)]);
         let places = aside.flat_map(|(x, above)| [(x, above, false), (x, -above, true)]);
         for (x, above, inside) in places {
-            // The slopes fall by half of what one goes sideways.
+            // The slopes fall by half of the horizontal distance.
             let z = 0.5 - 0.5 * f64::abs(x) + above;
             rig.world.clear_contact_history(rig.objects[0]).unwrap();
             rig.place_a(Vec3::new(x, 0.1, z), Quat::identity());
@@ -348,8 +350,8 @@ fn beyond_a_wall_that_ends_in_a_ridge_there_is_no_contact() {
     }
 }
 
-/// A ray through the fold of a two-sided sheet whose faces both lie on one side of it meets the face that hides the other, as
-/// rays beside it do, however the sheet is turned and whichever triangle is named first.
+/// A ray through the fold of a two-sided sheet whose faces both lie on one side of it hits the face that
+/// hides the other, as neighbouring rays do, for any rotation and either order of the triangles.
 #[test]
 fn a_ray_through_a_fold_meets_the_face_in_front() {
     let probe =
@@ -357,7 +359,7 @@ fn a_ray_through_a_fold_meets_the_face_in_front() {
     let mut random = Random(31);
     let mut hits = 0;
     for case in 0..100 {
-        // The one that leans towards the origin of the ray is in front.
+        // The face that leans towards the origin of the ray is in front.
         let (behind, between) = (random.between(0.2, 1.5), random.between(0.2, 1.4));
         let leans = [behind + between, behind];
         let turn = if case % 2 == 0 { Quat::identity() } else { random.rotation() };
@@ -382,7 +384,7 @@ fn a_ray_through_a_fold_meets_the_face_in_front() {
             rig.place_a(Vec3::zeros(), turn);
             rig.world.evaluate().unwrap();
             let contacts = rig.world.contacts();
-            // Rounding may let it pass on the side where there is nothing.
+            // Rounding may let the ray pass on the side where there is no face.
             assert!(contacts.len() <= 1, "{case} {leans:?}: {contacts:?}");
             for contact in contacts {
                 let off = (contact.normal - turn * normal).norm();
@@ -399,8 +401,8 @@ fn a_ray_through_a_fold_meets_the_face_in_front() {
     assert!(hits > 100, "only {hits} rays meet the fold");
 }
 
-/// A ball whose centre lies in the plane of a two-sided triangle, beyond an edge or a vertex of its rim, is pushed once, as a
-/// ball a little above or below is.
+/// A ball whose centre lies in the plane of a two-sided triangle, beyond an edge or a vertex of its rim, is
+/// pushed once, as a ball slightly above or below is.
 #[test]
 fn a_rim_of_two_sides_pushes_once() {
     let ball = model("ball", &steel(), "Sphere(name: \"ball\", center: (0,0,0), radius: 0.3)");
@@ -426,12 +428,12 @@ fn a_rim_of_two_sides_pushes_once() {
     }
 }
 
-/// Behind a valley, in the wedge between the prisms of its two faces, a ball whose centre is further from the line than the
-/// thickness is behind neither, whichever face is named first; one that is nearer is behind both.
+/// In the wedge behind a valley, between the prisms of its two faces, a centre farther from the line than the
+/// thickness is behind neither face, in either order of the faces; a nearer one is behind both.
 #[test]
 fn the_wedge_behind_a_valley_ends_at_the_thickness() {
     let ball = model("ball", &steel(), "Sphere(name: \"ball\", center: (0,0,0), radius: 0.4)");
-    // Turned, so that the boxes of the ball and of both faces meet.
+    // Rotated, so that the boxes of the ball and of both faces overlap.
     let turn = Quat::from_axis_angle(&Vec3::y_axis(), 0.8);
     let corners = [(0.0, -9.0, 0.0), (0.0, 9.0, 0.0), (-9.0, 0.0, 4.5), (9.0, 0.0, 4.5)];
     let corners = list(&corners.map(|(x, y, z)| turn * Vec3::new(x, y, z)));

@@ -1,4 +1,4 @@
-//! From which side something came in (docs/theory.md, 2.2 and 2.4).
+//! Side of entry (docs/theory.md, 2.2 and 2.4).
 
 use crate::common::*;
 use pong_geometry::{Quat, Vec3};
@@ -18,7 +18,7 @@ fn ball(radius: f64) -> String {
     model("ball", &steel(), &format!("Sphere(name: \"s\", center: (0,0,0), radius: {radius:?})"))
 }
 
-/// A wall 10 mm thick, its faces across x.
+/// A wall 10 mm thick, its faces normal to x.
 fn wall() -> String {
     model("wall", &steel(), &box_polyhedron("w", [0.0, 0.0, 0.0], [0.005, 0.5, 0.5], ""))
 }
@@ -29,7 +29,7 @@ fn push_at(rig: &mut Rig, x: f64) -> Vec3 {
     rig.wrench(0).force
 }
 
-/// A point pushed through a plate is pushed back to where it came in until it has left.
+/// A point pushed through a plate is pushed back to its side of entry until it has left.
 #[test]
 fn a_point_is_pushed_back_to_its_side_of_entry() {
     for from in [-1.0, 1.0] {
@@ -38,7 +38,7 @@ fn a_point_is_pushed_back_to_its_side_of_entry() {
         for step in 0..9 {
             let depth = 1e-3 * (f64::from(step) + 0.5);
             let force = push_at(&mut rig, from * (0.005 - depth));
-            // Two surfaces of the same stiffness in series.
+            // Two surfaces of equal stiffness in series.
             assert!((force.x * from - 0.5 * K * depth).abs() < 1e-9, "{from} {depth}: {force:?}");
         }
         // Out on the other side: no contact; back in from there: pushed to that side.
@@ -60,8 +60,8 @@ fn a_sphere_whose_centre_goes_under_keeps_its_side() {
     }
 }
 
-/// What is forgotten, or was not looked at for a frame, was nowhere before: no line leads from there, and the face that is
-/// nearest now pushes.
+/// After a clear, or a frame in which the pair was off, there is no earlier position and no path: the nearest
+/// face pushes.
 #[test]
 fn what_has_no_past_came_in_by_the_nearest_face() {
     for switch_off in [false, true] {
@@ -89,7 +89,7 @@ fn without_memory_the_least_deep_face_pushes() {
     assert!(push_at(&mut rig, 0.001).x > 0.0);
 }
 
-/// Fast through an active face and on through the inner wall within one frame: the face of entry counts.
+/// Fast through an active face and on through the internal face within one frame: the face of entry counts.
 #[test]
 fn the_face_of_entry_is_found_through_inner_walls() {
     let pieces = [
@@ -104,17 +104,18 @@ fn the_face_of_entry_is_found_through_inner_walls() {
         rig.wrench(0).force
     };
     put(-0.3, 0.8);
-    // Through the top of the near piece, then through the wall: the far piece pushes up as well.
+    // Through the top of the near piece, then through the internal face: the far piece pushes up as well.
     let force = put(0.2, 0.3);
     assert!((force - Vec3::new(0.0, 0.0, 0.5 * K * 0.2)).norm() < 1e-6, "{force:?}");
     let force = put(-0.2, 0.3);
     assert!((force - Vec3::new(0.0, 0.0, 0.5 * K * 0.2)).norm() < 1e-6, "{force:?}");
 }
 
-/// Out of one piece and into another within one frame: the old face is forgotten, the new one is that of entry.
+/// Out of one piece and into another within one frame: the old face of entry is dropped for the new one.
 #[test]
 fn leaving_one_piece_ends_the_memory_before_another_is_entered() {
-    // A step: the low piece ends where the tall one begins; its wall is the lower part of the tall one's side.
+    // A step: the low piece ends where the tall one begins; its internal face is the lower part of the tall
+    // one's side.
     let low = "Polyhedron(name: \"low\", vertices: [(-1,-1,-1),(0,-1,-1),(0,1,-1),(-1,1,-1),(-1,-1,0),(0,-1,0),(0,1,0),(-1,1,0)], \
                faces: [[0,3,2,1],[4,5,6,7],[0,1,5,4],[2,3,7,6],[0,4,7,3],[1,2,6,5]], inactive_faces: [5])";
     let base = "Polyhedron(name: \"base\", vertices: [(0,-1,-1),(1,-1,-1),(1,1,-1),(0,1,-1),(0,-1,0),(1,-1,0),(1,1,0),(0,1,0)], \
@@ -135,8 +136,8 @@ fn leaving_one_piece_ends_the_memory_before_another_is_entered() {
     assert!((force - Vec3::new(-0.5 * K * 0.05, 0.0, 0.0)).norm() < 1e-6, "{force:?}");
 }
 
-/// From one wall of a trough into the other within one frame, across the gap: the side by which it came into the first,
-/// which looks the other way, does not count in the second.
+/// From one wall of a trough into the other within one frame, across the gap: the side of entry of the first
+/// wall, which faces the other way, does not apply to the second.
 #[test]
 fn across_a_gap_the_memory_of_the_first_wall_ends() {
     let piece = |name, x: f64, z: f64, half_x: f64, inner| {
@@ -162,10 +163,10 @@ fn across_a_gap_the_memory_of_the_first_wall_ends() {
     assert!((force + push).norm() < 1e-6, "{force:?}");
 }
 
-/// Memory follows a faceted curve, but never goes round a sharp rim.
+/// The side of entry follows a faceted curve, but never goes round a sharp rim.
 #[test]
 fn memory_follows_a_faceted_curve() {
-    // A prism of 24 sides, a drum of radius 0.5 around y.
+    // A prism of 24 sides: a drum of radius 0.5 around y.
     let n = 24;
     let mut vertices = Vec::new();
     for i in 0..n {
@@ -200,7 +201,7 @@ fn memory_follows_a_faceted_curve() {
         let outward = Vec3::new(angle.cos(), 0.0, angle.sin());
         assert!(force.normalize().dot(&outward) > 0.99, "{angle}: {force:?}");
     }
-    // Deep towards the end cap, but never pushed out of it while another neighbour is remembered only as such.
+    // Deep towards the end cap, but never pushed out of it while the side of entry is another neighbour.
     let force = around(0.1 + 0.02 * 400.0, 0.45, 0.2);
     assert!(force.y.abs() < 1e-9);
 }
@@ -210,7 +211,7 @@ fn sheet() -> String {
     model("sheet", &steel(), &mesh)
 }
 
-/// The front of `sheet` looks along +x: what comes from behind passes through and is not pushed to the front.
+/// The front of `sheet` looks along +x: a ball from behind passes through and is not pushed to the front.
 #[test]
 fn a_ball_from_behind_is_not_pushed_to_the_front() {
     let mut rig = Rig::new(&ball(0.05), &sheet());
@@ -226,7 +227,7 @@ fn a_ball_from_behind_is_not_pushed_to_the_front() {
         assert!((force - Vec3::new(expected, 0.0, 0.0)).norm() < 1e-9 * K, "x = {x}: {force:?}");
         x -= 0.007;
     }
-    // Farther behind than its thickness the sheet lets go, for good.
+    // Farther behind than its thickness, the sheet releases the ball for good.
     assert_eq!(push_at(&mut rig, -0.06), Vec3::zeros());
     assert_eq!(push_at(&mut rig, -0.03), Vec3::zeros());
 }
@@ -245,7 +246,7 @@ fn a_two_sided_sheet_stops_from_both_sides() {
     }
 }
 
-/// Walking round a free edge is not coming from behind.
+/// Going round a free edge is not coming from behind.
 #[test]
 fn a_ball_that_goes_round_the_rim_is_stopped_in_front() {
     let mut rig = Rig::new(&ball(0.05), &sheet());
@@ -261,7 +262,7 @@ fn a_ball_that_goes_round_the_rim_is_stopped_in_front() {
     assert!((put(0.04, 0.1).x - 0.5 * K * 0.01).abs() < 1e-9 * K);
 }
 
-/// A sheet whose height falls by as much as |x| grows, its front above; cut along these x, and every 5 cm along y.
+/// A sheet whose height falls by |x|, its front above; cut along these x, and every 5 cm along y.
 fn ridge(cuts: &[f64]) -> String {
     let rows = 41;
     let mut vertices = Vec::new();
@@ -283,8 +284,8 @@ fn ridge(cuts: &[f64]) -> String {
     )
 }
 
-/// With its centre behind both faces of a ridge a ball is pushed by the less deep one alone, as by a solid; into how many
-/// triangles the faces are cut does not matter.
+/// A ball with its centre behind both faces of a ridge is pushed only by the less deep one, as by a solid,
+/// for any number of triangles per face.
 #[test]
 fn behind_a_ridge_only_the_less_deep_face_pushes() {
     let fine = [-1.0, -0.05, -0.01, -0.005, 0.0, 0.005, 0.01, 0.05, 1.0];
@@ -303,8 +304,8 @@ fn behind_a_ridge_only_the_less_deep_face_pushes() {
     }
 }
 
-/// A centre whose line goes through the edge or a vertex of a ridge from outside has not come out of the ridge: it is pushed by
-/// the face beyond, whichever of the two faces rounding lets it cross last.
+/// A centre whose path goes through the edge or a vertex of a ridge from outside has not come out of the
+/// ridge: the face beyond pushes it, whichever of the two faces rounding lets it cross last.
 #[test]
 fn a_line_over_a_ridge_has_crossed_nothing() {
     let ridge = ridge(&[-1.0, 0.0, 1.0]);
@@ -357,14 +358,15 @@ fn cube_of_triangles(n: usize) -> String {
     model("cube", &steel(), &mesh)
 }
 
-/// With its centre below the surface by less than its thickness an ellipsoid is pushed by a mesh as by a solid.
+/// An ellipsoid with its centre below the surface by less than the thickness is pushed by a mesh as by a
+/// solid.
 #[test]
 fn below_the_surface_of_a_cube_a_mesh_pushes_as_the_solid() {
     let egg =
         model("egg", &steel(), "Ellipsoid(name: \"e\", center: (0,0,0), semi_axes: (0.05, 0.06, 0.08))");
     let solid = model("solid", &steel(), &box_polyhedron("w", [0.0; 3], [0.5; 3], ""));
     let meshes = [cube_of_triangles(1), cube_of_triangles(12)];
-    // A nanometre of depth: vertices at multiples of 1/12 m round, and so do the normals from them.
+    // A nanometre of depth: vertices at multiples of 1/12 m are rounded, and so are the normals.
     let tolerance = 1e-9 * K;
     let mut random = Random(7);
     for _ in 0..40 {

@@ -1,5 +1,5 @@
-//! The wrenches are the sums over the listed contacts to 1e-12 of the largest, however many there are, whoever found them and
-//! in however many rounds: added here one by one in the order of the list, in the common frame, with what rounding lost.
+//! The wrenches are the sums over the listed contacts to 1e-12 of the largest, for any number of contacts,
+//! threads and rounds. The reference adds them in list order in the common frame, with compensated summation.
 
 use crate::common::stage::{Path, Scene, Stage, workers};
 use crate::common::{model, points, rough};
@@ -9,7 +9,7 @@ use pong_testkit::Random;
 use std::collections::HashMap;
 use std::time::Duration;
 
-/// Objects of these model files, all paired, with so many movable groups.
+/// Objects of these model files, all paired, with this many movable groups.
 fn all_paired(models: Vec<String>, objects: Vec<usize>, groups: usize, capacity: usize) -> Scene {
     let count = objects.len();
     let mut scene = Scene::new("sums", 0, models);
@@ -19,11 +19,11 @@ fn all_paired(models: Vec<String>, objects: Vec<usize>, groups: usize, capacity:
     scene
 }
 
-/// Steps and compares; how many contacts there were.
+/// Steps and compares; returns the number of contacts.
 fn step(stage: &mut Stage<'_>, states: &[State]) -> usize {
     let set: Vec<_> = stage.groups.iter().copied().zip(states.iter().copied()).collect();
     stage.world.set_states(&set).unwrap();
-    // Frames that are rare wake nobody.
+    // Rare frames wake no worker.
     stage.world.prewake(Duration::from_secs(60));
     stage.world.step().unwrap();
     let contacts = stage.world.contacts();
@@ -52,7 +52,7 @@ fn is_shared(stage: &Stage<'_>) -> bool {
     stage.world.lane_work().skip(1).any(|lane| lane.blocks > 0)
 }
 
-/// A sum with what rounding took from it (A. Neumaier, Z. Angew. Math. Mech. 54 (1974) 39).
+/// A compensated sum (A. Neumaier, Z. Angew. Math. Mech. 54 (1974) 39).
 #[derive(Clone, Copy, Default)]
 struct Exact {
     sum: Vec3,
@@ -75,7 +75,7 @@ impl Exact {
     }
 }
 
-/// Somewhere near a place, turned by some angle, on the move.
+/// A random moving state near a position, slightly rotated.
 fn near(random: &mut Random, place: Vec3, reach: f64) -> State {
     let [x, y, z] = (random.vector(0.05)).into();
     let norm = (1.0 + x * x + y * y + z * z).sqrt();
@@ -97,7 +97,7 @@ fn brushes_on_a_floor() {
         let mut stage = scene.set_up(workers(count));
         let mut random = Random(count as u64);
         let (mut most, mut shared, mut frames) = (0, 0, 0);
-        // On a busy machine a worker may come too late for many frames in a row.
+        // On a busy machine, workers may come too late for many frames in a row.
         while frames < 12 || (shared < 3 && count > 0 && frames < 2000) {
             frames += 1;
             let states = [
@@ -112,7 +112,8 @@ fn brushes_on_a_floor() {
     }
 }
 
-/// What is left counts: rays of a brush push the nearer of two groups of one Object, and of the points the deepest are kept.
+/// Sums after contacts were dropped: rays of a brush push the nearer of two groups of one Object, and of the
+/// points the deepest are kept.
 #[test]
 fn what_is_left_where_some_are_left_out() {
     let mut random = Random(43);
@@ -145,7 +146,7 @@ fn what_is_left_where_some_are_left_out() {
     }
 }
 
-/// A heap of balls that all touch each other: each contact of a direction of its own, in more than one round.
+/// A heap of balls that all touch each other: each contact in a direction of its own, in more than one round.
 #[test]
 fn a_heap_of_balls() {
     const COUNT: usize = 128;

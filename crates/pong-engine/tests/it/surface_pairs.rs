@@ -1,4 +1,5 @@
-//! Surfaces of two models: what is told of those that do not go together, entries for pairs of one name, what is told once.
+//! Surfaces of two models: errors for incompatible ones, entries for pairs of equal names, notes without
+//! duplicates.
 
 use crate::common::{Rig, load, model, surface};
 use pong_engine::{Config, EngineError, SealReport, SetupNote, SetupWarning, WorldBuilder};
@@ -12,7 +13,7 @@ fn with_pairs(text: &str, pairs: &str) -> String {
     text.replacen("root:", &format!("pairs: [{pairs}], root:"), 1)
 }
 
-/// Objects of the models, each paired with each other one.
+/// Seals Objects of the models, all paired.
 fn seal(texts: &[&str]) -> Result<SealReport, Vec<String>> {
     let mut builder = WorldBuilder::new(Config::default());
     let mut objects = Vec::new();
@@ -50,13 +51,13 @@ fn surfaces_that_differ_are_named_with_their_models() {
           `pairs` for (\"road/s\", \"tyre/s\") that says what holds between them"
         ]
     );
-    // As the cure says.
+    // As the error message suggests.
     let entry = "(surfaces: (\"road/s\", \"tyre/s\"), normal: Linear(damping: 4))";
     assert!(seal(&[&with_pairs(&tyre, entry), &road]).is_ok());
     assert!(seal(&[&tyre, &with_pairs(&road, entry)]).is_ok());
 }
 
-/// Three models with a surface of one name: an entry that says the models holds for these two and for no others.
+/// Three models with surfaces of one name: an entry that names the models applies only to these two.
 #[test]
 fn an_entry_can_tell_surfaces_of_one_name_apart() {
     let tip = |name: &str| model(name, &surface(1e5, ""), TIP);
@@ -68,11 +69,11 @@ fn an_entry_can_tell_surfaces_of_one_name_apart() {
     near(force(&tip("a"), &one), 50.0);
     near(force(&tip("b"), &one), of_series);
     near(force(&tip("a"), &floor), of_series);
-    // In either order, and with one of the two names said alone.
+    // In either order, and with only one of the two models named.
     let half = with_pairs(&floor, &entry("\"s\", \"a/s\"", "6e4"));
     near(force(&tip("a"), &half), 60.0);
     near(force(&tip("b"), &half), of_series);
-    // What says more goes first, in whichever model it stands.
+    // The more specific entry takes precedence, whichever model contains it.
     let both = [entry("\"s\", \"s\"", "7e4"), entry("\"floor/s\", \"a/s\"", "8e4")].join(", ");
     near(force(&tip("a"), &with_pairs(&floor, &both)), 80.0);
     near(force(&tip("b"), &with_pairs(&floor, &both)), 70.0);
@@ -106,16 +107,17 @@ fn friction_that_only_one_surface_has_is_told() {
         let [SetupNote::NoFriction { rough, law, smooth }] = &told[..] else { panic!("{told:?}") };
         assert_eq!((&rough[..], &law[..], &smooth[..]), ("foot/s", "Bristle", "ice/s"));
     }
-    // Both have some; the rigid one says nothing and takes it; an entry says that none is meant.
+    // Both have friction; the rigid one leaves it out and takes the other's; an entry states that none is
+    // meant.
     assert!(notes(&model("road", &surface(1e5, rough), FLOOR)).is_empty());
     assert!(notes(&model("rock", "\"s\": (stiffness: inf)", FLOOR)).is_empty());
     let meant = "(surfaces: (\"foot/s\", \"ice/s\"), friction: None)";
     assert!(notes(&with_pairs(&model("ice", &surface(1e5, ""), FLOOR), meant)).is_empty());
-    // A rigid one that says none is heard.
+    // A rigid surface that states no friction is noted.
     assert_eq!(notes(&model("glass", "\"s\": (stiffness: inf, friction: None)", FLOOR)).len(), 1);
 }
 
-/// Kinds of the pairs that are noted, for a part of each of two models.
+/// Kinds of the noted pairs, for one part of each of two models.
 fn limits_of(a: &str, b: &str) -> Vec<(usize, String)> {
     let [a, b] = [("a", a), ("b", b)].map(|(name, part)| model(name, &surface(1e5, ""), part));
     let of = |note: &SetupNote| match note {
@@ -160,7 +162,7 @@ fn known_limits_are_noted_by_the_kinds_that_meet() {
         (ball, capsule, vec![]),
         (bar, solid, vec![(1, "a LineSegment, b Polyhedron")]),
         (corner, solid, vec![]),
-        // What stacks: corners and a solid on both sides.
+        // Bodies that stack: corners and a solid on both sides.
         (&cornered, &cornered, vec![(1, "a Point, b Polyhedron"), (1, "b Point, a Polyhedron")]),
         (capsule, FLOOR, vec![]),
     ] {
@@ -169,7 +171,7 @@ fn known_limits_are_noted_by_the_kinds_that_meet() {
     }
 }
 
-/// A rigid floor that says nothing holds a tip as one that repeats what the tip says.
+/// A rigid floor without laws holds a tip like one that repeats the tip's laws.
 #[test]
 fn a_silent_rigid_floor_is_the_one_that_repeats_the_other() {
     let law = "normal: HuntCrossley(dissipation: 0.3, exponent: 1.5), friction: Bristle(mu: 0.5, static_excess: 0.2)";
@@ -190,7 +192,7 @@ fn a_silent_rigid_floor_is_the_one_that_repeats_the_other() {
     assert!(forces.iter().any(|force| force.x < -1e-3) && forces == run(telling));
 }
 
-/// 200 Objects of two models: every warning once, with how many pairs it is about.
+/// 200 Objects of two models: every warning appears once, with its number of pairs.
 #[test]
 fn a_warning_about_two_models_is_told_once() {
     let mut builder = WorldBuilder::new(Config::default());
@@ -203,7 +205,7 @@ fn a_warning_about_two_models_is_told_once() {
     let floor = builder.create_object(floor, "floor").unwrap();
     for index in 0..200 {
         let object = builder.create_object(plate, &format!("plate {index}")).unwrap();
-        // Whichever is named first.
+        // In either order of names.
         let (a, b) = if index % 2 == 0 { (object, floor) } else { (floor, object) };
         builder.pair(a, b).unwrap();
     }

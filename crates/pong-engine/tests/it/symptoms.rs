@@ -1,4 +1,4 @@
-//! Faults that were found once, named after what was seen.
+//! Regression tests, named after the symptoms.
 
 use crate::common::{Rig, at, load, model, surface};
 use pong_engine::{
@@ -29,7 +29,7 @@ impl CustomPrimitive for Blob {
     }
 }
 
-/// Extensions with two kinds of their own; the kinds named always touch.
+/// Extensions with two custom kinds; the named kinds always touch.
 fn blobs(kind_a: &str, kind_b: &str) -> Extensions {
     let mut extensions = Extensions::new();
     for kind in ["Torus", "Cone"] {
@@ -44,7 +44,7 @@ fn blobs(kind_a: &str, kind_b: &str) -> Extensions {
     extensions
 }
 
-/// A world of two Objects at the origin, in one order of pairing or the other.
+/// A world of two Objects at the origin, paired in either order.
 fn two(extensions: Extensions, primitives: [&str; 2], reversed: bool) -> World {
     let mut builder = WorldBuilder::with_extensions(Config::default(), extensions, Laws::default());
     let models = primitives.map(|text| {
@@ -94,7 +94,7 @@ fn an_endless_floor_holds_a_ball_wherever_it_is_though_a_mesh_lies_beside() {
     let mesh = "Triangle(name: \"t\", vertices: ((0,0,0),(1,0,0),(0,1,0)), thickness: 0.01)";
     let steel = surface(1e5, "");
     let ground = model("ground", &steel, &format!("{mesh}, {FLOOR}"));
-    // One is tested by its own box, several together by those that the floor's tree tells.
+    // A single ball is tested with its own box, several by the floor's tree together.
     for balls in [1, 3] {
         let each = |i| format!("Sphere(name: \"s{i}\", center: (0, {i}, 0), radius: 0.1)");
         let spheres: Vec<String> = (0..balls).map(each).collect();
@@ -107,7 +107,7 @@ fn an_endless_floor_holds_a_ball_wherever_it_is_though_a_mesh_lies_beside() {
     }
 }
 
-/// A law that panics when it is told to.
+/// A law that panics on demand.
 #[derive(Debug, Default)]
 struct Moody(AtomicBool);
 

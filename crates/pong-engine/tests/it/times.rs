@@ -1,5 +1,5 @@
-//! Where the time of a frame goes: by stage, by part of the contacts' work, by lane. The clock of these tests ticks once
-//! whenever it is asked.
+//! Times of a frame by stage, by part of the contact stage, and by thread. The clock of these tests advances
+//! by one tick with each reading.
 
 use crate::common::scenes::all;
 use crate::common::stage;
@@ -12,17 +12,17 @@ fn ticks() -> u64 {
     TICKS.fetch_add(1, Ordering::Relaxed)
 }
 
-/// A clock of its own for a test that compares frames.
+/// A separate clock for a test that compares frames.
 fn other_ticks() -> u64 {
     static TICKS: AtomicU64 = AtomicU64::new(0);
     TICKS.fetch_add(1, Ordering::Relaxed)
 }
 
-/// So many worlds at most are stepped until workers have had a part in a frame. On a busy machine they come too late for the
-/// first frames of many a world, and its trials then find frames quicker alone.
+/// Maximum number of worlds to step until workers have taken part in a frame. On a busy machine they come too
+/// late for the first frames of many worlds, and the trials then favour the caller alone.
 const WORLDS: usize = 200;
 
-/// Everything is told, and it adds up.
+/// Checks that all times are reported and add up.
 fn must_add_up(scene: &stage::Scene, workers: Option<WorkerSettings>) {
     let lanes = workers.as_ref().map_or(1, |settings| settings.workers + 1);
     let mut whole = WorkTimes::default();
@@ -52,7 +52,7 @@ fn must_add_up(scene: &stage::Scene, workers: Option<WorkerSettings>) {
     }
     assert!(Work::ALL.iter().all(|work| whole.of(*work) > 0), "{}: {whole:?}", scene.name);
     match lanes {
-        // What is in no part: a tick where each block begins.
+        // One tick per block, at its start, belongs to no part.
         1 => {
             assert!(in_parts <= in_stage && 2 * in_parts > in_stage, "{}: {in_parts} {in_stage}", scene.name)
         }
@@ -62,7 +62,7 @@ fn must_add_up(scene: &stage::Scene, workers: Option<WorkerSettings>) {
 
 #[test]
 fn parts_of_the_work_add_up_over_lanes() {
-    // WaitLimit without end: on a busy machine no frame may be done alone for want of it.
+    // Practically no worker timeout: on a busy machine no frame may fall back to the caller alone.
     let worker_timeout = Duration::from_secs(60);
     let settings = WorkerSettings {
         workers: 2,
@@ -77,7 +77,7 @@ fn parts_of_the_work_add_up_over_lanes() {
     }
 }
 
-/// The same frame asks the clock as often, whatever was measured before.
+/// Equal frames read the clock equally often, whatever was measured before.
 #[test]
 fn every_frame_begins_at_nothing() {
     let scene = all().into_iter().find(|scene| scene.name == "stations").unwrap();

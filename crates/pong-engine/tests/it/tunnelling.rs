@@ -1,5 +1,4 @@
-//! What goes right through something between two commits is told, and nothing else is. Shots by the ten thousand are in
-//! `pong verify --extremes`.
+//! Tunnelling is reported, and nothing else is. Shots by the ten thousand are in `pong verify --extremes`.
 
 use crate::common::*;
 use pong_engine::{Config, StatusBits, has_tester};
@@ -15,12 +14,12 @@ const CAPSULE: &str = "Capsule(name: \"c\", ends: ((0,-0.1,0),(0,0.1,0)), radius
 const PIN: &str = "Cylinder(name: \"n\", ends: ((0,-0.05,0),(0,0.05,0)), radius: 0.02)";
 const RAY: &str = "Ray(name: \"r\", origin: (0,0,0), direction: (-1,0,0), length: 0.05)";
 
-/// 10 mm thick, its faces across x.
+/// A plate 10 mm thick, its faces normal to x.
 fn plate() -> String {
     box_polyhedron("w", [0.0; 3], [0.005, 0.5, 0.5], "")
 }
 
-/// Its front looks along +x.
+/// A sheet with its front along +x.
 fn sheet(rest: &str) -> String {
     plate_mesh("m", 4, 1.0, |x, y| Vec3::new(0.0, x, y))
         .replace("TriangleMesh(", &format!("TriangleMesh({rest}"))
@@ -31,7 +30,7 @@ fn rig(a: &str, b: &str) -> Rig {
     Rig::new(&model("a", &steel, a), &model("b", &steel, b))
 }
 
-/// Places A along x one frame after another; in which frames something went through.
+/// Places A along x, frame after frame; returns the frames with tunnelling.
 fn told(rig: &mut Rig, places: &[f64]) -> Vec<bool> {
     let places = places.iter().map(|x| Vec3::new(*x, 0.03, 0.02));
     told_at(rig, places)
@@ -83,7 +82,7 @@ fn an_evaluation_tells_it_as_well_and_the_same_again() {
     }
 }
 
-/// A point that is pressed slowly through comes out on the far side without having gone far in any frame.
+/// A point pressed slowly through comes out on the far side without a long path in any frame.
 #[test]
 fn what_is_pressed_slowly_through_is_told_when_it_comes_out() {
     for (bullet, wall) in [
@@ -135,7 +134,7 @@ fn what_is_stopped_or_leaves_as_it_came_is_not_told() {
         [(POINT, plate()), (BALL, plate()), (BALL, sheet("")), (BALL, sheet("two_sided: true, "))]
     {
         let mut rig = rig(bullet, &wall);
-        // In fast, out faster; then deep, but still pushed to where it came from.
+        // Fast in, faster out; then deep, but still pushed to where it came from.
         let places = [0.3, 0.001, 0.4, 0.3, -0.004, 0.001, 0.5];
         assert_eq!(told(&mut rig, &places), [false; 7], "{bullet} on {wall}");
     }
@@ -183,7 +182,7 @@ fn balls_and_eggs_are_gone_through_as_well() {
     }
 }
 
-/// The pieces of a body are one solid: from an inner wall nobody comes in.
+/// The pieces of a body are one solid: nothing enters through an internal face.
 #[test]
 fn pieces_are_one_solid() {
     let pieces = [
@@ -193,7 +192,7 @@ fn pieces_are_one_solid() {
     let mut rig = rig(POINT, &pieces.join(","));
     let across = [Vec3::new(0.1, -0.1, 0.0), Vec3::new(-0.1, 0.1, 0.0), Vec3::new(0.002, 0.2, 0.0)];
     assert_eq!(told_at(&mut rig, across), [false, true, false]);
-    // Inside from one piece to the other.
+    // Inside, from one piece to the other.
     let mut rig = self::rig(POINT, &pieces.join(","));
     let along = [
         Vec3::new(0.1, -0.1, 0.0),
@@ -216,7 +215,7 @@ fn a_jump_that_is_meant_a_pair_that_is_off_and_a_first_frame_are_not_told() {
     assert_eq!(told(&mut rig, &[-0.3, 0.3]), [false, true]);
 }
 
-/// A wall that turns through a point: what counts is the motion of one against the other.
+/// A wall that rotates through a point: only the relative motion matters.
 #[test]
 fn a_wall_that_sweeps_over_a_point_is_told() {
     let steel = surface(1e5, "");
@@ -230,7 +229,7 @@ fn a_wall_that_sweeps_over_a_point_is_told() {
     assert_eq!(status, [false, true, false]);
 }
 
-/// What is hardly longer than the plate is thick goes through it.
+/// A path slightly longer than the plate's thickness goes through it.
 #[test]
 fn a_way_hardly_longer_than_the_plate_is_followed() {
     for bullet in [POINT, BAR, RAY] {
@@ -239,7 +238,7 @@ fn a_way_hardly_longer_than_the_plate_is_followed() {
     }
 }
 
-/// An arm that swings: its origin stays where it is, its tip goes through the plate.
+/// An arm that swings: its origin stays in place, its tip goes through the plate.
 #[test]
 fn an_arm_that_swings_through_a_plate_is_told() {
     let mut rig = rig("Point(name: \"p\", position: (0,0.6,0))", &plate());
@@ -250,7 +249,8 @@ fn an_arm_that_swings_through_a_plate_is_told() {
     assert_eq!(status, [false, true, false]);
 }
 
-/// Pressed under the top of a ball, along it and out again, far for one frame: it leaves where it is pushed to.
+/// Pressed below the top of a ball, along it and out again, far for one frame: it leaves in the direction of
+/// the push.
 #[test]
 fn what_slides_over_a_ball_is_not_told() {
     let mut rig = rig(POINT, "Sphere(name: \"b\", center: (0,0,0), radius: 0.1)");
@@ -258,8 +258,8 @@ fn what_slides_over_a_ball_is_not_told() {
     assert_eq!(told_at(&mut rig, places.map(|(x, y)| Vec3::new(x, y, 0.0))), [false; 4]);
 }
 
-/// Deep below both sides of a valley, and then deeper, below one of them: the contact with the other has ended, and the ball
-/// is farther behind that side than before.
+/// Deep below both sides of a valley, then deeper below one of them: the contact with the other side has
+/// ended, and the ball is farther behind that side than before.
 #[test]
 fn what_leaves_one_side_of_a_valley_for_the_other_is_not_told() {
     let valley = plate_mesh("m", 4, 1.0, |u, v| Vec3::new(0.3 * u.abs(), u, v))
@@ -278,7 +278,8 @@ fn what_leaves_one_side_of_a_valley_for_the_other_is_not_told() {
     }
 }
 
-/// The faces are 135° apart: no wall. One end of the bar goes from one to the other while the other end crosses an edge.
+/// The faces are 135° apart: no wall. One end of the bar goes from one to the other while the other end
+/// crosses an edge.
 #[test]
 fn a_bar_that_goes_round_the_edge_of_a_wedge_goes_through_nothing() {
     let wedge = "Polyhedron(name: \"w\", vertices: [(0,-0.05,0),(0,0.05,0),(0.03,-0.05,0),(0.03,0.05,0),(0.03,-0.05,-0.03),\
@@ -313,7 +314,7 @@ fn kind_of(part: &str) -> PrimitiveKind {
     *PrimitiveKind::ALL.iter().find(is).unwrap()
 }
 
-/// From any side, in any pose: through the middle, and past by more than both are wide.
+/// From any side, in any pose: through the middle, and past it by more than the widths of both.
 #[test]
 fn shots_through_are_reported_and_shots_past_are_not_for_every_pair_of_solids() {
     let mut random = Random(11);
@@ -368,7 +369,7 @@ fn round_solids_between_the_places_of_an_axis_are_reported() {
     }
 }
 
-/// Off and on again, off sideways, round it by 1 rad a frame, and straight through.
+/// Off and on again, off sideways, round it by 1 rad per frame, and straight through.
 #[test]
 fn touch_on_a_round_solid_is_reported_only_where_it_ends_on_the_far_side() {
     for target in [

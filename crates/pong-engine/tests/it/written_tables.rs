@@ -1,4 +1,4 @@
-//! What the documents say of the engine's table of pairs is what it holds.
+//! The tables of the documents agree with the engine's tester table.
 
 use pong_engine::has_tester;
 use pong_geometry::primitive::PrimitiveKind;
@@ -15,8 +15,7 @@ fn cells(line: &str) -> Vec<&str> {
     line.trim().trim_matches('|').split('|').map(str::trim).collect()
 }
 
-/// The table of docs/modelling.md: a dot where one of the two is tested against the other, and none elsewhere. Every pair with a
-/// test stands in it.
+/// The table of docs/modelling.md has a dot for every tested pair of kinds, and no other.
 #[test]
 fn the_modelling_guide_shows_which_kinds_touch() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/modelling.md");

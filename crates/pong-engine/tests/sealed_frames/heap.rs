@@ -1,7 +1,7 @@
 //! A counting allocator that keeps one count per kind of call, so that a failure names the call.
 //!
-//! Counted are the thread that runs the frames and the world's own workers; those are recognised by the registered law
-//! that they evaluate.
+//! The thread that runs the frames and the world's own workers are counted. Workers are recognised by the
+//! registered law that they evaluate.
 
 use pong_testkit::heap::Telling;
 use std::cell::Cell;
@@ -11,17 +11,17 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 thread_local! {
     static COUNTED: Cell<bool> = const { Cell::new(false) };
 }
-/// Whether frames are running.
+/// True while frames are running.
 static WATCHING: AtomicBool = AtomicBool::new(false);
-/// Calls to the allocator, by the kind of call that was under way.
+/// Allocator calls, by the host call in progress.
 static COUNTS: [AtomicUsize; CALLS.len()] = [const { AtomicUsize::new(0) }; CALLS.len()];
-/// Threads beside the first that were counted.
+/// Number of counted threads besides the first.
 static HELPERS: AtomicUsize = AtomicUsize::new(0);
 static CALL: AtomicUsize = AtomicUsize::new(0);
 /// One test at a time.
 static TURN: Mutex<()> = Mutex::new(());
 
-/// What a host calls in a frame.
+/// Calls of a host in a frame.
 const CALLS: [&str; 15] = [
     "between the calls",
     "set_states",
@@ -41,7 +41,7 @@ const CALLS: [&str; 15] = [
 ];
 
 fn count() {
-    // A thread that ends may free memory after its own variables are gone.
+    // A thread that ends may free memory after its thread-local variables are gone.
     if COUNTED.try_with(Cell::get).unwrap_or(false) && WATCHING.load(Relaxed) {
         COUNTS[CALL.load(Relaxed)].fetch_add(1, Relaxed);
     }
@@ -50,8 +50,8 @@ fn count() {
 #[global_allocator]
 static HEAP: Telling = Telling(count);
 
-/// Counts what the calling thread, and every thread that evaluates one of the laws below, asks of the allocator.
-/// Answers the calls of the host during which there was any, each with how often.
+/// Counts the allocator calls of the calling thread and of every thread that evaluates one of the laws below.
+/// Returns the host calls with any, and their counts.
 pub fn counted(work: impl FnOnce()) -> Vec<(&'static str, usize)> {
     COUNTS.iter().for_each(|count| count.store(0, Relaxed));
     HELPERS.store(0, Relaxed);
@@ -64,7 +64,7 @@ pub fn counted(work: impl FnOnce()) -> Vec<(&'static str, usize)> {
     counts.filter(|(_, count)| *count > 0).collect()
 }
 
-/// Books what `work` asks of the allocator under a name of [`CALLS`].
+/// Counts the allocator calls of `work` under a name of [`CALLS`].
 pub fn during<T>(call: &str, work: impl FnOnce() -> T) -> T {
     CALL.store(CALLS.iter().position(|name| *name == call).expect("a known call"), Relaxed);
     let answer = work();
@@ -76,14 +76,14 @@ pub fn my_turn() -> MutexGuard<'static, ()> {
     TURN.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Has the calling thread counted as well, if frames are running.
+/// Counts the calling thread as well, if frames are running.
 pub fn count_this_thread() {
     if WATCHING.load(Relaxed) && !COUNTED.replace(true) {
         HELPERS.fetch_add(1, Relaxed);
     }
 }
 
-/// How many threads were counted during the last count, beside the one that ran it.
+/// Number of threads counted in the last count, besides the one that ran it.
 pub fn helpers() -> usize {
     HELPERS.load(Relaxed)
 }

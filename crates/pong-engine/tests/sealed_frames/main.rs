@@ -1,7 +1,7 @@
-//! Once a world is sealed, no frame asks the system for memory or gives any back: whatever touches, whatever the host
-//! calls, whether limits are hit or not.
+//! After the seal, no frame allocates or frees memory, for any contacts, any host calls, and with limits
+//! exceeded or not.
 //!
-//! A program of its own: it counts what the allocator of the process is asked for.
+//! A program of its own: it counts the calls of the process's allocator.
 
 #[allow(dead_code, unused_imports, reason = "these tests use some of it")]
 #[path = "../it/common/mod.rs"]
@@ -21,7 +21,7 @@ use std::sync::{Arc, Barrier};
 
 const CUSTOM: PrimitiveKind = PrimitiveKind::Custom;
 
-/// The tester table, and the pair of kinds that is registered here.
+/// Pairs in the tester table, and the pair of kinds registered here.
 fn pairs_of_kinds() -> BTreeSet<(usize, usize)> {
     use PrimitiveKind::*;
     let kinds = [Point, LineSegment, Ray, Sphere, Ellipsoid, Triangle, Polyhedron, Plane, CUSTOM];
@@ -30,7 +30,7 @@ fn pairs_of_kinds() -> BTreeSet<(usize, usize)> {
     tested.map(|(a, b)| (a as usize, b as usize)).collect()
 }
 
-/// Every pair of kinds touched in some frames and was apart in others.
+/// Checks that every pair of kinds touched in some frames and was apart in others.
 fn assert_worth_counting(seen: &Seen) {
     for (a, b) in pairs_of_kinds() {
         let touches = seen.touches[a][b];
@@ -43,7 +43,7 @@ fn assert_worth_counting(seen: &Seen) {
     assert!(0 < seen.empty && seen.empty < seen.frames, "{} empty frames", seen.empty);
 }
 
-/// Runs so many frames; answers what was asked of the allocator meanwhile.
+/// Runs this many frames; returns the allocator calls meanwhile.
 fn run(config: Config, frames: u32) -> (Bench, Vec<(&'static str, usize)>) {
     let mut bench = Bench::new(config);
     let calls = counted(|| bench.frames(0..frames));
@@ -57,7 +57,7 @@ fn the_counter_sees_this_thread_and_those_that_evaluate_a_law() {
     let _turn = my_turn();
     let allocate = || drop(std::hint::black_box(Box::new(1)));
     assert_eq!(counted(|| during("step", allocate)), [("step", 2)]);
-    // The other thread allocates before it has evaluated the law and after.
+    // The other thread allocates before and after it evaluates the law.
     let turns = Arc::new(Barrier::new(2));
     let worker = std::thread::spawn({
         let turns = Arc::clone(&turns);
@@ -67,7 +67,7 @@ fn the_counter_sees_this_thread_and_those_that_evaluate_a_law() {
             Cubic.force(&NormalInput { depth: 1.0, rate: 0.0, stiffness: 1.0, parameters: &[1.0] });
             allocate();
             turns.wait();
-            // The end of a thread gives memory back: after the count.
+            // A thread that ends frees memory; let it end after the count.
             turns.wait();
         }
     });
@@ -108,13 +108,15 @@ fn no_frame_that_hits_a_limit_allocates() {
     assert!(0 < bench.seen.limited && bench.seen.limited < bench.seen.frames, "{}", bench.seen.limited);
 }
 
-/// With more workers than this machine may have cores, and a short worker timeout: some are late, some phases are abandoned.
+/// More workers than this machine may have cores, and a short worker timeout: some workers are late, and some
+/// phases are abandoned.
 #[test]
 fn no_frame_with_workers_allocates() {
     let _turn = my_turn();
     for workers in [1, 3] {
         let worker_timeout = std::time::Duration::from_micros(100);
-        // Awake between the frames: a worker that must be woken finds nothing left of frames as short as these.
+        // Keeps workers awake between the frames; a worker that has to be woken comes too late for such short
+        // frames.
         let spin = std::time::Duration::from_millis(1);
         let settings = WorkerSettings {
             workers,

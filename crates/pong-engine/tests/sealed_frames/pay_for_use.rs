@@ -1,4 +1,5 @@
-//! What a scene does not use adds nothing to its frames: no test, no contact, no memory, no answer.
+//! Features that a scene does not use add nothing to its frames: no test, no contact, no memory, and the same
+//! answers.
 
 use crate::common::load;
 use crate::common::scenes::{Parts, all};
@@ -11,7 +12,8 @@ fn scene(name: &str) -> Scene {
     all().into_iter().find(|scene| scene.name == name).expect(name)
 }
 
-/// All that a world tells of its size and of a frame, but for the parts that a hash of the whole scene is in.
+/// Everything that a world reports about its size and about a frame, except parts that include a hash of the
+/// whole scene.
 #[derive(Debug, PartialEq)]
 struct Told {
     answers: stage::Hash,
@@ -32,7 +34,7 @@ fn tell(stage: &mut Stage<'_>, frame: usize) -> Told {
     }
 }
 
-/// Runs both for some frames; every frame must tell the same.
+/// Runs both scenes for some frames; every frame must report the same.
 fn must_tell_the_same(what: &str, one: &Scene, other: &Scene, frames: usize) {
     let (mut one_stage, mut other_stage) = (one.set_up(None), other.set_up(None));
     let mut touched = 0;
@@ -44,7 +46,7 @@ fn must_tell_the_same(what: &str, one: &Scene, other: &Scene, frames: usize) {
     assert!(touched > 0, "{what}: nothing touches");
 }
 
-/// What frames ask of the allocator.
+/// Allocator calls of some frames.
 fn allocations(stage: &mut Stage<'_>) -> Vec<(&'static str, usize)> {
     let Stage { scene, world, groups, .. } = stage;
     let states: Vec<Vec<_>> = (40..50)
@@ -59,7 +61,7 @@ fn allocations(stage: &mut Stage<'_>) -> Vec<(&'static str, usize)> {
     })
 }
 
-/// A thousand Objects that nothing is paired with, right where the others touch.
+/// A thousand unpaired Objects, in the midst of the others' contacts.
 #[test]
 fn a_thousand_objects_that_meet_nobody_add_nothing() {
     for name in ["stations", "pieces"] {
@@ -72,7 +74,7 @@ fn a_thousand_objects_that_meet_nobody_add_nothing() {
         let paired = with.paths.len();
         with.objects.extend([2; 1000]);
         with.paths.extend([first_path; 1000]);
-        // Their states are never set and their wrenches are asked for at the end.
+        // Their states are never set; their wrenches are read at the end.
         let (mut one, mut other) = (without.set_up(None), with.set_up(None));
         let idle = other.groups.split_off(paired);
         let mut touched = 0;
@@ -83,14 +85,14 @@ fn a_thousand_objects_that_meet_nobody_add_nothing() {
         }
         assert!(touched > 0);
         assert_eq!(allocations(&mut other), []);
-        // Never told where they are, they keep no frame from running, and nothing acts on them.
+        // Without a state they block no frame, and no wrench acts on them.
         for group in idle {
             assert_eq!(other.world.wrench(group).unwrap(), pong_geometry::Wrench::zero());
         }
     }
 }
 
-/// A pair that is switched off is as one that was never made.
+/// A pair that is switched off is equivalent to one that was never made.
 #[test]
 fn a_pair_that_is_off_adds_nothing_to_a_frame() {
     let mut on = scene("sheets");
@@ -105,7 +107,7 @@ fn a_pair_that_is_off_adds_nothing_to_a_frame() {
     }
 }
 
-/// Without the ledger a frame keeps no energies, and is otherwise the same.
+/// Without the ledger a frame has no energies, and is otherwise the same.
 #[test]
 fn without_the_ledger_only_the_energies_are_missing() {
     let (with, mut without) = (scene("pieces"), scene("pieces"));
@@ -132,7 +134,7 @@ fn without_the_ledger_only_the_energies_are_missing() {
     }
 }
 
-/// Kinds and laws that are registered and that no model of the scene names.
+/// Registered kinds and laws that no model of the scene names.
 #[test]
 fn registered_kinds_that_no_model_names_add_nothing() {
     for name in ["stations", "sheets", "arms"] {
@@ -142,7 +144,7 @@ fn registered_kinds_that_no_model_names_add_nothing() {
     }
 }
 
-/// A world without a clock is never told the time, and one without workers has none to report of.
+/// A world without a clock measures no times, and one without workers reports none of them.
 #[test]
 fn what_nobody_asked_for_is_not_measured() {
     let scene = scene("stations");
@@ -153,7 +155,7 @@ fn what_nobody_asked_for_is_not_measured() {
     assert_eq!(stage.world.lane_times().collect::<Vec<_>>(), [WorkTimes::default()]);
 }
 
-/// Memory follows what may meet, not what is there: a model that no pair needs takes none.
+/// Memory depends on what may meet, not on what exists: a model without pairs takes none.
 #[test]
 fn memory_follows_what_may_meet() {
     let sized = |idle: usize| {

@@ -1,11 +1,11 @@
-//! Laws of the user's own, one of which tells which threads compute.
+//! Laws of the host, one of which counts the threads that compute.
 
 use crate::common::own_kinds::Glue;
 use crate::heap::count_this_thread;
 use pong_engine::*;
 use std::sync::Arc;
 
-/// Marks the thread that evaluates it.
+/// Cubic law that marks the thread which evaluates it.
 #[derive(Debug)]
 pub struct Cubic;
 

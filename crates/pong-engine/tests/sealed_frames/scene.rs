@@ -1,4 +1,4 @@
-//! A world in which every pair of kinds touches and parts, and frames in all the ways in which hosts call.
+//! A world in which every pair of kinds touches and separates, in frames that use all ways of calling.
 
 use crate::common::own_kinds::extensions;
 use crate::common::*;
@@ -10,11 +10,11 @@ use pong_geometry::{Quat, Vec3};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-/// Places at which something waits for the movers to come down: each a metre apart, its top at z = 0.
+/// Stations at which a part waits for the movers to come down, one metre apart, with their tops at z = 0.
 const STATIONS: u32 = 6;
 
-/// One primitive of every kind that can be A, their lowest places at z = 0; two more points on an arm that moves by
-/// itself.
+/// One primitive of every kind that can be A, lowest points at z = 0, and two more points on an arm that
+/// moves on its own.
 fn mover(surface: &str) -> String {
     format!(
         "(format: \"pong-model\", version: 1, name: \"mover\", surfaces: {{ {surface} }}, root: (name: \"mover\",
@@ -31,10 +31,11 @@ fn mover(surface: &str) -> String {
     )
 }
 
-/// A sphere, an ellipsoid, a mesh, two blocks with an inner wall, a pit that a ball touches on all sides, a post.
+/// A sphere, an ellipsoid, a mesh, two blocks with an internal face, a pit that a ball touches on all sides,
+/// a post.
 fn ground(surface: &str) -> String {
     let bump = |x: f64, y: f64| Vec3::new(x + 2.0, y, 0.004 * ((40.0 * x).sin() + (37.0 * y).cos()) - 0.006);
-    // A ball that goes down between the walls has normals more than 90° apart.
+    // A ball that goes down between the walls has contact normals more than 90° apart.
     let pit = "TriangleMesh(name: \"pit\", vertices: [(3.97, -0.03, 0.02), (4.03, -0.03, 0.02), (4.03, 0.03, 0.02), \
                (3.97, 0.03, 0.02), (4.0, 0.0, -0.13)], triangles: [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)], \
                thickness: 0.05)";
@@ -50,13 +51,13 @@ fn ground(surface: &str) -> String {
     model("ground", surface, &parts.join(","))
 }
 
-/// A clock that runs on when somebody looks at it.
+/// A clock that advances with each reading.
 fn ticks() -> u64 {
     static TICKS: AtomicU64 = AtomicU64::new(0);
     TICKS.fetch_add(1, Relaxed)
 }
 
-/// A point, and so many balls that workers are asked to help.
+/// A point, and enough balls that workers are used.
 fn probes() -> String {
     let ball = |i: u32| {
         let (x, y) = (0.1 * f64::from(i % 4), 0.1 * f64::from(i / 4));
@@ -79,15 +80,15 @@ pub struct Bench {
     pub seen: Seen,
 }
 
-/// What happened, to show that the frames were worth counting.
+/// Record of what happened, to show that the frames were worth counting.
 #[derive(Default)]
 pub struct Seen {
-    /// Frames in which the kinds of (A, B) touched, and in which they did not.
+    /// Frames in which the kinds of (A, B) touched, and frames in which they did not.
     pub touches: [[u32; 9]; 9],
     pub frames: u32,
     pub limited: u32,
     pub empty: u32,
-    /// Frames of which a worker did a part.
+    /// Frames in which a worker took part.
     pub shared: u32,
     pub most_contacts: usize,
 }
@@ -120,8 +121,8 @@ impl Bench {
             let model = pong_model::parse(&text, "test.ron", None, &extensions);
             builder.add_model(Arc::new(model.unwrap_or_else(|errors| panic!("{errors}\n{text}"))))
         });
-        // A mover before and one behind the ground: both orders of A and B. What tells which thread computes comes before all: the
-        // caller begins with the last blocks.
+        // One mover before and one after the ground, for both orders of A and B. The part that marks threads
+        // comes first, because the caller begins with the last blocks.
         let objects =
             [(3, "probe"), (4, "counter"), (0, "first"), (1, "ground"), (0, "second"), (2, "floor")]
                 .map(|(model, name)| builder.create_object(models[model], name).unwrap());
@@ -142,13 +143,13 @@ impl Bench {
         Self { world, movers: [first, second], interfaces, kinds, pairs: pairs.into(), states, block, seen }
     }
 
-    /// Where everything is in frame `i`: the movers hop from station to station, down and up again on each.
+    /// Sets all states of frame `i`: the movers hop from station to station, down and up again at each.
     pub fn place(&mut self, i: u32) {
         let t = f64::from(i);
-        // Now and then everything is taken far away.
+        // In some frames everything is far away.
         let lift = if i % 100 < 10 { 1.5 } else { 0.0 };
         for mover in 0..2 {
-            // The second one is half a round and half a hop behind.
+            // The second mover is half a round and half a hop behind.
             let phase = t / 32.0 + f64::from(mover) * (f64::from(STATIONS) + 1.0) / 2.0;
             let station = phase as u32 % STATIONS;
             let x = [0.0, 1.0, 2.0, 3.0, 4.03, 0.09][station as usize];
@@ -166,7 +167,7 @@ impl Bench {
         self.states[6].1 = at(probe, Quat::identity());
     }
 
-    /// One frame, in one of the ways in which hosts call.
+    /// Runs one frame, in one of the ways in which hosts call.
     fn frame(&mut self, i: u32) {
         self.place(i);
         let world = &mut self.world;
@@ -183,7 +184,8 @@ impl Bench {
         } else if i % 50 == 2 {
             during("prewake and quiesce", || world.quiesce());
         }
-        // Not in step with the hops: every way of calling meets every kind of touch in the long run.
+        // The cycle differs from that of the hops, so that every way of calling meets every kind of contact
+        // in the long run.
         match i % 7 {
             0 | 1 => drop(during("step", || world.step()).unwrap()),
             2 => {
@@ -221,7 +223,7 @@ impl Bench {
         self.look();
     }
 
-    /// Asks for everything that a host can ask of a frame.
+    /// Reads everything that a host can read of a frame.
     fn look(&mut self) {
         let (world, seen) = (&self.world, &mut self.seen);
         let mut touch = [[false; 9]; 9];

@@ -1,4 +1,4 @@
-//! A point mass that is dropped on a plane, and hosts that move it in ways of their own.
+//! A point mass dropped on a plane, and hosts with different integration schemes.
 
 use super::{Rig, at, model, moving, surface};
 use pong_engine::{Config, PairEnergyAccount, State, WrenchCoupling};
@@ -7,26 +7,26 @@ use std::collections::VecDeque;
 
 pub const G: f64 = 9.81;
 
-/// What is dropped, and how the host moves it.
+/// A drop, and the way in which the host moves the mass.
 #[derive(Clone, Copy, Debug)]
 pub struct Drop {
     pub mass: f64,
     pub stiffness: f64,
     pub damping: f64,
     pub gravity: f64,
-    /// Where it begins, m above the plane, and its velocity, m/s, upward.
+    /// Initial height above the plane, m, and upward velocity, m/s.
     pub start: [f64; 2],
     pub step: f64,
     pub coupling: WrenchCoupling,
 }
 
-/// What became of it.
+/// Result of a drop.
 #[derive(Debug)]
 pub struct Landed {
-    /// Kinetic energy and that of gravity at the beginning and at the end, J.
+    /// Kinetic plus potential energy at the beginning and at the end, J.
     pub before: f64,
     pub after: f64,
-    /// Whether it left the plane for good within the time.
+    /// True if the mass left the plane for good within the time.
     pub left: bool,
     pub least_normal_force: f64,
     pub account: PairEnergyAccount,
@@ -52,7 +52,7 @@ impl Flight {
         self.rig.wrench(0).force.z
     }
 
-    /// Force at a place that is committed.
+    /// Commits a height and a velocity; returns the force, N.
     fn commit(&mut self, height: f64, velocity: f64) -> f64 {
         let force = self.force(height, velocity);
         self.rig.world.commit().unwrap();
@@ -63,7 +63,7 @@ impl Flight {
         force / self.drop.mass - self.drop.gravity
     }
 
-    /// One step of the host's, from a force that was committed.
+    /// One step of the host, from a committed force.
     fn step(&mut self, [z, v]: [f64; 2], committed: f64, waiting: &mut VecDeque<f64>) -> [f64; 2] {
         let h = self.drop.step;
         match self.drop.coupling {
@@ -96,7 +96,7 @@ impl Flight {
 }
 
 impl Drop {
-    /// What free flight keeps, J: for semi-implicit Euler the energy that it keeps exactly.
+    /// Invariant of free flight, J; for semi-implicit Euler the energy that the scheme conserves exactly.
     fn energy(&self, [z, v]: [f64; 2]) -> f64 {
         let z = match self.coupling {
             WrenchCoupling::SemiImplicit => z - 0.5 * self.step * v,
@@ -105,7 +105,7 @@ impl Drop {
         self.mass * (0.5 * v * v + self.gravity * z)
     }
 
-    /// Lets it fall, until it has left the plane and nothing is on its way, for so many steps at most.
+    /// Drops the mass until it has left the plane and no delayed force remains, for at most this many steps.
     pub fn run(&self, steps: usize) -> Landed {
         let law = surface(self.stiffness, &format!("normal: Linear(damping: {:?})", self.damping));
         let tip = model("tip", &law, "Point(name: \"p\", position: (0,0,0))");

@@ -1,11 +1,11 @@
-//! A mesh written by code, with what its author says of it.
+//! A mesh with its author's settings.
 
 use pong_geometry::{Quat, Vec3};
 use pong_testkit::ron::{model, surface, triangle_mesh};
 
-/// Of every surface of these tests, N/m.
+/// Stiffness of every surface of these tests, N/m.
 const STIFFNESS: f64 = 1e5;
-/// Of two such surfaces that touch, N/m.
+/// Stiffness of two such surfaces in series, N/m.
 pub const SERIES: f64 = 0.5 * STIFFNESS;
 
 /// The surface of these tests.
@@ -13,7 +13,7 @@ pub fn steel() -> String {
     surface(STIFFNESS, "normal: Linear(damping: 0.0)")
 }
 
-/// A mesh and what its author says of it.
+/// A mesh with its author's settings.
 #[derive(Clone)]
 pub struct Mesh {
     pub vertices: Vec<Vec3>,
@@ -23,17 +23,17 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// One-sided, of the default thickness.
+    /// A one-sided mesh of the default thickness.
     pub fn new(vertices: Vec<Vec3>, triangles: Vec<[usize; 3]>) -> Self {
         Self { vertices, triangles, two_sided: false, thickness: None }
     }
 
-    /// In other axes.
+    /// The mesh in other axes.
     pub fn turned(&self, turn: &Quat, shift: &Vec3) -> Self {
         Self { vertices: self.vertices.iter().map(|v| turn * v + shift).collect(), ..self.clone() }
     }
 
-    /// The model file.
+    /// Text of the model file.
     pub fn text(&self) -> String {
         let thickness = self.thickness.map_or(String::new(), |t| format!("thickness: {t:?},"));
         let more = format!("two_sided: {}, {thickness}", self.two_sided);

@@ -61,7 +61,7 @@ impl Rig {
     }
 }
 
-/// Every contact in words, to the last bit.
+/// Every contact as text, bit by bit.
 pub fn told(world: &World) -> Vec<String> {
     let number = |x: &f64| format!("{:016x}", x.to_bits());
     let contact = |contact: &pong_engine::Contact| {
@@ -81,7 +81,7 @@ pub fn moving(position: Vec3, q: Quat, linear: Vec3, angular: Vec3) -> State {
     State { linear_velocity: linear.into(), angular_velocity: angular.into(), ..at(position, q) }
 }
 
-/// The same scene seen from another frame: at `pose`, drifting at `velocity`.
+/// Transforms a state to another common frame, which is at `pose` and drifts at `velocity`.
 pub fn seen_from(state: &State, pose: &Pose, velocity: &Vec3) -> State {
     let moved = pose.compose(&state.pose());
     let twist = state.twist();
@@ -93,12 +93,12 @@ pub fn seen_from(state: &State, pose: &Pose, velocity: &Vec3) -> State {
     )
 }
 
-/// A surface that damps and rubs.
+/// A surface with damping and friction.
 pub fn rough(stiffness: f64) -> String {
     surface(stiffness, "normal: Linear(damping: 20.0), friction: Bristle(mu: 0.4)")
 }
 
-/// Points in a layer `thickness` high.
+/// Points in a layer of height `thickness`.
 pub fn points(count: usize, thickness: f64, seed: u64) -> String {
     let mut random = Random(seed);
     let one = |index| {

@@ -1,4 +1,4 @@
-//! Force laws, a primitive, its contact tests and a bounding volume of a user's own; and laws that stall a worker.
+//! Custom force laws, a primitive, its contact tests and a bounding volume; and laws that stall a worker.
 
 use pong_engine::{FrictionForce, FrictionInput, FrictionOutput, Laws, NormalForce, NormalInput};
 use pong_geometry::bounding::{Bounded, CustomVolume, Volume};
@@ -10,16 +10,16 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-/// Every so many calls of the laws on a worker, that worker sleeps; never if 0.
+/// A worker sleeps after every this many calls of the laws; never if 0.
 pub static STALL_EVERY: AtomicU64 = AtomicU64::new(0);
 
-/// How long a worker that stalls sleeps: longer than the worker timeout of the tests.
+/// Sleep of a stalling worker, longer than the worker timeout of the tests.
 pub const STALL: Duration = Duration::from_millis(4);
 
-/// Calls on workers since the process began.
+/// Calls of the laws on workers since the process began.
 pub static CALLS_ON_WORKERS: AtomicU64 = AtomicU64::new(0);
 
-/// Whether this thread is a worker.
+/// Returns true if this thread is a worker.
 pub fn on_a_worker() -> bool {
     std::thread::current().name().is_some_and(|name| name.starts_with("pong-worker"))
 }
@@ -50,7 +50,7 @@ impl NormalForce for Quadratic {
     }
 }
 
-/// A spring to the place of first touch: remembers three numbers.
+/// A spring to the point of first touch; it has three state values.
 #[derive(Debug)]
 pub struct Glue;
 
@@ -78,7 +78,7 @@ pub fn laws() -> Laws {
     laws
 }
 
-/// A vertical cylinder without ends.
+/// A vertical cylinder of infinite length.
 #[derive(Debug)]
 struct Post {
     radius: f64,
@@ -99,7 +99,7 @@ impl CustomPrimitive for Post {
 }
 
 impl Post {
-    /// A ball (a point is one of radius 0) around `center` in the post's frame.
+    /// Contact with a ball around `center` in the post's frame; a point has radius 0.
     fn pushes(&self, center: &Vec3, radius: f64) -> Option<Interference> {
         let out = Vec3::new(center.x, center.y, 0.0);
         let depth = self.radius + radius - out.norm();
@@ -135,7 +135,7 @@ pub fn extensions() -> Extensions {
     extensions
 }
 
-/// The same, but nothing tells whether the bounding volume meets another.
+/// These extensions, without a test between the bounding volume and others.
 pub fn without_volume_tests() -> Extensions {
     let mut extensions = Extensions::new();
     extensions.add_primitive(

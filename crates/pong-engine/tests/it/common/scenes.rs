@@ -1,4 +1,4 @@
-//! Scenes that together use every tester of a pair of kinds, every way to remember, and every limit.
+//! Scenes that together use every tester of a pair of kinds, every kind of contact memory, and every limit.
 
 use super::stage::{Path, Scene};
 use super::{box_polyhedron, model, plate_mesh, surface};
@@ -15,7 +15,7 @@ fn rough(stiffness: f64) -> String {
     surface(stiffness, rest)
 }
 
-/// Writes primitives one after another, with names of their own.
+/// Builds a list of primitives with unique names.
 pub struct Parts {
     pub text: Vec<String>,
     random: Random,
@@ -136,8 +136,8 @@ fn stations() -> Scene {
     scene
 }
 
-/// Two arms of three movable groups, touching each other, themselves and a bay; rays that may hit two groups of one
-/// Object. Pairs are switched, Objects forgotten.
+/// Two arms of three movable groups each that touch each other, themselves and a bay; rays that may hit two
+/// groups of one Object. Pairs are switched, and the history of Objects is cleared.
 fn arms() -> Scene {
     let mut tip = Parts::new(2);
     tip.every_mover([0.0, 0.0, -0.05], [0.1, 0.1, 0.03]);
@@ -192,7 +192,8 @@ fn arms() -> Scene {
     scene
 }
 
-/// Balls and ellipsoids through sheets, from the front and from behind, and with their centres under the surface.
+/// Balls and ellipsoids through sheets, from the front and from behind, and with their centres below the
+/// surface.
 fn sheets() -> Scene {
     let mut movers = Parts::new(4);
     movers.spheres(40, [0.0, 0.0, 0.0], [1.4, 1.4, 0.15], 0.12);
@@ -224,7 +225,8 @@ fn sheets() -> Scene {
     scene
 }
 
-/// Everything into a plate of convex pieces with inner walls, deep, so that the side of entry is remembered.
+/// Everything deep into a plate of convex pieces with internal faces, so that the side of entry is
+/// remembered.
 fn pieces() -> Scene {
     let mut movers = Parts::new(5);
     movers.points(700, [0.0, 0.0, 0.0], [1.2, 0.4, 0.1]);
@@ -255,7 +257,7 @@ fn pieces() -> Scene {
     scene
 }
 
-/// Laws, primitives and bounding volumes of a user's own; Hertz contacts, regularised friction.
+/// Custom laws, primitives and bounding volumes; Hertz contacts, regularised friction.
 fn own_kinds() -> Scene {
     let own = "\"s\": (stiffness: 1.0, normal: Custom(name: \"quadratic\", parameters: [3e6]), \
                friction: Custom(name: \"glue\", parameters: [500.0]))";
@@ -294,7 +296,7 @@ fn own_kinds() -> Scene {
     scene
 }
 
-/// More contacts than there is room for, most of the time.
+/// More contacts than the capacity, most of the time.
 fn crowd() -> Scene {
     let mut movers = Parts::new(7);
     movers.points(2500, [0.0, 0.0, 0.0], [0.8, 0.8, 0.04]);
@@ -320,7 +322,8 @@ fn crowd() -> Scene {
     scene
 }
 
-/// Balls in a funnel that fits them: more contacts of one ball, further apart, than can be shared exactly.
+/// Balls in a funnel that fits them: more contacts of one ball, with normals further apart, than can be
+/// shared exactly.
 fn bowl() -> Scene {
     let mut movers = Parts::new(8);
     for _ in 0..5 {
@@ -328,7 +331,7 @@ fn bowl() -> Scene {
     }
     movers.add("Ellipsoid", "center: (0,0,0), semi_axes: (0.2,0.19,0.18)");
     let place = |x: f64, y: f64| {
-        // A sphere seen from within, without its lid.
+        // A sphere without its lid, with its front inside.
         let (up, around) = (2.2 * (y + 0.5), std::f64::consts::TAU * (x + 0.5));
         let out = 0.198 * libm::sin(up + 0.3);
         Vec3::new(out * libm::sin(around), out * libm::cos(around), -0.198 * libm::cos(up + 0.3))
@@ -350,7 +353,7 @@ fn bowl() -> Scene {
     scene
 }
 
-/// So many pairs that the work of a frame is laid out in two rounds.
+/// Enough pairs that the work of a frame is laid out in two rounds.
 fn swarm() -> Scene {
     const OBJECTS: usize = 60;
     let mut body = Parts::new(9);
@@ -380,8 +383,8 @@ fn random_triple(random: &mut Random, size: f64) -> [f64; 3] {
     [0; 3].map(|_| random.between(-size, size))
 }
 
-/// Everything over a log, a roller and a plug that lie, and in a hole: rods and pins too large for it, in it and through a mouth.
-/// Round parts on a floor.
+/// Everything over a log, a roller and a plug that lie down, and in a hole; rods and pins too large for it,
+/// in it and through a mouth. Round parts on a floor.
 fn round() -> Scene {
     let mut movers = Parts::new(11);
     for station in 0..3 {

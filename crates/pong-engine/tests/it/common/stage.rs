@@ -1,5 +1,5 @@
-//! Scenes that run along fixed paths, and hashes of all that a frame tells. The paths need no platform mathematics:
-//! they are the same bits everywhere.
+//! Scenes that run along fixed paths, and hashes of everything that a frame reports. The paths use no
+//! platform mathematics, so they are bit-identical everywhere.
 
 use pong_engine::{
     Config, Contact, ContactSide, InterfaceId, ObjectId, PairId, State, StatusBits, WorkerSettings, World,
@@ -9,10 +9,10 @@ use pong_geometry::{Vec3, Wrench};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Time of a frame, s.
+/// Duration of a frame, s.
 const STEP_S: f64 = 1e-3;
 
-/// A smooth swing about a place: one sine per axis, and one per axis of the rotation.
+/// A smooth oscillation about a position: one sine per axis, and one per axis of the rotation.
 #[derive(Clone, Copy, Debug)]
 pub struct Path {
     pub center: [f64; 3],
@@ -27,7 +27,7 @@ pub struct Path {
 }
 
 impl Path {
-    /// At rest.
+    /// A path at rest.
     pub const fn still(center: [f64; 3]) -> Self {
         Self { center, swing: [0.0; 3], period: [100.0; 3], turn: [0.0; 3], turn_period: 100.0 }
     }
@@ -57,31 +57,31 @@ fn sine(turns: f64) -> f64 {
     libm::sin(std::f64::consts::TAU * turns)
 }
 
-/// What is run.
+/// Scene to be run.
 pub struct Scene {
     pub name: &'static str,
     pub frames: usize,
     pub contact_capacity: Option<usize>,
     pub ledger: bool,
     pub accounts: Option<WrenchCoupling>,
-    /// With the primitives, volumes and laws of `own_kinds.rs`.
+    /// True to use the primitives, volumes and laws of `own_kinds.rs`.
     pub own_kinds: bool,
     pub models: Vec<String>,
     /// Model of every Object.
     pub objects: Vec<usize>,
     pub pairs: Vec<(usize, usize)>,
-    /// One per movable group, Object by Object.
+    /// One per movable group, by Object.
     pub paths: Vec<Path>,
-    /// Whether a pair is on in a frame.
+    /// Returns true if a pair is on in a frame.
     pub is_on: fn(frame: usize, pair: usize) -> bool,
-    /// The Object that is forgotten before a frame.
+    /// Object whose history is cleared before a frame.
     pub forgets: fn(frame: usize) -> Option<usize>,
-    /// Stiffness of the surface `s` of the first model in a frame, if it changes, N/m.
+    /// Stiffness of the first model's surface `s` in a frame, if it changes, N/m.
     pub stiffness: fn(frame: usize) -> Option<f64>,
 }
 
 impl Scene {
-    /// A scene without pairs that are switched, Objects that are forgotten and surfaces that change.
+    /// A scene without switched pairs, cleared history and changing surfaces.
     pub fn new(name: &'static str, frames: usize, models: Vec<String>) -> Self {
         Self {
             name,
@@ -100,12 +100,12 @@ impl Scene {
         }
     }
 
-    /// A sealed world of the scene.
+    /// Sealed world of the scene.
     pub fn set_up(&self, workers: Option<WorkerSettings>) -> Stage<'_> {
         self.set_up_beside(&[], workers)
     }
 
-    /// A sealed world of the scene and of newcomers: at these places among its Objects, far away, each paired with all.
+    /// Sealed world of the scene with additional Objects at these positions in its list, far away and paired with all.
     pub fn set_up_beside(&self, newcomers: &[usize], workers: Option<WorkerSettings>) -> Stage<'_> {
         let Self { contact_capacity, ledger, accounts, .. } = *self;
         let config = Config { contact_capacity, ledger, accounts, workers };
@@ -144,7 +144,7 @@ impl Scene {
     }
 }
 
-/// An Object of several kinds of primitives, 1 km away.
+/// Adds an Object of several kinds of primitives, 1 km away.
 fn newcomer(builder: &mut WorldBuilder, place: usize) -> ObjectId {
     let parts = "Point(name: \"p\", position: (0,0,0)), Sphere(name: \"b\", center: (1,0,0), radius: 0.1), \
                  Capsule(name: \"c\", ends: ((0,1,0), (1,1,0)), radius: 0.1)";
@@ -153,20 +153,20 @@ fn newcomer(builder: &mut WorldBuilder, place: usize) -> ObjectId {
     let model = builder.add_model(Arc::new(model));
     let object = builder.create_object(model, &format!("newcomer_{place}")).unwrap();
     let interface = builder.scene().interface(object, "").unwrap();
-    // Beside posts without ends, and above planes that swing.
+    // Clear of infinite posts, and above oscillating planes.
     let position = [1e2, 2e1 * place as f64, 1e3];
     builder.set_states(&[(interface, State { position, ..State::identity() })]).unwrap();
     object
 }
 
-/// So many, whoever else is busy.
+/// Settings for this many workers, even on a busy machine.
 pub fn workers(count: usize) -> Option<WorkerSettings> {
-    // WaitLimit without end: on a busy machine no frame may be done alone for want of it.
+    // Practically no worker timeout: on a busy machine no frame may fall back to the caller alone.
     let worker_timeout = Duration::from_secs(60);
     Some(WorkerSettings { workers: count, oversubscribe: true, worker_timeout, ..WorkerSettings::default() })
 }
 
-/// A scene at work.
+/// A running scene.
 pub struct Stage<'s> {
     pub scene: &'s Scene,
     pub world: World,
@@ -184,7 +184,7 @@ impl Stage<'_> {
         self.world.set_states(&states).unwrap();
     }
 
-    /// Sets what the host has switched by a frame.
+    /// Switches the pairs for a frame.
     pub fn switch(&mut self, frame: usize) {
         for (index, pair) in self.pairs.iter().enumerate() {
             self.world.set_pair_enabled(*pair, (self.scene.is_on)(frame, index)).unwrap();
@@ -198,7 +198,7 @@ impl Stage<'_> {
         }
     }
 
-    /// All that the host does before it evaluates a frame.
+    /// Everything that the host does before it evaluates a frame.
     pub fn prepare(&mut self, frame: usize) {
         self.switch(frame);
         if let Some(object) = (self.scene.forgets)(frame) {
@@ -207,14 +207,14 @@ impl Stage<'_> {
         self.place(frame);
     }
 
-    /// Runs one frame and hashes all that it tells.
+    /// Runs one frame and hashes everything that it reports.
     pub fn step(&mut self, frame: usize) -> FrameHash {
         self.prepare(frame);
         self.world.evaluate().unwrap();
         self.finish()
     }
 
-    /// Hashes the frame that was evaluated, and commits it.
+    /// Hashes the evaluated frame, and commits it.
     pub fn finish(&mut self) -> FrameHash {
         let mut hash = FrameHash::default();
         self.hash_answers(&mut hash.answers);
@@ -237,7 +237,7 @@ impl Stage<'_> {
             hash.wrench(&self.world.wrench_common(*group).unwrap());
         }
         let report = self.world.report();
-        // What went through something is told beside the answers: earlier versions did not tell it.
+        // Tunnelling is hashed separately, because earlier versions did not report it.
         hash.word(u64::from(report.status.bits() & !StatusBits::TUNNELLED.bits()));
         hash.word(u64::from(report.contacts));
         hash.word(u64::from(report.contacts_wanted));
@@ -275,11 +275,11 @@ pub struct FrameHash {
     pub answers: Hash,
     /// The contact state block.
     pub state: Hash,
-    /// What was tested how often: the same for any number of workers, but no answer.
+    /// Hash of the test counts: equal for any number of workers, but no part of the answers.
     pub counts: Hash,
 }
 
-/// A hash of numbers, bit by bit.
+/// Hash of numbers, bit by bit.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Hash(pub u64);
 
@@ -322,7 +322,7 @@ impl Hash {
     }
 
     fn side(&mut self, side: &ContactSide) {
-        // The upper half of an id is the world's own.
+        // The upper half of an id identifies the world.
         self.word(side.object.to_bits() & 0xffff_ffff);
         self.word(side.interface.to_bits() & 0xffff_ffff);
         self.word(u64::from(side.primitive) << 32 | u64::from(side.element));
