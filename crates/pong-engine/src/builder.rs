@@ -87,12 +87,12 @@ impl WorldBuilder {
         }
     }
 
-    /// A world in set-up with everything that a sealed one was set up with, and with the states, pairs and values of surfaces that
-    /// it has now: add the Objects that arrive, seal, and let the new world go on where the other one is by then
-    /// ([`World::continue_from`]). Models are shared, not loaded again. The other world may run on meanwhile.
+    /// A world in set-up that starts as a copy of a sealed one, with its current states, pairs and surface
+    /// values: add new Objects, seal, and continue the other world's run ([`World::continue_from`]). Models
+    /// are shared, not loaded again. The other world may run on meanwhile.
     ///
-    /// Ids of the sealed world are ids of this one. What is added here has ids of this world alone: they are not to be used
-    /// in another world that was begun so from the same one.
+    /// Ids of the sealed world are valid in this one. Ids of additions are valid in this world only, and must
+    /// not be used in another extension of the same world.
     pub fn extending(world: &World) -> Self {
         let (scene, surfaces, states, clock) = world.set_up_again();
         let paired = scene.pairs.iter().map(|pair| (pair.a.min(pair.b), pair.a.max(pair.b))).collect();

@@ -321,10 +321,10 @@ impl Runtime {
         Ok(())
     }
 
-    /// Checks that the contact state of another world fits into this one.
+    /// Checks that this world has room for the contact state of another one.
     ///
     /// # Errors
-    /// [`EngineError::BadValue`] if it has not.
+    /// [`EngineError::BadValue`] if it does not.
     pub fn require_room_for(&self, from: &Self, counterparts: &Counterparts<'_>) -> Result<(), EngineError> {
         let refused = |cause: String| {
             Err(EngineError::BadValue { what: "continue from another world".to_owned(), cause })
@@ -349,8 +349,9 @@ impl Runtime {
         Ok(())
     }
 
-    /// Replaces the contact state by that of another world, which must fit ([`require_room_for`](Self::require_room_for)).
-    /// Results of the last frame are dropped. `poses` are those of the states that are set.
+    /// Replaces the contact state by that of another world, which must fit
+    /// ([`require_room_for`](Self::require_room_for)), and drops the results of the last frame. `poses` are
+    /// those of the current states.
     pub fn carry(
         &mut self,
         from: &Self,

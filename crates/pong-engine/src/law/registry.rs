@@ -32,7 +32,7 @@ impl Laws {
         self.friction.get(name).cloned().ok_or_else(|| missing("friction law", name))
     }
 
-    /// First friction law whose namesake in another registry remembers another count of numbers per contact.
+    /// First friction law for which another registry has a law of equal name with another number of state values.
     pub(crate) fn first_of_other_state(&self, others: &Self) -> Option<&str> {
         let differs = |name: &String, law: &Arc<dyn FrictionForce>| {
             others.friction.get(name).is_some_and(|other| other.state_len() != law.state_len())

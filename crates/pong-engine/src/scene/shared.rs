@@ -1,4 +1,4 @@
-//! Common Objects of two sealed scenes, and whether their contacts can continue from one scene to the other.
+//! Common Objects of two sealed scenes, and the check that their contacts can continue in the other scene.
 
 use super::{GroupInstance, Scene};
 use crate::error::EngineError;
@@ -8,13 +8,13 @@ use std::collections::BTreeMap;
 /// A sealed scene.
 type SealedScene<'a> = (&'a Scene, &'a Sealed);
 
-/// Objects that two scenes have in common, by name, with their movable groups and pairs. All lists but `group_pairs` are by the
-/// numbers of the second scene and hold those of the first.
+/// Common Objects of two scenes, matched by name, with their movable groups and pairs. All lists except
+/// `group_pairs` are indexed by the second scene and hold indices of the first.
 pub(crate) struct Shared {
     pub objects: Vec<Option<usize>>,
     pub bodies: Vec<Option<usize>>,
     pub pairs: Vec<Option<usize>>,
-    /// Numbers in the second scene of the pairs of movable groups of the first, in ascending order.
+    /// For each pair of movable groups of the first scene, its index in the second; increasing.
     pub group_pairs: Vec<Option<u32>>,
 }
 
@@ -22,7 +22,8 @@ impl Shared {
     /// Matches a second scene with a first one.
     ///
     /// # Errors
-    /// [`EngineError::BadValue`] if contacts of common Objects would not continue unchanged: the thing, the cause and the cure.
+    /// [`EngineError::BadValue`] with thing, cause and cure if contacts of common Objects would not continue
+    /// unchanged.
     pub fn of(from: SealedScene<'_>, into: SealedScene<'_>) -> Result<Self, EngineError> {
         require_same_settings(from.0, into.0)?;
         let objects = shared_objects(from.0, into.0)?;
@@ -33,7 +34,7 @@ impl Shared {
     }
 }
 
-/// A refusal that names the thing.
+/// Error for `thing`.
 pub(crate) fn refused<T>(thing: &str, cause: String) -> Result<T, EngineError> {
     Err(EngineError::BadValue { what: format!("continue from another world: {thing}"), cause })
 }
@@ -53,7 +54,7 @@ fn require_same_settings(from: &Scene, into: &Scene) -> Result<(), EngineError> 
     }
 }
 
-/// Numbers in the first scene of the Objects of the second, by name.
+/// Indices in the first scene of the Objects of the second, by name.
 fn shared_objects(from: &Scene, into: &Scene) -> Result<Vec<Option<usize>>, EngineError> {
     let names = from.objects.iter().enumerate().map(|(index, object)| (object.name.as_str(), index));
     let by_name: BTreeMap<&str, usize> = names.collect();
@@ -73,7 +74,7 @@ fn shared_objects(from: &Scene, into: &Scene) -> Result<Vec<Option<usize>>, Engi
     let order: Vec<usize> = objects.iter().flatten().copied().collect();
     if let Some(turned) = order.windows(2).find(|two| two[0] > two[1]) {
         let [first, second] = [turned[0], turned[1]].map(|index| &from.objects[index].name);
-        // Sums are in the order of Objects, and rounding goes with it.
+        // Sums follow the order of Objects, and their rounding depends on it.
         let cause = format!(
             "they were created in the other order in the other world; create `{second}` before `{first}`, and new Objects \
              anywhere between"
@@ -89,7 +90,7 @@ fn shared_bodies(from: &Scene, into: &Scene, objects: &[Option<usize>]) -> Vec<O
     into.bodies.iter().map(earlier).collect()
 }
 
-/// Numbers in the first scene of the pairs of Objects of the second.
+/// Indices in the first scene of the pairs of Objects of the second.
 fn shared_pairs(
     (from, sealed_from): SealedScene<'_>,
     (into, sealed_into): SealedScene<'_>,

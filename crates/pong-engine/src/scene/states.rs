@@ -48,8 +48,8 @@ impl States {
         Ok(changed)
     }
 
-    /// Copies the states and switched pairs of another world; `bodies` and `pairs` hold the numbers there. States never set there
-    /// stay as they are.
+    /// Copies the states and switched pairs of another world; `bodies` and `pairs` hold the indices there.
+    /// States that were never set there are kept as they are here.
     pub fn take_over(&mut self, from: &Self, bodies: &[Option<usize>], pairs: &[Option<usize>]) {
         for (body, earlier) in bodies.iter().enumerate() {
             let set = earlier.filter(|&earlier| from.bodies[earlier].is_some());

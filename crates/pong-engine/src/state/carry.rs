@@ -1,27 +1,27 @@
-//! Transfer of contact state from one world to another that has some of its Objects.
+//! Transfer of contact state to another world that has some of the same Objects.
 
 use super::memory::{ContactMemory, Remembered};
 use super::record::{ContactKey, ContactRecord, ContactRole};
 use crate::energy::episodes::PairEnergies;
 use pong_geometry::Pose;
 
-/// Correspondence between two worlds.
+/// Correspondence between the Objects of two worlds.
 #[derive(Clone, Copy)]
 pub(crate) struct Counterparts<'a> {
-    /// Numbers in the first world of the movable groups of the second.
+    /// For each movable group of the second world, its index in the first.
     pub bodies: &'a [Option<usize>],
-    /// Numbers in the first world of the pairs of Objects of the second.
+    /// For each pair of Objects of the second world, its index in the first.
     pub pairs: &'a [Option<usize>],
-    /// Numbers in the second world of the pairs of movable groups of the first, in ascending order.
+    /// For each pair of movable groups of the first world, its index in the second; increasing.
     pub group_pairs: &'a [Option<u32>],
 }
 
-/// Contacts that went on, and those that were left behind.
+/// Contacts that continue, and contacts left behind.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct CarryOutcome {
     pub contacts: usize,
     pub contacts_left: usize,
-    /// Energy stored in those that were left, J.
+    /// Energy stored in the contacts left behind, J.
     pub energy_left: f64,
 }
 
@@ -31,9 +31,10 @@ impl ContactMemory {
         self.records.iter().filter(|record| group_pairs[record.key.group_pair as usize].is_some()).count()
     }
 
-    /// Replaces everything by the contact state of another world, as far as its pairs exist here. There must be room.
-    /// `elsewhere` holds the poses of movable groups that the other world knows none of, `frame` is the number that the poses
-    /// get if a commit of all pairs made them. With a ledger, energy stored in contacts left behind counts as dissipated.
+    /// Replaces everything by the contact state of another world, as far as its pairs exist here. There must
+    /// be room. `elsewhere` holds poses for movable groups without a pose in the other world; `frame` is the
+    /// frame number for poses from a commit of all pairs. With a ledger, the energy of contacts left behind
+    /// counts as dissipated.
     pub fn carry(
         &mut self,
         from: &Self,
@@ -47,7 +48,7 @@ impl ContactMemory {
         let pushes = |record: &ContactRecord| record.role == ContactRole::Active;
         self.clear_records();
         self.records.expect(from.records.len());
-        // Laws of new Objects may remember more numbers, and those of Objects that are gone may have remembered more.
+        // Laws of new Objects may have more state values, and those of removed Objects may have had more.
         let mut law_state = vec![0.0; self.law_state_len];
         let shared = self.law_state_len.min(from.law_state_len);
         for Remembered { record, law_state: earlier, energy } in from.iter() {
@@ -73,11 +74,11 @@ impl ContactMemory {
 }
 
 impl PairEnergies {
-    /// Copies the energies of pairs that exist here; all others begin at zero.
+    /// Copies the energies of pairs that exist here; all others start at zero.
     fn carry(&mut self, from: &Self, group_pairs: &[Option<u32>]) {
         let delay = self.delay;
         *self = Self::new(self.pairs.len(), delay);
-        // Neither world keeps accounts, or both do.
+        // Either both worlds keep accounts, or neither does.
         for (old, energy) in from.pairs.iter().enumerate() {
             if let Some(new) = group_pairs[old].map(|new| new as usize) {
                 self.pairs[new] = *energy;

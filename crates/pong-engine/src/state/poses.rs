@@ -226,9 +226,10 @@ impl CommittedPoses {
         moments.len()
     }
 
-    /// Replaces everything by the poses of another world; pairs that only this one has are forgotten. `bodies` and `pairs` hold
-    /// the numbers in the other world. There must be room for the epochs. Movable groups that the other world has no pose of
-    /// are `elsewhere`; no remembered pair reads that. `frame` is the number of the frame if a commit of all pairs made the poses.
+    /// Replaces everything by the poses of another world; pairs that only this world has lose their history.
+    /// `bodies` and `pairs` hold the indices in the other world. There must be room for the epochs. Movable
+    /// groups without a pose in the other world get that in `elsewhere`, which no pair with a history reads.
+    /// `frame` is the frame number for poses from a commit of all pairs.
     pub fn carry(
         &mut self,
         from: &Self,
@@ -260,7 +261,7 @@ impl CommittedPoses {
         self.frame = if from.frame > 0 && moments.len() == 1 { frame } else { 0 };
     }
 
-    /// Whether anything is remembered of a pair of Objects.
+    /// Returns true if a pair of Objects has a history.
     pub fn knows(&self, pair: usize) -> bool {
         self.moment_of[pair] != NEVER
     }

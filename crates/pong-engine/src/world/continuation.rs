@@ -13,41 +13,44 @@ use crate::state::{CarryOutcome, Counterparts};
 pub struct Continuation {
     /// Objects that are in both worlds.
     pub objects: usize,
-    /// Their pairs that go on.
+    /// Pairs that continue.
     pub pairs: usize,
-    /// Contacts that push and go on.
+    /// Contacts that push and continue.
     pub contacts: usize,
-    /// Objects of the other world that are not in this one.
+    /// Objects of the other world that this one does not have.
     pub objects_left: usize,
-    /// Pairs of theirs, which are left with all that is remembered of them: contacts and accounts.
+    /// Pairs left behind, with their contacts and accounts.
     pub pairs_left: usize,
     /// Contacts of those pairs that pushed.
     pub contacts_left: usize,
-    /// Energy that was stored in them, J. The ledger counts it as dissipated.
+    /// Energy stored in those contacts, J; the ledger counts it as dissipated.
     pub energy_left: f64,
 }
 
 impl World {
-    /// Goes on where another world is: what is in both, Objects of one name and the pairs between them, has from here on the
-    /// states, switched pairs, values of surfaces and contact state that it has there. Contacts between those Objects go on as
-    /// if nothing had been added or taken away: given the same states, their wrenches are the same bits for as long as nothing
-    /// else touches them. So are the totals of the ledger, and the accounts of their pairs.
+    /// Continues the run of another world. Common Objects (those of equal name) and their pairs take over
+    /// states, switched pairs, surface values and contact state from there. Contacts between them continue as
+    /// if no Object had been added or removed: for the same states their wrenches are bit-identical, as long
+    /// as nothing else touches these Objects. The totals of the ledger and the accounts of these pairs
+    /// continue as well.
     ///
-    /// What is in this world alone keeps its states, pairs and surfaces, and has no past: contacts of it begin. What is in the
-    /// other world alone is left behind, and the answer says how much that is. Whatever this world has remembered before is
-    /// forgotten; it has no frame before its next one. The other world does not change and may run on or be dropped.
+    /// Objects that only this world has keep their states, pairs and surfaces, and their contacts start
+    /// without history. Objects that only the other world has are left behind, as counted in the result. All
+    /// earlier contact state of this world is dropped, and it has no results before its next frame. The other
+    /// world is unchanged, and may run on or be dropped.
     ///
-    /// Not for frames: it takes memory, but no more time than a few frames do. [`WorldBuilder::extending`] makes a world of the
-    /// Objects of another one and more.
+    /// Not for use within frames: it allocates, and costs about as much as a few frames.
+    /// [`WorldBuilder::extending`] makes a world with the Objects of another one and more.
     ///
     /// [`WorldBuilder::extending`]: crate::WorldBuilder::extending
     ///
     /// # Errors
-    /// [`EngineError::WrongPhase`] if a frame of either world was evaluated and not committed. [`EngineError::BadValue`] where the
-    /// contacts would not go on as they were: an Object of the same name has another model, Objects were created or paired in
-    /// another order, a pair or its filters are missing or others, energies are kept otherwise, a law remembers another count of
-    /// numbers, or there is no room. [`EngineError::Seal`] if values of surfaces cannot be combined with those of what is new.
-    /// This world is as it was then.
+    /// [`EngineError::WrongPhase`] if either world has an evaluated frame that is not committed.
+    /// [`EngineError::BadValue`] if contacts could not continue unchanged: a common Object has another model,
+    /// Objects were created or paired in another order, a pair is missing or has other filters, the energy
+    /// settings differ, a law has another number of state values, or there is not enough room.
+    /// [`EngineError::Seal`] if surface values cannot be combined with those of new Objects. This world is
+    /// unchanged then.
     pub fn continue_from(&mut self, other: &Self) -> Result<Continuation, EngineError> {
         if self.is_evaluated() || other.is_evaluated() {
             let cure = "commit the frame that was evaluated, in both worlds, first";
@@ -59,7 +62,7 @@ impl World {
         let surfaces = self.surfaces_as_in(other, objects)?;
         self.runtime.require_room_for(&other.runtime, &counterparts)?;
 
-        // Nothing is refused any more.
+        // No errors from here on.
         if let Some((surfaces, tables)) = surfaces {
             self.surfaces = surfaces;
             self.runtime.set_tables(tables);
@@ -80,8 +83,8 @@ impl World {
         })
     }
 
-    /// Surface values with those that another world has of common Objects, and the tables of their pairs; `None` if nothing
-    /// differs.
+    /// Surface values after taking over those of common Objects from another world, with the tables of their
+    /// pairs; `None` if nothing differs.
     fn surfaces_as_in(
         &self,
         other: &Self,
@@ -114,7 +117,7 @@ impl World {
         Ok(Some((surfaces, tables)))
     }
 
-    /// Scene, surfaces, states and clock as they are now, for a builder.
+    /// Current scene, surfaces, states and clock, for a builder.
     pub(crate) fn set_up_again(&self) -> (Scene, Surfaces, States, Clock) {
         let Self { scene, surfaces, states, runtime } = self;
         (Scene::clone(scene), surfaces.clone(), states.clone(), runtime.clock)

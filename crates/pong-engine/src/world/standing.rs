@@ -30,7 +30,7 @@ impl World {
         let frame = &self.runtime.frame;
         let group_pairs = self.runtime.memory.records.iter().map(|record| record.key.group_pair as usize);
         let pairs = group_pairs.map(|pair| &self.runtime.sealed.group_pairs[pair]);
-        // A world that goes on from another one has pairs of which the commit before knew nothing.
+        // After a continuation from another world, some pairs have no poses at the previous commit.
         let pairs = pairs.filter(|pair| before.knows(pair.pair));
         let mut touching: Vec<usize> = pairs.flat_map(|pair| [pair.first, pair.second]).collect();
         touching.sort_unstable();

@@ -1,4 +1,5 @@
-//! A world of more or fewer Objects goes on where another one is: what is in both, to the bit (docs/theory.md, 5).
+//! Continuation in a world of more or fewer Objects: common Objects continue bit-identically (docs/theory.md,
+//! 5).
 
 use crate::common::stage::{Scene, Stage, workers};
 use crate::common::*;
@@ -9,7 +10,8 @@ use pong_engine::{
 use pong_geometry::{Quat, Vec3};
 use std::sync::Arc;
 
-/// Everything that a world tells of the Objects of a scene, as bits; whatever else is in it, and in which order.
+/// Everything that a world reports about the Objects of a scene, as bits, independent of additional Objects
+/// and their order.
 fn told_of(stage: &Stage<'_>) -> Vec<u64> {
     let world = &stage.world;
     let mut told = Vec::new();
@@ -47,7 +49,7 @@ fn step(stage: &mut Stage<'_>, frame: usize) -> Vec<u64> {
     told_of(stage)
 }
 
-/// A larger world that goes on where a stage is.
+/// A larger world that continues a stage.
 fn larger<'s>(stage: &Stage<'s>, newcomers: &[usize], count: usize) -> Stage<'s> {
     let scene = stage.scene;
     let mut larger = scene.set_up_beside(newcomers, workers(count));
@@ -72,7 +74,7 @@ fn compare(stage: &mut Stage<'_>, larger: &mut Stage<'_>, frame: usize) {
     );
 }
 
-/// Runs a scene; in some frames a larger world takes over what is compared with it.
+/// Runs a scene beside larger worlds, which continue it from some frames on, and compares them.
 fn run_beside(scene: &Scene, frames: usize, count: usize, arrivals: &[(usize, &[usize])]) {
     let mut stage = scene.set_up(workers(count));
     let mut beside = None;
@@ -89,7 +91,7 @@ fn run_beside(scene: &Scene, frames: usize, count: usize, arrivals: &[(usize, &[
 
 #[test]
 fn every_scene_goes_on_to_the_bit_beside_newcomers() {
-    // The bowl takes longer than all others together and is one pair of Objects like many.
+    // The bowl takes longer than all other scenes together, and has one pair of Objects like many of them.
     for mut scene in scenes::all().into_iter().filter(|scene| scene.name != "bowl") {
         let last = scene.objects.len();
         run_beside(&scene, 240, 0, &[(7, &[last]), (15, &[0]), (40, &[1, last])]);
@@ -99,7 +101,7 @@ fn every_scene_goes_on_to_the_bit_beside_newcomers() {
     }
 }
 
-/// Pairs that were last committed at moments of their own keep them.
+/// Pairs with different commit epochs keep them.
 #[test]
 fn pairs_go_on_from_the_moments_of_their_own_commits() {
     let arms = scenes::all().into_iter().find(|scene| scene.name == "arms").unwrap();
@@ -114,7 +116,7 @@ fn pairs_go_on_from_the_moments_of_their_own_commits() {
     (105..200).for_each(|frame| compare(&mut stage, &mut larger, frame));
 }
 
-/// A soft floor and rigid tips on it, each held by a bristle, and a plate that a tip goes through.
+/// A soft floor with rigid tips on it, each held by a bristle, and a plate that a tip passes through.
 struct Yard {
     world: World,
     names: Vec<String>,
@@ -136,7 +138,7 @@ fn text_of(name: &str) -> String {
     }
 }
 
-/// Objects of these names, all paired but of one kind among themselves, at rest 100 m up.
+/// Objects of these names, at rest 100 m up; all pairs of different kinds.
 fn builder_of(config: Config, names: &[&str]) -> WorldBuilder {
     let mut builder = WorldBuilder::new(config);
     let objects: Vec<ObjectId> = names
@@ -177,7 +179,7 @@ impl Yard {
         Self { world, names: names.iter().map(|name| (*name).to_owned()).collect() }
     }
 
-    /// Places some Objects; the floor lies at the origin.
+    /// Places some Objects and steps; the floor is at the origin.
     fn step(&mut self, places: &[(&str, Vec3)]) {
         let floor =
             self.names.iter().find(|name| name.starts_with("flo")).map(|name| (&**name, Vec3::zeros()));
@@ -203,7 +205,7 @@ fn tip(x: f64) -> Vec3 {
     Vec3::new(x, 0.0, -1e-3)
 }
 
-/// A bristle in mid-stick goes on; that of an Object that arrives in contact begins at zero.
+/// A stretched bristle continues; that of an Object that arrives in contact starts at zero.
 #[test]
 fn an_object_that_arrives_in_contact_begins_without_friction() {
     let mut yard = Yard::new(&["floor", "tip_a"]);
@@ -226,7 +228,7 @@ fn an_object_that_arrives_in_contact_begins_without_friction() {
     }
 }
 
-/// What went through a wall is told of the first frame too, and of which side a tip came in is not forgotten.
+/// The first frame reports tunnelling since the last commit, and the side of entry of a tip is kept.
 #[test]
 fn the_way_since_the_last_commit_goes_on() {
     for (before, after, through) in [(-0.1, 0.1, true), (-0.0045, 0.004, false)] {
@@ -237,13 +239,14 @@ fn the_way_since_the_last_commit_goes_on() {
         larger.world.continue_from(&yard.world).unwrap();
         larger.step(&[("tip_a", Vec3::x() * after)]);
         assert_eq!(larger.world.report().status.contains(StatusBits::TUNNELLED), through);
-        // Nearly through from the left: pushed back there.
+        // Nearly through from the left: pushed back to the left.
         let depth = if through { 0.0 } else { after + 0.005 };
         assert!((larger.force("tip_a").x + SOFT * depth).abs() < 1e-9, "{:?}", larger.force("tip_a"));
     }
 }
 
-/// A group that stood still over the commit at which the world was exchanged is named; one that arrived is not, wherever it is.
+/// A group that stood still across the continuation is reported; one that has just arrived is not, wherever
+/// it is.
 #[test]
 fn groups_that_stand_still_are_named_in_the_first_frame() {
     let belt = moving(Vec3::zeros(), Quat::identity(), Vec3::new(0.2, 0.0, 0.0), Vec3::zeros());
@@ -262,7 +265,7 @@ fn groups_that_stand_still_are_named_in_the_first_frame() {
     };
     step(&mut yard, &["tip_a"], 0.0);
     let mut larger = Yard::new(&["floor", "tip_a", "tip_b"]);
-    // Frames of its own, of which nothing counts.
+    // Frames of its own, without effect on the result.
     (0..3).for_each(|frame| _ = step(&mut larger, &["tip_a", "tip_b"], 1e-3 * f64::from(frame)));
     larger.world.continue_from(&yard.world).unwrap();
     assert_eq!(larger.world.standing_groups(1e-3).unwrap(), []);
@@ -270,7 +273,7 @@ fn groups_that_stand_still_are_named_in_the_first_frame() {
     assert_eq!(step(&mut larger, &["tip_a", "tip_b"], 1e-3), ["floor", "tip_a", "tip_b"]);
 }
 
-/// Objects that are gone take their contacts with them: what those had stored is lost, as if they had been forgotten.
+/// Objects that are removed take their contacts with them; the stored energy is dissipated, as after a clear.
 #[test]
 fn a_smaller_world_goes_on_with_what_is_left() {
     let names = ["tip_0", "floor", "tip_a", "tip_b"];
@@ -311,7 +314,7 @@ fn a_smaller_world_goes_on_with_what_is_left() {
     }
 }
 
-/// Values of surfaces, switched pairs and states are the other world's where it has them.
+/// Surface values, switched pairs and states come from the other world for common Objects.
 #[test]
 fn surfaces_switches_and_states_go_with_the_contacts() {
     let mut yard = Yard::new(&["floor", "wall", "tip_a"]);
@@ -341,7 +344,7 @@ fn surfaces_switches_and_states_go_with_the_contacts() {
     assert!((larger.force("tip_a").z - 0.5 * SOFT * 1e-3).abs() < 1e-9);
 }
 
-/// A builder of a sealed world has all of it, with its ids, and takes more.
+/// A builder made from a sealed world has all its Objects, with their ids, and accepts more.
 #[test]
 fn a_builder_extends_a_sealed_world() {
     let mut yard = Yard::new(&["floor", "tip_a"]);
@@ -372,12 +375,12 @@ fn a_builder_extends_a_sealed_world() {
     assert!((world.wrench(known).unwrap().force.x + BRISTLE * 2e-4).abs() < 1e-9);
     assert_eq!(world.wrench(new).unwrap().force.x, 0.0);
     assert!(matches!(yard.world.wrench(new), Err(EngineError::UnknownId { .. })));
-    // Nothing but what was there: the same world.
+    // Without additions it is the same world.
     let (same, _) = WorldBuilder::extending(&yard.world).seal().unwrap();
     assert_eq!(same.scene_hash(), yard.world.scene_hash());
 }
 
-/// Remembers as many numbers as it is told, the first of them the way slid.
+/// Law with a given number of state values; the first is the slipped distance.
 #[derive(Debug)]
 struct Remembers(usize);
 
@@ -393,7 +396,7 @@ impl FrictionForce for Remembers {
     }
 }
 
-/// A world in which some tips have laws that remember so many numbers.
+/// A world in which some tips have laws with this many state values.
 fn law_world(tips: &[(&str, &str, usize)]) -> World {
     let mut laws = Laws::default();
     tips.iter().for_each(|(_, law, count)| laws.add_friction(law, Arc::new(Remembers(*count))));
@@ -414,7 +417,7 @@ fn law_world(tips: &[(&str, &str, usize)]) -> World {
     builder.seal().unwrap().0
 }
 
-/// Laws of Objects that arrive may remember more numbers than those that are there, and laws of those that go may have.
+/// Laws of Objects that arrive or leave may have more state values than the others.
 #[test]
 fn registered_laws_keep_their_numbers() {
     let step = |world: &mut World, x: f64| {
@@ -504,7 +507,7 @@ fn what_would_not_go_on_as_it_was_is_refused_and_changes_nothing() {
         assert!(!world.has_contact_state());
     }
 
-    // What was there stays as it was: contact state, states, switches and frame.
+    // Contact state, states, switches and frame of the refusing world are unchanged.
     let mut other =
         Yard { world: of(nothing, &["tip_a", "floor", "wall"], ledger()), names: yard.names.clone() };
     other.step(&[("tip_a", tip(2.0))]);
@@ -514,7 +517,7 @@ fn what_would_not_go_on_as_it_was_is_refused_and_changes_nothing() {
     assert_eq!((other.saved(), other.force("tip_a"), yard.saved()), (before, force, saved));
 }
 
-/// A frame that is not committed might be or not be part of the run.
+/// An evaluated frame without a commit may or may not be part of the run.
 #[test]
 fn worlds_with_an_open_frame_are_refused() {
     let mut yard = Yard::new(&["floor", "tip_a"]);
@@ -534,7 +537,8 @@ fn worlds_with_an_open_frame_are_refused() {
     larger.world.continue_from(&yard.world).unwrap();
 }
 
-/// Room for fewer contacts or moments than are remembered, one model where there were two, and surfaces that do not combine.
+/// Refused: too little room for contacts or epochs, one model instead of two, and surfaces that do not
+/// combine.
 #[test]
 fn what_has_no_room_or_no_value_here_is_refused() {
     let (mut yard, places) = (Yard::new(&["floor", "tip_a", "tip_b", "tip_c"]), [1.0, 2.0, 3.0].map(tip));
