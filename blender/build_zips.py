@@ -27,7 +27,7 @@ PLATFORMS = {"linux_x86_64": "linux-x64", "linux_aarch64": "linux-arm64"}  # of 
 
 
 def files_of(source: Path, below: str = "") -> dict[str, Path]:
-    """Name in the zip -> file; links followed, nothing hidden and nothing that Python compiled."""
+    """Name in the zip -> file; links followed, without hidden files and Python's compiled ones."""
     found = {}
     for path in source.iterdir():
         if path.name.startswith((".", "__pycache__")) or path.suffix == ".pyc":
@@ -42,7 +42,7 @@ def files_of(source: Path, below: str = "") -> dict[str, Path]:
 
 
 def platform_of(wheel: Path) -> str:
-    """The platform of a wheel, in Blender's words."""
+    """Platform of a wheel in Blender's terms."""
     tag = re.sub(r"^manylinux(_\d+_\d+|\d+)_", "linux_", wheel.stem.split("-")[-1].split(".")[0])
     if tag not in PLATFORMS:
         raise OSError(f"{wheel}: Blender runs on no platform `{tag}`; build the wheel for {' or '.join(PLATFORMS)}")
@@ -50,7 +50,7 @@ def platform_of(wheel: Path) -> str:
 
 
 def built_wheel() -> Path:
-    """The wheel that the environment names, or the one that the checks have built."""
+    """The wheel that the environment names, or the one built by the checks."""
     if os.environ.get("PONG_WHEEL"):
         return Path(os.environ["PONG_WHEEL"])
     found = sorted(BUILT_WHEELS.glob("pong-*.whl"))
@@ -61,7 +61,7 @@ def built_wheel() -> Path:
 
 
 def manifest_with(manifest: str, wheel: Path) -> bytes:
-    """A manifest that tells Blender of the wheel: in front of its first table."""
+    """A manifest with the wheel added before its first table."""
     lines = f'platforms = ["{platform_of(wheel)}"]\nwheels = ["./wheels/{wheel.name}"]\n\n'
     head, table, tail = manifest.replace("\r\n", "\n").partition("\n[permissions]")
     return f"{head.rstrip()}\n{lines}{table.lstrip()}{tail}".encode()

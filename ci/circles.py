@@ -20,7 +20,7 @@ PATH = re.compile(r"(?<![A-Za-z0-9_:$])(" + IDENTIFIER + r"(?:\s*::\s*" + IDENTI
 
 
 def without_tests(text):
-    """Product code alone: no comments, no strings, no item that exists in tests only; and the names of test files."""
+    """Product code alone: no comments, no strings, no test-only items; and the names of test files."""
     text = STRING.sub('""', COMMENT.sub("", text))
     test_files = set(TEST_FILE.findall(text))
     while found := TEST_ITEM.search(text):
@@ -39,7 +39,7 @@ def without_tests(text):
 
 
 def use_tree(tree):
-    """The names of a `use`, each with its path, braces multiplied out."""
+    """Names of a `use`, each with its path, with braces expanded."""
     tree = tree.strip()
     if "{" not in tree:
         path, _, alias = re.sub(r"\s+", " ", tree).partition(" as ")
@@ -62,7 +62,7 @@ def use_tree(tree):
 
 
 class Crate:
-    """The modules of one crate: path of a module -> its file."""
+    """Modules of one crate: path of a module -> its file."""
 
     def __init__(self, source):
         self.files, self.texts, self.uses, self.items = {}, {}, {}, {}
@@ -85,7 +85,7 @@ class Crate:
                 self.read((*module, child), place)
 
     def names(self, module):
-        """What a module imports or passes on: name -> path; and the paths of which it takes all names."""
+        """Imports and re-exports of a module: name -> path; and the paths of glob imports."""
         named, globs = {}, []
         for _, name, path in self.uses[module]:
             if name == "*":
@@ -95,7 +95,7 @@ class Crate:
         return named, globs
 
     def owner(self, module, path, seen=()):
-        """The module that defines what a path names, or none of this crate's."""
+        """Module that defines the end of a path, or None outside of this crate."""
         if (module, path) in seen:
             return module
         parts = [part for part in path.split("::") if part and part != "*"]
@@ -110,7 +110,7 @@ class Crate:
         elif (*module, first) in self.files:
             at = (*module, first)
         elif first in named and named[first] != path and parts:
-            # A module that was imported by itself.
+            # A module imported as a whole.
             return self.owner(module, "::".join([named[first], *parts]), (*seen, (module, path)))
         else:
             return None
@@ -134,7 +134,7 @@ class Crate:
         return at
 
     def defines(self, module, name):
-        """Whether an item of this name stands in the module's own file."""
+        """True if the module's own file defines an item of this name."""
         return name in self.items[module]
 
     def arrows(self):
@@ -142,7 +142,7 @@ class Crate:
         arrows = {}
         for module, text in self.texts.items():
             words = set(re.findall(IDENTIFIER, text))
-            # What is passed on is an arrow where the module's own code uses it too.
+            # A re-export is an arrow if the module's own code uses it too.
             paths = {path for passes_on, name, path in self.uses[module] if not passes_on or name in words}
             paths |= {re.sub(r"\s", "", path) for path in PATH.findall(text)}
             owners = {self.owner(module, path) for path in paths}
@@ -151,7 +151,7 @@ class Crate:
 
 
 def circles(arrows):
-    """Sets of modules of which each can be reached from each (Tarjan's algorithm)."""
+    """Strongly connected sets of modules (Tarjan's algorithm)."""
     order, low, stack, found = {}, {}, [], []
 
     def visit(module):
@@ -179,7 +179,7 @@ def circles(arrows):
 
 
 def shortest_circle(arrows, members):
-    """The shortest way through a set of modules that comes back to where it began."""
+    """Shortest cycle through a set of modules."""
     best = None
     for start in sorted(members):
         ways = [[start]]

@@ -1,4 +1,4 @@
-"""A copy of the repository to try changes in.
+"""A copy of the repository for trying changes.
 
     python3 ci/copied_tree.py FOLDER
 """
@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 def copy_tree(folder):
-    """Makes a folder hold the files of the repository and no others.
+    """Makes a folder hold exactly the files of the repository.
 
     What has not changed is not written again, so that what was built from it stays good; what a run that was stopped has
     left changed is, so that it is built anew.

@@ -1,4 +1,5 @@
-"""Lines of product code in Rust, by crate: every `src` folder under crates/ and hosts/, tests, comments and blank lines aside.
+"""Lines of product code in Rust, by crate: every `src` folder under crates/ and hosts/, without tests, comments and
+blank lines.
 
     python3 ci/count_lines.py               of the working tree
     python3 ci/count_lines.py REVISION      of a commit
@@ -16,7 +17,7 @@ import tarfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SOURCE = re.compile(r"((?:crates|hosts)/[^/]+)/(?:.*/)?src/.*\.rs$")
-# What may hold something that looks like a comment or a brace, and comments themselves.
+# Tokens that may contain something like a comment or a brace, and comments themselves.
 TOKEN = re.compile(
     r"""(?P<comment>//[^\n]*|/\*.*?\*/)
     |b?r(?P<hashes>\#*)".*?"(?P=hashes)
@@ -44,7 +45,7 @@ def without_comments(text):
 
 
 def end_of_item(text, begin):
-    """Where the item that begins there ends: at its `;`, or with the brace that closes it."""
+    """End of the item that begins at `begin`: its `;`, or its closing brace."""
     depth, at = 0, begin
     while at < len(text):
         token = TOKEN.match(text, at)
@@ -59,7 +60,7 @@ def end_of_item(text, begin):
 
 
 def without_tests(text):
-    """The text without what exists in tests only, and the names of the files that do."""
+    """The text without test-only items, and the names of test files."""
     names, at = set(), 0
     while found := TEST.search(text, at):
         named = TEST_FILE.match(text, found.end())

@@ -56,12 +56,12 @@ def executive(pong, scene, folder):
 
 
 def name_in_unit(body):
-    """A body of the docking, `chaser/ring/latch_0` in the tables of a run, is `chaser.ring.latch_0` in the unit."""
+    """Name of a body in the unit: `chaser/ring/latch_0` in the tables of a run is `chaser.ring.latch_0`."""
     return body.replace("/", ".")
 
 
 class Unit:
-    """An FMU, unpacked. Messages of all its instances go to `told`."""
+    """An unpacked FMU. Messages of all its instances are appended to `told`."""
 
     def __init__(self, path):
         self.path = path
@@ -76,7 +76,7 @@ class Unit:
 
 
 class Instance:
-    """What both versions and kinds have in common."""
+    """Common part of both versions and kinds."""
 
     def __init__(self, unit, exchange, token=None):
         kinds = {(2, True): FMU2Model, (2, False): FMU2Slave, (3, True): FMU3Model, (3, False): FMU3Slave}
@@ -144,7 +144,7 @@ class Instance:
         return self.rates.copy()
 
     def runge_kutta(self, first, last, h):
-        """Classic Runge-Kutta, as an importer of fixed steps does it."""
+        """Classic Runge-Kutta, as in a fixed-step importer."""
         self.fmu.getContinuousStates(self.x.ctypes.data_as(DOUBLES), self.states)
         x = self.x.copy()
         for step in range(first, last):
@@ -180,14 +180,14 @@ class Instance:
 
 
 def compare_co_simulation(unit, scene_states, step, every, body_names):
-    """Largest difference of any pose at any record, m or 1, of a run in communication steps of a record."""
+    """Largest difference of any pose at any record, m or 1, of a run with the record interval as communication step."""
     one = unit.instance(exchange=False)
     one.begin()
     worst = 0.0
     rows = len(next(iter(scene_states.values())))
     for row in range(rows):
         if row > 0:
-            # The communication point as FMPy has it: a product, so that nothing piles up.
+            # The communication point as in FMPy: a product, so that no error accumulates.
             one.fmu.doStep(currentCommunicationPoint=(row - 1) * every * step, communicationStepSize=every * step)
         for body in body_names:
             worst = max(worst, np.abs(one.pose(name_in_unit(body)) - scene_states[body][row][1:]).max())
@@ -221,7 +221,7 @@ def tripod(pong, work, fmi):
     own = states[body][::10, 3]
     apart_there = np.abs(result["tripod.position[3]"] - own).max()
     print(f"  Co-Simulation: {apart} m from `pong run` at 1,001 instants; simulate_fmu of FMPy: {apart_there:.1e} m")
-    # FMPy's communication points are sums; the steps are the same, but for a part of 1e-6 of one.
+    # FMPy's communication points are sums; the steps are equal up to a relative 1e-6.
     expect(apart_there < 1e-12, "simulate_fmu goes elsewhere")
 
     one = unit.instance(exchange=True)
@@ -260,7 +260,7 @@ def tripod(pong, work, fmi):
     print(f"  saved in contact, rolled back and taken over by another instance: the same bits; {len(middle)} bytes")
     refusals(unit)
 
-    # 10 kg: what contact gives in a communication step is its mean force times the step.
+    # 10 kg: the impulse of a communication step is the mean contact force times the step.
     means = Unit(make(pong, TRIPOD, fmi, work / f"means{fmi}.fmu", "--step-means"))
     one = means.instance(exchange=False)
     one.begin()

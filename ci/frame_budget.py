@@ -1,4 +1,5 @@
-"""Records runs, replays the stretch of each in which most contacts act, and compares times: see ci/frame_budget, which runs it.
+"""Records runs, replays the stretch of each with the most active contacts, and compares times: see ci/frame_budget,
+which runs it.
 
 python3 ci/frame_budget.py PROGRAM FOLDER [--write] [NAME…]
 """
@@ -29,8 +30,8 @@ STRETCH = 500  # frames
 PACED = 2.0  # s
 TRIES = 4
 MORE, MORE_ELSEWHERE = 0.10, 0.50
-# Of the recorded hand-over. The processors of a virtual machine may be near each other now and far in a minute, and a worker
-# whose core is far gains nothing.
+# Quantile of the recorded hand-over. The processors of a virtual machine may be near each other now and far apart a
+# minute later, and a worker on a far core gains nothing.
 FAR = 1.5
 NO_CORE = 4  # exit code of the program
 
@@ -45,7 +46,7 @@ def record(name, folder):
 
 
 def record_end_effector(folder):
-    """The end effector at level training, until it lets go of the pressed joint."""
+    """The end effector at level training, until it releases the pressed joint."""
     sys.path[:0] = [str(ROOT / "mechanisms/end_effector"), str(ROOT / "mechanisms")]
     import capture
     from dimensions import Snare, training
@@ -61,7 +62,7 @@ def record_end_effector(folder):
 
 
 def write_motion(log, file):
-    """The stretch of a log, as c_examples/testing/frame_budget_replay.h reads it."""
+    """A stretch of a log in the format of c_examples/testing/frame_budget_replay.h."""
     run = json.loads((log / "run.json").read_text())
     frames, states = (np.load(log / f"{table}.npy", mmap_mode="r") for table in ("frames", "states"))
     acting = np.concatenate([[0], np.cumsum(frames["contacts"], dtype=np.int64)])
@@ -81,14 +82,14 @@ def write_motion(log, file):
 
 @dataclass
 class Measured:
-    """`hand_over`: ns that a word takes to the worker's core and back; 0 without a worker."""
+    """`hand_over`: round trip of a word to the worker's core, ns; 0 without a worker."""
 
     ratio: float
     hand_over: float
 
 
 def measure(program, motion, workers, paced):
-    """None where there is no core for a worker."""
+    """Core for a worker, or None."""
     command = [program, motion, "--workers", str(workers), "--paced", str(paced)]
     done = subprocess.run(command, check=False, stdout=subprocess.PIPE, text=True)
     print(done.stdout, end="", flush=True)
@@ -101,7 +102,7 @@ def measure(program, motion, workers, paced):
 
 
 def measure_least(program, motion, workers, most):
-    """Measured again while it is above what `most` allows."""
+    """Repeats the measurement while it is above the limit of `most`."""
     least = measure(program, motion, workers, PACED)
     for _ in range(TRIES - 1):
         if least is None or least.ratio <= most(least)[0]:
@@ -111,7 +112,7 @@ def measure_least(program, motion, workers, most):
 
 
 def processor():
-    """Its name, family and model: one name stands for many on virtual machines."""
+    """Name, family and model of the processor: one name covers many on virtual machines."""
     told = dict(
         re.findall(
             r"^(model name|cpu family|model)\s*: (.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE
@@ -121,7 +122,7 @@ def processor():
 
 
 def recorded():
-    """(processor, name, workers) → what was measured."""
+    """(processor, name, workers) → measurement."""
     rows = [line.split("|") for line in RECORD.read_text().splitlines() if line and not line.startswith("#")]
     return {(a.strip(), b.strip(), int(c)): Measured(float(d), float(e)) for a, b, c, d, e in rows}
 
@@ -139,7 +140,7 @@ def write(measured):
 
 
 def bound(records, key, measured):
-    """The largest ratio that passes, and why."""
+    """Largest accepted ratio, with its reason."""
     if key not in records:
         others = [other.ratio for known, other in records.items() if known[1:] == key[1:]]
         if not others:
@@ -154,7 +155,7 @@ def bound(records, key, measured):
 
 
 def nothing(_):
-    """Passes, so that it is measured as often as may be."""
+    """Passes the measurement, and thus ends its repetition."""
     return 0.0, "to be recorded"
 
 

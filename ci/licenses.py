@@ -1,4 +1,4 @@
-"""Licences of the crates that are linked into libpong, pong and the Python wheel, as THIRD_PARTY_LICENSES.md.
+"""Licences of the crates linked into libpong, pong and the Python wheel, as THIRD_PARTY_LICENSES.md.
 
     python3 ci/licenses.py            is the file current?
     python3 ci/licenses.py --write    renews it
@@ -18,7 +18,7 @@ OUT = ROOT / "THIRD_PARTY_LICENSES.md"
 # Folder of a workspace -> its products.
 PRODUCTS = {".": ("pong-capi", "pong-cli"), "hosts/python": ("pong-python",)}
 PLATFORM = "x86_64-unknown-linux-gnu"
-# Of licences that may be chosen from, in this order: that of Pong itself first.
+# Preferred licences where there is a choice, in this order: that of Pong itself first.
 CHOICE = ("Apache-2.0", "MIT", "BSD-3-Clause", "BSD-2-Clause", "ISC", "Zlib", "BSL-1.0", "CC0-1.0", "Unlicense", "0BSD")
 FILE_OF = {"Apache-2.0": "apache", "MIT": "mit", "BSD": "bsd", "Zlib": "zlib", "ISC": "isc", "Unicode": "unicode"}
 
@@ -61,7 +61,7 @@ def metadata(folder):
 
 
 def linked():
-    """Packages in the products that are not ours, by name and version."""
+    """Third-party packages in the products, by name and version."""
     found = {}
     for folder, products in PRODUCTS.items():
         command = ["cargo", "tree", "--locked", "--edges", "normal,no-proc-macro", "--prefix", "none", "--target", PLATFORM]
@@ -75,7 +75,7 @@ def linked():
 
 
 def chosen(expression):
-    """The licences that are taken of an expression such as `MIT OR Apache-2.0`, `A AND (B OR C)`."""
+    """Licences chosen from an expression such as `MIT OR Apache-2.0`, `A AND (B OR C)`."""
     parts = [part.strip(" ()") for part in re.split(r"\bAND\b(?![^(]*\))", expression.replace("/", " OR "))]
     taken = []
     for part in parts:
@@ -86,7 +86,7 @@ def chosen(expression):
 
 
 def files_of(package, licence):
-    """The texts of a crate under a licence: the file named after it, or every licence file that there is."""
+    """Texts of a crate under a licence: the file named after it, or every licence file."""
     folder = pathlib.Path(package["manifest_path"]).parent
     named = re.compile(r"(licen[cs]e|copying|notice|unlicense)", re.I)
     files = sorted(path for path in folder.iterdir() if path.is_file() and named.match(path.name))
@@ -101,7 +101,7 @@ def normal(text):
     return re.sub(r"\s+", " ", text).strip()
 
 
-# Apache-2.0 by its terms; what follows them is an example for appliers, which copies fill in or leave out.
+# Apache-2.0 by its terms; the appendix is an example for appliers, which copies fill in or leave out.
 APACHE_TERMS = "END OF TERMS AND CONDITIONS"
 
 
@@ -116,7 +116,7 @@ def written():
                 paths = [ROOT / "LICENSE"]
             contents = [path.read_text(encoding="utf-8", errors="replace") for path in paths]
             if not contents and taken == "MIT":
-                # Published without its text: the one that the licence's name stands for.
+                # Published without its text: the standard text of that licence.
                 contents = [MIT.format(holders=", ".join(package["authors"]) or f"the authors of {package['name']}")]
             if not contents:
                 missing.append(f"{name}: no text for {taken}")

@@ -1,4 +1,4 @@
-"""Compares what a model's build script writes, and what Blender makes of its files, with what is committed.
+"""Compares the output of a model's build script, and Blender's re-export of its files, with the committed files.
 
     python models_blender.py FOLDER SCRATCH
 
@@ -16,17 +16,17 @@ MODEL = 'format: "pong-model"'
 
 
 def models(folder):
-    """The model files of a folder, without its scenes."""
+    """Model files of a folder, without its scenes."""
     return [path for path in sorted(folder.glob("*.ron")) if MODEL in path.read_text(encoding="utf-8")]
 
 
 def files(folder):
-    """All files below a folder, such as meshes in one of their own, seen from it."""
+    """All files below a folder, including mesh files in subfolders, by relative path."""
     return sorted(path.relative_to(folder) for path in folder.rglob("*") if path.is_file())
 
 
 def build(folder, out):
-    """Runs the build script into an empty folder; tells what is wrong with what it writes."""
+    """Runs the build script into an empty folder; reports differences of its output."""
     out.mkdir(parents=True)
     done = subprocess.run([sys.executable, str(folder / "build.py"), str(out)], stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
@@ -48,7 +48,7 @@ def differences(folder, out, what):
 
 
 def round_trip(model, out):
-    """Imports a model into a .blend file and exports that: the same file, and the same mesh files."""
+    """Imports a model into a .blend file and exports it: the model file and its mesh files must be the same."""
     from pong_pmtk import cli
 
     out.mkdir(parents=True)

@@ -1,4 +1,4 @@
-"""What a run of ci/mutants found: numbers, and the mutants that no test saw and docs/mutants.md does not judge.
+"""Results of ci/mutants: counts, and surviving mutants that docs/mutants.md does not judge.
 
     python3 ci/mutants.py rest FOLDER      a pattern of those that have lived so far
     python3 ci/mutants.py report FOLDER    FOLDER holds what cargo-mutants wrote: in quick/, rest/, again_1/, …
@@ -20,19 +20,19 @@ def outcomes(folder):
 
 
 def verdicts(folder):
-    """(mutant, verdict) of every mutant of a group; a later run speaks of those that had lived until then."""
+    """(mutant, verdict) of every mutant of a group; a later run covers those that survived until then."""
     runs = [folder / "quick", folder / "rest", *sorted(folder.glob("again_*"))]
     told = {}
     for run in (run for run in runs if (run / "mutants.out" / "outcomes.json").exists()):
         for mutant, verdict in outcomes(run):
-            # A pattern of names does not keep cargo-mutants from deleting fields elsewhere as well: no matter.
+            # A pattern of names does not keep cargo-mutants from deleting fields elsewhere as well; that is harmless.
             if run.name == "quick" or told.get(mutant["name"], (None, ""))[1] == "MissedMutant":
                 told[mutant["name"]] = (mutant, verdict)
     return list(told.values())
 
 
 def row(mutant, tree):
-    """A mutant as docs/mutants.md names it: file, line of code, change."""
+    """Name of a mutant in docs/mutants.md: file, line of code, change."""
     path = mutant["file"]
     code = (tree / path).read_text().splitlines()[mutant["span"]["start"]["line"] - 1].strip()
     change = re.sub(r"^\S+:\d+:\d+: ", "", mutant["name"])
@@ -41,7 +41,7 @@ def row(mutant, tree):
 
 
 def judged():
-    """What docs/mutants.md has judged; a row may name several changes of one line."""
+    """Mutants judged in docs/mutants.md; a row may name several changes of one line."""
     rows = set()
     for line in JUDGED.read_text().splitlines() if JUDGED.exists() else []:
         cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
@@ -68,7 +68,7 @@ def report(folder):
     new = {}
     for file, code, change in (row(mutant, folder.parent / "tree") for mutant, verdict in told if verdict == "MissedMutant"):
         if (file, code, change) not in known:
-            # At two places of a line it is the same change.
+            # Equal changes at two positions of a line count as one.
             new.setdefault((file, code), {})[f"`{change}`"] = None
     for (file, code), changes in new.items():
         print(f"| `{file}` | `{code}` | {', '.join(changes)} | |")

@@ -1,4 +1,4 @@
-"""Plants the faults of ci/planted/ one by one in a copy of the repository and shows that a test sees each.
+"""Plants the faults of ci/planted/ one by one in a copy of the repository and shows that a test catches each.
 
 An entry says what it `breaks`, and the text `before`, which must stand exactly once in `file`, and `after`. `caught_by` is
 crate, test program (`lib` for unit tests, `it` for the integration tests) and test with its modules.
@@ -21,7 +21,7 @@ from copied_tree import ROOT, copy_tree
 LISTS = ROOT / "ci" / "planted"
 TARGET = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "planted_faults"
 TREE = TARGET / "tree"
-# Little optimisation and no symbols: most of the time goes into building. The answers are the same bits.
+# Little optimisation and no symbols: building takes most of the time. The answers are the same bits.
 ENVIRONMENT = os.environ | {
     "CARGO_TARGET_DIR": str(TARGET / "build"),
     "CARGO_PROFILE_DEV_OPT_LEVEL": "1",
@@ -31,7 +31,7 @@ ENVIRONMENT = os.environ | {
     "RUST_BACKTRACE": "0",
 }
 SECONDS_MAX = 300
-# What a test says when it stumbles instead of judging.
+# Output of a test that fails without judging.
 STUMBLES = re.compile(r"called `|index out of bounds|attempt to |range end|range start|mid > len|already borrowed")
 PANIC = re.compile(r"panicked at ([^\s:]+):\d+:\d+:\n(.*(?:\n.+)*)")
 
@@ -43,11 +43,11 @@ class Fault:
         self.crate, self.binary, self.test = entry["caught_by"].split()
 
     def select(self):
-        """What cargo is told to build."""
+        """Cargo's selection arguments."""
         return ["-p", self.crate, *(["--lib"] if self.binary == "lib" else ["--test", self.binary])]
 
     def problems(self):
-        """Why it cannot be planted, or caught."""
+        """Reason why it cannot be planted or caught, if any."""
         text = (ROOT / self.file).read_text() if (ROOT / self.file).is_file() else ""
         if text.count(self.before) != 1:
             yield f"{self.name}: the text before is {text.count(self.before)} times in {self.file}, not once"
@@ -68,9 +68,9 @@ class Fault:
             files = [folder / f"{modules.pop(0)}.rs"]
         else:
             files = [folder / "main.rs"]
-        # One in a module of the file is indented.
+        # A test in a module of the file is indented.
         indent = "^ *" if modules else "^"
-        # As a test of its own, or one that a macro makes for a case.
+        # Declared as a test, or by a macro for a case.
         test = re.compile(
             rf"{indent}#\[test\]\s+(?:#\[.*\]\s+)*fn {function}\(|^    {function} => ", re.MULTILINE
         )
@@ -96,7 +96,7 @@ def read_list():
 
 
 def cargo(arguments, timeout=None):
-    """What it printed. One that takes too long is ended with all that it has started."""
+    """Output of cargo. A run that takes too long is ended with all of its child processes."""
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "errors": "replace"}
     command = ["cargo", "test", *arguments]
     with subprocess.Popen(command, cwd=TREE, env=ENVIRONMENT, start_new_session=True, **pipes) as started:
@@ -109,7 +109,7 @@ def cargo(arguments, timeout=None):
 
 
 def run_clean(faults):
-    """All named tests, one binary after the other, without any fault."""
+    """Runs all named tests, one binary after the other, without any fault."""
     for select in dict.fromkeys(tuple(fault.select()) for fault in faults):
         tests = sorted({fault.test for fault in faults if tuple(fault.select()) == select})
         print(f"without a fault: {' '.join(select)}, {len(tests)} tests", flush=True)
@@ -119,7 +119,7 @@ def run_clean(faults):
 
 
 def judge(fault):
-    """(caught, what happened, seconds of building, seconds of the test)."""
+    """(caught, result, seconds of building, seconds of the test)."""
     started = time.monotonic()
     built = cargo([*fault.select(), "--no-run"])
     building = time.monotonic() - started
@@ -156,7 +156,7 @@ def plant_all(faults):
     run_clean(faults)
     missed = []
     print(f"\n{'fault':<40} {'build':>6} {'test':>6}  what the test said")
-    # Those of one binary one after the other: it alone is built anew.
+    # Faults of one binary one after the other, so that only that one is rebuilt.
     for fault in sorted(faults, key=Fault.select):
         fault.plant()
         caught, said, building, seconds = judge(fault)

@@ -1,4 +1,4 @@
-"""Instructions that `pong`, and a C program that restores contact states, take to read several sizes (ci/readers)."""
+"""Instructions of `pong`, and of a C program that restores contact states, for reading several sizes (ci/readers)."""
 
 import base64
 import concurrent.futures
@@ -11,7 +11,7 @@ import subprocess
 import sys
 import time
 
-# The largest exponent of the size in what reading costs: a sort or a tree of boxes stays well below, a square is 2.
+# Largest exponent of the size in the cost of reading: a sort or a tree of boxes is well below, a square is 2.
 EXPONENT_MAX = 1.3
 TINY = 12
 
@@ -27,7 +27,7 @@ def triples(rows):
 
 
 def ball(faces):
-    """Circles and meridians, as many of the latter: places, and faces of three or four corners."""
+    """Circles and as many meridians: positions, and faces of three or four corners."""
     circles = max(3, round(math.sqrt(faces / 2)))
     around = 2 * circles
     places = [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)]
@@ -165,7 +165,7 @@ def log(folder, count):
 
 
 def restored(folder, count):
-    """What restoring takes, without what loading, pressing and saving take."""
+    """Instructions of restoring, without those of loading, pressing and saving."""
     groups(folder, count)
     return [RESTORER, "m.ron", str(count), "20"], [RESTORER, "m.ron", str(count), "0"]
 
@@ -186,7 +186,7 @@ KINDS = {
 
 
 def instructions(folder, command):
-    """What a command takes, and its time alone, s."""
+    """Instructions of a command, and its duration alone, s."""
     if isinstance(command, tuple):
         (refs, alone), (without, alone_without) = (instructions(folder, one) for one in command)
         return refs - without, alone - alone_without

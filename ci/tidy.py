@@ -1,4 +1,4 @@
-"""House rules that a program can check: arrows between crates, circles of files, where unsafe lives, words, lines, links."""
+"""House rules that a program can check: arrows between crates, circles of files, unsafe code, words, lines, links."""
 
 import pathlib
 import re
@@ -36,10 +36,10 @@ ARROWS = {
         "pong-verify", "pong-report", "pong-study", "pong-view",
     },
 }
-# The kit has an allocator that counts.
+# The kit has a counting allocator.
 MAY_BE_UNSAFE = {"pong-arena", "pong-capi", "pong-fmu", "pong-fpenv", "pong-testkit", "pong-threads"}
 LINES_MAX = 800
-# No part of the product may use the platform's mathematics or fuse operations: other machines, other bits.
+# No part of the product may use the platform's mathematics or fused operations, whose bits differ between machines.
 FORBIDDEN_IN_ENGINE = re.compile(r"\.(mul_add|sin|cos|tan|exp|ln|powf|powi|cbrt|hypot|atan2|acos|asin)\(")
 ENGINE_CRATES = ["pong-geometry", "pong-model", "pong-engine", "pong-advise"]
 
@@ -108,7 +108,7 @@ def dead_links():
 
 
 def theory_citations():
-    """Comments cite the theory manual by section: `docs/theory.md, 2.2 and 2.4`."""
+    """Checks that comments cite existing sections of the theory manual: `docs/theory.md, 2.2 and 2.4`."""
     manual = (ROOT / "docs/theory.md").read_text()
     sections = set(re.findall(r"^#+ ([0-9]+(?:\.[0-9]+)?) ", manual, re.M))
     cited = re.compile(r"docs/theory\.md, ([0-9.]+(?:(?:, | and | to )[0-9.]+)*)")
@@ -121,7 +121,7 @@ def theory_citations():
 
 
 def retired_words():
-    """The last table of the glossary: words that stood for something once."""
+    """Finds words of the glossary's last table, which are retired."""
     table = (ROOT / "docs/glossary.md").read_text().split("## Retired words")[1]
     rows = re.findall(r"^\| (`.+?) \| (.+?) \|$", table, re.M)
     instead = {word: now for words, now in rows for word in re.findall(r"`([^`]+)`", words)}
@@ -135,7 +135,7 @@ def retired_words():
 
 
 def long_lines():
-    """Prose is wrapped at 120 characters. A row of a table, a link and code may be longer."""
+    """Checks that prose is wrapped at 120 characters. A row of a table, a link and code may be longer."""
     written_by_programs = {ROOT / "THIRD_PARTY_LICENSES.md", ROOT / "docs/verification.md"}
     for path in {path.resolve() for path in tracked("*.md")} - written_by_programs:
         code = False
@@ -145,7 +145,7 @@ def long_lines():
                 yield f"{path}:{number}: {len(line)} characters, at most 120"
 
 
-# What tells the unit of a number, or that it has none.
+# Text that gives the unit of a number, or the absence of one.
 UNIT = re.compile(
     r"\b(?:m|mm|s|ns|us|ms|µs|N|J|W|kg|rad|Hz|m/s|bytes|frames|pixels?|degrees|quaternion|order|coefficient|fractions?|ratio|relative|weight|unit"
     r" vector)\b|N·|·s|1/s|m/s|m²|m³|%|°|[Uu]nit\b|`unit`|metres|0…1|Coefficient|Ratio|Fraction|Relative|Weight",
@@ -154,7 +154,7 @@ NUMBER = re.compile(r"^\s*pub \w+: (?:Option<)?(?:f64|f32|Vec3|Duration|\[f(?:64
 
 
 def documentation(lines, number):
-    """The doc comment right above a line."""
+    """The doc comment directly above a line."""
     first = number
     while first > 0 and lines[first - 1].lstrip().startswith(("///", "#[")):
         first -= 1
@@ -162,7 +162,7 @@ def documentation(lines, number):
 
 
 def units():
-    """Every public number tells its unit, or the type does for all of its fields."""
+    """Checks that every public number has a unit in its comment, or in that of its type."""
     for path in tracked("crates/*/src/*.rs"):
         lines = path.read_text().splitlines()
         of_type = ""
@@ -173,7 +173,7 @@ def units():
                 yield f"{path}:{number + 1}: say the unit of `{line.strip()}`, or that it has none"
 
 
-# Structs whose vectors have no frame of their own to name (docs/glossary.md, Motion and frames).
+# Structs whose vectors need no frame in their names (docs/glossary.md, Motion and frames).
 IN_THE_COMMON_FRAME = {"Contact", "ContactSide"}
 FRAME_STANDS_IN_THE_NAME_OF_THE_VALUE = {"Pose", "Transform", "Twist", "Wrench"}
 CONSTANTS_OF_A_PRIMITIVE = {"TriangleView", "PreparedEllipsoid", "Shadow", "Wedge"}
@@ -182,7 +182,7 @@ STRUCT = re.compile(r"^(?:pub(?:\(\w+\))? )?(?:struct|enum) (\w+)")
 
 
 def frames_of_vectors():
-    """A vector that contact computes tells in its name along which axes it is given: `normal_b`."""
+    """Checks that the name of a vector computed in contact contains its axes: `normal_b`."""
     exempt = IN_THE_COMMON_FRAME | FRAME_STANDS_IN_THE_NAME_OF_THE_VALUE | CONSTANTS_OF_A_PRIMITIVE
     for path in tracked("crates/pong-engine/src/*.rs", "crates/pong-geometry/src/*.rs"):
         if path.relative_to(ROOT).parts[1:4] in {("pong-geometry", "src", "primitive"), ("pong-geometry", "src", "bounding")}:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Models through the modelling toolkit (blender/pong_pmtk), from Python: what their build scripts use.
+"""Models through the modelling toolkit (blender/pong_pmtk), from Python: used by the build scripts.
 
 A script describes a tree of groups and primitives with the functions below and hands it to `main`, which makes it a
 Blender scene of marked objects, one for each group and primitive, and exports that scene as File > Export does: what
@@ -32,12 +32,12 @@ QUATERNION_ROUNDING = 15  # decimal places
 # --- surfaces --------------------------------------------------------------------------------------------------------
 
 def surface(stiffness, normal=None, friction=None):
-    """Of a model's table. `stiffness` in N/m; `normal` and `friction` from the functions below."""
+    """Surface of a model's table. `stiffness` in N/m; `normal` and `friction` from the functions below."""
     return {"stiffness": float(stiffness), "normal": normal, "friction": friction}
 
 
 def linear(damping=None, ramp=None, restitution=None):
-    """Damping in N·s/m that sets in over the depth `ramp`, m; or `restitution=(e, mass)`."""
+    """Damping in N·s/m with an onset over the depth `ramp`, m; or `restitution=(e, mass)`."""
     rebound = None if restitution is None else {"e": restitution[0], "mass": float(restitution[1])}
     return _law("Linear", damping=damping, ramp=ramp, restitution=rebound)
 
@@ -69,7 +69,7 @@ def _law(name, **fields):
 
 
 def pair(first, second, stiffness=None, **laws):
-    """Values of two surfaces when they meet; `normal=` and `friction=` as of a surface, `friction=None` for none."""
+    """Values of two surfaces when they touch; `normal=` and `friction=` as of a surface, `friction=None` for none."""
     own = {} if stiffness is None else {"stiffness": float(stiffness)}
     return {"surfaces": (first, second), **own, **laws}
 
@@ -78,7 +78,7 @@ def pair(first, second, stiffness=None, **laws):
 
 @dataclass
 class Meshed(Primitive):
-    """A primitive of vertices and faces that may stand in an OBJ or STL file beside the model."""
+    """A primitive with vertices and faces, optionally in an OBJ or STL file beside the model."""
 
     file: str = ""
 
@@ -104,7 +104,7 @@ def ellipsoid(name, center, semi_axes, orientation=None, surface=None):
 
 
 def capsule(name, a, b, radius, surface=None):
-    """Everything within `radius` of the segment from a to b: a link of a cable, a bar with ball ends."""
+    """Capsule of `radius` around the segment from a to b: a link of a cable, a bar with spherical ends."""
     return Primitive("Capsule", name, {"ends": (rounded(a), rounded(b)), "radius": _length(radius)}, surface)
 
 
@@ -114,12 +114,12 @@ def cylinder(name, a, b, radius, surface=None):
 
 
 def cone(name, a, b, radii, surface=None):
-    """A round solid with one radius at a and another at b, of which one may be zero."""
+    """A round solid with different radii at a and b, one of which may be zero."""
     return Primitive("Cone", name, {"ends": (rounded(a), rounded(b)), "radii": rounded(radii)}, surface)
 
 
 def bore(name, a, b, radii, thickness=None, mouths=(True, True), surface=None):
-    """The wall of a hole from a to b; `radii`: at both, or one number. `mouths`: which ends have an edge that pushes."""
+    """Wall of a hole from a to b; `radii`: at both, or one number. `mouths`: ends with an edge that makes contact."""
     both = (radii, radii) if isinstance(radii, (int, float)) else radii
     fields = {"ends": (rounded(a), rounded(b)), "radii": rounded(both)}
     if thickness is not None:
@@ -136,18 +136,18 @@ def ray(name, origin, direction, length, reach=None, response="Normal", surface=
 
 
 def flat_ground(name, normal, offset, surface=None):
-    """All that lies at normal·x <= offset."""
+    """Half space normal·x <= offset."""
     return Primitive("Plane", name, {"normal": rounded(normal), "offset": _length(offset)}, surface)
 
 
 def polyhedron(name, half_spaces, inactive=(), surface=None):
-    """A convex piece; `inactive`: indices of the half spaces that are inner walls."""
+    """A convex piece; `inactive`: indices of the half spaces that are internal faces."""
     vertices, faces = solid(half_spaces)
     return mesh_polyhedron(name, vertices, faces, inactive, surface)
 
 
 def mesh_polyhedron(name, vertices, faces, inactive=(), surface=None, file=""):
-    """The same from vertices and faces, which run counter-clockwise seen from outside."""
+    """A polyhedron from vertices and faces, which run counter-clockwise seen from outside."""
     fields = {"vertices": _rows(vertices), "faces": [list(map(int, face)) for face in faces]}
     if len(inactive):
         fields["inactive_faces"] = sorted(map(int, inactive))
@@ -160,7 +160,7 @@ def triangle(name, vertices, thickness=None, two_sided=False, surface=None):
 
 
 def triangle_mesh(name, vertices, triangles, thickness=None, two_sided=False, surface=None, file=""):
-    """`file`: name of an OBJ or STL file beside the model that holds the mesh; "" for within the model."""
+    """`file`: name of an OBJ or STL file beside the model for the mesh; "" for within the model."""
     import numpy as np
 
     fields = {"vertices": _rows(vertices), "triangles": np.asarray(triangles, dtype=np.int64).reshape(-1, 3)}
@@ -233,7 +233,7 @@ def main(models, folder, texts=None, arguments=None):
 
 
 def build(models, folder, blend=None):
-    """Makes one scene of the models and exports each as `folder/<name>.ron`; 0, or 1 if the toolkit refuses one."""
+    """Makes one scene of the models and exports each as `folder/<name>.ron`; returns 0, or 1 if the toolkit refuses one."""
     import bpy
     import pong_pmtk
 
@@ -265,7 +265,7 @@ def insert(context, made):
 
 
 def _files(tree, path):
-    """Paths of the primitives that are to stand in a mesh file, with that file."""
+    """Paths of the primitives with mesh files, with those files."""
     for below in tree.groups:
         yield from _files(below, f"{path}/{below.name}")
     for primitive in tree.primitives:
@@ -283,7 +283,7 @@ def _paths(facts):
 
 
 def export(context, made, root, folder):
-    """Exports the model below a root; what the toolkit finds is told. Whether it was written."""
+    """Exports the model below a root and prints the findings; returns whether it was written."""
     from pong_pmtk.scene import session
 
     target = pathlib.Path(folder) / f"{made.name}.ron"

@@ -81,7 +81,7 @@ def plane_through(a, b, c, inside):
 
 
 def meet(p, q, r):
-    """The point common to three planes; None if they have no single one."""
+    """Intersection of three planes; None if it is not a single point."""
     c = cross(q[0], r[0])
     determinant = dot(p[0], c)
     if abs(determinant) < 1e-9:

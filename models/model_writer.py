@@ -48,7 +48,7 @@ def flat_ground(name, normal, offset, surface=None):
 
 
 def polyhedron(name, half_spaces, inactive=(), surface=None):
-    """`inactive`: indices of the half spaces that are inner walls."""
+    """`inactive`: indices of the half spaces that are internal faces."""
     vertices, faces = solid(half_spaces)
     vertex_text = ", ".join(triple(v) for v in vertices)
     face_text = ", ".join("[" + ", ".join(map(str, f)) + "]" for f in faces)

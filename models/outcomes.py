@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the scenes of a model and holds what comes out against what its outcome.py says; standard library only.
+"""Runs the scenes of a model and compares the results with its outcome.py; standard library only.
 
     python3 outcomes.py PONG FOLDER [SCENE…]
 
@@ -21,14 +21,14 @@ BALANCE = 0.01  # of the greatest change of any of the energies in a run
 
 
 class Run:
-    """The CSV tables of a run, read when asked for."""
+    """CSV tables of a run, read on demand."""
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         self.tables = {}
 
     def table(self, name):
-        """All rows of a table as dictionaries; numbers are numbers."""
+        """All rows of a table as dictionaries, with numbers converted."""
         if name not in self.tables:
             with open(self.folder / f"{name}.csv", newline="", encoding="utf-8") as file:
                 self.tables[name] = [{key: _value(text) for key, text in row.items()} for row in csv.DictReader(file)]
@@ -39,7 +39,7 @@ class Run:
         return [row for row in self.table(table) if row["body"] == body]
 
     def last(self, body):
-        """State of a body at the end."""
+        """Final state of a body."""
         return self.of("states", body)[-1]
 
     def times(self):
@@ -66,7 +66,7 @@ def norm(values):
 
 
 def turned(q, v):
-    """A vector from the axes of a body into the common ones."""
+    """A vector from the axes of a body to the common ones."""
     w, x, y, z = q
     t = (2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]), 2 * (x * v[1] - y * v[0]))
     return (
@@ -77,7 +77,7 @@ def turned(q, v):
 
 
 def place(row, point):
-    """Where a point of a body is."""
+    """Position of a body's point."""
     return tuple(p + d for p, d in zip(position(row), turned(orientation(row), point)))
 
 
@@ -94,7 +94,7 @@ def turn_rate(row):
 
 
 def balance(run):
-    """What the account of energies misses, against what was ever in it."""
+    """Imbalance of the energy account, relative to the energy involved."""
     rows = run.table("energies")
     keys = ("kinetic_j", "potential_j", "springs_j", "contacts_j", "contact_loss_j", "spring_loss_j", "work_in_j")
     moved = max(max(abs(row[key] - rows[0][key]) for row in rows) for key in keys)
@@ -103,7 +103,7 @@ def balance(run):
 
 
 def run_scene(pong, scene, out, accepted):
-    """Whether a scene runs without a word but for accepted lines; what it says else is told."""
+    """True if a scene runs without output except for accepted lines; prints other lines."""
     done = subprocess.run([pong, "run", "--quiet", "--csv", "-o", out, scene], capture_output=True, text=True)
     lines = (done.stderr + done.stdout).strip().splitlines()
     told = "\n".join(line for line in lines if not any(text in line for text in accepted))
@@ -116,7 +116,7 @@ def run_scene(pong, scene, out, accepted):
 
 
 def check(pong, scene, outcome, accepted):
-    """Runs a scene and tells every value; whether all are as they should be."""
+    """Runs a scene and prints every value; returns whether all are as predicted."""
     with tempfile.TemporaryDirectory() as out:
         print(f"{scene.parent.name}/{scene.name}", end=": ", flush=True)
         started = time.monotonic()
@@ -135,7 +135,7 @@ def tell(values):
 
 
 def unmatched(folder, outcomes, wanted):
-    """Scenes without an outcome, outcomes without a scene, and wanted ones that are neither."""
+    """Scenes without an outcome, outcomes without a scene, and requested ones that are neither."""
     scenes = {path.name for path in folder.glob("scene_*.ron")}
     for name in sorted(scenes - set(outcomes)):
         yield f"{folder.name}/outcome.py does not say what {name} must come to"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of scenes through pong_viz, from a place of one's own: what the picture.py of models use.
+"""Pictures of scenes through pong_viz, from a given viewpoint: used by the picture.py of models.
 
 A picture.py runs as
 
@@ -24,7 +24,7 @@ STEP = 5  # between the colours of a picture, of 255
 
 
 def main(folder, scene, at_s, eye, target, lens_mm=50.0, size=(800, 450), arrow_m=0.3, alpha=0.9):
-    """Runs a scene of the folder and takes the picture of one moment, seen from `eye` towards `target`, m."""
+    """Runs a scene of the folder and takes the picture of one instant, seen from `eye` towards `target`, m."""
     parser = argparse.ArgumentParser(description=f"Takes a picture of {scene} with Blender.")
     parser.add_argument("pong", help="the program `pong`")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=folder / "picture.png")
@@ -36,7 +36,7 @@ def main(folder, scene, at_s, eye, target, lens_mm=50.0, size=(800, 450), arrow_
 
 
 def take(log, output, at_s, eye, target, lens_mm=50.0, size=(800, 450), arrow_m=0.3, alpha=0.9):
-    """The same of a response log that is there."""
+    """Takes the picture of an existing response log."""
     _show(log, at_s, size, arrow_m, alpha)
     _look(eye, target, lens_mm)
     _shoot(output.resolve())
@@ -44,7 +44,7 @@ def take(log, output, at_s, eye, target, lens_mm=50.0, size=(800, 450), arrow_m=
 
 
 def leave():
-    """Blender as a module may crash or hang in its own exit."""
+    """Skips Blender's own exit, which may crash or hang in a module."""
     sys.stdout.flush()
     os._exit(0)
 
@@ -84,7 +84,7 @@ def _shoot(path):
 
 
 def _slim(path):
-    """Writes a picture again with colours in steps: a third of the size, and no difference to the eye."""
+    """Rewrites a picture with quantised colours: a third of the size, without a visible difference."""
     import bpy
     import numpy as np
 

@@ -1,4 +1,4 @@
-"""Text of scene files (docs/scene_format.md), quaternions and smooth ways: for the scenes.py of models."""
+"""Text of scene files (docs/scene_format.md), quaternions and smooth paths: for the scenes.py of models."""
 
 import math
 
@@ -19,7 +19,7 @@ def about_axis(axis, angle_deg):
 
 
 def product(p, q):
-    """Of two quaternions: the turn q, then p."""
+    """Product of two quaternions: the rotation q, then p."""
     return (
         p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
         p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
@@ -29,28 +29,28 @@ def product(p, q):
 
 
 def turned(q, v):
-    """A vector from the axes of a body into the common ones."""
+    """A vector from the axes of a body to the common ones."""
     inverse = (q[0], -q[1], -q[2], -q[3])
     return product(product(q, (0.0, *v)), inverse)[1:]
 
 
-# --- ways: rows (time, position, orientation) of a prescribed motion -------------------------------------------------
+# --- paths: rows (time, position, orientation) of a prescribed motion -------------------------------------------------
 
 def smooth(t):
-    """From 0 to 1 with no speed and no acceleration at either end."""
+    """Smooth step from 0 to 1 with no speed and no acceleration at either end."""
     return t**3 * (10 - 15 * t + 6 * t**2)
 
 
 def glide(times, row, steps):
-    """Rows between two times; `row` gives position and orientation from 0 to 1. It stands still for a second around them:
-    the motion's curve takes its speed from the neighbours of a row, and would swing out of a long rest."""
+    """Rows between two times; `row` gives position and orientation from 0 to 1. The path rests for a second around
+    them: the motion's curve takes its speed from the neighbours of a row, and would overshoot a long rest."""
     start, end = times
     rows = [(round(start + i / steps * (end - start), 9), *row(smooth(i / steps))) for i in range(steps + 1)]
     return [(start - 1.0, *row(0.0)), *rows, (end + 1.0, *row(1.0))]
 
 
 def joined(*ways):
-    """Ways one after the other; where one ends as the next begins, neither stands still."""
+    """Paths in sequence; where one ends as the next begins, there is no rest."""
     rows = []
     for way in ways:
         rows = [row for row in rows if row[0] < way[1][0]] + (way if not rows or rows[-1][0] < way[0][0] else way[1:])
@@ -58,8 +58,8 @@ def joined(*ways):
 
 
 def stroke(place, orientation, travel, speed):
-    """Rows of a way of this length: at rest for a second, up to speed within two, evenly on, to rest within two.
-    `place` gives the position at a length of it."""
+    """Rows of a path of this length: at rest for a second, up to speed within two, steady, to rest within two. `place`
+    gives the position at a length of it."""
     even = (travel - 4 * speed) / speed  # seconds of even motion behind t = 4
     stops = ((0.0, 0.0), (1.0, 0.0), (3.0, speed), (4.0, 2 * speed), (4.0 + even, travel - 2 * speed))
     stops += ((5.0 + even, travel - speed), (7.0 + even, travel), (8.0 + even, travel))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures what docs/modelling.md says about the cost of primitives, bounds and leaves, and writes its tables.
+"""Measures the costs of primitives, bounds and leaves stated in docs/modelling.md, and writes its tables.
 
     python3 costs.py [--pong FILE] [--rounds N] [--print]
 
@@ -73,7 +73,7 @@ def model(name, content, stiffness, bound="Aabb", damping=0.0):
 
 @dataclass
 class Case:
-    """Two models, how the first moves, and for how long."""
+    """Two models, the motion of the first, and the duration."""
 
     label: str
     a: str
@@ -92,7 +92,7 @@ class Case:
 
 @dataclass
 class Outcome:
-    """What a run left behind."""
+    """Results of a run."""
 
     us: float  # time of contact per step
     states: list  # rows of states.csv of the first body
@@ -251,7 +251,7 @@ GRID, PITCH, ROD = 8, 0.1, 64
 
 
 def slanted(x, y, along, aside=0.0):
-    """A place on a rod through (x, y) along (1, 1, 1)."""
+    """A point on a rod through (x, y) along (1, 1, 1)."""
     return (x + along + aside, y + along - aside, along)
 
 
@@ -274,7 +274,7 @@ def bars(bound):
 
 
 def hull_faces(places):
-    """The faces of a sheared box whose corners are in the order of `corners`, with outward normals."""
+    """Faces of a sheared box with corners in the order of `corners`, with outward normals."""
     middle = [sum(p[k] for p in places) / 8 for k in range(3)]
     faces = []
     for face in BOX_FACES:
@@ -299,7 +299,7 @@ def bound_table(options):
 
 
 def leaf_of(groups):
-    """The primitives of leaves as those of one."""
+    """Primitives of all leaves in one."""
     found = []
     for index, text in enumerate(groups):
         inner = text[text.index("[") + 1 : text.rindex("]")]
@@ -311,7 +311,7 @@ SIDE, SPACING = 64, 0.02
 
 
 def leaf_table(options):
-    """A sheet of 4,096 points over 256 tiles of which some stand out, in leaves of different sizes."""
+    """A sheet of 4,096 points over 256 tiles, some of them raised, in leaves of different sizes."""
     tiles = [polyhedron(f"tile_{i}_{j}", *tile(i, j)) for i in range(16) for j in range(16)]
     rows = []
     for side in (64, 16, 8, 4, 2, 1):

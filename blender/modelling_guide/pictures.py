@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws the pictures of docs/modelling.md: one function for each, on the scene as the page has it there.
+"""Draws the pictures of docs/modelling.md: one function for each, on the scene at its place in the page.
 
     python pictures.py NAME FOLDER TARGET.png
 
@@ -51,7 +51,7 @@ def stage(width, height):
 
 
 def look(at_mm, direction, size_mm):
-    """A camera without perspective: the picture's longer side shows `size_mm`."""
+    """An orthographic camera: the picture's longer side shows `size_mm`."""
     data = bpy.data.cameras.new("picture")
     data.type, data.ortho_scale = "ORTHO", size_mm * MM
     camera = bpy.data.objects.new("picture", data)
@@ -70,7 +70,7 @@ def paint(name, color, alpha=1.0):
 
 
 def only(*names):
-    """Meshes of other names are not drawn."""
+    """Hides meshes of other names."""
     for obj in bpy.context.scene.objects:
         if obj.type == "MESH":
             obj.hide_render = obj.name not in names
@@ -96,7 +96,7 @@ def balls(name, places, color, radius_mm):
 
 
 def label(text, at_mm, color=INK, size_mm=6.0):
-    """A word that faces the camera."""
+    """A label that faces the camera."""
     curve = bpy.data.curves.new(text, "FONT")
     curve.body, curve.size = text, size_mm * MM
     made = _placed(text, curve, color)
@@ -157,7 +157,7 @@ def tree(target):
 
 
 def exported(name):
-    """The model of a root, as written and as the engine has it, with some surface where it has none yet."""
+    """The model of a root, as written and as loaded by the engine, with a default surface if it has none yet."""
     root = bpy.data.objects[name]
     if not len(root.pong_model.surfaces):
         root.pong_model.surfaces.add().name = "any"
@@ -210,7 +210,7 @@ def picture_at(scene, time_s):
 
 
 def capture(target):
-    """Four moments side by side, seen along the bar: ramp, nose, feet, pull."""
+    """Four instants side by side, seen along the bar: ramp, nose, feet, pull."""
     scene = stage(420, 520)
     graphics()
     for name, color, alpha in (("plate", PALE, 1.0), ("jaw", STEEL, 0.85), ("bar", BRASS, 0.6), ("right_post", PALE, 0.3)):

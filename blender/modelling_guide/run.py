@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs docs/modelling.md from top to bottom and compares what it shows with what comes out.
+"""Runs docs/modelling.md from top to bottom and compares its listings with the output.
 
     python run.py [--pictures] [--library DIR] [--keep DIR]
 
@@ -36,7 +36,7 @@ IMAGE = re.compile(r"!\[[^\]]*\]\(figures/modelling/(\w+)\.png\)")
 
 
 class Differs(Exception):
-    """The page and what happens are not the same."""
+    """The page differs from the output."""
 
 
 def blocks(text):
@@ -55,13 +55,13 @@ def blocks(text):
 
 
 def is_like(printed, shown):
-    """Whether a line is as shown; runs of blanks count as one."""
+    """True if a line matches the listing; runs of blanks count as one."""
     pattern = ".*".join(re.escape(" ".join(part.split())) for part in shown.split("…"))
     return re.fullmatch(pattern.replace(r"\ .*", ".*").replace(r".*\ ", ".*"), " ".join(printed.split())) is not None
 
 
 def compare(number, printed, shown):
-    """Raises `Differs` at the first line of `shown` that `printed` does not have in its place."""
+    """Raises `Differs` at the first line of `shown` that is missing from `printed` at its position."""
     rest, skipping = list(printed), False
     for offset, line in enumerate(shown, 1):
         if line.strip() == "…":
@@ -79,7 +79,7 @@ def compare(number, printed, shown):
 
 
 class Page:
-    """What runs the blocks, in the folder of the session."""
+    """Runner of the page's blocks, in the folder of the session."""
 
     def __init__(self, options):
         self.options, self.names, self.printed, self.count = options, {"__name__": "guide"}, None, {}
@@ -129,7 +129,7 @@ class Page:
         compare(number + 1, done.stdout.splitlines(), lines[1:])
 
     def text(self, number, _words, lines):
-        """What the block above printed; before the first of them, something to read."""
+        """Compares the output of the block above; a text before the first block is for reading only."""
         if self.printed is not None:
             compare(number, self.printed, lines)
 
@@ -148,7 +148,7 @@ class Page:
 
 
 def draw(pending):
-    """Pictures are drawn by processes of their own, so that the page's scene stays as it is."""
+    """Pictures are drawn by separate processes, so that the page's scene stays as it is."""
     for name, target in pending:
         subprocess.run([sys.executable, str(HERE / "pictures.py"), name, ".", str(target)], check=True, stdout=subprocess.DEVNULL)
         print(f"{target.relative_to(ROOT)}: {target.stat().st_size} bytes")

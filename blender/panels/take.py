@@ -27,7 +27,7 @@ bpy.context.preferences.view.show_splash = False
 
 
 def step(function):
-    """Something to take a picture of, under the function's name."""
+    """Registers a picture under the function's name."""
     if not WORDS or any(word in function.__name__ for word in WORDS) or function.__name__.startswith("prepare"):
         steps.append(function)
     return function
@@ -71,11 +71,11 @@ def settings():
     return next(obj for obj in bpy.context.scene.objects if obj.pong.role == "root").pong_model
 
 
-# --- what is looked at ----------------------------------------------------------------------------------------------
+# --- subjects --------------------------------------------------------------------------------------------------------
 
 
 def install():
-    """Both extensions as they are shipped, with the panels open that are closed at first.
+    """Both extensions as shipped, with the panels open that are closed at first.
 
     The tab in front cannot be chosen before Blender 5, so all panels go to the first one, "Item".
     """
@@ -106,7 +106,7 @@ def prepare_a_file():
 
 @step
 def a_no_model():
-    """What somebody sees who has just installed it."""
+    """First view after installation."""
 
 
 @step
@@ -116,7 +116,7 @@ def prepare_a_model():
 
 
 def build_model():
-    """A model with something of everything, made as an author makes it."""
+    """A model with some of everything, made with the operators."""
     add = bpy.ops.mesh
     in_view(add.primitive_cube_add, size=0.1, location=(0, 0, 0.05))
     bpy.context.object.name = "housing"
@@ -323,11 +323,11 @@ def cancel_dialog():
             bpy.ops.wm.window_close()
 
 
-# --- taking them ------------------------------------------------------------------------------------------------------
+# --- screenshots -----------------------------------------------------------------------------------------------------
 
 
 def take(name):
-    """What is on the screen; Blender's own screenshot is black without a graphics card."""
+    """Image of the screen; Blender's own screenshot is black without a graphics card."""
     screen = (FOLDER / "screen" / "Xvfb_screen0").read_bytes()  # in the format of xwd
     header = struct.unpack(">25I", screen[:100])
     size, width, height, row, colors = header[0], header[4], header[5], header[12], header[19]
@@ -348,7 +348,7 @@ def png(rgb):
 
 
 def run():
-    """One thing at a time, each in a timer's call of its own, so that Blender draws in between."""
+    """Runs one step at a time, each in a separate timer call, so that Blender draws in between."""
     for function in (install, set_up):
         print(function.__name__, flush=True)
         function()

@@ -38,7 +38,7 @@ def parser(program):
 
 
 def main(arguments, program="pong_pmtk", keep_open=False):
-    """Runs one command and returns its exit code. `keep_open`: the file that is open in Blender stays in use."""
+    """Runs one command and returns its exit code. `keep_open`: the file open in Blender stays in use."""
     try:
         options = parser(program).parse_args(arguments)
     except SystemExit as stop:
@@ -56,7 +56,7 @@ class FileFault(Exception):
 
 @contextlib.contextmanager
 def quiet():
-    """Blender tells of every file it opens; what a command prints should be its own."""
+    """Silences Blender's report of every opened file, so that only the command prints."""
     sys.stdout.flush()
     kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)

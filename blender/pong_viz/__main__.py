@@ -10,5 +10,5 @@ if __name__ == "__main__":
     code = main()
     sys.stdout.flush()
     sys.stderr.flush()
-    # Without Blender's own exit: as a module it sometimes crashes or waits for ever there, all work done.
+    # Skips Blender's own exit: as a module it sometimes crashes or hangs after all work is done.
     os._exit(code)

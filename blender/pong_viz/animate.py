@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Keyframes in bulk, in the two ways that Blender versions want them."""
+"""Bulk keyframes, in the two forms that Blender versions require."""
 
 import bpy
 import numpy as np
@@ -9,12 +9,12 @@ _OURS = "pong_response"
 
 
 def is_ours(action) -> bool:
-    """Whether an action comes from playback."""
+    """True if an action comes from playback."""
     return action is not None and bool(action.get(_OURS))
 
 
 def action_curves(owner, name: str):
-    """The curves of a new action of an object: something with `new(data_path, index=i)`."""
+    """Curves of a new action of an object, as an object with `new(data_path, index=i)`."""
     old = owner.animation_data.action if owner.animation_data else None
     owner.animation_data_clear()
     if is_ours(old) and old.users == 0:
@@ -50,7 +50,7 @@ def _curve(curve, column: np.ndarray, first_frame: int, constant: bool) -> None:
     points[:, 0], points[:, 1] = pictures + first_frame, column[pictures]
     curve.keyframe_points.add(len(pictures))
     curve.keyframe_points.foreach_set("co", points.ravel())
-    # The numbers of the enumeration differ from version to version: ask.
+    # The numbers of the enumeration differ from version to version.
     mode = "CONSTANT" if constant else "LINEAR"
     number = bpy.types.Keyframe.bl_rna.properties["interpolation"].enum_items[mode].value
     curve.keyframe_points.foreach_set("interpolation", np.full(len(pictures), number, dtype=np.int32))

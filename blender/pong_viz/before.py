@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a file was before a response came into it, and taking the response out again.
+"""State of a file before a response was added, and removal of the response.
 
 A response adds a collection with everything it makes. The author's objects keep parents, animation and numbers: a
 constraint of theirs (`RESPONSE`) follows what the response moves. Settings of the scene are noted before they change.
@@ -29,7 +29,7 @@ WORLD = "Pong world"
 
 
 def note(scene) -> None:
-    """Notes the settings of a scene, once: before the first response."""
+    """Records the settings of a scene once, before the first response."""
     if NOTED in scene:
         return
     settings = {path: value for path in SETTINGS if (value := _value(scene, path)) is not None}
@@ -56,7 +56,7 @@ def _views() -> list:
 
 
 def led() -> list:
-    """(object, constraint) of everything that a response moves."""
+    """(object, constraint) of everything moved by a response."""
     return [(item, each) for item in bpy.data.objects for each in item.constraints if each.name.startswith(RESPONSE)]
 
 
@@ -69,7 +69,7 @@ def is_shown(scene) -> bool:
 
 
 def remove(scene) -> int:
-    """Takes all responses out of a scene and puts its settings back; returns how many objects of the author's are free."""
+    """Removes all responses from a scene and restores its settings; returns the number of freed author's objects."""
     free = led()
     for collection in responses(scene):
         clear(collection)
@@ -87,7 +87,7 @@ def remove(scene) -> int:
 
 
 def clear(collection) -> None:
-    """Takes one response out, and what it moves goes back to where it was."""
+    """Removes one response, and returns its objects to their former pose."""
     own = set(collection.objects)
     for item, constraint in led():
         if constraint.target is None or constraint.target in own:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bodies that move, and the primitives that light up while they touch."""
+"""Moving bodies, and primitives highlighted while in contact."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LIT_ALPHA = 0.75  # a primitive that touches is at least that opaque
 
 
 def show_bodies(stage, shown) -> None:
-    """Adds or takes an object for each body and keys its motion."""
+    """Adds or adopts an object for each body and keys its motion."""
     log, names = stage.log, [body.name for body in stage.log.bodies]
     own = graphics.graphics_of(stage.scene, names, stage.options.graphics)
     shown.notes += graphics.strays(stage.scene, names)
@@ -70,7 +70,7 @@ def _key_motion(stage, shown, number, item, anchor):
 
 
 def _draw(stage, shown, number, item, listed) -> None:
-    """Primitives that never touch become one mesh; each of the others is an object, so that it can light up."""
+    """Merges primitives that never touch to one mesh; each of the others is an object, so that it can be highlighted."""
     frame, anchor = shown.objects[stage.log.bodies[number].name], stage.anchors[number]
     if item is not None:  # it may be scaled: shapes hang on an empty beside it
         frame = _key_motion(stage, shown, number, _empty(stage, f"{item.name} shapes"), anchor)
@@ -115,7 +115,7 @@ def _child(stage, parent, name, vertices, faces, anchor, color):
 
 
 def mesh_object(stage, name, vertices, faces, color, mesh=None, see_through=True):
-    """An object of a colour; of a mesh that is there, or of a new one."""
+    """An object of a colour; of an existing or of a new mesh."""
     if mesh is None:
         mesh = bpy.data.meshes.new(name)
         mesh.from_pydata(np.asarray(vertices).tolist(), [], [tuple(int(i) for i in face) for face in faces])

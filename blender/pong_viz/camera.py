@@ -11,7 +11,7 @@ LARGE = 20.0  # times what is looked at: a terrain, not what the camera is for
 
 
 def frame_camera(scene, collection, bodies, points, extent: float, direction=DIRECTION, ball=None, lens_mm: float = 50.0):
-    """Adds a camera that sees the bodies in every picture and all points, and two suns. `extent`: of what is looked at.
+    """Adds a camera that sees the bodies in every picture and all points, and two suns. `extent`: size of the subject.
 
     `ball`: centre and radius of what fills the picture instead.
     """
@@ -44,7 +44,7 @@ def _ball_of_run(scene, bodies, points, extent: float):
 
 
 def _looked_at(bodies, extent: float) -> list:
-    """Bodies that one can see the end of; all if there are none."""
+    """Bodies of finite size; all if there are none."""
     chosen = []
     for body in bodies:
         corners = np.array([corner for item in _solid(body) for corner in _corners(item)])
@@ -59,7 +59,7 @@ def _solid(body) -> list:
 
 
 def _box_of_run(scene, bodies, points, samples: int = 24):
-    """Box around all bodies with what hangs on them, over the run, and around points. Planes have no end: they do not count."""
+    """Box around all bodies with their shapes, over the run, and around points. Planes are infinite and do not count."""
     found = [points]
     for picture in np.unique(np.linspace(scene.frame_start, scene.frame_end, samples).astype(int)):
         scene.frame_set(int(picture))

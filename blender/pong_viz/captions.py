@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a picture does not tell by itself: its time in the log, its forces, and how long an arrow is for a newton."""
+"""Captions of pictures: log time, forces, and the arrow length of a newton."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ KEPT = (*STAMPS, *LOOK, "stamp_font_size", "stamp_note_text")
 
 
 def keep(scene, log: Log, film: Film, metres_per_newton: float) -> None:
-    """Keeps with a scene what its captions need; pictures begin at frame 1."""
+    """Stores the data of its captions with a scene; pictures begin at frame 1."""
     forces = [np.linalg.norm(contact_forces(log.contacts_of(int(row))), axis=1) for row in film.rows]
     scene[KEY] = {
         "times": np.asarray(film.times, float),
@@ -39,7 +39,7 @@ def keep(scene, log: Log, film: Film, metres_per_newton: float) -> None:
 
 
 def text(scene, frame: int) -> str:
-    """The caption of a picture; "" for a scene that shows no response."""
+    """Caption of the picture; "" for a scene that shows no response."""
     known = scene.get(KEY)
     if not known or not len(known["times"]):
         return ""
@@ -57,7 +57,7 @@ def text(scene, frame: int) -> str:
 
 @contextlib.contextmanager
 def shown(scene, wanted: bool = True):
-    """While this lasts, Blender writes the caption of each picture into it."""
+    """Context in which Blender writes the caption of each picture into it."""
     if not wanted or not text(scene, 1):
         yield
         return

@@ -215,6 +215,6 @@ def _write(scene, log, made, given) -> None:
 
 
 def most_loaded(log, made) -> float:
-    """The time of the picture with the largest sum of normal forces."""
+    """Time of the picture with the largest sum of normal forces."""
     sums = [float(log.contacts_of(int(row))["normal_force"].sum()) for row in made.film.rows]
     return float(made.film.times[sums.index(max(sums))])

@@ -14,7 +14,7 @@ MARK_RADIUS, MARK_THICKNESS = 0.045, 0.015  # of a mark, a disc in the tangent p
 
 
 def show_contacts(stage, shown) -> marks.Slots:
-    """Adds an arrow and a mark for each contact that is shown at once."""
+    """Adds arrows and marks for the largest number of simultaneous contacts."""
     largest = marks.largest_force(stage.log)
     length = stage.options.arrow_length or 0.5 * stage.extent
     shown.metres_per_newton = length / largest if largest > 0.0 else 0.0
@@ -27,7 +27,7 @@ def show_contacts(stage, shown) -> marks.Slots:
         arrow = mesh_object(stage, f"force {slot}", *marks.arrow(), FORCE, arrow_mesh, see_through=False)
         mark = mesh_object(stage, f"contact {slot}", *shapes.ball(16, 6), marks.STICK, mark_mesh, see_through=False)
         arrow_mesh, mark_mesh = arrow.data, mark.data
-        # Forces point into the bodies they act on.
+        # Forces point into the bodies on which they act.
         arrow.show_in_front = mark.show_in_front = True
         _key_arrow(_key_place(arrow, made, slot, stage.unit), made, slot, shown.metres_per_newton / stage.unit)
         _key_mark(_key_place(mark, made, slot, stage.unit), made, slot)
@@ -49,7 +49,7 @@ def _key_place(item, made, slot, unit):
 
 def _key_arrow(curves, made, slot, units_per_newton) -> None:
     lengths = made.forces[:, slot] * units_per_newton
-    # Thickness follows length only in part: small forces stay visible.
+    # Thickness grows less than length: small forces stay visible.
     widths = np.sqrt(lengths * lengths.max(initial=0.0))
     key(curves, "rotation_quaternion", made.turns[:, slot], constant=True)
     key(curves, "scale", np.stack([widths, widths, lengths], axis=1), constant=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The author's own objects: which of them a body moves."""
+"""The author's own objects that are moved by bodies."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ PROPERTY = "pong_body"  # of an object: name of the body that moves it
 
 
 def graphics_of(scene, names: list[str], wanted: dict[str, str]) -> dict:
-    """Body -> object of the scene: named by the user, else marked with the property, else of the body's name."""
+    """Body -> object of the scene: named by the user, else marked with the property, else with the body's name."""
     unknown = [body for body in wanted if body not in names]
     if unknown:
         raise ValueError(f"there is no body `{unknown[0]}` in the log; it has {', '.join(names)}")
@@ -37,14 +37,14 @@ def _object_of(scene, body: str, wanted: str | None):
 
 
 def strays(scene, names: list[str]) -> list[str]:
-    """What is wrong with marks of the scene though it can be shown."""
+    """Faults of marks in the scene that do not prevent the display."""
     marks = [(item.name, item.get(PROPERTY)) for item in scene.objects if item.get(PROPERTY)]
     return [f"object `{item}` is marked for body `{body}`, which is not in the log ({', '.join(names)}); it does not move"
             for item, body in marks if body not in names]
 
 
 def lead(item, driver, notes: list[str] | None) -> None:
-    """Lets an object follow a driver. Its parent, animation, numbers and other constraints stay as the author made them.
+    """Makes an object follow a driver. Its parent, animation, numbers and other constraints stay as the author made them.
 
     `notes` takes what moves the object no more while it follows; `None` for an object that followed before.
     """

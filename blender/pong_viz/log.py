@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 FORMAT, VERSIONS = "pong-log", (1, 2)  # What is read here has the same names in both.
-# What playback needs of each table.
+# Columns of each table that playback needs.
 FIELDS = {
     "frames": {"frame", "time", "first_contact", "contacts"},
     "states": {"position", "orientation"},
@@ -42,7 +42,7 @@ class Primitive:
 
 
 class Log:
-    """One log folder. All arrays have one row for each frame that is complete."""
+    """One log folder. All arrays have one row for each complete frame."""
 
     def __init__(self, folder: str | Path):
         """`folder` may also be the run.json in it."""
@@ -68,7 +68,7 @@ class Log:
         self._tell_what_is_missing(len(frames))
 
     def _complete(self, frames: np.ndarray) -> int:
-        """How many frames are whole in all tables: a run that was cut off may have rows more in some of them."""
+        """Number of frames that are complete in all tables; some tables of an interrupted run may have more rows."""
         ends = frames["first_contact"].astype(np.int64) + frames["contacts"]
         complete = min(len(frames), len(self.states), int(np.searchsorted(ends, len(self.contacts), side="right")))
         if complete == 0:
@@ -84,12 +84,12 @@ class Log:
             self.notes.append(f"the writer lost {self.run['lost']} frames; motion is straight across the gaps")
 
     def contacts_of(self, row: int) -> np.ndarray:
-        """Rows of the contact table that belong to a row of `frames`."""
+        """Rows of the contact table for a row of `frames`."""
         first = int(self.frames["first_contact"][row])
         return self.contacts[first:first + int(self.frames["contacts"][row])]
 
     def pairs_that_touch(self) -> list[tuple[int, int]]:
-        """The two objects of each pair that has a contact in the run."""
+        """The two objects of each pair with a contact in the run."""
         first = int(self.frames["first_contact"][0])
         last = int(self.frames["first_contact"][-1]) + int(self.frames["contacts"][-1])
         return [self.pairs[number] for number in np.unique(self.contacts["pair"][first:last])]
@@ -99,7 +99,7 @@ class Log:
         return Body(entry["name"], owner["name"], owner["model"], entry["path"], entry.get("parent"))
 
     def _table(self, name: str) -> np.ndarray:
-        """The rows that the header counts and the file holds."""
+        """Rows counted by the header and present in the file."""
         path = self.folder / f"{name}.npy"
         try:
             with path.open("rb") as file:

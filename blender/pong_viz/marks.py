@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What contacts look like: arrows of force, marks of stick and slip. Numpy only."""
+"""Appearance of contacts: arrows of force, marks of stick and slip. Numpy only."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TOUCHED = (1.0, 0.55, 0.02)  # of a primitive while it touches
 
 @dataclass
 class Slots:
-    """As many marks as the fullest picture needs; contact k of a picture is shown by slot k. Axes (picture, slot)."""
+    """Marks for the picture with the most contacts; slot k shows contact k of a picture. Axes (picture, slot)."""
 
     shown: np.ndarray  # bool
     points: np.ndarray  # (.., 3)
@@ -28,13 +28,13 @@ class Slots:
     left_out: int  # contacts of no slot, over all pictures
 
     def tips(self, metres_per_newton: float) -> np.ndarray:
-        """Ends of all arrows that are shown, (n, 3)."""
+        """Ends of all displayed arrows, (n, 3)."""
         ways = turned(self.turns[self.shown], np.broadcast_to([0.0, 0.0, 1.0], (int(self.shown.sum()), 3)))
         return self.points[self.shown] + metres_per_newton * self.forces[self.shown][:, None] * ways
 
 
 def slots(log: Log, film: Film, seen: View, most: int = 64) -> Slots:
-    """The contacts of each picture, those with the largest forces first if there are more than `most`.
+    """Contacts of each picture, those with the largest forces first if there are more than `most`.
 
     The force is that on the first object of the pair; its opposite acts on the second.
     """
@@ -85,7 +85,7 @@ def _owners(log: Log) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _signs(owners: tuple[np.ndarray, np.ndarray], contacts: np.ndarray) -> np.ndarray:
-    """1 where A belongs to the first object of the pair, else -1."""
+    """1 if A belongs to the first object of the pair, else -1."""
     of_primitive, first = owners
     return np.where(of_primitive[contacts["primitive_a"]] == first[contacts["pair"]], 1.0, -1.0)
 
@@ -99,7 +99,7 @@ def _largest(contacts: np.ndarray, most: int) -> np.ndarray:
 
 
 def touched(log: Log, film: Film) -> dict[int, np.ndarray]:
-    """Primitive -> for each picture, whether it touches. Those that never do in the film are left out."""
+    """Primitive -> contact flag for each picture. Primitives without contact in the film are left out."""
     lit: dict[int, np.ndarray] = {}
     for picture, row in enumerate(film.rows):
         contacts = log.contacts_of(int(row))

@@ -11,14 +11,14 @@ import bpy
 from . import captions
 
 BACKGROUND = (0.50, 0.53, 0.58)
-# Workbench's studio light is dim. The two suns of camera.py and the background light what faces them 1.6 times: that
-# is taken back, so that a colour comes out as it was given.
+# Workbench's studio light is dim. The two suns of camera.py and the background give 1.6 times the light of a white
+# surface; the exposure compensates for that, so that colours are true.
 EXPOSURE = {"workbench": 0.7, "lit": -0.7}
 
 
 @dataclass
 class Picture:
-    """How to render; the engine `scene` leaves all settings of the scene as they are."""
+    """Render options; the engine `scene` leaves all settings of the scene as they are."""
 
     width: int = 1280
     height: int = 720
@@ -41,7 +41,8 @@ def prepare(scene, picture: Picture) -> None:
         for node in scene.world.node_tree.nodes:
             if node.type == "BACKGROUND":  # what EEVEE and Cycles see
                 node.inputs["Color"].default_value = (*BACKGROUND, 1.0)
-    # Blender's own choice (AgX) fades colours; here they tell sticking from slipping, and one body from another.
+    # Blender's own choice (AgX) fades colours, which here distinguish sticking from slipping, and bodies from each
+    # other.
     scene.view_settings.view_transform, scene.view_settings.look = "Standard", "None"
     scene.view_settings.exposure = EXPOSURE["workbench" if picture.engine == "workbench" else "lit"]
     if picture.engine == "workbench":
@@ -56,7 +57,7 @@ def prepare(scene, picture: Picture) -> None:
 
 
 def show_colors() -> None:
-    """Lets solid 3D views show each object's own colour, which is where bodies, marks and arrows have theirs.
+    """Makes solid 3D views show each object's own colour, where bodies, marks and arrows have theirs.
 
     Blender's own choice is the material's, and all of them share one grey material.
     """
@@ -73,16 +74,16 @@ def _engine(name: str) -> str:
     if name == "cycles":
         return "CYCLES"
     known = {item.identifier for item in bpy.types.RenderSettings.bl_rna.properties["engine"].enum_items}
-    # Its name changed with 4.2 and back with 5.0; the list of a module without a window may lack it.
+    # Its name changed with 4.2 and back with 5.0; a module without a window may not list it.
     return "BLENDER_EEVEE_NEXT" if "BLENDER_EEVEE_NEXT" in known or bpy.app.version < (5, 0, 0) else "BLENDER_EEVEE"
 
 
 class RenderFault(Exception):
-    """A picture or film that cannot be made; the text names the file, the cause and the cure."""
+    """A picture or film that cannot be rendered; the text names the file, the cause and the cure."""
 
 
 def still(scene, path: Path, frame: int, caption: bool = True) -> Path:
-    """One picture as PNG."""
+    """Renders one picture as PNG."""
     _check(path, ".png")
     scene.frame_set(frame)
     _as_png(scene)
@@ -92,7 +93,8 @@ def still(scene, path: Path, frame: int, caption: bool = True) -> Path:
 
 
 def frames(scene, folder: Path, caption: bool = True) -> Path:
-    """Every picture of the scene as `frame_0001.png` ... in a folder. Pictures of an earlier, longer film are taken away."""
+    """Renders every picture of the scene as `frame_0001.png` ... in a folder. Pictures of an earlier, longer film are
+    removed."""
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.glob("frame_[0-9][0-9][0-9][0-9]*.png"):
         old.unlink()
@@ -104,7 +106,7 @@ def frames(scene, folder: Path, caption: bool = True) -> Path:
 
 
 def movie(scene, path: Path, caption: bool = True) -> Path:
-    """The whole scene as an mp4 film (H.264)."""
+    """Renders the whole scene as an mp4 film (H.264)."""
     _check(path, ".mp4")
     as_film(scene, path)
     with captions.shown(scene, caption):
@@ -112,7 +114,7 @@ def movie(scene, path: Path, caption: bool = True) -> Path:
 
 
 def as_film(scene, path: Path) -> None:
-    """Settings for an mp4 film; its sides are made even, which H.264 wants."""
+    """Settings for an mp4 film; its sides are made even, as H.264 requires."""
     settings = scene.render.image_settings
     if hasattr(settings, "media_type"):  # from 5.0 on it decides which formats there are
         settings.media_type = "VIDEO"
@@ -129,7 +131,7 @@ KEPT = ("filepath", "use_file_extension", "resolution_x", "resolution_y")
 
 
 def kept(scene) -> dict:
-    """Where and how the scene's own renders go; rendering a response changes it for a while."""
+    """Render settings of the scene, which rendering a response changes temporarily."""
     settings = scene.render.image_settings
     form = {name: getattr(settings, name) for name in ("media_type", "file_format", "color_mode") if hasattr(settings, name)}
     return {"render": {name: getattr(scene.render, name) for name in KEPT}, "form": form, "frame": scene.frame_current}
@@ -151,7 +153,7 @@ def _check(path: Path, ending: str) -> None:
 
 
 def _rendered(path: Path, **what) -> Path:
-    """Renders; Blender itself is silent about files it could not write."""
+    """Renders; raises errors for files that Blender silently fails to write."""
     path.unlink(missing_ok=True)
     try:
         bpy.ops.render.render(**what)

@@ -18,7 +18,7 @@ from .timeline import Film, View, film, travel, view
 
 @dataclass
 class Options:
-    """How a run is shown."""
+    """Display options of a run."""
 
     fps: int = 30
     speed: float = 1.0  # 0.1: ten times slower than life
@@ -35,13 +35,14 @@ class Options:
     look_at: tuple[float, float, float, float] | None = None  # a ball that fills the picture: centre, radius; else the run
 
 
-# Of all bodies; of those without graphics; as before, and of the others what touches, while it does; of none.
+# Colours: of all bodies; of those without graphics; likewise, and of primitives of the others while in contact; of
+# none.
 SHAPES = ("all", "missing", "touched", "none")
 
 
 @dataclass
 class Shown:
-    """What was made."""
+    """Created objects."""
 
     film: Film
     seen: View
@@ -54,7 +55,7 @@ class Shown:
 
 @dataclass
 class Stage:
-    """What the makers of a scene's parts share."""
+    """Shared data of the makers of a scene's parts."""
 
     log: Log
     options: Options
@@ -106,7 +107,7 @@ def show(log: Log, options: Options, scene=None) -> Shown:
 
 
 def _extent(log: Log, extents: list[float]) -> float:
-    """Size of what is looked at, m: of the smaller partner in the largest pair that touches; a rover, not its terrain."""
+    """Size of the subject, m: of the smaller partner in the largest touching pair; a rover, not its terrain."""
     objects = log.run["objects"]
     partners = [[extents[objects[number]["model"]] for number in pair] for pair in log.pairs_that_touch()]
     found = [min(size for size in sizes if size > 0.0) for sizes in partners if max(sizes) > 0.0]

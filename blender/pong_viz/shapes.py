@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Primitives as meshes to look at, in the frame of their movable group. Numpy only."""
+"""Primitives as display meshes, in the frame of their movable group. Numpy only."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .core.read import read_file
 
 @dataclass
 class Shape:
-    """What one primitive looks like."""
+    """Display shape of one primitive."""
 
     path: str
     kind: str
@@ -25,7 +25,7 @@ class Shape:
 
 @dataclass(frozen=True)
 class Sizes:
-    """How large to draw what has no size of its own, m."""
+    """Display sizes of primitives without a size, m."""
 
     point: float  # radius of a point
     line: float  # radius of a segment or ray
@@ -33,12 +33,12 @@ class Sizes:
 
 
 def sizes_for(extent: float, way: float) -> Sizes:
-    """Sizes that show well where so much is looked at (m), and where models reach so far with their travel (m)."""
+    """Display sizes for the size of the subject (m), and the reach of models with their travel (m)."""
     return Sizes(point=0.012 * extent, line=0.006 * extent, plane=way)
 
 
 def load(path: Path) -> Model:
-    """A model file, its mesh files put in their places."""
+    """A model file with its mesh files inserted."""
     try:
         model = read_file(path)
     except OSError as reason:
@@ -123,7 +123,7 @@ FAR = 1000.0  # m; beyond, single precision leaves less than 0.1 mm
 
 
 def anchor_of(box: np.ndarray | None) -> np.ndarray:
-    """Place in a body's frame that its drawn shapes are told from: its origin unless the shapes are far from it."""
+    """Reference point of a body's displayed shapes, in its frame: its origin unless the shapes are far from it."""
     if box is None or np.linalg.norm(box.mean(axis=0)) < FAR:
         return np.zeros(3)
     return np.round(box.mean(axis=0))
@@ -180,7 +180,7 @@ def _mesh(faces_name):
 
 
 def _capsule(fields, _):
-    """A ball whose halves are pulled apart."""
+    """A sphere with its halves pulled apart."""
     low, high = np.asarray(fields["ends"], dtype=float)
     along, (vertices, faces) = (high - low) / np.linalg.norm(high - low), ball(32, 16)
     across, other = frame_of(along)
@@ -195,7 +195,7 @@ def _frustum(fields, _):
 
 
 def _bore(fields, _):
-    """Its wall, seen from within the hole."""
+    """Wall of a bore, seen from inside the hole."""
     vertices, sides = _wall(fields["ends"], fields["radii"])
     return vertices, [side[::-1] for side in sides]
 
@@ -220,7 +220,7 @@ def _rod(start, end, radius):
 
 
 def frame_of(direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Two unit vectors that make a right-handed frame with a unit direction as the third."""
+    """Two unit vectors that form a right-handed frame with a unit direction as the third."""
     helper = np.eye(3)[np.argmin(np.abs(direction))]
     across = np.cross(helper, direction)
     across /= np.linalg.norm(across)
@@ -228,7 +228,7 @@ def frame_of(direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def ball(around: int, upwards: int) -> tuple[np.ndarray, list]:
-    """The unit ball in rings."""
+    """The unit sphere in rings."""
     theta = np.pi * np.arange(1, upwards) / upwards
     phi = 2.0 * np.pi * np.arange(around) / around
     rings = np.stack([

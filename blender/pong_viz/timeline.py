@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From rows of a log to frames of a film. Numpy only."""
+"""Conversion of log rows to frames of a film. Numpy only."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .log import Log
 
 @dataclass
 class Film:
-    """Which instants are shown."""
+    """Instants of a film."""
 
     times: np.ndarray  # of each picture, s in the log
     rows: np.ndarray  # the row of the log whose contacts it shows: the last one not after it
@@ -20,7 +20,7 @@ class Film:
 
 
 def film(log: Log, fps: int = 30, speed: float = 1.0, start: float | None = None, end: float | None = None) -> Film:
-    """Pictures at a steady rate; `speed` 0.1 is ten times slower than life."""
+    """Pictures at a constant rate; `speed` 0.1 is slow motion by ten."""
     first = log.times[0] if start is None else max(start, log.times[0])
     last = log.times[-1] if end is None else min(end, log.times[-1])
     # Also false for NaN.
@@ -28,7 +28,7 @@ def film(log: Log, fps: int = 30, speed: float = 1.0, start: float | None = None
         raise ValueError(f"nothing to show from {first} s to {last} s; the log runs from {log.times[0]} to {log.times[-1]} s")
     count = int(np.floor((last - first) * fps / speed + 1e-9)) + 1
     times = first + np.arange(count) * speed / fps
-    # A time that differs from that of a row by rounding alone belongs to it.
+    # A time that differs from that of a row by rounding only belongs to it.
     slack = 1e-9 * (1.0 + np.abs(times))
     rows = np.clip(np.searchsorted(log.times, times + slack, side="right") - 1, 0, len(log.times) - 1)
     return Film(times, rows, fps)
@@ -36,7 +36,7 @@ def film(log: Log, fps: int = 30, speed: float = 1.0, start: float | None = None
 
 @dataclass
 class Track:
-    """The way of one body through a film, relative to the scene's origin."""
+    """Path of one body through a film, relative to the scene's origin."""
 
     positions: np.ndarray  # (pictures, 3), m
     orientations: np.ndarray  # (pictures, 4), (w, x, y, z); neighbours never on opposite sides
@@ -44,7 +44,7 @@ class Track:
 
 @dataclass
 class View:
-    """From where the film is seen: a frame at each picture, all positions are relative to it."""
+    """Viewing frame at each picture; all positions are relative to it."""
 
     origins: np.ndarray  # (pictures, 3)
     turns: np.ndarray | None  # (pictures, 4), or None for the common axes
@@ -63,7 +63,7 @@ FOLLOW_FROM = 20.0  # times what is looked at: further away nothing of it would 
 
 
 def view(log: Log, film: Film, body: int | None = None, extent: float = np.inf, anchors: np.ndarray | None = None) -> View:
-    """From a body that is held still; else from the common frame, its origin moved to where things happen.
+    """Viewing frame of a body that is held still; else the common frame with its origin near the action.
 
     Where all bodies rush through the common frame together, as in orbit, the view goes along with the first, without
     turning. `extent` is the size of what is looked at, m; `anchors` as for `track`.
@@ -79,7 +79,7 @@ def view(log: Log, film: Film, body: int | None = None, extent: float = np.inf, 
     near = _first_contact(log, film)
     if near is None:
         near = np.mean([way[0] for way in ways], axis=0) if ways else np.zeros(3)
-    # Whole metres, and nothing for scenes near the origin: coordinates on the screen stay those of the log.
+    # Whole metres, and zero for scenes near the origin: displayed coordinates are those of the log.
     origin = np.where(np.abs(near) > 100.0, np.round(near), 0.0)
     return View(np.broadcast_to(origin, (len(film.times), 3)), None)
 
@@ -105,7 +105,7 @@ def _anchor(anchors: np.ndarray | None, body: int) -> np.ndarray:
 
 
 def is_known(log: Log, body: int) -> bool:
-    """Whether the state of a body is ever set in the log."""
+    """True if the state of a body is set anywhere in the log."""
     return len(_known_rows(log.states[:, body])) > 0
 
 
@@ -115,13 +115,13 @@ def _known_rows(states: np.ndarray) -> np.ndarray:
 
 
 def way_of(log: Log, film: Film, body: int, anchor: np.ndarray) -> np.ndarray:
-    """Where a point of a body (`anchor`, in its frame) is in the common frame at each picture."""
+    """Position of a body's point (`anchor`, in its frame) in the common frame at each picture."""
     positions, orientations = interpolated(log, film, body)
     return positions + turned(orientations, np.broadcast_to(anchor, positions.shape))
 
 
 def track(log: Log, film: Film, body: int, seen: View, anchor: np.ndarray = np.zeros(3)) -> Track:
-    """The way of a body's point `anchor` (in its frame) and its turns."""
+    """Path of a body's point `anchor` (in its frame) and its orientations."""
     _, orientations = interpolated(log, film, body)
     positions = way_of(log, film, body, anchor) - seen.origins
     if seen.turns is not None:
@@ -131,7 +131,7 @@ def track(log: Log, film: Film, body: int, seen: View, anchor: np.ndarray = np.z
 
 
 def interpolated(log: Log, film: Film, body: int) -> tuple[np.ndarray, np.ndarray]:
-    """Position and orientation at each picture: straight between two rows, at constant rate about a fixed axis.
+    """Position and orientation at each picture: linear between two rows, at constant rate about a fixed axis.
 
     Rows in which the state is not set do not count: before the first that is, the body waits there. The origin for a body
     whose state is never set.
@@ -149,7 +149,7 @@ def interpolated(log: Log, film: Film, body: int) -> tuple[np.ndarray, np.ndarra
 
 
 def travel(log: Log, film: Film, seen: View, anchors: np.ndarray | None = None) -> float:
-    """How far the anchor of any body gets from the scene's origin, m."""
+    """Largest distance of a body's anchor from the scene's origin, m."""
     known = [number for number in range(len(log.bodies)) if is_known(log, number)]
     ways = [track(log, film, number, seen, _anchor(anchors, number)).positions for number in known]
     return max((float(np.linalg.norm(way, axis=1).max()) for way in ways), default=0.0)
@@ -188,14 +188,14 @@ def slerp(q0: np.ndarray, q1: np.ndarray, share: np.ndarray) -> np.ndarray:
 
 
 def continuous(q: np.ndarray) -> np.ndarray:
-    """The same rotations with signs such that neighbours are near: q and -q are one rotation, but not one curve."""
+    """Rotations with signs such that neighbours are near: q and -q are one rotation, but not one curve."""
     flips = np.sum(q[1:] * q[:-1], axis=1) < 0.0
     signs = np.where(np.concatenate([[0], np.cumsum(flips)]) % 2 == 0, 1.0, -1.0)
     return q * signs[:, None]
 
 
 def from_z(directions: np.ndarray) -> np.ndarray:
-    """The shortest turns that take +z to directions of any length but zero, axes (.., 3)."""
+    """Shortest rotations from +z to directions of any length but zero, axes (.., 3)."""
     d = np.asarray(directions, dtype=float)
     d = d / np.linalg.norm(d, axis=-1, keepdims=True)
     q = np.stack([1.0 + d[..., 2], -d[..., 1], d[..., 0], np.zeros(d.shape[:-1])], axis=-1)

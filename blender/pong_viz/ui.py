@@ -170,7 +170,7 @@ class _OfObject:
 
 
 def bodies_of(path: str) -> list[str]:
-    """Names of the bodies of a log; none if it cannot be read."""
+    """Names of the bodies of a log; empty if it cannot be read."""
     if not path:
         return []
     path = Path(bpy.path.abspath(path))
@@ -182,7 +182,7 @@ def bodies_of(path: str) -> list[str]:
 
 
 def _search_body(_self, context, words):
-    """Bodies of the log whose names contain what was typed, with the objects that they move."""
+    """Bodies of the log whose names contain the typed text, with the objects they move."""
     moves = {item[PROPERTY]: item.name for item in context.scene.objects if PROPERTY in item}
     found = [name for name in bodies_of(context.scene.pong_response_log) if words.lower() in name.lower()]
     return [(name, f"moves {moves[name]}" if name in moves else "moves no object yet") for name in found]

@@ -25,7 +25,7 @@ MUST_HOLD = {
 
 
 def built(name, folder):
-    """The zip, judged by Blender's own tool; built twice from the same sources it is the same."""
+    """The zip, checked by Blender's own tool; two builds from the same sources are equal."""
     import bpy
 
     zips = []
@@ -63,7 +63,7 @@ def part(name, module):
 
 
 def use(folder):
-    """In a process of its own, as on the next start of Blender."""
+    """Uses the extensions in a new process, as on the next start of Blender."""
     import bpy
 
     for name in MUST_HOLD:
@@ -99,7 +99,7 @@ def fresh_file():
 
 
 def use_toolkit(folder):
-    """Models come in and go out again as they were."""
+    """Models survive import and export unchanged."""
     import bpy
 
     read, write, again = part("pong_pmtk", "core.read"), part("pong_pmtk", "core.write"), folder / "again.ron"
@@ -129,7 +129,7 @@ def use_playback(folder):
 
 
 def sample_log(folder):
-    """The log of the tests, which need not be installed."""
+    """Log of the tests, without their installation."""
     spec = importlib.util.spec_from_file_location("sample", HERE.parent / "viz/sample.py")
     sample = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(sample)
@@ -150,7 +150,7 @@ def main():
 
 
 def leave():
-    """Without Blender's own exit: see run.py."""
+    """Exits without Blender's own exit: see run.py."""
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(0)

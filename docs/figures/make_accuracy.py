@@ -55,7 +55,7 @@ def rows(lines):
 
 
 def found(name):
-    """What stands on the page of one scene: the reference, the verdict, the levels of the front."""
+    """Part of the page on one scene: the reference, the verdict, the levels of the front."""
     page = (KEPT / name / "trade.md").read_text(encoding="utf-8")
     told = [part for line in section(page, "The reference") for part in wrapped(line)]
     levels = rows(section(page, "Levels"))
@@ -64,7 +64,7 @@ def found(name):
 
 
 def wrapped(line):
-    """Lines of the page's width; a row of a table stays whole."""
+    """Lines of the page's width; table rows stay whole."""
     return [line] if line.startswith("|") else textwrap.wrap(line, 118, break_long_words=False, break_on_hyphens=False)
 
 
@@ -88,7 +88,7 @@ def seconds(text):
 
 
 def levers(name):
-    """(lever, to) -> (time, error, whether the bits are the same) from the scene as written."""
+    """(lever, to) -> (time, error, whether the bits are the same) relative to the scene as written."""
     page = (KEPT / name / "trade.md").read_text(encoding="utf-8")
     cells = [[cell.strip() for cell in row.strip("|").split("|")] for row in rows(section(page, "from the scene as written"))[2:]]
     return {(lever, to): (time, error, bits == "same") for lever, to, time, error, bits in cells}
@@ -112,7 +112,7 @@ def cell(pair):
 
 
 def fastest(table, lever):
-    """The one of a lever's levels that takes the least time, by name."""
+    """Fastest level of a lever, by name."""
     of = [(to, pair) for (name, to), pair in table.items() if name == lever and pair[0] != "–"]
     if not of:
         return ""

@@ -65,7 +65,7 @@ def load_sharing():
         far = (corner[0] + 90 * math.cos(t), corner[1] + 90 * math.sin(t))
         d.line((left, 60), corner, INK, 3)
         d.line(corner, far, INK, 3)
-        # A sphere whose depth is δ at both walls.
+        # A sphere with depth δ at both walls.
         radius, depth = 48, 10
         normal = (-math.sin(t), math.cos(t))
         height = radius - depth
@@ -109,7 +109,7 @@ def bristle():
     d.circle(center, static, stroke=SOFT, dash="5 4")
     d.circle(center, kinetic, stroke=INK)
     at = lambda angle, radius: (center[0] + radius * math.cos(angle), center[1] + radius * math.sin(angle))
-    # A way of 1.6 p_k along x turns the bristle from 100° by tan(ψ/2) = tan(ψ₀/2)·exp(−z).
+    # A path of 1.6 p_k along x turns the bristle from 100° by tan(ψ/2) = tan(ψ₀/2)·exp(−z).
     before, way = math.radians(75), 1.6
     after = 2 * math.atan(math.tan(before / 2) * math.exp(-way))
     carried, held = at(before, kinetic), at(after, kinetic)

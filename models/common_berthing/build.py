@@ -41,7 +41,7 @@ SURFACES_OF_PASSIVE = {"ring": rough(RING_STIFFNESS, 0.0, sticking=0.0)}
 
 
 def part(name, azimuth_deg, primitives, **rest):
-    """A group whose x points outwards at an azimuth. Parts are compact: balls around them cost least."""
+    """A group whose x points outwards at an azimuth. Parts are compact: bounding spheres cost least."""
     orientation = scenes.about_axis(2, azimuth_deg)
     return a.group(name, primitives=primitives, bound="Sphere", orientation=orientation, **rest)
 
@@ -52,7 +52,7 @@ def quadrants(make):
 
 
 def azimuths(i):
-    """Of a quadrant: its latch, its guide, its two standoffs."""
+    """Azimuths of a quadrant: its latch, its guide, its two standoffs."""
     return LATCH_AZIMUTHS[i], GUIDE_AZIMUTHS[i], STANDOFF_AZIMUTHS[2 * i : 2 * i + 2]
 
 
@@ -129,7 +129,7 @@ def stop():
 
 
 def latch(i, azimuth_deg):
-    """The tip of a four-bar latch, a roller; stowed as it stands. The host moves it as the bars do."""
+    """Tip of a four-bar latch, a roller; modelled stowed. The host moves it as the bars do."""
     tip = a.sphere("tip", (0.0, 0.0, 0.0), TIP_RADIUS)
     place = radial(STOWED_RADIUS, azimuth_deg, STOWED_Z)
     return part(f"latch_{i}", azimuth_deg, [tip], surface="latch", movable=True, position=place)
@@ -148,7 +148,7 @@ def active():
 # --- ready-to-latch indicator ------------------------------------------------------------------------------------------
 
 def plunger():
-    """The sliding part. A body of its own: its wrench is what the indicator feels."""
+    """The sliding part. A separate body: its wrench is the indicator's signal."""
     ray = a.ray("rod", (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), PLUNGER_LENGTH, response="Axial")
     place = (PLUNGER_RADIUS, 0.0, PLUNGER_TIP_Z - PLUNGER_LENGTH)
     return a.group("plunger", primitives=[ray], surface="plunger", movable=True, position=place)
@@ -164,12 +164,13 @@ def paddle():
 
 
 def indicator():
-    """One of four, at azimuth 0; its root is fixed to the active ring, whose frame it shares but for the azimuth."""
+    """One of four indicators, at azimuth 0; its root is fixed to the active ring, whose frame it shares but for the
+    azimuth."""
     return a.model("indicator", SURFACES_OF_INDICATOR, a.group("indicator", groups=[plunger(), paddle()]))
 
 
 def arm():
-    """The frame of the arm's tip. It touches nothing: scenes name no pair with it."""
+    """Frame of the arm's tip, without contact: scenes name no pair with it."""
     tip = a.point("tip", (0.0, 0.0, 0.0))
     return a.model("arm", {"none": a.surface(1.0)}, a.group("arm", primitives=[tip], surface="none"))
 

@@ -1,4 +1,4 @@
-"""What the scenes of the berthing mechanism must come to. Run by models/outcomes.py."""
+"""Outcomes of the berthing mechanism's scenes and their predictions. Run by models/outcomes.py."""
 
 import math
 
@@ -16,7 +16,7 @@ READY = 0.005  # m: a plunger pressed so far likewise
 
 
 def contacts(run, time, *names):
-    """Contacts of a record, of primitives whose paths hold all of the names."""
+    """Contacts of a record between primitives whose paths contain all of the names."""
     rows = [row for row in run.table("contacts") if abs(row["time_s"] - time) < 1e-6]
     return [row for row in rows if all(name in row["a"] + " " + row["b"] for name in names)]
 
@@ -36,7 +36,7 @@ def lateral(row):
 # --- press -----------------------------------------------------------------------------------------------------------
 
 def press(run):
-    """Springs on circles: they sink by F/Σk, tilt by F·e/Σ(k·r²/2), and share the load by that."""
+    """Springs on circles: their depth is F/Σk, their tilt F·e/Σ(k·r²/2), and they share the load accordingly."""
     end = run.last("passive")
     standoff, plunger = series(STANDOFF_STIFFNESS), series(PLUNGER_STIFFNESS)
     upright = 8 * standoff + 4 * plunger
@@ -76,13 +76,13 @@ def roll(run):
 # --- berthing --------------------------------------------------------------------------------------------------------
 
 def play(gap):
-    """How far a fin can be off between its posts, m."""
+    """Lateral clearance of a fin between its posts, m."""
     shoulder = gap - FIN_STRAIGHT - POST_THROAT
     return GUIDE_CLEARANCE + max(0.0, shoulder) * math.tan(FLARE)
 
 
 def raised_deg(run, i, time):
-    """Where a paddle stands above the mating plane."""
+    """Angle of a paddle above the mating plane, degrees."""
     row = at(run, f"indicator_{i}/paddle", time)
     tip = place(row, (PADDLE_LENGTH, 0.0, 0.0))
     return math.degrees(math.asin((tip[2] - row["z_m"]) / PADDLE_LENGTH))
@@ -94,7 +94,7 @@ def closed_forces():
     others = 8 * series(STANDOFF_STIFFNESS) * STANDOFF_STROKE
     others += 4 * series(PLUNGER_STIFFNESS) * (PLUNGER_TIP_Z - FITTING_BOTTOM)
     others += 4 * PADDLE_SPRING * (math.radians(PADDLE_DEG) - FLAT) / (PADDLE_LENGTH * math.cos(FLAT))
-    # 4·tip·(bite − sunk) = stops·sunk + others; what gives with `sunk` in `others` is too soft to count.
+    # 4·tip·(bite − sunk) = stops·sunk + others; the dependence of `others` on `sunk` is negligible.
     sunk = (4 * tip * TIP_BITE - others) / (stops + 4 * tip)
     return tip * (TIP_BITE - sunk), stops * sunk
 

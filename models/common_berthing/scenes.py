@@ -54,14 +54,14 @@ def attitude():
 
 
 def paddle_attitude(raised_deg):
-    """Of a paddle that stands this far above the mating plane, in its indicator."""
+    """Attitude of a paddle at this angle above the mating plane, in its indicator."""
     return about_axis(1, -raised_deg)
 
 
 # --- bodies ------------------------------------------------------------------------------------------------------------
 
 def tip_rows(azimuth_deg):
-    """The way of a latch's tip: up, over the fitting, down onto it."""
+    """Path of a latch's tip: up, over the fitting, down onto it."""
     corners = ((STOWED_RADIUS, STOWED_Z), (STOWED_RADIUS, REACH_Z), (CLOSED_RADIUS, REACH_Z), (CLOSED_RADIUS, CLOSED_Z))
     places = [radial(radius, azimuth_deg, z) for radius, z in corners]
     q = about_axis(2, azimuth_deg)
@@ -121,7 +121,7 @@ def arm(rows):
 
 
 def hinges():
-    """Stiff but about y, about which the paddle's spring raises it."""
+    """Stiff except about y, about which the paddle's spring raises it."""
     for i in range(len(LATCH_AZIMUTHS)):
         fixed = on(f"indicator_{i}", HINGE, paddle_attitude(PADDLE_DEG))
         yield spring(fixed, on(f"indicator_{i}/paddle"), HINGE_STIFFNESS, HINGE_DAMPING)
@@ -130,7 +130,7 @@ def hinges():
 # --- scenes ------------------------------------------------------------------------------------------------------------
 
 def arm_rows():
-    """Where the arm's tip goes: in at one speed to the hand-over, holds against the latches, then gives way."""
+    """Path of the arm's tip: in at constant speed to the hand-over, holds against the latches, then yields."""
     q = attitude()
     grip = turned(q, GRAPPLE)
     travel = START_GAP - HANDOVER_GAP
@@ -180,7 +180,7 @@ def press():
 
 
 def roll_touch():
-    """The roll at which, at ROLL_GAP, every fin touches the flare of a post, rad."""
+    """Roll at which, at ROLL_GAP, every fin touches the flare of a post, rad."""
     straight = ROLL_GAP - FIN_STRAIGHT  # height of the fins' shoulders
     play = GUIDE_CLEARANCE + (straight - POST_THROAT) * math.tan(math.radians(FLARE_DEG))
     return play / RING_MIDDLE

@@ -32,7 +32,7 @@ SURFACES_OF_RAILS = {
 # --- pallet --------------------------------------------------------------------------------------------------------
 
 def wheel(name):
-    """One wheel, at its place: an ellipsoid, which is a wheel with a crowned tread."""
+    """One wheel at its position: an ellipsoid, which is a wheel with a crowned tread."""
     semi_axes = [wheel_radius(name)] * 3
     semi_axes[axle(name)] = wheel_half_width(name)
     tread = a.ellipsoid("tread", (0.0, 0.0, 0.0), semi_axes)
@@ -78,7 +78,7 @@ def flange(name, side, up):
 
 
 def web(name, side):
-    """The side guide of a channel: where the side rollers run, and the flare that centres them."""
+    """The side guide of a channel: track of the side rollers, and the flare that centres them."""
     half_spaces = [
         ((0.0, -side, 0.0), -WEB_Y),
         g.plane((-LATERAL_FLARE, -side * FLARE_LENGTH, 0.0), (0.0, side * WEB_Y, 0.0)),
@@ -113,7 +113,7 @@ def rails():
 
 
 def arm():
-    """The frame of the arm's tip. It touches nothing: scenes name no pair with it."""
+    """Frame of the arm's tip, without contact: scenes name no pair with it."""
     tip = a.point("tip", (0.0, 0.0, 0.0))
     return a.model("arm", {"none": a.surface(1.0)}, a.group("arm", primitives=[tip], surface="none"))
 

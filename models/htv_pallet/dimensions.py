@@ -60,7 +60,7 @@ FRICTION = 0.2
 
 
 def _wheels():
-    """Name -> place of the axle's middle in the pallet."""
+    """Name -> position of the axle's middle in the pallet."""
     places = {}
     for end, where in ((1, "front"), (-1, "rear")):
         for side, label in SIDES:
@@ -81,7 +81,7 @@ def wheel_radius(name):
 
 
 def axle(name):
-    """The axis about which a wheel turns: 0, 1 or 2."""
+    """Axis of a wheel: 0, 1 or 2."""
     return 2 if is_roller(name) else 1
 
 

@@ -1,4 +1,4 @@
-"""What the scenes of the pallet must come to. Run by models/outcomes.py; README.md derives the closed forms."""
+"""Outcomes of the pallet's scenes and their predictions. Run by models/outcomes.py; README.md derives the closed forms."""
 
 import math
 
@@ -13,12 +13,12 @@ WHEEL_SPAN = 2 * MAIN_WHEEL_X
 # --- insertion -------------------------------------------------------------------------------------------------------
 
 def arm_force(arm, pallet):
-    """Of the arm's spring on the pallet, N; without its damping."""
+    """Force of the arm's spring on the pallet, N; without its damping."""
     return [k * (a - p) for k, a, p in zip(ARM_STIFFNESS, position(arm), place(pallet, FIXTURE))]
 
 
 def yaw_deg(row):
-    """Of a pallet that is turned by a little only; `pitch_deg` likewise."""
+    """Yaw of a pallet with a small rotation; `pitch_deg` likewise."""
     return math.degrees(2 * row["qz"])
 
 
@@ -27,7 +27,7 @@ def pitch_deg(row):
 
 
 def slack_deg(run, wheels, clearance, span):
-    """The most that a pair of wheels lets the pallet turn: the clearance, and what tread, rail and bearings yield."""
+    """Largest rotation of the pallet allowed by a pair of wheels: clearance, and deflections of tread, rail and bearings."""
     greatest = max(norm(force(row)) for name in wheels for row in run.of("wrenches", f"pallet/{name}"))
     yielded = greatest * (1 / WHEEL_STIFFNESS + 1 / STEEL_STIFFNESS + 1 / (2 * BEARING_STIFFNESS))
     return math.degrees((clearance + 2 * yielded) / span)
@@ -40,7 +40,7 @@ def insertion(run):
 
 
 def on_the_way(run):
-    """With all wheels in the rails, before the stops: only wheels touch, and the pallet turns as far as they let it."""
+    """Insertion with all wheels in the rails, before the stops: only wheels touch, and the rotation is within their limit."""
     inside = [row for row in run.of("states", "pallet") if SIDE_ROLLER_X < row["x_m"] < SEATED_X - 0.005]
     off = max(abs(row["y_m"]) for row in inside)
     yield "off the middle sideways on the way, mm", off * 1e3, 0.0, LATERAL_CLEARANCE / 2 * 1e3
@@ -55,7 +55,7 @@ def on_the_way(run):
 
 
 def pressed(run):
-    """At rest against the stops, the arm out of line: the rails bear what the arm's spring does."""
+    """Rest against the stops with the arm misaligned: the rails carry the force of the arm's spring."""
     time = max(t for t in run.times() if t <= run.times()[-1] - HOLD_TIME - ALIGN_TIME)
     arm, pallet, rails = (
         next(row for row in run.of(table, body) if row["time_s"] == time)
@@ -71,7 +71,7 @@ def pressed(run):
 
 
 def seated(run):
-    """Lined up: both bumpers against the stops, in series with the arm."""
+    """Aligned: both bumpers against the stops, in series with the arm."""
     end = run.last("pallet")
     bumpers = 2 / (1 / BUMPER_STIFFNESS + 1 / STEEL_STIFFNESS)
     push = OVERTRAVEL / (1 / ARM_STIFFNESS[0] + 1 / bumpers)
@@ -89,19 +89,19 @@ def seated(run):
 # --- corner push -----------------------------------------------------------------------------------------------------
 
 def steady(run, table, body, keys):
-    """Means over the last two seconds, when the pallet moves evenly."""
+    """Means over the last two seconds, when the pallet moves steadily."""
     rows = [row for row in run.of(table, body) if row["time_s"] > run.times()[-1] - 2.0]
     return [sum(row[key] for row in rows) / len(rows) for key in keys]
 
 
 def lever(run):
-    """By which the strut pushes beside the drag, m: a yawed pallet carries its corner a little outwards."""
+    """Lever of the strut about the drag, m: a yawed pallet carries its corner slightly outwards."""
     end = run.last("pallet")
     return place(end, (FIXTURE[0], CORNER_Y, 0.0))[1] - end["y_m"]
 
 
 def corner_push(run):
-    """Rollers that turn: what holds is the drag of the bearings of two."""
+    """Turning rollers: only the drag of two bearings resists."""
     held = steady(run, "wrenches", "rails", ["fx_n"])[0]
     drag = 2 * BEARING_DRAG * CORNER_SPEED / SIDE_ROLLER_RADIUS**2
     yield "force of the rails against the push over that of two rollers", held / drag, 0.98, 1.02
@@ -109,7 +109,7 @@ def corner_push(run):
 
 
 def corner_push_seized(run):
-    """Rollers that slide: the drawer's law."""
+    """Sliding rollers: the drawer's law."""
     held = steady(run, "wrenches", "rails", ["fx_n"])[0]
     push = DRAG / (1 - 2 * FRICTION * lever(run) / ROLLER_SPAN)
     yield "push over that of the drawer's law", (DRAG + held) / push, 0.995, 1.005
@@ -117,7 +117,7 @@ def corner_push_seized(run):
 
 
 def loads(run, expected):
-    """The two rollers that hold the pallet against turning; the others are free."""
+    """The two rollers that resist the pallet's rotation; the others are free."""
     for name in ("roller_front_right", "roller_rear_left"):
         load = abs(steady(run, "wrenches", f"pallet/{name}", ["fy_n"])[0])
         yield f"load of {name} over that of the lever", load / expected, 0.99, 1.01

@@ -9,7 +9,7 @@ ARM_STIFFNESS = (5e3, 5e3, 5e3, 5e3, 5e3, 5e3)  # N/m, N·m/rad
 ARM_DAMPING = (1.5e3, 1.5e3, 1.5e3, 7e3, 7e3, 7e3)
 FIXTURE = (-PALLET_LENGTH / 2, 0.0, 0.0)  # where the arm holds the pallet
 
-# Insertion: the arm holds the pallet off-centre all the way, as an arm does whose view of the rails is off.
+# Insertion: the arm holds the pallet off-centre all the way, as with an inaccurate view of the rails.
 START_X = -1.800  # of the pallet's origin; the first rollers reach the flare 20 mm later
 SPEED = 0.020
 OVERTRAVEL = 0.060  # of the arm's tip beyond the seated pallet
@@ -19,7 +19,7 @@ PRESS_TIME = 14.0  # s, for which the arm then holds still, out of line
 ALIGN_TIME = 6.0  # in which it lines up with the rails
 HOLD_TIME = 20.0
 
-# Corner push: at one corner by a strut, which pushes along the rails and gives way in all else, against a drag in the
+# Corner push: at one corner by a strut, which pushes along the rails and yields otherwise, against a drag in the
 # middle. Its damping is near critical for the pallet.
 STRUT_STIFFNESS = (5e3, 0.0, 0.0, 0.0, 0.0, 0.0)
 STRUT_DAMPING = (5e3, 10.0, 10.0, 0.0, 0.0, 0.0)
@@ -65,14 +65,14 @@ def pallet(position, orientation):
 
 
 def arm(rows):
-    """The arm's tip: through places at times."""
+    """The arm's tip through positions at times."""
     lines = [f"(time: {time!r}, position: {numbers(p)}, orientation: {numbers(q)})," for time, p, q in rows]
     head = '(name: "arm", model: "arm", bodies: [(motion: Prescribed(Table(['
     return [head] + ["    " + line for line in lines] + ["])))]),"]
 
 
 def stroke(place, attitude_, travel, speed, stops=True):
-    """Rows along x: at rest for a second, up to speed within two, evenly on, and with `stops` to rest within two."""
+    """Rows along x: at rest for a second, up to speed within two, steady, and with `stops` to rest within two."""
     braking = 2 * speed if stops else 0.0  # m from where it slows down
     even = (travel - braking) / speed - 2.0  # seconds of even motion behind t = 4
     rows = [(0.0, 0.0), (1.0, 0.0), (3.0, speed), (4.0, 2 * speed), (4.0 + even, travel - braking)]
@@ -100,7 +100,7 @@ def on(body, position):
 
 
 def bearings(name, seized):
-    """Two bearings, each a spring along three axes: free to turn about the axle, whatever the angle."""
+    """Two bearings, each a spring along three axes: free to turn about the axle, at any angle."""
     axis = axle(name)
     share = [AXIAL_SHARE if i == axis else 1.0 for i in range(3)]
     stiffness = [BEARING_STIFFNESS * s for s in share] + [0.0, 0.0, 0.0]

@@ -38,7 +38,7 @@ def radial_wall(azimuth, side):
 
 
 def ring_sector(name, azimuth, radii, heights):
-    """One straight sector of a ring; its two ends are inner walls."""
+    """One straight sector of a ring; its two ends are internal faces."""
     outwards = g.on_circle(1.0, azimuth)
     half_spaces = [
         (g.scaled(outwards, -1.0), -radii[0]),
@@ -52,7 +52,7 @@ def ring_sector(name, azimuth, radii, heights):
 
 
 def facet_corner(radius, azimuth, z=0.0):
-    """Corner of the polygon whose flats lie at `radius`, at the smaller azimuth of a facet."""
+    """Corner of the polygon with flats at `radius`, at the smaller azimuth of a facet."""
     return g.on_circle(radius / math.cos(math.radians(STEP / 2)), azimuth - STEP / 2, z)
 
 
@@ -68,7 +68,7 @@ def ring(radii, heights, prefix):
 
 
 def rim_segments(petals, z):
-    """The inner rim between one's own petals, where the other side's petals slide in."""
+    """The inner edge between the side's own petals, where the other side's petals slide in."""
     lines = []
     for i in range(FACETS):
         azimuth = i * STEP
@@ -158,7 +158,7 @@ def latch(i, azimuth):
 
 
 def striker(i, azimuth):
-    """A bar behind the ring's rim: its slope is the cam, its back face holds the latch. z points out of the ring."""
+    """A bar behind the ring's edge: its slope is the cam, its back face holds the latch. z points out of the ring."""
     radial = g.on_circle(1.0, azimuth)
     along = g.cross(UP, radial)
     slope = g.unit(g.sub(UP, radial))  # towards the axis and out of the ring
@@ -228,7 +228,7 @@ def passive():
         a.group("rim", primitives=rim_segments(PASSIVE_PETALS, -PLATE_RELIEF), bound="Above"),
     ]
     parts += petal_groups(PASSIVE_PETALS)
-    # Mated, azimuth a of the active side is -a here.
+    # When mated, azimuth a of the active side is -a here.
     parts += [striker(i, -azimuth) for i, azimuth in enumerate(ACTIVE_PETALS)]
     root = a.group("vehicle", groups=parts, bound="Aabb", surface="structure")
     return a.model("idss_passive", SURFACES, root)

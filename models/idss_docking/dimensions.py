@@ -46,7 +46,7 @@ UP = (0.0, 0.0, 1.0)
 
 
 def latch_frame(azimuth):
-    """Axes of a latch: x away from the docking axis (its slide), y along the rim, z out of the ring."""
+    """Axes of a latch: x away from the docking axis (its slide), y along the ring, z out of the ring."""
     radial = g.on_circle(1.0, azimuth)
     return radial, g.cross(UP, radial), UP
 

@@ -1,4 +1,4 @@
-"""What the scene of the docking interfaces must come to. Run by models/outcomes.py."""
+"""Outcomes of the docking interfaces' scene and their predictions. Run by models/outcomes.py."""
 
 import math
 
@@ -14,7 +14,7 @@ CENTERS = {"chaser": CHASER_CENTER, "target": TARGET_CENTER}
 
 
 def momentum(run, time):
-    """Of all bodies, N·s."""
+    """Momentum of all bodies, N·s."""
     total = [0.0, 0.0, 0.0]
     for row in (row for row in run.table("states") if row["time_s"] == time):
         w = (row["wx_rad_per_s"], row["wy_rad_per_s"], row["wz_rad_per_s"])
@@ -36,7 +36,7 @@ def soft_capture(run):
     start, end = momentum(run, times[0]), momentum(run, times[-1])
     yield "change of the momentum of all, of that at the start", norm([b - a for a, b in zip(start, end)]) / norm(start), 0.0, 1e-9
 
-    # A mass on the attenuation alone, once the ring stands: √(k/m), ζ = c/(2√(km)).
+    # A mass on the attenuation alone, once the ring is at rest: √(k/m), ζ = c/(2√(km)).
     omega = math.sqrt(ATTENUATION[2] / REDUCED_MASS)
     zeta = ATTENUATION_DAMPING[2] / (2 * math.sqrt(ATTENUATION[2] * REDUCED_MASS))
     decay = math.exp(-zeta / math.sqrt(1 - zeta**2) * math.acos(zeta))
@@ -57,5 +57,5 @@ def soft_capture(run):
 
 
 OUTCOMES = {"scene_soft_capture.ron": soft_capture}
-# Edges meet the other side's solids and pads its plates; among themselves these kinds need no tester.
+# Edges meet the other side's solids, and pads its plates; pairs among these kinds need no tester.
 WARNINGS = {"scene_soft_capture.ron": ("have no tester and ignore each other",)}

@@ -49,7 +49,7 @@ def latches():
 
 
 def chaser():
-    """Vehicle, ring and latches, all at one velocity; the ring and its latches start where the model's author put them."""
+    """Vehicle, ring and latches, all with one velocity; the ring and its latches start at their model poses."""
     attitude = product(about_axis(2, ROLL_DEG), about_axis(0, PITCH_DEG))
     face = (ASIDE[0], ASIDE[1], -GAP)
     place = tuple(f - e for f, e in zip(face, turned(attitude, (0.0, 0.0, RING_EXTENSION))))
@@ -62,7 +62,7 @@ def chaser():
 
 
 def target():
-    """At rest, its port at the common origin, looking along -z."""
+    """Target at rest, its port at the common origin, looking along -z."""
     body = free((0.0, 0.0, 0.0), TARGET_MASS, TARGET_INERTIA, center=TARGET_CENTER, orientation=(0.0, 1.0, 0.0, 0.0))
     return [f'(name: "target", model: "idss_passive", bodies: [{body.rstrip(",")}]),']
 

@@ -55,7 +55,7 @@ def guide(name, end, clearance):
 
 
 def claw(name):
-    """The upper half of the latch, in the frame of its hinge; closed as it stands."""
+    """The upper half of the latch, in the frame of its hinge; modelled closed."""
     face = PIN_RADIUS - HINGE_Z - CLAW_BITE
     block = box(
         "face",
@@ -105,7 +105,8 @@ def bay():
 # --- payload -----------------------------------------------------------------------------------------------------------
 
 def scuff_plate(side):
-    """Where the plate can meet the guides: its flange's lines at 45°, parallel to their flares, and a chord of its flat."""
+    """Contact features of the plate with the guides: its flange's lines at 45°, parallel to their flares, and a chord
+    of its flat."""
     face = -side * PIN_LENGTH / 2  # from the middle of the latch
     back = face - side * (SCUFF_RADIUS - SCUFF_FLAT_RADIUS)
     lines = [a.segment("flat", (-SCUFF_FLAT_RADIUS, face, 0.0), (SCUFF_FLAT_RADIUS, face, 0.0))]
@@ -136,7 +137,7 @@ def payload():
 
 
 def arm():
-    """The frame of the arm's tip. It touches nothing: scenes name no pair with it."""
+    """Frame of the arm's tip, without contact: scenes name no pair with it."""
     tip = a.point("tip", (0.0, 0.0, 0.0))
     return a.model("arm", {"none": a.surface(1.0)}, a.group("arm", primitives=[tip], surface="none"))
 

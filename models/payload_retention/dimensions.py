@@ -8,7 +8,7 @@ import math
 
 INCH = 0.0254
 
-# --- where the latches stand -----------------------------------------------------------------------------------------
+# --- positions of the latches ----------------------------------------------------------------------------------------
 SILL_Y = 94 * INCH
 KEEL_Z = (305 - 414) * INCH
 BAY_AXIS_Z = (400 - 414) * INCH
@@ -90,11 +90,11 @@ GRAPPLE = (0.0, 0.0, BAY_AXIS_Z + 2.2)
 
 
 def hinge(name):
-    """Where the claw of a latch turns, in the bay."""
+    """Hinge of a latch's claw, in the bay."""
     x, side = LATCHES[name]
     return (x + HINGE_X, side * SILL_Y, HINGE_Z)
 
 
 def keel_jaw(side):
-    """Where the frame of an open keel jaw lies, in the bay: in its wall."""
+    """Frame of an open keel jaw, in the bay: in its wall."""
     return (0.0, side * (KEEL_PIN_RADIUS + KEEL_OPEN_GAP), KEEL_Z)

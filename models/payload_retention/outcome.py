@@ -1,4 +1,4 @@
-"""What the scenes of the retention latches must come to. Run by models/outcomes.py."""
+"""Outcomes of the retention latches' scenes and their predictions. Run by models/outcomes.py."""
 
 import math
 
@@ -15,7 +15,7 @@ FRICTION_OF_PRELOAD = FRICTION * 2 * PRELOAD * len(LATCHES)  # every pin rubs on
 
 
 def contacts(run, time, *names):
-    """Contacts of a record, of primitives whose paths hold all of the names."""
+    """Contacts of a record between primitives whose paths contain all of the names."""
     rows = [row for row in run.table("contacts") if abs(row["time_s"] - time) < 1e-6]
     return [row for row in rows if all(name in row["a"] + " " + row["b"] for name in names)]
 
@@ -35,7 +35,8 @@ def at(run, body, time):
 # --- wedge -----------------------------------------------------------------------------------------------------------
 
 def wedge(run):
-    """On a flare at an angle α from the way in, friction angle φ: it slides once the force back is below cot(α + φ)."""
+    """Wedge on a flare at an angle α from the direction of entry, friction angle φ: slides once the force back is below
+    cot(α + φ)."""
     rows = run.of("states", "payload")
     start = next(row for row in rows if row["time_s"] >= WEDGE_TIMES[0])
     slid = [row for row in rows if row["time_s"] > WEDGE_TIMES[0] and start["x_m"] - row["x_m"] > SLIPPED]

@@ -1,4 +1,4 @@
-"""Scenes of the retention latches (docs/scene_format.md): an arm lowers the payload, claws close, loads come on."""
+"""Scenes of the retention latches (docs/scene_format.md): an arm lowers the payload, claws close, loads are applied."""
 
 import math
 
@@ -48,7 +48,7 @@ def attitude():
 # --- bodies ------------------------------------------------------------------------------------------------------------
 
 def body(group, rows):
-    """One line: a movable group that stands still (one row) or goes through places at times."""
+    """One line: a movable group at rest (one row) or moving through poses at times."""
     if len(rows) == 1:
         return f'(group: "{group}", motion: Fixed, position: {numbers(rows[0][1])}, orientation: {numbers(rows[0][2])}),'
     return f'(group: "{group}", motion: Prescribed(Table([{table(rows)}]))),'
@@ -96,7 +96,7 @@ def arm(rows):
 # --- scenes ------------------------------------------------------------------------------------------------------------
 
 def arm_rows():
-    """Where the arm's tip goes: down at one speed past the seat, holds, then gives way to the seated payload's place."""
+    """Path of the arm's tip: down at constant speed past the seat, holds, then yields to the seated payload's pose."""
     q = attitude()
     grip = turned(q, GRAPPLE)
     travel = START[2] + OVERTRAVEL

@@ -38,7 +38,7 @@ def peg():
 
 
 def wedge(i):
-    """One wedge of the block: its flat towards the bore, its two flanks inner walls."""
+    """One wedge of the block: its flat towards the bore, its two flanks internal faces."""
     azimuth = i * STEP
     outwards = w.on_circle(1.0, azimuth)
     flanks = []
@@ -80,7 +80,7 @@ def tilt_for(depth):
 
 
 def scene(name, depth):
-    """The peg, pressed aslant into the hole and let go at rest. No gravity."""
+    """The peg, pressed at an angle into the hole and released at rest. No gravity."""
     tilt = tilt_for(depth)
     place = (PEG_DIAMETER / 2 * math.cos(tilt) - PEG_DIAMETER / 2 - CLEARANCE / 2 - OVERLAP, 0.0, -depth)
     turn = (math.cos(tilt / 2), 0.0, math.sin(tilt / 2), 0.0)

@@ -41,7 +41,7 @@ SURFACES_OF_GROUND = {"stone": a.surface(math.inf, a.linear(0.0, ramp=DAMPING_RA
 # --- wheels and rover ------------------------------------------------------------------------------------------------
 
 def ring(name, count, radius, ring_radius):
-    """Balls around the axle, y; the first is lowest."""
+    """Spheres around the axle, y; the first is lowest."""
     balls = []
     for i in range(count):
         angle = math.radians(360.0 * i / count)
@@ -63,7 +63,7 @@ def hub(name, position):
 
 
 def frame():
-    """Two longerons and three beams across, of balls: what there is of the chassis to hit rocks with."""
+    """Two longerons and three beams across, of capsules: the parts of the chassis that can hit rocks."""
     balls = []
     along = round(2 * FRAME_X / FRAME_PITCH)
     across = round(2 * FRAME_Y / FRAME_PITCH)
@@ -86,7 +86,7 @@ def rover():
 # --- grounds ---------------------------------------------------------------------------------------------------------
 
 def ground():
-    """Level and endless."""
+    """Infinite level ground."""
     floor = a.flat_ground("floor", (0.0, 0.0, 1.0), 0.0)
     return a.model("ground", SURFACES_OF_GROUND, a.group("ground", primitives=[floor], surface="stone"))
 
@@ -144,7 +144,7 @@ def stone():
 
 
 def track():
-    """A strip of triangles: a stone beside the wheel's way at x = 2, a bar across it at x = 4."""
+    """A strip of triangles: a stone beside the wheel's path at x = 2, a bar across it at x = 4."""
     columns = [round(-1.0 + CELL * i, 9) for i in range(29)]
     vertices = [(x, y, 0.0) for x in columns for y in (-0.75, -0.25, 0.25, 0.75)]
     triangles = []
@@ -172,7 +172,7 @@ def rig(name, tread, stiffness, damping):
 
 
 def rigs():
-    # One primitive is to sink under the weight as the ring of balls does.
+    # One primitive should sink under the weight as the ring of spheres does.
     one = round(tyre.CORNER_WEIGHT / (WHEEL_RADIUS - tyre.STATIC_HEIGHT), -1)
     egg = a.ellipsoid("tread", (0.0, 0.0, 0.0), (WHEEL_RADIUS, WHEEL_WIDTH / 2, WHEEL_RADIUS))
     ball = a.sphere("tread", (0.0, 0.0, 0.0), WHEEL_RADIUS)

@@ -76,7 +76,7 @@ BOULDERS = 30
 
 
 def _wheels():
-    """Name -> place of the wheel's middle in the chassis."""
+    """Name -> position of the wheel's middle in the chassis."""
     places = {}
     for end, where in ENDS:
         for side, label in SIDES:

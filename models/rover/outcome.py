@@ -1,4 +1,4 @@
-"""What the scenes of the rover must come to; closed forms, or bounds where there is none. Run by models/outcomes.py."""
+"""Outcomes of the rover's scenes: closed forms, or bounds without one. Run by models/outcomes.py."""
 
 import math
 
@@ -34,7 +34,7 @@ def wheel_rows(run, table, name):
 
 
 def carried(run, name, start):
-    """Mean upright force of the ground on a wheel from a time on."""
+    """Mean upward force of the ground on a wheel from a time on."""
     return mean(row["fz_n"] for row in within(wheel_rows(run, "wrenches", name), start))
 
 
@@ -43,20 +43,20 @@ def tilt_deg(row):
 
 
 def touched(run, name):
-    """Elements of the ground whose name holds `name` that wheels touched."""
+    """Elements of the ground with `name` in their names that wheels touched."""
     rows = run.table("contacts")
     return {row["b"] for row in rows if row["a"].startswith("rover/rover/wheel") and name in row["b"]}
 
 
 def frame_contacts(run):
-    """Contacts of what is no wheel: frame and hubs."""
+    """Contacts of other parts than wheels: frame and hubs."""
     return sum(1 for row in run.table("contacts") if "/wheel_" not in row["a"])
 
 
 # --- the rover at rest -------------------------------------------------------------------------------------------------
 
 def static_loads():
-    """Of the wheels, N: four equal springs under a body whose mass centre is off the middle, and moves as it tilts."""
+    """Wheel loads, N: four equal springs under a body with an off-centre mass centre, which moves as it tilts."""
     rate = 1e-4  # of the tyre about its mean load, by differences
     grown = tyre.height_under(tyre.CORNER_WEIGHT * (1 - rate)) - tyre.height_under(tyre.CORNER_WEIGHT * (1 + rate))
     tyre_stiffness = 2 * rate * tyre.CORNER_WEIGHT / grown
@@ -103,7 +103,7 @@ def share_of_limit(degrees):
 
 
 def grip(run):
-    """Forces of the wheels along the slope over μ times those across, at the end."""
+    """Forces of the wheels along the slope, relative to μ times the normal ones, at the end."""
     rows = [wheel_rows(run, "wrenches", name)[-1] for name in WHEELS]
     return sum(row["fx_n"] for row in rows) / (FRICTION * sum(row["fz_n"] for row in rows))
 
@@ -117,7 +117,7 @@ def slide(run):
 
 
 def rolling(load, spin):
-    """Of a wheel: height of the axle, and the force at the axle that rolling takes."""
+    """Height of a wheel's axle, and the force at the axle for rolling."""
     height = tyre.height_under(load, spin)
     return height, tyre.rolling_moment(height, spin) / height
 
@@ -135,7 +135,7 @@ def climb(run):
 
 
 def slip(run, name):
-    """How much slower a wheel goes than it rolls, of the latter, over the last second."""
+    """Relative slip of a wheel over the last second: the speed lost against rolling."""
     rows = within(wheel_rows(run, "states", name), run.times()[-1] - 1.0)
     return 1 - mean(row["vx_m_per_s"] for row in rows) / mean(row["wy_rad_per_s"] * row["z_m"] for row in rows)
 
@@ -145,7 +145,7 @@ def slips(run):
 
 
 def brush_slip(traction, height):
-    """Balls enter the contact ahead with straight bristles, which bend by slip times the way they have come since."""
+    """Spheres enter the contact ahead with straight bristles, which bend by the slip times their distance since."""
     phases = 8
     ways = 0.0
     for i in range(phases):
@@ -161,7 +161,8 @@ def coast(run):
     expected = -4 * drag / (GROSS_MASS + 4 * WHEEL_SPIN_INERTIA / height**2)
     yield "deceleration over that of the tyres' damping", trend(rows, "vx_m_per_s") / expected, 0.97, 1.03
     yield "rolling resistance over weight", -trend(rows, "vx_m_per_s") / GRAVITY, 0.005, 0.05
-    # Steps of 1 ms to 0.125 ms all give 0.774: the brushes leave out that a ball's first and last way rub under little load.
+    # Steps of 1 ms to 0.125 ms all give 0.774: the brush model neglects friction in a sphere's first and last path
+    # under little load.
     yield "slip of the wheels over that of brushes", slips(run) / brush_slip(expected * GROSS_MASS / 4, height), 0.7, 1.2
 
 
@@ -198,7 +199,7 @@ def step_over(run):
 
 
 def roll(run, kind):
-    """The load of one wheel on level triangles, beside the stone, and on the bar."""
+    """Load of one wheel on level triangles, beside the stone, and on the bar."""
     loads = [row["fz_n"] for row in within(run.of("wrenches", f"rig_{kind}/wheel"), 1.0) if row["time_s"] < 1.9]
     heights = [(row["x_m"], row["z_m"] - tyre.STATIC_HEIGHT) for row in run.of("states", f"rig_{kind}")]
     ripple = (max(loads) - min(loads)) / 2 / mean(loads)
@@ -224,7 +225,7 @@ def roll_ellipsoid(run):
 
 
 def roll_sphere(run):
-    """What is wrong with a ball as large as the wheel: it climbs what stands beside its way."""
+    """Defect of a sphere as large as the wheel: it climbs objects beside its path."""
     level, ripple, beside, _ = roll(run, "sphere")
     yield "load on the level over weight", level, 0.995, 1.005
     yield "ripple of the load, of its mean", ripple, 0.0, 0.02

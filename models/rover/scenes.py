@@ -81,7 +81,7 @@ def spring(first, second, stiffness, damping, preload=None):
 
 
 def suspension(name):
-    """Stiff but for the way up and down, and loaded so that it is in its middle under the mean weight."""
+    """Stiff except vertically, and preloaded so that it is in its middle under the mean weight."""
     stiffness = (ARM_STIFFNESS, ARM_STIFFNESS, SUSPENSION_STIFFNESS, *ARM_TURNING)
     damping = (ARM_DAMPING, ARM_DAMPING, SUSPENSION_DAMPING, *ARM_TURNING_DAMPING)
     preload = (0.0, 0.0, -CHASSIS_MASS * GRAVITY / 4, 0.0, 0.0, 0.0)
@@ -89,7 +89,7 @@ def suspension(name):
 
 
 def bearings(hub, wheel):
-    """Two, each a spring along three axes: the wheel is free to turn about its axle, whatever the angle."""
+    """Two bearings, each a spring along three axes: the wheel is free to turn about its axle, at any angle."""
     stiffness = (BEARING_STIFFNESS,) * 3 + (0.0, 0.0, 0.0)
     damping = (BEARING_DAMPING,) * 3 + (0.0, 0.0, 0.0)
     ends = [(0.0, side * BEARING_HALF_SPAN, 0.0) for side in (1, -1)]
@@ -104,7 +104,7 @@ def about_axle(hub, wheel, stiffness=0.0, damping=0.0):
 # --- what turns or holds a wheel: springs and loads ------------------------------------------------------------------
 
 def moments(hub, wheel, moment, rise=0.0):
-    """Of a motor, on the wheel and back on the hub; it grows to its full value within `rise`, s.
+    """Moments of a motor, on the wheel and back on the hub, which grow to their full value within `rise`, s.
 
     Loads, not a preload of a spring about the axle: a preload's energy would jump at every half turn.
     """
@@ -129,7 +129,7 @@ def torque(hub, wheel, moment=CLIMB_TORQUE, rise=0.0):
 
 
 def drive(hub, wheel, speed=DRIVE_SPEED):
-    """A motor whose torque is DRIVE_GAIN times what its wheel is slower than told."""
+    """A motor with a torque of DRIVE_GAIN times the speed error of its wheel."""
     moment = DRIVE_GAIN * speed / tyre.STATIC_HEIGHT
     return [about_axle(hub, wheel, damping=DRIVE_GAIN)], moments(hub, wheel, moment)
 
@@ -193,7 +193,7 @@ def rover_scene(name, about, ground, gravity, speed, motor, duration, at=0.0):
 
 
 def guide(rig, drag):
-    """Holds the carriage of the rig upright and on its line; it may go ahead and up, with a drag in N·s/m."""
+    """Holds the carriage of the rig upright and on its line; it may move ahead and up, with a drag in N·s/m."""
     stiffness, damping = (0.0, 1e5, 0.0, 1e5, 1e5, 1e5), (drag, 1e3, drag, 500.0, 500.0, 500.0)
     return spring("Ground()", f'On(body: "{rig}")', stiffness, damping)
 
@@ -206,7 +206,7 @@ def rig_scene(name, about, rig, ground, x, z, speed, motor, duration, drag=0.0):
 
 
 def step_lever(height=STEP):
-    """How far a rigid wheel's axle is behind the edge of a step against which it rests, m."""
+    """Distance of a rigid wheel's axle behind the edge of a step against which it rests, m."""
     return math.sqrt(WHEEL_RADIUS**2 - (WHEEL_RADIUS - height) ** 2)
 
 

@@ -14,7 +14,7 @@ SINKS = 0.3  # share of a rock's half height that is below the ground
 
 
 def number(*keys):
-    """A number from 0 to 1 that depends on whole numbers only, and looks random."""
+    """A pseudo-random number from 0 to 1 that depends on integers only."""
     mixed = SEED
     for key in keys:
         mixed = (mixed ^ (key & 0xFFFFFFFF)) * 0x9E3779B1 & 0xFFFFFFFF
@@ -24,13 +24,13 @@ def number(*keys):
 
 
 def eased(t):
-    """0 to 1 with level ends, twice smooth."""
+    """Smooth step from 0 to 1 with zero slope at the ends, twice differentiable."""
     t = min(max(t, 0.0), 1.0)
     return t * t * t * (t * (t * 6 - 15) + 10)
 
 
 def waves(x, y, octave):
-    """Smooth numbers from -1/2 to 1/2: random ones at the corners of unit squares, eased between them."""
+    """Smooth noise from -1/2 to 1/2: random values at the corners of unit squares, interpolated between them."""
     i, j = math.floor(x), math.floor(y)
     a, b = eased(x - i), eased(y - j)
     near = number(octave, i, j) * (1 - a) + number(octave, i + 1, j) * a
@@ -39,7 +39,7 @@ def waves(x, y, octave):
 
 
 def height(x, y):
-    """Of the smooth relief, m."""
+    """Height of the smooth relief, m."""
     relief = sum(tall * waves(x / long, y / long, k) for k, (long, tall) in enumerate(OCTAVES))
     return relief * eased((x - PAD[0]) / (PAD[1] - PAD[0]))
 
@@ -65,7 +65,7 @@ def mesh():
 # --- rocks -------------------------------------------------------------------------------------------------------------
 
 def places(count, kind, reach, taken):
-    """Seeded places for rocks, with their sizes; none nearer to another than both reach."""
+    """Seeded positions for rocks, with their sizes, at least the sum of both radii apart."""
     found, tried = [], 0
     while len(found) < count:
         tried += 1
@@ -85,7 +85,7 @@ CORNERS = [(a, b, c) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)]
 
 
 def rock(x, y, size, seed):
-    """Half spaces of a rock of fourteen facets, a crooked cube without corners that stands `size` above the ground."""
+    """Half spaces of a rock of fourteen facets, an irregular cube with cut corners that stands `size` above the ground."""
     axes = [size * (1.0 + 0.5 * number(5, seed, k)) for k in range(2)] + [size / (1.0 - SINKS) / 1.05]
     middle = (x, y, height(x, y) - SINKS * axes[2])
     half_spaces = []
@@ -101,7 +101,7 @@ def rock(x, y, size, seed):
 
 
 def boulder(x, y, size):
-    """Middle and radius of a ball that stands `size` above the ground."""
+    """Middle and radius of a sphere that stands `size` above the ground."""
     radius = round(size / (1.0 - SINKS), HEIGHT_ROUNDING)
     middle = (x, y, height(x, y) + size - radius)
     return tuple(round(c, HEIGHT_ROUNDING) for c in middle), radius

@@ -1,4 +1,4 @@
-"""What the ring of balls of a wheel does on level ground: closed forms for scenes and outcomes, without the engine."""
+"""Closed forms of a wheel's ring of spheres on level ground, for scenes and outcomes, without the engine."""
 
 import math
 
@@ -6,8 +6,8 @@ from dimensions import *  # noqa: F403
 
 
 def balls(height, spin=0.0, phase=0.0):
-    """Of a wheel whose axle is `height` above the ground and that rolls at `spin`, rad/s: (place ahead of the axle,
-    force) of each ball that carries. `phase`: how far a ball is from lowest, in steps from ball to ball."""
+    """(position ahead of the axle, force) of each loaded sphere of a wheel with its axle at `height` that rolls at
+    `spin`, rad/s. `phase`: offset of a sphere from the lowest point, in steps from sphere to sphere."""
     step = 2 * math.pi / BALLS
     for i in range(-BALLS // 4, BALLS // 4 + 1):
         angle = (i + phase) * step
@@ -28,13 +28,13 @@ def mean_load(height, spin=0.0, phases=8):
 
 
 def rolling_moment(height, spin, phases=8):
-    """That the ground's forces, ahead of the axle more than behind, hold against rolling; mean of a turn, N·m."""
+    """Rolling resistance moment, since ground forces are larger ahead of the axle than behind; mean of a turn, N·m."""
     pairs = [pair for i in range(phases) for pair in balls(height, spin, i / phases)]
     return sum(ahead * force for ahead, force in pairs) / phases
 
 
 def height_under(carried, spin=0.0, phase=None):
-    """Height of the axle at which the wheel carries a force: mean of a turn, or with a ball at a phase."""
+    """Height of the axle at which the wheel carries a force: mean of a turn, or with a sphere at a phase."""
     low, high = WHEEL_RADIUS - 0.2, WHEEL_RADIUS
     for _ in range(60):
         middle = (low + high) / 2

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The modelling toolkit without Blender: scenes as data, models, and the way from one to the other and back.
+"""The modelling toolkit without Blender: scenes as data, models, and the conversion between them.
 
 read.read_file, write.write_files      model files <-> Model
 build.build, unbuild.unbuild           Snapshot <-> Model, with findings

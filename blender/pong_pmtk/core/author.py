@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes written down in Python, without Blender: build scripts and tests.
+"""Scenes written in Python, without Blender: build scripts and tests.
 
     scene = Scene("tripod", surfaces={"foot": {"stiffness": 1e5}}, surface="foot")
     leg = scene.group("leg", location=(0.0, 0.0, 0.3))

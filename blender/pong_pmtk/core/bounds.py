@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bounding volumes of groups, as the engine has fitted them, for overlays."""
+"""Bounding volumes of groups as fitted by the engine, for overlays."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 @dataclass
 class Volume:
-    """A volume in the frame of its movable group. A Sphere's `half` is its radius thrice."""
+    """A volume in the frame of its movable group. A Sphere's `half` is three times its radius."""
 
     kind: str
     center: np.ndarray = field(default_factory=lambda: np.zeros(3))
@@ -19,7 +19,7 @@ class Volume:
 
 
 def volumes(loaded) -> dict[str, Volume]:
-    """By path of each group: its volume, of a model as the engine has it (`Built.loaded`); those without end are left out."""
+    """Volume of each group, by path, in a loaded model (`Built.loaded`); unbounded ones are left out."""
     found = loaded.bounds() if loaded is not None else []
     return {
         bound["path"]: Volume(bound["kind"], bound["center"], bound["half"], bound["axes"])

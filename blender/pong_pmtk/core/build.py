@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Snapshot -> Model. What cannot be exported faithfully is a finding of severity error; then there is no model."""
+"""Snapshot -> Model. Content that cannot be exported faithfully is a finding of severity error; then there is no model."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ MIXED = "a μ of 0.1 there becomes {:.3g}"
 
 @dataclass
 class Built:
-    """What became of a snapshot: a model (`None` if there are errors), the mesh files it names, and all findings."""
+    """Result of a build: a model (`None` if there are errors), its mesh files, and all findings."""
 
     model: Model | None
     findings: Findings
     files: dict[str, bytes] = field(default_factory=dict)
     origins: dict[int, Origin] = field(default_factory=dict)
-    """By id() of each `Primitive` of the model: the object it comes from."""
+    """Source object of each `Primitive` of the model, by id()."""
     loaded: object | None = None
-    """The model as the engine has it (`pong.Model`), without custom primitives; `None` if nothing else is in it."""
+    """The model as loaded by the engine (`pong.Model`), without custom primitives; `None` if it is empty without them."""
 
     def object_of(self, primitive: Primitive) -> str:
         return self.origins[id(primitive)].object
@@ -58,7 +58,7 @@ def build(snapshot: Snapshot, root: str = "") -> Built:
 
 
 def _judged_by_engine(scene: Scene, top: SnapshotObject, model: Model, files: dict[str, bytes], origins):
-    """What only the engine can tell of a model. What can be told without it has been told by now."""
+    """Findings that only the engine can make; all others have been made by now."""
     if not is_there():
         cause = "the Python package `pong` is not there, so nobody can say whether the engine would take the model"
         scene.findings.error("no-wheel", ("", scene.snapshot.source), cause, CURE)
@@ -91,7 +91,7 @@ def _unused_surfaces(scene: Scene, root: SnapshotObject, model: Model) -> None:
 
 
 def _rigid_friction(scene: Scene, root: SnapshotObject, surfaces: dict) -> None:
-    """Rigid surfaces that change the friction of what they meet."""
+    """Findings on rigid surfaces that change the friction of their partners."""
     for name, fields in surfaces.items():
         law = fields.get("friction")
         mu = law.fields.get("mu") if isinstance(law, Tagged) else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Groups: frames, names, surfaces, and who hangs where.
+"""Groups: frames, names, surfaces, and hierarchy.
 
 A group's frame is a rotation and a place; what else its transform does (scale, mirror) is handed down as `rest` and
 baked into what hangs below. Unmarked objects between a group and its contents only add their transforms.
@@ -23,7 +23,7 @@ from .transforms import Affine, Local, TransformFault
 
 @dataclass
 class Item:
-    """An object below a group: its transform in the group's frame; `local` if that is just its own."""
+    """An object below a group, with its transform in the group's frame; `local` if that is its own."""
 
     thing: SnapshotObject
     affine: Affine
@@ -37,7 +37,7 @@ class GroupBuilder:
         self.files: dict[str, bytes] = {}
 
     def group(self, thing: SnapshotObject, rest: np.ndarray, above_surface: str | None) -> Group:
-        """A group without its pose; `rest` is what its frame leaves of its transform."""
+        """A group without its pose; `rest` is the part of its transform outside the group's frame."""
         where, mark = self.scene.where(thing), thing.mark
         group = Group(thing.model_name, movable=mark.movable and mark.role != "root")
         if thing.type != "EMPTY":
@@ -74,7 +74,7 @@ class GroupBuilder:
                 self.origins[id(primitive)] = origin
 
     def posed_group(self, item: Item, surface: str | None) -> Group | None:
-        """A group with its pose in the frame of the one above."""
+        """A group with its pose in the frame of its parent."""
         thing, where = item.thing, self.scene.where(item.thing)
         signs = np.sign(np.asarray(thing.transform.scale) * np.asarray(thing.transform.delta_scale))
         frame = transforms.frame_of(item.affine.linear, signs)
@@ -195,7 +195,7 @@ class GroupBuilder:
             self.findings.error("repeated-name", self.scene.where(thing), cause, cure, fix="rename")
 
     def names_of(self, siblings) -> set[str]:
-        """The names of siblings, without walking all of them for each new one."""
+        """Names of siblings, cached, to avoid walking all of them for each new one."""
         known = getattr(self, "_known", None)
         if known is None or known[0] is not siblings:
             known = self._known = (siblings, set())
@@ -217,7 +217,7 @@ def sort_key(thing: SnapshotObject) -> tuple:
 
 
 def build_root(scene: Scene, root: SnapshotObject, surfaces: dict):
-    """The root group, the objects that its primitives come from, and mesh files by name.
+    """The root group, the source objects of its primitives, and mesh files by name.
 
     Where the root stands is up to the host: only its scale counts.
     """

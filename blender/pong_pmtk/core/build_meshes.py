@@ -30,7 +30,7 @@ def build_mesh_kind(shape: Shape, files: dict[str, bytes]) -> Made:
 
 
 def _faces(shape: Shape) -> np.ndarray:
-    """Indices of the faces that count."""
+    """Indices of the faces in use."""
     if shape.part:
         return np.array(sorted(shape.part.faces), dtype=np.int64)
     return np.arange(len(shape.mesh.face_starts) - 1)
@@ -118,7 +118,7 @@ def _tell_convex(shape: Shape, faces: np.ndarray, loops: np.ndarray, starts: np.
 
 
 def _tell_bent(shape: Shape, faces: np.ndarray, loops: np.ndarray, starts: np.ndarray) -> None:
-    """Faces of more than three corners that do not lie in a plane: where they are cut changes the surface."""
+    """Finds non-planar faces of more than three corners: their triangulation changes the surface."""
     bent: list[int] = []
     widths = np.diff(starts)
     for width in np.unique(widths[widths > 3]).tolist():
@@ -176,7 +176,7 @@ FIXES = {
 
 
 def _check_piece(shape: Shape, vertices, local, walls, faces: np.ndarray, used: np.ndarray) -> None:
-    """The loader's checks, told by the faces of the mesh. What 32-bit rounding has done has a rule of its own."""
+    """The loader's checks, reported by faces of the mesh. Effects of 32-bit rounding have their own rule."""
     try:
         problems = polyhedron_faults(vertices, local, walls)
     except WheelMissing:
@@ -186,7 +186,7 @@ def _check_piece(shape: Shape, vertices, local, walls, faces: np.ndarray, used: 
         worst = max(same, key=lambda problem: problem["off"])
         off, told = worst["off"], worst["cause"]
         at = {
-            # What lies with no face lies with all of them.
+            # A finding without a face concerns all faces.
             "faces": faces[np.unique([f["face"] for f in same])] if worst["face"] is not None else faces,
             "vertices": used[_indices(vertices, [place for problem in same for place in problem["places"]])],
         }
@@ -201,7 +201,7 @@ def _check_piece(shape: Shape, vertices, local, walls, faces: np.ndarray, used: 
 
 
 def _indices(vertices: np.ndarray, places: list[tuple[float, float, float]]) -> np.ndarray:
-    """The first vertex at each of these places."""
+    """First vertex at each of these positions."""
     first: dict[tuple, int] = {}
     for index, place in enumerate(map(tuple, (vertices + 0.0).tolist())):
         first.setdefault(place, index)

@@ -26,7 +26,7 @@ CURVED_TYPES = ("CURVE", "SURFACE", "FONT", "META", "CURVES")
 
 @dataclass
 class Origin:
-    """Where a primitive comes from: its object, and for each triangle the face of the mesh."""
+    """Source of a primitive: its object, and for each triangle the face of the mesh."""
 
     object: str
     path: str
@@ -36,7 +36,7 @@ class Origin:
 
 @dataclass
 class Place:
-    """An object's place in the frame of its group."""
+    """Placement of an object in the frame of its group."""
 
     scene: Scene
     thing: SnapshotObject
@@ -68,13 +68,13 @@ class Place:
         return None if value is None else self.scene.metres(meant(value, self.thing.exact.get(name)))
 
     def unmoved(self, name: str):
-        """An exact number that hangs on the object's place, if the object is still there and nothing else moves it."""
+        """An exact number that depends on the object's placement, if the object is unmoved otherwise."""
         plain = self.local is not None and self.local.fresh and (self.local.scale == 1.0).all()
         return self.thing.exact.get(name) if plain and self.scene.metres_per_unit == 1.0 else None
 
 
 def carried(affine: Affine, points) -> np.ndarray:
-    """Points under a transform, without the rounding of its sums where decimals were meant."""
+    """Points under a transform, without rounding of sums where decimals were typed."""
     made = affine.points(points)
     if affine.is_identity() or not made.size:
         return made
@@ -83,13 +83,13 @@ def carried(affine: Affine, points) -> np.ndarray:
 
 
 def origin_of(affine: Affine, local: Local | None) -> np.ndarray:
-    """The place of an object, which is the number that was typed where nothing but its own transform makes it."""
+    """Position of an object: the typed number, if only its own transform contributes."""
     return affine.offset if local is not None else without_rounding(affine.offset, float(np.abs(affine.offset).max()))
 
 
 @dataclass
 class Shape:
-    """The mesh of a place, or the part of it that counts: vertices in metres in the group's frame."""
+    """Mesh of a placement, or its part in use: vertices in metres in the group's frame."""
 
     place: Place
     name: str
@@ -124,7 +124,7 @@ class Shape:
         return Origin(self.place.thing.name, self.where[1], self.evaluated, faces)
 
     def numbered(self, kind: str, each: list[dict], faces=None) -> list[tuple[Primitive, Origin]]:
-        """One primitive for each set of fields; several are numbered."""
+        """One primitive for each set of fields, numbered if there are several."""
         made = []
         for index, fields in enumerate(each):
             name = self.name if len(each) == 1 else f"{self.name}_{index}"
@@ -209,7 +209,7 @@ def same_topology(a: Mesh, b: Mesh) -> bool:
 
 
 def _misplaced_fields(place: Place, mark: Mark) -> None:
-    """Things said of an object that its kind cannot have."""
+    """Reports properties of an object that its kind cannot have."""
     if mark.inactive_faces and mark.kind != "Polyhedron":
         cause = f"a {mark.kind} with inactive faces"
         place.findings.error("inactive-faces-kind", place.where, cause, "only a Polyhedron has them; clear them")
@@ -219,7 +219,7 @@ def _misplaced_fields(place: Place, mark: Mark) -> None:
 
 
 def ready(shape: Shape) -> bool:
-    """Checks the mesh as data and carries its vertices into the frame of the group."""
+    """Checks the mesh as data and transforms its vertices to the frame of the group."""
     mesh = shape.mesh
     if mesh is None:
         if shape.kind in SHAPES_OF_MESH:
@@ -278,7 +278,7 @@ def _points(shape: Shape):
 
 
 def _edges(shape: Shape) -> np.ndarray:
-    """The edges that count, (n, 2); faults are noted."""
+    """Edges in use, (n, 2); faults are noted."""
     edges = np.asarray(shape.mesh.edges, dtype=np.int64).reshape(-1, 2)
     chosen = np.asarray(shape.part.edges, dtype=np.int64) if shape.part else np.arange(len(edges))
     if not len(chosen):
@@ -340,7 +340,7 @@ def _rays(shape: Shape):
 
 
 def _semi_axes(shape: Shape, along_axes: np.ndarray):
-    """Semi-axes and orientation of a ball or ellipsoid under the object's transform; `None` if it is sheared."""
+    """Semi-axes and orientation of a sphere or ellipsoid under the object's transform; `None` if it is sheared."""
     linear = shape.place.affine.linear
     if transforms.shear(linear) > transforms.SHEAR_TOLERANCE:
         culprit = shape.place.scaled_parent
@@ -400,7 +400,7 @@ def _ellipsoid(shape: Shape):
 
 
 def _balls(shape: Shape, pieces: list, wanted: np.ndarray):
-    """A ball or ellipsoid for each piece of a mesh."""
+    """A sphere or ellipsoid for each piece of a mesh."""
     each: dict[str, list] = {"Sphere": [], "Ellipsoid": []}
     for center, own_axes in ball_bodies(shape, pieces, wanted) if pieces else ():
         found = _semi_axes(shape, np.asarray(shape.place.scene.metres(own_axes)))
@@ -419,7 +419,7 @@ def _balls(shape: Shape, pieces: list, wanted: np.ndarray):
 
 
 def _plane(shape: Shape):
-    """A plane's normal stays normal under any transform: it goes with the inverse transpose."""
+    """Normal of a plane under any transform, by the inverse transpose."""
     place = shape.place
     exact = place.unmoved("normal"), place.unmoved("offset")
     if shape.mesh is None and exact[0] is not None and exact[1] is not None:

@@ -17,7 +17,7 @@ SAME = 1e-14  # of a length: a number that follows from exact ends by other roun
 
 
 def build_round(shape: Shape):
-    """The one primitive of an object of a round kind."""
+    """The only primitive of an object of a round kind."""
     kind, place = shape.kind, shape.place
     numbers = {name: place.number(name) for name in ("radius", "radii", "length")}
     length, radii = float(numbers["length"]), radii_of(kind, numbers)
@@ -43,7 +43,7 @@ def build_round(shape: Shape):
 
 
 def _sound(shape: Shape, length: float, radii: tuple[float, float]) -> bool:
-    """Whether its numbers make a part."""
+    """Checks that the numbers form a valid part."""
     fault = fault_of(shape.mesh.vertices, shape.kind) if shape.mesh is not None else ""
     fix = "fit-round" if shape.mesh is not None and not fault else ""
     lengthy = bool(np.isfinite(length) and length > 0.0)
@@ -60,7 +60,7 @@ def _sound(shape: Shape, length: float, radii: tuple[float, float]) -> bool:
 
 
 def _options(shape: Shape) -> dict:
-    """What only a bore has."""
+    """Fields that only a bore has."""
     if shape.kind != "Bore":
         return {}
     from .build_meshes import thickness_of
@@ -70,7 +70,7 @@ def _options(shape: Shape) -> dict:
 
 
 def _scale(shape: Shape) -> tuple[float, float] | None:
-    """How much the object's transform scales across the axis and along it; `None` if that leaves no round part."""
+    """Scales of the object's transform across the axis and along it; `None` if the result is not round."""
     linear, kind = shape.place.affine.linear, shape.kind
     if transforms.shear(linear) > transforms.SHEAR_TOLERANCE:
         culprit = shape.place.scaled_parent
@@ -98,7 +98,7 @@ def _ends(shape: Shape):
 
 
 def _exact_ends(shape: Shape, length: float):
-    """The ends as they were read from a model file, while the object is where it was put, and as long."""
+    """Ends as read from a model file, as long as the object is unmoved and of the same length."""
     exact = shape.place.unmoved("ends")
     if exact is None:
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one form of a model that is written: no field at its default, no vertex that no face uses.
+"""Canonical form of a written model: no field at its default, no unused vertex.
 
 The engine sees no difference: it leaves unused vertices aside, and welds those of a polyhedron that are the same place.
 """
@@ -23,7 +23,7 @@ def canonical(model: Model) -> Model:
 def _surface(surface: dict) -> dict:
     fields = {key: surface[key] for key in ("stiffness", "normal", "friction") if surface.get(key) is not None}
     if "friction" in surface and surface.get("stiffness") == float("inf"):
-        # Of a rigid surface no friction is something else than friction that is left to what it meets.
+        # For a rigid surface, no friction differs from friction left to the partner.
         fields["friction"] = surface["friction"]
     return fields
 
@@ -75,7 +75,7 @@ def clean_mesh(vertices: np.ndarray, faces, weld: bool):
 
 
 def _welded(vertices: np.ndarray, flat: np.ndarray, widths: np.ndarray) -> np.ndarray:
-    """For each vertex the first one at the same place; the identity if a face would lose a corner by that."""
+    """First vertex at the same position for each vertex; the identity if a face would lose a corner."""
     _, first, inverse = np.unique(vertices + 0.0, axis=0, return_index=True, return_inverse=True)
     target = first[inverse.ravel()]
     face = np.repeat(np.arange(len(widths)), widths)
@@ -84,7 +84,7 @@ def _welded(vertices: np.ndarray, flat: np.ndarray, widths: np.ndarray) -> np.nd
 
 
 def flattened(faces) -> tuple[np.ndarray, np.ndarray]:
-    """All indices face after face, and how many each face has."""
+    """All indices face after face, and the corner count of each face."""
     if isinstance(faces, np.ndarray):
         return faces.ravel(), np.full(len(faces), faces.shape[1])
     if not len(faces):
@@ -94,7 +94,7 @@ def flattened(faces) -> tuple[np.ndarray, np.ndarray]:
 
 
 def unflattened(flat: np.ndarray, widths: np.ndarray):
-    """The opposite of `flattened`."""
+    """Inverse of `flattened`."""
     if len(widths) and (widths == widths[0]).all():
         return flat.reshape(-1, widths[0])
     return np.split(flat, np.cumsum(widths)[:-1])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The engine's own rules, from the wheel `pong` that the extensions bring along (docs/python.md).
+"""The engine's own rules, from the wheel `pong` included in the extensions (docs/python.md).
 
 What a model file, a polyhedron and the triangles of a body must be is judged there and nowhere here: what passes loads.
 """
@@ -12,7 +12,7 @@ PLANE_TOLERANCE = 1e-6  # of the size: how flat the engine's polyhedra are; for 
 
 
 class WheelMissing(ImportError):
-    """The Python package `pong` is not there; the message says what to do."""
+    """The Python package `pong` is missing; the message gives the cure."""
 
 
 CURE = "install the extension from its zip, which brings it along, or `pip install` the wheel into this Python (blender/README.md)"
@@ -37,5 +37,5 @@ def is_there() -> bool:
 
 
 def polyhedron_faults(vertices: np.ndarray, faces, inactive=()) -> list[dict]:
-    """What keeps a shape from being a polyhedron: `rule`, `cause`, `cure`, `face`, `places`, `off`. Raises `WheelMissing`."""
+    """Faults of a polyhedron: `rule`, `cause`, `cure`, `face`, `places`, `off`. Raises `WheelMissing`."""
     return wheel().model.check_polyhedron(vertices, faces, inactive)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A finished model before the engine's loader: what it refuses or warns of is told at the object it comes from."""
+"""Check of a finished model by the engine's loader: refusals and warnings are reported at their source objects."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from .write import write_files, write_text
 
 ELEMENT = re.compile(r"/(triangles|faces|vertices)\[(\d+)\]$")
 WARNING = re.compile(r"^[^:]*:\d+: (.*)$", re.DOTALL)  # file and line of the text, which nobody has seen
-# The triangles of a body were judged before, and every finding has a rule (triangle_check.py).
+# The triangles of a body have been checked already, with a rule for every finding (triangle_check.py).
 OF_TRIANGLES = ("it counts as free", "their common edge counts as free", "T-junction: ", "do not fit together")
 
 
 def check_loads(scene: Scene, top: SnapshotObject, model: Model, files: dict[str, bytes], origins: dict[int, Origin]):
-    """Has the loader judge a model with its mesh files; returns it as the wheel has it, or `None`.
+    """Checks a model and its mesh files with the loader; returns it as the wheel has it, or `None`.
 
     Custom primitives and volumes are the host's, which the wheel does not know: the model is judged without them.
     """
@@ -44,14 +44,14 @@ def check_loads(scene: Scene, top: SnapshotObject, model: Model, files: dict[str
 
 
 def _parted(warning: str, paths: dict[str, Origin | None]) -> tuple[str, str]:
-    """Path and words of a warning. A name may have a colon in it: the path begins with the longest that fits."""
+    """Path and text of a warning. A name may contain a colon: the path is the longest known prefix."""
     known = max((path for path in paths if warning.startswith(path)), key=len, default="")
     element, _, what = warning[len(known) :].partition(": ")
     return known + element, what
 
 
 def _place(path: str, paths: dict[str, Origin | None], top: SnapshotObject):
-    """What a path of the model comes from: object and path in the scene, and the fields of a finding that tell more."""
+    """Source of a model path: object and path in the scene, and additional fields of a finding."""
     element = ELEMENT.search(path)
     origin = paths.get(path[: element.start()] if element else path)
     if origin is None:
@@ -74,7 +74,7 @@ def _judged(model: Model, files: dict[str, bytes]):
 
 
 def _known(group: Group) -> Group | None:
-    """A group without what is the host's own; `None` if nothing is left of it."""
+    """A group without host-defined kinds; `None` if it is empty then."""
     groups = [below for below in map(_known, group.groups) if below is not None]
     primitives = [primitive for primitive in group.primitives if primitive.kind != "Custom"]
     bound = None if (group.bound or "").startswith("Custom:") else group.bound

@@ -17,29 +17,29 @@ ROUNDING = 8 * 2.0**-53  # of the largest number: what a few sums and products i
 
 
 def is_single(x) -> np.ndarray:
-    """Which numbers are 32-bit numbers."""
+    """True for numbers that are exact in 32 bits."""
     x = np.asarray(x, dtype=np.float64)
     return (rounded(x) == x) | np.isnan(x)
 
 
 def rounded(x) -> np.ndarray:
-    """What Blender keeps of numbers."""
+    """Numbers as stored by Blender."""
     with np.errstate(over="ignore"):
         return np.asarray(x, dtype=np.float64).astype(np.float32).astype(np.float64)
 
 
 def typed(x) -> np.ndarray:
-    """The shortest decimals that round to 32-bit numbers, like float(str(np.float32(x))) for each."""
+    """Shortest decimals that round to 32-bit numbers, like float(str(np.float32(x))) for each."""
     x = np.asarray(x, dtype=np.float64)
     flat = x.ravel()
     result = flat.copy()
     open_ = np.flatnonzero(np.isfinite(flat) & (flat != 0.0))
     exponent = np.floor(np.log10(np.abs(flat[open_])))
-    # Powers of ten beyond 1e22 are rounded themselves: such numbers go the slow way.
+    # Powers of ten beyond 1e22 are inexact: such numbers take the slow path.
     quick = (exponent <= 22) & (exponent >= -14)
     slow, open_, exponent = open_[~quick], open_[quick], exponent[quick]
     for digits in range(1, 10):
-        # A whole number below 2^53 over (or times) a power of ten up to 1e22 is rounded once: the decimal itself.
+        # An integer below 2^53 over (or times) a power of ten up to 1e22 is rounded once: it is the decimal itself.
         places = digits - 1 - exponent
         scale = 10.0 ** np.abs(places)
         value = flat[open_]
@@ -54,7 +54,7 @@ def typed(x) -> np.ndarray:
 
 
 def meant(stored, exact=None) -> np.ndarray:
-    """The numbers that stored ones stand for, element by element; `exact` counts where it has the same shape."""
+    """Exact numbers for stored ones, element by element; `exact` is used where it has the same shape."""
     stored = np.asarray(stored, dtype=np.float64)
     single = is_single(stored)
     result = np.where(single, typed(np.where(single, stored, 0.0)), stored)
@@ -66,7 +66,7 @@ def meant(stored, exact=None) -> np.ndarray:
 
 
 def meant_rows(stored: np.ndarray, exact: np.ndarray | None) -> np.ndarray:
-    """Vertices: exact ones are found by index and, where vertices were added, deleted or moved about, by value."""
+    """Exact vertices, found by index and, after vertices were added, deleted or moved, by value."""
     stored = np.asarray(stored, dtype=np.float64).reshape(-1, 3)
     if exact is None or not len(exact):
         return meant(stored)
@@ -112,25 +112,26 @@ def without_noise(x, noise: float, spare: int = 1) -> np.ndarray:
 
 
 def without_rounding(x, size: float) -> np.ndarray:
-    """Results of a few sums and products of numbers up to `size`, without their rounding: 0.04, not 0.039999999999999994."""
+    """Results of a few sums and products of numbers up to `size`, rounded to their accuracy: 0.04, not
+    0.039999999999999994."""
     return without_noise(x, ROUNDING * size, 3)
 
 
 def is_fresh(stored, exact) -> bool:
-    """Whether all exact numbers still stand for the stored ones."""
+    """True if all exact numbers still belong to the stored ones."""
     if exact is None or np.shape(exact) != np.shape(stored):
         return False
     return bool((rounded(exact) == np.asarray(stored, dtype=np.float64)).all() or np.array_equal(exact, stored))
 
 
 def needed(values) -> bool:
-    """Whether numbers must be kept beside Blender's: the shortest decimals of their rounding are not they."""
+    """True if numbers must be stored beside Blender's: they are not the shortest decimals of their rounding."""
     values = np.asarray(values, dtype=np.float64)
     return not np.array_equal(typed(rounded(values)), values)
 
 
 def typed_angle(stored: float) -> float:
-    """The angle that was meant, rad: of the decimals in radians and in degrees, which people type, the shorter one."""
+    """The typed angle, rad: the shorter of the decimals in radians and in degrees."""
     if not bool(is_single(stored)) or stored == 0.0:
         return float(stored)
     radians = float(typed(stored))

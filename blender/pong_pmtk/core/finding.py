@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings: what is wrong or odd about a scene, where, and what to do about it. The rules: docs/modelling_rules.md."""
+"""Findings: faults and oddities of a scene, their locations, and cures. The rules: docs/modelling_rules.md."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Collection instances: an empty that shows a collection becomes copies of that collection's objects."""
+"""Collection instances: an empty that shows a collection is replaced by copies of that collection's objects."""
 
 from __future__ import annotations
 
@@ -62,12 +62,12 @@ def _copy(thing: SnapshotObject, empty: SnapshotObject, names: set[str], offset:
     name = f"{empty.name}.{thing.name}"
     shown_as = f"{empty.called or empty.name}.{thing.called or thing.name}"
     mark = replace(thing.mark, name=thing.mark.name or shown_as)
-    # A copy that is itself within an instanced collection is only there to be copied again.
+    # A copy within an instanced collection exists only to be copied again.
     seen = {"hidden": empty.hidden, "excluded": empty.excluded, "collections": empty.collections}
     shown = replace(thing, name=name, mark=mark, **seen)
     if thing.parent in names:
         return replace(shown, parent=f"{empty.name}.{thing.parent}")
-    # The collection's own space hangs below the empty, whatever parent the object has outside of it.
+    # The collection's space is a child of the empty, whatever the object's parent outside of it.
     inverse = thing.transform.parent_inverse
     matrix = offset if inverse is None or thing.parent is None else offset @ np.asarray(inverse, dtype=np.float64)
     moved = None if np.array_equal(matrix, np.eye(4)) else matrix

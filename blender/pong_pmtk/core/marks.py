@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks: what an author says of an object beyond its geometry.
+"""Marks: properties of an object beyond its geometry.
 
 Blender keeps them in a PropertyGroup, glTF files in `extras.pong`, snapshots as the classes here. The field names are
 the same in all three (`to_json`, `from_json`); fields at their defaults are left out.
@@ -51,7 +51,7 @@ class Part:
 
 @dataclass
 class Mark:
-    """What one object is to the engine.
+    """Properties of one object for the engine.
 
     What a kind takes from its object, in the object's own coordinates:
 
@@ -104,11 +104,11 @@ class Mark:
 
 @dataclass
 class ModelSettings:
-    """What belongs to a whole model; kept on its root."""
+    """Settings of a whole model, stored on its root."""
 
     name: str = ""  # "" for the root's name
     entry_memory: bool = True
     surfaces: dict[str, dict] = field(default_factory=dict)
     """Name -> fields as in docs/model_format.md; laws are `Tagged` or, in JSON, {"Linear": {"damping": 250.0}}. Numbers
-    are taken as they are: keep them in full precision (as text, or as ID properties)."""
+    are used as they are: store them in full precision (as text, or as ID properties)."""
     pairs: list[dict] = field(default_factory=list)

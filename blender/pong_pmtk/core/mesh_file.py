@@ -15,7 +15,7 @@ STL_TITLE = b"pong"  # must not be "solid", the mark of text files
 
 
 class MeshFileError(ValueError):
-    """A mesh file of no use; `rule` as in docs/model_format.md."""
+    """An unusable mesh file; `rule` as in docs/model_format.md."""
 
     def __init__(self, rule: str, cause: str):
         super().__init__(cause)
@@ -31,7 +31,7 @@ def kind_of(name: str) -> str:
 
 
 def check_path(name: str) -> None:
-    """A mesh file lies in the model's folder or below it."""
+    """Checks that a mesh file is in the model's folder or below it."""
     parts = name.split("/")
     if not name or name.startswith("/") or ".." in parts or any(c in name for c in "\\:\0"):
         raise MeshFileError("mesh-file-outside", f'"{name}" leads out of the model\'s folder')
@@ -54,17 +54,17 @@ def damaged(cause: str, line: int = 0) -> MeshFileError:
 
 
 def marked(data: bytes) -> bytes:
-    """The file without the mark that some editors put before UTF-8."""
+    """Content of the file without a UTF-8 byte order mark."""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         raise damaged("it is text in UTF-16; save it as UTF-8 or ASCII")
     return data.removeprefix(b"\xef\xbb\xbf")
 
 
 def read_stl(data: bytes):
-    """Every triangle has vertices of its own, as the file has it."""
+    """Unshared vertices of every triangle, as the file has them."""
     count = int.from_bytes(data[80:84], "little") if len(data) >= STL_HEAD else -1
     length = STL_HEAD + count * STL_TRIANGLE.itemsize
-    # Binary files may begin with "solid": the length tells, or a zero byte where text has none.
+    # Binary files may begin with "solid": the length decides, or a zero byte, which text does not contain.
     is_text = _is_text_stl(data) and not (count >= 0 and len(data) == length)
     if is_text:
         corners = _text_stl(marked(data))
@@ -86,7 +86,7 @@ def _is_text_stl(data: bytes) -> bool:
 
 
 def _text_stl(data: bytes) -> np.ndarray:
-    """The triangles of all solids. Normals follow from the corners; some programs write `nan` there."""
+    """Triangles of all solids. Normals follow from the corners; some programs write `nan` there."""
     numbers: list[bytes] = []
     facet = corners = 0
     for number, line in enumerate(data.splitlines(), 1):
@@ -127,7 +127,7 @@ def _text_stl(data: bytes) -> np.ndarray:
 
 
 def _obj_lines(data: bytes):
-    """Numbers and words of lines; a backslash at the end continues a line of numbers in the next one."""
+    """Numbers and words of lines; a backslash at the end continues a line."""
     lines = enumerate(marked(data).splitlines(), 1)
     for number, line in lines:
         words = line.partition(b"#")[0].split()
@@ -140,7 +140,7 @@ def _obj_lines(data: bytes):
 
 
 def read_obj(data: bytes):
-    """Faces of any number of corners; materials, normals and texture coordinates are left aside."""
+    """Faces of any number of corners; materials, normals and texture coordinates are ignored."""
     places: list[float] = []
     widths: list[int] = []
     corners: list[int] = []
@@ -169,13 +169,13 @@ def read_obj(data: bytes):
 
 
 def write(name: str, vertices: np.ndarray, faces, scale: float = 1.0) -> bytes:
-    """The bytes of a mesh file whose coordinates times `scale` are the vertices."""
+    """Bytes of a mesh file whose coordinates times `scale` are the vertices."""
     unscaled = before_scale(np.asarray(vertices, dtype=np.float64), scale)
     return write_obj(unscaled, faces) if kind_of(name) == "obj" else write_stl(unscaled, faces)
 
 
 def before_scale(values: np.ndarray, scale: float) -> np.ndarray:
-    """Numbers that give `values` when they are multiplied by the scale: 32-bit ones, as files have them, if these do.
+    """Numbers whose product with the scale is `values`: 32-bit ones, as in files, if possible.
 
     What is a product of the scale comes back to the last bit.
     """
@@ -200,7 +200,7 @@ def write_obj(vertices: np.ndarray, faces) -> bytes:
 
 
 def write_stl(vertices: np.ndarray, triangles) -> bytes:
-    """A binary file; coordinates are rounded to single precision, as the format has it."""
+    """A binary file; coordinates are rounded to single precision, as the format requires."""
     triangles = np.asarray(triangles)
     records = np.zeros(len(triangles), dtype=STL_TRIANGLE)
     records["corners"] = vertices[triangles]

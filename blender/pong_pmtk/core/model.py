@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A model as a model file has it (docs/model_format.md): what `build` makes of a snapshot and `ron` reads and writes.
+"""A model as in a model file (docs/model_format.md): the result of `build`, read and written by `ron`.
 
 Numbers are float64, metres and SI throughout; quaternions (w, x, y, z). `None` is a field that is left out.
 """
@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Primitive:
-    """`kind` and the fields of docs/model_format.md under the same names, in the order they are written."""
+    """`kind` and the fields of docs/model_format.md under the same names, in the order of writing."""
 
     kind: str
     name: str

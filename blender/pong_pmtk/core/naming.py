@@ -11,13 +11,13 @@ NAME_BYTES = 63  # what every supported version of Blender keeps of a name
 
 
 def natural(name: str) -> tuple:
-    """Sorts foot_2 before foot_10, letter case aside; names that differ at all have different keys."""
+    """Sort key: foot_2 before foot_10, ignoring letter case; different names have different keys."""
     parts = _DIGITS.split(name.casefold())
     return tuple((0, int(part), "") if part.isdecimal() else (1, 0, part) for part in parts), name
 
 
 class UniqueNames:
-    """Hands out names that Blender will keep: unique, and short enough."""
+    """Allocator of names that Blender keeps: unique, and short enough."""
 
     def __init__(self):
         self.taken: set[str] = set()

@@ -24,13 +24,13 @@ Lines = dict[str, np.ndarray]
 
 
 def bounds_lines(model: Model, loaded) -> Lines:
-    """The bounding volume of every group; those without end are left out. `loaded`: the model as the engine has it."""
+    """Bounding volume of every group; unbounded ones are left out. `loaded`: the model as loaded by the engine."""
     places = {path: body for path, _, _, body in _walk(model.root, model.root.name, identity(), identity())}
     return {path: places[path].points(volume_lines(volume)) for path, volume in volumes(loaded).items()}
 
 
 def volume_lines(volume: Volume) -> np.ndarray:
-    """The edges of a box, or three circles of a ball."""
+    """Edges of a box, or three circles of a sphere."""
     if volume.kind != "Sphere":
         return volume.center + (_SIGNS * volume.half)[_BOX_EDGES] @ volume.axes.T
     turn = np.linspace(0.0, 2.0 * np.pi, CIRCLE + 1)
@@ -40,7 +40,7 @@ def volume_lines(volume: Volume) -> np.ndarray:
 
 
 def normals_lines(model: Model, length: float) -> Lines:
-    """From the middle of every face outward, of planes from the point nearest to the origin; not of inactive faces."""
+    """Normals from the middle of every active face, and of planes from the point nearest to the origin."""
     return _of_primitives(model, lambda primitive: _normals(primitive, length))
 
 
@@ -91,8 +91,8 @@ def _ray(primitive: Primitive) -> np.ndarray | None:
 
 
 def round_lines(model: Model) -> Lines:
-    """Of every capsule, cylinder, cone and bore: a circle at each end and in the middle, four lines along the wall, and the
-    half circles over the ends of a capsule."""
+    """Lines of every capsule, cylinder, cone and bore: a circle at each end and in the middle, four lines along the
+    wall, and the half circles over the ends of a capsule."""
     return _of_primitives(model, _round)
 
 
@@ -119,12 +119,12 @@ def _round(primitive: Primitive) -> np.ndarray | None:
 
 
 def _joined(places: np.ndarray) -> np.ndarray:
-    """The lines from each place to the next one."""
+    """Lines from each point to the next one."""
     return np.repeat(places, 2, axis=0)[1:-1]
 
 
 def groups_lines(model: Model, length: float) -> Lines:
-    """The axes of every group (x, y, z: three lines), then a line to the group above, but for the root."""
+    """Axes of every group (x, y, z: three lines), then a line to its parent, except for the root."""
     found, origins = {}, {}
     for path, _, place, _ in _walk(model.root, model.root.name, identity(), identity()):
         axes = np.stack([np.zeros((3, 3)), length * np.eye(3)], axis=1).reshape(-1, 3)
@@ -145,7 +145,7 @@ def _of_primitives(model: Model, lines) -> Lines:
 
 
 def _walk(group: Group, path: str, place: Affine, body: Affine):
-    """Every group with its path, its place and that of its movable group, both in the root's frame."""
+    """Every group with its path, its pose and that of its movable group, both in the root's frame."""
     yield path, group, place, body
     for below in group.groups:
         here = place @ pose_of(below)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts: some vertices, edges or faces of a mesh as primitives of one kind, with or without the whole of it."""
+"""Parts: some vertices, edges or faces of a mesh as primitives of one kind, with or without the rest."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .build_primitives import Place, Shape, ready
 from .marks import Part
 from .snapshot import Mesh
 
-# What each kind takes from a part.
+# Elements that each kind takes from a part.
 ELEMENTS = {
     "Point": "vertices",
     "LineSegment": "edges",
@@ -22,7 +22,7 @@ ELEMENTS = {
 
 
 def part_shapes(place: Place, mesh: Mesh | None, evaluated: bool, surface: str | None) -> list[Shape]:
-    """One shape for each part of an object whose parts make sense."""
+    """One shape for each valid part of an object."""
     mark = place.thing.mark
     if mesh is None:
         place.findings.error("needs-mesh", place.where, "an empty has no parts", "mark a mesh")

@@ -7,7 +7,7 @@ import numpy as np
 
 
 def weld(vertices: np.ndarray) -> np.ndarray:
-    """For each vertex the first one at the same place, to the last bit."""
+    """First vertex at the same position for each vertex, to the last bit."""
     _, first, inverse = np.unique(vertices + 0.0, axis=0, return_index=True, return_inverse=True)
     return first[inverse.ravel()]
 
@@ -59,7 +59,7 @@ def connected(faces: list[np.ndarray]) -> list[list[int]]:
 
 
 def islands(vertices: np.ndarray, links: np.ndarray) -> list[np.ndarray]:
-    """Vertices by connected piece, in the order of their first ones; vertices at one place count as one.
+    """Vertices by connected piece, in the order of their first ones; coincident vertices count as one.
 
     `links`: pairs of vertices that are connected, (n, 2). Vertices without any are left out.
     """
@@ -79,7 +79,7 @@ def islands(vertices: np.ndarray, links: np.ndarray) -> list[np.ndarray]:
 
 
 def apart(vertices: np.ndarray, pieces: list[np.ndarray]) -> list[np.ndarray]:
-    """Pieces that do not lie inside the box of another one, as the inner wall of a hollow ball does."""
+    """Pieces that do not lie inside the box of another one, unlike the inner wall of a hollow ball."""
     if len(pieces) < 2:
         return pieces
     low = np.array([vertices[piece].min(axis=0) for piece in pieces])

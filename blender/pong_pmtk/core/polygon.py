@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Polygons in space: area, plane, width, cutting into triangles. Corners are (n, 3) arrays."""
+"""Polygons in space: area, plane, width, triangulation. Corners are (n, 3) arrays."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ def plane_of(corners: np.ndarray) -> tuple[np.ndarray, float]:
 
 
 def off_plane(corners: np.ndarray) -> float:
-    """How far the farthest corner lies off the polygon's plane."""
+    """Largest distance of a corner from the polygon's plane."""
     return float(off_planes(corners[None])[0])
 
 
 def off_planes(corners: np.ndarray) -> np.ndarray:
-    """`off_plane` of many polygons of as many corners each, (n, k, 3)."""
+    """`off_plane` of many polygons with the same number of corners, (n, k, 3)."""
     arms = corners - corners[:, :1]
     scale = np.abs(arms).max(axis=(1, 2), keepdims=True)
     arms = arms / np.where(scale > 0.0, scale, 1.0)  # so that no size overflows
@@ -49,7 +49,7 @@ def off_planes(corners: np.ndarray) -> np.ndarray:
 
 
 def ears(corners: np.ndarray) -> list[tuple[int, int, int]] | None:
-    """Cuts a simple polygon into triangles (places in `corners`), ear by ear; `None` if it crosses itself.
+    """Triangulates a simple polygon (indices into `corners`), by ear clipping; `None` if it crosses itself.
 
     Of all ears the one with the shortest cut goes first, so that no slivers are left over.
     """
@@ -93,7 +93,7 @@ def _ear(corners, normal, left: list[int], place: int) -> tuple[float, int] | No
 
 
 def triangulated(vertices: np.ndarray, loops: np.ndarray, starts: np.ndarray):
-    """Triangles of all faces, the face each comes from, and the faces that cross themselves.
+    """Triangles of all faces, their source faces, and the faces that cross themselves.
 
     Quads are cut along the shorter of the diagonals that leave two triangles of the same side; equal ones along 0-2.
     """
@@ -123,7 +123,7 @@ def triangulated(vertices: np.ndarray, loops: np.ndarray, starts: np.ndarray):
 
 
 def _quad_cuts(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """For each quad the six places of its two triangles, and whether it crosses itself."""
+    """Six corners of the two triangles of each quad, and whether it crosses itself."""
     a, b, c, d = (corners[:, i] for i in range(4))
     normal = np.cross(c - a, d - b)
 

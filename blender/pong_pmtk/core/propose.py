@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Proposes what a mesh could be, from its shape. The author decides: nothing here is ever applied by itself."""
+"""Proposes kinds for a mesh, from its shape. The author decides: nothing here is applied automatically."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CHECKED_FACES = 5000  # larger meshes are surfaces: nobody wants them as one con
 
 @dataclass
 class Proposal:
-    """A kind, the fields of the mark that go with it, and why."""
+    """A kind, its fields of the mark, and the reason."""
 
     kind: str
     reason: str
@@ -32,7 +32,7 @@ class Proposal:
 
 
 def propose(thing: SnapshotObject) -> list[Proposal]:
-    """What an object could be, the likeliest first; empty for what cannot be a primitive."""
+    """Possible kinds of an object, the likeliest first; empty for what cannot be a primitive."""
     if thing.mesh is None:
         return [Proposal("Point", "an empty: its origin")] if thing.type == "EMPTY" else []
     vertices = meant_rows(thing.mesh.vertices, thing.exact.get("vertices"))
@@ -75,7 +75,7 @@ def _one_face(vertices: np.ndarray, face: np.ndarray) -> list[Proposal]:
 
 
 def _round(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal]:
-    """Spheres and ellipsoids whose axes are those of the object."""
+    """Spheres and ellipsoids with axes along those of the object."""
     middles = np.array([vertices[face].mean(axis=0) for face in faces])
     fitted = round_fit(vertices, middles, ROUND_DEPTH) if len(vertices) >= ROUND_VERTICES else None
     if fitted is None:
@@ -96,7 +96,7 @@ def _round(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal]:
 
 
 def _round_parts(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal]:
-    """The simplest round part around the z axis of the object that a closed mesh shows."""
+    """The simplest round part around the z axis of the object that matches a closed mesh."""
     for kind in ROUND_KINDS[:3]:
         numbers, found = fitted_numbers(vertices, kind), fit(vertices, kind)
         if "length" not in numbers or found is None or not _is_round(vertices, faces, kind, numbers):
@@ -111,7 +111,7 @@ def _round_parts(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal
 
 
 def _is_round(vertices: np.ndarray, faces: list[np.ndarray], kind: str, numbers: dict) -> bool:
-    """Whether the vertices lie on the part, and enough of them around it that its corners are not meant."""
+    """True if the vertices lie on the part, with enough of them around it that its corners are an approximation."""
     length, radii = numbers["length"], radii_of(kind, numbers)
     size = max(length, 2.0 * max(radii))
     centered = vertices - np.array([0.0, 0.0, fit(vertices, kind)[2]])
@@ -122,12 +122,12 @@ def _is_round(vertices: np.ndarray, faces: list[np.ndarray], kind: str, numbers:
 
 
 def around_axis(own: np.ndarray, radii: tuple[float, float]) -> bool:
-    """Whether vertices stand around the z axis, at the wider end of a part, as near to each other as of a round mesh."""
+    """True if vertices surround the z axis, at the wider end of a part, as densely as those of a round mesh."""
     return widest_gap(own, radii) <= 2.0 * np.pi / (ROUND_SIDES - 0.5)
 
 
 def fit_ellipsoid(points: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-    """Centre and semi-axes, along the coordinate axes, of the ellipsoid nearest to points; `None` if there is none."""
+    """Centre and semi-axes, along the coordinate axes, of the best-fit ellipsoid; `None` if there is none."""
     low, high = points.min(axis=0), points.max(axis=0)
     size = float((high - low).max())
     if not size > 0.0 or len(points) < 6:
@@ -144,7 +144,7 @@ def fit_ellipsoid(points: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
 
 
 def round_fit(points: np.ndarray, middles: np.ndarray, depth: float) -> tuple[np.ndarray, np.ndarray, float] | None:
-    """Centre, semi-axes, and how far off any point is, as a share of the size; `None` for what is not round.
+    """Centre, semi-axes, and largest relative error of any point; `None` for a shape that is not round.
 
     The middles of faces must come as near to the surface as `depth`: the corners of a prism lie on an ellipsoid too.
     """
@@ -158,7 +158,7 @@ def round_fit(points: np.ndarray, middles: np.ndarray, depth: float) -> tuple[np
 
 
 def fit_sphere(points: np.ndarray) -> float:
-    """Radius of the sphere nearest to points, to seven digits: what 32 bits can say."""
+    """Radius of the best-fit sphere to seven digits, the accuracy of 32 bits."""
     center = (points.min(axis=0) + points.max(axis=0)) / 2.0
     fitted = fit_ellipsoid(points)
     if fitted is not None:

@@ -32,7 +32,7 @@ class Fault:
 
 
 class ModelFaults(ValueError):
-    """A model file that cannot be read, with all that is wrong with it."""
+    """A model file that cannot be read, with all of its faults."""
 
     def __init__(self, faults: list[Fault]):
         super().__init__("\n".join(map(str, faults)))
@@ -60,7 +60,7 @@ def _read(read) -> Model:
 
 
 def model_of(data: dict) -> Model:
-    """What the wheel has read, as a `Model`: what is left out or at its default is not there."""
+    """`Model` from the wheel's data; fields at their defaults are left out."""
     surfaces = {name: _surface(_fields(fields)) for name, fields in data["surfaces"].items()}
     pairs = [_pair(_fields(pair)) for pair in data.get("pairs") or []]
     entry_memory = data.get("entry_memory")
@@ -96,7 +96,7 @@ def _pair(data: dict) -> dict:
     if data.get("normal") is not None:
         pair["normal"] = _law(data["normal"], NORMAL_LAWS)
     if "friction" in data:
-        # Here `None` has a meaning of its own: no friction between these two.
+        # Here `None` is a value: no friction between these two.
         pair["friction"] = _law(data["friction"], FRICTION_LAWS)
     return pair
 
@@ -109,7 +109,7 @@ def _law(value, laws: dict[str, tuple[Field, ...]]) -> Tagged | None:
 
 
 def _own(data: dict, wanted: tuple[Field, ...]) -> dict:
-    """The fields that are there and not at their defaults, in the order of the schema."""
+    """Fields present and not at their defaults, in the order of the schema."""
     found = {}
     for field in wanted:
         value = data.get(field.name)

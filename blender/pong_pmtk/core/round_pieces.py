@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes that show several round bodies: rows and mirror images that modifiers make, and pins that were joined.
+"""Meshes that show several round bodies: rows and mirror images made by modifiers, and joined pins.
 
 One mark has one size and one place, so each piece is a body as large as it is shown, and where it is shown. A mesh of one
 piece only shows what its mark says; so does one of several pieces that are not all round, unless modifiers made them.
@@ -26,13 +26,13 @@ SINGLE = 2.0**-23  # of the largest coordinate: the rounding of single precision
 
 
 def pieces_shown(vertices: np.ndarray, mesh: Mesh) -> list[np.ndarray]:
-    """Vertices of the pieces that could be bodies."""
+    """Vertices of the pieces that may be bodies."""
     links = mesh.edges if len(mesh.edges) else np.zeros((0, 2), dtype=np.int64)
     return apart(vertices, islands(vertices, links))
 
 
 def bodies_shown(thing: SnapshotObject, kind: str) -> list[np.ndarray] | None:
-    """The pieces of an object's mesh that are bodies of a kind; `None` for one body, empty where that cannot be told."""
+    """Pieces of an object's mesh that are bodies of a kind; `None` for one body, empty if undecided."""
     if thing.mesh is None or not len(thing.mesh.vertices):
         return None
     vertices = np.asarray(thing.mesh.vertices, dtype=np.float64)
@@ -46,7 +46,7 @@ def bodies_shown(thing: SnapshotObject, kind: str) -> list[np.ndarray] | None:
 
 
 def several(shape: Shape) -> list[np.ndarray] | None:
-    """The pieces of a mesh that are bodies of their own, and says so; the rest as `bodies_shown`."""
+    """Pieces of a mesh that are separate bodies, with a note; the rest as `bodies_shown`."""
     pieces = bodies_shown(shape.place.thing, shape.kind)
     if pieces:
         cause = f"its mesh has {len(pieces)} pieces: each is exported, as it is shown, as a body of its own"
@@ -60,7 +60,7 @@ def several(shape: Shape) -> list[np.ndarray] | None:
 
 
 def _is_body(vertices: np.ndarray, kind: str, strict: bool) -> bool:
-    """Whether a piece shows a body of a kind; `strict`: with as many corners as nobody gives a box."""
+    """True if a piece shows a body of a kind; `strict`: with more corners than a box would have."""
     if kind not in ROUND_KINDS:
         return round_fit(vertices, np.zeros((0, 3)), 0.0) is not None and (not strict or len(vertices) > 8)
     shown = find(vertices, kind)
@@ -85,7 +85,7 @@ def round_bodies(shape: Shape, pieces: list[np.ndarray]) -> list[dict]:
 
 
 def _agreed(found: tuple[float, ...], wanted) -> tuple[float, ...]:
-    """The numbers of the mark, which have all their digits, where the piece shows them; else those of the piece."""
+    """Numbers of the mark, with all digits, where the piece matches them; else those of the piece."""
     size = max(found)
     if wanted is not None and np.abs(np.subtract(found, wanted)).max() <= SIZE_TOLERANCE * size:
         return tuple(map(float, wanted))

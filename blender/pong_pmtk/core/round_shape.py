@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Round parts: capsules, cylinders, cones and bores around the z axis of their object, with the origin in their middle.
+"""Round parts: capsules, cylinders, cones and bores around the z axis of their object, centred at the origin.
 
 `length` is the distance of the ends of the axis, at -length/2 and +length/2. A mesh only shows the part: `fit` says
 which part it shows around the z axis, `off` how far its vertices lie from the part's surface, and `find` where a mesh
@@ -25,7 +25,7 @@ END_SHARE = 1e-3  # of the length: vertices so near to an end lie on its circle
 
 
 def radii_of(kind: str, numbers: dict) -> tuple[float, float]:
-    """Radius at each end, of the numbers of a mark."""
+    """Radius at each end, from the numbers of a mark."""
     if kind in ONE_RADIUS:
         return (float(numbers.get("radius", 0.0)),) * 2
     one, other = numbers.get("radii", (0.0, 0.0))
@@ -38,7 +38,7 @@ def numbers_of(kind: str, length: float, radii: tuple[float, float]) -> dict:
 
 
 def fit(vertices: np.ndarray, kind: str) -> tuple[float, tuple[float, float], float] | None:
-    """Length, radii at both ends and z of the middle of the part that a mesh shows."""
+    """Length, radii at both ends and z of the middle of a mesh's round part."""
     vertices = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
     if not len(vertices):
         return None
@@ -52,7 +52,7 @@ def fit(vertices: np.ndarray, kind: str) -> tuple[float, tuple[float, float], fl
 
 @dataclass
 class Shown:
-    """A round part that a mesh shows. `length` is what its kind makes of it: of a Capsule as wide as long, zero."""
+    """A round part shown by a mesh. `length` follows the kind: zero for a Capsule as wide as it is long."""
 
     center: np.ndarray
     turn: np.ndarray  # its columns: two directions across the axis, and the axis
@@ -66,7 +66,7 @@ class Shown:
 
 
 def find(vertices: np.ndarray, kind: str, axes: np.ndarray | None = None) -> Shown | None:
-    """The round part whose surface the vertices lie on; `None` if there is none.
+    """The round part whose surface contains the vertices; `None` if there is none.
 
     Tried are the columns of `axes`, the last one first, then the axes of inertia of the vertices.
     """
@@ -105,7 +105,7 @@ def _around(vertices: np.ndarray, kind: str, like: str, direction: np.ndarray) -
 
 
 def widest_gap(own: np.ndarray, radii: tuple[float, float]) -> float:
-    """Largest angle between neighbours on the rim of the wider end, rad; a full turn where there is nothing."""
+    """Largest angle between neighbours around the wider end, rad; a full turn without any."""
     length = float(np.ptp(own[:, 2]))
     size, end = max(length, 2.0 * max(radii)), 0 if radii[0] >= radii[1] else 1
     wide = own[np.sqrt((own[:, :2] ** 2).sum(axis=1)) >= (1.0 - FIT_TOLERANCE) * radii[end]]
@@ -118,7 +118,7 @@ def widest_gap(own: np.ndarray, radii: tuple[float, float]) -> float:
 
 
 def _turn(axis: np.ndarray) -> np.ndarray:
-    """A rotation matrix whose last column is the axis; that of the coordinates where the axis is one of theirs."""
+    """A rotation matrix whose last column is the axis; a permutation for a coordinate axis."""
     axis = np.where(np.abs(axis) > LEAST_SHARE, axis, 0.0)
     axis = axis / np.sqrt(axis @ axis)
     side = np.eye(3)[(int(np.argmax(np.abs(axis))) + 1) % 3]
@@ -128,12 +128,12 @@ def _turn(axis: np.ndarray) -> np.ndarray:
 
 
 def shown_number(x: float) -> float:
-    """A size that was measured on a mesh: the short decimal that is as near as single precision, else seven digits."""
+    """A size measured on a mesh: the short decimal within single precision, else seven digits."""
     return float(f"{float(without_noise(x, SHOWN_SHARE * abs(x))):.7g}")
 
 
 def fitted_numbers(vertices: np.ndarray, kind: str) -> dict:
-    """The numbers of a mark that suit a mesh, to seven digits: what 32 bits can say.
+    """Numbers of a mark that match a mesh, to seven digits, the accuracy of 32 bits.
 
     None where it has no extent; of a Capsule that is no longer than wide the radius alone.
     """
@@ -152,7 +152,7 @@ def fitted_numbers(vertices: np.ndarray, kind: str) -> dict:
 
 
 def fault_of(vertices: np.ndarray, kind: str) -> str:
-    """Why a mesh shows no part of a kind; "" where it does."""
+    """Reason why a mesh shows no part of a kind; "" if it does."""
     shown = find(vertices, kind)
     found = (shown.length, shown.radii, 0.0) if shown is not None else fit(vertices, kind)
     if found is None:
@@ -185,7 +185,7 @@ def off(vertices: np.ndarray, kind: str, length: float, radii: tuple[float, floa
 
 
 def _from(places: np.ndarray, start, end) -> np.ndarray:
-    """Distances of places from a segment."""
+    """Distances of points from a segment."""
     start, along = np.asarray(start), np.subtract(end, start)
     square = float(along @ along)
     share = np.clip((places - start) @ along / square, 0.0, 1.0) if square > 0.0 else np.zeros(len(places))

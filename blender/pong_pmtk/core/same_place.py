@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Primitives of one body that are there twice in one place, as copies that were pasted and never moved.
+"""Duplicate primitives of one body in the same position, such as copies pasted and never moved.
 
 Each is a spring of its own, so the contact is as stiff as both together. Triangles are not asked: the engine refuses
 those that are there twice (triangle_check.py).
@@ -22,7 +22,7 @@ from .triangle_check import pose_of
 
 TOLERANCE = 1e-6  # of the body's size: single precision and a chain of groups round to about a tenth of that
 CELLS = 4.0  # tolerances that a cell of the search is wide
-# Any three large odd numbers: they mix the numbers of a cell into one, and those that meet are compared after all.
+# Any three large odd numbers: they hash the numbers of a cell, and colliding ones are compared later.
 MIX = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], dtype=np.uint64)
 ORDERED = ("Ray", "Plane")
 MERGED = ("Point", "LineSegment")  # kinds whose doubles go when vertices are merged
@@ -48,7 +48,7 @@ def check_same_place(scene: Scene, root: Group, origins: dict[int, Origin]) -> N
         size = _size(shape for shape in body if shape.kind != "Plane")
         doubles: dict[tuple, list] = defaultdict(list)
         for (kind, _), alike in by_kind.items():
-            # Planes have no end, and the points that stand for them tell nothing of the body.
+            # Planes are infinite, and their representative points say nothing about the body.
             for one, other in _doubles(alike, TOLERANCE * (_size(alike) if kind == "Plane" else size)):
                 doubles[one.kind, one.origin.path, other.origin.path].append((one, other))
         for pairs in doubles.values():
@@ -82,7 +82,7 @@ def _bodies(root: Group, origins: dict[int, Origin]) -> list[list[_Shape]]:
 
 
 def _turned(primitive: Primitive, points: np.ndarray) -> tuple[np.ndarray, tuple[float, ...], bool]:
-    """Points and radii of a primitive, and whether their order tells one from another. A cone may be written from either end."""
+    """Points and radii of a primitive, and whether their order matters. A cone may be written from either end."""
     fields = primitive.fields
     if "radius" in fields:
         return points, (fields["radius"],), False
@@ -95,7 +95,7 @@ def _turned(primitive: Primitive, points: np.ndarray) -> tuple[np.ndarray, tuple
 
 
 def _points(primitive: Primitive, place: Affine) -> np.ndarray | None:
-    """Points that stand for a primitive, in the frame of its body."""
+    """Representative points of a primitive, in the frame of its body."""
     f = primitive.fields
     if primitive.kind in ("Point", "Sphere"):
         return place.points(np.array([f["position" if primitive.kind == "Point" else "center"]], dtype=np.float64))
@@ -123,10 +123,10 @@ def _unit(direction) -> np.ndarray:
 
 
 def _doubles(shapes: list[_Shape], tolerance: float) -> list[tuple[_Shape, _Shape]]:
-    """Each shape that is where an earlier one is, with that."""
+    """Each shape that coincides with an earlier one, with that."""
     middles = np.array([shape.points.mean(axis=0) for shape in shapes])
     first = list(range(len(shapes)))
-    # What is nearer than a tolerance shares a cell of at least one of eight grids, each half a cell beside the others.
+    # Points within a tolerance share a cell in at least one of eight grids, each shifted by half a cell.
     for shift in itertools.product((0.0, 0.5), repeat=3) if len(shapes) > 1 and 0.0 < tolerance < np.inf else ():
         for members in _shared_cells(middles / (CELLS * tolerance) + shift):
             _compare(shapes, members, first, tolerance)
@@ -134,7 +134,7 @@ def _doubles(shapes: list[_Shape], tolerance: float) -> list[tuple[_Shape, _Shap
 
 
 def _shared_cells(places: np.ndarray) -> list[np.ndarray]:
-    """Indices of the places that share a cell of width 1, for every cell with more than one."""
+    """Indices of the points that share a cell of width 1, for every cell with more than one."""
     keys = (np.floor(places).astype(np.int64).astype(np.uint64) * MIX).sum(axis=1, dtype=np.uint64)
     order = np.argsort(keys, kind="stable")
     begins = np.flatnonzero(np.concatenate([[True], keys[order][1:] != keys[order][:-1]]))
@@ -158,7 +158,7 @@ def _same(one: _Shape, other: _Shape, tolerance: float) -> bool:
         return True
     if one.in_order:
         return False
-    # A copy keeps the order of its vertices; what was modelled twice does not.
+    # A copy keeps the order of its vertices; separately modelled duplicates do not.
     rest = list(other.points)
     for point in one.points:
         near = next((i for i, place in enumerate(rest) if np.abs(point - place).max() <= tolerance), None)
@@ -169,7 +169,7 @@ def _same(one: _Shape, other: _Shape, tolerance: float) -> bool:
 
 
 def _tell(scene: Scene, pairs: list[tuple[_Shape, _Shape]], whole: bool) -> None:
-    """`whole`: the later object is nothing but doubles of the other one."""
+    """`whole`: the later object consists of duplicates of the other one only."""
     one, other = pairs[0][0].origin, pairs[0][1].origin
     kind, count = pairs[0][1].kind, len(pairs)
     what = f"{count} of its {kind}s are" if count > 1 else f"its {kind} is" if one.path != other.path else f"a {kind} of it is"

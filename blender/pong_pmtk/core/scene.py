@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tree of a snapshot, and what is wrong with the scene as a whole before any geometry is looked at."""
+"""Tree of a snapshot, and faults of the scene as a whole, found before any geometry is examined."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .marks import ROLES, VERSION
 from .naming import natural
 from .snapshot import Snapshot, SnapshotObject
 
-# Other types (a bone, a vertex) put the object where only Blender knows.
+# Other parent types (a bone, a vertex) give positions that only Blender knows.
 PARENT_TYPES = ("OBJECT",)
 
 
@@ -51,7 +51,7 @@ class Scene:
         return thing.name, self.path(thing)
 
     def metres(self, lengths):
-        """Lengths of the scene in metres; a unit that is 1/n of a metre divides, which keeps decimals short."""
+        """Lengths of the scene in metres; a unit of 1/n metre divides, which keeps decimals short."""
         scale = self.metres_per_unit
         if scale == 1.0:
             return lengths
@@ -67,7 +67,7 @@ class Scene:
         return found
 
     def _carrying(self) -> set[str]:
-        """Names of the objects that are marked or have marked ones below them: their transforms count."""
+        """Names of the objects that are marked or have marked descendants: their transforms matter."""
         carrying: set[str] = set()
         for thing in self.by_name.values():
             here = thing if thing.mark.role != "none" else None
@@ -82,12 +82,12 @@ def _unit(scale: float) -> float:
 
 
 def roots(snapshot: Snapshot) -> list[str]:
-    """Names of the roots of a scene: each is a model of its own."""
+    """Names of the roots of a scene, each a separate model."""
     return [thing.name for thing in snapshot.objects if thing.mark.role == "root"]
 
 
 def find_root(scene: Scene, wanted: str) -> SnapshotObject | None:
-    """The root to build, if the tree can be trusted; faults are noted."""
+    """The root to build, if the tree is valid; faults are noted."""
     findings = scene.findings
     check_tree(scene)
     found = sorted((t for t in scene.by_name.values() if t.mark.role == "root"), key=lambda t: natural(t.name))
@@ -122,7 +122,7 @@ def _root_above(scene: Scene, thing: SnapshotObject) -> SnapshotObject | None:
 
 
 def check_tree(scene: Scene) -> None:
-    """Names, parents, units: what makes the tree itself."""
+    """Names, parents, units: the requirements of the tree itself."""
     findings = scene.findings
     for thing in scene.repeated:
         cause = f'two objects are called "{thing.name}"'
@@ -151,7 +151,7 @@ def _in_loop(scene: Scene, thing: SnapshotObject) -> bool:
 
 
 def check_scene(scene: Scene, root: SnapshotObject) -> None:
-    """Marks outside the tree, and every object below the root that takes part."""
+    """Marks outside the tree, and every object in use below the root."""
     findings, snapshot = scene.findings, scene.snapshot
     inside = {thing.name for thing in scene.below(root)}
     for thing in scene.by_name.values():
@@ -172,7 +172,7 @@ def check_scene(scene: Scene, root: SnapshotObject) -> None:
 
 
 def check_object(scene: Scene, thing: SnapshotObject) -> None:
-    """What moves or hides an object besides the numbers that are exported."""
+    """Influences that move or hide an object besides the exported numbers."""
     findings, where, mark = scene.findings, scene.where(thing), thing.mark
     if mark.role not in ROLES:
         findings.error("unknown-role", where, f'its role is "{mark.role}"', f"choose from: {', '.join(ROLES)}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The fields of a model file: their order in our layout, their types and their defaults (docs/model_format.md)."""
+"""Fields of a model file: their order in our layout, their types and their defaults (docs/model_format.md)."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ PRIMITIVES: dict[str, tuple[Field, ...]] = {
     ),
     "Plane": _fields(("normal", "direction", REQUIRED), ("offset", "number", REQUIRED)),
     "Triangle": _fields(("thickness", "positive"), ("two_sided", "boolean", False), ("vertices", "vectors3", REQUIRED)),
-    # Of these two either `file` or the lists must be there: see read_primitive.py.
+    # Of these, either `file` or the two lists must be present: see read_primitive.py.
     "TriangleMesh": _fields(
         ("file", "text_value"),
         ("scale", "positive", 1.0),
@@ -101,15 +101,15 @@ RESPONSES = ("Normal", "Axial")
 
 
 def tells_friction(surface: dict) -> bool:
-    """Whether a surface says what its friction is. A rigid one that says it has none is another than one that leaves it to
-    what it meets; of any other surface, to have none and to say nothing are the same."""
+    """True if a surface specifies its friction. A rigid surface without friction differs from one that leaves it to the
+    partner; for other surfaces, both are the same."""
     if surface.get("friction") is not None:
         return True
     return "friction" in surface and surface["stiffness"] == float("inf")
 
 
 def is_default(value, default) -> bool:
-    """Whether a value says what the field says without it."""
+    """True if a value equals the default of its field."""
     if default is None or default is REQUIRED:
         return False
     if isinstance(default, tuple):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether what shows a sphere, an ellipsoid, a ray or a round part has the size of its mark.
+"""Size of a displayed sphere, ellipsoid, ray or round part, compared with its mark.
 
 The mark's numbers count, the mesh (or the empty) only shows them. Blender's *Apply Scale* and Edit Mode change what is
 shown and know nothing of marks, so the two can come apart.
@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from .build_primitives import Shape
 
 ROUND_DEPTH = 0.75  # as in propose.py, for coarse balls too: the middles of an icosahedron's faces lie at 0.79
-# Of the size. Single precision and the fit's own rounding stay far below; what was scaled by less is not seen either.
+# Relative tolerance. Single precision and the fit's own rounding are far below; smaller scalings are not noticed.
 SIZE_TOLERANCE = 1e-5
 AXIS_TOLERANCE = 1e-6  # of the cosine: a thousandth of a radian, as much as vertices may lie off
 
 
 def check_size(shape: Shape, axes) -> None:
-    """`axes`: what the mark says, in the object's own coordinates: three semi-axes, or the length of an empty's ray."""
+    """`axes`: size in the mark, in the object's own coordinates: three semi-axes, or the length of an empty's ray."""
     axes = np.asarray(axes, dtype=np.float64)
     if shape.mesh is not None:
         if len(shape.mesh.vertices):
@@ -42,7 +42,7 @@ def check_size(shape: Shape, axes) -> None:
 
 def _check_mesh(shape: Shape, axes: np.ndarray) -> None:
     vertices, starts = np.asarray(shape.mesh.vertices, dtype=np.float64), np.asarray(shape.mesh.face_starts)
-    # Every face has a corner by now (build_primitives.ready).
+    # Every face has a corner at this point (build_primitives.ready).
     sums = np.add.reduceat(vertices[shape.mesh.loops], starts[:-1]) if len(starts) > 1 else np.zeros((0, 3))
     fitted = round_fit(vertices, sums / np.diff(starts)[:, None], ROUND_DEPTH)
     if fitted is None:
@@ -63,7 +63,7 @@ def _check_mesh(shape: Shape, axes: np.ndarray) -> None:
 
 
 def check_round(shape: Shape, radii: tuple[float, float], length: float) -> None:
-    """`radii` and `length`: what the mark says, in the object's own coordinates. An empty shows half the length."""
+    """`radii` and `length`: size in the mark, in the object's own coordinates. An empty shows half the length."""
     if shape.mesh is None:
         seen = shape.place.thing.display_size
         if seen is not None and abs(2.0 * seen - length) > SIZE_TOLERANCE * length:
@@ -98,7 +98,7 @@ def check_round(shape: Shape, radii: tuple[float, float], length: float) -> None
 
 
 def _lies_elsewhere(shape: Shape, shown, size: float) -> bool:
-    """Tells of a part whose mesh lies along another axis than that of its mark, or beside it."""
+    """Reports a part whose mesh lies along another axis than that of its mark, or beside it."""
     if abs(shown.axis[2]) < 1.0 - AXIS_TOLERANCE:
         along = ", ".join(f"{x:.4g}" for x in shown.axis + 0.0)
         cause = f"its mesh lies along ({along}), and what is exported lies along the object's z axis"

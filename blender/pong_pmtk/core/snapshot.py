@@ -73,7 +73,7 @@ class SnapshotObject:
 
     @property
     def model_name(self) -> str:
-        """Its name in the model."""
+        """Name in the model."""
         return self.mark.name or self.called or self.name
 
 
@@ -87,5 +87,5 @@ class Snapshot:
     source: str = ""  # the .blend file, for messages
     edit_mode: str = ""  # name of the object that is being edited
     instance_offsets: dict[str, tuple[float, float, float]] = field(default_factory=dict)
-    """Of every collection that is instanced: the point of it that the instancing empty's origin shows. The objects of
-    such a collection belong to the snapshot even if it is excluded."""
+    """Point of every instanced collection at the instancing empty's origin. The objects of such a collection belong to
+    the snapshot even if it is excluded."""

@@ -18,7 +18,7 @@ FORMAT = "pong-snapshot"
 
 
 def dumps(scene: Snapshot) -> str:
-    """The JSON text of a snapshot: one object of the scene a line."""
+    """JSON text of a snapshot, with one object of the scene per line."""
     data = {"format": FORMAT, "version": marks.VERSION, **encoded(scene)}
     objects = data.pop("objects", [])
     head = json.dumps(data, ensure_ascii=False)[:-1]
@@ -27,7 +27,7 @@ def dumps(scene: Snapshot) -> str:
 
 
 def loads(text: str) -> Snapshot:
-    """Raises `ValueError` with the field that cannot be read."""
+    """Reads a snapshot; raises `ValueError` with the field that cannot be read."""
     data = json.loads(text)
     if data.pop("format", None) != FORMAT or data.pop("version", 0) > marks.VERSION:
         raise ValueError(f'this is no snapshot: it has no "format": "{FORMAT}" of a version up to {marks.VERSION}')
@@ -35,7 +35,7 @@ def loads(text: str) -> Snapshot:
 
 
 def mark_to_json(mark: Mark) -> dict:
-    """A mark as in glTF's `extras.pong`; the version is always told."""
+    """A mark as in glTF's `extras.pong`; the version is always included."""
     return {**encoded(mark), "version": mark.version}
 
 
@@ -79,7 +79,7 @@ def _is_default(owner, name: str, value) -> bool:
 
 
 def decoded(kind: type, data: dict, path: str):
-    """A dataclass from JSON data; unknown fields are refused, so that no slip of the keyboard is lost."""
+    """A dataclass from JSON data; unknown fields are refused, which reveals typing errors."""
     if not isinstance(data, dict):
         raise ValueError(f"{path}: expected named fields, found {data!r}")
     types = typing.get_type_hints(kind, vars(snapshot) | vars(marks))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of surfaces and pairs as Python data, read and judged as those of a model file."""
+"""Tables of surfaces and pairs as Python data, read and checked as those of a model file."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .read import Fault, ModelFaults, read_text
 
 
 def checked(surfaces: dict, pairs: list, model: str = "model") -> tuple[dict, list, list[Fault]]:
-    """The tables with laws as `Tagged` and without what says nothing, and all that is wrong with them.
+    """The tables with laws as `Tagged` and without empty fields, and all of their faults.
 
     `model` is the name of the model, by which pairs may call its surfaces. Tables at fault, or without the wheel, come
     back with their names alone, so that what is made of a surface is not called nameless.
@@ -25,7 +25,7 @@ def checked(surfaces: dict, pairs: list, model: str = "model") -> tuple[dict, li
 
 
 def _document(surfaces: dict, pairs: list, model: str) -> str:
-    """A model of these tables around a point, which has the first surface, or one of its own where there is none."""
+    """A model of these tables around a point, with the first surface, or a new one if there is none."""
     tables = {str(name): _plain(fields) for name, fields in surfaces.items()} or {"-": {"stiffness": 1.0}}
     point = {"Point": {"name": "-", "surface": next(iter(tables)), "position": (0.0, 0.0, 0.0)}}
     data = {"name": model or "-", "surfaces": tables, "pairs": [_pair(pair) for pair in pairs]}
@@ -40,7 +40,7 @@ def _pair(pair):
 
 
 def _plain(value):
-    """A value as `pong.model` has it: JSON has no infinity, and a choice of no law is the word for it."""
+    """A value in the form of `pong.model`: JSON has no infinity, and the choice of no law is a word."""
     if isinstance(value, Tagged):
         return {value.name: _plain(value.fields)}
     if isinstance(value, dict):
@@ -63,7 +63,7 @@ def law_of(value: dict) -> Tagged | None:
 
 
 def to_json(value):
-    """Laws as {"Linear": {…}}, rigid as "inf": what JSON can hold."""
+    """Laws as {"Linear": {…}}, rigid as "inf", in the range of JSON."""
     if isinstance(value, Tagged):
         return {value.name: to_json(value.fields)}
     if isinstance(value, dict):

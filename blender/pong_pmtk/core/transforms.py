@@ -19,7 +19,7 @@ from .snapshot import SnapshotObject, Transform
 EULER_ORDERS = ("XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX")
 ROTATION_MODES = ("QUATERNION", "AXIS_ANGLE", *EULER_ORDERS)
 CLEAN = 1e-15
-# Columns count as orthogonal (no shear) within this cosine: 32-bit numbers say no more.
+# Columns count as orthogonal (no shear) within this cosine, the accuracy of 32-bit numbers.
 SHEAR_TOLERANCE = 1e-6
 # Scales count as equal, and as 1, within this share.
 SCALE_TOLERANCE = 1e-6
@@ -27,7 +27,7 @@ QUATERNION_NORM_TOLERANCE = 1e-3
 
 
 class TransformFault(ValueError):
-    """A transform of no use: rule, cause and cure."""
+    """An unusable transform: rule, cause and cure."""
 
     def __init__(self, rule: str, cause: str, cure: str):
         super().__init__(cause)
@@ -60,14 +60,14 @@ def is_identity(linear: np.ndarray) -> bool:
 
 
 def product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """a · b, without rounding where one is the identity."""
+    """Product a · b, without rounding if one is the identity."""
     if is_identity(a):
         return b
     return a if is_identity(b) else a @ b
 
 
 def apply(linear: np.ndarray, points) -> np.ndarray:
-    """linear · p for one or many points. Sums run in one order whatever the machine's mathematics library does."""
+    """linear · p for one or many points. The order of sums is fixed, independent of the machine's mathematics library."""
     points = np.asarray(points, dtype=np.float64)
     if is_identity(linear):
         return points.copy()
@@ -76,7 +76,7 @@ def apply(linear: np.ndarray, points) -> np.ndarray:
 
 
 def cleaned(matrix: np.ndarray) -> np.ndarray:
-    """A rotation matrix without the rounding about 0 and ±1."""
+    """A rotation matrix without rounding errors near 0 and ±1."""
     whole = np.rint(matrix)
     return np.where(np.abs(matrix - whole) <= CLEAN, whole + 0.0, matrix)
 
@@ -120,7 +120,7 @@ def matrix_quaternion(matrix: np.ndarray) -> tuple[float, float, float, float]:
 
 
 def euler_matrix(order: str, angles) -> np.ndarray:
-    """The first letter's turn comes first: "XYZ" is Rz · Ry · Rx."""
+    """Rotation by Euler angles; the first letter's rotation comes first: "XYZ" is Rz · Ry · Rx."""
     matrix = np.eye(3)
     for axis in order:
         index = "XYZ".index(axis)
@@ -138,7 +138,7 @@ def axis_turn(axis: int, angle: float) -> np.ndarray:
 
 
 def axis_angle_quaternion(rotation) -> tuple[float, ...]:
-    """(angle, x, y, z); a zero axis turns nothing, as in Blender."""
+    """Rotation by (angle, x, y, z); a zero axis gives the identity, as in Blender."""
     angle, *axis = rotation
     norm = math.sqrt(sum(c * c for c in axis))
     if norm == 0.0:
@@ -160,7 +160,7 @@ def rotation_matrix(mode: str, rotation) -> np.ndarray:
 
 @dataclass
 class Local:
-    """An object's transform to its parent's frame, and whether it is as plain as it looks."""
+    """An object's transform to its parent's frame, and whether it consists of its own plain fields."""
 
     matrix: Affine
     location: tuple[float, ...]  # with the delta
@@ -172,7 +172,7 @@ class Local:
 
 
 def local_transform(thing: SnapshotObject) -> Local:
-    """The transform of an object as Blender composes it; raises `TransformFault`."""
+    """Transform of an object as composed by Blender; raises `TransformFault`."""
     t, exact = thing.transform, thing.exact
     _check(t)
     location = meant(t.location, exact.get("location"))
@@ -189,7 +189,7 @@ def local_transform(thing: SnapshotObject) -> Local:
 
 
 def _keeps(stored, exact) -> bool:
-    """Exact numbers that were not needed leave the stored ones exact."""
+    """Unused exact numbers do not make the result inexact."""
     return exact is None or is_fresh(np.asarray(stored, dtype=np.float64), exact)
 
 
@@ -224,7 +224,7 @@ def _angles(mode: str, stored, exact=None) -> tuple[float, ...]:
 
 
 def _as_authored(rotation, stored, exact) -> tuple[float, ...]:
-    """The quaternion itself where it is given in full precision, else made a unit again."""
+    """The quaternion itself if given in full precision, else normalised."""
     full = _keeps(stored, exact) and exact is not None or not (meant(stored) != np.asarray(stored)).any()
     norm = math.sqrt(sum(c * c for c in rotation))
     if full and abs(norm - 1.0) <= QUATERNION_NORM_TOLERANCE:
@@ -248,7 +248,7 @@ def _check(t: Transform) -> None:
 
 @dataclass
 class Frame:
-    """A linear map as a rotation followed by what is left: `linear` = `rotation` · `rest`."""
+    """Factors of a linear map, a rotation after the rest: `linear` = `rotation` · `rest`."""
 
     rotation: np.ndarray
     rest: np.ndarray
@@ -266,7 +266,7 @@ def shear(linear: np.ndarray) -> float:
 
 
 def frame_of(linear: np.ndarray, signs) -> Frame | None:
-    """The rotation of a frame that is turned and scaled but not sheared; `None` if it is sheared.
+    """Rotation of a frame that is rotated and scaled but not sheared; `None` if it is sheared.
 
     `signs` are those of the scale: a frame that is mirrored keeps its rotation and leaves the mirror to the rest.
     """
@@ -282,7 +282,7 @@ def frame_of(linear: np.ndarray, signs) -> Frame | None:
 
 
 def orthonormal(matrix: np.ndarray) -> np.ndarray:
-    """The rotation nearest to one that rounding has bent."""
+    """The rotation nearest to a slightly inexact one."""
     for _ in range(3):
         matrix = 0.5 * (matrix + np.linalg.inv(matrix).T)
     return matrix

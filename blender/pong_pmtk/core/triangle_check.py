@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Triangles of a whole body, as the engine judges them (core/engine.py), told by object and face.
+"""Triangles of a whole body, checked by the engine (core/engine.py), reported by object and face.
 
 All triangles of a body whose corners are the same to the last bit share vertices, whatever group they belong to.
 """
@@ -25,7 +25,7 @@ FIXES = {
 
 @dataclass
 class _Body:
-    """The triangles of a body: corners in its frame, and for each the origin and the face."""
+    """Triangles of a body: corners in its frame, and the origin and face of each."""
 
     corners: list[np.ndarray]
     owners: list[Origin]
@@ -59,13 +59,13 @@ def _bodies(root: Group, origins: dict[int, Origin]) -> list[_Body]:
 
 
 def pose_of(group: Group) -> Affine:
-    """The pose of a group in the frame of the one above."""
+    """Pose of a group in the frame of its parent."""
     rotation = np.eye(3) if group.orientation is None else quaternion_matrix(group.orientation)
     return Affine(rotation, np.zeros(3) if group.position is None else np.asarray(group.position, dtype=np.float64))
 
 
 def _corners(primitive: Primitive) -> np.ndarray | None:
-    """(n, 3, 3), of what is given in the model itself."""
+    """(n, 3, 3) corners of the triangles given in the model itself."""
     if primitive.kind == "Triangle":
         return np.asarray(primitive.fields["vertices"], dtype=np.float64)[None]
     if primitive.kind == "TriangleMesh" and "vertices" in primitive.fields:

@@ -21,7 +21,7 @@ from .snapshot import Mesh, Snapshot, SnapshotObject, Transform
 
 
 def unbuild(model: Model, folder=None, reserved: set[str] = frozenset()) -> Snapshot:
-    """The scene of a model. `folder`: where its mesh files lie; `reserved`: names of objects that are taken.
+    """Scene of a model. `folder`: location of its mesh files; `reserved`: names of existing objects.
 
     Raises `mesh_file.MeshFileError` if a mesh file is of no use.
     """
@@ -75,7 +75,7 @@ class _Scene:
 
 
 def ordered(siblings: list) -> list[tuple[int, object]]:
-    """Siblings with their places, which are 0 where the natural order of names is their order already."""
+    """Siblings with their order numbers, which are 0 if the natural order of names suffices."""
     keys = [natural(sibling.name) for sibling in siblings]
     natural_already = all(a < b for a, b in zip(keys, keys[1:]))
     return [(0 if natural_already else index + 1, sibling) for index, sibling in enumerate(siblings)]
@@ -155,7 +155,7 @@ def _custom(thing: SnapshotObject, fields: dict) -> None:
 
 
 def turn_of_z(direction) -> tuple[float, ...]:
-    """A quaternion that takes z to a direction: by the shortest way, but where that has no certain axis."""
+    """A quaternion that takes z to a direction: by the shortest rotation, with a fixed axis if that is ambiguous."""
     d = np.asarray(direction, dtype=np.float64)
     d = d / np.abs(d).max()
     d = d / math.sqrt(d @ d)

@@ -19,12 +19,12 @@ from .schema import FRICTION_LAWS, NORMAL_LAWS, PRIMITIVES, tells_friction
 
 
 def write_text(model: Model) -> str:
-    """The text of a model file. Raises `WheelMissing`."""
+    """Text of a model file. Raises `WheelMissing`."""
     return wheel().model.write(data_of(canonical(model)))
 
 
 def write_files(path, model: Model, meshes: dict[str, bytes] | None = None) -> None:
-    """Writes a model file and the mesh files it names (paths seen from its folder), all of them or none.
+    """Writes a model file and its mesh files (paths relative to its folder), all of them or none.
 
     Everything is written beside its place first and moved there at the end; a fault leaves what was there before.
     """
@@ -49,7 +49,7 @@ def write_files(path, model: Model, meshes: dict[str, bytes] | None = None) -> N
 
 
 def data_of(model: Model) -> dict:
-    """A model as `pong.model` has it: fields in our order, `None` for what is left out."""
+    """A model in the form of `pong.model`: fields in our order, `None` for missing ones."""
     return {
         "format": "pong-model",
         "version": 1,
@@ -93,7 +93,7 @@ def _law(tagged: Tagged | None, laws: dict) -> dict | None:
 
 
 def _plain(value):
-    """Numbers of laws, alone, in lists and in groups of their own, as float."""
+    """Numbers of laws, single, in lists and in nested groups, as float."""
     if isinstance(value, dict):
         return {key: float(inner) for key, inner in value.items()}
     if isinstance(value, (list, tuple)):

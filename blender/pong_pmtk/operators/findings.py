@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checking a model, going to what is wrong, and mending it."""
+"""Operators that check a model, go to a finding, and repair it."""
 
 import json
 
@@ -14,7 +14,7 @@ from ..store.state import keep_findings, state
 
 
 def culprit(context, name):
-    """The object a finding is about; for an instance, what shows it."""
+    """The object of a finding; for an instance, the object that shows it."""
     named = {key: obj for obj, key in unique_names(context.scene.objects).items()}
     while name:
         obj = named.get(name)
@@ -152,7 +152,7 @@ class PONG_OT_findings_fix(OnFinding, bpy.types.Operator):
             except (fixes.FixFault, ValueError) as error:
                 refused.append(str(error))
                 continue
-            # One repair may mend, move or rename what other findings are about.
+            # One repair may fix, move or rename the objects of other findings.
             _check_again(context)
         if not made and not refused:
             self.report({"ERROR"}, "There is nothing to repair here: no such finding offers a repair")
@@ -180,7 +180,7 @@ def _check_again(context):
 
 
 def summary(context):
-    """What is left of the findings."""
+    """Summary of the remaining findings."""
     left = state(context).findings
     return f"{len(left)} finding{'s' * (len(left) != 1)} left" if len(left) else "Nothing is left to find fault with"
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces of a model, assigning them, and presets."""
+"""Operators on surfaces of a model, their assignment, and presets."""
 
 import bpy
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What an operator works on."""
+"""Targets of operators."""
 
 import bpy
 
 
 def selected(context):
-    """The selected objects that may be changed; in Edit Mode those that are edited."""
+    """Selected editable objects; in Edit Mode those being edited."""
     edited = getattr(context, "objects_in_mode", None)
     if context.mode == "EDIT_MESH" and edited:
         return [obj for obj in edited if not obj.library]
@@ -67,7 +67,7 @@ def edited_meshes(context):
 
 
 def in_object_mode(function):
-    """Runs `function` in Object Mode and goes back to the mode there was."""
+    """Runs `function` in Object Mode and restores the mode."""
     active = bpy.context.view_layer.objects.active
     mode = active.mode if active is not None else "OBJECT"
     if mode != "OBJECT":

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Between Blender scenes and snapshots."""
+"""Conversion between Blender scenes and snapshots."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Blender scene as a snapshot: facts only, judged by the core.
+"""A Blender scene as a snapshot: facts only, checked by the core.
 
 Transforms are read as they are stored and composed by the core in float64; world matrices would carry the rounding of
 every parent, and Blender does not even work them out for hidden objects. Meshes are read after their modifiers, and
@@ -30,7 +30,7 @@ def snapshot(context):
 
 @contextlib.contextmanager
 def _playback_paused(context):
-    """A response that is shown moves objects by constraints, which are no part of the model."""
+    """A displayed response moves objects by constraints, which are no part of the model."""
     led = [each for obj in context.scene.objects for each in obj.constraints if _is_playback(each) and not each.mute]
     for constraint in led:
         constraint.mute = True
@@ -79,7 +79,7 @@ def _flush_edited(scene):
 
 
 def _edited_with_modifiers(scene):
-    """An object whose modifiers cannot be trusted, because Edit Mode shows only some of them."""
+    """An object whose modifiers are unreliable, because Edit Mode shows only some of them."""
     edited = [obj.name for obj in scene.objects if obj.mode == "EDIT" and modifiers(obj)]
     return edited[0] if edited else ""
 
@@ -94,11 +94,11 @@ class Reader:
         self.names = instances.unique_names(objects)
 
     def name(self, obj):
-        """The name of an object in the snapshot."""
+        """Name of an object in the snapshot."""
         return self.names.get(obj, obj.name)
 
     def object(self, obj):
-        """The facts of one object."""
+        """Facts of one object."""
         parented = obj.parent is not None
         excluded = obj not in self.included
         hidden = not excluded and not obj.visible_get(view_layer=self.view_layer)
@@ -129,7 +129,7 @@ class Reader:
         )
 
     def meshes(self, obj):
-        """The mesh after modifiers and, where they change anything, before. Hidden objects are not evaluated."""
+        """Mesh after modifiers and, if they change anything, before. Hidden objects are not evaluated."""
         if obj.type not in GEOMETRY:
             return None, None
         stored = meshes.read(obj.data) if obj.type == "MESH" else None
@@ -149,7 +149,7 @@ class Reader:
 
 
 def transform(obj):
-    """An object's transform as it is stored."""
+    """An object's transform as stored."""
     mode = obj.rotation_mode
     if mode == "QUATERNION":
         rotation, delta = obj.rotation_quaternion, obj.delta_rotation_quaternion
@@ -193,7 +193,7 @@ def _collection_shown(obj):
 
 
 def _animatable(obj):
-    """An object and what gives it its shape, where they have animation data."""
+    """An object and its data, if they have animation data."""
     candidates = (obj, obj.data, getattr(obj.data, "shape_keys", None))
     return [data for data in candidates if data is not None and getattr(data, "animation_data", None)]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The repairs that findings offer (core/finding.py, FIXES), as functions of an object.
+"""Repairs offered by findings (core/finding.py, FIXES), as functions of an object.
 
 They work on the stored mesh, in Edit Mode on the edited one, and give an object its own copy of a shared mesh before
 they change it. What they move is moved in float64, and the full numbers are kept. A repair that does not apply raises
@@ -25,11 +25,11 @@ MERGE_SHARE = 1e-6  # of the mesh's diameter: as far as the engine takes places 
 
 
 class FixFault(ValueError):
-    """Why a repair was not made."""
+    """A repair could not be made."""
 
 
 def run(context, name, obj):
-    """Makes a repair by its name."""
+    """Makes a repair by name."""
     if obj.library or (obj.data is not None and obj.data.library):
         raise FixFault(f"{obj.name} is linked from another file: make it local, or mend it there")
     REPAIRS[name](context, obj)
@@ -95,7 +95,7 @@ def triangulate(_context, obj):
 
 
 def _facts(context, obj):
-    """What the core needs to know to work out the object's transform."""
+    """Facts that the core needs to compute the object's transform."""
     reader = extract.Reader(context.evaluated_depsgraph_get(), context.view_layer)
     return reader.object(obj)
 
@@ -117,14 +117,14 @@ def _move_vertices(obj, linear, offset):
 
 
 def _keep_children(obj, linear, offset):
-    """Children stay where they are when x of the object becomes linear · x + offset."""
+    """Keeps children in place when x of the object becomes linear · x + offset."""
     matrix = Matrix(np.block([[linear, offset.reshape(3, 1)], [np.zeros((1, 3)), np.ones((1, 1))]]).tolist())
     for child in obj.children:
         child.matrix_parent_inverse = matrix @ child.matrix_parent_inverse
 
 
 def apply_scale(context, obj):
-    """Scale goes into the mesh, or into the children of an empty, and into the sizes of the mark."""
+    """Applies the scale to the mesh, or to the children of an empty, and to the sizes of the mark."""
     scale = local_transform(_facts(context, obj)).scale
     sizes = _scaled_sizes(obj, np.diag(scale))
     _apply(obj, np.diag(scale))
@@ -134,7 +134,7 @@ def apply_scale(context, obj):
 
 
 def apply_transform(context, obj):
-    """Rotation and scale go into the mesh, or into the children of an empty, and into the sizes of the mark."""
+    """Applies rotation and scale to the mesh, or to the children of an empty, and to the sizes of the mark."""
     local = local_transform(_facts(context, obj))
     sizes = _scaled_sizes(obj, local.rotation * local.scale)
     _apply(obj, local.rotation * local.scale)
@@ -145,7 +145,7 @@ def apply_transform(context, obj):
 
 
 def _scaled_sizes(obj, linear):
-    """(kind, numbers) of a mark after its object's transform went into it; raises `FixFault` where no mark can say that."""
+    """(kind, numbers) of a mark after its object's transform is applied; raises `FixFault` if no mark can represent it."""
     kind = obj.pong.kind if obj.pong.role == "primitive" else ""
     on_empty = obj.type == "EMPTY"
     if kind not in ("Sphere", "Ellipsoid", *ROUND_KINDS) and not (on_empty and kind in ("Ray", "Plane")):
@@ -168,7 +168,7 @@ def _scaled_sizes(obj, linear):
 
 
 def _scaled_round(obj, kind, linear, numbers):
-    """The numbers of a round part after its object's scale went into them: what lies along z stays there."""
+    """Numbers of a round part after its object's scale is applied; the z direction is preserved."""
     size = np.abs(linear).max()
     even = np.abs(np.diff(np.diag(linear)[: 3 if kind == "Capsule" else 2])).max() <= SCALE_TOLERANCE * size
     if np.abs(linear - np.diag(np.diag(linear))).max() > SCALE_TOLERANCE * size or linear[2, 2] < 0.0 or not even:
@@ -201,7 +201,7 @@ def _set_quaternion(obj, quaternion):
 
 
 def _forget(obj, *names):
-    """Full numbers that hold no more."""
+    """Removes exact numbers that have become invalid."""
     if exact.KEY in obj:
         for name in names:
             if name in obj[exact.KEY]:
@@ -209,7 +209,7 @@ def _forget(obj, *names):
 
 
 def clear_parent_inverse(context, obj):
-    """The object keeps its place, with its own transform alone."""
+    """Keeps the object's pose, by its own transform alone."""
     local = local_transform(_facts(context, obj))
     frame = frame_of(local.matrix.linear, np.sign(local.scale))
     if frame is None:
@@ -223,7 +223,7 @@ def clear_parent_inverse(context, obj):
 
 
 def set_origin(context, obj):
-    """The origin goes into the middle of the vertices; everything stays in place."""
+    """Moves the origin to the middle of the vertices; everything stays in place."""
     facts = _facts(context, obj)
     if facts.mesh is None or not len(facts.mesh.vertices):
         raise FixFault(f"{obj.name} has no vertices")
@@ -239,7 +239,7 @@ def set_origin(context, obj):
 
 
 def fit(kind):
-    """Makes it a sphere, ellipsoid or ray of the size that is shown."""
+    """Makes it a sphere, ellipsoid or ray of the displayed size."""
 
     def repair(context, obj):
         sizes = proposal.sizes(context, obj, kind)
@@ -252,7 +252,7 @@ def fit(kind):
 
 
 def fit_round(context, obj):
-    """Takes the size that is shown: that of the mesh, or the length of an empty."""
+    """Adopts the displayed size: that of the mesh, or the length of an empty."""
     kind = obj.pong.kind
     sizes = proposal.sizes(context, obj, kind) if kind in ROUND_KINDS else {}
     why = proposal.fault(context, obj, kind)
@@ -267,7 +267,7 @@ def fit_round(context, obj):
 
 
 def align_axis(context, obj):
-    """The object is turned so that its z axis is that of the part its mesh shows; everything stays in place."""
+    """Rotates the object so that its z axis is that of the part shown by its mesh; everything stays in place."""
     facts = _facts(context, obj)
     shown = find(facts.mesh.vertices, obj.pong.kind) if facts.mesh is not None and obj.pong.kind in ROUND_KINDS else None
     if shown is None:
@@ -290,7 +290,7 @@ def align_axis(context, obj):
 
 
 def group_primitives(context, obj):
-    """The primitives of a group that also holds groups go into one of their own, which stands where it does."""
+    """Moves the primitives of a group that also holds groups into a new group at the same pose."""
     below = _of_primitives(obj)
     if not below:
         raise FixFault(f"{obj.name} holds no primitives")
@@ -307,7 +307,7 @@ def group_primitives(context, obj):
 
 
 def _of_primitives(obj):
-    """What carries primitives and no groups, down to the next groups: the topmost of these."""
+    """Topmost objects that carry primitives and no groups, down to the next groups."""
     found = []
     for child in obj.children:
         roles = {other.pong.role for other in (child, *child.children_recursive)}
@@ -319,19 +319,19 @@ def _of_primitives(obj):
 
 
 def unmark_copy(_context, obj):
-    """The copy stays to be looked at."""
+    """Unmarks the copy, which stays as a visible object."""
     marks.clear_mark(obj)
 
 
 def adopt_parts(context, obj):
-    """Parts of what objects that were joined have left."""
+    """Makes parts of the attributes left by joined objects."""
     if obj.pong.role == "none":
         obj.pong.role, obj.pong.version = "primitive", VERSION
     marks.adopt(obj, {part.name for sibling in siblings(obj, context.scene) for part in sibling.pong.parts})
 
 
 def rename(_context, obj):
-    """A name of its own among its siblings, and one for each of its parts."""
+    """A unique name among its siblings, and one for each of its parts."""
     others = [other for other in siblings(obj, bpy.context.scene) if other != obj]
     taken = {part.name for other in others for part in other.pong.parts}
     for part in obj.pong.parts:
@@ -351,7 +351,7 @@ def unhide(context, obj):
 
 
 def _show_layers(layer, obj):
-    """Shows every layer collection on the way to an object; tells whether the object is below."""
+    """Shows every layer collection on the path to an object; returns whether the object is below."""
     below = [_show_layers(child, obj) for child in layer.children]
     holds = any(below) or obj.name in layer.collection.objects
     if holds:
@@ -366,7 +366,7 @@ def leave_edit_mode(_context, _obj):
 
 
 def _operate(context, obj, operate):
-    """Runs an operator of Blender's on one object; what was selected is selected again."""
+    """Runs an operator of Blender's on one object, and restores the selection."""
     leave_edit_mode(context, obj)
     chosen = [other for other in context.view_layer.objects if other.select_get()]
     active = context.view_layer.objects.active
@@ -389,7 +389,7 @@ def make_instances_real(context, obj):
 
 
 def separate_loose(context, obj):
-    """Each connected piece becomes an object with the same mark."""
+    """Makes each connected piece an object with the same mark."""
     _own_mesh(obj)
 
     def separate():

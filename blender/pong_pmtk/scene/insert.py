@@ -16,7 +16,7 @@ EMPTY_SHAPES_BY_KIND = {
 
 
 def insert(snapshot, scene):
-    """Makes the objects of a snapshot, in a collection of their own. Returns them by their names in the snapshot."""
+    """Creates the objects of a snapshot in a new collection. Returns them by their names in the snapshot."""
     roots = [facts for facts in snapshot.objects if facts.mark.role == "root"]
     collection = bpy.data.collections.new(roots[0].name if roots else "Pong")
     scene.collection.children.link(collection)

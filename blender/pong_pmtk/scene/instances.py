@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Instances: what a snapshot needs to know of those that the core makes, and those that only Blender can make.
+"""Instances: facts for a snapshot about those made by the core, and those that only Blender can make.
 
 What an empty shows of a collection is composed by the core from stored transforms, like everything else, so nothing is
 rounded twice. Instances on vertices and faces, and those of geometry nodes, exist only as matrices of the dependency
@@ -20,12 +20,12 @@ NO_ID = 2**31 - 1  # fills the unused places of a persistent id
 
 
 def key_of(data):
-    """A name that no data of another file has."""
+    """A name unique among data of all files."""
     return data.name + (LIBRARY.format(Path(data.library.filepath).name) if data.library else "")
 
 
 def unique_names(objects):
-    """Object -> name. An object of another file keeps its own unless an object of this one has it."""
+    """Object -> name. An object of another file keeps its name unless an object of this one has it."""
     local = {obj.name for obj in objects if not obj.library}
     names, taken = {}, set(local)
     for obj in objects:
@@ -40,7 +40,7 @@ def unique_names(objects):
 
 
 def shown_collections(scene):
-    """Name -> collection: those that empties of a scene show, and those shown by their objects in turn."""
+    """Name -> collection: those shown by empties of a scene, and those shown by their objects in turn."""
     found, open_ = {}, list(scene.objects)
     while open_:
         obj = open_.pop()
@@ -52,7 +52,7 @@ def shown_collections(scene):
 
 
 def beyond(scene, shown):
-    """Objects of shown collections that the scene itself does not hold, each once."""
+    """Objects of shown collections that are not in the scene itself, each once."""
     own = set(scene.objects)
     members = {obj: None for collection in shown.values() for obj in collection.all_objects if obj not in own}
     return list(members)
@@ -69,7 +69,7 @@ def memberships(shown):
 
 
 def shown_elsewhere(scene):
-    """Objects that Blender shows on their parents' vertices or faces and not where they are themselves."""
+    """Objects that Blender shows on their parents' vertices or faces instead of their own location."""
     instancers = [obj for obj in scene.objects if obj.instance_type in ("VERTS", "FACES")]
     return {child for obj in instancers for child in obj.children}
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes in bulk: Blender's to arrays and back."""
+"""Bulk conversion of meshes: Blender's to arrays and back."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ SEQUENCES = {  # where the same stands in Edit Mode
 
 
 def read(mesh):
-    """A Blender mesh as arrays; its stored numbers, widened."""
+    """A Blender mesh as arrays, with its numbers widened."""
     starts = _column(mesh.polygons, "loop_start", np.int32, 1)
     return Mesh(
         vertices=_attribute(mesh, "position", "vector", np.float32, 3).reshape(-1, 3).astype(np.float64),
@@ -24,7 +24,7 @@ def read(mesh):
 
 
 def _attribute(mesh, name, field, dtype, width):
-    """Attributes come as one block of memory; the same by way of `loops` takes ten times as long."""
+    """Reads attributes as one block of memory; access through `loops` is ten times slower."""
     if mesh.is_editmode:  # there are no attributes then
         items, field = SEQUENCES[name]
         return _column(getattr(mesh, items), field, dtype, width)
@@ -62,7 +62,7 @@ def _set_attribute(mesh, name, field, values):
 
 
 def _edges(source):
-    """The edges of a mesh, those that only faces have behind those it lists, and each loop's edge."""
+    """Edges of a mesh, with those only in faces after the listed ones, and each loop's edge."""
     listed = np.asarray(source.edges, np.int64).reshape(-1, 2)
     loops = np.asarray(source.loops, np.int64)
     sides = np.stack([loops, loops[_following(source)]], axis=1) if len(loops) else np.empty((0, 2), np.int64)
@@ -76,7 +76,7 @@ def _edges(source):
 
 
 def _following(source):
-    """For each loop the next one of its face."""
+    """Next loop of its face for each loop."""
     starts = np.asarray(source.face_starts, np.int64)
     following = np.arange(1, len(source.loops) + 1)
     full = np.diff(starts) > 0

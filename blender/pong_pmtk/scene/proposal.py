@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What kind of primitive an object or a selection looks like, and of what size. The author decides."""
+"""Proposed kind and size of a primitive for an object or a selection. The author decides."""
 
 from ..core.engine import WheelMissing
 from ..core.marks import Mark
@@ -14,7 +14,7 @@ OF_EMPTIES = {"SPHERE": "Sphere", "SINGLE_ARROW": "Ray", "CIRCLE": "Plane"}
 
 
 def of_object(context, obj):
-    """The kind an object looks like; "" with the reason where it can be none."""
+    """Proposed kind of an object; "" with the reason if there is none."""
     if obj.type == "EMPTY" and obj.empty_display_type in OF_EMPTIES:
         return Proposal(OF_EMPTIES[obj.empty_display_type], "an empty that is shown like this")
     mesh = _shown_mesh(context, obj)
@@ -30,7 +30,7 @@ def of_object(context, obj):
 
 
 def _shown_mesh(context, obj):
-    """The mesh that would be exported: after its modifiers. None if there is none to see."""
+    """The mesh that would be exported: after its modifiers. None if none is visible."""
     if obj.type != "MESH":
         return None
     if obj.mode == "EDIT":
@@ -42,7 +42,7 @@ def _shown_mesh(context, obj):
 
 
 def shown_vertices(context, obj, kind):
-    """Vertices of what shows a body: of the first one where the mesh shows several. None for what is hidden."""
+    """Vertices of the displayed body: of the first one where the mesh shows several. None for hidden objects."""
     mesh = _shown_mesh(context, obj)
     if mesh is None:
         return None
@@ -52,19 +52,19 @@ def shown_vertices(context, obj, kind):
 
 
 def fault(context, obj, kind):
-    """Why the mesh of an object gives a round part no size; "" where it does."""
+    """Reason why the mesh of an object gives a round part no size; "" if it does."""
     vertices = shown_vertices(context, obj, kind) if obj.type == "MESH" and kind in ROUND_KINDS else None
     return fault_of(vertices, kind) if vertices is not None else ""
 
 
 def of_elements(select_mode):
-    """The kind that suits what Edit Mode selects: vertices, edges or faces."""
+    """Kind that suits the selection in Edit Mode: vertices, edges or faces."""
     vertices, edges, _faces = select_mode
     return "Point" if vertices else "LineSegment" if edges else "TriangleMesh"
 
 
 def sizes(context, obj, kind):
-    """The numbers of a mark of some kind that follow from how the object looks, in its own coordinates."""
+    """Numbers of a mark of some kind from the object's appearance, in its own coordinates."""
     if kind in ROUND_KINDS:
         return _round_sizes(context, obj, kind)
     if kind not in ("Sphere", "Ellipsoid", "Ray"):
@@ -77,7 +77,7 @@ def sizes(context, obj, kind):
 
 
 def _round_sizes(context, obj, kind):
-    """Those of its mesh; an empty is shown with half its length, and is begun half as thick as it is long."""
+    """Sizes of its mesh; an empty is shown with half its length, and starts half as thick as it is long."""
     if obj.type == "MESH":
         vertices = shown_vertices(context, obj, kind)
         return fitted_numbers(vertices, kind) if vertices is not None else {}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Check, export and import: what the operators and the command line have in common."""
+"""Check, export and import: the common part of the operators and the command line."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,7 +20,7 @@ from .insert import insert
 
 @dataclass
 class Result:
-    """What a check found; `model` only where there is no error."""
+    """Result of a check; `model` only if there is no error."""
 
     name: str
     model: Model | None
@@ -58,7 +58,7 @@ def export(context, path, root=""):
 
 
 class NotMetres(ValueError):
-    """A model, which is in metres, was to be opened in a scene of other units."""
+    """A model in metres cannot be opened in a scene of other units."""
 
 
 def load(context, path):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hanging objects below others, and new empties for them to hang below."""
+"""Parenting of objects, and new empties as parents."""
 
 import bpy
 from mathutils import Matrix
@@ -8,7 +8,7 @@ DISPLAY_SHARE = 0.5  # of the largest object: so long are the axes of a new root
 
 
 def topmost(objects):
-    """Those objects that hang below none of the others."""
+    """Objects without an ancestor among the others."""
     chosen = set(objects)
     return [obj for obj in objects if not any(parent in chosen for parent in parents(obj))]
 
@@ -20,13 +20,13 @@ def parents(obj):
 
 
 def common_parent(objects):
-    """The lowest object above all of these, or None."""
+    """Lowest common ancestor of these objects, or None."""
     first, *others = [list(parents(obj)) for obj in objects]
     return next((obj for obj in first if all(obj in other for other in others)), None)
 
 
 def hang(obj, parent):
-    """Parents an object and keeps it where it is, to the last bit if the new parent stands where the old one does."""
+    """Parents an object and keeps its pose, to the last bit if the new parent has the pose of the old one."""
     if parent is not None and parent.parent == obj.parent and parent.matrix_local == Matrix():
         obj.parent = parent
         return
@@ -39,7 +39,7 @@ def hang(obj, parent):
 
 
 def new_empty(context, name, members, shape):
-    """An empty in the collection of the first of some objects, as large as suits them."""
+    """An empty in the collection of the first of some objects, sized to suit them."""
     obj = bpy.data.objects.new(name, None)
     obj.empty_display_type = shape
     context.view_layer.update()
@@ -51,7 +51,7 @@ def new_empty(context, name, members, shape):
 
 
 def _collection(context, like):
-    """Where a new object goes: beside another one, or where new objects go. Collections of other files take none."""
+    """Collection of a new object: that of another object, or the active one. Collections of other files are excluded."""
     wanted = [*(like.users_collection if like is not None else ()), context.collection]
     own = [each for each in wanted if not each.library and not each.override_library]
     return own[0] if own else context.scene.collection

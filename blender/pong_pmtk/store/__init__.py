@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a .blend file keeps for the toolkit: marks, model settings, presets and numbers in full precision."""
+"""Data of the toolkit in a .blend file: marks, model settings, presets and numbers in full precision."""

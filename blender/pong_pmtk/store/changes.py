@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Who wants to know of changes to marks and settings: Blender itself tells of transforms and meshes only."""
+"""Listeners for changes of marks and settings: Blender itself reports only transforms and meshes."""
 
 import bpy
 
@@ -7,7 +7,7 @@ listeners = []  # functions without arguments
 
 
 def changed(_holder=None, _context=None):
-    """A mark or a setting is another one now; also the `update` of properties."""
+    """Reports a changed mark or setting; also the `update` of properties."""
     for listener in listeners:
         listener()
 
@@ -17,7 +17,7 @@ INSERTABLE = OVERRIDABLE | {"USE_INSERTION"}
 
 
 def watched(cls):
-    """Lets every property of a class tell of its changes, but for those that only remember a place in a list.
+    """Makes every property of a class report its changes, except for those that only store a list index.
 
     All of them may be changed on library overrides, and are saved there.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which vertices, edges and faces a part takes: integer attributes of the mesh.
+"""Vertices, edges and faces of a part, stored as integer attributes of the mesh.
 
 Attributes follow their elements when a mesh is edited, in and out of Edit Mode; indices would not. The names of the
 attributes are kept with the object, because objects may share a mesh. Whole numbers, because Blender 4.2 gives no
@@ -19,12 +19,12 @@ DOMAINS = {"vertices": "POINT", "edges": "EDGE", "faces": "FACE"}
 
 
 def domain_of(kind):
-    """What elements a kind is made of."""
+    """Element domain of a kind."""
     return {"Point": "vertices", "LineSegment": "edges", "Ray": "edges"}.get(kind, "faces")
 
 
 def new_attribute(stem):
-    """A name for an attribute that no other mesh has, in whatever file: joined meshes merge attributes of one name."""
+    """An attribute name unique among the meshes of all files: joined meshes merge attributes of one name."""
     return f"{PREFIX}{stem}_{uuid.uuid4().hex[:12]}"
 
 
@@ -41,12 +41,12 @@ def attributes(mesh):
 
 
 def _full_name(name, elements):
-    """Names of attributes are unique within a mesh, whatever they are of."""
+    """Unique names of attributes within a mesh, in all domains."""
     return f"{name}_{elements[0]}"
 
 
 def indices(mesh, name, elements):
-    """Indices of the marked elements of an attribute, as the mesh is stored (or edited just now)."""
+    """Indices of the marked elements of an attribute, as the mesh is stored (or being edited)."""
     full = _full_name(name, elements)
     if mesh.is_editmode:
         sequence = _sequence(bmesh.from_edit_mesh(mesh), elements)
@@ -84,7 +84,7 @@ def _mark_edited(mesh, full, elements, chosen, value):
 
 
 def forget(mesh, name):
-    """Takes the attributes of a part away."""
+    """Removes the attributes of a part."""
     for elements in DOMAINS:
         full = _full_name(name, elements)
         if mesh.is_editmode:
@@ -101,7 +101,7 @@ def _sequence(edited, elements):
 
 
 def selected(mesh, elements):
-    """Indices of the selected elements, in Edit Mode and out of it."""
+    """Indices of the selected elements, in and out of Edit Mode."""
     if mesh.is_editmode:
         sequence = _sequence(bmesh.from_edit_mesh(mesh), elements)
         return [index for index, element in enumerate(sequence) if element.select and not element.hide]

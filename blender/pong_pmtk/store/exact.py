@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers in full precision, kept as float64 ID properties beside what Blender rounds to single.
+"""Numbers in full precision, stored as float64 ID properties beside those that Blender rounds to single.
 
 Those of an object are on the object, those of vertices on the mesh, so objects that share a mesh share them. Whether
 they still count is the core's to judge (core/exact.py).
@@ -11,7 +11,7 @@ KEY = "pong_exact"
 
 
 def write(obj, exact):
-    """Keeps `exact` (name -> array) with an object."""
+    """Stores `exact` (name -> array) with an object."""
     own = {name: _flat(values) for name, values in exact.items() if name != "vertices"}
     if own:
         obj[KEY] = own
@@ -20,12 +20,12 @@ def write(obj, exact):
 
 
 def _flat(values):
-    """What an ID property can hold; numbers of their own stay numbers."""
+    """Value for an ID property; single numbers stay numbers."""
     return np.ascontiguousarray(values, float).ravel() if np.ndim(values) else float(values)
 
 
 def read(obj):
-    """What is kept with an object; `vertices` as (n, 3), the rest flat."""
+    """Stored exact numbers of an object; `vertices` as (n, 3), the rest flat."""
     exact = {}
     if KEY in obj:
         exact = {name: _array(values) for name, values in obj[KEY].items()}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Property groups of marks and model settings, and how the core's classes go in and out of them.
+"""Property groups of marks and model settings, and their conversion to and from the core's classes.
 
 `Object.pong` is what an object is to the engine, `Object.pong_model` what belongs to a whole model, on its root. They
 are on the object, never on its mesh, which others may share.
@@ -41,19 +41,19 @@ BOUND_ITEMS = [
     ("Obb", "Oriented Box", "Box that fits best"),
     ("Above", "None", "No volume of its own: what it holds counts to the group above"),
 ]
-# Blender shows lengths in the scene's unit, and leaves zeros at the end out: 0.25 mm.
+# Blender shows lengths in the scene's unit, without trailing zeros: 0.25 mm.
 LENGTH = {"subtype": "DISTANCE", "unit": "LENGTH", "min": 0.0, "precision": 6}
 
 
 def shown_size(mark):
-    """The display size of an empty that shows a mark of its kind; None where a display size means nothing."""
+    """Display size of an empty with a mark of its kind; None for kinds without size."""
     sizes = {"Sphere": mark.radius, "Ellipsoid": max(mark.semi_axes), "Ray": mark.length}
     sizes.update(dict.fromkeys(ROUND_KINDS, mark.length / 2.0))
     return sizes.get(mark.kind) or None
 
 
 def show_size(obj):
-    """Gives an empty the size of its mark, so that scaling it can be told from its mark."""
+    """Gives an empty the size of its mark, so that scaling it differs from its mark."""
     size = shown_size(obj.pong) if obj.type == "EMPTY" else None
     if size is not None:
         obj.empty_display_size = size
@@ -75,7 +75,7 @@ class PONG_PG_part(bpy.types.PropertyGroup):
 
 @watched
 class PONG_PG_mark(bpy.types.PropertyGroup):
-    """What one object is to the engine; core/marks.py says what a kind takes from its object."""
+    """Properties of one object for the engine; core/marks.py gives the data that each kind takes from its object."""
 
     role: bpy.props.EnumProperty(name="Role", items=ROLES)
     version: bpy.props.IntProperty(default=0, options={"HIDDEN"})  # 0: never marked
@@ -94,7 +94,7 @@ class PONG_PG_mark(bpy.types.PropertyGroup):
                           **{**LENGTH, "subtype": "NONE"})
     length: numbers.number("length_64", name="Length", description="Free length of the plunger; of a round part from end to "
                            "end of its axis, without the balls of a capsule", shown=_show_size, **LENGTH)
-    # Whether a number is given stands behind it: Blender sets those of an override in this order.
+    # The flag of a number comes after it: Blender sets those of an override in this order.
     reach: numbers.number("reach_64", name="Reach", description="How far behind the origin a surface is still hit", **LENGTH)
     use_reach: numbers.given("reach_64", name="Reach")
     response: bpy.props.EnumProperty(name="Response", items=[
@@ -120,7 +120,7 @@ class PONG_PG_mark(bpy.types.PropertyGroup):
 
 @watched
 class PONG_PG_model(bpy.types.PropertyGroup):
-    """What belongs to a whole model; of its root."""
+    """Settings of a whole model, on its root."""
 
     label: bpy.props.StringProperty(name="Model", description="Name of the model. Empty: the root's")
     entry_memory: bpy.props.BoolProperty(
@@ -137,7 +137,7 @@ SAME = (
     "role", "surface", "order", "movable", "bound", "custom_bound", "leaf_size", "response", "two_sided", "file",
     "custom_kind",
 )
-# Kept in full precision, and left out where not given.
+# Stored in full precision, and left out if not given.
 NUMBERS = ("radius", "length", "reach", "thickness", "file_scale")
 LISTS = {"semi_axes": tuple, "radii": tuple, "parameters": list}
 
@@ -158,7 +158,7 @@ def read_mark(obj):
 
 
 def read_numbers(obj):
-    """The numbers of an object's mark that are given."""
+    """Given numbers of an object's mark."""
     group, found = obj.pong, {}
     for field in NUMBERS:
         if field + numbers.SUFFIX in group:
@@ -170,7 +170,7 @@ def read_numbers(obj):
 
 
 def write_numbers(obj, values):
-    """Gives an object's mark numbers; those at the defaults of a mark are taken away."""
+    """Sets numbers of an object's mark; those at the defaults of a mark are removed."""
     for field, value in values.items():
         key = field + numbers.SUFFIX
         default = getattr(DEFAULTS, field)
@@ -195,7 +195,7 @@ def _part(mesh, part):
 
 
 def left_over(obj):
-    """(attribute, part) of marked elements that no object of the mesh names: those of objects that were joined to it."""
+    """(attribute, part) of marked elements that no object of the mesh names, left by joined objects."""
     mesh = obj.data
     ours = elements.attributes(mesh)
     if not ours:
@@ -211,7 +211,7 @@ def left_over(obj):
 
 
 def adopt(obj, taken):
-    """Makes parts (or inactive faces) of what objects that were joined have left; `taken` are names of parts."""
+    """Makes parts (or inactive faces) of attributes left by joined objects; `taken` are names of parts."""
     group = obj.pong
     for attribute, part in left_over(obj):
         if part.kind == elements.INACTIVE:
@@ -229,7 +229,7 @@ def adopt(obj, taken):
 
 
 def write_mark(obj, mark):
-    """Gives an object a mark."""
+    """Sets the mark of an object."""
     group = obj.pong
     clear_mark(obj)
     group.version = mark.version
@@ -274,7 +274,7 @@ def attributes_of(group):
 
 
 def clear_mark(obj):
-    """Takes an object's mark away, with the attributes of its parts that no other object of the mesh names."""
+    """Removes an object's mark, with the attributes of its parts that no other object of the mesh names."""
     group = obj.pong
     if obj.type == "MESH" and not obj.data.library:
         users = [other for other in bpy.data.objects if other.data == obj.data] if obj.data.users > 1 else [obj]
@@ -304,7 +304,7 @@ def read_settings(root):
 
 
 def write_settings(root, settings):
-    """Gives a root the settings of a model."""
+    """Sets the model settings of a root."""
     group = root.pong_model
     group.label = settings.name
     group.entry_memory = settings.entry_memory
@@ -318,7 +318,7 @@ def write_settings(root, settings):
 
 @bpy.app.handlers.persistent
 def _compare_overrides(*_arguments):
-    """Blender saves of an override what differs from its original, and compares nothing with what was never set there."""
+    """Blender stores for an override the differences from its original, and ignores properties never set there."""
     for obj in bpy.data.objects:
         if obj.override_library is not None and obj.override_library.reference is not None:
             for each in (obj, obj.override_library.reference):  # a group is there once one of its values is set

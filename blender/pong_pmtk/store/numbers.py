@@ -13,12 +13,12 @@ SUFFIX = "_64"  # of the ID properties
 
 
 def shortest(value):
-    """The shortest decimal that rounds to the same float32, as float64."""
+    """Shortest decimal that rounds to the same float32, as float64."""
     return float(str(np.float32(value)))
 
 
 def number(key, default=0.0, shown=None, **options):
-    """A FloatProperty that shows the float64 ID property `key`. `shown` is called when it is another one."""
+    """A FloatProperty that shows the float64 ID property `key`. `shown` is called when it changes."""
 
     def read(self):
         return self.get(key, default)
@@ -32,7 +32,7 @@ def number(key, default=0.0, shown=None, **options):
 
 
 def vector(key, default=(0.0, 0.0, 0.0), shown=None, **options):
-    """The same for three numbers, or as many as there are in `default`."""
+    """A FloatVectorProperty likewise, for three numbers or as many as in `default`."""
 
     def read(self):
         return self.get(key, default)
@@ -46,7 +46,7 @@ def vector(key, default=(0.0, 0.0, 0.0), shown=None, **options):
 
 
 def given(key, default=0.0, **options):
-    """A BoolProperty: whether the optional number `key` is given at all."""
+    """A BoolProperty: true if the optional number `key` is given."""
 
     def read(self):
         return key in self

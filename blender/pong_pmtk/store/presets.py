@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Presets of surfaces: those that come with the toolkit, and those kept in the .blend file for all its scenes.
+"""Presets of surfaces: those of the toolkit, and those stored in the .blend file for all its scenes.
 
 The latter are a text of the file (Text Editor: "pong_presets.json"), so they can be read, edited and appended to other
 files, and they stay there when the toolkit is not installed.
@@ -43,7 +43,7 @@ MATERIALS = {
 
 
 def hertz_secant(young_pa, poisson):
-    """Stiffness of a ball on a rigid flat at the load above, N/m."""
+    """Stiffness of a sphere on a rigid flat at the load above, N/m."""
     hertz = 4.0 / 3.0 * young_pa / (1.0 - poisson**2) * RADIUS_M**0.5
     return LOAD_N / (LOAD_N / hertz) ** (2.0 / 3.0)
 
@@ -94,7 +94,7 @@ def source_of(name):
 
 
 def save(name, fields, source=""):
-    """Keeps a preset in the .blend file."""
+    """Stores a preset in the .blend file."""
     if name in STANDARD:
         raise ValueError(f'"{name}" is the name of a standard material: choose another one')
     _store({**_stored(), name: {"fields": fields, "source": source}})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Physical quantities as the panels show and read them: a number with its unit, in full precision.
+"""Physical quantities as shown and read by the panels: a number with its unit, in full precision.
 
 Blender's number fields know no newtons, show a fixed count of decimals (0.25 mm becomes 0.0003) and keep 32 bits. So
 panels show quantities as text: `2.5e5 N/m`, `0.25 mm`. What is typed may have any unit of the same dimension, or none,
@@ -10,7 +10,7 @@ import sys
 
 import bpy
 
-# SI unit -> the ways to write a quantity of that dimension, and their factors to SI.
+# SI unit -> units of that dimension, with their factors to SI.
 UNITS = {
     "": {},
     "m": {"m": 1.0, "km": 1e3, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "μm": 1e-6, "um": 1e-6},
@@ -35,7 +35,7 @@ def shown(value, unit):
 
 
 def number(value):
-    """The shortest way to write a number, of at most DIGITS digits."""
+    """Shortest text of a number, of at most DIGITS digits."""
     value = float(f"{value:.{DIGITS}g}")
     if value == 0.0 or PLAIN[0] <= abs(value) < PLAIN[1] or value - value != 0.0:
         return f"{value:.{DIGITS}g}"
@@ -44,7 +44,7 @@ def number(value):
 
 
 def parsed(text, unit):
-    """The value in SI of what was typed. Raises `ValueError`, which says what can be typed."""
+    """Value in SI of typed text. Raises `ValueError` with the valid forms."""
     text = text.strip().replace(" ", "").replace("**", "^")
     end = len(text)
     while end:
@@ -66,7 +66,7 @@ def parsed(text, unit):
 
 
 def refuse(reason):
-    """Tells why what was typed is not taken; the field shows its old value again."""
+    """Reports why typed text is refused; the field shows its old value again."""
     if bpy.app.background:
         print(f"Not changed: {reason}", file=sys.stderr)
         return

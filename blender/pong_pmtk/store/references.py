@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Who belongs to a model and who names what in it."""
+"""Membership and references in a model."""
 
 from ..core.naming import natural
 
 def root_of(obj):
-    """The root that an object stands below, itself included; None outside of any model."""
+    """Root above an object, including itself; None outside of any model."""
     while obj is not None:
         if obj.pong.role == "root":
             return obj
@@ -18,7 +18,7 @@ def roots(scene):
 
 
 def current_root(context):
-    """The model the panels are about: that of the active object, else the only one of the scene."""
+    """Model of the panels: that of the active object, else the only one of the scene."""
     active = context.view_layer.objects.active if context.view_layer else None
     root = root_of(active)
     if root is not None:
@@ -33,12 +33,12 @@ def tree(root):
 
 
 def siblings(obj, scene):
-    """What hangs below the same object, itself included: names in the model are unique among these."""
+    """Objects with the same parent, including itself: names in the model are unique among these."""
     return list(obj.parent.children) if obj.parent else [other for other in scene.objects if other.parent is None]
 
 
 def rename_surface(root, old, new):
-    """Makes everything of a model that names a surface use its new name."""
+    """Replaces the name of a surface everywhere in a model."""
     for obj in tree(root):
         for holder in (obj.pong, *obj.pong.parts):
             if holder.surface == old:
@@ -51,7 +51,7 @@ def rename_surface(root, old, new):
 
 
 def select_only(context, objects, active=None):
-    """Selects objects and nothing else, as far as they can be selected."""
+    """Selects objects and nothing else, as far as possible."""
     context.view_layer.update()  # what was just made cannot be selected before
     for obj in context.view_layer.objects:
         obj.select_set(False)
@@ -63,7 +63,7 @@ def select_only(context, objects, active=None):
 
 
 def unique_name(wanted, taken):
-    """`wanted`, with a number behind it if it is taken."""
+    """`wanted`, with a number appended if it is taken."""
     if wanted not in taken:
         return wanted
     number = 2
@@ -73,7 +73,7 @@ def unique_name(wanted, taken):
 
 
 def parents_first(root, objects):
-    """(object, depth) of a root and what is below it that has a role, in the order of the tree."""
+    """(object, depth) of a root and its descendants with a role, in the order of the tree."""
     below = {}
     for obj in objects:
         if obj.parent is not None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces and pairs of surfaces as JSON text, with properties that are views of it.
+"""Surfaces and pairs of surfaces as JSON text, with properties as views of it.
 
 Which optional fields are given matters as much as their values, and all numbers are float64. Both are kept by storing
 the fields of docs/model_format.md as they stand; a property of the panel reads and writes one of them. Laws are
@@ -19,7 +19,7 @@ FIELDS = "*"  # in a path: the fields of the law, whatever its name
 
 
 def to_plain(value):
-    """Fields as the core has them -> what JSON can say."""
+    """Fields of the core -> JSON values."""
     if value is None:
         return {NO_FRICTION: {}}
     if isinstance(value, Tagged):
@@ -32,7 +32,7 @@ def to_plain(value):
 
 
 def from_plain(fields):
-    """The other way."""
+    """JSON values -> fields of the core."""
     return {key: _law(value) if key in ("normal", "friction") else _field(value) for key, value in fields.items()}
 
 
@@ -59,7 +59,7 @@ def write(group, fields):
 
 
 def _holder(fields, path):
-    """The dictionary in which the last name of a path stands, or None."""
+    """Dictionary that contains the last name of a path, or None."""
     for name in path[:-1]:
         if name == FIELDS:
             fields = next(iter(fields.values()), None) if isinstance(fields, dict) else None
@@ -76,7 +76,7 @@ def value_at(fields, path, default=None):
 
 
 def put(group, path, value):
-    """Stores one value; None takes it out. A path that leads nowhere changes nothing."""
+    """Stores one value; None removes it. An invalid path changes nothing."""
     fields = read(group)
     holder = _holder(fields, path)
     if holder is None:
@@ -97,7 +97,7 @@ def number(*path, default=0.0, **options):
     def set_(self, value):
         put(self, path, shortest(value))
 
-    # Overrides keep `spec` itself: this view has fewer digits.
+    # Overrides store `spec` itself: this view has fewer digits.
     return bpy.props.FloatProperty(get=get, set=set_, override=set(), **options)
 
 
@@ -109,7 +109,7 @@ def quantity(unit, *path, default=0.0, least=0.0, most=None, **options):
 
 
 def given(*path, default=0.0, **options):
-    """A view of whether an optional field is given."""
+    """A view of the presence of an optional field."""
 
     def get(self):
         return value_at(read(self), path) is not None
@@ -146,7 +146,7 @@ def numbers(*path, **options):
 
 
 def law(key, laws, of_rigid=None, **options):
-    """A view of which law is given: an EnumProperty. `laws`: (identifier, label, tip, fields to begin with).
+    """A view of the chosen law: an EnumProperty. `laws`: (identifier, label, tip, initial fields).
 
     `of_rigid`: the same laws as a rigid surface calls them.
     """
@@ -163,7 +163,7 @@ def law(key, laws, of_rigid=None, **options):
             put(self, (key,), None if start is None else {names[index]: dict(start)})
 
     soft, rigid = _items(laws), _items(of_rigid or laws)
-    # A function only where the names differ: Blender's documentation and scripts see the items of a list alone.
+    # A function only if the names differ: Blender's documentation and scripts see the items of a list alone.
     items = (lambda self, _context: rigid if self.rigid else soft) if of_rigid else soft
     return bpy.props.EnumProperty(items=items, get=get, set=set_, **options)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panels remember while Blender runs: findings, and what the overlays show."""
+"""State of the panels while Blender runs: findings, and the active overlays."""
 
 import json
 
@@ -9,7 +9,7 @@ from .references import select_only
 
 
 class PONG_PG_finding(bpy.types.PropertyGroup):
-    """One finding of the last check; core/finding.py says what the fields mean."""
+    """One finding of the last check, with the fields of core/finding.py."""
 
     severity: bpy.props.StringProperty()
     rule: bpy.props.StringProperty()
@@ -34,7 +34,7 @@ def _active_object(_self):
 
 
 def _select_object(_self, index):
-    """A click in the tree selects; a list of Blender's only remembers the line."""
+    """Selects the object clicked in the tree; Blender's list only stores the index."""
     context = bpy.context
     if not 0 <= index < len(context.scene.objects) or index == _active_object(None):
         return
@@ -49,7 +49,7 @@ def _toggle(name, tip):
 
 
 class PONG_PG_state(bpy.types.PropertyGroup):
-    """Of the window manager, so it is not saved and not undone."""
+    """State in the window manager, so it is neither saved nor undone."""
 
     findings: bpy.props.CollectionProperty(type=PONG_PG_finding)
     active_finding: bpy.props.IntProperty()

@@ -26,10 +26,10 @@ FRICTION_LAWS = [
     ("Custom", "Custom", "A law that is registered with the engine", {"name": "", "parameters": []}),
 ]
 SERIES = [("DEFAULT", "Of both in series", "What the rule for two springs in series gives", None)]
-# In a pair "no friction" is something else than "what the two surfaces give".
+# In a pair "no friction" differs from "the result of both surfaces".
 PAIR_FRICTION_LAWS = SERIES + [("None", "None", "No friction between the two", {})] + FRICTION_LAWS[2:]
 PAIR_NORMAL_LAWS = SERIES + NORMAL_LAWS[1:]
-# A rigid surface has no share of the deformation: what it does not give itself, the other one decides.
+# A rigid surface takes no share of the deformation: values it does not give are decided by the partner.
 RIGID_NORMAL_LAWS = [("DEFAULT", OF_PARTNER, "Law and damping of the surface that it meets", None)] + NORMAL_LAWS[1:]
 RIGID_FRICTION_LAWS = [
     ("DEFAULT", OF_PARTNER, "Friction of the surface that it meets", None),
@@ -44,7 +44,7 @@ def _rigid(self):
 
 
 def _set_rigid(self, rigid):
-    """Becoming rigid puts stiffness and the friction that nobody chose away, and being soft again brings them back."""
+    """Removes stiffness and default friction when a surface becomes rigid, and restores them when it is soft again."""
     if rigid == _rigid(self):
         return
     fields = spec.read(self)
@@ -60,7 +60,7 @@ def _set_rigid(self, rigid):
 
 
 def shares_friction(self):
-    """Whether a rigid surface changes the friction of what it meets."""
+    """True if a rigid surface changes the friction of its partner."""
     return self.rigid and self.friction not in ("DEFAULT", "None")
 
 
@@ -76,7 +76,7 @@ def _restitution(self):
     return spec.value_at(spec.read(self), ("normal", FIELDS, "restitution")) is not None
 
 
-# Of each law that takes a restitution: the field that it replaces, and what it goes with.
+# Field replaced by the restitution of each law, and its companion field.
 RESTITUTIONS = {
     "Linear": ("damping", {"mass": 1.0}),
     "HuntCrossley": ("dissipation", {"speed": 0.1}),
@@ -85,7 +85,7 @@ RESTITUTIONS = {
 
 
 def _set_restitution(self, on):
-    """Restitution replaces damping (or dissipation) and the other way round."""
+    """Switches between restitution and damping (or dissipation)."""
     if on == _restitution(self):
         return
     law = next(iter(spec.read(self).get("normal") or {}), None)
@@ -95,7 +95,7 @@ def _set_restitution(self, on):
 
 
 def _bristle_given(key, other, start):
-    """Whether a bristle gives its damping, or a mass for it: one of both at most."""
+    """View of a bristle's damping, or of a mass for it; at most one is given."""
 
     def get(self):
         return spec.value_at(spec.read(self), ("friction", FIELDS, key)) is not None
@@ -118,7 +118,7 @@ def _damping_unit(self):
     return "N·s/m" if power == 1.0 else f"N·s/m^{power:.12g}"
 
 
-# A number of both: unit, path, label, what it is. Scripts set `name`, in SI; panels show `name_text`, with its unit.
+# A number of both: unit, path, label, description. Scripts set `name`, in SI; panels show `name_text`, with its unit.
 NUMBERS = {
     "stiffness": (_stiffness_unit, ("stiffness",), "Stiffness", "Force over depth of one contact"),
     "damping": (_damping_unit, ("normal", FIELDS, "damping"), "Damping",
@@ -143,7 +143,7 @@ NUMBERS = {
 
 
 class Laws:
-    """What surfaces and pairs have in common."""
+    """Common part of surfaces and pairs."""
 
     spec: bpy.props.StringProperty(options={"HIDDEN"})
     soft: bpy.props.StringProperty(options={"HIDDEN"})  # what becoming rigid has put away
@@ -175,7 +175,7 @@ watched(Laws)
 
 
 def _renamed(self, _context):
-    """Marks, parts and pairs that name this surface follow it to its new name."""
+    """Renames this surface in all marks, parts and pairs that use it."""
     from .references import rename_surface
 
     old, self.known_as = self.known_as, self.name

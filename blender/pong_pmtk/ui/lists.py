@@ -12,7 +12,7 @@ SEVERITY_ICONS = {"error": "CANCEL", "warning": "ERROR", "hint": "INFO"}
 
 
 class PONG_UL_tree(bpy.types.UIList):
-    """The groups and primitives of the current model, below each other as they hang."""
+    """Groups and primitives of the current model, as a tree."""
 
     def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
         row = layout.row(align=True)
@@ -47,7 +47,7 @@ class PONG_UL_tree(bpy.types.UIList):
 
 
 def depth(obj):
-    """How many groups and primitives an object hangs below, up to its root.
+    """Depth of an object in the tree below its root.
 
     Worked out where it is drawn: Blender makes a list anew for every item, so nothing can be kept with it.
     """
@@ -59,7 +59,7 @@ def depth(obj):
 
 
 def contents(mark):
-    """What an object is made into: its kind, the number of its parts, or both."""
+    """Text of an object's kind, the number of its parts, or both."""
     count = len(mark.parts)
     told = [mark.kind] if mark.kind != "NONE" or not count else []
     return " + ".join([*told, f"{count} part{'s' * (count != 1)}"] if count else told)

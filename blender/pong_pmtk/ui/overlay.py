@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Overlays in the 3D view. The lines are the core's (core/overlay.py); this keeps them and hands them to the GPU.
+"""Overlays in the 3D view. The core computes the lines (core/overlay.py); this stores them and passes them to the GPU.
 
 Overlays show the model as it would be exported, so they are worked out by a whole check: after changes of the scene,
 in a pause of the author's work and never while Blender draws, and only while they are switched on. A model that has
@@ -46,7 +46,7 @@ def message(context):
 
 
 def refresh(context):
-    """Works the lines of a scene out again."""
+    """Recomputes the lines of a scene."""
     name, root, shown = context.scene.name, current_root(context), state(context)
     _shown.pop(name, None)
     _messages.pop(name, None)
@@ -87,7 +87,7 @@ def in_scene(context, root, table):
     if not table:
         return np.empty((0, 3))
     points = np.concatenate(list(table.values())) / context.scene.unit_settings.scale_length
-    # The root's scale is in the model's numbers already.
+    # The model's numbers include the root's scale.
     location, rotation, _scale = root.matrix_world.decompose()
     return points @ np.array(rotation.to_matrix()).T + np.array(location)
 
@@ -114,7 +114,7 @@ def draw():
 
 @persistent
 def later(*_arguments):
-    """After every change: refreshes in the next pause."""
+    """Schedules a refresh after a change, in the next pause."""
     if bpy.app.timers.is_registered(in_pause):
         bpy.app.timers.unregister(in_pause)
     if wanted(bpy.context.window_manager.pong) or _shown:
@@ -122,7 +122,7 @@ def later(*_arguments):
 
 
 def in_pause():
-    """Refreshes what every window shows. Blender calls timers without a window in the context."""
+    """Refreshes the display of every window. Blender calls timers without a window in the context."""
     listen_no_more()  # a check updates the scene, which is no change of the author's
     try:
         for window in bpy.context.window_manager.windows:

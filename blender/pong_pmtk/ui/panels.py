@@ -23,7 +23,7 @@ class Panel:
 
 
 def split(layout):
-    """Names before their fields; no dots for keyframes, which nothing here has."""
+    """Layout with names before their fields, without keyframe dots, which nothing here has."""
     layout.use_property_split, layout.use_property_decorate = True, False
 
 
@@ -118,8 +118,8 @@ class PONG_PT_object(Panel, bpy.types.Panel):
 
 
 def draw_optional(layout, holder, name, field="", unset="default"):
-    """A number that need not be given, behind its switch; `field`: the property that shows it, if another one; `unset`: where
-    the number comes from if it is not given."""
+    """An optional number with its switch; `field`: the property that shows it, if another one; `unset`: source of the
+    number if it is not given."""
     row = layout.row(heading=holder.bl_rna.properties[name].name)
     row.prop(holder, f"use_{name}", text="")
     if getattr(holder, f"use_{name}"):
@@ -230,7 +230,7 @@ def draw_laws(layout, laws):
 
 
 def draw_bristle_damping(layout, laws):
-    """Damping, or a mass for it, and what it comes from without both."""
+    """Damping, or a mass for it, and their source without both."""
     if laws.use_bristle_mass:
         unset = "from the bristle's mass"
     elif laws.use_restitution and "mass" in RESTITUTIONS[laws.normal][1]:
@@ -299,12 +299,12 @@ class PONG_PT_findings(Panel, bpy.types.Panel):
 
 
 def titled(fix):
-    """The name of a repair as a button has it."""
+    """Name of a repair on its button."""
     return fix.replace("-", " ").title()
 
 
 def wrapped(text, width_px):
-    """Labels do not wrap; this does, at about seven pixels a letter."""
+    """Wraps a label at about seven pixels a letter, which Blender does not."""
     lines, line = [], ""
     for word in text.split():
         if line and len(line) + len(word) >= max(width_px // 7, 20):

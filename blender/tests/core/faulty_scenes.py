@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faulty scenes: each function makes one and is called after the rule that it breaks (with `_` for `-`).
+"""Faulty scenes: each function makes one and is named after the rule it breaks (with `_` for `-`).
 
 `FAULTY` maps every rule to a snapshot. Each scene is right but for its one fault.
 """
@@ -55,7 +55,7 @@ def one(kind, shape=None, **more):
 
 
 def solid(change):
-    """A scene with a box whose vertices and faces `change` spoils."""
+    """A scene with a box whose vertices and faces are modified by `change`."""
     vertices, faces = box((1.0, 1.0, 1.0)).vertices.copy(), [list(map(int, f)) for f in BOX_FACES]
     return one("Polyhedron", mesh(*change(vertices, faces)))
 
@@ -253,7 +253,7 @@ def unknown_rotation_mode():
 
 
 def _stretched():
-    """A group that is scaled along x, and something below it that is turned."""
+    """A group scaled along x, with a rotated object below it."""
     s = scene()
     return s, s.group("stretched", scale=(2.0, 1.0, 1.0))
 
@@ -327,7 +327,7 @@ def axis_not_shown():
 
 @faulty
 def pieces_not_round():
-    """Modifiers that make two pieces of one, and no pins."""
+    """Modifiers that split one piece into two, but make no pins."""
     dented = mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.1, 0.1, 1)], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
     two = mesh([*dented.vertices, *(dented.vertices + (3, 0, 0))], [[0, 2, 1], [0, 1, 3], [4, 6, 5], [4, 5, 7]])
     return one("Cylinder", two, stored_mesh=dented, modifiers=["Array"], length=1.0, radius=0.1)
@@ -480,13 +480,13 @@ TETRAHEDRON = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
 
 @faulty
 def zero_length_edge():
-    """Two of four vertices are one: no solid is left without the edge between them."""
+    """Two of four vertices coincide: without the edge between them no solid is left."""
     return one("Polyhedron", mesh([(0, 0, 0), (0, 0, 0), (1, 0, 0), (0, 0, 1)], TETRAHEDRON))
 
 
 @faulty
 def sliver_face():
-    """A face without width, and no solid is left where it joins another."""
+    """A face without width; where it joins another, no solid is left."""
     return one("Polyhedron", mesh([(0, 0, 0), (1, 0, 0), (0.5, 1e-10, 0), (0, 0, 1)], TETRAHEDRON))
 
 
@@ -512,7 +512,7 @@ def not_convex():
 
 @faulty
 def face_not_convex():
-    """A dent in the base of a spire so low that no vertex comes in front of any plane."""
+    """A dent in the base of a spire, so shallow that no vertex is in front of any plane."""
     base = [(0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (2.0, 2.0, 0.0), (1.0, 1.95, 0.0), (0.0, 2.0, 0.0)]
     sides = [[i, (i + 1) % 5, 5] for i in range(5)]
     return one("Polyhedron", mesh([*base, (1.0, 1.0, 2e-5)], [[4, 3, 2, 1, 0], *sides]))
@@ -520,7 +520,7 @@ def face_not_convex():
 
 @faulty
 def rounded_away():
-    """A good slab, modelled 1 km from its group's origin, as Blender rounds it."""
+    """A valid slab, modelled 1 km from its group's origin, as rounded by Blender."""
     c, s = math.cos(0.3), math.sin(0.3)
     turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
     shape = box((1.0, 1.0, 1.0))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the tests of the core share."""
+"""Shared parts of the core's tests."""
 
 import os
 import pathlib
@@ -21,7 +21,7 @@ PONG = os.environ.get("PONG")  # the built program; tests that need it are skipp
 
 
 def scene(name="model", **more):
-    """A scene whose root is made of steel."""
+    """A scene with a steel root."""
     return author.Scene(name, surfaces=dict(STEEL), surface="steel", **more)
 
 
@@ -43,13 +43,13 @@ def models():
 
 
 def mesh_files(path):
-    """The mesh files that a model file names, as they stand beside it: name -> bytes."""
+    """Mesh files named by a model file, beside it: name -> bytes."""
     names = re.findall(r'\bfile: "([^"]*)"', path.read_text(encoding="utf-8"))
     return {name: (path.parent / name).read_bytes() for name in names}
 
 
 def check(path):
-    """What the engine says of a model file: its hash, or `None` and the text of its faults."""
+    """The engine's verdict on a model file: its hash, or `None` and the text of its faults."""
     result = subprocess.run([PONG, "check", "--alone", str(path)], capture_output=True, text=True)
     found = re.search(r"hash ([0-9a-f]{16})", result.stdout)
     return (found.group(1) if found and result.returncode == 0 else None), result.stdout + result.stderr
@@ -63,7 +63,7 @@ def check_model(model, files=None):
 
 
 def in_single_precision(snapshot):
-    """The snapshot as it comes back from Blender: everything that Blender keeps in 32 bits is rounded."""
+    """The snapshot as returned by Blender: all numbers that Blender stores in 32 bits are rounded."""
     for thing in snapshot.objects:
         place, mark = thing.transform, thing.mark
         for name in ("location", "rotation", "scale", "delta_location", "delta_rotation", "delta_scale"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Volumes hold what they bound and are no larger than they need be; overlays lie where the model is."""
+"""Volumes contain their primitives tightly; overlays lie on the model."""
 
 import math
 import random
@@ -13,7 +13,7 @@ from core.transforms import quaternion_matrix
 
 
 def sampled(volume, points):
-    """By how much points stick out of a volume."""
+    """Largest distance of points outside a volume."""
     if volume.kind == "Sphere":
         return float((np.sqrt(((points - volume.center) ** 2).sum(axis=1)) - volume.half[0]).max())
     return float((np.abs((points - volume.center) @ volume.axes) - volume.half).max())
@@ -28,10 +28,10 @@ KINDS = ("Aabb", "Sphere", "Obb")
 
 
 class Fits(unittest.TestCase):
-    """What the engine has fitted, where the overlays draw it."""
+    """Volumes fitted by the engine, at the position of the overlays."""
 
     def scene(self, case, kind):
-        """Points, balls and an ellipsoid in a group that is turned, and points all over them in the frame of its body."""
+        """Points, spheres and an ellipsoid in a rotated group, with sample points on them in the frame of its body."""
         rng = np.random.default_rng(case)
         quaternion = rng.normal(size=4)
         quaternion /= np.sqrt(quaternion @ quaternion)
@@ -47,7 +47,7 @@ class Fits(unittest.TestCase):
             cloud.append(center + radius * sphere)
         center, axes = rng.normal(size=3), rng.uniform(0.1, 3, 3)
         s.primitive("egg", "Ellipsoid", above=arm, location=tuple(center), semi_axes=tuple(axes))
-        # Triangles push an ellipsoid at feet that may lie beside it: its bounds hold those, too.
+        # Triangles push an ellipsoid at contact points that may lie beside it: its bounds include those, too.
         feet = math.hypot(axes.max() - axes.min(), axes.min())
         cloud += [center + sphere * axes, center + sphere * feet]
         return s, np.concatenate(cloud) @ turn.T + place

@@ -47,7 +47,7 @@ class FaultyScenes(unittest.TestCase):
 
 
 class LoaderWarnings(unittest.TestCase):
-    """What the loader warns of without a rule is told at the object; what has a rule is not told twice."""
+    """Loader warnings without a rule are reported at the object; those with a rule are not repeated."""
 
     def told(self, snapshot):
         return [(f.rule, f.severity, f.object, list(f.faces)) for f in build(snapshot).findings]
@@ -75,7 +75,7 @@ class LoaderWarnings(unittest.TestCase):
 
 
 class Rules(unittest.TestCase):
-    """The list in docs/modelling_rules.md is whole, and so are the scenes."""
+    """The list in docs/modelling_rules.md is complete, and so are the scenes."""
 
     def listed(self):
         rows = re.findall(r"^\| `([a-z-]+)` \| (error|warning|hint)", RULES.read_text(), re.MULTILINE)

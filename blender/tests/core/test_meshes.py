@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes as primitives: pieces, parts, cuts, instances, modifiers; and the engine takes what is exported."""
+"""Meshes as primitives: pieces, parts, cuts, instances, modifiers; the engine accepts the exports."""
 
 import itertools
 import math
@@ -129,7 +129,7 @@ class Parts(unittest.TestCase):
 
 
 class Findings(unittest.TestCase):
-    """Findings select the culprit, and hints do not refuse."""
+    """Findings select their elements, and hints do not refuse."""
 
     def finding(self, made, rule):
         return next(finding for finding in made.findings if finding.rule == rule)
@@ -233,10 +233,10 @@ class Instances(unittest.TestCase):
 
 
 class LikeTheLoader(unittest.TestCase):
-    """The toolkit's judgement of polyhedra is that of `pong check`, which reads them as numbers in a text."""
+    """The toolkit judges polyhedra as `pong check` does, which reads them as numbers in a text."""
 
     def shapes(self):
-        """Good and spoilt solids near the limits of every tolerance."""
+        """Valid and invalid solids near the limits of every tolerance."""
         random.seed(21)
         for case in range(60):
             sides = random.randint(3, 12)
@@ -300,7 +300,7 @@ class LikeTheLoader(unittest.TestCase):
         self.assertIsNotNone(found, text)
 
     def test_32_bit_rounding_of_good_shapes_passes(self):
-        """Solids near their origin, whatever their size: the shape is rounded, not refused."""
+        """Solids near their origin, of any size: the shape is rounded, not refused."""
         for size, sides, turn in itertools.product((1e-3, 1.0, 100.0), (5, 16, 31), (0.0, 0.7)):
             s = scene()
             shape = cylinder(size, -0.3 * size, size, sides)

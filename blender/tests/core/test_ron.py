@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Model files: read as the engine reads them, written the same whatever way they were written before."""
+"""Model files: read as by the engine, written in one form whatever their layout."""
 
 import math
 import pathlib
@@ -21,7 +21,7 @@ TAIL = "]))"
 
 
 class Notation(unittest.TestCase):
-    """What RON allows is read as the engine reads it (crates/pong-model has the tests of that) and written in one form."""
+    """Any valid RON is read as by the engine (crates/pong-model has the tests of that) and written in one form."""
 
     def test_values(self):
         for written, value in {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Capsules, cylinders, cones and bores: built, unbuilt, proposed, checked against what is shown, drawn."""
+"""Capsules, cylinders, cones and bores: built, unbuilt, proposed, compared with their display, drawn."""
 
 import math
 import unittest
@@ -275,7 +275,7 @@ class BackAgain(unittest.TestCase):
 
 
 class Shown(unittest.TestCase):
-    """Meshes only show a round part; what they show is compared with the mark, and proposed."""
+    """Meshes only display a round part; their size is compared with the mark, and proposed."""
 
     def test_a_mesh_of_the_right_size_is_quiet_and_another_one_is_told(self):
         for kind in NUMBERS:

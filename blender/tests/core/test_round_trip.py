@@ -147,7 +147,7 @@ class Models(unittest.TestCase):
 
 
 class AfterTheAuthorTouchesIt(unittest.TestCase):
-    """Exact numbers count only as long as they belong to what Blender has."""
+    """Exact numbers apply only as long as they match Blender's."""
 
     def model(self, **fields):
         plane = Primitive("Plane", "p", {"normal": (0.1, 0.2, 0.3), "offset": 0.7})

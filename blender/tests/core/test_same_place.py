@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Copies in place, and sizes that are not what is shown."""
+"""Copies in place, and sizes that differ from the display."""
 
 import math
 import unittest

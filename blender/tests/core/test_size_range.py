@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sizes that the engine refuses are refused by the toolkit, and no others: kind by kind, just inside and just outside."""
+"""The toolkit refuses exactly the sizes that the engine refuses: kind by kind, just inside and just outside."""
 
 import unittest
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Transforms against plain 4 x 4 matrices, and exact numbers against NumPy's own printing."""
+"""Transforms compared with plain 4 x 4 matrices, and exact numbers with NumPy's own printing."""
 
 import itertools
 import math
@@ -12,7 +12,7 @@ from core.snapshot import SnapshotObject, Transform
 
 
 def turn(axis, angle):
-    """A rotation by Rodrigues' formula: another way than the code's."""
+    """A rotation by Rodrigues' formula, independent of the code."""
     axis = np.array(axis, dtype=float) / np.linalg.norm(axis)
     k = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
     return np.eye(3) + math.sin(angle) * k + (1 - math.cos(angle)) * k @ k
@@ -34,7 +34,7 @@ def rotation_of(mode, values):
 
 
 def matrix_of(t):
-    """Location, rotation and scale as Blender's manual has them, deltas first, parent inverse outermost."""
+    """Location, rotation and scale by Blender's manual, deltas first, parent inverse outermost."""
     delta_mode = "QUATERNION" if len(t.delta_rotation) == 4 else t.rotation_mode
     delta = (1, 0, 0, 0) if t.rotation_mode == "AXIS_ANGLE" else t.delta_rotation
     matrix = np.eye(4)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Without the wheel `pong` the toolkit says so, checks what it can by itself, and exports nothing."""
+"""Missing wheel `pong`: the toolkit reports it, checks what is possible without it, and exports nothing."""
 
 import unittest
 from unittest import mock
@@ -11,7 +11,7 @@ from core.read import read_text
 
 
 def without_wheel():
-    """`import pong` fails, as where nobody installed it."""
+    """Makes `import pong` fail, as without an installation."""
     return mock.patch.dict("sys.modules", {"pong": None, "pong.model": None})
 
 

@@ -74,7 +74,7 @@ def mark(obj, role="primitive", **fields):
 
 
 def root(name="model", **options):
-    """A root with one surface, which everything below has."""
+    """A root with one surface, inherited by everything below."""
     made = mark(new(name, **options), "root", surface="steel")
     marks.write_settings(made, ModelSettings(surfaces={"steel": {"stiffness": 1e6}}))
     return made

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What authors do with Blender's own tools (Apply Scale, Join, Duplicate, modifiers), and what becomes of their marks."""
+"""Marks under Blender's own tools (Apply Scale, Join, Duplicate, modifiers)."""
 
 import bpy
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command line, in processes of its own."""
+"""The command line, in separate processes."""
 
 import os
 import subprocess

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What of the interface works without a screen: overlays up to the lines that are drawn, lists, registration."""
+"""The interface as far as it works without a display: overlays up to the lines that are drawn, lists, registration."""
 
 import math
 import types
@@ -60,7 +60,7 @@ class Overlays(InBlender):
         self.assertAlmostEqual(points[:, 0].max(), 6.0, places=5)
 
     def test_what_only_marks_and_settings_know_is_followed_too(self):
-        """Blender tells of transforms and meshes; of *Assign to Selected* and its like it says nothing."""
+        """Blender reports transforms and meshes, but not *Assign to Selected* and similar changes."""
         top = root()
         top.pong.surface = ""
         block = mark(new("block", mesh(CUBE), top), kind="Polyhedron")
@@ -109,7 +109,7 @@ class Lists(InBlender):
         self.assertEqual([lists.depth(obj) for obj in (top, group, tip)], [0, 1, 2])
         for obj, depth in ((top, 0), (group, 1), (tip, 2)):
             recorder = Recorder()
-            # Blender makes a list anew for every line, so one that has filtered nothing must do.
+            # Blender makes a list anew for every line, so one that has filtered nothing must work.
             lists.PONG_UL_tree.draw_item(types.SimpleNamespace(), bpy.context, recorder, None, obj, 0, None, "", 0)
             self.assertAlmostEqual(sum(recorder.separators), lists.INDENT * depth)
 
@@ -141,7 +141,7 @@ class Lists(InBlender):
 
 
 class Panels(InBlender):
-    """Panels are drawn into a recorder: Blender itself draws none without a window."""
+    """Panels are drawn into a recorder: Blender draws none without a window."""
 
     def drawn(self):
         """(property group, name) of all that is shown."""
@@ -178,7 +178,7 @@ class Panels(InBlender):
         self.assertIn("kind", [name for _, name in self.drawn()])
 
     def test_no_number_is_shown_without_its_unit(self):
-        """Of what has a dimension; Blender's own fields know lengths alone, and show a fixed count of decimals."""
+        """Numbers with a dimension; Blender's own fields support only lengths, with a fixed number of decimals."""
         top = root()
         surface = top.pong_model.surfaces[0]
         bare = {"order", "leaf_size", "file_scale", "normal_length"}  # counts and shares
@@ -200,7 +200,7 @@ class Panels(InBlender):
 
 
 class Drawn:
-    """Stands for a panel; its methods are those of the panel's class."""
+    """Replacement of a panel; its methods are those of the panel's class."""
 
     def __init__(self, panel, layout):
         self.panel, self.layout = panel, layout
@@ -219,7 +219,7 @@ class Context:
 
 
 class Recorder:
-    """A layout that draws nothing, and fails where Blender's would complain."""
+    """A layout that draws nothing, and fails where Blender's would report an error."""
 
     def __init__(self, above=None):
         self.separators = above.separators if above else []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes go in and out of Blender in bulk, with every index where it was."""
+"""Bulk conversion of meshes to and from Blender preserves every index."""
 
 import bpy
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rows of round parts, pins that lie, rigid surfaces, library overrides, and repairs of whole objects."""
+"""Rows of round parts, horizontal pins, rigid surfaces, library overrides, and repairs of whole objects."""
 
 import tempfile
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators, as menus and scripts call them."""
+"""Operators, as called by menus and scripts."""
 
 import json
 import tempfile
@@ -254,7 +254,7 @@ class Findings(InBlender):
 
 
 class Repairs(InBlender):
-    """Every repair keeps what it must not change: where things are."""
+    """Every repair preserves positions."""
 
     def test_there_is_one_for_every_offer(self):
         self.assertLessEqual(set(FIXES), set(fixes.REPAIRS))

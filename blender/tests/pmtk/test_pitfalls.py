@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What goes wrong between Blender's scenes and exact models, with Blender's own data."""
+"""Differences between Blender's scenes and exact models, with Blender's own data."""
 
 import math
 
@@ -17,14 +17,14 @@ def solid(name="block", shape=CUBE, parent=None, **options):
 
 
 def world_vertices(obj):
-    """Where Blender itself has the vertices of an object."""
+    """Vertices of an object as Blender itself has them."""
     bpy.context.view_layer.update()
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     return np.array([evaluated.matrix_world @ vertex.co for vertex in evaluated.data.vertices])
 
 
 def same_places(first, second, within_m=2e-6):
-    """Whether two sets of places are the same to what single precision holds, in whatever order."""
+    """True if two sets of points agree within single precision, in any order."""
     apart = np.linalg.norm(np.asarray(first)[:, None] - np.asarray(second)[None], axis=2)
     return len(first) == len(second) and (apart.min(axis=0) < within_m).all() and (apart.min(axis=1) < within_m).all()
 

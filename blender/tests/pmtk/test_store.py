@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks, settings and numbers come out of a .blend file as they went in."""
+"""Marks, settings and numbers survive a .blend file."""
 
 import math
 import tempfile
@@ -174,7 +174,7 @@ class Presets(InBlender):
             presets.save("glass", {"stiffness": 1.0})
 
     def test_their_stiffness_is_that_of_hertz(self):
-        # 10 mm steel ball on a rigid flat at 100 N: the depth of Hertz from the radius of the contact, a² = R·δ.
+        # 10 mm steel sphere on a rigid flat at 100 N: Hertz's depth from the radius of the contact, a² = R·δ.
         plane_modulus_pa, radius_m, load_n = 207e9 / (1 - 0.29**2), 0.01, 100.0
         contact_m = (3 * load_n * radius_m / (4 * plane_modulus_pa)) ** (1 / 3)
         self.assertAlmostEqual(presets.hertz_secant(207e9, 0.29) / (load_n * radius_m / contact_m**2), 1.0, places=12)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How long export and import take, by number of triangles and of objects. No test: run it on a quiet machine.
+"""Durations of export and import, by number of triangles and of objects. No test: run it on a quiet machine.
 
     PYTHONPATH=blender target/blender/5.0.1/bin/python blender/tests/pmtk/timing.py [REPEATS]
 

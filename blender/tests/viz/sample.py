@@ -103,13 +103,13 @@ def _run():
 
 
 def change_run(folder: Path, **fields) -> None:
-    """Other values in run.json."""
+    """Replaces values in run.json."""
     path = folder / "run.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | fields))
 
 
 def without_contacts(folder: Path) -> None:
-    """Nothing touches."""
+    """Removes all contacts."""
     frames = np.load(folder / "frames.npy")
     frames["first_contact"] = frames["contacts"] = 0
     np.save(folder / "frames.npy", frames)
@@ -117,7 +117,7 @@ def without_contacts(folder: Path) -> None:
 
 
 def many_contacts(folder: Path, count: int) -> None:
-    """Each contact becomes `count` of them along y, 1 mm apart, the k-th with 1 + k N."""
+    """Replaces each contact by `count` of them along y, 1 mm apart, the k-th with 1 + k N."""
     frames, contacts = np.load(folder / "frames.npy"), np.load(folder / "contacts.npy")
     more, number = np.repeat(contacts, count), np.tile(np.arange(count), len(contacts))
     more["point"][:, 1] += 1e-3 * number

@@ -101,7 +101,7 @@ class Scenes(WithScene):
 
 
 class Odd(WithScene):
-    """Logs that are not as one would wish."""
+    """Faulty and unusual logs."""
 
     def shown(self, **options):
         return show(Log(self.log_folder), Options(fps=100, **options))
@@ -133,7 +133,7 @@ class Odd(WithScene):
         self.assertIn("body `ground` has no state in the log: it is not shown", made.notes)
 
     def test_a_planet_is_told_from_its_middle(self):
-        """The ground's shapes and its origin are 4.2e6 m apart: on the screen its floor is under the ball all the same."""
+        """The ground's shapes and its origin are 4.2e6 m apart: on the screen its floor is still under the ball."""
         ground = self.log_folder / "models/ground/ground.ron"
         ground.write_text(ground.read_text().replace("offset: 0.0", "offset: 4200000.3"))
         states = np.load(self.log_folder / "states.npy")
@@ -248,7 +248,7 @@ class Graphics(WithScene):
 
 
 class Removed(WithScene):
-    """A response leaves the author's file as it was: while it is shown, and after it is taken out."""
+    """A response leaves the author's file unchanged: while it is shown, and after its removal."""
 
     LOOK = ("frame_start", "frame_end", "frame_current", "camera", "world")
 
@@ -270,7 +270,7 @@ class Removed(WithScene):
         for item, name, movable in ((plate, "base", False), (ball, "ball", True)):
             self.choose(item)
             bpy.ops.pong.group_new(name=name, movable=movable, origin="MEDIAN")
-        # What a modifier makes of another object's place counts too.
+        # A modifier's use of another object's pose counts too.
         mirror = plate.modifiers.new("Mirror", "MIRROR")
         mirror.mirror_object = bpy.data.objects["sphere"]
         self.before = self.exported(), self.state()
@@ -473,7 +473,7 @@ class Colors(WithScene):
         self.assertEqual(self.color_types(), {"OBJECT"})
 
     def test_no_engine_fades_colors(self):
-        """Standard keeps them; what lights more than a white surface is taken back by the exposure."""
+        """Standard view keeps the colours; the exposure compensates for light beyond a white surface."""
         scene = bpy.context.scene
         show(Log(self.log_folder), Options(fps=4))
         for engine in ("workbench", "eevee", "cycles"):
@@ -485,7 +485,7 @@ class Colors(WithScene):
         self.assertLess(lit * 2.0**scene.view_settings.exposure, 1.3)
 
     def test_a_lit_picture_has_the_colors_that_were_given(self):
-        """Cycles lights as EEVEE does, and needs no shaders compiled: red arrow, orange ball, as saturated as they are."""
+        """Cycles lights like EEVEE, without compiled shaders: red arrow, orange ball, with their own saturation."""
         still = self.folder / "still.png"
         words = [str(self.log_folder), "--still", str(still), "--size", "160x90", "--at", "0.3", "--engine", "cycles"]
         self.assertEqual(main([*words, "--samples", "4", "--alpha", "1", "--no-caption"]), 0)

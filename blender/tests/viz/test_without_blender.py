@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Logs, films and marks: what needs numpy alone."""
+"""Logs, films and marks: the parts that need only numpy."""
 
 import shutil
 import tempfile
@@ -99,7 +99,7 @@ class Films(WithLog):
         film = timeline.film(self.log, fps=60)
         way = timeline.track(self.log, film, 0, timeline.view(self.log, film))
         expected = np.stack([0.5 * film.times, 0 * film.times, np.full(len(film.times), 0.1)], axis=1)
-        # The log's own coordinates are that coarse at 6.8e6 m.
+        # The log's own coordinates have that resolution at 6.8e6 m.
         np.testing.assert_allclose(way.positions - way.positions[0], expected - expected[0], atol=2e-9)
 
     def test_turns_are_smooth_though_the_log_changes_sign(self):
@@ -117,7 +117,7 @@ class Films(WithLog):
         ground = timeline.track(self.log, film, 1, seen)
         angle = 3.0 * film.times
         offset = -np.stack([0.5 * film.times, 0 * angle, np.full(31, 0.1)], axis=1)
-        # Turned back about y by the ball's angle.
+        # Rotated back about y by the ball's angle.
         expected = np.stack([np.cos(angle) * offset[:, 0] - np.sin(angle) * offset[:, 2], 0 * angle,
                              np.sin(angle) * offset[:, 0] + np.cos(angle) * offset[:, 2]], axis=1)
         np.testing.assert_allclose(ground.positions, expected, atol=2e-9)
@@ -162,7 +162,7 @@ class Films(WithLog):
         self.assertIsNone(timeline.view(still, film, extent=0.2).followed)
 
     def test_shapes_far_from_the_origin_of_their_body_are_exact(self):
-        """A terrain told from the middle of a planet: the anchor's way has the coordinates that the contacts have."""
+        """A terrain relative to the middle of a planet: the anchor's path has the coordinates of the contacts."""
         middle = np.array([0.0, 0.0, 4.2e6])
         anchor = shapes.anchor_of(np.array([middle - 1.0, middle + 1.0]))
         np.testing.assert_array_equal(anchor, middle)
@@ -224,7 +224,7 @@ class Marks(WithLog):
         film = timeline.film(log, fps=100)
         slots = marks.slots(log, film, timeline.view(log, film), most=200)
         self.assertEqual((slots.shown.shape, slots.left_out), ((101, 200), 51 * 100))
-        # Contact k has 1 + k N: the least hundred are those left out.
+        # Contact k has 1 + k N: the least hundred are left out.
         np.testing.assert_allclose(slots.forces[0], np.hypot(1.0 + np.arange(100, 300), 2.0))
 
     def test_shortest_turn_from_z(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How long playback takes. No test: run it on a quiet machine.
+"""Durations of playback. No test: run it on a quiet machine.
 
     PYTHONPATH=blender python blender/tests/viz/timing.py LOG [PICTURES]
 
@@ -21,7 +21,7 @@ from pong_viz.scene import Options, show
 
 
 def timed(function, *arguments):
-    """Seconds that pass, and seconds that all processors together spend."""
+    """Wall-clock seconds, and processor seconds of all threads."""
     passed, spent = time.perf_counter(), time.process_time()
     function(*arguments)
     return time.perf_counter() - passed, time.process_time() - spent
