@@ -125,8 +125,22 @@ void list_and_restore(pong::World& world) {
     require(stiffness.size() == 1 && std::fabs(stiffness[0].first * contacts[0].depth / contacts[0].normal_force - 1) < 1e-9,
             "stiffness times depth is the force of a contact that does not move");
     require(contacts.size() == 1 && std::fabs(contacts[0].depth - 0.002) < 1e-12, "one contact, 2 mm deep");
+    const pong::InterfaceId ground = world.interfaces(world.object("ground")).front();
+    const double up = world.wrench(ball, pong::Frame::common).force[2];
+    require(world.wrench_from(ball, ground, pong::Frame::common).force[2] == up &&
+                world.pair_wrench(contacts[0].pair, ground, pong::Frame::common).force[2] == up,
+            "the ground alone pushes the ball");
     require(std::string(world.primitive_path(contacts[0].a.interface, contacts[0].a.primitive)) == "ball/shell",
             "the contact names the sphere");
+    world.start_pair_monitor();
+    world.step();
+    world.observe_pairs(1e-3);
+    const auto changes = world.contact_changes();
+    require(changes.size() == 1 && changes[0].begins == 1 && changes[0].interfaces[0].bits == ball.bits, "contact begins");
+    const auto peaks = world.pair_peaks();
+    require(peaks.size() == 1 && peaks[0].peak_normal_force > 0 && peaks[0].mean.force[2] > 0, "the window has a peak");
+    world.begin_peak_window();
+    require(world.pair_peaks().empty(), "a new window has none");
     world.restore_contact_state(saved);
     require(world.save_contact_state() == saved, "the contact state survives a round trip");
     const pong::World clone = world.clone();

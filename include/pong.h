@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0x64447afe740eca53ULL
+#define PONG_LAYOUT_HASH 0x614355af2c3700aeULL
 
 /// Checks that this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -290,6 +290,12 @@ typedef struct pong_wrench {
     double moment[3];
 } pong_wrench;
 
+/// Two Objects that are tested against each other. Zero is none.
+typedef struct pong_pair_id {
+    /// Do not build it yourself.
+    uint64_t bits;
+} pong_pair_id;
+
 /// Input of a normal force law.
 typedef struct pong_normal_input {
     /// Depth, m; positive.
@@ -365,12 +371,6 @@ typedef struct pong_object_id {
     /// Do not build it yourself.
     uint64_t bits;
 } pong_object_id;
-
-/// Two Objects that are tested against each other. Zero is none.
-typedef struct pong_pair_id {
-    /// Do not build it yourself.
-    uint64_t bits;
-} pong_pair_id;
 
 /// The host's step and its use of the wrench. Make it with pong_default_step_plan() and change what you like.
 typedef struct pong_step_plan {
@@ -513,6 +513,44 @@ typedef struct pong_contact {
     /// Energy stored in the normal spring and in friction, J.
     double stored;
 } pong_contact;
+
+/// Begin or end of contact between two movable groups.
+typedef struct pong_contact_change {
+    /// The pair of Objects.
+    struct pong_pair_id pair;
+    /// The two movable groups: first that of the Object that was named first in the pair. In an Object paired with itself, the
+    /// one with the lower id.
+    struct pong_interface_id interfaces[2];
+    /// 1 if contact begins, 0 if it ends.
+    int32_t begins;
+    /// Zero.
+    uint32_t reserved;
+} pong_contact_change;
+
+/// Contact between two movable groups over a window of several frames.
+typedef struct pong_pair_peaks {
+    /// The pair of Objects.
+    struct pong_pair_id pair;
+    /// The two movable groups, in the order of pong_contact_change.
+    struct pong_interface_id interfaces[2];
+    /// Largest sum of the normal forces of all their contacts in a frame of the window, N.
+    double peak_normal_force;
+    /// Mean over the window, frames without contact included, of the wrench on the first group from the second: about the
+    /// origin of the first group, wherever it was, along the axes of the common frame. Times `window`, it is the impulse.
+    struct pong_wrench mean;
+    /// Time of the frames in which they touched, s.
+    double contact_time;
+    /// Length of the window, s: the sum of the steps observed in it.
+    double window;
+    /// Number of begins of contact in the window.
+    uint32_t begins;
+    /// Number of its ends.
+    uint32_t ends;
+    /// 1 if they touch in the frame last observed.
+    int32_t touches;
+    /// Zero.
+    uint32_t reserved;
+} pong_pair_peaks;
 
 /// Counts, times, memory use and flags of the last frame.
 typedef struct pong_report {
@@ -829,6 +867,27 @@ pong_status pong_get_wrench(const struct pong_world *world,
                             pong_reference_frame frame,
                             struct pong_wrench *wrench);
 
+/// Wrench of the last frame on the movable group `interface` from its contacts with the movable group `from` alone, about the
+/// origin of `interface`, as pong_get_wrench(): over all groups that `interface` can touch, these add up to that wrench, to
+/// rounding. Zero where the two do not touch, their pair is off or a filter keeps them apart. Summed when it is asked for: a
+/// frame pays nothing; allocates nothing. PONG_STATUS_BAD_VALUE: both are the same group, or their Objects are not paired.
+pong_status pong_get_wrench_from(const struct pong_world *world,
+                                 struct pong_interface_id interface,
+                                 struct pong_interface_id from,
+                                 pong_reference_frame frame,
+                                 struct pong_wrench *wrench);
+
+/// Wrench of the last frame of a pair of Objects: the sum over all its contacts, on the Object that was named first in the pair
+/// from the other, about the origin of `about`, a movable group of either Object. PONG_REFERENCE_FRAME_GROUP: along the axes of
+/// `about`. The Object named second receives the opposite about the same point. Zero where the two do not touch or the pair is
+/// off. Summed when it is asked for: a frame pays nothing; allocates nothing. PONG_STATUS_BAD_VALUE: `about` is of neither
+/// Object, or an Object is paired with itself: ask pong_get_wrench_from() for two of its groups.
+pong_status pong_get_pair_wrench(const struct pong_world *world,
+                                 struct pong_pair_id pair,
+                                 struct pong_interface_id about,
+                                 pong_reference_frame frame,
+                                 struct pong_wrench *wrench);
+
 /// Creates a world. It is the caller's: destroy it with pong_destroy_world(). On failure `world` gets NULL. The first call
 /// of a process reads the environment variable PONG_SIMD (docs/c_api.md).
 pong_status pong_create_world(const struct pong_config *config,
@@ -847,8 +906,7 @@ pong_status pong_destroy_world(struct pong_world *world);
 /// computed no frame yet and has no log. Both call the same laws: the `user` data of a law must live as long
 /// as either. The clone is the caller's: destroy it with pong_destroy_world(). On failure `clone` gets NULL.
 /// PONG_STATUS_WRONG_PHASE before the seal.
-pong_status pong_clone_world(const struct pong_world *world,
-                             struct pong_world **clone);
+pong_status pong_clone_world(const struct pong_world *world, struct pong_world **clone);
 
 /// Adds a normal force law that models then name as Custom(name: "...", parameters: [...]). Before sealing.
 ///
@@ -874,9 +932,7 @@ pong_status pong_register_friction_law(struct pong_world *world,
 /// Before sealing. PONG_STATUS_MODEL_ERROR: the message has one line for every fault, with file, line and
 /// column. PONG_STATUS_OUT_OF_MEMORY, of this and every other call of set-up: the message has the size that
 /// was asked for.
-pong_status pong_load_model(struct pong_world *world,
-                            const char *path,
-                            struct pong_model_id *model);
+pong_status pong_load_model(struct pong_world *world, const char *path, struct pong_model_id *model);
 
 /// Loads a model from `length` bytes of UTF-8 text; it needs no zero byte at its end. Errors call it `name`.
 /// Meshes in files of their own are looked for in `mesh_dir`; with NULL they are refused. Otherwise as
@@ -891,8 +947,7 @@ pong_status pong_load_model_text(struct pong_world *world,
 /// Lets models loaded from now on also read meshes from `folder` (UTF-8 path) and the folders below it.
 /// Without it a mesh that lies outside the model's own folder, through a link, is refused. Before sealing;
 /// may be called for several folders.
-pong_status pong_allow_files_below(struct pong_world *world,
-                                   const char *folder);
+pong_status pong_allow_files_below(struct pong_world *world, const char *folder);
 
 /// Number of warnings that loading a model left: things its author should know though the model is valid.
 pong_status pong_model_warning_count(const struct pong_world *world,
@@ -943,8 +998,11 @@ pong_status pong_filter_groups(struct pong_world *world,
                                struct pong_object_id b,
                                const char *group_b);
 
-/// Switches a pair on (1, the initial value) or off (0). A pair that is off has no contacts; when it is
-/// switched on again it has no contact history.
+/// Switches a pair on (1, as it begins) or off (0). A pair that is off has no contacts; when it is switched on again it has no
+/// past. Both drop what the pair remembers at once: bristles begin anew, as after pong_clear_contact_history(). Wrenches and
+/// contacts stay those of the last frame until the next evaluation, and that frame no longer belongs to what is set: evaluate
+/// before the wrenches are read again. pong_commit() and pong_step() evaluate by themselves; pong_log_frame() is refused until
+/// then. A log takes note of the switch by itself. Switching to what a pair is already does nothing.
 pong_status pong_set_pair_enabled(struct pong_world *world,
                                   struct pong_pair_id pair,
                                   int32_t enabled);
@@ -1000,7 +1058,8 @@ pong_status pong_find_primitive(const struct pong_world *world,
 /// A plan without a step: held wrenches, depth within 5 % and rebound within 2 %.
 struct pong_step_plan pong_default_step_plan(void);
 
-/// Sets the mass properties of a movable group, for the check that pong_plan_step() asks for. Before sealing.
+/// Sets the mass properties of a movable group, for the check that pong_plan_step() asks for. Before sealing. A hinged body
+/// gets its own mass and inertia, as if it were free; that is on the safe side, and pong_set_joints() gives a sharp limit.
 pong_status pong_set_mass(struct pong_world *world,
                           struct pong_interface_id interface,
                           const struct pong_mass *mass);
@@ -1015,13 +1074,11 @@ pong_status pong_set_joints(struct pong_world *world,
 /// Has the seal check every contact against the host's step, by the masses of pong_set_mass(). Contacts for
 /// which the step is too long, or which cannot be judged, appear in pong_seal_warning(); those for which it
 /// may be too long, if enough contacts act at once, in pong_seal_note(). Before sealing.
-pong_status pong_plan_step(struct pong_world *world,
-                           const struct pong_step_plan *plan);
+pong_status pong_plan_step(struct pong_world *world, const struct pong_step_plan *plan);
 
 /// Checks the planned step against the contacts of the last frame, with their true levers and normals. Needs
 /// the plan and the masses from before the seal, and a frame. Allocates.
-pong_status pong_check_step(const struct pong_world *world,
-                            struct pong_step_check *check);
+pong_status pong_check_step(const struct pong_world *world, struct pong_step_check *check);
 
 /// Ends set-up: checks that everything that may meet can be tested and combined, sizes all memory of the frames and
 /// takes it, and starts the workers. `report` may be NULL. After a failure the world is still in set-up, and the
@@ -1031,15 +1088,11 @@ pong_status pong_seal(struct pong_world *world,
 
 /// A warning of sealing: something the author may not have intended, or a contact that gains energy at the
 /// planned step. The text lives as long as the world.
-pong_status pong_seal_warning(const struct pong_world *world,
-                              size_t index,
-                              const char **warning);
+pong_status pong_seal_warning(const struct pong_world *world, size_t index, const char **warning);
 
 /// A note of sealing: something that may, but need not, go wrong at the planned step if enough contacts act
 /// at once. The text lives as long as the world.
-pong_status pong_seal_note(const struct pong_world *world,
-                           size_t index,
-                           const char **note);
+pong_status pong_seal_note(const struct pong_world *world, size_t index, const char **note);
 
 /// Computes contacts and wrenches from the states and the committed contact state. Does not affect any later
 /// evaluate or commit: integrators call it any number of times, at times in any order. A frame that hit a
@@ -1092,9 +1145,44 @@ pong_status pong_get_contact_stiffness(const struct pong_world *world,
                                        size_t capacity,
                                        size_t *count);
 
+/// Has the world kept under observation by pong_observe_pairs(), from nothing on: takes memory for every pair of movable groups,
+/// so that nothing takes any later. Called again, it begins anew. After the seal; a clone is not observed. A world that is not
+/// observed pays nothing.
+pong_status pong_start_pair_monitor(struct pong_world *world);
+
+/// Observes the frame that was committed last, which stands for `step`, the time since the commit before, s: call it once after
+/// each pong_step(), pong_commit() or pong_commit_pairs(), before the next evaluation. After a commit of some pairs all contacts
+/// of the frame count. Two movable groups touch in a frame that lists a contact of theirs; begins and ends are told by comparison
+/// with the frame observed before, whatever became of the contact state in between, so those of two groups alternate: the first
+/// frame begins all contacts that there are, a pair that is switched off ends with the next commit, a cleared history changes
+/// nothing where groups go on touching, and after a restored contact state the next frame is compared with the last one
+/// observed. PONG_STATUS_WRONG_PHASE: there is no monitor, or the last frame is not committed or was observed already.
+/// Allocates nothing.
+pong_status pong_observe_pairs(struct pong_world *world,
+                               double step);
+
+/// Begins and ends of contact from the frame observed before to the one observed last, in the order of the pairs of Objects and
+/// then of the groups, always the same: the first `capacity` are copied, `count` gets their number.
+/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit; `group_pairs` of the seal report is always enough. With capacity 0 `changes` may
+/// be NULL.
+pong_status pong_get_contact_changes(const struct pong_world *world,
+                                     struct pong_contact_change *changes,
+                                     size_t capacity,
+                                     size_t *count);
+
+/// Begins another window: pong_get_pair_peaks() then tells of the frames observed from now on. What touches is kept.
+pong_status pong_begin_peak_window(struct pong_world *world);
+
+/// Peak normal force and mean wrench of all movable groups that touched in the window, or whose contact ended in it, in the order
+/// of pong_get_contact_changes(): the first `capacity` are copied, `count` gets their number. PONG_STATUS_BUFFER_TOO_SMALL if
+/// not all fit; `group_pairs` of the seal report is always enough. With capacity 0 `peaks` may be NULL.
+pong_status pong_get_pair_peaks(const struct pong_world *world,
+                                struct pong_pair_peaks *peaks,
+                                size_t capacity,
+                                size_t *count);
+
 /// Counts, times, memory and flags of the last frame; before the first all zero, except the capacities.
-pong_status pong_get_report(const struct pong_world *world,
-                            struct pong_report *report);
+pong_status pong_get_report(const struct pong_world *world, struct pong_report *report);
 
 /// Meaning of a flag of the report, in words: "contact limit", "load sharing limit", "tunnelled"; "unknown
 /// limit" for a number that is no single flag. Lives as long as the library.
@@ -1116,8 +1204,7 @@ pong_status pong_get_energy_account(const struct pong_world *world, struct pong_
 
 /// Number of pairs of movable groups for which accounts are kept; 0 unless the configuration has
 /// energy_accounts.
-pong_status pong_pair_energy_account_count(const struct pong_world *world,
-                                           size_t *count);
+pong_status pong_pair_energy_account_count(const struct pong_world *world, size_t *count);
 
 /// The accounts of a pair of movable groups at the last commit, always in the same order.
 pong_status pong_get_pair_energy_account(const struct pong_world *world,
@@ -1126,9 +1213,7 @@ pong_status pong_get_pair_energy_account(const struct pong_world *world,
 
 /// Remedy, in words with the numbers of the pair, for a pair of movable groups that gains energy. The text
 /// lives until the next call of this function for the world.
-pong_status pong_pair_remedy(const struct pong_world *world,
-                             size_t index,
-                             const char **remedy);
+pong_status pong_pair_remedy(const struct pong_world *world, size_t index, const char **remedy);
 
 /// The accounts of the contacts of the last frame, each since the contact began, in the order of pong_get_contacts(): the
 /// first `capacity` are copied, `count` gets their number, which is 0 unless the configuration has energy_accounts.
@@ -1140,8 +1225,7 @@ pong_status pong_get_contact_energy_accounts(const struct pong_world *world,
 
 /// Number of tallies of the last frame: pairs of kinds with at least one test. It may differ from frame to
 /// frame; 0 before the first.
-pong_status pong_tally_count(const struct pong_world *world,
-                             size_t *count);
+pong_status pong_tally_count(const struct pong_world *world, size_t *count);
 
 /// A tally of the last frame. Bounding volumes come first, then primitives, always in the same order of kinds. The
 /// numbers are the same for any number of workers.
@@ -1165,9 +1249,7 @@ pong_status pong_worker_count(const struct pong_world *world, size_t *count);
 
 /// Placement of a worker and its share of the last frame. `index` is 1 to pong_worker_count(), or 0 for the
 /// calling thread. PONG_STATUS_WRONG_PHASE before the seal.
-pong_status pong_get_worker(const struct pong_world *world,
-                            size_t index,
-                            struct pong_worker *worker);
+pong_status pong_get_worker(const struct pong_world *world, size_t index, struct pong_worker *worker);
 
 /// Placement of a worker, in words: its core and priority, or why it does not have them. `index` is 1 to
 /// pong_worker_count(). The text lives as long as the world. PONG_STATUS_WRONG_PHASE before the seal.
@@ -1175,28 +1257,22 @@ pong_status pong_worker_text(const struct pong_world *world, size_t index, const
 
 /// Size of the largest contact state that this world can save, bytes; fixed when the world is sealed. A
 /// buffer of this size is always large enough.
-pong_status pong_contact_state_size(const struct pong_world *world,
-                                    size_t *size);
+pong_status pong_contact_state_size(const struct pong_world *world, size_t *size);
 
 /// Size of the present contact state when saved, bytes. It grows and shrinks with the contacts of the last
 /// commit, and is mostly far below pong_contact_state_size().
-pong_status pong_contact_state_used(const struct pong_world *world,
-                                    size_t *size);
+pong_status pong_contact_state_used(const struct pong_world *world, size_t *size);
 
 /// Saves the committed contact state into the caller's buffer of `size` bytes, pong_contact_state_used() or
 /// more. It takes the first pong_contact_state_used() bytes; the rest, up to pong_contact_state_size(),
 /// becomes zero. The bytes hold no pointer: write them to a file, keep them, compare them. To save often and
 /// fast give a buffer of pong_contact_state_used() bytes.
-pong_status pong_save_contact_state(const struct pong_world *world,
-                                    void *buffer,
-                                    size_t size);
+pong_status pong_save_contact_state(const struct pong_world *world, void *buffer, size_t size);
 
 /// Restores a contact state that was saved by this world or by one built by the same calls: the bytes that
 /// saving used, or more of the buffer, up to pong_contact_state_size(). The states of the movable groups are
 /// the host's and are not part of it. PONG_STATUS_BAD_STATE_BLOCK: the world keeps the contact state it had.
-pong_status pong_restore_contact_state(struct pong_world *world,
-                                       const void *buffer,
-                                       size_t size);
+pong_status pong_restore_contact_state(struct pong_world *world, const void *buffer, size_t size);
 
 /// Accepts the states presently set, as pong_commit(), and preloads the bristles between the two Objects of a
 /// pair: for the first frame of a run, and after pong_clear_contact_history(). With `force` NULL, contacts
@@ -1250,8 +1326,7 @@ pong_status pong_start_log(struct pong_world *world,
 /// replayed exactly. Takes no memory, touches no file and does not wait, unless `when_full` says so. A call
 /// whose frame is lost succeeds; the frame is counted: see pong_get_log_report(). PONG_STATUS_WRONG_PHASE:
 /// there is no log, or states, pairs or surfaces have changed since the frame.
-pong_status pong_log_frame(struct pong_world *world,
-                           double time);
+pong_status pong_log_frame(struct pong_world *world, double time);
 
 /// The progress of the log.
 pong_status pong_get_log_report(const struct pong_world *world, struct pong_log_report *report);
@@ -1261,8 +1336,7 @@ pong_status pong_get_log_report(const struct pong_world *world, struct pong_log_
 /// could not be written to the end; the message has the cause and where the log ends. It is closed all the
 /// same.
 /// pong_destroy_world() closes a log too, without a report.
-pong_status pong_stop_log(struct pong_world *world,
-                          struct pong_log_report *report);
+pong_status pong_stop_log(struct pong_world *world, struct pong_log_report *report);
 
 /// Keeps a number of the host's with an Object: an index, a pointer. The engine never looks at it.
 pong_status pong_set_object_user_data(struct pong_world *world,

@@ -42,6 +42,8 @@ using ObjectId = pong_object_id;
 using PairId = pong_pair_id;
 using InterfaceId = pong_interface_id;
 using Contact = pong_contact;
+using ContactChange = pong_contact_change;
+using PairPeaks = pong_pair_peaks;
 using Report = pong_report;
 using SealReport = pong_seal_report;
 using Ledger = pong_ledger;
@@ -240,6 +242,35 @@ public:
             return pong_get_wrench(get(), interface, static_cast<pong_reference_frame>(frame), out);
         });
     }
+    /// Wrench on one movable group from its contacts with another alone: pong_get_wrench_from().
+    Wrench wrench_from(InterfaceId interface, InterfaceId from, Frame frame = Frame::group) const {
+        return result<pong_wrench>([&](pong_wrench* out) {
+            return pong_get_wrench_from(get(), interface, from, static_cast<pong_reference_frame>(frame), out);
+        });
+    }
+    /// Wrench on the Object that was named first in a pair from the other, about a movable group of either: pong_get_pair_wrench().
+    Wrench pair_wrench(PairId pair, InterfaceId about, Frame frame = Frame::group) const {
+        return result<pong_wrench>([&](pong_wrench* out) {
+            return pong_get_pair_wrench(get(), pair, about, static_cast<pong_reference_frame>(frame), out);
+        });
+    }
+    /// Observes pairs from nothing on: pong_start_pair_monitor(). Allocates.
+    void start_pair_monitor() { check(pong_start_pair_monitor(get())); }
+    /// Takes in a frame, once after each commit; `step` is the time since the commit before, s.
+    void observe_pairs(double step) { check(pong_observe_pairs(get(), step)); }
+    /// Begins and ends of contact in the frame observed last. Allocates.
+    std::vector<ContactChange> contact_changes() const {
+        return list<ContactChange>([&](ContactChange* out, std::size_t capacity, std::size_t* count) {
+            return pong_get_contact_changes(get(), out, capacity, count);
+        });
+    }
+    /// Peaks and means of the window. Allocates.
+    std::vector<PairPeaks> pair_peaks() const {
+        return list<PairPeaks>([&](PairPeaks* out, std::size_t capacity, std::size_t* count) {
+            return pong_get_pair_peaks(get(), out, capacity, count);
+        });
+    }
+    void begin_peak_window() { check(pong_begin_peak_window(get())); }
     /// All wrenches in one call: `n` ids and room for as many wrenches of pong.h.
     void wrenches(const InterfaceId* interfaces, Frame frame, pong_wrench* out, std::size_t n) const {
         check(pong_get_wrenches(get(), interfaces, static_cast<pong_reference_frame>(frame), out, n));

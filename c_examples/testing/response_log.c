@@ -64,6 +64,8 @@ static void refusals(void)
     REFUSED(pong_log_frame(s.world, 0.0), WRONG_PHASE, "before states, pairs or surfaces change");
     OK(pong_step(s.world));
     OK(pong_log_frame(s.world, 0.0));
+    OK(pong_set_pair_enabled(s.world, s.pair, 0));
+    REFUSED(pong_log_frame(s.world, 0.0), WRONG_PHASE, "before states, pairs or surfaces change");
     OK(pong_stop_log(s.world, &report));
     TEST(report.frames == 1 && report.flushed == 1 && report.lost == 0 && report.failed == 0);
     REFUSED(pong_start_log(s.world, inside("refusals"), NULL), LOG_FAILED, "holds a log already");
@@ -88,6 +90,10 @@ static void change(scene *s, long n)
 static void commit(scene *s, long n)
 {
     OK(pong_evaluate(s->world));
+    if (n % 700 == 500 || n % 700 == 510) {
+        /* After the evaluation: the commit evaluates anew. */
+        OK(pong_set_pair_enabled(s->world, s->pair, n % 700 == 510));
+    }
     if (n % 5 == 1) {
         OK(pong_commit_pairs(s->world, &s->pair, 1));
     } else if (n % 5 == 2) {

@@ -59,6 +59,7 @@ impl Inner {
             callbacks,
             sources: self.sources.clone(),
             log: None,
+            monitor: None,
         })
     }
 }

@@ -7,7 +7,7 @@ use crate::law_adapters::{Callback, LawFaults};
 use crate::names::Names;
 use crate::phase::Phase;
 use crate::worker::Started;
-use pong_engine::{InterfaceId, PairId, State};
+use pong_engine::{InterfaceId, PairId, PairMonitor, State};
 use pong_record::{ModelSource, Recorder};
 use std::ffi::CString;
 use std::sync::Mutex;
@@ -45,4 +45,5 @@ pub(crate) struct Inner {
     /// Source of each model.
     pub sources: Vec<ModelSource>,
     pub log: Option<Recorder>,
+    pub monitor: Option<PairMonitor>,
 }

@@ -7,6 +7,7 @@ use crate::contacts::{pong_contact, pong_contact_side};
 use crate::ids::{pong_interface_id, pong_model_id, pong_object_id, pong_pair_id};
 use crate::law_types::{pong_friction_input, pong_friction_output, pong_normal_input};
 use crate::log::{pong_log_options, pong_log_report};
+use crate::pair_monitor::{pong_contact_change, pong_pair_peaks};
 use crate::report::{pong_ledger, pong_report};
 use crate::seal::pong_seal_report;
 use crate::states::pong_state;
@@ -77,6 +78,10 @@ layouts! {
     pong_contact {
         pair, a, b, feature_kind, feature_index, end, sticks, point, normal, depth, depth_rate, weight, normal_force,
         friction_force, force, slip_velocity, stored,
+    }
+    pong_contact_change { pair, interfaces, begins, reserved }
+    pong_pair_peaks {
+        pair, interfaces, peak_normal_force, mean, contact_time, window, begins, ends, touches, reserved,
     }
     pong_report {
         flags, contacts, contacts_wanted, peak_contacts_wanted, volumes_tested, leaf_pairs, boxes_tested,

@@ -14,6 +14,7 @@
 //! | `coupling.rs`, `step_plan.rs` | what the host does with wrenches; masses and step, for the check at the seal |
 //! | `seal.rs` | end of set-up |
 //! | `states.rs`, `frames.rs`, `wrenches.rs`, `contacts.rs`, `report.rs`, `accounts.rs`, `tally.rs` | frames |
+//! | `pair_monitor.rs` | begin and end of contact, peaks over several frames |
 //! | `workers.rs` | workers, around frames |
 //! | `contact_state.rs`, `surfaces.rs`, `user_data.rs` | between frames |
 //! | `log.rs` | response logs |
@@ -61,6 +62,7 @@ mod message;
 pub mod models;
 mod names;
 pub mod objects;
+pub mod pair_monitor;
 pub mod pairs;
 mod phase;
 mod pointers;

@@ -64,8 +64,11 @@ pub unsafe extern "C" fn pong_filter_groups(
     })
 }
 
-/// Switches a pair on (1, the initial value) or off (0). A pair that is off has no contacts; when it is
-/// switched on again it has no contact history.
+/// Switches a pair on (1, as it begins) or off (0). A pair that is off has no contacts; when it is switched on again it has no
+/// past. Both drop what the pair remembers at once: bristles begin anew, as after pong_clear_contact_history(). Wrenches and
+/// contacts stay those of the last frame until the next evaluation, and that frame no longer belongs to what is set: evaluate
+/// before the wrenches are read again. pong_commit() and pong_step() evaluate by themselves; pong_log_frame() is refused until
+/// then. A log takes note of the switch by itself. Switching to what a pair is already does nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_pair_enabled(
     world: *mut pong_world,

@@ -97,7 +97,8 @@ pub extern "C" fn pong_default_step_plan() -> pong_step_plan {
     }
 }
 
-/// Sets the mass properties of a movable group, for the check that pong_plan_step() asks for. Before sealing.
+/// Sets the mass properties of a movable group, for the check that pong_plan_step() asks for. Before sealing. A hinged body
+/// gets its own mass and inertia, as if it were free; that is on the safe side, and pong_set_joints() gives a sharp limit.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_mass(
     world: *mut pong_world,

@@ -57,6 +57,7 @@ pub unsafe extern "C" fn pong_create_world(
             callbacks: Vec::new(),
             sources: Vec::new(),
             log: None,
+            monitor: None,
         };
         out.set(Box::into_raw(Box::new(pong_world { inner: Mutex::new(inner) })));
         Ok(())

@@ -3,10 +3,11 @@
 use crate::failure::{Failure, Outcome};
 use crate::guard::{get, with_world};
 use crate::handle::{Inner, pong_world};
-use crate::ids::pong_interface_id;
+use crate::ids::{pong_interface_id, pong_pair_id};
 use crate::pointers::{OutArray, apart, array};
 use crate::status::pong_status;
-use pong_engine::EngineError;
+use pong_engine::{EngineError, World};
+use pong_geometry::Wrench;
 
 /// Frame in which a wrench is expressed: PONG_REFERENCE_FRAME_GROUP or PONG_REFERENCE_FRAME_COMMON.
 pub type pong_reference_frame = i32;
@@ -40,10 +41,10 @@ pub unsafe extern "C" fn pong_get_wrenches(
         apart(("interfaces", interfaces, n), ("wrenches", wrenches, n))?;
         let ids = array(interfaces, n, "interfaces")?;
         let mut out = OutArray::new(wrenches, n, "wrenches")?;
-        check_frame(frame)?;
+        let common = along_common_axes(frame)?;
         inner.check_interfaces(ids)?;
         for (index, id) in ids.iter().enumerate() {
-            out.set(index, inner.wrench(*id, frame)?);
+            out.set(index, inner.wrench(*id, common)?);
         }
         Ok(())
     })
@@ -58,30 +59,90 @@ pub unsafe extern "C" fn pong_get_wrench(
     wrench: *mut pong_wrench,
 ) -> pong_status {
     get(world, (wrench, "wrench"), |inner| {
-        check_frame(frame)?;
-        inner.wrench(interface, frame)
+        let common = along_common_axes(frame)?;
+        inner.wrench(interface, common)
     })
 }
 
-fn check_frame(frame: pong_reference_frame) -> Outcome {
-    if frame == PONG_REFERENCE_FRAME_GROUP || frame == PONG_REFERENCE_FRAME_COMMON {
-        return Ok(());
+/// Wrench of the last frame on the movable group `interface` from its contacts with the movable group `from` alone, about the
+/// origin of `interface`, as pong_get_wrench(): over all groups that `interface` can touch, these add up to that wrench, to
+/// rounding. Zero where the two do not touch, their pair is off or a filter keeps them apart. Summed when it is asked for: a
+/// frame pays nothing; allocates nothing. PONG_STATUS_BAD_VALUE: both are the same group, or their Objects are not paired.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_wrench_from(
+    world: *const pong_world,
+    interface: pong_interface_id,
+    from: pong_interface_id,
+    frame: pong_reference_frame,
+    wrench: *mut pong_wrench,
+) -> pong_status {
+    get(world, (wrench, "wrench"), |inner| {
+        let common = along_common_axes(frame)?;
+        let (on, from) = (interface.id(), from.id());
+        let world = inner.framed()?;
+        let wrench =
+            if common { world.wrench_from_common(on, from)? } else { world.wrench_from(on, from)? };
+        Ok((&wrench).into())
+    })
+}
+
+/// Wrench of the last frame of a pair of Objects: the sum over all its contacts, on the Object that was named first in the pair
+/// from the other, about the origin of `about`, a movable group of either Object. PONG_REFERENCE_FRAME_GROUP: along the axes of
+/// `about`. The Object named second receives the opposite about the same point. Zero where the two do not touch or the pair is
+/// off. Summed when it is asked for: a frame pays nothing; allocates nothing. PONG_STATUS_BAD_VALUE: `about` is of neither
+/// Object, or an Object is paired with itself: ask pong_get_wrench_from() for two of its groups.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_pair_wrench(
+    world: *const pong_world,
+    pair: pong_pair_id,
+    about: pong_interface_id,
+    frame: pong_reference_frame,
+    wrench: *mut pong_wrench,
+) -> pong_status {
+    get(world, (wrench, "wrench"), |inner| {
+        let common = along_common_axes(frame)?;
+        let (pair, about) = (pair.id(), about.id());
+        let world = inner.framed()?;
+        let wrench =
+            if common { world.pair_wrench_common(pair, about)? } else { world.pair_wrench(pair, about)? };
+        Ok((&wrench).into())
+    })
+}
+
+/// Whether a wrench is wanted along the axes of the common frame.
+fn along_common_axes(frame: pong_reference_frame) -> Outcome<bool> {
+    match frame {
+        PONG_REFERENCE_FRAME_GROUP => Ok(false),
+        PONG_REFERENCE_FRAME_COMMON => Ok(true),
+        _ => {
+            let message =
+                format!("`frame` is {frame}; give PONG_REFERENCE_FRAME_GROUP or PONG_REFERENCE_FRAME_COMMON");
+            Err(Failure::new(pong_status::BadValue, message))
+        }
     }
-    let message =
-        format!("`frame` is {frame}; give PONG_REFERENCE_FRAME_GROUP or PONG_REFERENCE_FRAME_COMMON");
-    Err(Failure::new(pong_status::BadValue, message))
 }
 
 impl Inner {
-    fn wrench(&self, id: pong_interface_id, frame: pong_reference_frame) -> Outcome<pong_wrench> {
-        self.law_faults.check()?;
-        let common = frame == PONG_REFERENCE_FRAME_COMMON;
-        let Some(world) = self.phase.sealed() else {
+    fn wrench(&self, id: pong_interface_id, common: bool) -> Outcome<pong_wrench> {
+        if self.phase.sealed().is_none() {
             self.names.path(id)?;
-            let cure = "evaluate or step a frame first";
-            return Err(EngineError::WrongPhase { call: "get a wrench", cure }.into());
-        };
+        }
+        let world = self.framed()?;
         let wrench = if common { world.wrench_common(id.id())? } else { world.wrench(id.id())? };
-        Ok(pong_wrench { force: wrench.force.into(), moment: wrench.moment.into() })
+        Ok((&wrench).into())
+    }
+
+    /// The world, if it is sealed and no law has failed in its last frame.
+    fn framed(&self) -> Outcome<&World> {
+        self.law_faults.check()?;
+        let cure = "evaluate or step a frame first";
+        let too_early = EngineError::WrongPhase { call: "get a wrench", cure };
+        Ok(self.phase.sealed().ok_or(too_early)?)
+    }
+}
+
+impl From<&Wrench> for pong_wrench {
+    fn from(wrench: &Wrench) -> Self {
+        Self { force: wrench.force.into(), moment: wrench.moment.into() }
     }
 }

@@ -32,6 +32,7 @@ mod frame;
 mod ids;
 pub mod inspect;
 mod law;
+mod pair_monitor;
 mod report;
 mod runtime;
 mod scene;
@@ -53,6 +54,7 @@ pub use law::{
     CombineError, FrictionProps, NormalForce, NormalInput, NormalProps, NormalTangent, PairProps,
     combine as combine_surfaces,
 };
+pub use pair_monitor::{ContactChange, PairMonitor, PairPeaks};
 pub use pong_threads::{LaneWork, WorkerStart};
 pub use report::{
     FrameCounts, FrameReport, MemoryReport, Stage, StageTimes, StatusBits, Tally, TunnellingReport, Work,

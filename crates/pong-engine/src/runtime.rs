@@ -39,6 +39,8 @@ pub(crate) struct Runtime {
     pub evaluated: bool,
     /// True if `frame` was computed from the current states, pairs and surfaces, whether committed or not.
     pub current: bool,
+    /// Number of the frame last committed, in whole or in part; 0 before the first.
+    pub committed: u64,
     pub clock: Clock,
     contacts_peak: usize,
     /// For each pair of Objects: true if the current partial commit accepts it. Rewritten by each partial
@@ -103,6 +105,7 @@ impl Runtime {
             pool,
             evaluated: false,
             current: false,
+            committed: 0,
             clock,
             contacts_peak: 0,
             accepted: vec![false; scene.pairs.len()].into_boxed_slice(),
@@ -184,6 +187,7 @@ impl Runtime {
             next.pair_energies.copy_from(&frame.energy.pairs);
         });
         watch.lap(Stage::Commit, &mut frame.times);
+        self.committed = frame.number;
         self.evaluated = false;
     }
 
@@ -240,6 +244,7 @@ impl Runtime {
             frame.report.contacts_wanted = frame.report.contacts_wanted.max(wanted);
         }
         watch.lap(Stage::Commit, &mut frame.times);
+        self.committed = frame.number;
         self.evaluated = false;
         Ok(())
     }

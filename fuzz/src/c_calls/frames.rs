@@ -8,9 +8,16 @@ use pong::contacts::{
 };
 use pong::frames::{pong_commit, pong_commit_pairs, pong_evaluate, pong_step};
 use pong::ids::{pong_interface_id, pong_pair_id};
+use pong::pair_monitor::{
+    pong_begin_peak_window, pong_contact_change, pong_get_contact_changes, pong_get_pair_peaks,
+    pong_observe_pairs, pong_pair_peaks, pong_start_pair_monitor,
+};
 use pong::report::{pong_get_ledger, pong_get_report, pong_ledger, pong_report};
 use pong::states::{pong_default_state, pong_get_state, pong_set_state, pong_set_states, pong_state};
-use pong::wrenches::{pong_get_wrench, pong_get_wrenches, pong_wrench};
+use pong::world::pong_world;
+use pong::wrenches::{
+    pong_get_pair_wrench, pong_get_wrench, pong_get_wrench_from, pong_get_wrenches, pong_wrench,
+};
 
 /// Largest number in a valid state.
 const LARGEST: f64 = 1e100;
@@ -25,8 +32,13 @@ impl Session<'_> {
             9 => self.frame("evaluate", |world| unsafe { pong_evaluate(world) }),
             10 => self.frame("commit", |world| unsafe { pong_commit(world) }),
             11 => self.commit_pairs(),
-            12 => self.wrench(),
+            12 => match self.input.below(3) {
+                0 => self.wrench(),
+                1 => self.wrench_from(),
+                _ => self.pair_wrench(),
+            },
             13 => self.contacts(),
+            14 if self.input.chance(128) => self.monitor(),
             14 => self.report(),
             15 => self.accounts(),
             16 => self.standing_groups(),
@@ -230,6 +242,92 @@ impl Session<'_> {
             assert!(found <= capacity, "{found} standing groups where {capacity} fit");
             let known = self.host().expect("it has a world").ids.interfaces.clone();
             assert!(groups[..found].iter().all(|group| known.contains(group)), "an unknown group stands");
+        }
+    }
+
+    fn monitor(&mut self) {
+        let (world, known) = self.world();
+        let sealed = self.host().is_some_and(|host| host.sealed);
+        let sure = known.only_if(sealed);
+        match self.input.below(5) {
+            0 => drop(self.call("start monitor", sure, || unsafe { pong_start_pair_monitor(world) })),
+            1 => {
+                let step = self.input.number();
+                let sure = sure.and(Sure::Unknown).only_if(step > 0.0 && step <= LARGEST);
+                self.call("observe", sure, || unsafe { pong_observe_pairs(world, step) });
+            }
+            2 => {
+                let sure = sure.and(Sure::Unknown);
+                self.call("begin window", sure, || unsafe { pong_begin_peak_window(world) });
+            }
+            3 => self.changes(world, sure),
+            _ => self.peaks(world, sure),
+        }
+    }
+
+    fn changes(&mut self, world: *mut pong_world, sure: Sure) {
+        let capacity = self.input.below(4);
+        let mut changes = Vec::<pong_contact_change>::with_capacity(capacity);
+        let place = self.place::<usize>();
+        let sure = sure.and(place.sure).and(Sure::Unknown);
+        let done = self.call("changes", sure, || unsafe {
+            pong_get_contact_changes(world, changes.as_mut_ptr(), capacity, place.pointer)
+        });
+        if done {
+            assert!(place.get() <= capacity, "{} changes where {capacity} fit", place.get());
+            // SAFETY: the call succeeded, so so many were written.
+            unsafe { changes.set_len(place.get()) };
+            assert!(changes.iter().all(|change| change.pair.bits != 0 && (0..2).contains(&change.begins)));
+        }
+    }
+
+    fn peaks(&mut self, world: *mut pong_world, sure: Sure) {
+        let capacity = self.input.below(4);
+        let mut peaks = Vec::<pong_pair_peaks>::with_capacity(capacity);
+        let place = self.place::<usize>();
+        let sure = sure.and(place.sure).and(Sure::Unknown);
+        let done = self.call("peaks", sure, || unsafe {
+            pong_get_pair_peaks(world, peaks.as_mut_ptr(), capacity, place.pointer)
+        });
+        if done {
+            assert!(place.get() <= capacity, "{} peaks where {capacity} fit", place.get());
+            // SAFETY: the call succeeded, so so many were written.
+            unsafe { peaks.set_len(place.get()) };
+            assert!(peaks.iter().all(|peaks| peaks.peak_normal_force >= 0.0 && peaks.window > 0.0));
+        }
+    }
+
+    fn wrench_from(&mut self) {
+        let (world, known) = self.world();
+        let (on, good) = self.id(|ids| &ids.interfaces, |bits| pong_interface_id { bits });
+        let (from, also) = self.id(|ids| &ids.interfaces, |bits| pong_interface_id { bits });
+        let place = self.place::<pong_wrench>();
+        let frame = self.input.one_of(&[0, 1, 0, 1, 2, -1, i32::MAX]);
+        // Groups of Objects that are not paired are refused.
+        let sure = known.and(good).and(also).and(place.sure).and(Sure::Unknown);
+        let sure = sure.only_if((frame == 0 || frame == 1) && on != from);
+        let done = self.call("get wrench from", sure, || unsafe {
+            pong_get_wrench_from(world, on, from, frame, place.pointer)
+        });
+        if done {
+            finite(place.get().force.iter().chain(&place.get().moment), "wrench from");
+        }
+    }
+
+    fn pair_wrench(&mut self) {
+        let (world, known) = self.world();
+        let (pair, good) = self.id(|ids| &ids.pairs, |bits| pong_pair_id { bits });
+        let (about, also) = self.id(|ids| &ids.interfaces, |bits| pong_interface_id { bits });
+        let place = self.place::<pong_wrench>();
+        let frame = self.input.one_of(&[0, 1, 0, 1, 2, -1, i32::MAX]);
+        // So is a point of reference on a third Object, and an Object that is paired with itself.
+        let sure = known.and(good).and(also).and(place.sure).and(Sure::Unknown);
+        let sure = sure.only_if(frame == 0 || frame == 1);
+        let done = self.call("get pair wrench", sure, || unsafe {
+            pong_get_pair_wrench(world, pair, about, frame, place.pointer)
+        });
+        if done {
+            finite(place.get().force.iter().chain(&place.get().moment), "pair wrench");
         }
     }
 

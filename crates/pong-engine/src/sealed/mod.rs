@@ -31,6 +31,13 @@ pub struct GroupPair {
     pub(crate) plans: [u32; 2],
 }
 
+impl GroupPair {
+    /// The two bodies, the one of the Object that was named first in the pair first.
+    pub(crate) fn sides(&self) -> [usize; 2] {
+        if self.first_named_first { [self.first, self.second] } else { [self.second, self.first] }
+    }
+}
+
 /// Plan index of a direction in which nothing of A can touch anything of B.
 pub(crate) const NO_PLAN: u32 = u32::MAX;
 

@@ -5,6 +5,7 @@
 //! | `frame.rs` | states in; evaluate, commit, step |
 //! | `changes.rs` | changes between frames: pairs on and off, surface values, contact history |
 //! | `results.rs` | wrenches, contacts and reports of the last frame |
+//! | `pair_wrench.rs` | wrench that one Object or movable group puts on another |
 //! | `energy.rs` | energies of the last commit |
 //! | `contact_state.rs` | the contact state as a block of bytes |
 //! | `standing.rs` | poses that contradict velocities |
@@ -18,6 +19,7 @@ mod contact_state;
 mod continuation;
 mod energy;
 mod frame;
+mod pair_wrench;
 mod results;
 mod standing;
 mod workers;

@@ -87,7 +87,7 @@ impl World {
     }
 
     /// The runtime, if a frame has been computed.
-    fn framed(&self) -> Result<&Runtime, EngineError> {
+    pub(super) fn framed(&self) -> Result<&Runtime, EngineError> {
         if self.runtime.frame.computed {
             return Ok(&self.runtime);
         }

@@ -24,6 +24,7 @@ mod lone_element;
 mod many_pairs;
 mod normal_tangents;
 mod other_descriptions;
+mod pairs;
 mod preload;
 mod round_parts;
 mod round_sides;

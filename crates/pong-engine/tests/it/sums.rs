@@ -1,5 +1,6 @@
 //! The wrenches are the sums over the listed contacts to 1e-12 of the largest, for any number of contacts,
-//! threads and rounds. The reference adds them in list order in the common frame, with compensated summation.
+//! threads and rounds, and so are the sums over the wrenches of single pairs. The reference adds them in list
+//! order in the common frame, with compensated summation.
 
 use crate::common::stage::{Path, Scene, Stage, workers};
 use crate::common::{model, points, rough};
@@ -40,12 +41,27 @@ fn step(stage: &mut Stage<'_>, states: &[State]) -> usize {
     }
     for group in &stage.groups {
         let [force, moment] = sums.remove(group).unwrap_or_default().map(Exact::sum);
+        let mut by_pairs = [Exact::default(); 2];
+        for other in stage.groups.iter().filter(|other| object_of(stage, **other) != object_of(stage, *group))
+        {
+            let from = stage.world.wrench_from_common(*group, *other).unwrap();
+            by_pairs[0].add(&from.force);
+            by_pairs[1].add(&from.moment);
+        }
         let got = stage.world.wrench_common(*group).unwrap();
-        let off = (got.force - force).norm().max((got.moment - moment).norm());
-        assert!(off <= 1e-12 * largest, "{group:?}: {got:?}, not {force:?} {moment:?}, {largest}");
+        for [sum_force, sum_moment] in [[got.force, got.moment], by_pairs.map(Exact::sum)] {
+            let off = (sum_force - force).norm().max((sum_moment - moment).norm());
+            assert!(off <= 1e-12 * largest, "{group:?}: {got:?}, not {force:?} {moment:?}, {largest}");
+        }
     }
     assert!(sums.is_empty());
     contacts.len()
+}
+
+/// Name of the Object of a movable group.
+fn object_of(stage: &Stage<'_>, group: InterfaceId) -> String {
+    let name = stage.world.scene().interface_name(group).unwrap();
+    name.split('/').next().unwrap().to_owned()
 }
 
 fn is_shared(stage: &Stage<'_>) -> bool {

@@ -1,8 +1,9 @@
-//! Results of a frame: ordered contacts, wrenches, the host's contact list, records for the commit, and
-//! preloaded bristles.
+//! Results of a frame: ordered contacts, wrenches, the host's contact list, wrenches of single pairs, records for the
+//! commit, and preloaded bristles.
 
 mod listing;
 pub(crate) mod order;
+mod pair_wrench;
 pub(crate) mod preload;
 pub(crate) mod reduce;
 pub(crate) mod remember;

@@ -27,10 +27,7 @@ pub(crate) fn sum(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     for places in order.chunk_by(|a, b| a.direction() == b.direction()) {
         let direction = places[0].direction();
         let x_ba = motions.known(near, input, direction).x_ba;
-        let mut sums = Sums::of_nothing();
-        for part in places.chunks(PART) {
-            sums.add(&Sums::of(&found, part, &x_ba.translation));
-        }
+        let sums = Sums::of_direction(&found, places, &x_ba.translation);
         if !sums.in_range {
             beyond_range.get_or_insert(direction);
         }
@@ -44,7 +41,7 @@ pub(crate) fn sum(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
 const PART: usize = 64;
 
 /// Sums over the contacts of one direction, in B's axes.
-struct Sums {
+pub(super) struct Sums {
     /// Force on A, N.
     force: Vec3,
     /// Moment on A about A's origin, N·m.
@@ -58,6 +55,16 @@ struct Sums {
 impl Sums {
     fn of_nothing() -> Self {
         Self { force: Vec3::zeros(), about_a: Vec3::zeros(), about_b: Vec3::zeros(), in_range: true }
+    }
+
+    /// Sums over all contacts of a direction, part by part; `origin_a` is A's origin in B's frame, m.
+    #[inline]
+    pub fn of_direction(found: &FoundContacts<'_>, places: &[Place], origin_a: &Vec3) -> Self {
+        let mut sums = Self::of_nothing();
+        for part in places.chunks(PART) {
+            sums.add(&Self::of(found, part, origin_a));
+        }
+        sums
     }
 
     /// Sums over some contacts; `origin_a` is A's origin in B's frame, m.
@@ -84,12 +91,12 @@ impl Sums {
     }
 
     /// Wrench on A, about A's origin in A's axes.
-    fn on_a(&self, x_ba: &Transform) -> Wrench {
+    pub fn on_a(&self, x_ba: &Transform) -> Wrench {
         Wrench { force: x_ba.rotation.tr_mul(&self.force), moment: x_ba.rotation.tr_mul(&self.about_a) }
     }
 
     /// Wrench on B, about B's origin in B's axes.
-    fn on_b(&self) -> Wrench {
+    pub fn on_b(&self) -> Wrench {
         Wrench { force: -self.force, moment: -self.about_b }
     }
 }
