@@ -28,7 +28,7 @@ pub(crate) struct EvaluationBuffers {
     pub twists: Vec<Twist>,
     /// The pairs of movable groups that the frame visits.
     pub near: NearPairs,
-    // relative, bounding
+    // relative motion, broad phase
     pub input: WorkerInput,
     // narrow phase, load sharing, forces: unordered
     /// Boxed, because a world is moved over the stack a few times while it is built or cloned.

@@ -66,8 +66,8 @@ pub(super) fn least_lane_bytes(limits: &Limits, law_state_len: usize) -> usize {
 /// Maximum memory for contacts; a request for more is probably a typing error.
 const ROOM_BYTES_MAX: usize = 8 << 30;
 
-/// A thread's buffer holds an eighth more contacts than there are records, and each record needs at least one
-/// contact and two records.
+/// A thread's buffer holds an eighth more contacts than there are records, and each record takes the memory
+/// of at least one contact and two records (committed and next).
 const _: () = {
     let records = ROOM_BYTES_MAX / (size_of::<FrameContact>() + 2 * Records::BYTES);
     assert!(records / 8 * 9 < Slot::INDICES);

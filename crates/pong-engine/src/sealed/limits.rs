@@ -32,8 +32,8 @@ impl Limits {
         self.lane_contacts.min(LEAST_WORKER_CONTACTS)
     }
 
-    /// Records that each thread, including the caller, writes itself. With more records, the copy in the
-    /// commit is cheap compared with the rest of the frame.
+    /// Records that each thread, including the caller, writes itself. With more contacts, the commit costs far
+    /// more than the cache-line transfers between cores that this saves.
     pub fn lane_records(&self) -> usize {
         if self.lanes_write_records { self.least_worker_contacts() } else { 0 }
     }

@@ -34,7 +34,7 @@ pub(crate) struct ContactMemory {
     pub pair_energies: PairEnergies,
     /// Numbers per record in `law_state`.
     pub law_state_len: usize,
-    /// Energy that left the contacts for good since the world began, J.
+    /// Energy dissipated or dropped since the world began, J.
     pub dissipated: f64,
     /// Work done on the bodies since the world began, J.
     pub work: f64,

@@ -11,7 +11,7 @@ use crate::sealed::Sealed;
 pub(crate) struct EnergyBuffers {
     /// Work done on the bodies since the world began, J.
     pub work: f64,
-    /// Energy that left the contacts for good since the world began, J.
+    /// Energy dissipated or dropped since the world began, J.
     pub dissipated: f64,
     /// Contributions of the frame to both, per pair of movable groups, for partial commits; empty without a
     /// ledger.

@@ -33,8 +33,8 @@ pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBu
     frame.report.contacts_wanted = saturated(pushing);
     if demand.overflowed || pushing > capacity as u64 || remembered > spare as u64 {
         frame.report.status.set(StatusBits::CONTACT_LIMIT);
-        // Records have at least as much capacity as contacts that push, and chunk candidates at least as much
-        // as records.
+        // Contacts only remembered have the same capacity as those that push, and chunk candidates at least
+        // that, so the largest of the three is enough.
         frame.report.contacts_wanted = saturated(pushing.max(remembered).max(demand.at_once));
         frame.caller.out.keep_deepest(capacity, spare);
         list(frame);

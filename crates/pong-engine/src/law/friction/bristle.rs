@@ -4,7 +4,7 @@
 //! p_s = μ_s·F_n/K      p_k = μ_k·F_n/K      p* = carried p + u
 //! sticking:  |p*| ≤ p_s keeps sticking, p = p*;              else breaks away, p on the circle p_k
 //! slipping:  |p*| ≤ p_k, p = p*;                             else p on the circle p_k
-//! sticks again where p*·v_t < 0 or |p*| < p_k, as soon as |K·p + c·v_t| ≤ μ_k·F_n
+//!            sticks again where p*·v_t < 0 or |p*| < p_k, as soon as |K·p + c·v_t| ≤ μ_k·F_n
 //! F_t = −cut(K·p + c·v_t), its length cut to μ_s·F_n while sticking, to μ_k·F_n in every other step
 //! ```
 //!
