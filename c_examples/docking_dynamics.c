@@ -137,7 +137,7 @@ static void stretch(const docking *d, vec3 *displacement, vec3 *rotation, vec3 *
     *rotation = rotate(port.orientation, quat_log(quat_times(conjugate(port.orientation), d->ring.orientation)));
 }
 
-/* What differs along the axis and across it: a*across + (along - across)*axis*(axis.a). */
+/* Scales a vector differently along an axis and across it: a*across + (along - across)*axis*(axis.a). */
 static vec3 by_axis(vec3 a, vec3 axis, double along, double across)
 {
     return add(scale(a, across), scale(axis, (along - across) * dot(axis, a)));

@@ -28,7 +28,7 @@ static pong_object_id add_object(pong_world *world, const char *folder, const ch
 
 static vec3 from_array(const double a[3]) { return v3(a[0], a[1], a[2]); }
 
-/* Where the model's author put the latches, in the ring's frame. */
+/* Reads the model poses of the latches, in the ring's frame. */
 static void place_latches(contact_scene *scene, docking *d)
 {
     pong_state ring, latch;

@@ -45,7 +45,7 @@ enum { CORNERS = 64 };
  * degrees, 4 directions of the tilt of 4 degrees. */
 docking_case corner(int index);
 
-/* Whether there is a case of this name. */
+/* Finds a case by name; returns 0 if there is none. */
 int find_case(const char *name, docking_case *c);
 
 /* The chaser on its line of approach, with the two ring faces `gap` apart. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What stands before the two contact states. */
+/* Header before the two contact states. */
 typedef struct {
     char kind[16];
     size_t struct_size, fast_bytes, slow_bytes;

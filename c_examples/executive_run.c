@@ -61,7 +61,7 @@ void run_without_clock(simulation *sim, const run_options *o, schedule *fast, sc
         long long start = now_ns();
         fast->release = start;
         if (sim->frame % RATIO == 0) {
-            /* What the slow world computed in its last frame acts from now on. */
+            /* The wrench of the slow world's last frame acts from now on. */
             sim->on_cabin = sim->cabin.on_cabin;
             hook(sim, context);
             if (sim->frame == o->end) {
@@ -135,8 +135,8 @@ static void exchange(tasks *t)
     sem_post(&mail->asked);
 }
 
-/* What is done before the release. A rehearsal is an evaluation whose results nobody reads: it brings what the frame needs
- * into the caches of its cores, and changes nothing that the frame can see. */
+/* Prepares for the release. A rehearsal is an evaluation whose results are not read: it loads the data of the frame into the
+ * caches of its cores, and changes nothing that the frame can see. */
 static void get_ready(const tasks *t)
 {
     if (t->options->workers > 0 || t->options->rehearse) {

@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-/* What the process and the thread asked of the system and got; texts for people. */
+/* System settings of the process and the thread, as requested and as granted, in words. */
 typedef struct {
     char memory[160];
     char scheduling[160];
@@ -39,8 +39,8 @@ typedef struct {
 
 void make_schedule(schedule *s, const char *name, long long period, size_t frames);
 
-/* How far the clock is behind the release of the present frame, if by more than one period; else 0, ns. A schedule that
- * is further behind than `give_up` periods begins anew at the present time: to run after it would starve all else. */
+/* Delay of the clock behind the release of the present frame, if above one period; else 0, ns. A schedule that is late by
+ * more than `give_up` periods restarts at the present time: catching up would starve everything else. */
 long long behind(schedule *s, int give_up);
 
 /* Notes the end of a frame that began at `start`, and sets the next release. */

@@ -202,7 +202,7 @@ static void bad_states(scene *s)
     TEST(memcmp(&before, &after, sizeof after) == 0);
 }
 
-/* What is written must not be what is read, nor what else is written: nothing of it is touched. */
+/* Output arguments must not overlap inputs or other outputs: overlapping ones are refused and left untouched. */
 static void shared_memory(scene *s)
 {
     union {

@@ -161,7 +161,7 @@ public:
     }
     /// Masses for the check that plan_step() asks for; no frame reads them.
     void set_mass(InterfaceId interface, const Mass& mass) { check(pong_set_mass(get(), interface, &mass)); }
-    /// How a group on joints yields, after its mass. Start from zeros.
+    /// Sets the compliance of a group on joints, after its mass. Start from zeros.
     void set_joints(InterfaceId interface, const Joints& joints) { check(pong_set_joints(get(), interface, &joints)); }
     /// Start from pong_default_step_plan() and set the step.
     void plan_step(const StepPlan& plan) { check(pong_plan_step(get(), &plan)); }

@@ -71,7 +71,7 @@ def linked(platform):
 
 
 def missing(bom, platform):
-    """Why the bill is not that of what is linked."""
+    """Differences between the bill and the linked components."""
     there = {(component["name"], component["version"]) for component in bom["components"]}
     licences = (ROOT / "THIRD_PARTY_LICENSES.md").read_text()
     for name, version in linked(platform):

@@ -1,4 +1,4 @@
-/* What the test programs share: checks that tell where they failed, and a small scene. */
+/* Shared parts of the test programs: checks that report their location, and a small scene. */
 #ifndef CHECK_H
 #define CHECK_H
 

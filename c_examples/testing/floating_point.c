@@ -35,7 +35,7 @@ static void enter(void)
 #endif
 }
 
-/* Whether the environment is as `enter` made it; then the usual one again. */
+/* Returns 1 if the environment is as `enter` left it, and restores the default one. */
 static int leave(void)
 {
     static const int rounding[] = { FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST, FE_TONEAREST };
@@ -156,7 +156,7 @@ static unsigned long long run(unsigned workers)
         hash = hash_of(wrenches, sizeof wrenches, hash);
     }
     TEST(contacts > 5000);
-    /* What leaves the range of numbers is refused, without a trap and without a flag. */
+    /* States whose result overflows are refused, without a trap and without a flag. */
     states[0].position[2] = -0.001;
     states[0].angular_velocity[0] = 1e100;
     states[0].linear_velocity[2] = -1e100;

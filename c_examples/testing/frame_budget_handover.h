@@ -1,4 +1,4 @@
-/* How far two cores are from each other. */
+/* Communication time between two cores. */
 #ifndef FRAME_BUDGET_HANDOVER_H
 #define FRAME_BUDGET_HANDOVER_H
 

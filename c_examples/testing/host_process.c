@@ -35,7 +35,7 @@ static pong_wrench frame(scene *s, int number)
     return wrench;
 }
 
-/* What a child answers: 0 if its tests passed. One that hangs is ended by an alarm. */
+/* Exit code of a child: 0 if its tests passed. A child that hangs is ended by an alarm. */
 static int answer_of(pid_t child)
 {
     int status = 0;
@@ -204,7 +204,7 @@ static void worker_that_does_not_run(void)
     closedir(tasks);
     memset(&action, 0, sizeof action);
     action.sa_handler = stand_still;
-    /* Of those that a library's thread takes: SIGTRAP tells a thread of its own fault. */
+    /* The library's threads do not block SIGTRAP, which reports a fault of the thread itself. */
     sigaction(SIGTRAP, &action, NULL);
     hold = 1;
     syscall(SYS_tgkill, getpid(), worker, SIGTRAP);

@@ -21,7 +21,7 @@ static unsigned long long size_now(void)
     return pages * (unsigned long long)sysconf(_SC_PAGESIZE);
 }
 
-/* What the child tells its parent: how far it got, and whether as it should. */
+/* Exit codes of the child beside the number of the stage that it reached. */
 enum { ABORTED = 100, WRONG = 99 };
 
 /* A call that may be refused for want of memory, and for nothing else; the message must tell the size. */
@@ -69,7 +69,7 @@ static int set_up(const char *arms, const char *mesh, unsigned workers)
 
 enum { ALL = 11 };
 
-/* How far set-up got with so much more address space than there is. */
+/* Stage that set-up reaches with this much additional address space. */
 static int with(unsigned long long bytes, const char *arms, const char *mesh, unsigned workers)
 {
     int status;

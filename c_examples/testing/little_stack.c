@@ -64,7 +64,7 @@ static void write_deep(char *text, size_t size)
     snprintf(text + n, size - (size_t)n, "))");
 }
 
-/* What the stages hand on. */
+/* Data shared by the stages. */
 typedef struct run {
     crowd crowd;
     pong_world *kinds;

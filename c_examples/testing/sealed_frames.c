@@ -18,11 +18,11 @@ typedef struct run {
     crowd scene;
     long frames;
     int plant;
-    /* What the frames need of the host's; taken before they begin. */
+    /* Buffers of the host for the frames, allocated before they begin. */
     pong_contact *contacts;
     unsigned char *block;
     size_t block_size;
-    /* What was found. */
+    /* Results. */
     long touching, apart, shared, by_law;
     unsigned long allocated, freed;
 } run;

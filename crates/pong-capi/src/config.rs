@@ -35,11 +35,11 @@ pub struct pong_config {
     pub workers: u32,
     /// 1 starts all `workers`, even if there are fewer cores; 0 by default.
     pub oversubscribe: u32,
-    /// How long a worker looks for work before it sleeps, us; 50 by default, at most 1000000. To wake one that sleeps
-    /// takes tens of us; see pong_prewake().
+    /// Time for which a worker looks for work before it sleeps, us; 50 by default, at most 1000000. Waking a sleeping
+    /// one takes tens of us; see pong_prewake().
     pub spin_us: u32,
-    /// How long the calling thread waits for a worker that has begun a part of the frame and does not finish it, us;
-    /// then it does that work again by itself. 1000 by default, 1 to 1000000.
+    /// Time for which the calling thread waits for a worker that does not finish its part of the frame, us; then it
+    /// does that work again itself. 1000 by default, 1 to 1000000.
     pub worker_timeout_us: u32,
     /// 1 binds each worker to a core of its own; 0 by default. The calling thread stays as it is: bind it to
     /// the first core of its mask, which the workers leave free. Outcome: pong_get_worker().

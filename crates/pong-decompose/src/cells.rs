@@ -1,4 +1,4 @@
-//! Where to cut: VHACD finds boxes of voxels whose contents are nearly convex; their walls become planes of cells,
+//! Choice of cuts: VHACD finds boxes of voxels whose contents are nearly convex; their walls become planes of cells,
 //! moved onto flat faces and vertices of the mesh within one voxel.
 //!
 //! The cells fill the bounding box without overlap. The hulls of their contents therefore do not overlap
@@ -21,9 +21,9 @@ pub(crate) struct Looking {
     pub(crate) pieces_max: usize,
     /// True if the solid has internal cavities.
     pub(crate) hollow: bool,
-    /// How much VHACD favours parts of equal volume (its α).
+    /// VHACD's weight of equal volumes (its α).
     pub(crate) balance: f64,
-    /// How much VHACD favours cuts along the axis of revolution (its β).
+    /// VHACD's weight of cuts along the axis of revolution (its β).
     pub(crate) symmetry: f64,
 }
 

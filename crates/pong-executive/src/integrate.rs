@@ -52,7 +52,7 @@ impl std::fmt::Display for Integrator {
 }
 
 impl Integrator {
-    /// How the integrator uses the contact wrench.
+    /// Coupling of the contact wrench to the integrator.
     pub fn coupling(self) -> WrenchCoupling {
         match self {
             Self::SemiImplicitEuler => WrenchCoupling::SemiImplicit,

@@ -134,7 +134,7 @@ export class Highlights {
         for (const body of this.bodies) body.show();
     }
 
-    /** How many primitives and triangles are highlighted. */
+    /** Number of highlighted primitives and triangles. */
     get count() {
         const sizes = this.bodies.flatMap((body) => [...Object.values(body.parts), body.planes].map((set) => set.size));
         return sizes.reduce((sum, size) => sum + size, 0);

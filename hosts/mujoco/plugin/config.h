@@ -23,7 +23,7 @@ enum { TEXT_COUNT = 4 };
 /* Largest contact_capacity. */
 enum { MAX_CAPACITY = 65536 };
 
-/* What is told of the time step, in the order of the words `false`, `true` and `notes`. */
+/* Reports on the time step, in the order of the words `false`, `true` and `notes`. */
 enum { CHECK_OFF, CHECK_WARNINGS, CHECK_WITH_NOTES };
 
 typedef struct contact_config {

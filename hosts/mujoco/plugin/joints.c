@@ -6,7 +6,8 @@
 
 /* ---- small matrices */
 
-/* Rows of a twist's change of place and axes: v' = R(v + w x r), w' = R w. R and r belong to the old frame. */
+/* Transform of a twist to another origin and axes: v' = R(v + w x r), w' = R w. R and r belong to the old
+ * frame. */
 static void make_carrier(mjtNum T[36], const mjtNum R[9], const mjtNum r[3])
 {
     /* w x r = -[r] w */
@@ -22,7 +23,7 @@ static void make_carrier(mjtNum T[36], const mjtNum R[9], const mjtNum r[3])
         }
 }
 
-/* T Y T', symmetric to the bit. */
+/* T Y T', exactly symmetric. */
 static void carry(mjtNum out[36], const mjtNum T[36], const mjtNum Y[36])
 {
     mjtNum half[36], whole[36];
@@ -34,7 +35,7 @@ static void carry(mjtNum out[36], const mjtNum T[36], const mjtNum Y[36])
             out[6 * i + k] = 0.5 * (whole[6 * i + k] + whole[6 * k + i]);
 }
 
-/* Y moved to a place r, along the same axes. */
+/* Y moved to a point r, along the same axes. */
 static void shift(mjtNum out[36], const mjtNum Y[36], const mjtNum r[3])
 {
     static const mjtNum unit[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -51,7 +52,7 @@ static int is_static(const mjModel *m, int body)
     return top == 0 || m->body_mocapid[top] >= 0;
 }
 
-/* Place and axes of a body in the frame of the body that it is welded to, both at the reference pose. */
+/* Pose of a body in the frame of the body it is welded to, both at the reference pose. */
 static void pose_in_weld(const mjModel *m, int body, mjtNum place[3], mjtNum quat[4])
 {
     const int top = m->body_weldid[body];
@@ -66,7 +67,7 @@ static void pose_in_weld(const mjModel *m, int body, mjtNum place[3], mjtNum qua
     }
 }
 
-/* Adds the inertia of a body's own mass about a place, in the frame of the weld. */
+/* Adds the inertia of a body's own mass about a point, in the frame of the weld. */
 static void add_inertia(mjtNum inertia[9], const mjModel *m, int body, const mjtNum about[3])
 {
     mjtNum place[3], quat[4], axes[4], R[9], arm[3], centre[3];
@@ -135,7 +136,7 @@ static void free_compliance(mjtNum Y[36], const pong_mass *mass)
     mju_copy(root, inertia, 9);
     for (k = 0; k < 3; k++)
         at_centre[7 * k] = 1 / mass->mass;
-    /* Of a body without inertia the angular rows stay zero, as where it is not known. */
+    /* Angular rows stay zero for a body without inertia, as for an unknown one. */
     if (mju_cholFactor(root, 3, DBL_MIN) == 3)
         for (k = 0; k < 3; k++) {
             const mjtNum unit[3] = {k == 0, k == 1, k == 2};
@@ -156,7 +157,8 @@ static void complete(mjtNum frame[9], const mjtNum axis[3])
     mju_cross(frame + 3, axis, frame);
 }
 
-/* The part of a joint: frame of its own, rows that it holds, and a bound of the compliance above it, in that frame. */
+/* Part of a joint: its own frame, the rows that it holds, and a bound of the compliance above it, in that
+ * frame. */
 typedef struct joint_part {
     mjtNum frame[9], anchor[3];
     int held[6]; /* along the frame's axes: linear x, y, z, angular x, y, z */
@@ -190,7 +192,7 @@ static void bound_ball(joint_part *part)
     }
 }
 
-/* Answers 0 where the travel is not bounded and the body above turns. */
+/* Bounds a slide; returns 0 where its travel is unbounded and the body above turns. */
 static int bound_slide(joint_part *part, const mjModel *m, int joint)
 {
     const mjtNum *range = m->jnt_range + 2 * joint, reference = m->qpos0[m->jnt_qposadr[joint]];
@@ -226,7 +228,7 @@ static void hold(mjtNum Y[36], const joint_part *part)
         for (k = 0; k < count; k++)
             inner[count * i + k] = Y[6 * list[i] + list[k]] + part->above[6 * list[i] + list[k]];
     }
-    /* A body without inertia: it stays free. */
+    /* A body without inertia stays free. */
     if (mju_cholFactor(inner, count, DBL_MIN) < count)
         return;
     for (j = 0; j < 6; j++) {
@@ -240,8 +242,8 @@ static void hold(mjtNum Y[36], const joint_part *part)
     }
 }
 
-/* The joint of a body that has one, with the compliance above it in the body's axes at its origin. Answers 0 where no bound is
- * at hand. */
+/* The only joint of a body, with the compliance above it in the body's axes at its origin. Returns 0 if no
+ * bound is known. */
 static int read_joint(joint_part *part, const mjModel *m, int body, const mjtNum above[36])
 {
     const int joint = m->body_jntadr[body], type = m->jnt_type[joint];
@@ -264,7 +266,7 @@ static int read_joint(joint_part *part, const mjModel *m, int body, const mjtNum
     return 1;
 }
 
-/* Of a body that a weld begins with. */
+/* Compliance of the first body of a weld. */
 static void compliance_of(mjtNum Y[36], const mjModel *m, int body)
 {
     const pong_mass mass = mass_of(m, body);

@@ -1,4 +1,4 @@
-/* How a body yields on the joints of its tree: for the check of the time step, at any pose.
+/* Compliance of a body on the joints of its tree, at any pose, for the check of the time step.
  *
  * Compliance: 6x6, by rows, acceleration (linear of the body's origin, then angular) per wrench (force, then moment about the
  * origin), along the body's axes. It is a bound at every pose of the mechanism, in the sense of positive semidefinite matrices:
@@ -15,14 +15,14 @@
 #include <mujoco/mujoco.h>
 #include <pong.h>
 
-/* Mass, mass centre and inertia of a body with all that is welded to it, in the body's frame; infinite mass of what does not
- * yield. */
+/* Mass, mass centre and inertia of a body with all bodies welded to it, in the body's frame; infinite mass if
+ * it does not yield. */
 pong_mass mass_of(const mjModel *m, int body);
 
-/* Whether a body moves by other joints than a free one of its own. */
+/* True if a body moves by other joints than its own free one. */
 int is_on_joints(const mjModel *m, int body);
 
-/* Compliance and mechanism of such a body, without springs. */
+/* Compliance and mechanism of a body on joints, without springs. */
 pong_joints joints_of(const mjModel *m, int body);
 
 /* Adds bounds of the joint springs and dampers of a body's tree that the integrator evaluates explicitly, by the inverse

@@ -1,4 +1,5 @@
-"""The step that the plugin warns of counts the joints of MuJoCo's model: against closed forms, and against MuJoCo's own matrices."""
+"""Stable step in the plugin's warning, which counts the joints of MuJoCo's model: compared with closed forms and with
+MuJoCo's own matrices."""
 
 import re
 import unittest
@@ -17,7 +18,7 @@ cases = 0
 
 
 def compiled(bodies, timestep=1.0, check="true", **options):
-    """A model and its data, with what was told when they were made."""
+    """A model and its data, with the warnings of their creation."""
     global cases
     cases += 1  # what was told once is not told again
     inside = instance("link = text1; ground = text2", f"j{cases}", bodies="ground = world", text1=LINK, text2=GROUND, check_step=check)
@@ -32,7 +33,7 @@ def compiled(bodies, timestep=1.0, check="true", **options):
 
 
 def told_mass(bodies, **options):
-    """Least effective mass at the tip, as the warning has it in its step: 2·√(m/k), or 2.828·√(m/k) with the stages of RK4."""
+    """Least effective mass at the tip, from the step in the warning: 2·√(m/k), or 2.828·√(m/k) with the stages of RK4."""
     m, d, told = compiled(bodies, **options)
     step = float(re.search(r"the longest stable step is (\S+) s", told[0])[1])
     factor = 8 if m.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4 else 4
@@ -40,7 +41,7 @@ def told_mass(bodies, **options):
 
 
 def least_mass(m, d):
-    """Of the tip at the present pose, by MuJoCo's mass matrix and Jacobian."""
+    """Least effective mass at the tip in the present pose, by MuJoCo's mass matrix and Jacobian."""
     mujoco.mj_forward(m, d)
     body, place = m.body("link").id, d.body("link").xpos + d.body("link").xmat.reshape(3, 3) @ TIP
     matrix, jacobian = np.zeros((m.nv, m.nv)), np.zeros((3, m.nv))
@@ -71,7 +72,7 @@ class ClosedForms(unittest.TestCase):
     def test_a_free_body_and_what_is_welded_to_it(self):
         m, d, mass = told_mass(body("link", "<freejoint/>"))
         self.assertAlmostEqual(mass / least_mass(m, d), 1.0, delta=2e-3)
-        # The group may be the body that is welded on.
+        # The group may be the welded body.
         m, d, mass = told_mass(body("base", "<freejoint/>", body("link", "", pos="0.2 0.1 0.3", euler="30 40 50")))
         self.assertAlmostEqual(mass / least_mass(m, d), 1.0, delta=2e-3)
 
@@ -137,7 +138,7 @@ class Mechanisms(unittest.TestCase):
 
 class Notes(unittest.TestCase):
     def test_springs_of_joints_are_noted_where_asked_for(self):
-        # By itself 1e5 N/m on 2 kg holds 8.9 ms; with the contact's 2e4 N/m 8.2 ms.
+        # A spring of 1e5 N/m alone on 2 kg is stable up to 8.9 ms; with the contact's 2e4 N/m up to 8.2 ms.
         joint = "<joint type='slide' axis='0 0 1' stiffness='1e5'/>"
         for step, noted in ((8.0e-3, False), (8.4e-3, True)):
             _, _, told = compiled(body("link", joint), timestep=step, check="notes")

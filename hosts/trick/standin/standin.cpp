@@ -129,7 +129,7 @@ extern "C" void *TMM_declare_var_1d(const char *, int count) {
 
 extern "C" void TMM_delete_var_a(void *address) { allocations.erase(address); }
 
-/* What follows a checkpoint's pointer: its bytes. */
+/* Bytes behind a checkpoint's pointer. */
 const std::vector<unsigned char> &allocation(void *address) { return allocations.at(address); }
 
 /* --- roots by false position -------------------------------------------------------------------------------------- */

@@ -22,7 +22,7 @@ pub(crate) struct Arguments {
     /// The step or frame, s, in place of --rate.
     #[arg(long, value_name = "S")]
     pub(super) step: Option<f64>,
-    /// How the wrench is used.
+    /// Use of the wrench by the integrator.
     #[arg(long, value_enum)]
     pub(super) coupling: Option<CouplingName>,
     /// Whole frames by which a held wrench is delayed. Without it 0, or for a scene that holds its wrench the

@@ -33,7 +33,7 @@ fn attempt(test: &str, triangles: &Triangles, options: &DecomposeOptions) -> Dec
     pong_decompose::decompose(&path, &path.with_extension("ron"), options, &mut |_| ())
 }
 
-/// The figures and the model as the engine reads it.
+/// Figures of a decomposition, and its model as the engine reads it.
 fn run(test: &str, triangles: &Triangles, options: &DecomposeOptions) -> (Report, Model, Vec<&'static str>) {
     let Decomposed { report, files, findings } = attempt(test, triangles, options);
     assert!(findings.faults.is_empty(), "{findings}");
@@ -133,12 +133,12 @@ fn a_knob_within_a_plate_leaves_a_ring_and_one_at_its_corner_cuts_it() {
     assert_eq!((report.pieces, report.inactive_faces, notes.len()), (2, 2, 0), "{notes:?}");
     assert_eq!(model.bodies[0].shell_count, 1);
     assert_exact(&report, 10.0);
-    // An L of what is open would be one face with a dent: the plate is cut in two.
+    // The open part would be one L-shaped, non-convex face: the plate is cut in two.
     let (report, model, notes) = run("corner", &plate([2, 2]), &options());
     assert_eq!((report.pieces, report.inactive_faces, notes.len()), (3, 4, 0), "{notes:?}");
     assert_eq!(model.bodies[0].shell_count, 1);
     assert_exact(&report, 10.0);
-    // Where no more pieces are allowed the plate's face stays active, and that is told.
+    // Without room for more pieces the plate's face stays active, which is reported.
     let few = DecomposeOptions { pieces_max: 2, ..options() };
     let (report, _, notes) = run("few", &plate([2, 2]), &few);
     assert_eq!(report.pieces, 2);
@@ -165,10 +165,10 @@ fn a_torus_protrudes_as_far_as_its_true_distance_says() {
     let deviation = &report.deviation;
     assert!(report.pieces > 5 && report.pieces <= 64);
     assert_eq!((deviation.deficit.max_m, deviation.inner_deficit_m), (0.0, 0.0), "hulls hold all of it");
-    // Disjoint pieces: what their volumes exceed the source by is what protrudes.
+    // Disjoint pieces: the protruding volume is the excess of their volumes over the source.
     let excess = report.volume_m3 / report.source_volume_m3 - 1.0;
     assert!((deviation.protruding_share - excess).abs() < 0.01, "{excess} {deviation:?}");
-    // The distance from a torus in closed form; the mesh lies inside it by its sagitta at most.
+    // Closed-form distance from a torus; the mesh lies inside it by at most its sagitta.
     let sagitta = (radius + thickness) * (1.0 - (std::f64::consts::PI / 32.0).cos())
         + thickness * (1.0 - (std::f64::consts::PI / 16.0).cos());
     let away = |place: Vec3| (place.x.hypot(place.y) - radius).hypot(place.z) - thickness;
@@ -178,7 +178,7 @@ fn a_torus_protrudes_as_far_as_its_true_distance_says() {
     assert!((farthest - found.max_m).abs() < sagitta, "{farthest} {found:?}");
 }
 
-/// Places spread over the active faces.
+/// Points spread over the active faces.
 fn places_on_faces(polyhedron: &Polyhedron) -> Vec<Vec3> {
     let mut places = Vec::new();
     for number in (0..polyhedron.faces.len()).filter(|&number| polyhedron.faces[number].active) {
@@ -201,7 +201,7 @@ fn too_few_pieces_protrude_and_a_limit_refuses_them() {
     assert!(notes.contains(&"joined"), "{notes:?}");
     assert_close(report.volume_m3, 3.5, 1e-12);
     let found = &report.deviation.protrusion;
-    // The middle of the slope is ½ away from both inner walls.
+    // The middle of the slope is ½ away from both internal faces.
     assert!(found.max_m <= 0.5 && found.max_m > 0.499 && found.bound_m >= 0.5, "{found:?}");
     assert!((report.deviation.protruding_share - 0.5 / 3.0).abs() < 0.01);
     let limited = DecomposeOptions { within_m: Some(0.4), ..one.clone() };
@@ -216,8 +216,8 @@ fn bar_without_a_corner(length: i32) -> Triangles {
     blocks(&rows.take(2 * length as usize - 1).collect::<Vec<_>>(), 1.0)
 }
 
-/// As one piece both bars protrude by ½, the distance of the middle of the slope from both walls of the corner. That is 1.7 %
-/// of the size of the short bar, and 0.8 % of that of the long one.
+/// As one piece both bars protrude by ½, the distance of the middle of the slope from both walls of the
+/// corner. That is 1.7 % of the size of the short bar, and 0.8 % of that of the long one.
 #[test]
 fn what_protrudes_by_more_than_a_hundredth_of_the_size_is_told() {
     let one = DecomposeOptions { pieces_max: 1, ..options() };
@@ -290,7 +290,7 @@ fn a_missing_coacd_is_named_with_its_cure() {
     assert_eq!(faults("coacd", &ell(), &coacd), ["coacd-missing"]);
 }
 
-/// A dented part is imported as a TriangleMesh and, if asked for, as its hull.
+/// A part with a dent is imported as a TriangleMesh and, on request, as its hull.
 #[test]
 fn a_dented_part_becomes_its_hull_if_asked() {
     let path = save("hull", &torus(1.0, 0.3, 12, 8));
@@ -334,8 +334,8 @@ fn plate(half: f64, radius: f64) -> Triangles {
     triangles
 }
 
-/// By volume the hole is 0.1 % of the plate, and no voxels see it. In quarters the chords of a hole of radius 1 lie
-/// 1 − √½ within it at most; with one more cut each, 1 − cos 30° for a part of a third of a right angle.
+/// By volume the hole is 0.1 % of the plate, invisible to voxels. In quarters the chords of a hole of radius
+/// 1 lie at most 1 − √½ within it; with one more cut each, 1 − cos 30° for a third of a right angle.
 #[test]
 fn a_small_hole_is_kept_if_pieces_must_fit() {
     // As a plate of 305 mm with a hole of 11 mm.
@@ -399,7 +399,7 @@ fn boxes_have_their_mass_center_and_inertia() {
     assert_close(found.mass_kg, mass, 1e-14);
     assert!(Vec3::from(found.center_m).norm() < 1e-15);
     assert_inertia(&found.inertia, &tensor, 1e-14);
-    // Far away and turned: the tensor turns, and stays about the centre of mass.
+    // Far away and rotated: the tensor rotates, and stays about the centre of mass.
     let turn = nalgebra::Rotation3::from_euler_angles(0.3, -0.7, 1.1);
     let shift = Vec3::new(10.0, -20.0, 30.0);
     let far = placed(&solid, |p| turn * p + shift);
@@ -411,7 +411,7 @@ fn boxes_have_their_mass_center_and_inertia() {
         &(turn.matrix() * tensor * turn.matrix().transpose() * (5.0 / mass)),
         1e-9,
     );
-    // A cavity is taken out, and a second solid counts.
+    // A cavity is subtracted, and a second solid counts.
     let inner = placed(&solid, |p| p * 0.5);
     let hollow: Triangles =
         solid.iter().copied().chain(inner.into_iter().map(|[a, b, c]| [a, c, b])).collect();
@@ -427,7 +427,7 @@ fn boxes_have_their_mass_center_and_inertia() {
     assert_inertia(&found.inertia, &(tensor * 2.0 + apart), 1e-13);
 }
 
-/// A tetrahedron on the axes has ∫x² = 1/60 and ∫xy = 1/120, and its centre is at a quarter.
+/// A tetrahedron on the axes has ∫x² = 1/60 and ∫xy = 1/120, and its centre at a quarter.
 #[test]
 fn a_tetrahedron_has_its_products_of_inertia() {
     let [o, x, y, z] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -438,7 +438,7 @@ fn a_tetrahedron_has_its_products_of_inertia() {
     assert_inertia(&found.inertia, &wanted, 1e-14);
 }
 
-/// A ball of flat triangles has less of everything, by a share that falls with the square of their size.
+/// A sphere of flat triangles has less of everything, by a share that decreases as the square of their size.
 #[test]
 fn a_ball_of_triangles_comes_near_the_ball() {
     let ball = |n: i32| {
@@ -447,7 +447,7 @@ fn a_ball_of_triangles_comes_near_the_ball() {
             let (s, t) = (f64::from(i) / f64::from(n), f64::from(j) / f64::from(n));
             let [a, b, c, d] = side.map(corner);
             let flat = (a * (1.0 - s) + b * s) * (1.0 - t) + (d * (1.0 - s) + c * s) * t;
-            // Rounded so that the sides of the cube have the same places along their common edges.
+            // Rounded so that the sides of the cube have bit-equal points along their common edges.
             <[f64; 3]>::from(flat.normalize().map(|x| (x * 1e12).round() / 1e12))
         };
         let mut triangles = Vec::new();

@@ -1,4 +1,4 @@
-//! Decomposed shapes in the engine: cavities are empty, seams are not felt.
+//! Decomposed shapes in the engine: cavities are empty, seams have no effect.
 
 use pong_decompose::DecomposeOptions;
 use pong_engine::{Config, State, WorldBuilder};
@@ -11,8 +11,8 @@ use std::sync::Arc;
 
 const STIFFNESS: f64 = 1e6;
 
-/// Force on a ball or point (radius 0) at places, from a decomposed set of cubes held at the origin, each place by
-/// itself.
+/// Force on a sphere or point (radius 0) at each of some places, separately, from a decomposed set of cubes
+/// held at the origin.
 fn forces(test: &str, cubes: &[[i32; 3]], radius: f64, places: &[[f64; 3]]) -> Vec<Vec3> {
     let path = scratch(env!("CARGO_TARGET_TMPDIR"), &format!("contact_{test}")).join("shape.obj");
     std::fs::write(&path, obj(&blocks(cubes, 1.0))).unwrap();
@@ -65,7 +65,7 @@ fn a_point_in_a_cup_touches_nothing_and_in_its_wall_it_does() {
 #[test]
 fn a_ball_that_rolls_over_the_seams_of_a_tee_feels_one_plane() {
     let tee = [[0, 0, 2], [1, 0, 2], [2, 0, 2], [3, 0, 2], [4, 0, 2], [2, 0, 0], [2, 0, 1]];
-    // In front of the wall between bar and stem, at its corners, and along both.
+    // In front of the internal face between bar and stem, at its corners, and along both.
     let places: Vec<[f64; 3]> =
         (0..41).map(|k| [2.0 + f64::from(k) * 0.025, -0.19, 1.8 + f64::from(k) * 0.01]).collect();
     for force in forces("tee", &tee, 0.2, &places) {

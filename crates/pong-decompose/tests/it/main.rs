@@ -1,4 +1,4 @@
-//! Tests of decomposition and of contact on what it makes.
+//! Tests of decomposition and of contact on its results.
 
 mod decompose;
 mod decomposed_contact;

@@ -30,7 +30,7 @@ const POSE_LEN: usize = 7 * 8;
 const RECORD_LEN: usize = 8 * 4 + 2 * 4 + 4 * 3 * 8 + 3 * 8;
 const CHECKSUM_LEN: usize = 8;
 
-/// Why a block was refused. The world keeps the state it had.
+/// Reasons for refusing a block. The world keeps its state.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StateError {
     /// The buffer has the wrong length.

@@ -1,4 +1,4 @@
-//! The same shape from every format, units, axes, and files that are not what they should be.
+//! One shape from every format, units, axes, and faulty files.
 
 use crate::common::*;
 use pong_import::{Options, Up};
@@ -117,7 +117,7 @@ fn obj_objects_become_groups_and_loose_elements_points_and_segments() {
     assert_eq!(model.bodies[0].triangles.triangles.len(), 3);
 }
 
-/// A dented n-gon keeps its outline: the two triangles a fan would make outside of it are not there.
+/// A polygon with a dent keeps its outline: a fan would add two triangles outside of it.
 #[test]
 fn dented_faces_are_cut_within_their_outline() {
     let path = folder("dent").join("dent.obj");
@@ -194,7 +194,7 @@ fn write(folder: &Path, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
     path
 }
 
-/// Some editors put three bytes before UTF-8; they are no part of the first line.
+/// A UTF-8 byte order mark is no part of the first line.
 #[test]
 fn a_mark_of_utf8_costs_no_vertex() {
     let folder = folder("mark");
@@ -204,7 +204,7 @@ fn a_mark_of_utf8_costs_no_vertex() {
     assert_eq!(corners(&model), sorted(CUBE.to_vec()));
 }
 
-/// A few hundred bytes that promise billions of positions, all but one of them zero.
+/// A few hundred bytes that declare billions of positions, all but one of them zero.
 #[test]
 fn an_accessor_that_no_buffer_holds_is_refused() {
     let folder = folder("promise");
@@ -258,7 +258,7 @@ fn what_the_file_does_not_tell_is_noted_where_it_looks_wrong() {
     let millimetres = scaled([120.0, 80.0, 40.0]);
     assert_eq!(notes("mm.stl", &binary_stl(&millimetres), &options()), ["unit-assumed"]);
     assert_eq!(notes("mm.stl", &binary_stl(&millimetres), &Options { unit_m: 1e-3, ..options() }), [""; 0]);
-    // A pyramid with its foot at the lowest y and its tip at the highest.
+    // A pyramid with its base at the lowest y and its tip at the highest.
     let corner = |x: f64, y: f64, z: f64| [x, y, z];
     let foot = [corner(0.0, 0.0, 0.0), corner(1.0, 0.0, 0.0), corner(1.0, 0.0, 1.0), corner(0.0, 0.0, 1.0)];
     let tip = corner(0.5, 1.0, 0.5);
@@ -283,7 +283,7 @@ fn bent_faces_are_told_with_how_far() {
     assert!(note.cause.contains("a face is bent") && note.cause.contains("6.50e-3 m"), "{note}");
 }
 
-/// Thousands of nodes of one name are numbered one after the other.
+/// Thousands of nodes of one name are numbered in order.
 #[test]
 fn nodes_of_one_name_are_numbered() {
     let folder = folder("one_name");
@@ -328,7 +328,7 @@ fn every_solid_of_a_text_stl_becomes_a_group() {
     assert_eq!((imported.triangles, imported.primitives.as_slice()), (24, &[("Polyhedron", 2)][..]));
     assert_eq!(paths(&model), ["part 1/part 1", "part 2/part 2"]);
     assert_eq!(note_rules(&imported), [""; 0]);
-    // A body whose faces are solids of their own is one body.
+    // A body whose faces are separate solids is one body.
     let sides: Vec<Triangles> = cube().chunks(2).map(<[_]>::to_vec).collect();
     let (imported, model) = run(&write(&folder, "sides.stl", solids(&sides)), &options()).unwrap();
     assert_eq!((imported.vertices, imported.primitives.as_slice()), (8, &[("Polyhedron", 1)][..]));
@@ -359,13 +359,13 @@ fn damage_of_text_files_is_told_with_its_line() {
         assert_eq!(rules(&findings), ["damaged"], "{name}: {findings}");
         assert!(findings.faults[0].path.ends_with(&format!("{name}:{line}")), "{findings}");
     }
-    // Without its last line a text file may be whole.
+    // Without its last line a text file may still be complete.
     let (imported, _) =
         run(&write(&folder, "no_end.stl", stl.replace("endsolid cube\n", "")), &options()).unwrap();
     assert_eq!(note_rules(&imported), ["no-endsolid"]);
 }
 
-/// The cube as integers: as they are, or as fractions of the largest one.
+/// The cube as integers: as they are, or normalized.
 #[test]
 fn quantized_positions_are_read() {
     let folder = folder("quantized");
@@ -412,7 +412,7 @@ fn quantized_positions_are_read() {
         let wanted = wanted.into_iter().map(|[x, y, z]| [x, 0.0 - z, y]).collect();
         assert_eq!(corners(&model), sorted(wanted), "{}", path.display());
     }
-    // A third of the largest integer is a third, not the nearest number of single precision.
+    // A third of the largest integer is a third, not the nearest single-precision number.
     let third = save("third.gltf", 5123, true, 1.0, words(65535, 21845), 8);
     assert!(corners(&run(&third, &options()).unwrap().1).iter().flatten().any(|x| *x == 0.333_333_333_333_3));
 }
@@ -443,10 +443,10 @@ fn collada_has_its_unit_axis_and_tree() {
     );
     let x_up = collada("<up_axis>X_UP</up_axis>", "<translate>1 2 3</translate>", &list);
     assert_eq!(at("x.dae", x_up, &options()), [[-3.0, -4.0, 0.0], [-1.0, -2.0, 2.0]]);
-    // A mirror turns the winding: the solid still faces outwards.
+    // A mirror reverses the winding: the solid still faces outwards.
     let mirror = "<matrix>-1 0 0 5  0 1 0 0  0 0 1 0  0 0 0 1</matrix>";
     assert_eq!(at("mirror.dae", collada(z_up, mirror, &list), &options())[0], [0.004, -0.001, -0.001]);
-    // Nodes of a library, a second time through a node above.
+    // Library nodes, instanced a second time through a parent node.
     let twice = collada(z_up, "", &list).replace(
         "</visual_scene>",
         "<node id=\"two\"><translate>9 0 0</translate><instance_node url=\"#part\"/></node></visual_scene>",
@@ -491,7 +491,7 @@ fn collada_that_cannot_be_read_is_refused() {
     }
 }
 
-/// Short files that name one mesh many times: by nodes, by primitives of a mesh, by nodes without a mesh.
+/// Short files that instance one mesh many times: by nodes, by primitives of a mesh, by nodes without a mesh.
 #[test]
 fn copies_beyond_a_limit_are_refused() {
     let folder = folder("copies");
@@ -526,7 +526,7 @@ fn copies_beyond_a_limit_are_refused() {
         assert_eq!(rules(&findings), ["too-many-copies"], "{}: {findings}", path.display());
         assert!(findings.faults[0].cure.contains("--triangles-max"), "{findings}");
     }
-    // Paths of nodes repeat the names above.
+    // Paths of nodes repeat the names of their ancestors.
     let mut long = Gltf::new();
     let top = long.node(None, json!({"name": "a".repeat(100_000)}));
     (0..800).for_each(|_| _ = long.node(Some(top), json!({"name": "b"})));
@@ -578,7 +578,7 @@ fn holes_are_closed_if_asked_and_missing_sides_are_not() {
     let folder = folder("holes");
     let closing = Options { close: true, ..options() };
     let run = |name: &str, triangles: &Triangles| run(&write(&folder, name, obj(triangles)), &closing);
-    // Two of twelve triangles are a side: 4 m² beside 20 m².
+    // Two of twelve triangles form a side: 4 m² beside 20 m².
     for missing in [1, 2] {
         let (imported, model) = run("cube.obj", &cube()[..12 - missing].to_vec()).unwrap();
         assert_eq!(imported.primitives, [("Polyhedron", 1)]);
@@ -586,7 +586,7 @@ fn holes_are_closed_if_asked_and_missing_sides_are_not() {
         let area = if missing == 1 { "2.000e0 m² added" } else { "4.000e0 m² added" };
         assert!(imported.findings.notes[0].cause.contains(area), "{}", imported.findings);
     }
-    // The upper end of a square tube is a ring of 8 m², and corners of its outline lie on straight lines.
+    // The upper end of a square tube is a ring of 8 m², with collinear corners in its outline.
     let wall = |x: i32, y: i32| (x, y) != (1, 1);
     let all: Vec<[i32; 3]> =
         (0..36).map(|k| [k % 3, k / 3 % 3, k / 9]).filter(|&[x, y, _]| wall(x, y)).collect();
@@ -599,7 +599,7 @@ fn holes_are_closed_if_asked_and_missing_sides_are_not() {
         "{note}"
     );
     assert!(!imported.findings.notes.iter().any(|note| ["winding", "crowded-edge"].contains(&note.rule)));
-    // A sheet, and a cube of five sides without a triangle of a sixth: more than a quarter is missing.
+    // A sheet, and a cube of five sides lacking a triangle of the sixth: more than a quarter is missing.
     for (name, triangles) in [("sheet.obj", cube()[..2].to_vec()), ("three.obj", cube()[..6].to_vec())] {
         let findings = run(name, &triangles).unwrap_err();
         assert_eq!(rules(&findings), ["not-closed"], "{findings}");

@@ -1,4 +1,4 @@
-//! Tests of the importers, on files as other programs write them.
+//! Tests of the importers, on files as written by other programs.
 
 mod common;
 mod formats;

@@ -1,4 +1,4 @@
-//! Trees of nodes: transforms, marks, and what cannot be imported faithfully.
+//! Trees of nodes: transforms, marks, and content that cannot be imported faithfully.
 
 use crate::common::*;
 use pong_import::Options;
@@ -251,7 +251,7 @@ fn all_that_cannot_be_imported_is_told_at_once() {
     assert!(!path.with_extension("ron").exists());
 }
 
-/// A file with one fault: what is done to a sound one, and the rule that must be broken.
+/// Asserts that a file with one fault, made by `spoil`, breaks this rule.
 fn assert_refused(test: &str, rule: &str, spoil: impl Fn(&mut Gltf)) {
     let mut gltf = cube_file();
     spoil(&mut gltf);
@@ -335,8 +335,8 @@ fn frames_of_movable_groups_must_be_rigid() {
 
 #[test]
 fn meshes_are_mended_where_nothing_is_lost() {
-    // The long edge of the first triangle passes a corner of the other two: a T-junction. One triangle is there
-    // twice, one has no area.
+    // The long edge of the first triangle passes a corner of the other two: a T-junction. One triangle is
+    // duplicated, one has no area.
     let [a, b, c, d, m] =
         [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [2.0, 2.0, 0.0], [1.0, 1.0, 0.0]];
     let sheet = [[a, b, c], [b, d, m], [m, d, c], [m, d, c], [a, a, b], [b, m, c]];
@@ -351,13 +351,13 @@ fn meshes_are_mended_where_nothing_is_lost() {
     );
     assert_eq!(model.bodies[0].triangles.triangles.len(), 4);
     assert!(model.warnings.is_empty());
-    // Every triangle with its back is a two-sided sheet.
+    // Triangles that each have a reversed copy form a two-sided sheet.
     let both = [[a, b, c], [a, c, b]];
     std::fs::write(&path, binary_stl(&both)).unwrap();
     let (imported, model) = run(&path, &options()).unwrap();
     assert_eq!(note_rules(&imported), ["two-sided"]);
     assert_eq!(model.bodies[0].triangles.triangles.len(), 2);
-    // Corners a micrometre apart are welded on request only.
+    // Corners a micrometre apart are welded only on request.
     let near = [[a, b, c], [[2.0, 1e-6, 0.0], d, c]];
     std::fs::write(&path, binary_stl(&near)).unwrap();
     assert_eq!(run(&path, &options()).unwrap().1.bodies[0].triangles.vertices.len(), 5);
@@ -379,7 +379,7 @@ fn hollow_solids_stay_surfaces_and_a_placeholder_stands_in_for_a_surface() {
     assert_eq!(model.bodies[0].triangles.triangles.len(), 24);
 }
 
-/// glTF's nodes are trees. Where they are not, a walk from the top could take longer than anybody waits.
+/// glTF's nodes must be trees; otherwise a walk from the root could take practically forever.
 #[test]
 fn nodes_that_are_no_trees_are_refused() {
     let folder = folder("no_trees");

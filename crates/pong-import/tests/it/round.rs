@@ -1,4 +1,5 @@
-//! Parts of meshes that are capsules, cylinders, cones and bores: recognised within a tolerance, left alone beyond it.
+//! Parts of meshes that are capsules, cylinders, cones and bores: recognised within a tolerance, left alone
+//! beyond it.
 
 use crate::common::*;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -18,12 +19,12 @@ fn radii(kind: &str) -> [f64; 2] {
     if kind == "Cone" || kind == "Bore" { [RADIUS, 0.06] } else { [RADIUS; 2] }
 }
 
-/// How far the middle of a side lies within a circle of unit radius.
+/// Sagitta of a side of a regular polygon in a unit circle.
 fn sag(sides: usize) -> f64 {
     1.0 - (PI / sides as f64).cos()
 }
 
-/// Rings of as many corners as sides around z: (height, radius) each.
+/// Rings with one corner per side around z: (height, radius) each.
 fn rings(sides: usize, profile: &[[f64; 2]]) -> Vec<Vec<Vector3<f64>>> {
     let corner = |[z, r]: [f64; 2], i: usize| {
         let turn = TAU * i as f64 / sides as f64;
@@ -32,7 +33,7 @@ fn rings(sides: usize, profile: &[[f64; 2]]) -> Vec<Vec<Vector3<f64>>> {
     profile.iter().map(|&at| (0..sides).map(|i| corner(at, i)).collect()).collect()
 }
 
-/// The triangles between rings, facing outwards, and over the first and last ring.
+/// Outward triangles between rings, and over the first and last ring.
 fn skin(rings: &[Vec<Vector3<f64>>], closed: bool) -> Vec<[Vector3<f64>; 3]> {
     let sides = rings[0].len();
     let mut triangles = Vec::new();
@@ -59,7 +60,7 @@ fn mesh(kind: &str, sides: usize) -> Vec<[Vector3<f64>; 3]> {
         "Capsule" => {
             let quarter = sides / 4;
             let arc = |i: usize| 0.5 * PI * i as f64 / quarter as f64;
-            // The poles are rings of no size: triangles without area, which the importer leaves out.
+            // The poles are rings of radius zero: triangles without area, which the importer drops.
             let low = (0..=quarter).map(|i| [-half - r0 * arc(i).cos(), r0 * arc(i).sin()]);
             let high = (0..=quarter).rev().map(|i| [half + r0 * arc(i).cos(), r0 * arc(i).sin()]);
             let mut profile: Vec<_> = low.chain(high).collect();
@@ -75,7 +76,7 @@ fn mesh(kind: &str, sides: usize) -> Vec<[Vector3<f64>; 3]> {
     }
 }
 
-/// Every vertex moved by up to so much; equal places stay equal.
+/// Every vertex moved by up to `size`; equal points stay equal.
 fn noisy(triangles: &[[Vector3<f64>; 3]], size: f64, random: &mut Random) -> Vec<[Vector3<f64>; 3]> {
     let mut moved: Vec<(Vector3<f64>, Vector3<f64>)> = Vec::new();
     let mut place = |at: Vector3<f64>| match moved.iter().find(|(old, _)| (old - at).norm() < 1e-12) {
@@ -121,7 +122,7 @@ fn round_of(body: &MovableGroup, kind: &str, low: &Vector3<f64>) -> ([Vector3<f6
     (ends, radii)
 }
 
-/// The largest distance that the note tells, m.
+/// Largest distance given in the note, m.
 fn told_m(imported: &Imported) -> f64 {
     let note = imported.findings.notes.iter().find(|note| note.rule == "round").expect("a note");
     let words: Vec<&str> = note.cause.split(' ').collect();
@@ -129,7 +130,7 @@ fn told_m(imported: &Imported) -> f64 {
     words[at + 1].parse().expect("a number")
 }
 
-/// A side of a regular polygon has its middle nearer to the axis than its corners: the one number that decides.
+/// The middle of a polygon's side is nearer to the axis than its corners: this sagitta alone decides.
 #[test]
 fn turned_and_moved_meshes_are_recognised_within_the_sag_of_their_sides_and_left_below_it() {
     for (stream, kind) in KINDS.into_iter().enumerate() {
@@ -137,7 +138,7 @@ fn turned_and_moved_meshes_are_recognised_within_the_sag_of_their_sides_and_left
             let mut random = Random::new(31, stream as u64, sides as u64);
             let pose = Pose::random(&mut random);
             let triangles = pose.place(&mesh(kind, sides));
-            // Of a capsule in both directions: the middle of a face of its balls.
+            // For a capsule in both directions: the middle of a face of its spheres.
             let farthest = RADIUS * sag(sides) * if kind == "Capsule" { 2.0 } else { 1.0 };
             let test = format!("sag_{kind}_{sides}");
             let (told, model) = imported(&test, &triangles, Some(1.05 * farthest));
@@ -162,7 +163,8 @@ fn turned_and_moved_meshes_are_recognised_within_the_sag_of_their_sides_and_left
     }
 }
 
-/// Noise of a size that leaves the mesh within the tolerance leaves it recognised, and near the true part; more does not.
+/// A mesh with noise within the tolerance is recognised, with a part near the true one; with more noise it is
+/// not.
 #[test]
 fn noise_below_the_tolerance_is_fitted_and_noise_above_it_is_not_taken() {
     let tolerance = 5e-3;
@@ -192,8 +194,8 @@ fn nothing_is_recognised_unless_it_is_asked_for() {
     assert_eq!(imported("unasked", &triangles, None).0.primitives, [("Polyhedron", 1)]);
 }
 
-/// A box and a hexagon are meant as they are, a tube without ends is no solid, and half a cylinder is not all of one, however
-/// large the tolerance.
+/// A box and a hexagon are meant as they are, a tube without ends is no solid, and half a cylinder is
+/// incomplete, at any tolerance.
 #[test]
 fn what_is_no_round_part_stays_what_it_is() {
     let still = Pose(UnitQuaternion::identity(), Vector3::zeros());
@@ -215,7 +217,7 @@ fn what_is_no_round_part_stays_what_it_is() {
     );
 }
 
-/// Parts of one object are told one by one: a pin, a box that stays a box, and a cone with a tip.
+/// Parts of one object are reported separately: a pin, a box that stays a box, and a cone with a tip.
 #[test]
 fn each_part_of_an_object_is_judged_by_itself() {
     let at = |x: f64| Pose(UnitQuaternion::identity(), Vector3::new(x, 0.0, 0.0));
@@ -243,7 +245,8 @@ fn marked(mark: Value) -> Value {
     json!({"pong": mark})
 }
 
-/// The axis of a mark is z of the model, and its middle the origin of its node; scale counts along it and around it.
+/// The axis of a mark is z of the model, and its middle the origin of its node; scale applies along and
+/// around it.
 #[test]
 fn marks_of_round_kinds_make_them() {
     let mut gltf = Gltf::new();
@@ -286,7 +289,7 @@ fn marks_that_make_no_round_part_are_refused() {
         let mut gltf = Gltf::new();
         gltf.node(None, json!({"name": "part", "scale": scale, "extras": marked(mark)}));
         let path = gltf.save(&folder("refused_round"), "round.glb");
-        // A node whose mark cannot be read has none, and then there is nothing to import.
+        // A node with an unreadable mark has none, so there is nothing to import.
         let rules = rules(&run(&path, &options()).unwrap_err());
         rules.into_iter().filter(|rule| *rule != "empty-mesh").collect::<Vec<_>>()
     };

@@ -1,3 +1,3 @@
-//! Tests of the invariances themselves.
+//! Tests of the invariances.
 
 mod invariances;

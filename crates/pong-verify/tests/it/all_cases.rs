@@ -1,9 +1,9 @@
-//! One test per case, so that a failure is named, and one that the committed report is what the cases give.
+//! One test per case, so that a failure has a name, and tests that the committed report is current.
 
 use pong_verify::{Case, Verdict, cases, find, report};
 use std::sync::OnceLock;
 
-/// Every case runs once, whichever test asks first.
+/// Verdict of a case, which runs once for all tests.
 fn verdict(case: &Case) -> &'static Verdict {
     static VERDICTS: OnceLock<Vec<(&'static str, OnceLock<Verdict>)>> = OnceLock::new();
     let all = VERDICTS.get_or_init(|| cases().iter().map(|case| (case.id, OnceLock::new())).collect());
@@ -70,7 +70,7 @@ one_test_each! {
     w18_power_law => "W18",
 }
 
-/// The picture beside the report.
+/// Compares the plot beside the report.
 #[test]
 fn the_committed_picture_is_current() {
     let fresh = pong_verify::orders::svg(pong_verify::orders::curves().unwrap());
@@ -82,7 +82,7 @@ fn the_committed_picture_is_current() {
     );
 }
 
-/// `pong verify -o docs/verification.md` writes it anew.
+/// `pong verify -o docs/verification.md` writes the report again.
 #[test]
 fn the_committed_report_is_current() {
     let verdicts: Vec<Verdict> = cases().iter().map(|case| verdict(case).clone()).collect();

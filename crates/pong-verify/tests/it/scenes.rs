@@ -1,4 +1,4 @@
-//! The scene files of `models/verification`, run as `pong run` runs them, against the answers in their headings.
+//! Scene files of `models/verification`, run as by `pong run`, compared with the answers in their headings.
 
 use pong_executive::Simulation;
 use pong_executive::scene::{BuiltScene, Scene};

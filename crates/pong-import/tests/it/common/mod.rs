@@ -53,7 +53,7 @@ pub fn text_stl(triangles: &[[Place; 3]]) -> String {
     format!("solid cube\n{}endsolid cube\n", triangles.iter().map(facet).collect::<String>())
 }
 
-/// A glTF file in the making.
+/// A glTF file under construction.
 #[derive(Default)]
 pub struct Gltf {
     pub json: Value,
@@ -102,7 +102,7 @@ impl Gltf {
         )
     }
 
-    /// A mesh of one primitive; vertices are written once per corner, as exporters do where normals differ.
+    /// A mesh of one primitive; vertices are repeated for each corner, as exporters do where normals differ.
     pub fn mesh(&mut self, mode: u64, places: &[Place]) -> usize {
         let positions = self.positions(places);
         let indices = self.indices(&(0..places.len() as u32).collect::<Vec<_>>());
@@ -115,7 +115,7 @@ impl Gltf {
         self.mesh(4, &corners)
     }
 
-    /// A node below another, or on top.
+    /// A node below another, or a root.
     pub fn node(&mut self, parent: Option<usize>, node: Value) -> usize {
         let index = self.push("nodes", node);
         let list = match parent {
@@ -155,7 +155,7 @@ impl Gltf {
         file
     }
 
-    /// The text of a `.gltf` file with its bytes in `uri`.
+    /// Text of a `.gltf` file with its bytes in `uri`.
     pub fn text(&self, uri: &str) -> String {
         self.finished(json!({"byteLength": self.bytes.len(), "uri": uri})).to_string()
     }
@@ -179,8 +179,8 @@ pub fn cube_file() -> Gltf {
     gltf
 }
 
-/// A Collada file of one node with the cube; `primitives` are lists that name its corners, `asset` and `transform` go in
-/// as they are.
+/// A Collada file of one node with the cube; `primitives` are lists that name its corners, `asset` and
+/// `transform` are inserted as they are.
 pub fn collada(asset: &str, transform: &str, primitives: &str) -> String {
     let places: String = CUBE.iter().map(|[x, y, z]| format!("{x} {y} {z} ")).collect();
     format!(
@@ -203,7 +203,7 @@ pub fn collada(asset: &str, transform: &str, primitives: &str) -> String {
     )
 }
 
-/// The cube as a list of Collada: `triangles`, `polylist` or `polygons`, with normals beside the corners.
+/// The cube as a Collada list: `triangles`, `polylist` or `polygons`, with normals beside the corners.
 pub fn collada_list(kind: &str) -> String {
     let corners = |side: &[usize]| side.iter().map(|corner| format!("{corner} 0 ")).collect::<String>();
     let sides: String = match kind {

@@ -125,7 +125,7 @@ int RigidBody::initialize() {
     return 0;
 }
 
-/* Of the group frame, for the contact engine and for displays. */
+/* Computes the motion of the group frame, for the contact engine and for displays. */
 void RigidBody::update_motion() {
     double step[4], spin[3], rate[3], group_momentum[3], arm[3], swing[3];
     exponential(turn, step);

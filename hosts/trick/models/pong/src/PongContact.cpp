@@ -25,7 +25,7 @@ struct PongContactWorld {
 
 namespace {
 
-/* How long before a frame sleeping workers are woken at the end of a freeze, and how long they then look for work. */
+/* Time before a frame at which sleeping workers are woken at the end of a freeze, and for which they then look for work. */
 const std::chrono::microseconds UNFREEZE_PREWAKE(2000);
 
 /* Runs what may throw. An error ends the simulation through Trick's own channel, with the message of the library. */
