@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import circles
+import openings
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -199,10 +200,14 @@ def circles_of_files():
     yield from circles.check(ROOT)
 
 
+def doc_comments():
+    yield from openings.check(ROOT)
+
+
 def main():
     checks = (
         arrows, circles_of_files, unsafe_code, platform_mathematics, file_lengths, dead_links, theory_citations, retired_words,
-        long_lines, units, frames_of_vectors,
+        long_lines, units, frames_of_vectors, doc_comments,
     )
     problems = [problem for check in checks for problem in check()]
     for problem in problems:
