@@ -109,7 +109,7 @@ pub unsafe extern "C" fn pong_get_pair_wrench(
     })
 }
 
-/// Whether a wrench is wanted along the axes of the common frame.
+/// Returns true if the wrench is given along the axes of the common frame.
 fn along_common_axes(frame: pong_reference_frame) -> Outcome<bool> {
     match frame {
         PONG_REFERENCE_FRAME_GROUP => Ok(false),

@@ -71,7 +71,7 @@ pub struct ContactChange {
     /// The two movable groups: first that of the Object named first in the pair. In an Object paired with itself, the one with
     /// the lower id.
     pub interfaces: [InterfaceId; 2],
-    /// Whether contact begins; else it ends.
+    /// True if contact begins, false if it ends.
     pub begins: bool,
 }
 
@@ -82,7 +82,7 @@ pub struct PairPeaks {
     pub pair: PairId,
     /// The two movable groups, in the order of [`ContactChange::interfaces`].
     pub interfaces: [InterfaceId; 2],
-    /// Whether they touch in the frame last observed.
+    /// True if they touch in the last observed frame.
     pub touches: bool,
     /// Number of begins of contact in the window.
     pub begins: u32,

@@ -47,7 +47,7 @@ fn elastic() -> String {
     surface(2e4, "normal: Linear(damping: 0.0), friction: None")
 }
 
-/// Of two such surfaces in series, N/m.
+/// Stiffness of two such surfaces in series, N/m.
 const STIFFNESS: f64 = 1e4;
 
 fn near(got: &Wrench, force: [f64; 3], moment: [f64; 3], tolerance: f64) {

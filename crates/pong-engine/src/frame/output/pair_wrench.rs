@@ -53,9 +53,9 @@ impl EvaluationBuffers {
         }
     }
 
-    /// The same wrench about and along the frame of another movable group.
+    /// Wrench on `group`, moved to the origin and axes of the movable group `about`.
     fn seen_from(&self, wrench: Wrench, group: usize, about: usize) -> Wrench {
-        // What is there already is not rounded once more.
+        // The same group: no further rounding.
         if group == about {
             return wrench;
         }
