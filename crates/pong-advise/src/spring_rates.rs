@@ -34,8 +34,8 @@ pub struct HostSpring {
     pub damping: [f64; 6],
 }
 
-/// For every body the sum of the bounds of all springs that end on it. Any motion x has x·Kx ≤ Σ λ_uv·(|x_u|²
-/// + |x_v|²) = Σ |x_u|²·(sum at u), so the largest sum bounds all modes.
+/// For every body the sum of the bounds of all springs that end on it. Any motion x has
+/// x·Kx ≤ Σ λ_uv·(|x_u|² + |x_v|²) = Σ |x_u|²·(sum at u), so the largest sum bounds all modes.
 pub fn spring_rates(masses: &[GroupMass], springs: &[HostSpring]) -> Vec<SpringRates> {
     let mobilities: Vec<Option<Mobility>> = masses.iter().map(Mobility::new).collect();
     let mut between: BTreeMap<[Option<usize>; 2], Vec<&HostSpring>> = BTreeMap::new();
