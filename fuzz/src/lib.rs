@@ -14,6 +14,8 @@ pub mod log;
 pub mod mesh;
 pub mod model;
 pub mod obj;
+#[cfg(test)]
+mod regressions;
 pub mod scene;
 pub mod stl;
 pub mod text;

@@ -30,20 +30,32 @@ pub fn accepted(text: &[u8]) {
     }
 }
 
+/// libFuzzer's own mutation; answers the new length.
+#[cfg(fuzzing)]
+fn change_bytes(data: &mut [u8], size: usize, max_size: usize) -> usize {
+    libfuzzer_sys::fuzzer_mutate(data, size, max_size)
+}
+
+/// Without libFuzzer nothing changes.
+#[cfg(not(fuzzing))]
+fn change_bytes(_data: &mut [u8], size: usize, _max_size: usize) -> usize {
+    size
+}
+
 /// libFuzzer's custom mutator: `data[..size]` is the text, with room for `max_size` bytes; returns the new
 /// length.
 pub fn mutate(data: &mut [u8], size: usize, max_size: usize, seed: u32) -> usize {
     let mut dice = Random(u64::from(seed) | 1 << 40);
     let is_text = std::str::from_utf8(&data[..size]).is_ok();
     if size == 0 || !is_text || dice.below(8) < OWN {
-        return libfuzzer_sys::fuzzer_mutate(data, size, max_size);
+        return change_bytes(data, size, max_size);
     }
     let mut text = base(&data[..size], &mut dice);
     for _ in 0..=dice.below(4) {
         change(&mut text, &mut dice);
     }
     if text.len() > max_size || text == data[..size] {
-        return libfuzzer_sys::fuzzer_mutate(data, size, max_size);
+        return change_bytes(data, size, max_size);
     }
     data[..text.len()].copy_from_slice(&text);
     text.len()

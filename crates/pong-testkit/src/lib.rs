@@ -8,10 +8,12 @@ pub mod heap;
 pub mod meshes;
 pub mod random;
 pub mod ron;
+pub mod samples;
 #[cfg(feature = "worlds")]
 pub mod worlds;
 
 pub use random::Random;
+pub use samples::samples;
 
 use std::path::{Path, PathBuf};
 

@@ -7,6 +7,7 @@ use crate::common::stage::Scene;
 use crate::common::*;
 use pong_engine::*;
 use pong_geometry::{Quat, Vec3};
+use pong_testkit::samples::is_full;
 use std::f64::consts::PI;
 
 const USES: [WrenchCoupling; 5] = [
@@ -253,12 +254,16 @@ fn with_accounts(mut scene: Scene, coupling: WrenchCoupling) -> Scene {
     scene
 }
 
-/// Every scene of the series, for every use of the wrench: the accounts balance, their sum is the ledger, and
-/// all answers are the same as without accounts.
+/// Every scene of the series, for every use of the wrench (in a quick run for one each): the accounts balance, their sum
+/// is the ledger, and all answers are the same as without accounts.
 #[test]
 fn accounts_close_and_change_no_answer() {
-    for coupling in USES {
-        for (scene, plain) in scenes::all().into_iter().zip(scenes::all()) {
+    for (use_number, coupling) in USES.into_iter().enumerate() {
+        for (number, (scene, plain)) in scenes::all().into_iter().zip(scenes::all()).enumerate() {
+            // A short run has one use for each scene.
+            if !is_full() && number % USES.len() != use_number {
+                continue;
+            }
             let (scene, frames) = (with_accounts(scene, coupling), plain.frames.min(30));
             let (mut stage, mut plain) = (scene.set_up(None), plain.set_up(None));
             let mut forgotten = false;

@@ -3,9 +3,11 @@
 
 use crate::common::*;
 use pong_geometry::{Quat, Vec3};
-use pong_testkit::Random;
+use pong_testkit::{Random, samples};
 
 const K: f64 = 1e4;
+/// Loops of one pair of parts.
+const LOOPS: usize = 10;
 
 /// A closed path of the mover around and into the other body.
 struct Loop {
@@ -124,7 +126,12 @@ fn check_closed_paths(
     let mut random = Random(31);
     let mut rig = Rig::new(a, b);
     let (mut touched, mut worst_gain, mut worst_loss) = (0, 0.0_f64, 0.0_f64);
-    for _ in 0..10 {
+    let (loops, touching) = (samples(LOOPS), samples(6));
+    for number in 0..LOOPS {
+        // A short run ends when enough have touched.
+        if number >= loops && touched >= touching {
+            break;
+        }
         let path = Loop::random(&mut random, center, size, turn);
         let object = rig.objects[0];
         rig.world.clear_contact_history(object).unwrap();
@@ -141,7 +148,7 @@ fn check_closed_paths(
     println!(
         "{name}: {touched} loops, largest gain {worst_gain:.1e}, loss {worst_loss:.1e} of the stored energy"
     );
-    assert!(touched >= 6, "{name}: the loops must touch");
+    assert!(touched >= touching, "{name}: the loops must touch");
     // Remainder of a mere discontinuity of the force over the shortest intervals.
     const FORCE_JUMP_REST: f64 = 1e-6;
     assert!(worst_gain <= FORCE_JUMP_REST, "{name}: gained {worst_gain:e}");

@@ -3,7 +3,7 @@
 
 use crate::common::*;
 use pong_geometry::{Quat, Vec3};
-use pong_testkit::Random;
+use pong_testkit::{Random, samples};
 
 const K: f64 = 1e5;
 const SIZE: f64 = 1.0;
@@ -34,6 +34,18 @@ fn mesh(cells: usize, q: &Quat, f32_vertices: bool) -> String {
     model("mesh", &steel(), &plate_mesh("mesh", cells, SIZE, tilted(q, f32_vertices)))
 }
 
+/// Cells along a side of the plates of triangles.
+fn grids() -> impl Iterator<Item = usize> {
+    let most = samples(10_000);
+    [1, 10, 100].into_iter().filter(move |cells| cells * cells <= most)
+}
+
+/// Pieces of the plates of boxes.
+fn counts() -> impl Iterator<Item = usize> {
+    let most = samples(20_000);
+    [1, 2, 7, 2000, 20_000].into_iter().filter(move |count| *count <= most)
+}
+
 /// Slides the balls over plate and plane alike and returns the worst differences, relative to the normal
 /// force: along the normal, and across it.
 fn worst_difference(plate: &str, q: &Quat, random: &mut Random, places: &[Vec3]) -> (f64, f64) {
@@ -61,8 +73,8 @@ fn worst_difference(plate: &str, q: &Quat, random: &mut Random, places: &[Vec3])
 /// Random positions, and the worst ones: over vertices, edge midpoints and along edges of the grid.
 fn places(cells: usize, random: &mut Random) -> Vec<Vec3> {
     let step = SIZE / cells as f64;
-    let mut places: Vec<Vec3> = (0..300).map(|_| random.vector(0.3)).collect();
-    for i in 0..60 {
+    let mut places: Vec<Vec3> = (0..samples(300)).map(|_| random.vector(0.3)).collect();
+    for i in 0..samples(60) {
         let (a, b) = ((i % 7) as f64 - 3.0, (i % 5) as f64 - 2.0);
         let node = Vec3::new((a * step).clamp(-0.3, 0.3), (b * step).clamp(-0.3, 0.3), 0.0);
         places.push(node);
@@ -77,7 +89,7 @@ fn places(cells: usize, random: &mut Random) -> Vec<Vec3> {
 fn a_plate_of_two_to_twenty_thousand_triangles_is_one_plane() {
     let mut random = Random(9);
     let turns = [Quat::identity(), Quat::from_scaled_axis(Vec3::new(0.4, -0.9, 1.3))];
-    for cells in [1, 10, 100] {
+    for cells in grids() {
         for q in &turns {
             let places = places(cells, &mut random);
             let (along, across) = worst_difference(&mesh(cells, q, false), q, &mut random, &places);
@@ -96,7 +108,7 @@ fn a_plate_of_two_to_twenty_thousand_triangles_is_one_plane() {
 fn f32_vertices_show_only_their_own_waviness() {
     let mut random = Random(10);
     let q = Quat::from_scaled_axis(Vec3::new(-0.7, 0.3, 0.2));
-    for cells in [1, 10, 100] {
+    for cells in grids() {
         let places = places(cells, &mut random);
         let (along, across) = worst_difference(&mesh(cells, &q, true), &q, &mut random, &places);
         let rounding = f64::from(f32::EPSILON) * SIZE;
@@ -145,7 +157,7 @@ fn box_between(name: &str, low: [f64; 3], high: [f64; 3], walls: &str) -> String
 fn abutting_pieces_are_one_plate_for_balls() {
     let mut random = Random(12);
     let q = Quat::identity();
-    for count in [1, 2, 7, 2000, 20_000] {
+    for count in counts() {
         let places = places(count, &mut random);
         let (along, across) = worst_difference(&pieces(count), &q, &mut random, &places);
         println!("{count} pieces: normal force off by {along:.1e}, side force {across:.1e}");
@@ -159,7 +171,7 @@ fn abutting_pieces_are_one_plate_for_points_and_bars() {
                   LineSegment(name: \"l\", ends: ((-0.2,0.1,0.0),(0.2,-0.1,0.0)))";
     let movers = model("movers", &steel(), movers);
     let mut random = Random(13);
-    for count in [1, 2, 7, 2000, 20_000] {
+    for count in counts() {
         let mut on_pieces = Rig::new(&movers, &pieces(count));
         let mut on_plane = Rig::new(&movers, &plane());
         for step in 0..400 {

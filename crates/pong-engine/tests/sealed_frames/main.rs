@@ -14,6 +14,7 @@ mod scene;
 use heap::{counted, during, helpers, my_turn};
 use pong_engine::{Config, NormalForce, NormalInput, WorkerSettings, has_tester};
 use pong_geometry::primitive::PrimitiveKind;
+use pong_testkit::samples;
 use registered::Cubic;
 use scene::{Bench, Seen};
 use std::collections::BTreeSet;
@@ -50,7 +51,10 @@ fn run(config: Config, frames: u32) -> (Bench, Vec<(&'static str, usize)>) {
     (bench, calls)
 }
 
-const FRAMES: u32 = 100_000;
+/// Frames of one run.
+fn frames() -> u32 {
+    samples(100_000) as u32
+}
 
 #[test]
 fn the_counter_sees_this_thread_and_those_that_evaluate_a_law() {
@@ -83,7 +87,7 @@ fn the_counter_sees_this_thread_and_those_that_evaluate_a_law() {
 #[test]
 fn no_frame_allocates() {
     let _turn = my_turn();
-    let (bench, calls) = run(Config::default(), FRAMES);
+    let (bench, calls) = run(Config::default(), frames());
     assert_eq!(calls, []);
     assert_worth_counting(&bench.seen);
     assert_eq!(bench.seen.limited, 0);
@@ -92,7 +96,7 @@ fn no_frame_allocates() {
 #[test]
 fn no_frame_with_the_ledger_allocates() {
     let _turn = my_turn();
-    let (bench, calls) = run(Config { ledger: true, ..Config::default() }, FRAMES);
+    let (bench, calls) = run(Config { ledger: true, ..Config::default() }, frames());
     assert_eq!(calls, []);
     assert_worth_counting(&bench.seen);
     assert_ne!(bench.world.ledger().work, 0.0);
@@ -102,7 +106,7 @@ fn no_frame_with_the_ledger_allocates() {
 fn no_frame_that_hits_a_limit_allocates() {
     let _turn = my_turn();
     let config = Config { ledger: true, contact_capacity: Some(4), ..Config::default() };
-    let (bench, calls) = run(config, FRAMES);
+    let (bench, calls) = run(config, frames());
     assert_eq!(calls, []);
     assert_eq!(bench.seen.most_contacts, 4);
     assert!(0 < bench.seen.limited && bench.seen.limited < bench.seen.frames, "{}", bench.seen.limited);
@@ -126,7 +130,7 @@ fn no_frame_with_workers_allocates() {
             ..WorkerSettings::default()
         };
         let config = Config { ledger: true, workers: Some(settings), ..Config::default() };
-        let (bench, calls) = run(config, FRAMES / 10);
+        let (bench, calls) = run(config, frames() / 10);
         assert_eq!(calls, []);
         assert_worth_counting(&bench.seen);
         let helpers = helpers();
@@ -144,7 +148,7 @@ fn no_frame_of_a_million_allocates() {
     let _turn = my_turn();
     for contact_capacity in [None, Some(4)] {
         let config = Config { ledger: true, contact_capacity, ..Config::default() };
-        let (bench, calls) = run(config, 10 * FRAMES);
+        let (bench, calls) = run(config, 1_000_000);
         assert_eq!(calls, []);
         assert_eq!(bench.seen.limited > 0, contact_capacity.is_some());
     }

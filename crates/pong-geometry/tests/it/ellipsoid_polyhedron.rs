@@ -13,6 +13,7 @@ use pong_geometry::interference::Interference;
 use pong_geometry::interference::ellipsoid_polyhedron::{ellipsoid_piece, ellipsoid_polyhedron};
 use pong_geometry::primitive::{Ellipsoid, Polyhedron};
 use pong_geometry::{Mat3, Vec3};
+use pong_testkit::samples;
 
 fn overlap(e: &Ellipsoid, p: &Polyhedron, n: &Vec3) -> f64 {
     let support =
@@ -127,7 +128,7 @@ fn compare(p: &Polyhedron, semi_axes: Vec3, reach: f64, cases: usize, seed: u64)
     let reference = Reference::new(1500);
     let mut random = Random(seed);
     let mut tally = Tally::default();
-    for case in 0..cases {
+    for case in 0..samples(cases) {
         let e = random_ellipsoid(&mut random, semi_axes, reach);
         let (least, n) = reference.least(&e, p, &mut random);
         let Some(contact) = ellipsoid_polyhedron(&e, p) else {
@@ -190,7 +191,8 @@ fn a_face_of_many_corners_is_searched_to_the_end() {
         .collect();
     let disc = hull_with_walls(&corners, &|_, _| false);
     let mut found = 0;
-    while found < 500 {
+    let wanted = samples(500);
+    while found < wanted {
         let angle = random.between(0.0, 6.3);
         let e = Ellipsoid {
             center: Vec3::new(angle.cos(), angle.sin(), 0.2) * random.between(0.8, 1.2),
@@ -210,7 +212,7 @@ fn a_face_of_many_corners_is_searched_to_the_end() {
 #[test]
 fn minimum_of_twelve_faces() {
     let tally = compare(&stretched_hull(8, HULL), ELLIPSOID, 0.6, 5000, 31);
-    assert!(tally.edges > 100 && tally.vertices > 20);
+    assert!(tally.edges > samples(100) && tally.vertices > samples(20));
 }
 
 #[test]
@@ -253,7 +255,7 @@ fn aspect_ratio_of_ten_thousand_keeps_the_overlap_of_its_normal() {
     let p = stretched_hull(18, HULL);
     let mut random = Random(61);
     let reference = Reference::new(1500);
-    for _ in 0..800 {
+    for _ in 0..samples(800) {
         let e = random_ellipsoid(&mut random, Vec3::new(1.0, 1e-2, 1e-4), 0.6);
         let (least, _) = reference.least(&e, &p, &mut random);
         match ellipsoid_polyhedron(&e, &p) {
@@ -411,12 +413,12 @@ fn depth_is_continuous_along_a_path_over_edges_and_corners() {
         axes,
         semi_axes: Vec3::new(0.25, 0.12, 0.08),
     };
-    const STEPS: usize = 200_000;
+    let steps = samples(200_000);
     let mut before: Option<f64> = None;
-    for k in 0..=STEPS {
-        let depth = ellipsoid_polyhedron(&at(1.6 * k as f64 / STEPS as f64), &p).map_or(0.0, |c| c.depth);
+    for k in 0..=steps {
+        let depth = ellipsoid_polyhedron(&at(1.6 * k as f64 / steps as f64), &p).map_or(0.0, |c| c.depth);
         if let Some(before) = before {
-            assert!((depth - before).abs() < 1.3 * 1.6 / STEPS as f64, "step at {k}: {before} {depth}");
+            assert!((depth - before).abs() < 1.3 * 1.6 / steps as f64, "step at {k}: {before} {depth}");
         }
         before = Some(depth);
     }
@@ -520,7 +522,8 @@ fn pieces_of_a_split_box_push_as_the_whole_box() {
         };
         let pieces = [piece(-1.0), piece(1.0)];
         let (mut lost, mut extra, mut checked) = (0, 0, 0);
-        while checked < 5000 {
+        let wanted = samples(5000);
+        while checked < wanted {
             let semi_axes = Vec3::from_fn(|_, _| random.between(0.05, 0.4));
             let mut e = random_ellipsoid(&mut random, semi_axes, 0.0);
             e.center =

@@ -11,7 +11,7 @@ use pong_geometry::interference::two_ended_round::{
 };
 use pong_geometry::primitive::{Capsule, Frustum, LineSegment, Sphere};
 use pong_geometry::{Transform, Vec3};
-use pong_testkit::Random;
+use pong_testkit::{Random, samples};
 
 /// Random solid, about 1 m in size, of any slenderness, near the origin.
 fn random_solid(random: &mut Random) -> Solid {
@@ -186,7 +186,7 @@ fn a_rod_on_the_axis_of_a_solid_leaves_it_by_the_shortest_way() {
 fn depths_are_the_least_translation_that_separates() {
     let mut random = Random::new(1, 0, 0);
     let mut touching = 0;
-    for case in 0..100 {
+    for case in 0..samples(100) {
         let solid = random_solid(&mut random);
         let rod = random_rod(&mut random, &solid);
         let searched = depth_by_search(&rod, &solid);
@@ -203,17 +203,17 @@ fn depths_are_the_least_translation_that_separates() {
             assert!((out - found).abs() < 1e-11, "{told}: the normal separates by {out}");
         }
     }
-    assert!(touching > 30);
+    assert!(touching > samples(30));
 }
 
 /// Rods whose axes pass through a cylinder or a cone, many poses for each pair: no searched direction gives a
 /// shorter translation.
 #[test]
 fn no_way_out_of_cylinders_and_cones_is_shorter_than_the_depth() {
-    const POSES: usize = 1000;
+    let poses = samples(1000);
     let mut random = Random::new(15, 0, 0);
     let mut counts = [[0; 2]; 2];
-    while counts.iter().flatten().any(|&count| count < POSES) {
+    while counts.iter().flatten().any(|&count| count < poses) {
         let solid = random_solid(&mut random);
         let Solid::Frustum(frustum) = solid else { continue };
         let rod = random_rod(&mut random, &solid);
@@ -221,7 +221,7 @@ fn no_way_out_of_cylinders_and_cones_is_shorter_than_the_depth() {
             &mut counts[usize::from(rod.radius > 0.0)][usize::from(frustum.radii[0] != frustum.radii[1])];
         let contacts = solid.touch_rod(&rod);
         let found = deepest(&contacts);
-        if *count == POSES || found <= rod.radius {
+        if *count == poses || found <= rod.radius {
             continue;
         }
         *count += 1;
@@ -241,7 +241,7 @@ fn no_way_out_of_cylinders_and_cones_is_shorter_than_the_depth() {
 #[test]
 fn depths_of_balls_are_the_least_translation_that_separates() {
     let mut random = Random::new(2, 0, 0);
-    for case in 0..100 {
+    for case in 0..samples(100) {
         let solid = random_solid(&mut random);
         let center = solid.near(&mut random);
         let ball = Sphere { center, radius: random.between(0.0, 0.5) };

@@ -22,7 +22,7 @@ macro_rules! one_test_each {
         )*
 
         #[test]
-        fn every_case_has_a_test() {
+        fn each_has_a_test() {
             let ids: Vec<_> = cases().iter().map(|case| case.id).collect();
             assert_eq!(ids, [$($id),*]);
         }

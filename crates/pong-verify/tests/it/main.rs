@@ -1,5 +1,5 @@
 //! Tests of the cases with known answers and of the extremes.
 
 mod all_cases;
-mod extremes;
+mod all_extremes;
 mod scenes;

@@ -1,5 +1,6 @@
 //! Paths, and running programs.
 
+pub mod c;
 pub mod header;
 
 use std::path::{Path, PathBuf};

@@ -18,7 +18,7 @@ macro_rules! one_test_each {
         )*
 
         #[test]
-        fn every_extreme_has_a_test() {
+        fn each_has_a_test() {
             let ids: Vec<_> = extremes().iter().map(|extreme| extreme.id).collect();
             assert_eq!(ids, [$($id),*]);
         }
