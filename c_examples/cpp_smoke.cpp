@@ -145,6 +145,11 @@ void list_and_restore(pong::World& world) {
     require(world.save_contact_state() == saved, "the contact state survives a round trip");
     const pong::World clone = world.clone();
     require(clone.save_contact_state() == saved && clone.get() != world.get(), "a clone remembers the same");
+    pong::World longer = world.extended();
+    longer.create_object(longer.load_model_text(ground_model, "ground"), "second_ground");
+    longer.pair("ball", "second_ground");
+    longer.seal();
+    require(longer.continue_from(world).contacts == world.report().contacts, "contacts go on beside what arrived");
 }
 
 // Contacts and contact state go into memory that the caller has: a frame allocates nothing.

@@ -143,6 +143,9 @@ static void order_before_seal(scene *s)
     const char *text;
     REFUSED(pong_clone_world(s->world, &clone), WRONG_PHASE, "seal the world first");
     TEST(clone == NULL);
+    clone = s->world;
+    REFUSED(pong_extend_world(s->world, &clone), WRONG_PHASE, "seal the world first");
+    TEST(clone == NULL);
     REFUSED(pong_prewake(s->world, 100), WRONG_PHASE, "seal");
     REFUSED(pong_quiesce(s->world), WRONG_PHASE, "seal");
     REFUSED(pong_worker_count(s->world, &size), WRONG_PHASE, "seal");

@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0x614355af2c3700aeULL
+#define PONG_LAYOUT_HASH 0xf96801101d1c6230ULL
 
 /// Checks that this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -715,6 +715,26 @@ typedef struct pong_worker {
     uint64_t work_ns[4];
 } pong_worker;
 
+/// Objects, pairs and contacts that pong_continue_from() took over, and those left in the other world.
+typedef struct pong_continuation {
+    /// Objects in both worlds.
+    uint64_t objects;
+    /// Pairs of them that continue.
+    uint64_t pairs;
+    /// Pushing contacts that continue.
+    uint64_t contacts;
+    /// Objects of the other world alone.
+    uint64_t objects_left;
+    /// Pairs of those, left behind with their contact state and energy accounts.
+    uint64_t pairs_left;
+    /// Pushing contacts of those pairs.
+    uint64_t contacts_left;
+    /// Energy stored in them, J. The ledger counts it as dissipated.
+    double energy_left;
+    /// Zero in this version.
+    uint64_t reserved[4];
+} pong_continuation;
+
 /// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's
 /// laws do not use are 0 when got and ignored when set. No value but a rigid stiffness is beyond 1e100.
 typedef struct pong_surface_values {
@@ -1285,6 +1305,33 @@ pong_status pong_preload_friction(struct pong_world *world,
                                   struct pong_pair_id pair,
                                   const double *force,
                                   size_t *count);
+
+/// Makes a world in set-up with everything that a sealed one was made of, and with the states, pairs, surface
+/// values and user data that it has now: load and create what arrives, pair it, seal, and call
+/// pong_continue_from(). Models are shared, not loaded again. Ids of the sealed world are ids of this one; ids of
+/// what is added belong to this one alone, and must not be used in another world extended from the same one. The
+/// sealed world may run on meanwhile. Both call the same laws: the `user` data of a law must live as long as
+/// either. Masses and step plan are taken over. The world is the caller's: destroy it with pong_destroy_world().
+/// On failure `extended` gets NULL. PONG_STATUS_WRONG_PHASE before the seal.
+pong_status pong_extend_world(const struct pong_world *world,
+                              struct pong_world **extended);
+
+/// Continues the run of another world, `from`, in `world`; both are sealed. Common Objects (those of equal name)
+/// and their pairs take over states, switched pairs, surface values and contact state. Contacts between them
+/// continue as if no Object had been added or removed: their wrenches are bit-identical, as long as nothing else
+/// touches these Objects. So do the totals of the ledger and the energy accounts of these pairs. Objects that
+/// only `world` has keep their states, pairs and surfaces, and their contacts start without history. Objects
+/// that only `from` has are left behind; `continuation`, which may be NULL, counts them. All earlier contact
+/// state of `world` is dropped, and it has no results before its next frame. `from` is unchanged. Allocates:
+/// call it between frames.
+///
+/// PONG_STATUS_BAD_VALUE if contacts would not continue unchanged: an Object of the same name has another model,
+/// Objects were created or paired in another order, a pair is missing, filters differ, energies are kept
+/// otherwise, or there is too little room. PONG_STATUS_WRONG_PHASE: a frame of either world was evaluated and
+/// not committed, or `world` has a log. `world` is unchanged then.
+pong_status pong_continue_from(struct pong_world *world,
+                               const struct pong_world *from,
+                               struct pong_continuation *continuation);
 
 /// Number of surfaces of a model.
 pong_status pong_surface_count(const struct pong_world *world, struct pong_model_id model, size_t *count);

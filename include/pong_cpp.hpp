@@ -47,6 +47,7 @@ using PairPeaks = pong_pair_peaks;
 using Report = pong_report;
 using SealReport = pong_seal_report;
 using Ledger = pong_ledger;
+using Continuation = pong_continuation;
 using Account = pong_energy_account;
 using PairAccount = pong_pair_energy_account;
 using SurfaceValues = pong_surface_values;
@@ -124,6 +125,21 @@ public:
         check(pong_clone_world(get(), &world));
         made.world_.reset(world);
         return made;
+    }
+
+    /// A world in set-up with everything that this sealed one was made of, with the same ids: add what arrives, seal it, and let
+    /// it go on where this one is by then. See pong_extend_world().
+    World extended() const {
+        World made(nullptr);
+        pong_world* world = nullptr;
+        check(pong_extend_world(get(), &world));
+        made.world_.reset(world);
+        return made;
+    }
+
+    /// Goes on where another world is, with the contacts of what is in both. See pong_continue_from().
+    Continuation continue_from(const World& other) {
+        return result<Continuation>([&](Continuation* out) { return pong_continue_from(get(), other.get(), out); });
     }
 
     /// Handle for calls that this class does not have.

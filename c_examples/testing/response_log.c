@@ -40,6 +40,7 @@ static void refusals(void)
     pong_config config = pong_default_config();
     pong_log_options options = pong_default_log_options();
     pong_log_report report;
+    pong_world *other = NULL;
     open_scene(&s, &config);
     REFUSED(pong_start_log(s.world, inside("early"), NULL), WRONG_PHASE, "seal the world first");
     seal_scene(&s);
@@ -56,6 +57,9 @@ static void refusals(void)
     memset(&options, 0, sizeof options);
     REFUSED(pong_start_log(s.world, inside("wrong"), &options), CONFIG, "pong_default_log_options()");
     OK(pong_start_log(s.world, inside("refusals"), NULL));
+    OK(pong_clone_world(s.world, &other));
+    REFUSED(pong_continue_from(s.world, other, NULL), WRONG_PHASE, "a log of this one is running");
+    OK(pong_destroy_world(other));
     REFUSED(pong_start_log(s.world, inside("second"), NULL), WRONG_PHASE, "one is running");
     REFUSED(pong_log_frame(s.world, 0.0), WRONG_PHASE, "after it was evaluated");
     OK(pong_step(s.world));

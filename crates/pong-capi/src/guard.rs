@@ -42,26 +42,34 @@ pub(crate) unsafe fn with_world(
     world: *const pong_world,
     call: impl FnOnce(&mut Inner) -> Outcome,
 ) -> pong_status {
-    guarded(|| {
-        // SAFETY: by the contract of this function; shared access is enough, the lock guards the rest.
-        let Some(world) = (unsafe { world.as_ref() }) else {
-            return Err(Failure::new(
-                pong_status::NullArgument,
-                "`world` is NULL; give a world made by pong_create_world()",
-            ));
-        };
-        match world.inner.try_lock() {
-            Ok(mut inner) => call(&mut inner),
-            Err(TryLockError::WouldBlock) => Err(Failure::new(
-                pong_status::Busy,
-                "the world is in another call; call it from one thread at a time and never from inside a law",
-            )),
-            Err(TryLockError::Poisoned(_)) => Err(Failure::new(
-                pong_status::Panic,
-                "the world is unusable after an earlier fault inside the library; destroy it",
-            )),
-        }
-    })
+    guarded(|| locked(world, "world", call))
+}
+
+/// Calls with what a world's lock guards. `name` is that of the argument.
+///
+/// # Safety
+/// As [`with_world`].
+pub(crate) unsafe fn locked(
+    world: *const pong_world,
+    name: &str,
+    call: impl FnOnce(&mut Inner) -> Outcome,
+) -> Outcome {
+    // SAFETY: by the contract of this function; shared access is enough, the lock guards the rest.
+    let Some(world) = (unsafe { world.as_ref() }) else {
+        let message = format!("`{name}` is NULL; give a world made by pong_create_world()");
+        return Err(Failure::new(pong_status::NullArgument, message));
+    };
+    match world.inner.try_lock() {
+        Ok(mut inner) => call(&mut inner),
+        Err(TryLockError::WouldBlock) => Err(Failure::new(
+            pong_status::Busy,
+            "the world is in another call; call it from one thread at a time and never from inside a law",
+        )),
+        Err(TryLockError::Poisoned(_)) => Err(Failure::new(
+            pong_status::Panic,
+            "the world is unusable after an earlier fault inside the library; destroy it",
+        )),
+    }
 }
 
 /// As [`with_world`], for calls that return one value: written to `place`, which messages call by the given

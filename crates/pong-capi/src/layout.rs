@@ -4,6 +4,7 @@
 use crate::accounts::{pong_energy_account, pong_pair_energy_account};
 use crate::config::pong_config;
 use crate::contacts::{pong_contact, pong_contact_side};
+use crate::continuation::pong_continuation;
 use crate::ids::{pong_interface_id, pong_model_id, pong_object_id, pong_pair_id};
 use crate::law_types::{pong_friction_input, pong_friction_output, pong_normal_input};
 use crate::log::{pong_log_options, pong_log_report};
@@ -104,6 +105,9 @@ layouts! {
     pong_pair_energy_account {
         pair, interfaces, total, episode, in_contact, gains_energy, episodes, episodes_gained, episodes_unresolved, excess, worst_excess,
         stiffness, damping,
+    }
+    pong_continuation {
+        objects, pairs, contacts, objects_left, pairs_left, contacts_left, energy_left, reserved,
     }
     pong_surface_values {
         normal_law, friction_law, stiffness, damping, ramp, dissipation, friction, friction_static_excess,

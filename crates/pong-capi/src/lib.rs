@@ -16,7 +16,7 @@
 //! | `states.rs`, `frames.rs`, `wrenches.rs`, `contacts.rs`, `report.rs`, `accounts.rs`, `tally.rs` | frames |
 //! | `pair_monitor.rs` | begin and end of contact, peaks over several frames |
 //! | `workers.rs` | workers, around frames |
-//! | `contact_state.rs`, `surfaces.rs`, `user_data.rs` | between frames |
+//! | `contact_state.rs`, `continuation.rs`, `surfaces.rs`, `user_data.rs` | between frames |
 //! | `log.rs` | response logs |
 //!
 //! Every entry, except those that return a constant, goes through `guard.rs`: a message of its own, one call
@@ -42,6 +42,7 @@ pub mod clone;
 pub mod config;
 pub mod contact_state;
 pub mod contacts;
+pub mod continuation;
 mod counters;
 pub mod coupling;
 mod failure;

@@ -9,16 +9,19 @@ use pong::contact_state::{
     pong_contact_state_size, pong_contact_state_used, pong_preload_friction, pong_restore_contact_state,
     pong_save_contact_state,
 };
+use pong::continuation::{pong_continuation, pong_continue_from, pong_extend_world};
 use pong::frames::pong_step;
 use pong::ids::{pong_model_id, pong_object_id, pong_pair_id};
 use pong::objects::pong_clear_contact_history;
 use pong::pairs::pong_set_pair_enabled;
+use pong::seal::pong_seal;
 use pong::surfaces::{
     pong_get_surface, pong_set_surface, pong_surface_count, pong_surface_name, pong_surface_values,
 };
 use pong::workers::{pong_prewake, pong_quiesce};
-use pong::world::pong_destroy_world;
+use pong::world::{pong_destroy_world, pong_world};
 use std::ffi::c_char;
+use std::mem::MaybeUninit;
 
 /// Surfaces of the models, and an unknown one.
 const SURFACES: [&str; 6] = ["rubber", "rock", "wall", "own", "foam", "nope"];
@@ -62,20 +65,58 @@ impl Session<'_> {
             return;
         }
         let clone = place.get();
-        let mut blocks = [Vec::new(), Vec::new()];
-        for (world, block) in [world, clone].into_iter().zip(&mut blocks) {
-            let mut size = 0;
-            self.call("used", Sure::Right, || unsafe { pong_contact_state_used(world, &mut size) });
-            block.resize(size, 0);
-            let pointer = block.as_mut_ptr().cast();
-            self.call("save", Sure::Right, || unsafe { pong_save_contact_state(world, pointer, size) });
-        }
+        let blocks = [world, clone].map(|world| self.saved(world));
         assert!(blocks[0] == blocks[1], "a clone remembers something else");
         // A law that calls its own world back would call the first one, which is not in a call.
         if self.host().is_some_and(|host| !host.behaviour.calls_back()) {
             self.call("step", Sure::Unknown, || unsafe { pong_step(clone) });
         }
         self.call("destroy", Sure::Right, || unsafe { pong_destroy_world(clone) });
+        self.extend_world(world);
+    }
+
+    /// A world of the same Objects that goes on where this one is, remembers the same, takes a frame and is destroyed.
+    fn extend_world(&mut self, world: *mut pong_world) {
+        let mut extended = std::ptr::null_mut();
+        // SAFETY: here and below: living worlds and places, as the safety contract of all entries says.
+        if !self.call("extend", Sure::Right, || unsafe { pong_extend_world(world, &mut extended) }) {
+            return;
+        }
+        let nothing = std::ptr::null_mut();
+        self.call("continue", Sure::Wrong, || unsafe { pong_continue_from(extended, world, nothing) });
+        if self.call("seal", Sure::Unknown, || unsafe { pong_seal(extended, std::ptr::null_mut()) }) {
+            for wrong in [extended, nothing.cast()] {
+                self.call("continue", Sure::Wrong, || unsafe {
+                    pong_continue_from(extended, wrong, nothing)
+                });
+            }
+            let mut report = MaybeUninit::<pong_continuation>::uninit();
+            // Refused while a frame is not committed.
+            let place = report.as_mut_ptr();
+            if self.call("continue", Sure::Unknown, || unsafe { pong_continue_from(extended, world, place) })
+            {
+                // SAFETY: written by a success.
+                let report = unsafe { report.assume_init() };
+                assert!(report.objects_left == 0 && report.contacts_left == 0 && report.energy_left == 0.0);
+                let saved = [world, extended].map(|world| self.saved(world));
+                assert!(saved[0] == saved[1], "a world that goes on remembers something else");
+                if self.host().is_some_and(|host| !host.behaviour.calls_back()) {
+                    self.call("step", Sure::Unknown, || unsafe { pong_step(extended) });
+                }
+            }
+        }
+        self.call("destroy", Sure::Right, || unsafe { pong_destroy_world(extended) });
+    }
+
+    /// The contact state of a sealed world.
+    fn saved(&mut self, world: *mut pong_world) -> Vec<u8> {
+        let mut size = 0;
+        // SAFETY: here and below: living worlds and places, as the safety contract of all entries says.
+        self.call("used", Sure::Right, || unsafe { pong_contact_state_used(world, &mut size) });
+        let mut block = vec![0_u8; size];
+        let pointer = block.as_mut_ptr().cast();
+        self.call("save", Sure::Right, || unsafe { pong_save_contact_state(world, pointer, size) });
+        block
     }
 
     fn save(&mut self) {

@@ -156,7 +156,7 @@ impl WorldBuilder {
         let mut place = self.lock()?;
         let Setup { builder, sources, folders } = place.take().ok_or_else(sealed)?;
         match py.detach(|| builder.seal().map_err(Box::new)) {
-            Ok((world, report)) => World::new(world, sources, &report),
+            Ok((world, report)) => World::new(world, (sources, folders), &report),
             Err(refused) => {
                 let (builder, error) = refused.into_parts();
                 *place = Some(Setup { builder, sources, folders });
@@ -167,6 +167,15 @@ impl WorldBuilder {
 }
 
 impl WorldBuilder {
+    /// One that was begun elsewhere.
+    pub fn new_from(
+        builder: pong_engine::WorldBuilder,
+        sources: Vec<ModelSource>,
+        folders: Vec<PathBuf>,
+    ) -> Self {
+        Self { setup: Mutex::new(Some(Setup { builder, sources, folders })) }
+    }
+
     fn lock(&self) -> PyResult<std::sync::MutexGuard<'_, Option<Setup>>> {
         lock("world builder", &self.setup, "set a world up in one thread")
     }

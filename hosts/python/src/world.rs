@@ -1,6 +1,7 @@
 //! A sealed world: frames.
 
 use crate::arrays::{self, Matrix, STATE, WRENCH};
+use crate::builder::WorldBuilder;
 use crate::contacts;
 use crate::errors::{PhaseError, bad_value, lock, of_engine};
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
@@ -31,6 +32,8 @@ pub(crate) struct Inner {
     pub world: pong_engine::World,
     pub sources: Vec<ModelSource>,
     pub recorder: Option<Recorder>,
+    /// Folders that models may read meshes from, for a builder that extends the world.
+    pub folders: Vec<PathBuf>,
     /// Buffer for states from an array on their way into the world.
     states: Vec<(InterfaceId, State)>,
 }
@@ -71,7 +74,7 @@ impl FrameReport {
 impl World {
     pub(crate) fn new(
         world: pong_engine::World,
-        sources: Vec<ModelSource>,
+        (sources, folders): (Vec<ModelSource>, Vec<PathBuf>),
         report: &SealReport,
     ) -> PyResult<Self> {
         let interfaces = ids::interfaces(world.scene())?;
@@ -80,7 +83,13 @@ impl World {
             interfaces,
             warnings: report.warnings.iter().map(ToString::to_string).collect(),
             notes: report.notes.iter().map(ToString::to_string).collect(),
-            inner: Mutex::new(Box::new(Inner { world, sources, recorder: None, states: Vec::new() })),
+            inner: Mutex::new(Box::new(Inner {
+                world,
+                sources,
+                recorder: None,
+                folders,
+                states: Vec::new(),
+            })),
         })
     }
 
@@ -365,6 +374,44 @@ impl World {
         world.restore_state(block).map_err(of_engine)?;
         recorder.iter_mut().for_each(|recorder| recorder.restored(block));
         Ok(())
+    }
+
+    /// A builder that begins with everything that this world was made of, and with its states, pairs and surfaces as they are
+    /// now: add what arrives, seal, and let the new world `continue_from` this one, which may run on meanwhile.
+    fn extended(&self) -> PyResult<WorldBuilder> {
+        let inner = self.lock()?;
+        let builder = pong_engine::WorldBuilder::extending(&inner.world);
+        Ok(WorldBuilder::new_from(builder, inner.sources.clone(), inner.folders.clone()))
+    }
+
+    /// Continues the run of another world, with the states, pairs, surfaces and contact state of the Objects that are in both,
+    /// by name. Returns the counts of what continues and of what was left behind.
+    fn continue_from<'py>(slf: &Bound<'py, Self>, other: &Bound<'py, Self>) -> PyResult<Bound<'py, PyDict>> {
+        if slf.is(other) {
+            let cure = "give the world whose run goes on";
+            return Err(bad_value("other", "it is this world itself".to_owned(), cure));
+        }
+        let (mut inner, other) = (slf.get().lock()?, other.get().lock()?);
+        if inner.recorder.is_some() {
+            return Err(PhaseError::new_err(
+                "continue from another world: a log of this one is running, and the run of the other is not in it; stop it \
+                 with stop_log() first, and begin another one afterwards",
+            ));
+        }
+        let of = inner.world.continue_from(&other.world).map_err(of_engine)?;
+        let told = PyDict::new(slf.py());
+        for (name, count) in [
+            ("objects", of.objects),
+            ("pairs", of.pairs),
+            ("contacts", of.contacts),
+            ("objects_left", of.objects_left),
+            ("pairs_left", of.pairs_left),
+            ("contacts_left", of.contacts_left),
+        ] {
+            told.set_item(name, count)?;
+        }
+        told.set_item("energy_left", of.energy_left)?;
+        Ok(told)
     }
 
     /// Drops the contact state of an Object, after a teleport or a reset.

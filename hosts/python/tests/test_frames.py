@@ -172,6 +172,45 @@ def test_a_restored_state_goes_on_to_the_same_bits():
     assert not np.array_equal(slide(world(), 5, start=5), whole[5:])
 
 
+def test_objects_arrive_and_the_others_go_on_to_the_same_bits(tmp_path):
+    def slid(x):
+        posed = touching(1e-3)
+        posed[0, 0] = x
+        return posed
+
+    w = world()
+    for x in (0.0, 1e-4):
+        w.set_states(slid(x))
+        w.step()
+    extension = w.extended()
+    second = extension.create_object(w.models[0], "second")
+    extension.pair(second, "ground")
+    larger = extension.seal()
+    arrived = larger.interface(second)
+    assert larger.interfaces[:2] == w.interfaces and arrived == larger.interfaces[2]
+    larger.set_states(position=[(5.0, 0.0, 0.099)], interfaces=[arrived])
+    told = larger.continue_from(w)
+    assert (told["objects"], told["pairs"], told["contacts"], told["objects_left"]) == (2, 1, 1, 0)
+    for x in (1e-4, 2e-4, 1e-4):
+        w.set_states(slid(x))
+        larger.set_states(slid(x), interfaces=w.interfaces)
+        w.step(), larger.step()
+        assert larger.wrenches(axes="group")[0].tobytes() == w.wrenches(axes="group")[0].tobytes()
+    smaller = world()
+    told = smaller.continue_from(larger)
+    assert (told["objects_left"], told["pairs_left"], told["contacts_left"]) == (1, 1, 1) and told["energy_left"] > 0
+    with pytest.raises(pong.BadValueError, match="this world itself"):
+        larger.continue_from(larger)
+    larger.evaluate()
+    with pytest.raises(pong.PhaseError, match="commit the frame"):
+        smaller.continue_from(larger)
+    larger.commit()
+    smaller.start_log(tmp_path / "log")
+    with pytest.raises(pong.PhaseError, match="stop_log"):
+        smaller.continue_from(larger)
+    smaller.stop_log()
+
+
 def test_history_is_dropped_where_it_is_asked_for():
     w, fresh = world(), world()
     slide(w, 5)

@@ -17,12 +17,13 @@ fn the_programs_build_and_run() {
     }
 }
 
-const PROGRAMS: [&str; 11] = [
+const PROGRAMS: [&str; 12] = [
     "minimal",
     "executive",
     "misuse",
     "laws",
     "calls",
+    "arrivals",
     "response_log",
     "floating_point",
     "host_process",

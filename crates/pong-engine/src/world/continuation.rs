@@ -39,7 +39,7 @@ impl World {
     /// earlier contact state of this world is dropped, and it has no results before its next frame. The other
     /// world is unchanged, and may run on or be dropped.
     ///
-    /// Not for use within frames: it allocates, and costs about as much as a few frames.
+    /// Not for use within frames: it allocates, and its time grows with Objects, pairs and contacts.
     /// [`WorldBuilder::extending`] makes a world with the Objects of another one and more.
     ///
     /// [`WorldBuilder::extending`]: crate::WorldBuilder::extending

@@ -51,6 +51,8 @@ pub struct Recorder {
     gave_up: bool,
     /// PID of the process that writes the log. The thread does not survive a fork.
     process: u32,
+    /// Hash of the scene that is recorded.
+    scene: u64,
 }
 
 /// Progress of a log.
@@ -154,6 +156,7 @@ impl Recorder {
             longest_wait: options.longest_wait,
             gave_up: false,
             process: std::process::id(),
+            scene: world.scene_hash(),
         };
         recorder.tell_how_it_begins(world, block)?;
         Ok(recorder)
@@ -178,8 +181,8 @@ impl Recorder {
     /// frame for which there is no room is lost, or waits, by the options; that is no error.
     ///
     /// # Errors
-    /// A world without a frame, or whose states, pairs or surfaces are no longer those of its frame; a time
-    /// that is not finite.
+    /// A world of another scene; one without a frame, or whose states, pairs or surfaces are no longer those of its frame; a
+    /// time that is not finite.
     pub fn record(
         &mut self,
         world: &World,
@@ -189,6 +192,11 @@ impl Recorder {
     ) -> Result<(), LogError> {
         if !time.is_finite() {
             return Err(LogError::refused(format!("the time is {time}"), "give a finite time in s"));
+        }
+        if world.scene_hash() != self.scene {
+            let cause = "this is a frame of a world with other Objects than those that are recorded";
+            let cure = "finish this log, and begin one of that world in another folder";
+            return Err(LogError::refused(cause, cure));
         }
         if !world.frame_is_current() {
             let call = "record a frame";

@@ -1,7 +1,7 @@
 //! A log replays with the same bits; any change in it is reported by name.
 
 use crate::support::{HeldDisk, folder, scene};
-use pong_engine::Laws;
+use pong_engine::{Laws, State, WorldBuilder};
 use pong_record::{
     Log, LogError, Obstacle, RecordOptions, Recorder, ReplayOptions, ReplayReport, WhenFull, replay,
 };
@@ -33,6 +33,47 @@ fn every_frame_comes_again() {
     assert!(report.agrees() && report.compared == 300 && report.contacts > 300, "{report:?}");
     let two = pong_engine::WorkerSettings { workers: 2, oversubscribe: true, ..Default::default() };
     assert!(replayed(&place, &ReplayOptions { workers: Some(two), ..Default::default() }).agrees());
+}
+
+/// A world that goes on with more Objects is not the one that is recorded: that log ends whole, and the next one begins where it
+/// ends.
+#[test]
+fn a_world_that_goes_on_gets_a_log_of_its_own() {
+    let folder = folder("goes_on");
+    let mut scene = scene(&folder);
+    let [first, second] = ["first", "second"].map(|name| folder.join(name));
+    let options = RecordOptions::default();
+    let mut recorder = Recorder::start(&scene.world, &first, &scene.sources, &options).unwrap();
+    for n in 0..100 {
+        scene.step(&mut recorder, n);
+        recorder.record(&scene.world, f64::from(n) * 0.01, 0, None).unwrap();
+    }
+    let known = scene.world.scene();
+    let (model, ground) = (known.model_id_of(scene.cart).unwrap(), known.object("ground").unwrap());
+    let mut builder = WorldBuilder::extending(&scene.world);
+    let arrived = builder.create_object(model, "second").unwrap();
+    builder.pair(arrived, ground).unwrap();
+    for (group, height) in builder.scene().interfaces(arrived).unwrap().into_iter().zip([0.099, 0.2]) {
+        let state = State { position: [0.0, 1.0, height], ..State::identity() };
+        builder.set_states(&[(group, state)]).unwrap();
+    }
+    let (mut world, _) = builder.seal().unwrap();
+    assert!(world.continue_from(&scene.world).unwrap().contacts > 0);
+    world.evaluate().unwrap();
+    let refused = recorder.record(&world, 1.0, 0, None).unwrap_err().to_string();
+    assert!(refused.contains("other Objects") && refused.contains("begin one"), "{refused}");
+    assert_eq!(recorder.finish().unwrap().frames, 100);
+    scene.world = world;
+    let mut recorder = Recorder::start(&scene.world, &second, &scene.sources, &options).unwrap();
+    for n in 100..200 {
+        scene.step(&mut recorder, n);
+        recorder.record(&scene.world, f64::from(n) * 0.01, 0, None).unwrap();
+    }
+    recorder.finish().unwrap();
+    for place in [first, second] {
+        let report = exactly(&place);
+        assert!(report.agrees() && report.compared == 100 && report.contacts > 50, "{report:?}");
+    }
 }
 
 /// Ended after some frames, a replay does not say that the log agrees.

@@ -5,7 +5,7 @@ use cbindgen::{Builder, DocumentationStyle, EnumConfig, ItemType, Language, Rena
 use std::path::Path;
 
 /// Source files in the reading order of the header.
-const FILES: [&str; 31] = [
+const FILES: [&str; 32] = [
     "status",
     "abi",
     "version",
@@ -35,6 +35,7 @@ const FILES: [&str; 31] = [
     "worker",
     "workers",
     "contact_state",
+    "continuation",
     "surfaces",
     "log",
 ];
