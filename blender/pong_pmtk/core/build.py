@@ -49,7 +49,9 @@ def build(snapshot: Snapshot, root: str = "") -> Built:
     check_same_place(scene, group, origins)
     settings = top.settings
     name = (settings.name if settings else "") or group.name
-    model = Model(name, surfaces, group, pairs, settings.entry_memory if settings else True)
+    model = Model(name, surfaces, group, pairs)
+    if settings:
+        model.entry_memory, model.filters = settings.entry_memory, list(settings.filters)
     _unused_surfaces(scene, top, model)
     _rigid_friction(scene, top, surfaces)
     loaded = _judged_by_engine(scene, top, model, files, origins)

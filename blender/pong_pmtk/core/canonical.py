@@ -17,7 +17,8 @@ from .schema import PRIMITIVES, is_default
 def canonical(model: Model) -> Model:
     """A copy of the model in that form; arrays are shared where nothing changes."""
     surfaces = {name: _surface(surface) for name, surface in model.surfaces.items()}
-    return Model(model.name, surfaces, _group(model.root, True), copy.deepcopy(model.pairs), model.entry_memory)
+    root, pairs = _group(model.root, True), copy.deepcopy(model.pairs)
+    return Model(model.name, surfaces, root, pairs, model.entry_memory, list(model.filters))
 
 
 def _surface(surface: dict) -> dict:

@@ -112,3 +112,4 @@ class ModelSettings:
     """Name -> fields as in docs/model_format.md; laws are `Tagged` or, in JSON, {"Linear": {"damping": 250.0}}. Numbers
     are used as they are: store them in full precision (as text, or as ID properties)."""
     pairs: list[dict] = field(default_factory=list)
+    filters: list[tuple[str, str]] = field(default_factory=list)  # groups that never touch, by path or name

@@ -47,3 +47,4 @@ class Model:
     root: Group
     pairs: list[dict] = field(default_factory=list)
     entry_memory: bool = True
+    filters: list[tuple[str, str]] = field(default_factory=list)  # groups that never touch, by path or name

@@ -64,7 +64,8 @@ def model_of(data: dict) -> Model:
     surfaces = {name: _surface(_fields(fields)) for name, fields in data["surfaces"].items()}
     pairs = [_pair(_fields(pair)) for pair in data.get("pairs") or []]
     entry_memory = data.get("entry_memory")
-    return Model(data["name"], surfaces, _group(data["root"], True), pairs, entry_memory is None or entry_memory)
+    filters = [tuple(pair) for pair in data.get("filters") or []]
+    return Model(data["name"], surfaces, _group(data["root"], True), pairs, entry_memory is None or entry_memory, filters)
 
 
 def _fields(value) -> dict:

@@ -114,6 +114,8 @@ def _value(kind, name: str, value, path: str):
         return {surface: _with_laws(fields) for surface, fields in value.items()}
     if name == "pairs":
         return [_with_laws(fields) for fields in value]
+    if name == "filters":
+        return [tuple(groups) for groups in value]
     if text.startswith("tuple"):
         return tuple(map(bool if "bool" in text else float, value))
     return {key: tuple(item) for key, item in value.items()} if name == "instance_offsets" else value

@@ -24,6 +24,19 @@ def checked(surfaces: dict, pairs: list, model: str = "model") -> tuple[dict, li
     return {name: read.surfaces[name] for name in names}, read.pairs, []
 
 
+def derived(fields: dict) -> dict:
+    """The values of a surface as the engine has them, with the damping that follows from a restitution, a mass or the normal
+    law (docs/python.md, `Model.surfaces`). Empty where that cannot be told: values at fault, or no wheel."""
+    try:
+        pong = wheel()
+    except WheelMissing:
+        return {}
+    try:
+        return pong.Model.parse(_document({"-": fields}, [], "-"), name="-").surfaces["-"]
+    except pong.PongError:
+        return {}
+
+
 def _document(surfaces: dict, pairs: list, model: str) -> str:
     """A model of these tables around a point, with the first surface, or a new one if there is none."""
     tables = {str(name): _plain(fields) for name, fields in surfaces.items()} or {"-": {"stiffness": 1.0}}

@@ -33,6 +33,7 @@ def unbuild(model: Model, folder=None, reserved: set[str] = frozenset()) -> Snap
         model.entry_memory,
         model.surfaces,
         model.pairs,
+        model.filters,
     )
     return Snapshot(scene.objects)
 

@@ -57,6 +57,7 @@ def data_of(model: Model) -> dict:
         "entry_memory": None if model.entry_memory else False,
         "surfaces": {name: _surface(fields) for name, fields in model.surfaces.items()},
         "pairs": [_pair(fields) for fields in model.pairs] or None,
+        "filters": [tuple(groups) for groups in model.filters] or None,
         "root": _group(model.root),
     }
 

@@ -6,7 +6,7 @@ import bpy
 from ..store import presets, spec
 from ..store.changes import changed
 from ..store.references import current_root, tree, unique_name
-from ..store.surfaces import FIRST_FRICTION, add_pair, add_surface
+from ..store.surfaces import FIRST_FRICTION, add_filter, add_pair, add_surface
 from .targets import OnPart, Selection, selected
 
 
@@ -138,6 +138,35 @@ class PONG_OT_pair_remove(OnModel, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class PONG_OT_filter_add(OnModel, bpy.types.Operator):
+    """Keep two groups of the model apart"""
+
+    bl_idname = "pong.filter_add"
+    bl_label = "Add Filter"
+
+    def execute(self, context):
+        settings = current_root(context).pong_model
+        add_filter(settings, "", "")
+        settings.active_filter = len(settings.filters) - 1
+        return {"FINISHED"}
+
+
+class PONG_OT_filter_remove(OnModel, bpy.types.Operator):
+    """Remove the active filter"""
+
+    bl_idname = "pong.filter_remove"
+    bl_label = "Remove Filter"
+
+    def execute(self, context):
+        settings = current_root(context).pong_model
+        if not len(settings.filters):
+            return {"CANCELLED"}
+        settings.filters.remove(min(settings.active_filter, len(settings.filters) - 1))
+        settings.active_filter = max(0, settings.active_filter - 1)
+        changed()
+        return {"FINISHED"}
+
+
 _shown = []  # Blender keeps no reference to the texts of a dynamic list; somebody must
 
 
@@ -210,5 +239,6 @@ class PONG_OT_preset_remove(bpy.types.Operator):
 
 CLASSES = (
     PONG_OT_surface_add, PONG_OT_surface_remove, PONG_OT_surface_assign, PONG_OT_part_surface, PONG_OT_pair_add,
-    PONG_OT_pair_remove, PONG_OT_preset_load, PONG_OT_preset_save, PONG_OT_preset_remove,
+    PONG_OT_pair_remove, PONG_OT_filter_add, PONG_OT_filter_remove, PONG_OT_preset_load, PONG_OT_preset_save,
+    PONG_OT_preset_remove,
 )

@@ -130,6 +130,8 @@ class PONG_PG_model(bpy.types.PropertyGroup):
     active_surface: bpy.props.IntProperty()
     pairs: bpy.props.CollectionProperty(type=surfaces.PONG_PG_pair)
     active_pair: bpy.props.IntProperty()
+    filters: bpy.props.CollectionProperty(type=surfaces.PONG_PG_filter)
+    active_filter: bpy.props.IntProperty()
 
 
 # In the mark and in the property group.
@@ -300,6 +302,7 @@ def read_settings(root):
         entry_memory=group.entry_memory,
         surfaces={surface.name: spec.from_plain(spec.read(surface)) for surface in group.surfaces},
         pairs=pairs,
+        filters=[(groups.first, groups.second) for groups in group.filters],
     )
 
 
@@ -314,6 +317,9 @@ def write_settings(root, settings):
         surfaces.add_surface(group, name, fields)
     for fields in settings.pairs:
         surfaces.add_pair(group, fields)
+    group.filters.clear()
+    for groups in settings.filters:
+        surfaces.add_filter(group, *groups)
 
 
 @bpy.app.handlers.persistent

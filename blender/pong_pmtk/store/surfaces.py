@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Property groups of surfaces and of pairs of surfaces."""
+"""Property groups of surfaces, of pairs of surfaces and of filters."""
 
 import json
 
 import bpy
 
+from ..core.surfaces import derived
 from . import spec
 from .changes import changed, watched
 from .spec import FIELDS
@@ -84,25 +85,32 @@ RESTITUTIONS = {
 }
 
 
+def _derived(self, law, name):
+    """The value of a law that the engine derives; 0 where nobody can tell, as for a pair without a stiffness."""
+    value = (derived(spec.from_plain(spec.read(self))).get(law) or {}).get(name)
+    return value if isinstance(value, (int, float)) else 0.0
+
+
 def _set_restitution(self, on):
-    """Switches between restitution and damping (or dissipation)."""
+    """Switches between restitution and damping (or dissipation); what acts stays the same."""
     if on == _restitution(self):
         return
     law = next(iter(spec.read(self).get("normal") or {}), None)
     replaced, impact = RESTITUTIONS.get(law, RESTITUTIONS["HuntCrossley"])
-    spec.put(self, ("normal", FIELDS, replaced), None if on else 0.0)
+    spec.put(self, ("normal", FIELDS, replaced), None if on else _derived(self, "normal", replaced))
     spec.put(self, ("normal", FIELDS, "restitution"), {"e": 0.5, **impact} if on else None)
 
 
-def _bristle_given(key, other, start):
-    """View of a bristle's damping, or of a mass for it; at most one is given."""
+def _bristle_given(key, other, start=None):
+    """View of a bristle's damping, or of a mass for it; at most one is given. It starts with the damping that acts, or `start`."""
 
     def get(self):
         return spec.value_at(spec.read(self), ("friction", FIELDS, key)) is not None
 
     def set_(self, on):
         if on != get(self):
-            spec.put(self, ("friction", FIELDS, key), start if on else None)
+            begin = _derived(self, "friction", key) if start is None else start
+            spec.put(self, ("friction", FIELDS, key), begin if on else None)
             if on:
                 spec.put(self, ("friction", FIELDS, other), None)
 
@@ -160,7 +168,7 @@ class Laws:
     normal_parameters: spec.numbers("normal", FIELDS, "parameters", name="Parameters")
     use_static_excess: spec.given("friction", FIELDS, "static_excess", name="Static Excess")
     use_bristle_stiffness: spec.given("friction", FIELDS, "stiffness", default=1e5, name="Bristle Spring")
-    use_bristle_damping: bpy.props.BoolProperty(name="Bristle Damper", **_bristle_given("damping", "mass", 0.0))
+    use_bristle_damping: bpy.props.BoolProperty(name="Bristle Damper", **_bristle_given("damping", "mass"))
     use_bristle_mass: bpy.props.BoolProperty(name="Bristle Mass", **_bristle_given("mass", "damping", 1.0))
     friction_name: spec.text("friction", FIELDS, "name", name="Law")
     friction_parameters: spec.numbers("friction", FIELDS, "parameters", name="Parameters")
@@ -204,6 +212,14 @@ class PONG_PG_pair(Laws, bpy.types.PropertyGroup):
     friction: spec.law("friction", PAIR_FRICTION_LAWS, name="Friction")
 
 
+@watched
+class PONG_PG_filter(bpy.types.PropertyGroup):
+    """Two groups of a model that never touch each other."""
+
+    first: bpy.props.StringProperty(name="Group", description="Path in the model, or a name that only one group has")
+    second: bpy.props.StringProperty(name="Group", description="Path in the model, or a name that only one group has")
+
+
 def add_surface(settings, name, fields):
     """Adds a surface to model settings; `fields` as the core has them."""
     surface = settings.surfaces.add()
@@ -221,4 +237,10 @@ def add_pair(settings, fields):
     return pair
 
 
-CLASSES = (PONG_PG_surface, PONG_PG_pair)
+def add_filter(settings, first, second):
+    groups = settings.filters.add()
+    groups.first, groups.second = first, second
+    return groups
+
+
+CLASSES = (PONG_PG_surface, PONG_PG_pair, PONG_PG_filter)

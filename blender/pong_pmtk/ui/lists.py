@@ -81,6 +81,11 @@ class PONG_UL_pairs(bpy.types.UIList):
         layout.label(text=f"{item.first} – {item.second}", icon="ARROW_LEFTRIGHT")
 
 
+class PONG_UL_filters(bpy.types.UIList):
+    def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
+        layout.label(text=f"{item.first} – {item.second}", icon="UNLINKED")
+
+
 class PONG_UL_parts(bpy.types.UIList):
     def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
         row = layout.row(align=True)
@@ -102,4 +107,4 @@ class PONG_UL_findings(bpy.types.UIList):
             row.operator("pong.finding_fix", text="", icon="TOOL_SETTINGS").index = index
 
 
-CLASSES = (PONG_UL_tree, PONG_UL_surfaces, PONG_UL_pairs, PONG_UL_parts, PONG_UL_findings)
+CLASSES = (PONG_UL_tree, PONG_UL_surfaces, PONG_UL_pairs, PONG_UL_filters, PONG_UL_parts, PONG_UL_findings)

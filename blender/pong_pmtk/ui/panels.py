@@ -273,6 +273,28 @@ class PONG_PT_pairs(Panel, bpy.types.Panel):
             draw_laws(layout, pair)
 
 
+class PONG_PT_filters(Panel, bpy.types.Panel):
+    bl_label = "Groups That Never Touch"
+    bl_parent_id = "PONG_PT_model"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return current_root(context) is not None
+
+    def draw(self, context):
+        layout, settings = self.layout, current_root(context).pong_model
+        row = layout.row()
+        row.template_list("PONG_UL_filters", "", settings, "filters", settings, "active_filter", rows=2)
+        column = row.column(align=True)
+        column.operator("pong.filter_add", text="", icon="ADD")
+        column.operator("pong.filter_remove", text="", icon="REMOVE")
+        if len(settings.filters):
+            groups = settings.filters[min(settings.active_filter, len(settings.filters) - 1)]
+            layout.prop(groups, "first")
+            layout.prop(groups, "second")
+
+
 class PONG_PT_findings(Panel, bpy.types.Panel):
     bl_label = "Findings"
 
@@ -330,6 +352,6 @@ class PONG_PT_overlays(Panel, bpy.types.Panel):
 
 
 CLASSES = (
-    PONG_PT_model, PONG_PT_tree, PONG_PT_object, PONG_PT_parts, PONG_PT_surfaces, PONG_PT_pairs, PONG_PT_findings,
+    PONG_PT_model, PONG_PT_tree, PONG_PT_object, PONG_PT_parts, PONG_PT_surfaces, PONG_PT_pairs, PONG_PT_filters, PONG_PT_findings,
     PONG_PT_overlays,
 )

@@ -12,6 +12,7 @@ from support import PONG, ROOT, check, mesh_files, models, np
 from core import mesh_file
 from core.model import Group, Model, Primitive, Tagged
 from core.read import ModelFaults, read_file, read_text
+from core.surfaces import derived
 from core.write import write_files, write_text
 
 
@@ -197,9 +198,27 @@ class Layout(unittest.TestCase):
         group = Group(
             "r", surface="a", bound="Custom:torus", primitives=[Primitive("Point", "p", {"position": (0, 0, 0)})]
         )
-        read = read_text(write_text(Model("m", laws, group, pairs, False)))
+        model = Model("m", laws, Group("r", groups=[group, Group("arm", True, groups=[group])]), pairs, False, [("arm", "r/r")])
+        read = read_text(write_text(model))
         self.assertEqual((read.surfaces, read.pairs, read.entry_memory), (laws, pairs, False))
+        self.assertEqual(read.filters, [("arm", "r/r")])
+        read.root = read.root.groups[0]
         self.assertEqual(read.root.bound, "Custom:torus")
+
+
+class Derived(unittest.TestCase):
+    def test_damping_of_a_restitution_and_of_a_bristle(self):
+        fields = {"stiffness": 1e6, "normal": Tagged("Linear", {"restitution": {"e": 0.5, "mass": 2.0}}),
+                  "friction": Tagged("Bristle", {"mu": 0.2})}  # fmt: skip
+        values = derived(fields)
+        ratio = values["normal"]["damping"] / (2 * math.sqrt(1e6 * 2.0))
+        root = math.sqrt(1 - ratio**2)
+        rebound = math.exp(-ratio / root * math.atan2(2 * ratio * root, 2 * ratio**2 - 1))
+        self.assertAlmostEqual(rebound, 0.5, delta=1e-9)
+        self.assertAlmostEqual(values["friction"]["damping"], 2 * math.sqrt(2 / 3 * 1e6 * 2.0), delta=1e-6)
+        fields["normal"] = Tagged("HuntCrossley", {"restitution": {"e": 0.5, "speed": 0.1}})
+        self.assertGreater(derived(fields)["normal"]["dissipation"], 0.0)
+        self.assertEqual(derived({"stiffness": -1.0}), {})
 
 
 class MeshFiles(unittest.TestCase):

@@ -105,6 +105,18 @@ class Models(unittest.TestCase):
                 model = random_model(seed)
                 self.assertEqual(write_text(self.back(model).model), write_text(model))
 
+    def test_filters(self):
+        point = Primitive("Point", "p", {"position": (0.0, 0.0, 0.0)})
+        groups = [Group("base", primitives=[point]), Group("arm", True, primitives=[point])]
+        model = Model("m", {"s": {"stiffness": 1.0}}, Group("m", surface="s", groups=groups), filters=[("arm", "base")])
+        self.assertIn('filters: [("arm", "base")],', write_text(model))
+        made = self.back(model)
+        self.assertEqual(write_text(made.model), write_text(model))
+        self.assertEqual(made.loaded.warnings, [])
+        model.filters = [("arm", "bass")]
+        refused = build(loads(dumps(unbuild(model)))).findings.errors
+        self.assertIn("bass", str(refused[0]))
+
     def test_names_that_blender_cannot_keep(self):
         long = "x" * 80
         groups = [

@@ -71,6 +71,7 @@ pub(crate) struct Settings {
     pub(crate) entry_memory: Option<bool>,
     pub(crate) surfaces: Map<String, Value>,
     pub(crate) pairs: Vec<Value>,
+    pub(crate) filters: Vec<[String; 2]>,
 }
 
 /// Reads fields of an object and reports those that are wrong or unknown.
@@ -152,6 +153,14 @@ impl<'a> Fields<'a> {
 /// Boolean value; some programs store custom properties as 0 and 1.
 fn flag_of(value: &Value) -> Option<bool> {
     value.as_bool().or(value.as_u64().filter(|x| *x < 2).map(|x| x == 1))
+}
+
+fn filters_of(value: &Value) -> Option<Vec<[String; 2]>> {
+    let groups = |pair: &Value| {
+        let [a, b] = &pair.as_array()?[..] else { return None };
+        Some([a.as_str()?.to_owned(), b.as_str()?.to_owned()])
+    };
+    value.as_array()?.iter().map(groups).collect()
 }
 
 fn numbers_of(value: &Value) -> Option<Vec<f64>> {
@@ -236,6 +245,7 @@ impl Settings {
                 .take("surfaces", "an object", |value| value.as_object().cloned())
                 .unwrap_or_default(),
             pairs: fields.take("pairs", "a list", |value| value.as_array().cloned()).unwrap_or_default(),
+            filters: fields.take("filters", "a list of two groups each", filters_of).unwrap_or_default(),
         };
         fields.unknown();
         settings

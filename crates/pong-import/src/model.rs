@@ -12,6 +12,8 @@ pub struct Model {
     /// Name and fields of each surface.
     pub surfaces: Vec<(String, Record)>,
     pub pairs: Vec<Record>,
+    /// Groups that never touch each other.
+    pub filters: Vec<[String; 2]>,
     pub root: Group,
 }
 

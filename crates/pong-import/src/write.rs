@@ -27,6 +27,10 @@ pub fn text(model: &Model) -> String {
         let pairs = model.pairs.iter().map(|fields| ("".into(), record("", fields))).collect();
         items.push(("pairs: ".into(), Shown::broken("[", pairs, "]")));
     }
+    if !model.filters.is_empty() {
+        let both = |[a, b]: &[String; 2]| ("".into(), Shown::Flat(format!("({}, {})", quoted(a), quoted(b))));
+        items.push(("filters: ".into(), Shown::block("[", model.filters.iter().map(both).collect(), "]")));
+    }
     items.push(("root: ".into(), group(&model.root)));
     let mut out: String = model.comment.iter().map(|line| format!("// {line}\n")).collect();
     lay_out("", &Shown::broken("(", items, ")"), 0, &mut out);

@@ -66,7 +66,7 @@ fn size_m(source: &Source) -> f64 {
     source.nodes.iter().map(own).fold(0.0, f64::max)
 }
 
-/// Name, surfaces and pairs of the model.
+/// Name, surfaces, pairs and filters of the model.
 fn apply_settings(model: &mut Model, settings: Settings, building: &Building<'_>, findings: &mut Findings) {
     let scene = format!("{}: scene", building.file);
     if !settings.name.is_empty() {
@@ -75,6 +75,7 @@ fn apply_settings(model: &mut Model, settings: Settings, building: &Building<'_>
         model.name = model.root.name.clone();
     }
     model.entry_memory = settings.entry_memory.unwrap_or(true);
+    model.filters = settings.filters;
     for (name, fields) in &settings.surfaces {
         match laws::record(fields) {
             Ok(record) => model.surfaces.push((name.clone(), record)),

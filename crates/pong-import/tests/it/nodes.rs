@@ -97,6 +97,7 @@ fn marks_make_the_model() {
             "granite": {"stiffness": "inf"},
         },
         "pairs": [{"surfaces": ["steel", "steel"], "friction": {"None": {}}}],
+        "filters": [["arm", "fixed"]],
     }));
     gltf.json["materials"] = json!([{}, {"extras": {"pong": {"inactive": true}}}]);
     let half = |sides: &[usize]| -> Vec<Place> {
@@ -198,6 +199,7 @@ fn marks_make_the_model() {
     let granite = model.surfaces.iter().position(|surface| surface.name == "granite").unwrap();
     assert_eq!(arm.primitives[0].surface as usize, granite);
     assert_eq!(model.pair_overrides.len(), 1);
+    assert_eq!(model.filters, [["base/arm".to_owned(), "base/fixed".to_owned()]]);
 }
 
 #[test]
