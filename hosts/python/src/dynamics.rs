@@ -86,6 +86,18 @@ pub(crate) fn set_spring(
 
 /// Refuses a dictionary with missing or unknown keys, so that a misspelt key is not ignored.
 pub(crate) fn whole(thing: &str, values: &Bound<'_, PyDict>, names: &[&str]) -> PyResult<()> {
+    check_names(thing, values, names)?;
+    for name in names {
+        if !values.contains(name)? {
+            let cure = format!("give all of {}, changed or as they were", names.join(", "));
+            return Err(bad_value(thing, format!("`{name}` is missing"), &cure));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses keys that are no name of a value.
+pub(crate) fn check_names(thing: &str, values: &Bound<'_, PyDict>, names: &[&str]) -> PyResult<()> {
     for key in values.keys() {
         let key = key.str()?.to_string();
         if !names.contains(&key.as_str()) {
@@ -95,12 +107,6 @@ pub(crate) fn whole(thing: &str, values: &Bound<'_, PyDict>, names: &[&str]) -> 
                 None => format!("give {}", names.join(", ")),
             };
             return Err(bad_value(thing, format!("there is no value `{key}`"), &cure));
-        }
-    }
-    for name in names {
-        if !values.contains(name)? {
-            let cure = format!("give all of {}, changed or as they were", names.join(", "));
-            return Err(bad_value(thing, format!("`{name}` is missing"), &cure));
         }
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! A sealed world: frames.
 
+use crate::advice;
 use crate::arrays::{self, Matrix, STATE, WRENCH};
 use crate::builder::WorldBuilder;
 use crate::contacts;
@@ -7,6 +8,7 @@ use crate::errors::{PhaseError, bad_value, lock, of_engine};
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
 use crate::model::{surface_from, surface_values};
 use crate::recording;
+use pong_advise::StepPlan;
 use pong_engine::{EngineError, FrictionPreload, InterfaceId, SealReport, State};
 use pong_record::{ModelSource, RecordOptions, Recorder, WhenFull};
 use pyo3::prelude::*;
@@ -127,6 +129,23 @@ impl World {
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.notes.clone()
+    }
+
+    /// What a step can hold, by the masses of Interfaces (by name) and the joints that they hang on: `stable_step`,
+    /// `surely_stable_step`, `warnings`, `notes`, `not_judged`.
+    #[pyo3(signature = (masses, *, step, coupling = "stages", delay_frames = 0, closing_speed = None))]
+    fn step_report<'py>(
+        &self,
+        py: Python<'py>,
+        masses: &Bound<'py, PyDict>,
+        step: f64,
+        coupling: &str,
+        delay_frames: u32,
+        closing_speed: Option<f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let coupling = crate::builder::coupling("coupling", coupling, delay_frames)?;
+        let plan = StepPlan { closing_speed, accuracy: None, ..StepPlan::new(step, coupling) };
+        advice::step_report(py, &self.lock()?.world, masses, &plan)
     }
 
     /// All Objects.

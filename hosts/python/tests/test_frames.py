@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from support import BALL, DAMPING, STIFFNESS, builder, scene_folder, states, touching, turned, world
+from support import BALL, DAMPING, GROUND, STIFFNESS, builder, scene_folder, states, touching, turned, world
 
 import pong
 
@@ -302,3 +302,60 @@ def test_stiffness_and_damping_of_contacts():
     made.set_states(touching(-1e-3))
     made.step()
     assert made.contact_stiffness().shape == (0, 2)
+
+
+LANDER = BALL.replace("primitives: [", """groups: [(name: "arm", movable: true,
+    primitives: [Point(name: "tip", position: (0, 0, 0))]), (name: "body", primitives: [""").replace("]),\n)", "])]),\n)")
+
+
+def test_groups_that_are_kept_apart():
+    counts = []
+    for kept_apart in (False, True):
+        made = pong.WorldBuilder()
+        for name, text in (("lander", LANDER), ("ground", GROUND)):
+            made.create_object(made.add_model(pong.Model.parse(text, name=name)), name)
+        made.pair("lander", "ground")
+        if kept_apart:
+            with pytest.raises(pong.NotFoundError, match="lander/leg"):
+                made.filter("lander", "leg", "ground", "")
+            made.filter("lander", "arm", "ground", "")
+            with pytest.raises(pong.DuplicateError, match="already there"):
+                made.filter("ground", "ground", "lander", "lander/arm")
+        world = made.seal()
+        states = np.zeros((3, 13))
+        states[:, 3] = 1.0
+        states[0, 2], states[1, 2] = 0.099, -0.001
+        world.set_states(states)
+        counts.append(world.step().contacts)
+    assert counts == [2, 1]
+
+
+def test_a_step_report_counts_masses_and_joints():
+    """The ball with a mass at the plane: h²·k/m + 2·h·c/m < 4 for semi-implicit Euler; on a slide of 4 kg that of 4 kg."""
+
+    def limit(m):
+        return (-DAMPING + np.sqrt(DAMPING**2 + 4 * STIFFNESS * m)) / STIFFNESS
+
+    world = builder().seal()
+    ball, ground = {"mass": 1.0}, {"mass": np.inf}
+    told = world.step_report({"ball": ball, "ground": ground}, step=1e-3, coupling="semi_implicit")
+    assert told["stable_step"] == pytest.approx(limit(1.0), rel=1e-9) and told["warnings"] == []
+    slide = np.zeros((6, 6))
+    slide[2, 2] = 0.25
+    masses = {"ball": ball | {"inverse_inertia": slide}, "ground": ground}
+    told = world.step_report(masses, step=1.1 * limit(4.0), coupling="semi_implicit")
+    assert told["stable_step"] == pytest.approx(limit(4.0), rel=1e-9) and len(told["warnings"]) == 1
+    # The spring of the slide acts beside the contact.
+    springs = {"ball": masses["ball"] | {"spring_rate": 1e5}, "ground": ground}
+    noted = world.step_report(springs, step=1e-3, coupling="semi_implicit")
+    assert noted["surely_stable_step"] < limit(4.0) < told["surely_stable_step"] * 1.001
+    assert world.step_report({"ball": ball}, step=1e-3)["not_judged"] == ["`ground`: no mass is given"]
+    for bad, words in (
+        ({"ball": {}}, "`mass` is missing"),
+        ({"ball": ball | {"inverse_inertia": np.eye(5)}}, "shape"),
+        ({"ball": ball | {"inverse_inertia": -slide}}, "negative mass"),
+        ({"ball": ball | {"inertias": 1.0}}, "inertia"),
+        ({"bell": ball}, "bell"),
+    ):
+        with pytest.raises(pong.EngineError, match=words):
+            world.step_report(bad, step=1e-3)
