@@ -111,7 +111,9 @@ fn the_rest_of_a_pair_is_as_without_the_filtered_groups_to_the_bit() {
         for count in [0, 2] {
             let filtered = world(&plug(LUGS, bound), SOCKET, &[("lugs", "")], workers(count));
             assert_eq!(filtered.2, 1);
+            let clone = (filtered.0.try_clone().unwrap(), filtered.1, 1);
             assert_eq!(run(filtered, true), expected, "{bound} {count}");
+            assert_eq!(run(clone, true), expected, "clone, {bound} {count}");
         }
     }
 }

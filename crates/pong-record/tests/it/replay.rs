@@ -1,6 +1,6 @@
 //! A log replays with the same bits; any change in it is reported by name.
 
-use crate::support::{HeldDisk, folder, scene};
+use crate::support::{CART, HeldDisk, folder, scene, scene_with};
 use pong_engine::{Laws, State, WorldBuilder};
 use pong_record::{
     Log, LogError, Obstacle, RecordOptions, Recorder, ReplayOptions, ReplayReport, WhenFull, replay,
@@ -74,6 +74,36 @@ fn a_world_that_goes_on_gets_a_log_of_its_own() {
         let report = exactly(&place);
         assert!(report.agrees() && report.compared == 100 && report.contacts > 50, "{report:?}");
     }
+}
+
+/// Groups that the host or the model keeps apart are kept apart again.
+#[test]
+fn filters_come_again() {
+    let of_model = CART.replace("root:", "filters: [(\"wheels\", \"arm\")], root:");
+    let mut contacts = Vec::new();
+    for (text, apart) in [(CART, &[][..]), (CART, &["wheels"]), (&of_model, &["arm"])] {
+        let folder = folder(&format!("filters_{}", contacts.len()));
+        let place = scene_with(&folder, text, apart).record(&folder, 100, &RecordOptions::default());
+        let report = exactly(&place);
+        assert!(report.agrees() && report.compared == 100, "{report:?}");
+        contacts.push(report.contacts);
+        // A log whose filters were taken out is another run.
+        let run = std::fs::read_to_string(place.join("run.json")).unwrap();
+        let mut changed: serde_json::Value = serde_json::from_str(&run).unwrap();
+        if changed.as_object_mut().unwrap().remove("filters").is_some() {
+            std::fs::write(place.join("run.json"), changed.to_string()).unwrap();
+            let mut log = Log::open(&place).unwrap();
+            let refused =
+                replay(&mut log, &ReplayOptions::default(), &mut |_| ControlFlow::Continue(())).unwrap_err();
+            assert!(refused.to_string().contains("has hash"), "{refused}");
+            let loose = ReplayOptions { tolerance: Some(1e-9), ..ReplayOptions::default() };
+            assert!(!replayed(&place, &loose).agrees(), "{apart:?}");
+        }
+    }
+    assert!(
+        contacts[1] > 0 && contacts[1] < contacts[0] && contacts[2] > 0 && contacts[2] < contacts[0],
+        "{contacts:?}"
+    );
 }
 
 /// Ended after some frames, a replay does not say that the log agrees.

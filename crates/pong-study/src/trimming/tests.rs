@@ -63,6 +63,29 @@ fn paths(file: &Path) -> Vec<String> {
     model.bodies.iter().flat_map(|body| body.primitives.iter().map(|p| p.path.clone())).collect()
 }
 
+/// A group that a filter of the model or of the scene names keeps its nearest primitive, and the filter.
+#[test]
+fn groups_that_filters_name_stay() {
+    let folder = Folder::new("trim_filters");
+    let path = ball_on_floor(&folder);
+    let text = std::fs::read_to_string(&path).unwrap();
+    let filtered = text.replace("pairs:", "filters: [(\"ball/mast\", \"floor/slabs\")], pairs:");
+    std::fs::write(&path, filtered).unwrap();
+    let page = trimmed(&path, &settings(0.5)).unwrap();
+    assert_eq!(paths(page.models[0].written.as_ref().unwrap()), ["ball/body/skin", "ball/mast/top"]);
+
+    let arm = "(name: \"arm\", movable: true, primitives: [Sphere(name: \"hand\", center: (0, 0, 0), radius: 0.1)])";
+    let root = BALL.replace("groups: [", &format!("groups: [{arm}, "));
+    let of_model = model("ball", &root).replace("root:", "filters: [(\"arm\", \"mast\")], root:");
+    folder.write("ball.ron", &of_model);
+    let bodies = "bodies: [(group: \"arm\", motion: Fixed, position: (0, 0, 3)), (";
+    std::fs::write(&path, text.replacen("bodies: [(", bodies, 1)).unwrap();
+    let written = trimmed(&path, &settings(0.5)).unwrap().models[0].written.clone().unwrap();
+    assert_eq!(paths(&written), ["ball/body/skin", "ball/mast/top", "ball/arm/hand"]);
+    let trimmed = pong_model::load(&written, &Extensions::new()).unwrap();
+    assert_eq!(trimmed.filters, [["ball/arm".to_owned(), "ball/mast".to_owned()]]);
+}
+
 #[test]
 fn what_never_came_near_goes_with_its_group() {
     let folder = Folder::new("trim_goes");

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-const CART: &str = r#"(format: "pong-model", version: 1, name: "cart", surfaces: {
+pub const CART: &str = r#"(format: "pong-model", version: 1, name: "cart", surfaces: {
     "rubber": (stiffness: 1e4, normal: Linear(damping: 12.3), friction: Bristle(mu: 0.5, damping: 7.0))},
     root: (name: "cart", surface: "rubber", groups: [
         (name: "wheels", primitives: [Sphere(name: "front", center: (0.3, 0, 0), radius: 0.1),
@@ -33,23 +33,29 @@ pub fn folder(test: &str) -> PathBuf {
 
 /// Writes model files to `folder/given`, and makes the world.
 pub fn scene(folder: &Path) -> Scene {
+    scene_with(folder, CART, &[])
+}
+
+/// [`scene`] with groups of a cart kept apart from the ground.
+pub fn scene_with(folder: &Path, cart_text: &str, apart: &[&str]) -> Scene {
     let given = folder.join("given");
     std::fs::create_dir_all(&given).unwrap();
     std::fs::write(given.join("ground.ron"), GROUND).unwrap();
     std::fs::write(given.join("floor.obj"), FLOOR).unwrap();
     let ext = Extensions::new();
     let mut builder = WorldBuilder::new(Config { contact_capacity: Some(64), ..Config::default() });
-    let cart_model = pong_model::parse(CART, "cart", None, &ext).unwrap();
+    let cart_model = pong_model::parse(cart_text, "cart", None, &ext).unwrap();
     let cart_model = builder.add_model(Arc::new(cart_model));
     let ground_model = pong_model::load(&given.join("ground.ron"), &ext).unwrap();
     let ground_model = builder.add_model(Arc::new(ground_model));
     let cart = builder.create_object(cart_model, "cart").unwrap();
     let ground = builder.create_object(ground_model, "ground").unwrap();
     let pair = builder.pair(cart, ground).unwrap();
+    apart.iter().for_each(|group| builder.filter(cart, group, ground, "").unwrap());
     let (world, _) = builder.seal().unwrap();
     let mut bodies = world.scene().interfaces(cart).unwrap();
     bodies.extend(world.scene().interfaces(ground).unwrap());
-    let text = ModelSource::Text { text: CART.to_owned(), mesh_dir: None };
+    let text = ModelSource::Text { text: cart_text.to_owned(), mesh_dir: None };
     Scene { world, bodies, cart, pair, sources: vec![text, ModelSource::File(given.join("ground.ron"))] }
 }
 
