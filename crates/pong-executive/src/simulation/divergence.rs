@@ -11,8 +11,8 @@
 //! makes some energy, and without bound at a step that is too long. A run is stopped where both are true:
 //!
 //! * a body moves farther in one step than the whole scene is large, and
-//! * energy was made, a million times the energy that was there, was put in or is released in a fall over the
-//!   size of the scene: bodies are a thousand times as fast as any known force can have made them.
+//! * energy was made, a hundred times the energy that was there, was put in or is released in a fall over the
+//!   size of the scene: bodies are ten times as fast as any known force can have made them.
 //!
 //! No step resolves such a motion, and no true motion can have the energy. Normal laws of the host may be
 //! active, so scenes with such contacts are left alone.
@@ -26,7 +26,7 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Element, Item, MovableGroup};
 
 /// Ratio of the energy made to the energy available at which a run is stopped.
-const FACTOR: f64 = 1e6;
+const FACTOR: f64 = 100.0;
 
 impl Simulation {
     /// Notes that states, set-up or surfaces were changed from outside.
@@ -54,7 +54,7 @@ impl Simulation {
             Some(slot) if self.made_energy(&reference) => {
                 let body = self.system.bodies[self.system.free[slot].0].name.clone();
                 let kinetic = self.energy().kinetic;
-                let what = format!("it has {kinetic:.3e} J, more than a million times what all forces gave");
+                let what = format!("it has {kinetic:.3e} J, more than a hundred times what all forces gave");
                 Err(ExecutiveError::Diverged { body, what, time: self.time(), cure: String::new() })
             }
             _ => Ok(()),

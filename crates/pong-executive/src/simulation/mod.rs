@@ -125,7 +125,7 @@ impl Simulation {
     /// Advances by one step.
     ///
     /// # Errors
-    /// The engine's, a state that is no longer finite, or a motion with a million times the energy that all forces gave it
+    /// The engine's, a state that is no longer finite, or a motion with a hundred times the energy that all forces gave it
     /// ([`ExecutiveError::Diverged`]).
     pub fn step(&mut self) -> Result<()> {
         self.commit_initial_states()?;
