@@ -191,13 +191,8 @@ fn a_host_that_holds_wrenches_is_told_what_that_made() {
     }
 }
 
-<<<<<<< ours
-/// A ball that is thrown higher from bounce to bounce is stopped at a million times its energy; the error has
+/// A ball that is thrown higher from bounce to bounce is stopped at a hundred times its energy; the error has
 /// the contact, the time, and a suitable step.
-=======
-/// A ball that is thrown higher from bounce to bounce is stopped at a hundred times its energy: contact and time are named, and
-/// a step that would do.
->>>>>>> theirs
 #[test]
 fn a_run_whose_contact_makes_energy_stops_at_once() {
     for integrator in [Integrator::SemiImplicitEuler, Integrator::RungeKutta4] {
