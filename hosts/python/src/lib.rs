@@ -8,6 +8,7 @@
 //! | `ids.rs` | models, Objects, pairs and Interfaces of a world, and their forms as arguments |
 //! | `model.rs` | models |
 //! | `authored.rs`, `shapes.rs` | model files as written, checks of single shapes: python/pong/model.py |
+//! | `pair_monitor.rs` | begin and end of contact, peaks over several frames |
 //! | `builder.rs`, `world.rs`, `recording.rs` | set-up, frames, logs of frames |
 //! | `scene.rs`, `simulation.rs`, `run.rs` | scenes in the built-in executive |
 //! | `log.rs` | check of a log before NumPy maps its tables |
@@ -24,6 +25,7 @@ mod errors;
 mod ids;
 mod log;
 mod model;
+mod pair_monitor;
 mod recording;
 mod replay;
 mod run;
@@ -58,6 +60,8 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     add_class::<builder::WorldBuilder>(module)?;
     add_class::<world::World>(module)?;
     add_class::<world::FrameReport>(module)?;
+    add_class::<pair_monitor::ContactChange>(module)?;
+    add_class::<pair_monitor::PairPeaks>(module)?;
     add_class::<scene::Scene>(module)?;
     add_class::<simulation::Simulation>(module)?;
     add_class::<run::Run>(module)?;

@@ -7,9 +7,11 @@ use crate::contacts;
 use crate::errors::{PhaseError, bad_value, lock, of_engine};
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
 use crate::model::{surface_from, surface_values};
+use crate::pair_monitor::{ContactChange, PairPeaks, no_monitor};
 use crate::recording;
+use numpy::PyArray1;
 use pong_advise::StepPlan;
-use pong_engine::{EngineError, FrictionPreload, InterfaceId, SealReport, State};
+use pong_engine::{EngineError, FrictionPreload, InterfaceId, PairMonitor, SealReport, State};
 use pong_record::{ModelSource, RecordOptions, Recorder, WhenFull};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict};
@@ -36,6 +38,7 @@ pub(crate) struct Inner {
     pub recorder: Option<Recorder>,
     /// Folders that models may read meshes from, for a builder that extends the world.
     pub folders: Vec<PathBuf>,
+    monitor: Option<PairMonitor>,
     /// Buffer for states from an array on their way into the world.
     states: Vec<(InterfaceId, State)>,
 }
@@ -90,6 +93,7 @@ impl World {
                 sources,
                 recorder: None,
                 folders,
+                monitor: None,
                 states: Vec::new(),
             })),
         })
@@ -108,6 +112,15 @@ impl World {
             return Err(bad_value("interfaces", cause, "give each Interface once"));
         }
         Ok(Some(chosen.iter().map(|interface| interface.id).collect()))
+    }
+}
+
+/// Whether `axes` are those of the common frame, and not of a group.
+fn along_common_axes(axes: &str) -> PyResult<bool> {
+    match axes {
+        "common" => Ok(true),
+        "group" => Ok(false),
+        other => Err(bad_value("axes", format!("there is no `{other}`"), "give \"common\" or \"group\"")),
     }
 }
 
@@ -331,23 +344,80 @@ impl World {
         out: Option<Bound<'py, PyAny>>,
         axes: &str,
     ) -> PyResult<Matrix<'py>> {
-        let common = match axes {
-            "common" => true,
-            "group" => false,
-            other => {
-                return Err(bad_value(
-                    "axes",
-                    format!("there is no `{other}`"),
-                    "give \"common\" or \"group\"",
-                ));
-            }
-        };
+        let common = along_common_axes(axes)?;
         let inner = self.lock()?;
         arrays::fill::<WRENCH>(py, out, self.ids.len(), |index| {
             let id = self.ids[index];
             let wrench = if common { inner.world.wrench_common(id) } else { inner.world.wrench(id) };
             Ok(arrays::wrench_row(&wrench.map_err(of_engine)?))
         })
+    }
+
+    /// Wrench (force, moment) of the last frame on one Interface's group from its contacts with another's alone, about the origin
+    /// of the first. Over all groups that it can touch, these add up to its row of `wrenches`.
+    #[pyo3(signature = (on, source, *, axes = "common"))]
+    fn wrench_from<'py>(
+        &self,
+        py: Python<'py>,
+        on: &Interface,
+        source: &Interface,
+        axes: &str,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let common = along_common_axes(axes)?;
+        let inner = self.lock()?;
+        let (world, on, from) = (&inner.world, on.id, source.id);
+        let wrench = if common { world.wrench_from_common(on, from) } else { world.wrench_from(on, from) };
+        Ok(PyArray1::from_slice(py, &arrays::wrench_row(&wrench.map_err(of_engine)?)))
+    }
+
+    /// Observes pairs from nothing on; called again, it begins anew.
+    fn start_pair_monitor(&self) -> PyResult<()> {
+        let mut inner = self.lock()?;
+        inner.monitor = Some(PairMonitor::new(&inner.world).map_err(of_engine)?);
+        Ok(())
+    }
+
+    /// Takes in the frame that was committed last: once after each commit. `step` is the time since the commit before, s.
+    fn observe_pairs(&self, step: f64) -> PyResult<()> {
+        let mut inner = self.lock()?;
+        let Inner { world, monitor, .. } = &mut **inner;
+        monitor.as_mut().ok_or_else(no_monitor)?.observe(world, step).map_err(of_engine)
+    }
+
+    /// Begins and ends of contact in the frame observed last, by pair of Objects and groups.
+    fn contact_changes(&self) -> PyResult<Vec<ContactChange>> {
+        let inner = self.lock()?;
+        Ok(inner.monitor.as_ref().ok_or_else(no_monitor)?.changes().map(Into::into).collect())
+    }
+
+    /// Peak and mean of all pairs of groups that touched in the window, or whose contact ended in it.
+    fn pair_peaks(&self) -> PyResult<Vec<PairPeaks>> {
+        let inner = self.lock()?;
+        Ok(inner.monitor.as_ref().ok_or_else(no_monitor)?.peaks().map(Into::into).collect())
+    }
+
+    /// Begins another window of `pair_peaks`; what touches is kept.
+    fn begin_peak_window(&self) -> PyResult<()> {
+        self.lock()?.monitor.as_mut().ok_or_else(no_monitor)?.begin_window();
+        Ok(())
+    }
+
+    /// Wrench (force, moment) of the last frame of a pair, on the Object that was named first in it from the other, about the
+    /// origin of the group of `about`, an Interface of either.
+    #[pyo3(signature = (pair, about, *, axes = "common"))]
+    fn pair_wrench<'py>(
+        &self,
+        py: Python<'py>,
+        pair: &Pair,
+        about: &Interface,
+        axes: &str,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let common = along_common_axes(axes)?;
+        let inner = self.lock()?;
+        let (world, pair, about) = (&inner.world, pair.id, about.id);
+        let wrench =
+            if common { world.pair_wrench_common(pair, about) } else { world.pair_wrench(pair, about) };
+        Ok(PyArray1::from_slice(py, &arrays::wrench_row(&wrench.map_err(of_engine)?)))
     }
 
     /// Contacts of the last frame: a structured array of `pong.CONTACT_DTYPE`.

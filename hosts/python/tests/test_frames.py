@@ -51,6 +51,51 @@ def test_contacts_sum_to_the_wrench():
     assert names == {"ball/ball/shell", "ground/ground/floor"}
 
 
+def test_the_wrench_of_a_pair_is_that_of_its_only_two_groups():
+    w = world()
+    w.set_states(touching(2e-3, velocity=(0.3, 0.1, -0.1), spin=(1, 2, 3)))
+    w.step()
+    ball, ground = w.interfaces
+    for axes in ("common", "group"):
+        rows = w.wrenches(axes=axes)
+        assert np.array_equal(w.wrench_from(ball, ground, axes=axes), rows[0])
+        assert np.array_equal(w.wrench_from(ground, ball, axes=axes), rows[1])
+        assert np.array_equal(w.pair_wrench(w.pairs[0], ball, axes=axes), rows[0])
+    np.testing.assert_allclose(w.pair_wrench(w.pairs[0], ground), -w.wrenches()[1], atol=1e-12)
+    assert w.pair_wrench(w.pairs[0], ball).shape == (6,)
+    with pytest.raises(pong.PongError, match="the same movable group"):
+        w.wrench_from(ball, ball)
+    with pytest.raises(pong.PongError, match="common"):
+        w.pair_wrench(w.pairs[0], ball, axes="world")
+
+
+def test_begins_ends_and_peaks_are_told_of_the_frames_observed():
+    w = world()
+    for call in (w.contact_changes, w.pair_peaks, w.begin_peak_window, lambda: w.observe_pairs(1.0)):
+        with pytest.raises(pong.PhaseError, match="start_pair_monitor"):
+            call()
+    w.start_pair_monitor()
+    told = []
+    for depth, step in [(1e-3, 1e-3), (3e-3, 1e-3), (-1e-3, 2e-3)]:
+        w.clear_contact_history("ball")
+        w.set_states(touching(depth))
+        w.step()
+        w.observe_pairs(step)
+        told.append([(c.pair, c.interface_a, c.interface_b, c.begins) for c in w.contact_changes()])
+    assert told == [[(0, 0, 1, True)], [], [(0, 0, 1, False)]]
+    with pytest.raises(pong.PhaseError, match="once after each commit"):
+        w.observe_pairs(1e-3)
+    with pytest.raises(pong.BadValueError, match="step"):
+        w.observe_pairs(-1e-3)
+    (peaks,) = w.pair_peaks()
+    assert (peaks.pair, peaks.touches, peaks.begins, peaks.ends) == (0, False, 1, 1)
+    assert peaks.peak_normal_force == pytest.approx(STIFFNESS * 3e-3, rel=1e-12)
+    assert peaks.contact_time == pytest.approx(2e-3, rel=1e-12)
+    np.testing.assert_allclose(peaks.mean, [0, 0, STIFFNESS * 1e-3, 0, 0, 0], atol=1e-9)
+    w.begin_peak_window()
+    assert w.pair_peaks() == []
+
+
 def test_parts_give_what_the_array_gives():
     whole, parts = world(), world()
     given = touching(1e-3, velocity=(0.1, 0.2, -0.3), spin=(1.0, -2.0, 0.5))
