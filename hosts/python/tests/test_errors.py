@@ -176,7 +176,7 @@ def test_a_run_that_diverges(tmp_path):
     spring = "springs: [(first: Ground(), second: On(body: \"ball\"), stiffness: (1e4, 1e4, 1e4, 0, 0, 0))],"
     text = scene_folder(tmp_path).read_text().replace("step: 1e-4", f"{spring} step: 1.0")
     simulation = pong.Scene.parse(text.replace("duration: 0.3", "duration: 1000.0"), folder=tmp_path).build()
-    energy = "body `ball`: it has 2.249e13 J, more than a million times what all forces gave"
+    energy = "body `ball`: it has 2.249e13 J, more than a hundred times what all forces gave"
     told(pong.RunError, simulation.run, energy, "by the spring of `the ground` and `ball`, at t = 1 s", "shorten it")
 
 

@@ -365,7 +365,7 @@ def test_groups_that_are_kept_apart():
                 made.filter("lander", "leg", "ground", "")
             made.filter("lander", "arm", "ground", "")
             with pytest.raises(pong.DuplicateError, match="already there"):
-                made.filter("ground", "ground", "lander", "lander/arm")
+                made.filter("ground", "", "lander", "ball/arm")
         world = made.seal()
         states = np.zeros((3, 13))
         states[:, 3] = 1.0
@@ -394,7 +394,7 @@ def test_a_step_report_counts_masses_and_joints():
     springs = {"ball": masses["ball"] | {"spring_rate": 1e5}, "ground": ground}
     noted = world.step_report(springs, step=1e-3, coupling="semi_implicit")
     assert noted["surely_stable_step"] < limit(4.0) < told["surely_stable_step"] * 1.001
-    assert world.step_report({"ball": ball}, step=1e-3)["not_judged"] == ["`ground`: no mass is given"]
+    assert world.step_report({"ball": ball}, step=1e-3)["not_judged"] == ["`ground/ground`: no mass is given"]
     for bad, words in (
         ({"ball": {}}, "`mass` is missing"),
         ({"ball": ball | {"inverse_inertia": np.eye(5)}}, "shape"),
