@@ -56,7 +56,7 @@ pub(crate) fn advise_contact<'py>(
     values.into_py_dict(py)
 }
 
-/// What masses and joints leave of a step in a sealed world.
+/// Step check of a sealed world, by masses and joints.
 pub(crate) fn step_report<'py>(
     py: Python<'py>,
     world: &World,

@@ -15,7 +15,7 @@ pub(crate) struct ContactChange {
     interface_a: usize,
     /// Number of the other Interface.
     interface_b: usize,
-    /// Whether contact begins; else it ends.
+    /// True where contact begins, false where it ends.
     begins: bool,
 }
 
@@ -45,7 +45,7 @@ pub(crate) struct PairPeaks {
     interface_a: usize,
     /// Number of the other Interface.
     interface_b: usize,
-    /// Whether they touch in the frame last observed.
+    /// True if they touch in the frame last observed.
     touches: bool,
     /// Number of begins of contact in the window.
     begins: u32,

@@ -115,7 +115,7 @@ impl World {
     }
 }
 
-/// Whether `axes` are those of the common frame, and not of a group.
+/// True if `axes` are those of the common frame, false if those of a group.
 fn along_common_axes(axes: &str) -> PyResult<bool> {
     match axes {
         "common" => Ok(true),
@@ -144,7 +144,7 @@ impl World {
         self.notes.clone()
     }
 
-    /// What a step can hold, by the masses of Interfaces (by name) and the joints that they hang on: `stable_step`,
+    /// Steps that contacts can bear, by the masses of Interfaces (by name) and the joints that they hang on: `stable_step`,
     /// `surely_stable_step`, `warnings`, `notes`, `not_judged`.
     #[pyo3(signature = (masses, *, step, coupling = "stages", delay_frames = 0, closing_speed = None))]
     fn step_report<'py>(

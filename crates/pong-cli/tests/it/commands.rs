@@ -238,7 +238,7 @@ fn run_tells_of_a_step_that_is_too_long() {
     std::fs::write(folder.join("stiff.ron"), text).unwrap();
     let (code, out, err) = pong(&folder, &["run", "stiff.ron", "--csv"]);
     assert_eq!(code, 1, "{out}{err}");
-    let told = "stiff.ron: body `ball`: it has 1.374e14 J, more than a million times what all forces gave, by the spring of \
+    let told = "stiff.ron: body `ball`: it has 1.374e14 J, more than a hundred times what all forces gave, by the spring of \
                 `the ground` and `ball`, at t = 0.001 s; the step is too long for the stiffness and mass at hand: shorten it";
     assert_holds(&err, &[told]);
     assert!(folder.join("stiff_out/states.csv").exists());

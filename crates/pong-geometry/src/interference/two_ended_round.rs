@@ -1,8 +1,8 @@
 //! Line segment and capsule (A) – capsule, cylinder and cone (B): half a spring at each end of the overlap
 //! (docs/theory.md, 2.8).
 //!
-//! Let δ be the depth of the pair and δ₀, δ₁ those of the two ends of the overlap. The stored energy is ¼k(δ²
-//! + δ₀²δ₁²/δ²). An end of the overlap is an end of A in B or an end of B in A, whichever is deeper. The
+//! Let δ be the depth of the pair and δ₀, δ₁ those of the two ends of the overlap. The stored energy is
+//! ¼k(δ² + δ₀²δ₁²/δ²). An end of the overlap is an end of A in B or an end of B in A, whichever is deeper. The
 //! derivatives of the energy are the weights: ½(1 − δ₀²δ₁²/δ⁴) of the deepest point, ½δ₁²/δ² and ½δ₀²/δ² of
 //! the ends.
 
