@@ -334,7 +334,7 @@ fn evaluations_that_are_not_committed_begin_and_end_nothing() {
     assert_eq!(scene.told(&monitor), []);
     assert_eq!(monitor.window(), 1.0);
     // Of some pairs.
-    scene.world.commit_pairs(&scene.pairs[..1].to_vec()).unwrap();
+    scene.world.commit_pairs(&scene.pairs[..1]).unwrap();
     monitor.observe(&scene.world, 0.5).unwrap();
     assert_eq!(scene.told(&monitor), [(1, false)]);
 }
