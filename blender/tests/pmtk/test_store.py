@@ -120,7 +120,7 @@ class Settings(InBlender):
         self.assertFalse(surface.use_bristle_damping or surface.use_bristle_mass)
         surface.use_bristle_damping = True  # critical for the mass of the restitution
         critical = 2 * math.sqrt(2 / 3 * surface.stiffness * 100.0)
-        self.assertAlmostEqual(spec.read(surface)["friction"]["Bristle"]["damping"], critical, delta=1e-9 * critical)
+        self.assertAlmostEqual(spec.read(surface)["friction"]["Bristle"]["damping"], critical, delta=1e-6 * critical)
         surface.use_bristle_mass = True  # instead of the damping
         surface.bristle_mass = 2.5
         self.assertEqual(spec.read(surface)["friction"]["Bristle"], {"mu": 0.7, "static_excess": 0.0, "mass": 2.5})
