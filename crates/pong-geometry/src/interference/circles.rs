@@ -42,7 +42,8 @@ impl Circle {
     fn rim_toward(&self, direction: &Vec3, least: f64) -> Option<Vec3> {
         let across = direction - self.axis_b * self.axis_b.dot(direction);
         let length = across.norm();
-        (length > least).then(|| self.center_b + across * (self.radius / length))
+        // A compiler may divide before it compares.
+        (length > least).then(|| self.center_b + across * (self.radius / length.max(least)))
     }
 }
 

@@ -66,7 +66,9 @@ pub struct Entry {
 /// Internal faces are raised by their tolerance ([`FacePlanes::WALL_TOLERANCE`]): a line along an internal
 /// face enters by the active face, and a line between abutting pieces does not miss both.
 pub fn entry_of_line(from: &Vec3, to: &Vec3, polyhedron: &Polyhedron) -> Option<Entry> {
-    let mut entry: Option<Entry> = None;
+    // Not an `Option`: a compiler compares with its number before it asks whether there is one, and what memory holds
+    // there may raise a floating-point exception.
+    let mut entry = Entry { face: usize::MAX, at: f64::NEG_INFINITY };
     let mut leave = f64::INFINITY;
     let slack = polyhedron.planes().wall_slack;
     for (index, face) in polyhedron.faces.iter().enumerate() {
@@ -77,14 +79,14 @@ pub fn entry_of_line(from: &Vec3, to: &Vec3, polyhedron: &Polyhedron) -> Option<
         }
         if start > end {
             let at = start / divisor(start - end);
-            if start >= 0.0 && entry.is_none_or(|best| at > best.at) {
-                entry = Some(Entry { face: index, at });
+            if start >= 0.0 && at > entry.at {
+                entry = Entry { face: index, at };
             }
         } else if start < end {
             leave = leave.min(start / divisor(start - end));
         }
     }
-    entry.filter(|entry| entry.at < leave)
+    (entry.face != usize::MAX && entry.at < leave).then_some(entry)
 }
 
 /// Result of moving the remembered face.
