@@ -77,6 +77,8 @@ fn groups_that_filters_name_stay() {
     let arm = "(name: \"arm\", movable: true, primitives: [Sphere(name: \"hand\", center: (0, 0, 0), radius: 0.1)])";
     let root = BALL.replace("groups: [", &format!("groups: [{arm}, "));
     let of_model = model("ball", &root).replace("root:", "filters: [(\"arm\", \"mast\")], root:");
+    let folder = Folder::new("trim_filters_of_model");
+    let path = ball_on_floor(&folder);
     folder.write("ball.ron", &of_model);
     let bodies = "bodies: [(group: \"arm\", motion: Fixed, position: (0, 0, 3)), (";
     std::fs::write(&path, text.replacen("bodies: [(", bodies, 1)).unwrap();
