@@ -216,7 +216,7 @@ class Derived(unittest.TestCase):
         rebound = math.exp(-ratio / root * math.atan2(2 * ratio * root, 2 * ratio**2 - 1))
         self.assertAlmostEqual(rebound, 0.5, delta=1e-9)
         self.assertAlmostEqual(values["friction"]["damping"], 2 * math.sqrt(2 / 3 * 1e6 * 2.0), delta=1e-6)
-        fields["normal"] = Tagged("HuntCrossley", {"restitution": {"e": 0.5, "speed": 0.1}})
+        fields["normal"] = Tagged("HuntCrossley", {"exponent": 1.0, "restitution": {"e": 0.5, "speed": 0.1}})
         self.assertGreater(derived(fields)["normal"]["dissipation"], 0.0)
         self.assertEqual(derived({"stiffness": -1.0}), {})
 
