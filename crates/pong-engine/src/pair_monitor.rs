@@ -48,19 +48,9 @@ struct Row {
     begins: u32,
     ends: u32,
     peak: f64,
-    /// Sum of wrench times time, along common axes.
-    impulse: Impulse,
+    /// Sum of wrench times time, along common axes, N·s and N·m·s.
+    impulse: Wrench,
     time: f64,
-}
-
-/// Wrench times time: N·s and N·m·s.
-#[derive(Clone, Copy, Debug)]
-struct Impulse(Wrench);
-
-impl Default for Impulse {
-    fn default() -> Self {
-        Self(Wrench::zero())
-    }
 }
 
 /// Begin or end of contact between two movable groups.
@@ -169,8 +159,8 @@ impl PairMonitor {
         row.seen = observation;
         row.begins += u32::from(begins);
         row.peak = row.peak.max(normal_force);
-        row.impulse.0.force += wrench.force * step;
-        row.impulse.0.moment += wrench.moment * step;
+        row.impulse.force += wrench.force * step;
+        row.impulse.moment += wrench.moment * step;
         row.time += step;
         self.touching.push(pair);
         if begins {
@@ -213,7 +203,7 @@ impl PairMonitor {
         self.windowed.iter().map(|&index| {
             let (pair, interfaces) = self.named(index);
             let row = &self.rows[index as usize];
-            let Impulse(Wrench { force, moment }) = row.impulse;
+            let Wrench { force, moment } = row.impulse;
             let mean = Wrench { force: force / self.window_time, moment: moment / self.window_time };
             PairPeaks {
                 pair,

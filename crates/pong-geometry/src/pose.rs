@@ -133,7 +133,7 @@ impl Twist {
 }
 
 /// Force (N) and moment (N·m) about a stated point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {
     /// Force, N.
     pub force: Vec3,

@@ -62,10 +62,9 @@ fn shared_objects(from: &Scene, into: &Scene) -> Result<Vec<Option<usize>>, Engi
         into.objects.iter().map(|object| by_name.get(object.name.as_str()).copied()).collect();
     for (object, earlier) in into.objects.iter().zip(&objects).filter_map(|(o, e)| Some((o, (*e)?))) {
         let (model, other) = (&into.models[object.model], &from.models[from.objects[earlier].model]);
-        let paths = |model: &pong_model::Model| -> Vec<String> {
-            model.bodies.iter().map(|body| body.path.clone()).collect()
-        };
-        if model.hash != other.hash || paths(model) != paths(other) {
+        let same_paths =
+            model.bodies.iter().map(|body| &body.path).eq(other.bodies.iter().map(|body| &body.path));
+        if model.hash != other.hash || !same_paths {
             let cause = "it has other geometry, surfaces or movable groups than the one of this name in the other world; \
                          create it from the same model, or, if it is another thing, under another name";
             return refused(&format!("object `{}`", object.name), cause.to_owned());
@@ -147,14 +146,12 @@ fn shared_group_pairs(
     pairs: &[Option<usize>],
 ) -> Vec<Option<u32>> {
     let mut found = vec![None; from.group_pairs.len()];
-    // Both lists are sorted by their bodies.
     for (index, pair) in into.group_pairs.iter().enumerate() {
         if pairs[pair.pair].is_none() {
             continue;
         }
-        let Some(groups) = bodies[pair.first].zip(bodies[pair.second]) else { continue };
-        let earlier = from.group_pairs.binary_search_by_key(&groups, |pair| (pair.first, pair.second));
-        if let Ok(earlier) = earlier {
+        let Some((first, second)) = bodies[pair.first].zip(bodies[pair.second]) else { continue };
+        if let Some(earlier) = from.group_pair_of(first, second) {
             found[earlier] = Some(index as u32);
         }
     }

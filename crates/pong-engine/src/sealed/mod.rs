@@ -75,6 +75,11 @@ impl Sealed {
         self.coupling.map_or(0, WrenchCoupling::delay)
     }
 
+    /// Index of the pair of two movable groups, the lower index first; `None` if nothing of theirs can touch.
+    pub fn group_pair_of(&self, first: usize, second: usize) -> Option<usize> {
+        self.group_pairs.binary_search_by_key(&(first, second), |pair| (pair.first, pair.second)).ok()
+    }
+
     /// Bodies that hold A and B.
     pub fn bodies_of(&self, direction: Direction) -> (usize, usize) {
         let pair = &self.group_pairs[direction.group_pair as usize];

@@ -20,12 +20,9 @@ impl World {
     pub fn wrench_from(&self, on: InterfaceId, from: InterfaceId) -> Result<Wrench, EngineError> {
         let (on, from) = (self.scene.body_index(on)?, self.scene.body_index(from)?);
         let runtime = self.framed()?;
-        let groups = (on.min(from), on.max(from));
-        let found =
-            runtime.sealed.group_pairs.binary_search_by_key(&groups, |pair| (pair.first, pair.second));
-        match found {
-            Ok(group_pair) => Ok(runtime.frame.wrench_of_groups(&runtime.sealed, group_pair, on)),
-            Err(_) => {
+        match runtime.sealed.group_pair_of(on.min(from), on.max(from)) {
+            Some(group_pair) => Ok(runtime.frame.wrench_of_groups(&runtime.sealed, group_pair, on)),
+            None => {
                 self.require_paired(on, from)?;
                 Ok(Wrench::zero())
             }

@@ -28,8 +28,7 @@ impl World {
     pub fn wrench_common(&self, interface: InterfaceId) -> Result<Wrench, EngineError> {
         let index = self.scene.body_index(interface)?;
         let frame = &self.framed()?.frame;
-        let (orientation, wrench) = (frame.poses[index].orientation, frame.wrenches[index]);
-        Ok(Wrench { force: orientation * wrench.force, moment: orientation * wrench.moment })
+        Ok(frame.along_common_axes(&frame.wrenches[index], index))
     }
 
     /// Contacts of the last frame, in summation order. Allocates; [`contacts_iter`](Self::contacts_iter) does

@@ -13,8 +13,13 @@ impl EvaluationBuffers {
         let of = |place: &Place| place.direction().group_pair as usize;
         let start = self.order.partition_point(|place| of(place) < group_pair);
         let len = self.order[start..].partition_point(|place| of(place) == group_pair);
+        self.wrench_of_places(sealed, &self.order[start..start + len], on)
+    }
+
+    /// As [`wrench_of_groups`](Self::wrench_of_groups), from all places of the pair.
+    fn wrench_of_places(&self, sealed: &Sealed, places: &[Place], on: usize) -> Wrench {
         let mut wrench = Wrench::zero();
-        for places in self.order[start..start + len].chunk_by(|a, b| a.direction() == b.direction()) {
+        for places in places.chunk_by(|a, b| a.direction() == b.direction()) {
             let (body_a, body_b) = sealed.bodies_of(places[0].direction());
             let x_ba = Pose::relative(&self.poses[body_a], &self.poses[body_b]).transform();
             let sums = Sums::of_direction(&self.found(), places, &x_ba.translation);
@@ -26,12 +31,11 @@ impl EvaluationBuffers {
     /// Wrench of a pair of Objects on the one that was named first, about and along the frame of the movable group `about`.
     pub fn wrench_of_objects(&self, sealed: &Sealed, pair: usize, about: usize) -> Wrench {
         let mut wrench = Wrench::zero();
-        let group_pairs = self.order.chunk_by(|a, b| a.direction().group_pair == b.direction().group_pair);
-        for group_pair in group_pairs.map(|places| places[0].direction().group_pair as usize) {
-            let groups = &sealed.group_pairs[group_pair];
+        for places in self.order.chunk_by(|a, b| a.direction().group_pair == b.direction().group_pair) {
+            let groups = &sealed.group_pairs[places[0].direction().group_pair as usize];
             if groups.pair == pair {
                 let [on, _] = groups.sides();
-                wrench += self.seen_from(self.wrench_of_groups(sealed, group_pair, on), on, about);
+                wrench += self.seen_from(self.wrench_of_places(sealed, places, on), on, about);
             }
         }
         wrench
@@ -48,7 +52,7 @@ impl EvaluationBuffers {
             let group_pair = places[0].direction().group_pair;
             let normal_force = pushing.map(|place| self.found().contact(place).normal_force).sum();
             let [on, _] = sealed.group_pairs[group_pair as usize].sides();
-            let wrench = self.wrench_of_groups(sealed, group_pair as usize, on);
+            let wrench = self.wrench_of_places(sealed, places, on);
             visit(group_pair, normal_force, self.along_common_axes(&wrench, on));
         }
     }
