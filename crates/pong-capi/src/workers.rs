@@ -8,7 +8,7 @@ use crate::report::by_work;
 use crate::status::pong_status;
 use crate::worker::Started;
 pub use crate::worker::pong_worker;
-use pong_engine::{LaneWork, WorkerStart};
+use pong_engine::{ThreadWork, WorkerStart};
 use pong_threads::Grant;
 use std::ffi::c_char;
 use std::time::Duration;
@@ -62,8 +62,8 @@ pub unsafe extern "C" fn pong_get_worker(
     get(world, (worker, "worker"), |inner| {
         let world = inner.phase.frames("ask for a worker")?;
         let asked = if index == 0 { pong_worker::default() } else { inner.worker(index)?.asked };
-        let LaneWork { blocks, busy_ns } = world.lane_work().nth(index).unwrap_or_default();
-        let work_ns = world.lane_times().nth(index).map_or([0; 4], |times| by_work(&times));
+        let ThreadWork { blocks, busy_ns } = world.thread_work().nth(index).unwrap_or_default();
+        let work_ns = world.thread_times().nth(index).map_or([0; 4], |times| by_work(&times));
         Ok(pong_worker { blocks, busy_ns, work_ns, ..asked })
     })
 }
@@ -98,7 +98,7 @@ impl From<&WorkerStart> for Started {
     fn from(start: &WorkerStart) -> Self {
         let (core_grant, core) = grant(&start.core, |core| core as u32);
         let (fifo_grant, fifo_priority) = grant(&start.fifo_priority, u32::from);
-        let index = start.lane as u32;
+        let index = start.thread as u32;
         let asked =
             pong_worker { index, core_grant, core, fifo_grant, fifo_priority, ..pong_worker::default() };
         Self { asked, text: c_text(&start.to_string()) }

@@ -100,7 +100,7 @@ fn one_worker(fifo_priority: Option<u8>) -> Settings {
 struct Idle;
 
 impl Job for Idle {
-    fn run(&self, _block: u32, _lane: usize) {}
+    fn run(&self, _block: u32, _thread: usize) {}
 }
 
 /// A job whose worker sleeps again and again; the caller's block ends once the worker has begun.

@@ -55,7 +55,7 @@ pub use law::{
     combine as combine_surfaces,
 };
 pub use pair_monitor::{ContactChange, PairMonitor, PairPeaks};
-pub use pong_threads::{LaneWork, WorkerStart};
+pub use pong_threads::{ThreadWork, WorkerStart};
 pub use report::{
     FrameCounts, FrameReport, MemoryReport, Stage, StageTimes, StatusBits, Tally, TunnellingReport, Work,
     WorkTimes,

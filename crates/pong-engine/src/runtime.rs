@@ -18,7 +18,7 @@ use crate::state::{
     largest_len, needed_len, read_block, write_block,
 };
 use pong_geometry::Pose;
-use pong_threads::{LaneWork, WorkerStart};
+use pong_threads::{ThreadWork, WorkerStart};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -67,7 +67,9 @@ impl Runtime {
             let energies = ContactEnergies::with_capacity(sealed.coupling, sealed.record_capacity);
             let pairs = PairEnergies::new(sealed.account_pairs(), sealed.delay());
             Arc::new(
-                memory.with_lanes(workers + 1, sealed.limits.lane_records()).with_energies(energies, pairs),
+                memory
+                    .with_threads(workers + 1, sealed.limits.thread_records())
+                    .with_energies(energies, pairs),
             )
         };
         let nothing = Arc::new(ContactMemory::default());
@@ -391,12 +393,12 @@ impl Runtime {
         self.pool.as_ref().map_or(&[], |pool| pool.pool().start_report())
     }
 
-    pub fn lane_work(&self) -> impl Iterator<Item = LaneWork> + '_ {
+    pub fn thread_work(&self) -> impl Iterator<Item = ThreadWork> + '_ {
         self.pool.iter().flat_map(|pool| pool.pool().work())
     }
 
     /// Work times per thread, the caller's first: serial work and the thread's share of parallel work.
-    pub fn lane_times(&self) -> impl Iterator<Item = WorkTimes> + '_ {
+    pub fn thread_times(&self) -> impl Iterator<Item = WorkTimes> + '_ {
         let workers = self.pool.iter().flat_map(WorkerPool::times);
         std::iter::once(self.frame.caller.out.times).chain(workers.copied())
     }
@@ -419,15 +421,15 @@ impl Runtime {
     }
 
     pub fn memory_report(&self) -> MemoryReport {
-        let lane = &self.frame.caller;
+        let thread = &self.frame.caller;
         let (arena, scratch) = self.pool.as_ref().map_or((0, 0), WorkerPool::peaks);
         MemoryReport {
             contacts_peak: self.contacts_peak,
             contacts_capacity: self.sealed.record_capacity,
-            arena_peak: lane.arena.peak().max(arena),
-            arena_capacity: lane.arena.capacity(),
-            scratch_peak: lane.scratch.peak().max(scratch),
-            scratch_capacity: lane.scratch.capacity(),
+            arena_peak: thread.arena.peak().max(arena),
+            arena_capacity: thread.arena.capacity(),
+            scratch_peak: thread.scratch.peak().max(scratch),
+            scratch_capacity: thread.scratch.capacity(),
         }
     }
 }

@@ -111,7 +111,7 @@ fn any_number_of_workers_gives_the_same_series() {
                 // Rare and small frames wake no worker, and on a busy machine all frames are rare.
                 stage.world.prewake(Duration::from_secs(60));
                 must_repeat(&format!("{count} workers"), alone, &mut stage, frame..frame + 1);
-                shared += usize::from(stage.world.lane_work().any(|lane| lane.blocks > 0));
+                shared += usize::from(stage.world.thread_work().any(|lane| lane.blocks > 0));
             }
             assert_eq!(
                 count > 0,

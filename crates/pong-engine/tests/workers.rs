@@ -162,7 +162,7 @@ impl Brush {
 
     /// Number of blocks of the last phase that workers ran.
     fn blocks_of_workers(&self) -> u32 {
-        self.world.lane_work().skip(1).map(|lane| lane.blocks).sum()
+        self.world.thread_work().skip(1).map(|thread| thread.blocks).sum()
     }
 
     /// Steps and compares frames until a worker takes part; returns the index of the next frame.
@@ -220,7 +220,7 @@ fn more_workers_than_cores_change_nothing() {
         let expected = alone(40);
         for count in [4, 16, 64] {
             let mut brush = Brush::new(settings(count, SHORT));
-            assert_eq!(brush.world.lane_work().count(), count + 1);
+            assert_eq!(brush.world.thread_work().count(), count + 1);
             for (frame, expected) in expected.iter().enumerate() {
                 assert_eq!(brush.step(frame as u32), *expected, "{count} workers, frame {frame}");
             }
@@ -422,8 +422,8 @@ fn sealing_tells_how_the_workers_started() {
     within_a_minute(|| {
         assert!(Brush::new(None).report.workers.is_empty());
         let brush = Brush::new(settings(3, SHORT));
-        let lanes: Vec<_> = brush.report.workers.iter().map(|start| start.lane).collect();
-        assert_eq!(lanes, [1, 2, 3]);
+        let threads: Vec<_> = brush.report.workers.iter().map(|start| start.thread).collect();
+        assert_eq!(threads, [1, 2, 3]);
         for start in &brush.report.workers {
             assert!(start.to_string().contains("not asked for"), "{start}");
         }

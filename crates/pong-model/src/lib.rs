@@ -48,7 +48,9 @@ pub use error::{ModelError, ModelErrors};
 pub use filters::Filters;
 pub use fnv::Fnv;
 pub use limits::{LARGEST, LARGEST_SIZE, SMALLEST_SIZE};
-pub use model::{Balls, Batch, ChunkBoxes, Item, Model, MovableGroup, Node, PrimitiveInfo, Rods, Tree};
+pub use model::{
+    Batch, ChunkBoxes, Item, Model, MovableGroup, Node, PrimitiveInfo, SegmentLanes, SphereLanes, Tree,
+};
 pub use pair_table::pair_entries;
 pub use printable::{printable, printable_lines};
 pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};

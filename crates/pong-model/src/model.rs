@@ -146,9 +146,9 @@ pub struct Batch {
     pub chunks: Vec<ChunkBoxes>,
     /// Centres and radii of points and spheres in lanes; entry *i* has the elements 8·i … 8·i + 7. Empty for
     /// other kinds.
-    pub balls: Vec<Balls>,
+    pub spheres: Vec<SphereLanes>,
     /// Axes and radii of line segments and capsules in lanes, in the same order.
-    pub rods: Vec<Rods>,
+    pub segments: Vec<SegmentLanes>,
 }
 
 /// Eight boxes, each around eight elements of a batch: entry *i* has the box of the elements 64·i … 64·i + 7
@@ -187,14 +187,14 @@ impl ChunkBoxes {
 /// Up to eight points or spheres. Unused lanes repeat the last element.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub struct Balls {
+pub struct SphereLanes {
     /// Centres in the group frame, m.
     pub centers: Lanes,
     /// Radii, m; zero for points.
     pub radii: [f64; LANES],
 }
 
-impl Balls {
+impl SphereLanes {
     /// Packs elements eight by eight; empty for kinds other than points and spheres.
     pub(crate) fn of(body: &MovableGroup, kind: PrimitiveKind, items: &[Item]) -> Vec<Self> {
         let ball = |item: &Item| match kind {
@@ -206,9 +206,9 @@ impl Balls {
             _ => None,
         };
         let none = Self { centers: Lanes::ORIGIN, radii: [0.0; LANES] };
-        by_lane(items, none, ball, |balls, lane, (center, radius)| {
-            balls.centers.set(lane, &center);
-            balls.radii[lane] = radius;
+        by_lane(items, none, ball, |spheres, lane, (center, radius)| {
+            spheres.centers.set(lane, &center);
+            spheres.radii[lane] = radius;
         })
     }
 }
@@ -216,14 +216,14 @@ impl Balls {
 /// Up to eight line segments or capsules. Unused lanes repeat the last element.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub struct Rods {
+pub struct SegmentLanes {
     /// First and second ends of their axes in the group frame, m.
     pub ends: [Lanes; 2],
     /// Radii, m; zero for line segments.
     pub radii: [f64; LANES],
 }
 
-impl Rods {
+impl SegmentLanes {
     /// Packs elements eight by eight; empty for kinds other than line segments and capsules.
     pub(crate) fn of(body: &MovableGroup, kind: PrimitiveKind, items: &[Item]) -> Vec<Self> {
         let rod = |item: &Item| match kind {
@@ -235,9 +235,9 @@ impl Rods {
             _ => None,
         };
         let none = Self { ends: [Lanes::ORIGIN; 2], radii: [0.0; LANES] };
-        by_lane(items, none, rod, |rods, lane, (ends, radius)| {
-            rods.ends.iter_mut().zip(ends).for_each(|(lanes, end)| lanes.set(lane, end));
-            rods.radii[lane] = radius;
+        by_lane(items, none, rod, |segments, lane, (ends, radius)| {
+            segments.ends.iter_mut().zip(ends).for_each(|(lanes, end)| lanes.set(lane, end));
+            segments.radii[lane] = radius;
         })
     }
 }

@@ -4,7 +4,7 @@
 use crate::box_tree::{BoxTree, Boxed};
 use crate::draft::GroupDraft;
 use crate::element::Element;
-use crate::model::{Balls, Batch, ChunkBoxes, Item, MovableGroup, Node, Rods, Tree};
+use crate::model::{Batch, ChunkBoxes, Item, MovableGroup, Node, SegmentLanes, SphereLanes, Tree};
 use pong_geometry::Vec3;
 use pong_geometry::bounding::{BoundKind, Bounded, Volume, fit, fit_aabb_bounds};
 use pong_geometry::extension::Extensions;
@@ -148,12 +148,12 @@ fn batches(body: &MovableGroup, items: &[Item], tree: &mut Tree) {
         let first = tree.items.len() as u32;
         tree.items.extend(elements.iter().map(|element| element.item));
         let items = first..tree.items.len() as u32;
-        let balls = Balls::of(body, kind, &tree.items[first as usize..]);
-        let rods = Rods::of(body, kind, &tree.items[first as usize..]);
+        let spheres = SphereLanes::of(body, kind, &tree.items[first as usize..]);
+        let segments = SegmentLanes::of(body, kind, &tree.items[first as usize..]);
         let never_a =
             matches!(kind, PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane);
         let chunks = if never_a { Vec::new() } else { ChunkBoxes::of(&boxes) };
-        tree.batches.push(Batch { kind, items, boxes, chunks, balls, rods });
+        tree.batches.push(Batch { kind, items, boxes, chunks, spheres, segments });
     }
 }
 

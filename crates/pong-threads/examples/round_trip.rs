@@ -117,8 +117,8 @@ struct Meet {
 }
 
 impl Job for Meet {
-    fn run(&self, _block: u32, lane: usize) {
-        if lane == 1 {
+    fn run(&self, _block: u32, thread: usize) {
+        if thread == 1 {
             self.met.store(self.met.load(Ordering::Relaxed) + 1, Ordering::Release);
             return;
         }

@@ -108,8 +108,8 @@ impl Board {
     pub fn share_of(left: u32, workers: usize) -> u32 {
         /// Blocks per thread that count as few: one of them may take as long as several others.
         const FEW: u32 = 8;
-        let lanes = workers as u32 + 1;
-        if left <= FEW * lanes { (3 * left).div_ceil(4 * lanes) } else { left.div_ceil(lanes) }
+        let threads = workers as u32 + 1;
+        if left <= FEW * threads { (3 * left).div_ceil(4 * threads) } else { left.div_ceil(threads) }
     }
 
     fn take(&self, seen: Word, blocks: u32) -> Result<Range<u32>, Word> {
@@ -147,18 +147,18 @@ impl Board {
 
     // ---- tallies
 
-    /// Stores the tally of worker `lane` after a claim: its work so far in phase `epoch`, and its blocks
+    /// Stores the tally of worker number `thread` after a claim: its work so far in phase `epoch`, and its blocks
     /// since the start. The release stores publish what the blocks wrote.
-    pub fn record(&self, lane: usize, epoch: u64, done: Done, finished: u64) {
-        let tally = &self.tallies[lane - 1];
+    pub fn record(&self, thread: usize, epoch: u64, done: Done, finished: u64) {
+        let tally = &self.tallies[thread - 1];
         tally.busy_ns.store(done.busy_ns, Relaxed);
         tally.finished.store(finished, Release);
         tally.word.store(Word::new(epoch, done.blocks, done.panicked).0, Release);
     }
 
-    /// Work of worker `lane` in phase `epoch`.
-    pub fn done(&self, lane: usize, epoch: u64) -> Done {
-        let tally = &self.tallies[lane - 1];
+    /// Work of worker number `thread` in phase `epoch`.
+    pub fn done(&self, thread: usize, epoch: u64) -> Done {
+        let tally = &self.tallies[thread - 1];
         let word = Word(tally.word.load(Acquire));
         if word.epoch() != epoch && !mutant("untagged_tally") {
             return Done::default();
@@ -169,8 +169,8 @@ impl Board {
     /// Blocks that the first `workers` workers have done in phase `epoch`, and whether any of them panicked.
     pub fn done_by(&self, workers: usize, epoch: u64) -> (u32, bool) {
         let mut sum = (0, false);
-        for lane in 1..=workers {
-            let done = self.done(lane, epoch);
+        for thread in 1..=workers {
+            let done = self.done(thread, epoch);
             sum = (sum.0 + done.blocks, sum.1 | done.panicked);
         }
         sum
@@ -183,24 +183,24 @@ impl Board {
 
     // ---- sleep
 
-    /// Registers the calling thread as worker `lane`, so that others can wake it. Must precede the first
+    /// Registers the calling thread as worker number `thread`, so that others can wake it. Must precede the first
     /// [`Board::lie_down`].
-    pub fn introduce(&self, lane: usize) {
-        self.threads[lane - 1].set(current()).expect("one thread per lane");
+    pub fn introduce(&self, thread: usize) {
+        self.threads[thread - 1].set(current()).expect("one thread per thread");
     }
 
-    /// Marks worker `lane` as about to park. It must check for news once more before it parks.
+    /// Marks worker number `thread` as about to park. It must check for news once more before it parks.
     ///
     /// This function and [`Board::asleep`] are read-modify-writes of the same word, so one of them comes
     /// first. If this one does, the other thread sees the bit and wakes the worker; otherwise the worker's
     /// last check sees what the other thread published.
-    pub fn lie_down(&self, lane: usize) {
-        self.asleep.fetch_or(1 << (lane - 1), AcqRel);
+    pub fn lie_down(&self, thread: usize) {
+        self.asleep.fetch_or(1 << (thread - 1), AcqRel);
     }
 
-    /// Marks worker `lane` as awake, whoever woke it.
-    pub fn get_up(&self, lane: usize) {
-        let bit = 1 << (lane - 1);
+    /// Marks worker number `thread` as awake, whoever woke it.
+    pub fn get_up(&self, thread: usize) {
+        let bit = 1 << (thread - 1);
         if self.asleep.load(Relaxed) & bit != 0 {
             self.asleep.fetch_and(!bit, AcqRel);
         }

@@ -9,7 +9,7 @@ use crate::board::{Board, CALM, Done, PARK};
 use crate::sync::{LOOKS, Watch, spin_loop, yield_now};
 use crate::word::Word;
 use crate::worker::{Payload, Shared, YIELD_AFTER_NS};
-use crate::{LaneWork, MAX_BLOCKS, Outcome};
+use crate::{MAX_BLOCKS, Outcome, ThreadWork};
 
 pub struct Caller {
     shared: Arc<Shared>,
@@ -179,13 +179,13 @@ impl Caller {
         self.shared.board.asleep(self.shared.board.workers()) as usize
     }
 
-    pub fn work(&self) -> impl Iterator<Item = LaneWork> + '_ {
-        let lane_work = |done: Done| LaneWork { blocks: done.blocks, busy_ns: done.busy_ns };
-        let of_worker = move |lane| match lane <= self.workers {
-            true => lane_work(self.shared.board.done(lane, self.epoch)),
-            false => LaneWork::default(),
+    pub fn work(&self) -> impl Iterator<Item = ThreadWork> + '_ {
+        let thread_work = |done: Done| ThreadWork { blocks: done.blocks, busy_ns: done.busy_ns };
+        let of_worker = move |thread| match thread <= self.workers {
+            true => thread_work(self.shared.board.done(thread, self.epoch)),
+            false => ThreadWork::default(),
         };
-        std::iter::once(lane_work(self.own)).chain((1..=self.shared.board.workers()).map(of_worker))
+        std::iter::once(thread_work(self.own)).chain((1..=self.shared.board.workers()).map(of_worker))
     }
 
     pub fn prewake(&mut self, at_most_ns: u64) {

@@ -67,15 +67,15 @@ pub const MAX_WORKERS: usize = 64;
 /// [`Pool::run`] and reads the output there afterwards. Each block sees everything the caller wrote before
 /// the phase; the caller sees everything the blocks wrote once the phase is [`Outcome::Complete`].
 pub trait Job: Send + Sync + 'static {
-    /// Runs one block on thread `lane`: 0 is the caller, 1… are the workers. A thread runs one block at a
+    /// Runs one block on thread number `thread`: 0 is the caller, 1… are the workers. A thread runs one block at a
     /// time, so it may own scratch memory. This holds after an abandoned phase too: a thread whose block
     /// still runs takes no other block.
-    fn run(&self, block: u32, lane: usize);
+    fn run(&self, block: u32, thread: usize);
 
-    /// Runs neighbouring blocks that thread `lane` claimed together. By default one by one, the last first; a
+    /// Runs neighbouring blocks that thread number `thread` claimed together. By default one by one, the last first; a
     /// job overrides this if neighbours are cheaper together.
-    fn run_neighbors(&self, blocks: Range<u32>, lane: usize) {
-        blocks.rev().for_each(|block| self.run(block, lane));
+    fn run_neighbors(&self, blocks: Range<u32>, thread: usize) {
+        blocks.rev().for_each(|block| self.run(block, thread));
     }
 }
 
@@ -93,7 +93,7 @@ pub enum Outcome {
 
 /// Work of one thread, the caller or a worker, in one phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LaneWork {
+pub struct ThreadWork {
     /// Number of blocks it ran.
     pub blocks: u32,
     /// Time spent in them, measured by [`Settings::clock`](Settings), in ns; 0 without a clock.

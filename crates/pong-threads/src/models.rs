@@ -75,9 +75,9 @@ impl Model {
             origin: Watch::start(),
             panic: Mutex::new(None),
         });
-        let serve = |lane| {
+        let serve = |thread| {
             let shared = shared.clone();
-            thread::spawn(move || Worker::new(shared, lane).serve())
+            thread::spawn(move || Worker::new(shared, thread).serve())
         };
         Model { threads: (1..=workers).map(serve).collect(), caller: Caller::new(shared.clone()) }
     }
@@ -138,7 +138,7 @@ fn a_phase_for_some_is_left_alone_by_the_others() {
             let own = &mut |blocks: Range<u32>| blocks.for_each(|block| cells.add_one(block));
             assert_eq!(model.caller.run_beside(3, workers, own), Outcome::Complete);
             cells.expect_once_each(3);
-            assert!(model.caller.work().skip(1 + workers).all(|lane| lane.blocks == 0));
+            assert!(model.caller.work().skip(1 + workers).all(|thread| thread.blocks == 0));
         }
         model.end();
     });
@@ -162,8 +162,8 @@ struct NeedsWorker {
 }
 
 impl Job for NeedsWorker {
-    fn run(&self, _block: u32, lane: usize) {
-        if lane != 0 {
+    fn run(&self, _block: u32, thread: usize) {
+        if thread != 0 {
             return self.called.store(true, Ordering::Release);
         }
         while !self.called.load(Ordering::Acquire) {

@@ -26,7 +26,7 @@ pub enum Grant<T> {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WorkerStart {
     /// Index of the worker, from 1.
-    pub lane: usize,
+    pub thread: usize,
     /// Core the worker is bound to.
     pub core: Grant<usize>,
     /// SCHED_FIFO priority of the worker.
@@ -45,7 +45,7 @@ impl<T: fmt::Display> fmt::Display for Grant<T> {
 
 impl fmt::Display for WorkerStart {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "worker {}: core {}, SCHED_FIFO priority {}", self.lane, self.core, self.fifo_priority)
+        write!(out, "worker {}: core {}, SCHED_FIFO priority {}", self.thread, self.core, self.fifo_priority)
     }
 }
 
@@ -86,9 +86,9 @@ fn cores_of_mask() -> Vec<usize> {
 }
 
 /// Binds the calling thread to `core` and sets its priority, where requested.
-pub fn settle(lane: usize, core: Option<usize>, fifo_priority: Option<u8>) -> WorkerStart {
+pub fn settle(thread: usize, core: Option<usize>, fifo_priority: Option<u8>) -> WorkerStart {
     WorkerStart {
-        lane,
+        thread,
         core: core.map_or(Grant::NotAsked, bind),
         fifo_priority: fifo_priority.map_or(Grant::NotAsked, raise),
     }

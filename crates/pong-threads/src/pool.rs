@@ -13,7 +13,7 @@ use crate::place::{cores_of_workers, settle};
 use crate::signals::without_signals;
 use crate::sync::Watch;
 use crate::worker::{Shared, Worker};
-use crate::{Job, LaneWork, Outcome, Settings, WorkerStart};
+use crate::{Job, Outcome, Settings, ThreadWork, WorkerStart};
 
 /// Workers that share phases with one calling thread.
 ///
@@ -25,7 +25,7 @@ pub struct Pool {
     start_report: Vec<WorkerStart>,
     /// Kept until the pool ends: otherwise the last worker to release it would free it during the first
     /// phases.
-    muster: Arc<Muster>,
+    started: Arc<StartBarrier>,
     worker_timeout: Duration,
     /// Id of the process that started the workers; threads do not survive a `fork`.
     process: u32,
@@ -42,22 +42,22 @@ pub const LONGEST_FAREWELL: Duration = Duration::from_secs(1);
 #[derive(Debug)]
 pub struct StartError {
     /// Index of the worker it was meant for, from 1.
-    pub lane: usize,
+    pub thread: usize,
     /// Error reported by the system.
     pub source: std::io::Error,
 }
 
 impl fmt::Display for StartError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { lane, source } = self;
+        let Self { thread, source } = self;
         match source.kind() {
             std::io::ErrorKind::TimedOut => write!(
                 out,
-                "worker {lane} was not run within {} s of its start: another thread keeps its core; ask for fewer workers, \
+                "worker {thread} was not run within {} s of its start: another thread keeps its core; ask for fewer workers, \
                  or for a core or a priority that is free",
                 LONGEST_START.as_secs()
             ),
-            _ => write!(out, "no thread for worker {lane}: {source}; ask for fewer workers"),
+            _ => write!(out, "no thread for worker {thread}: {source}; ask for fewer workers"),
         }
     }
 }
@@ -91,16 +91,16 @@ impl Pool {
             caller: Caller::new(shared.clone()),
             threads: Vec::with_capacity(cores.len()),
             start_report: Vec::new(),
-            muster: Arc::new(Muster::new(cores.len())),
+            started: Arc::new(StartBarrier::new(cores.len())),
             worker_timeout: settings.worker_timeout,
             process: std::process::id(),
         };
         for (worker, core) in cores.iter().enumerate() {
-            let thread = start_worker(&shared, worker + 1, *core, settings.fifo_priority, &pool.muster);
+            let thread = start_worker(&shared, worker + 1, *core, settings.fifo_priority, &pool.started);
             // On an error the pool is dropped, which ends the workers already running.
-            pool.threads.push(thread.map_err(|source| StartError { lane: worker + 1, source })?);
+            pool.threads.push(thread.map_err(|source| StartError { thread: worker + 1, source })?);
         }
-        pool.start_report = pool.muster.wait_for_all(LONGEST_START)?;
+        pool.start_report = pool.started.wait_for_all(LONGEST_START)?;
         Ok(pool)
     }
 
@@ -166,7 +166,7 @@ impl Pool {
     }
 
     /// Work of each thread in the last phase, the caller first.
-    pub fn work(&self) -> impl Iterator<Item = LaneWork> + '_ {
+    pub fn work(&self) -> impl Iterator<Item = ThreadWork> + '_ {
         self.caller.work()
     }
 
@@ -218,38 +218,38 @@ fn in_ns(duration: Duration) -> u64 {
 
 fn start_worker(
     shared: &Arc<Shared>,
-    lane: usize,
+    thread: usize,
     core: Option<usize>,
     fifo_priority: Option<u8>,
-    muster: &Arc<Muster>,
+    started: &Arc<StartBarrier>,
 ) -> std::io::Result<JoinHandle<()>> {
-    let (shared, muster) = (shared.clone(), muster.clone());
+    let (shared, started) = (shared.clone(), started.clone());
     let work = move || {
-        let report = settle(lane, core, fifo_priority);
-        let mut worker = Worker::new(shared, lane);
-        muster.report(report);
+        let report = settle(thread, core, fifo_priority);
+        let mut worker = Worker::new(shared, thread);
+        started.report(report);
         worker.serve();
     };
-    without_signals(|| thread::Builder::new().name(format!("pong-worker-{lane}")).spawn(work))
+    without_signals(|| thread::Builder::new().name(format!("pong-worker-{thread}")).spawn(work))
 }
 
 /// Start barrier: the workers report to it, and the caller sleeps until all have reported or the time limit
 /// passes.
-struct Muster {
+struct StartBarrier {
     reports: Box<[OnceLock<WorkerStart>]>,
     missing: AtomicUsize,
     caller: Thread,
 }
 
-impl Muster {
-    fn new(workers: usize) -> Muster {
+impl StartBarrier {
+    fn new(workers: usize) -> StartBarrier {
         let reports = (0..workers).map(|_| OnceLock::new()).collect();
-        Muster { reports, missing: AtomicUsize::new(workers), caller: thread::current() }
+        StartBarrier { reports, missing: AtomicUsize::new(workers), caller: thread::current() }
     }
 
     fn report(&self, report: WorkerStart) {
-        let slot = &self.reports[report.lane - 1];
-        slot.set(report).expect("one worker per lane");
+        let slot = &self.reports[report.thread - 1];
+        slot.set(report).expect("one worker per thread");
         if self.missing.fetch_sub(1, Ordering::AcqRel) == 1 {
             self.caller.unpark();
         }
@@ -261,7 +261,7 @@ impl Muster {
             let waited = started.elapsed();
             if waited >= at_most {
                 let absent = self.reports.iter().position(|report| report.get().is_none()).unwrap_or(0);
-                return Err(StartError { lane: absent + 1, source: std::io::ErrorKind::TimedOut.into() });
+                return Err(StartError { thread: absent + 1, source: std::io::ErrorKind::TimedOut.into() });
             }
             thread::park_timeout(at_most - waited);
         }
@@ -275,11 +275,11 @@ mod tests {
 
     #[test]
     fn a_worker_that_is_never_run_ends_the_start_with_an_error_that_names_it() {
-        let muster = Muster::new(2);
+        let started = StartBarrier::new(2);
         let report = settle(1, None, None);
-        muster.report(report);
-        let error = muster.wait_for_all(Duration::from_millis(1)).unwrap_err();
-        assert_eq!(error.lane, 2);
+        started.report(report);
+        let error = started.wait_for_all(Duration::from_millis(1)).unwrap_err();
+        assert_eq!(error.thread, 2);
         assert!(error.to_string().contains("worker 2 was not run within 10 s"), "{error}");
     }
 

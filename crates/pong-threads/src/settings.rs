@@ -26,7 +26,7 @@ pub struct Settings {
     /// SCHED_FIFO priority requested for the workers. Without it they keep what the system gives a new
     /// thread: on Linux, the policy of the thread that starts the pool. None by default.
     pub fifo_priority: Option<u8>,
-    /// Clock in ns, to measure the time spent in blocks ([`LaneWork`](crate::LaneWork)). Read before and
+    /// Clock in ns, to measure the time spent in blocks ([`ThreadWork`](crate::ThreadWork)). Read before and
     /// after the blocks of each claim.
     pub clock: Option<fn() -> u64>,
 }

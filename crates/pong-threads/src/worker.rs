@@ -69,15 +69,15 @@ pub const YIELD_AFTER_NS: u64 = 5_000;
 pub struct Worker {
     shared: Arc<Shared>,
     /// Index of the worker, from 1.
-    lane: usize,
+    thread: usize,
     /// Blocks finished since the start.
     finished: u64,
 }
 
 impl Worker {
-    pub fn new(shared: Arc<Shared>, lane: usize) -> Worker {
-        shared.board.introduce(lane);
-        Worker { shared, lane, finished: 0 }
+    pub fn new(shared: Arc<Shared>, thread: usize) -> Worker {
+        shared.board.introduce(thread);
+        Worker { shared, thread, finished: 0 }
     }
 
     /// Runs phases until the end flag is set.
@@ -86,7 +86,7 @@ impl Worker {
         loop {
             let word = self.wait(seen);
             seen = word.epoch();
-            if self.lane <= word.workers() {
+            if self.thread <= word.workers() {
                 self.work(seen);
             }
             if word.flag() {
@@ -101,11 +101,11 @@ impl Worker {
         let mut done = Done::default();
         while let Some(blocks) = shared.board.claim(epoch) {
             self.finished += u64::from(blocks.end - blocks.start);
-            let run = |blocks| shared.job.run_neighbors(blocks, self.lane);
+            let run = |blocks| shared.job.run_neighbors(blocks, self.thread);
             if let Err(payload) = shared.run_blocks(blocks, run, &mut done) {
                 shared.keep_panic(epoch, payload);
             }
-            shared.board.record(self.lane, epoch, done, self.finished);
+            shared.board.record(self.thread, epoch, done, self.finished);
         }
     }
 
@@ -153,12 +153,12 @@ impl Worker {
     /// Parks until woken, unless there is news already.
     fn sleep(&self, seen: u64) {
         let board = &self.shared.board;
-        board.lie_down(self.lane);
+        board.lie_down(self.thread);
         let has_news = board.news(seen).is_some() || self.is_alerted(board.alert());
         if !has_news || mutant("sleep_unseen") {
             park();
         }
-        board.get_up(self.lane);
+        board.get_up(self.thread);
         board.wake_others(self.is_alerted(board.alert()));
     }
 }

@@ -64,7 +64,7 @@ fn without_any_worker_left_the_caller_completes_alone() {
             });
             pool.prewake(Duration::from_millis(1));
             pool.quiesce();
-            complete && pool.work().map(|lane| lane.blocks).eq([20, 0, 0, 0])
+            complete && pool.work().map(|thread| thread.blocks).eq([20, 0, 0, 0])
         });
         assert!(completes);
         assert_eq!(pool.run(20), Outcome::Complete, "and the parent has its workers");

@@ -53,7 +53,7 @@ fn phases_do_not_allocate() {
             _ => {}
         }
         assert_eq!(pool.run(100), Outcome::Complete);
-        blocks_of_workers += pool.work().skip(1).map(|lane| lane.blocks).sum::<u32>();
+        blocks_of_workers += pool.work().skip(1).map(|thread| thread.blocks).sum::<u32>();
     }
     COUNTING.store(false, SeqCst);
     assert_eq!(CALLS.load(SeqCst), 0);

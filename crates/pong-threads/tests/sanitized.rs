@@ -42,8 +42,8 @@ impl Plain {
 }
 
 impl Job for Plain {
-    fn run(&self, block: u32, lane: usize) {
-        match lane {
+    fn run(&self, block: u32, thread: usize) {
+        match thread {
             // Yields so that workers get their share, even of short blocks.
             0 => std::thread::yield_now(),
             _ if self.slow.load(Ordering::Relaxed) => std::thread::sleep(Duration::from_micros(300)),
@@ -71,7 +71,7 @@ fn phases(plain: &Arc<Plain>, workers: usize, worker_timeout: Duration) -> (u32,
         for block in (0..BLOCKS).filter(|_| !plain.race) {
             assert_eq!(plain.output(block), turn + u64::from(block));
         }
-        of_workers += pool.work().skip(1).map(|lane| lane.blocks).sum::<u32>();
+        of_workers += pool.work().skip(1).map(|thread| thread.blocks).sum::<u32>();
     }
     (abandoned, of_workers)
 }

@@ -54,10 +54,10 @@ impl EvaluationBuffers {
     pub fn new(scene: &Scene, sealed: &Sealed, input: WorkerInput, workers: usize) -> Self {
         let bodies = scene.bodies.len();
         // The search for the first hit of each ray needs all contacts in the caller's buffer.
-        let as_they_are = sealed.limits.lanes_write_records && !sealed.rays_meet_groups;
+        let as_they_are = sealed.limits.threads_write_records && !sealed.rays_meet_groups;
         let taken_over = if as_they_are { workers } else { 0 };
         let contacts = sealed.limits.worker_contacts(workers + 1);
-        let buffer = |lane| WorkerContext::buffer(sealed, lane, contacts);
+        let buffer = |thread| WorkerContext::buffer(sealed, thread, contacts);
         Self {
             computed: false,
             number: 0,
@@ -65,9 +65,9 @@ impl EvaluationBuffers {
             twists: vec![Twist::zero(); bodies],
             near: NearPairs::new(scene, sealed),
             input,
-            caller: Box::new(WorkerContext::new(sealed, 0, sealed.limits.lane_contacts)),
+            caller: Box::new(WorkerContext::new(sealed, 0, sealed.limits.thread_contacts)),
             workers: WorkerBuffers::new((1..=taken_over).map(buffer).collect()),
-            order: Table::with_capacity(sealed.limits.lane_contacts, Place::NOWHERE),
+            order: Table::with_capacity(sealed.limits.thread_contacts, Place::NOWHERE),
             tunnelling: TunnellingEvents::default(),
             energy: EnergyBuffers::new(scene, sealed),
             wrenches: vec![Wrench::zero(); bodies],

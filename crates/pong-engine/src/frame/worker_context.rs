@@ -47,8 +47,8 @@ impl WorkerContext {
     /// Bytes per candidate of a chunk.
     pub const BYTES_PER_FOUND: usize = size_of::<ContactCandidate>() + size_of::<SharedContact>();
 
-    /// Context of thread `lane` (0: the caller) with room for this many contacts.
-    pub fn new(sealed: &Sealed, lane: usize, contacts: usize) -> Self {
+    /// Context of thread number `thread` (0: the caller) with room for this many contacts.
+    pub fn new(sealed: &Sealed, thread: usize, contacts: usize) -> Self {
         Self {
             arena: Arena::with_capacity(sealed.limits.arena_bytes),
             scratch: Arena::with_capacity(sealed.limits.scratch_bytes),
@@ -59,13 +59,13 @@ impl WorkerContext {
             deferred: DeferredPairs::default(),
             found: Table::with_capacity(sealed.limits.found, ContactCandidate::NOTHING),
             shared: Table::with_capacity(sealed.limits.found, SharedContact::NOTHING),
-            out: Self::buffer(sealed, lane, contacts),
+            out: Self::buffer(sealed, thread, contacts),
         }
     }
 
-    /// Output buffer of thread `lane`.
-    pub fn buffer(sealed: &Sealed, lane: usize, contacts: usize) -> ContactBuffer {
-        ContactBuffer::new(lane, sealed.law_state_len, contacts, sealed.limits.lane_records())
+    /// Output buffer of thread number `thread`.
+    pub fn buffer(sealed: &Sealed, thread: usize, contacts: usize) -> ContactBuffer {
+        ContactBuffer::new(thread, sealed.law_state_len, contacts, sealed.limits.thread_records())
     }
 }
 

@@ -30,7 +30,7 @@ pub(super) fn limits(
     /// Contacts of one surface that are shared exactly if some normals are more than 90° apart.
     const SHARED: usize = 128;
     let found = record_capacity.max(FOUND_MIN);
-    let lane_contacts = record_capacity + (record_capacity / 8).max(64);
+    let thread_contacts = record_capacity + (record_capacity / 8).max(64);
     let in_tree = |count: fn(&Tree) -> usize| {
         let bodies = paired_bodies.iter().map(|&body| count(&scene.body(body).tree));
         bodies.max().unwrap_or(0)
@@ -40,11 +40,11 @@ pub(super) fn limits(
     /// Allowance for rounding each piece up to the arena's grain.
     const GRAINS: usize = 64;
     let per_contact = size_of::<((usize, u32, usize, usize), f64)>();
-    let scratch_bytes = scratch_bytes(SHARED).max(lane_contacts * per_contact) + GRAINS;
+    let scratch_bytes = scratch_bytes(SHARED).max(thread_contacts * per_contact) + GRAINS;
     // Registered laws and the ledger add to the records after the threads have found their contacts.
     let workers = scene.config.workers.as_ref().map_or(0, |settings| settings.workers);
-    let lanes_write_records = workers > 0 && law_state_len == 0 && !scene.config.ledger;
-    Limits { lane_contacts, lanes_write_records, found, arena_bytes, scratch_bytes }
+    let threads_write_records = workers > 0 && law_state_len == 0 && !scene.config.ledger;
+    Limits { thread_contacts, threads_write_records, found, arena_bytes, scratch_bytes }
 }
 
 /// Copies of a thread's records: in the committed contact state, in the next one, in one that a stuck worker
@@ -55,10 +55,10 @@ const RECORDS_OF_A_LANE: usize = 5;
 const BUFFERS_OF_A_WORKER: usize = 2;
 
 /// Minimum memory of a worker, independent of the capacity, bytes.
-pub(super) fn least_lane_bytes(limits: &Limits, law_state_len: usize) -> usize {
+pub(super) fn least_thread_bytes(limits: &Limits, law_state_len: usize) -> usize {
     let contact = size_of::<FrameContact>() + 2 * size_of::<Place>() + law_state_len * size_of::<f64>();
     BUFFERS_OF_A_WORKER * limits.least_worker_contacts() * contact
-        + limits.lane_records()
+        + limits.thread_records()
             * (Records::LANE_BYTES * RECORDS_OF_A_LANE + size_of::<Term>() * BUFFERS_OF_A_WORKER)
         + WorkerContext::table_bytes(limits.found)
 }
@@ -75,8 +75,8 @@ const _: () = {
 
 /// Cause of the refusal if a capacity needs more memory than that; otherwise `None`.
 pub(super) fn too_large(scene: &Scene, wanted: usize, law_state_len: usize) -> Option<String> {
-    let lanes = scene.config.workers.as_ref().map_or(0, |settings| settings.workers.min(MAX_WORKERS) + 1);
-    let each = bytes_per_contact(scene, lanes, law_state_len);
+    let threads = scene.config.workers.as_ref().map_or(0, |settings| settings.workers.min(MAX_WORKERS) + 1);
+    let each = bytes_per_contact(scene, threads, law_state_len);
     let most = ROOM_BYTES_MAX / each;
     (wanted > most).then(|| {
         let gib = wanted as f64 * each as f64 / (1 << 30) as f64;
@@ -88,27 +88,27 @@ pub(super) fn too_large(scene: &Scene, wanted: usize, law_state_len: usize) -> O
     })
 }
 
-/// Memory per contact of the capacity in all buffers, bytes; `lanes` is the number of threads including the
+/// Memory per contact of the capacity in all buffers, bytes; `threads` is the number of threads including the
 /// caller, or 0 without workers.
-pub(super) fn bytes_per_contact(scene: &Scene, lanes: usize, law_state_len: usize) -> usize {
+pub(super) fn bytes_per_contact(scene: &Scene, threads: usize, law_state_len: usize) -> usize {
     /// Equal capacities for contacts that push and for those only remembered.
     const RECORDS: usize = 2;
     let numbers = law_state_len * size_of::<f64>();
     // The committed contact state, the next one, and one that a stuck worker may still read.
-    let states = if lanes > 0 { 3 } else { 2 };
+    let states = if threads > 0 { 3 } else { 2 };
     let energies = ContactEnergies::bytes_each(scene.config.accounts);
-    let in_lanes = if lanes > 0 { size_of::<Slot>() } else { 0 };
-    let remembered = states * (Records::BYTES + in_lanes + numbers + energies) + energies + energies / 8;
+    let by_thread = if threads > 0 { size_of::<Slot>() } else { 0 };
+    let remembered = states * (Records::BYTES + by_thread + numbers + energies) + energies + energies / 8;
     // A thread's contacts (an eighth more than records), their references, ranks and order, and the scratch
     // for rays and ledger.
     let per_contact =
         size_of::<((usize, u32, usize, usize), f64)>() + 2 * size_of::<Place>() + size_of::<u32>();
-    let lane = size_of::<FrameContact>() + numbers + per_contact;
+    let thread = size_of::<FrameContact>() + numbers + per_contact;
     let found = WorkerContext::BYTES_PER_FOUND;
     // The buffers of all workers together hold twice the caller's.
     let shared =
-        if lanes > 0 { 2 * BUFFERS_OF_A_WORKER * (lane + lane / 8) + (lanes - 1) * found } else { 0 };
-    RECORDS * (remembered + lane + lane / 8 + found + shared)
+        if threads > 0 { 2 * BUFFERS_OF_A_WORKER * (thread + thread / 8) + (threads - 1) * found } else { 0 };
+    RECORDS * (remembered + thread + thread / 8 + found + shared)
 }
 
 /// Number of contacts if everything that can touch did, by the tester table.

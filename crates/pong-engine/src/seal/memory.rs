@@ -5,7 +5,7 @@
 //! freed. This is done twice: for data per pair of movable groups, before they are listed, and for the
 //! frames, once their limits are known.
 
-use super::limits::{bytes_per_contact, least_lane_bytes};
+use super::limits::{bytes_per_contact, least_thread_bytes};
 use crate::energy::account::WrenchCoupling;
 use crate::energy::episodes::PairEnergy;
 use crate::energy::ledger::LedgerEntry;
@@ -91,19 +91,19 @@ pub(super) fn for_frames(
     stride: usize,
 ) -> usize {
     let workers = scene.config.workers.as_ref().map_or(0, |settings| settings.workers.min(MAX_WORKERS));
-    let lanes = scene.config.workers.as_ref().map_or(0, |_| workers + 1);
-    let contacts = capacity.saturating_mul(bytes_per_contact(scene, lanes, stride));
-    let scratch = limits.arena_bytes + limits.scratch_bytes + least_lane_bytes(limits, stride);
+    let threads = scene.config.workers.as_ref().map_or(0, |_| workers + 1);
+    let contacts = capacity.saturating_mul(bytes_per_contact(scene, threads, stride));
+    let scratch = limits.arena_bytes + limits.scratch_bytes + least_thread_bytes(limits, stride);
     let blocks = 2 * ROUND * size_of::<Block>();
     let bodies = scene.bodies.len() * (size_of::<(Pose, Twist)>() + size_of::<Wrench>());
     let committed =
-        (2 + usize::from(lanes > 0)) * CommittedPoses::bytes(scene.bodies.len(), scene.pairs.len());
-    let motions = (1 + usize::from(lanes > 0)) * pairs.min(MOTIONS_AT_ONCE) * size_of::<PairMotions>();
+        (2 + usize::from(threads > 0)) * CommittedPoses::bytes(scene.bodies.len(), scene.pairs.len());
+    let motions = (1 + usize::from(threads > 0)) * pairs.min(MOTIONS_AT_ONCE) * size_of::<PairMotions>();
     let near = NearPairs::bytes(pairs, scene.bodies.len());
     let sum = pairs
         .saturating_mul(per_pair(scene))
         .saturating_add(contacts)
-        .saturating_add(lanes.max(1).saturating_mul(scratch))
+        .saturating_add(threads.max(1).saturating_mul(scratch))
         .saturating_add(workers * STACK + blocks + bodies + committed + motions + near + SLACK);
     // The allocator rounds every piece up.
     sum.saturating_add(sum / 16)

@@ -9,9 +9,9 @@ const LEAST_WORKER_CONTACTS: usize = 4096;
 pub(crate) struct Limits {
     /// Capacity in contacts of the calling thread: all that a frame may keep, plus a reserve from which the
     /// deepest are selected.
-    pub lane_contacts: usize,
+    pub thread_contacts: usize,
     /// True if each thread writes the records of its contacts, instead of the commit writing all.
-    pub lanes_write_records: bool,
+    pub threads_write_records: bool,
     /// Capacity in candidates of one chunk of A.
     pub found: usize,
     /// Arena of the testers of a block, bytes.
@@ -23,18 +23,18 @@ pub(crate) struct Limits {
 impl Limits {
     /// Capacity in contacts of one of several threads. A thread that exceeds it leaves the frame to the
     /// caller alone, so an uneven split of the work must be rare but is allowed.
-    pub fn worker_contacts(&self, lanes: usize) -> usize {
-        self.lane_contacts.min((2 * self.lane_contacts / lanes).max(LEAST_WORKER_CONTACTS))
+    pub fn worker_contacts(&self, threads: usize) -> usize {
+        self.thread_contacts.min((2 * self.thread_contacts / threads).max(LEAST_WORKER_CONTACTS))
     }
 
     /// Minimum capacity in contacts of a worker.
     pub fn least_worker_contacts(&self) -> usize {
-        self.lane_contacts.min(LEAST_WORKER_CONTACTS)
+        self.thread_contacts.min(LEAST_WORKER_CONTACTS)
     }
 
     /// Records that each thread, including the caller, writes itself. With more contacts, the commit costs far
     /// more than the cache-line transfers between cores that this saves.
-    pub fn lane_records(&self) -> usize {
-        if self.lanes_write_records { self.least_worker_contacts() } else { 0 }
+    pub fn thread_records(&self) -> usize {
+        if self.threads_write_records { self.least_worker_contacts() } else { 0 }
     }
 }

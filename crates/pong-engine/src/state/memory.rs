@@ -62,8 +62,8 @@ impl ContactMemory {
     }
 
     /// Adds one record table of capacity `each` per thread.
-    pub fn with_lanes(self, lanes: usize, each: usize) -> Self {
-        Self { records: self.records.with_lanes(lanes, each), ..self }
+    pub fn with_threads(self, threads: usize, each: usize) -> Self {
+        Self { records: self.records.with_threads(threads, each), ..self }
     }
 
     /// Adds the energies.

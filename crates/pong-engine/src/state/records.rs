@@ -25,7 +25,7 @@ pub(crate) struct Records {
     slots: Table<Slot>,
     in_order: Table<ContactRecord>,
     /// Records per thread.
-    lanes: Vec<Table<ContactRecord>>,
+    threads: Vec<Table<ContactRecord>>,
 }
 
 /// Index range of the records of one key or high word. Compact, because each contact of a frame stores one or
@@ -95,16 +95,16 @@ impl Records {
             hints_used: HINTS_MIN,
             slots: Table::default(),
             in_order: Table::with_capacity(capacity, ContactRecord::blank()),
-            lanes: Vec::new(),
+            threads: Vec::new(),
         }
     }
 
-    /// Adds record tables for `lanes` threads, `each` records in each.
-    pub fn with_lanes(mut self, lanes: usize, each: usize) -> Self {
-        if lanes > 0 && each > 0 {
+    /// Adds record tables for `threads` threads, `each` records in each.
+    pub fn with_threads(mut self, threads: usize, each: usize) -> Self {
+        if threads > 0 && each > 0 {
             self.slots = Table::with_capacity(self.capacity(), Slot::NOWHERE);
-            let lane = || Table::with_capacity(each, ContactRecord::blank());
-            self.lanes.extend(std::iter::repeat_with(lane).take(lanes));
+            let thread = || Table::with_capacity(each, ContactRecord::blank());
+            self.threads.extend(std::iter::repeat_with(thread).take(threads));
         }
         self
     }
@@ -126,7 +126,7 @@ impl Records {
     }
 
     /// Returns true if the records are in the threads' tables.
-    pub fn in_lanes(&self) -> bool {
+    pub fn by_thread(&self) -> bool {
         !self.slots.is_empty()
     }
 
@@ -147,7 +147,7 @@ impl Records {
     /// [`Full`] if there is no room; the records are unchanged.
     #[inline(always)]
     pub fn push_with(&mut self, write: impl FnOnce(&mut ContactRecord)) -> Result<(), Full> {
-        debug_assert!(!self.in_lanes(), "records of lanes are whole");
+        debug_assert!(!self.by_thread(), "records of threads are whole");
         let record = self.in_order.slot()?;
         write(record);
         let head = record.key.head();
@@ -176,11 +176,11 @@ impl Records {
 
     /// Uses the records in the threads' tables, given their high words and slots in key order. Returns false,
     /// and holds no record, if there are no such tables or if records of one high word are not contiguous.
-    /// The caller swaps the [tables](Self::lane_mut).
+    /// The caller swaps the [tables](Self::thread_mut).
     #[inline]
     pub fn adopt(&mut self, written: impl Iterator<Item = (u64, Slot)>) -> bool {
         self.clear();
-        if self.lanes.is_empty() {
+        if self.threads.is_empty() {
             return false;
         }
         let mut last = None;
@@ -198,8 +198,8 @@ impl Records {
     }
 
     /// Record table of a thread.
-    pub fn lane_mut(&mut self, lane: usize) -> &mut Table<ContactRecord> {
-        &mut self.lanes[lane]
+    pub fn thread_mut(&mut self, thread: usize) -> &mut Table<ContactRecord> {
+        &mut self.threads[thread]
     }
 
     /// Drops all records.
@@ -294,15 +294,15 @@ impl Records {
     /// Table that holds a slot.
     #[inline]
     fn table(&self, slot: Slot) -> &[ContactRecord] {
-        match slot.lane() {
+        match slot.thread() {
             IN_ORDER => &self.in_order,
-            lane => &self.lanes[lane],
+            thread => &self.threads[thread],
         }
     }
 
     #[inline]
     fn slot(&self, index: usize) -> Slot {
-        if self.in_lanes() { self.slots[index] } else { Slot::new(IN_ORDER, index) }
+        if self.by_thread() { self.slots[index] } else { Slot::new(IN_ORDER, index) }
     }
 }
 
@@ -321,9 +321,9 @@ impl IndexMut<usize> for Records {
     #[inline]
     fn index_mut(&mut self, index: usize) -> &mut ContactRecord {
         let slot = self.slot(index);
-        let table = match slot.lane() {
+        let table = match slot.thread() {
             IN_ORDER => &mut self.in_order,
-            lane => &mut self.lanes[lane],
+            thread => &mut self.threads[thread],
         };
         &mut table[slot.index()]
     }

@@ -22,12 +22,12 @@ impl Slot {
     pub const NOWHERE: Self = Self(u32::MAX);
 
     #[inline]
-    pub const fn new(lane: usize, index: usize) -> Self {
-        Self((lane << INDEX_BITS | index) as u32)
+    pub const fn new(thread: usize, index: usize) -> Self {
+        Self((thread << INDEX_BITS | index) as u32)
     }
 
     #[inline]
-    pub const fn lane(self) -> usize {
+    pub const fn thread(self) -> usize {
         (self.0 >> INDEX_BITS) as usize
     }
 
@@ -49,9 +49,9 @@ mod tests {
 
     #[test]
     fn a_slot_tells_the_lane_and_the_index_that_it_was_made_of() {
-        for (lane, index) in [(0, 0), (0, Slot::INDICES - 1), (1, 0), (MAX_WORKERS, 9)] {
-            let slot = Slot::new(lane, index);
-            assert_eq!((slot.lane(), slot.index()), (lane, index));
+        for (thread, index) in [(0, 0), (0, Slot::INDICES - 1), (1, 0), (MAX_WORKERS, 9)] {
+            let slot = Slot::new(thread, index);
+            assert_eq!((slot.thread(), slot.index()), (thread, index));
             assert_ne!(slot, Slot::NOWHERE);
         }
         assert_eq!(Slot::new(3, 7).next(), Slot::new(3, 8));

@@ -393,33 +393,33 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
 /// Each thread writes the contacts of some high words, in any order; some threads write none, and some
 /// records are left out.
 #[test]
-fn records_that_lanes_have_written_are_those_that_stand_in_order() {
+fn records_by_thread_equal_records_in_order() {
     const LANES: usize = 3;
     let mut random = Random(5);
     for case in 0..100 {
         let expected = memory_of(&mut random, CAPACITY, 0);
         let mut memory = ContactMemory::with_capacity(poses_of(&mut random), GROUP_PAIRS, CAPACITY, 0)
-            .with_lanes(LANES, 2 * CAPACITY);
+            .with_threads(LANES, 2 * CAPACITY);
         let in_order: Vec<ContactRecord> = expected.records.iter().copied().collect();
         let mut groups: Vec<&[ContactRecord]> =
             in_order.chunk_by(|a, b| a.key.head() == b.key.head()).collect();
-        let mut lanes = vec![Vec::new(); LANES];
+        let mut threads = vec![Vec::new(); LANES];
         let mut written = Vec::new();
         while !groups.is_empty() {
             let group = groups.swap_remove(random.below(groups.len()));
-            let lane = random.below(if case % 2 == 0 { LANES } else { 1 });
+            let thread = random.below(if case % 2 == 0 { LANES } else { 1 });
             if random.below(4) == 0 {
-                lanes[lane].push(record_of(&mut random));
+                threads[thread].push(record_of(&mut random));
             }
             for record in group {
-                written.push((record.key, Slot::new(lane, lanes[lane].len())));
-                lanes[lane].push(*record);
+                written.push((record.key, Slot::new(thread, threads[thread].len())));
+                threads[thread].push(*record);
             }
         }
         written.sort_by_key(|(key, _)| *key);
         assert!(memory.records.adopt(written.iter().map(|(key, place)| (key.head(), *place))));
-        for (lane, records) in lanes.iter().enumerate() {
-            records.iter().for_each(|record| memory.records.lane_mut(lane).push(*record).unwrap());
+        for (thread, records) in threads.iter().enumerate() {
+            records.iter().for_each(|record| memory.records.thread_mut(thread).push(*record).unwrap());
         }
 
         assert!(memory.records == expected.records);

@@ -2,7 +2,7 @@
 
 use super::World;
 use crate::report::{Clock, MemoryReport, StageTimes, WorkTimes};
-use pong_threads::{LaneWork, WorkerStart};
+use pong_threads::{ThreadWork, WorkerStart};
 
 impl World {
     /// Gives the world another clock, in ns, for the stages of its frames
@@ -37,14 +37,14 @@ impl World {
     }
 
     /// Work of the calling thread (first) and of each worker in the last shared round. Empty without workers.
-    pub fn lane_work(&self) -> impl Iterator<Item = LaneWork> + '_ {
-        self.runtime.lane_work()
+    pub fn thread_work(&self) -> impl Iterator<Item = ThreadWork> + '_ {
+        self.runtime.thread_work()
     }
 
     /// Times of the last frame's contact stage on the calling thread (first) and on each worker, by part.
     /// Zero without a clock. Rounds that the calling thread repeated alone count only for it.
-    pub fn lane_times(&self) -> impl Iterator<Item = WorkTimes> + '_ {
-        self.runtime.lane_times()
+    pub fn thread_times(&self) -> impl Iterator<Item = WorkTimes> + '_ {
+        self.runtime.thread_times()
     }
 
     /// Number of rounds since the seal that the calling thread ran alone because a worker timed out, or was

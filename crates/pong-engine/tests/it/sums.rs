@@ -65,7 +65,7 @@ fn object_of(stage: &Stage<'_>, group: InterfaceId) -> String {
 }
 
 fn is_shared(stage: &Stage<'_>) -> bool {
-    stage.world.lane_work().skip(1).any(|lane| lane.blocks > 0)
+    stage.world.thread_work().skip(1).any(|lane| lane.blocks > 0)
 }
 
 /// A compensated sum (A. Neumaier, Z. Angew. Math. Mech. 54 (1974) 39).

@@ -24,7 +24,7 @@ const WORLDS: usize = 200;
 
 /// Checks that all times are reported and add up.
 fn must_add_up(scene: &stage::Scene, workers: Option<WorkerSettings>) {
-    let lanes = workers.as_ref().map_or(1, |settings| settings.workers + 1);
+    let threads = workers.as_ref().map_or(1, |settings| settings.workers + 1);
     let mut whole = WorkTimes::default();
     let (mut on_workers, mut in_parts, mut in_stage) = (0, 0, 0);
     'worlds: for _ in 0..WORLDS {
@@ -34,24 +34,24 @@ fn must_add_up(scene: &stage::Scene, workers: Option<WorkerSettings>) {
         for frame in 0..scene.frames {
             stage.step(frame);
             let times = stage.world.stage_times();
-            let by_lane: Vec<_> = stage.world.lane_times().collect();
-            assert_eq!(by_lane.len(), lanes);
+            let by_thread: Vec<_> = stage.world.thread_times().collect();
+            assert_eq!(by_thread.len(), threads);
             for work in Work::ALL {
-                let sum: u64 = by_lane.iter().map(|lane| lane.of(work)).sum();
+                let sum: u64 = by_thread.iter().map(|thread| thread.of(work)).sum();
                 assert_eq!(sum, times.work.of(work), "{}, {}, frame {frame}", scene.name, work.name());
             }
             whole = if times.work.of(Work::Forces) > whole.of(Work::Forces) { times.work } else { whole };
-            on_workers += by_lane[1..].iter().map(WorkTimes::sum).sum::<u64>();
+            on_workers += by_thread[1..].iter().map(WorkTimes::sum).sum::<u64>();
             (in_parts, in_stage) = (in_parts + times.work.sum(), in_stage + times.of(Part::Contacts));
             let all_told = Part::ALL.iter().all(|part| times.of(*part) > 0);
             assert!(all_told, "{}, frame {frame}: {times:?}", scene.name);
-            if frame >= 20 && whole.of(Work::Forces) > 0 && (lanes == 1 || on_workers > 0) {
+            if frame >= 20 && whole.of(Work::Forces) > 0 && (threads == 1 || on_workers > 0) {
                 break 'worlds;
             }
         }
     }
     assert!(Work::ALL.iter().all(|work| whole.of(*work) > 0), "{}: {whole:?}", scene.name);
-    match lanes {
+    match threads {
         // One tick per block, at its start, belongs to no part.
         1 => {
             assert!(in_parts <= in_stage && 2 * in_parts > in_stage, "{}: {in_parts} {in_stage}", scene.name)

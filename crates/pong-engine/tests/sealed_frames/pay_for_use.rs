@@ -151,8 +151,8 @@ fn what_nobody_asked_for_is_not_measured() {
     let mut stage = scene.set_up(None);
     stage.step(0);
     assert_eq!(stage.world.stage_times(), StageTimes::default());
-    assert_eq!(stage.world.lane_work().count(), 0);
-    assert_eq!(stage.world.lane_times().collect::<Vec<_>>(), [WorkTimes::default()]);
+    assert_eq!(stage.world.thread_work().count(), 0);
+    assert_eq!(stage.world.thread_times().collect::<Vec<_>>(), [WorkTimes::default()]);
 }
 
 /// Memory depends on what may meet, not on what exists: a model without pairs takes none.

@@ -252,7 +252,7 @@ impl Bench {
             assert!(load.is_finite() && ledger.stored.is_finite());
             assert!(world.memory().contacts_peak >= world.contact_count());
             assert!(world.counts().testers().count() > 0 || world.contact_count() == 0);
-            seen.shared += u32::from(world.lane_work().skip(1).any(|lane| lane.blocks > 0));
+            seen.shared += u32::from(world.thread_work().skip(1).any(|lane| lane.blocks > 0));
             seen.frames += 1;
             seen.limited += u32::from(report.status.leaves_contacts_out());
             seen.empty += u32::from(world.contact_count() == 0);

@@ -446,7 +446,7 @@ fn check_batch(body: &MovableGroup, batch: &pong_model::Batch) {
                 .boxes
                 .narrowed(&ball.center.add_scalar(-ball.radius), &ball.center.add_scalar(ball.radius));
             assert!(node.boxes.lane(lane).join(&one) == node.boxes.lane(lane), "{item:?}");
-            let (eight, lane) = (&batch.balls[place as usize / 8], place as usize % 8);
+            let (eight, lane) = (&batch.spheres[place as usize / 8], place as usize % 8);
             assert_eq!((eight.centers.x[lane], eight.radii[lane]), (ball.center.x, ball.radius));
         }
     });
@@ -468,13 +468,13 @@ fn rods_stand_in_the_lanes_of_their_places() {
         .collect();
     let model = load(&model_of(&rods.join(",\n")));
     let body = &model.bodies[0];
-    let batches = body.tree.batches.iter().filter(|batch| !batch.rods.is_empty());
+    let batches = body.tree.batches.iter().filter(|batch| !batch.segments.is_empty());
     let mut seen = 0;
     for batch in batches {
         let items = &body.tree.items[batch.items.start as usize..batch.items.end as usize];
-        assert_eq!(batch.rods.len(), items.len().div_ceil(8));
-        for place in 0..8 * batch.rods.len() {
-            let (eight, lane) = (&batch.rods[place / 8], place % 8);
+        assert_eq!(batch.segments.len(), items.len().div_ceil(8));
+        for place in 0..8 * batch.segments.len() {
+            let (eight, lane) = (&batch.segments[place / 8], place % 8);
             // Unused lanes repeat the last element.
             let element = items[place.min(items.len() - 1)].element as usize;
             let (ends, radius) = match batch.kind {

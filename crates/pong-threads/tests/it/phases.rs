@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::SeqCst};
 use std::time::Duration;
 
 use crate::common::{Count, patient, start, wait_until};
-use pong_threads::{Grant, Job, LaneWork, Outcome, Settings};
+use pong_threads::{Grant, Job, Outcome, Settings, ThreadWork};
 
 #[test]
 fn every_block_runs_once() {
@@ -18,7 +18,7 @@ fn every_block_runs_once() {
             assert_eq!(pool.run(blocks), Outcome::Complete);
             let expected: Vec<u32> = (0..1000).map(|block| u32::from(block < blocks)).collect();
             assert_eq!(count.take(), expected, "{blocks} blocks, {workers} workers");
-            assert_eq!(pool.work().map(|lane| lane.blocks).sum::<u32>(), blocks);
+            assert_eq!(pool.work().map(|thread| thread.blocks).sum::<u32>(), blocks);
             assert!(pool.is_quiet());
         }
     }
@@ -42,27 +42,27 @@ fn prewake_and_quiesce_at_any_time_change_no_phase() {
 
 /// Job whose blocks end when as many blocks have begun as there are threads, so each thread must get one.
 struct All {
-    lanes: u32,
+    threads: u32,
     begun: AtomicU32,
 }
 
 impl Job for All {
     fn run(&self, _block: u32, _lane: usize) {
         self.begun.fetch_add(1, SeqCst);
-        wait_until("all lanes have a block", || self.begun.load(SeqCst) >= self.lanes);
+        wait_until("all threads have a block", || self.begun.load(SeqCst) >= self.threads);
     }
 }
 
 #[test]
 fn sleeping_workers_are_woken_as_many_as_there_are_blocks() {
     for workers in [1, 2, 3, 8, 16] {
-        let all = Arc::new(All { lanes: workers + 1, begun: AtomicU32::new(0) });
+        let all = Arc::new(All { threads: workers + 1, begun: AtomicU32::new(0) });
         let mut pool = start(&all, &patient(workers as usize));
         for _ in 0..5 {
             pool.quiesce();
             std::thread::sleep(Duration::from_millis(5));
             assert_eq!(pool.run(workers + 1), Outcome::Complete);
-            assert!(pool.work().all(|lane| lane.blocks == 1));
+            assert!(pool.work().all(|thread| thread.blocks == 1));
             all.begun.store(0, SeqCst);
         }
     }
@@ -87,19 +87,19 @@ fn a_phase_is_shared_with_no_more_workers_than_it_is_opened_to() {
         std::thread::sleep(Duration::from_micros(300));
         let own = &mut |blocks: Range<u32>| blocks.for_each(|block| Slow.run(block, 0));
         assert_eq!(pool.run_beside(24, invited, own), Outcome::Complete);
-        let by_lane: Vec<u32> = pool.work().map(|lane| lane.blocks).collect();
+        let by_lane: Vec<u32> = pool.work().map(|thread| thread.blocks).collect();
         assert_eq!(by_lane.iter().sum::<u32>(), 24, "{invited} of {by_lane:?}");
         assert!(by_lane.iter().skip(1 + invited).all(|&blocks| blocks == 0), "{invited} of {by_lane:?}");
         assert!(pool.is_quiet());
     }
-    let all = Arc::new(All { lanes: 3, begun: AtomicU32::new(0) });
+    let all = Arc::new(All { threads: 3, begun: AtomicU32::new(0) });
     let mut pool = start(&all, &patient(5));
     for _ in 0..5 {
         pool.quiesce();
         std::thread::sleep(Duration::from_millis(2));
         let own = &mut |blocks: Range<u32>| blocks.for_each(|block| all.run(block, 0));
         assert_eq!(pool.run_beside(3, 2, own), Outcome::Complete);
-        let by_lane: Vec<u32> = pool.work().map(|lane| lane.blocks).collect();
+        let by_lane: Vec<u32> = pool.work().map(|thread| thread.blocks).collect();
         assert_eq!(by_lane, [1, 1, 1, 0, 0, 0], "the first two of five that sleep are woken");
         all.begun.store(0, SeqCst);
     }
@@ -119,7 +119,7 @@ fn pinned_workers_tell_their_cores() {
     for report in pool.start_report() {
         println!("{report}");
     }
-    assert_eq!(pool.start_report().iter().map(|worker| worker.lane).collect::<Vec<_>>(), [1, 2]);
+    assert_eq!(pool.start_report().iter().map(|worker| worker.thread).collect::<Vec<_>>(), [1, 2]);
     assert!(pool.start_report().iter().all(|worker| worker.core != Grant::NotAsked));
     assert_eq!(pool.run(50), Outcome::Complete);
     assert_eq!(count.take(), [1; 50]);
@@ -143,9 +143,9 @@ fn busy_time_is_told_by_the_clock_of_the_host() {
     }
     let mut pool = start(&Count::new(40), &Settings { clock: Some(one_more), ..patient(2) });
     assert_eq!(pool.run(40), Outcome::Complete);
-    let work: Vec<LaneWork> = pool.work().collect();
+    let work: Vec<ThreadWork> = pool.work().collect();
     assert_eq!(work.len(), 3);
-    assert!(work.iter().all(|lane| (lane.busy_ns > 0) == (lane.blocks > 0)), "{work:?}");
+    assert!(work.iter().all(|thread| (thread.busy_ns > 0) == (thread.blocks > 0)), "{work:?}");
 }
 
 #[test]

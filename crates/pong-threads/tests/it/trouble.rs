@@ -17,7 +17,7 @@ struct Hang {
     held: AtomicBool,
     hanging: AtomicU32,
     runs: [AtomicU32; 8],
-    lane_blocks: [AtomicU32; 4],
+    thread_blocks: [AtomicU32; 4],
 }
 
 impl Hang {
@@ -26,7 +26,7 @@ impl Hang {
             held: AtomicBool::new(true),
             hanging: AtomicU32::new(0),
             runs: Default::default(),
-            lane_blocks: Default::default(),
+            thread_blocks: Default::default(),
         })
     }
 
@@ -50,14 +50,14 @@ impl Hang {
 }
 
 impl Job for Hang {
-    fn run(&self, block: u32, lane: usize) {
-        if lane == 0 {
+    fn run(&self, block: u32, thread: usize) {
+        if thread == 0 {
             wait_until("a worker hangs", || self.hanging() == 1 || !self.held.load(SeqCst));
         } else if self.held.load(SeqCst) && self.hanging() == 0 {
             self.hang();
         }
         self.runs[block as usize].fetch_add(1, SeqCst);
-        self.lane_blocks[lane].fetch_add(1, SeqCst);
+        self.thread_blocks[thread].fetch_add(1, SeqCst);
     }
 }
 
@@ -74,14 +74,14 @@ fn a_worker_that_hangs_costs_one_phase_and_is_used_again_when_it_returns() {
     for _ in 0..100 {
         assert_eq!(pool.run(8), Outcome::Complete, "the caller alone");
         assert_eq!(hang.take(), [1; 8]);
-        assert_eq!(pool.work().map(|lane| lane.blocks).collect::<Vec<_>>(), [8, 0]);
+        assert_eq!(pool.work().map(|thread| thread.blocks).collect::<Vec<_>>(), [8, 0]);
         assert!(!pool.is_quiet());
     }
 
     hang.held.store(false, SeqCst);
     wait_until("the worker is back", || pool.is_quiet());
     assert_eq!(hang.take().iter().sum::<u32>(), 2, "the abandoned blocks themselves");
-    let before = hang.lane_blocks[1].load(SeqCst);
+    let before = hang.thread_blocks[1].load(SeqCst);
     wait_until_used_again(&mut pool, &hang, before);
 }
 
@@ -93,7 +93,7 @@ fn wait_until_used_again(pool: &mut pong_threads::Pool, hang: &Hang, before: u32
             wait_until("a slow worker is back", || pool.is_quiet());
         }
         assert_eq!(hang.take(), [1; 8]);
-        if hang.lane_blocks[1].load(SeqCst) > before {
+        if hang.thread_blocks[1].load(SeqCst) > before {
             return;
         }
     }
@@ -109,7 +109,7 @@ fn other_workers_go_on_while_one_hangs() {
     let mut others = 0;
     for _ in 0..1_000_000 {
         let outcome = pool.run(8);
-        let work: Vec<u32> = pool.work().map(|lane| lane.blocks).collect();
+        let work: Vec<u32> = pool.work().map(|thread| thread.blocks).collect();
         others += work[1..].iter().filter(|blocks| **blocks > 0).count();
         assert_eq!(work.iter().sum::<u32>() == 8, outcome == Outcome::Complete);
         if others > 100 {
@@ -201,9 +201,9 @@ fn a_panic_on_a_worker_goes_on_in_the_caller_and_the_pool_lives() {
 fn a_panic_on_the_caller_closes_the_phase() {
     struct Throws(AtomicU32);
     impl Job for Throws {
-        fn run(&self, _block: u32, lane: usize) {
+        fn run(&self, _block: u32, thread: usize) {
             self.0.fetch_add(1, SeqCst);
-            assert!(lane != 0, "thrown on the caller");
+            assert!(thread != 0, "thrown on the caller");
             std::thread::sleep(Duration::from_millis(1));
         }
     }

@@ -29,7 +29,7 @@ pub(crate) struct Chunk<'a> {
     carried: &'a [TransformedPrimitive],
     boxes: &'a LaneBoxes,
     /// Bounding spheres of spheres and ellipsoids that may meet triangles.
-    balls: Option<&'a LaneBalls>,
+    spheres: Option<&'a SphereLaneSpace>,
 }
 
 /// Data shared by the chunks of a block, before the transformation into B's frame.
@@ -51,7 +51,7 @@ pub(crate) struct ChunkSpace {
     centers: Lanes,
     ends: [Lanes; 2],
     boxes: LaneBoxes,
-    balls: LaneBalls,
+    spheres: SphereLaneSpace,
     /// Elements of the kinds that are transformed one by one.
     carried: Table<TransformedPrimitive>,
 }
@@ -65,7 +65,7 @@ impl ChunkSpace {
             centers: Lanes::ORIGIN,
             ends: [Lanes::ORIGIN; 2],
             boxes: LaneBoxes { low: [[0.0; LANES]; 3], high: [[0.0; LANES]; 3] },
-            balls: LaneBalls { centers: [[0.0; LANES]; 3], squares: [0.0; LANES], first_radius: 0.0 },
+            spheres: SphereLaneSpace { centers: [[0.0; LANES]; 3], squares: [0.0; LANES], first_radius: 0.0 },
             carried: Table::with_capacity(LANES, TransformedPrimitive::NOTHING),
         }
     }
@@ -93,25 +93,25 @@ impl<'a> ChunksOfA<'a> {
         let Self { kind, body, batch, items, x_ba, meets_triangles } = *self;
         let items = &items[first as usize..];
         let items = &items[..items.len().min(LANES)];
-        let ChunkSpace { centers, ends, boxes, balls, carried } = space;
+        let ChunkSpace { centers, ends, boxes, spheres, carried } = space;
         let mut radii = &[0.0; LANES];
         let mut own_centers = None;
         let chunk = first as usize / LANES;
         // Chunks stored in lanes leave the list of single elements untouched.
         let mut each: &[TransformedPrimitive] = &[];
-        match (batch.balls.get(chunk), batch.rods.get(chunk)) {
-            (Some(balls), _) => {
-                balls.centers.carry_in(simd, x_ba, centers);
-                radii = &balls.radii;
-                own_centers = Some(&balls.centers);
+        match (batch.spheres.get(chunk), batch.segments.get(chunk)) {
+            (Some(spheres), _) => {
+                spheres.centers.carry_in(simd, x_ba, centers);
+                radii = &spheres.radii;
+                own_centers = Some(&spheres.centers);
                 if !alone {
                     boxes.set_to_balls(simd, centers, radii);
                 }
             }
-            (None, Some(rods)) => {
-                rods.ends[0].carry_in(simd, x_ba, &mut ends[0]);
-                rods.ends[1].carry_in(simd, x_ba, &mut ends[1]);
-                radii = &rods.radii;
+            (None, Some(segments)) => {
+                segments.ends[0].carry_in(simd, x_ba, &mut ends[0]);
+                segments.ends[1].carry_in(simd, x_ba, &mut ends[1]);
+                radii = &segments.radii;
                 boxes.set_to_rods(simd, ends, radii);
             }
             (None, None) => {
@@ -125,12 +125,12 @@ impl<'a> ChunksOfA<'a> {
                 each = carried;
             }
         }
-        let balls = match kind {
-            PrimitiveKind::Sphere if meets_triangles && !alone => Some(balls.set(centers, radii)),
-            PrimitiveKind::Ellipsoid if meets_triangles => Some(balls.set_around(each)),
+        let spheres = match kind {
+            PrimitiveKind::Sphere if meets_triangles && !alone => Some(spheres.set(centers, radii)),
+            PrimitiveKind::Ellipsoid if meets_triangles => Some(spheres.set_around(each)),
             _ => None,
         };
-        Chunk { kind, items, own_centers, centers, ends, radii, carried: each, boxes, balls }
+        Chunk { kind, items, own_centers, centers, ends, radii, carried: each, boxes, spheres }
     }
 }
 
@@ -145,7 +145,7 @@ pub(crate) struct WideBox {
 // Eight f64 fill one cache line; an unaligned array would need two loads.
 #[derive(Debug)]
 #[repr(align(64))]
-struct LaneBalls {
+struct SphereLaneSpace {
     centers: [[f64; LANES]; 3],
     /// Squared radii, m². Stored, not computed on use: a compiler may hoist the squaring out of a branch,
     /// where the values of a chunk without spheres could overflow.
@@ -155,7 +155,7 @@ struct LaneBalls {
 }
 
 /// One box per lane in B's frame, m. Results of unused lanes are masked; their boxes never widen a union.
-// Aligned for the same reason as `LaneBalls`.
+// Aligned for the same reason as `SphereLaneSpace`.
 #[derive(Debug)]
 #[repr(align(64))]
 pub(crate) struct LaneBoxes {
@@ -168,8 +168,8 @@ impl Chunk<'_> {
     #[inline(always)]
     pub fn reach<S: Simd>(&self, simd: S, box_b: &WideBox) -> LaneBits {
         let near = self.boxes.met_by(simd, box_b) & self.used();
-        match &self.balls {
-            Some(balls) if near != 0 => near & balls.reach(simd, box_b),
+        match &self.spheres {
+            Some(spheres) if near != 0 => near & spheres.reach(simd, box_b),
             _ => near,
         }
     }
@@ -199,7 +199,7 @@ impl Chunk<'_> {
             let (center, radius) = self.lone_sphere();
             return Some(tree.narrowed_ball(&center, radius));
         }
-        self.balls.map(|balls| balls.first_narrowed(tree))
+        self.spheres.map(|spheres| spheres.first_narrowed(tree))
     }
 
     /// Centre and radius with a rounding margin, m.
@@ -417,7 +417,7 @@ impl LaneBoxes {
     }
 }
 
-impl LaneBalls {
+impl SphereLaneSpace {
     #[inline(always)]
     fn set(&mut self, centers: &Lanes, radii: &[f64; LANES]) -> &Self {
         let with_room = |lane: usize| radius_with_room(&centers.get(lane), radii[lane]);
@@ -555,8 +555,8 @@ mod tests {
             let x_ba = Pose::new(random.vector(100.0 * size), [0.3, -0.7, 0.5, 0.4]).transform();
             let mut ends = [Lanes::ORIGIN; 2];
             let mut radii = [0.0; LANES];
-            let rods = [0; LANES].map(|_| [random.vector(size), random.vector(size)]);
-            for (lane, rod) in rods.iter().enumerate() {
+            let segments = [0; LANES].map(|_| [random.vector(size), random.vector(size)]);
+            for (lane, rod) in segments.iter().enumerate() {
                 radii[lane] = if case % 2 == 0 { 0.0 } else { random.between(0.0, size) };
                 (0..2).for_each(|end| ends[end].set(lane, &x_ba.point(&rod[end])));
             }

@@ -31,7 +31,7 @@ impl EnergyBuffers {
             work: 0.0,
             dissipated: 0.0,
             added: vec![LedgerEntry::default(); pairs],
-            contacts: ContactEnergies::with_capacity(sealed.coupling, sealed.limits.lane_contacts),
+            contacts: ContactEnergies::with_capacity(sealed.coupling, sealed.limits.thread_contacts),
             pairs: PairEnergies::new(sealed.account_pairs(), sealed.delay()),
             intervals: vec![Interval::default(); sealed.account_pairs()],
         }

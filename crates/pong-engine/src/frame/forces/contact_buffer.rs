@@ -18,7 +18,7 @@ use std::mem::swap;
 #[derive(Debug)]
 pub(crate) struct ContactBuffer {
     /// Thread index; 0 is the caller.
-    lane: usize,
+    thread: usize,
     /// Phase of the contents, or [`Self::NO_PHASE`].
     pub phase: u64,
     /// Contacts, unordered.
@@ -92,20 +92,20 @@ impl ContactBuffer {
 
     /// Allocates room for this many contacts and records. The caller's buffer also gets room to rank contacts
     /// by depth, to keep the deepest if there are too many.
-    pub fn new(lane: usize, law_state_len: usize, contacts: usize, records: usize) -> Self {
+    pub fn new(thread: usize, law_state_len: usize, contacts: usize, records: usize) -> Self {
         Self {
-            lane,
+            thread,
             phase: Self::NO_PHASE,
             contacts: Table::with_capacity(contacts, FrameContact::blank()),
             places: Table::with_capacity(contacts, Place::NOWHERE),
-            told_places: Table::with_capacity(if lane > 0 { contacts } else { 0 }, Place::NOWHERE),
-            terms: Table::with_capacity(if lane > 0 { records } else { 0 }, Term::nothing()),
+            told_places: Table::with_capacity(if thread > 0 { contacts } else { 0 }, Place::NOWHERE),
+            terms: Table::with_capacity(if thread > 0 { records } else { 0 }, Term::nothing()),
             records: Table::with_capacity(records, ContactRecord::blank()),
             bristles: WaitingBristles::new(),
             law_state: Table::with_capacity(contacts * law_state_len, 0.0),
             law_state_len,
-            ranked: Table::with_capacity(if lane == 0 { contacts } else { 0 }, 0),
-            shares: lane > 0,
+            ranked: Table::with_capacity(if thread == 0 { contacts } else { 0 }, 0),
+            shares: thread > 0,
             demand: CapacityDemand::default(),
             counts: FrameCounts::default(),
             times: WorkTimes::default(),
@@ -125,7 +125,7 @@ impl ContactBuffer {
         self.told_places.clear();
         self.terms.clear();
         self.records.clear();
-        self.shares = self.lane > 0;
+        self.shares = self.thread > 0;
         self.bristles.clear();
         self.law_state.clear();
         self.demand = CapacityDemand::default();
@@ -136,7 +136,7 @@ impl ContactBuffer {
     /// Slot of the contact at an index of this buffer.
     #[inline]
     pub fn slot_of(&self, index: usize) -> Slot {
-        Slot::new(self.lane, index)
+        Slot::new(self.thread, index)
     }
 
     /// Returns true if registered friction laws have state.
@@ -220,7 +220,7 @@ impl ContactBuffer {
     /// Moves everything except the counts out of another [finished](Self::finish) buffer of the same thread,
     /// by swapping the tables.
     pub fn take_over(&mut self, other: &mut Self) {
-        debug_assert!(self.lane == other.lane && self.law_state_len == 0);
+        debug_assert!(self.thread == other.thread && self.law_state_len == 0);
         swap(&mut self.contacts, &mut other.contacts);
         swap(&mut self.places, &mut other.told_places);
         swap(&mut self.terms, &mut other.terms);
@@ -317,7 +317,7 @@ impl ContactBuffer {
         ranked.sort_unstable();
         for (to, &from) in ranked.iter().enumerate() {
             self.contacts[to] = self.contacts[from as usize];
-            self.places[to] = self.places[from as usize].at(Slot::new(self.lane, to));
+            self.places[to] = self.places[from as usize].at(Slot::new(self.thread, to));
             let stride = self.law_state_len;
             let from = from as usize * stride;
             self.law_state.as_mut_slice().copy_within(from..from + stride, to * stride);

@@ -15,8 +15,8 @@ pub(crate) struct FoundContacts<'a> {
 
 impl<'a> FoundContacts<'a> {
     #[inline]
-    fn lane(&self, place: &Place) -> &'a ContactBuffer {
-        match place.slot.lane() {
+    fn thread(&self, place: &Place) -> &'a ContactBuffer {
+        match place.slot.thread() {
             0 => self.caller,
             worker => &self.workers[worker - 1],
         }
@@ -24,20 +24,20 @@ impl<'a> FoundContacts<'a> {
 
     #[inline]
     pub fn contact(&self, place: &Place) -> &'a FrameContact {
-        &self.lane(place).contacts[place.slot.index()]
+        &self.thread(place).contacts[place.slot.index()]
     }
 
     /// Wrench contribution of a contact.
     #[inline]
     pub fn term(&self, place: &Place) -> Term {
-        match place.slot.lane() {
+        match place.slot.thread() {
             0 => Term::of(&self.caller.contacts[place.slot.index()]),
             worker => self.workers[worker - 1].terms[place.slot.index()],
         }
     }
 
     /// Buffers of all threads, the caller's first.
-    pub fn lanes(&self) -> impl Iterator<Item = &'a ContactBuffer> + Clone + use<'a> {
+    pub fn threads(&self) -> impl Iterator<Item = &'a ContactBuffer> + Clone + use<'a> {
         std::iter::once(self.caller).chain(self.workers)
     }
 }

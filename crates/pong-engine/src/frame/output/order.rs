@@ -60,8 +60,8 @@ fn list(frame: &mut EvaluationBuffers) {
     let WorkerContext { scratch, out, .. } = &mut **caller;
     let found = FoundContacts { caller: out, workers };
     order.clear();
-    for lane in found.lanes() {
-        order.extend_from_slice(&lane.places).expect("as many places as contacts");
+    for thread in found.threads() {
+        order.extend_from_slice(&thread.places).expect("as many places as contacts");
     }
     if order.len() < WORTH_DIGITS {
         order.sort_unstable_by_key(|place| place.head);

@@ -37,9 +37,9 @@ fn adopt(frame: &mut EvaluationBuffers, next: &mut ContactMemory) -> bool {
     if !next.records.adopt(written) {
         return false;
     }
-    let lanes = std::iter::once(&mut caller.out).chain(workers.iter_mut());
-    for (lane, out) in lanes.enumerate() {
-        std::mem::swap(&mut out.records, next.records.lane_mut(lane));
+    let threads = std::iter::once(&mut caller.out).chain(workers.iter_mut());
+    for (thread, out) in threads.enumerate() {
+        std::mem::swap(&mut out.records, next.records.thread_mut(thread));
         out.records.clear();
     }
     true

@@ -75,10 +75,10 @@ impl Job for Shared {
     }
 
     /// Runs on a worker; the caller runs its blocks in its own context.
-    fn run_neighbors(&self, blocks: Range<u32>, lane: usize) {
+    fn run_neighbors(&self, blocks: Range<u32>, thread: usize) {
         let lent = self.lent.read().unwrap_or_else(PoisonError::into_inner);
         let Lent { input, memory } = &**lent;
-        let mut context = locked(&self.contexts[lane - 1]);
+        let mut context = locked(&self.contexts[thread - 1]);
         if context.out.phase != input.phase {
             context.out.begin(input.phase);
             memory.records.fetch();
@@ -130,7 +130,7 @@ impl WorkerPool {
             sealed: Arc::clone(sealed),
             lent: RwLock::new(Box::new(Lent { input, memory: Arc::clone(nothing) })),
             contexts: (1..=workers)
-                .map(|lane| Mutex::new(Box::new(WorkerContext::new(sealed, lane, contacts))))
+                .map(|thread| Mutex::new(Box::new(WorkerContext::new(sealed, thread, contacts))))
                 .collect(),
         });
         let pool = Pool::start(Arc::clone(&shared) as Arc<dyn Job>, settings)?;
@@ -194,7 +194,7 @@ impl WorkerPool {
         let out = &mut context.out;
         let (mut found, mut overflowed) = (out.contacts.len(), out.demand.overflowed);
         // Skip workers without blocks: even to look at their contexts costs a cache miss.
-        let at_work = || self.pool.work().skip(1).map(|lane| lane.blocks > 0);
+        let at_work = || self.pool.work().skip(1).map(|thread| thread.blocks > 0);
         for (other, _) in self.shared.contexts.iter().zip(at_work()).filter(|(_, at_work)| *at_work) {
             let other = locked(other);
             debug_assert_eq!(other.out.phase, phase);
@@ -242,7 +242,7 @@ impl WorkerPool {
     #[inline]
     pub fn end_frame(&mut self) {
         let Self { pool, worked, trials, .. } = self;
-        trials.end_round(|| *worked && pool.work().skip(1).any(|lane| lane.blocks > 0));
+        trials.end_round(|| *worked && pool.work().skip(1).any(|thread| thread.blocks > 0));
     }
 
     /// Returns true if the workers took part in this frame.

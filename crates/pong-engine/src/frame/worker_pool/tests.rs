@@ -213,11 +213,11 @@ fn compare(change: impl Fn(Config) -> Config, rays: usize) -> SharedFrames {
         };
         assert!(told(&found.frame) == told(&expected.frame), "frame {frame}");
         assert_eq!(found.frame.caller.out.counts, expected.frame.caller.out.counts, "frame {frame}");
-        if found.lane_work().nth(1).is_some_and(|lane| lane.blocks > 0) {
+        if found.thread_work().nth(1).is_some_and(|thread| thread.blocks > 0) {
             shared_frames.by_worker += 1;
             shared_frames.taken_over +=
                 u32::from(found.frame.workers.iter().any(|worker| worker.holds_a_phase()));
-            shared_frames.in_lanes += u32::from(found.memory.records.in_lanes());
+            shared_frames.by_thread += u32::from(found.memory.records.by_thread());
         }
     }
     shared_frames
@@ -231,13 +231,13 @@ struct SharedFrames {
     /// The worker's buffers were swapped in: the round was not abandoned, and there was room.
     taken_over: u32,
     /// The records are in the threads' tables.
-    in_lanes: u32,
+    by_thread: u32,
 }
 
 #[test]
-fn what_lanes_have_written_is_what_one_alone_remembers() {
+fn records_written_by_threads_equal_those_of_one_thread() {
     let shared = compare(|config| config, 0);
-    assert!(shared.taken_over > 0 && shared.in_lanes == shared.taken_over, "{shared:?}");
+    assert!(shared.taken_over > 0 && shared.by_thread == shared.taken_over, "{shared:?}");
 }
 
 /// A ray hits the nearer of the floor and the gate below it.
@@ -250,11 +250,11 @@ fn rays_see_the_same_through_the_eyes_of_all() {
 #[test]
 fn the_same_are_left_out_by_all() {
     let shared = compare(|config| Config { contact_capacity: Some(900), ..config }, 0);
-    assert!(shared.in_lanes < shared.by_worker, "in no frame any was left out");
+    assert!(shared.by_thread < shared.by_worker, "in no frame any was left out");
 }
 
 #[test]
 fn what_the_ledger_adds_is_the_same() {
     let shared = compare(|config| Config { ledger: true, ..config }, 0);
-    assert_eq!(shared.in_lanes, 0);
+    assert_eq!(shared.by_thread, 0);
 }

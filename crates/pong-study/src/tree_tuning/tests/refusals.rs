@@ -27,7 +27,7 @@ fn by_one_bit(ready: &Ready) -> Vec<Arc<Model>> {
     let end = &mut bar.segments[0].ends[0];
     end.z = end.z.next_up();
     // The model also has it in the arrays for vector code.
-    bar.tree.batches[0].rods[0].ends[0].z[0] = end.z;
+    bar.tree.batches[0].segments[0].ends[0].z[0] = end.z;
     models
 }
 

@@ -30,13 +30,13 @@ pub fn start(job: &Arc<impl Job>, settings: &Settings) -> Pool {
 /// Counts how often each block ran, and detects two blocks on one thread at once.
 pub struct Count {
     pub runs: Vec<AtomicU32>,
-    lanes: Vec<AtomicBool>,
+    threads: Vec<AtomicBool>,
 }
 
 impl Count {
     pub fn new(blocks: usize) -> Arc<Count> {
-        let lanes = (0..=pong_threads::MAX_WORKERS).map(|_| AtomicBool::new(false)).collect();
-        Arc::new(Count { runs: (0..blocks).map(|_| AtomicU32::new(0)).collect(), lanes })
+        let threads = (0..=pong_threads::MAX_WORKERS).map(|_| AtomicBool::new(false)).collect();
+        Arc::new(Count { runs: (0..blocks).map(|_| AtomicU32::new(0)).collect(), threads })
     }
 
     pub fn take(&self) -> Vec<u32> {
@@ -45,14 +45,14 @@ impl Count {
 }
 
 impl Job for Count {
-    fn run(&self, block: u32, lane: usize) {
-        if lane == 0 {
+    fn run(&self, block: u32, thread: usize) {
+        if thread == 0 {
             // Yields so that workers get their share, even of short blocks.
             std::thread::yield_now();
         }
-        assert!(!self.lanes[lane].swap(true, SeqCst), "two blocks on lane {lane}");
+        assert!(!self.threads[thread].swap(true, SeqCst), "two blocks on thread {thread}");
         self.runs[block as usize].fetch_add(1, SeqCst);
-        self.lanes[lane].store(false, SeqCst);
+        self.threads[thread].store(false, SeqCst);
     }
 }
 
@@ -70,8 +70,8 @@ impl<F: Fn() + Send + Sync + 'static> Meet<F> {
 }
 
 impl<F: Fn() + Send + Sync + 'static> Job for Meet<F> {
-    fn run(&self, _block: u32, lane: usize) {
-        if lane == 0 {
+    fn run(&self, _block: u32, thread: usize) {
+        if thread == 0 {
             wait_until("a worker takes part", || self.waiting.swap(false, SeqCst));
         } else {
             self.waiting.store(true, SeqCst);
