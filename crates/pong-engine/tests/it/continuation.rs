@@ -571,3 +571,55 @@ fn what_has_no_room_or_no_value_here_is_refused() {
         "{refused}"
     );
 }
+
+/// Pairs with more commit epochs than a world of many Objects has room for are refused, until they are
+/// committed together.
+#[test]
+fn more_commit_epochs_than_there_is_room_for_are_refused() {
+    let names: Vec<String> =
+        ["floor".to_owned()].into_iter().chain((0..9).map(|tip| format!("tip_{tip}"))).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let mut yard = Yard::new(&names);
+    yard.step(&[]);
+    for name in &names[1..] {
+        let pair = pair(&yard.world, "floor", name);
+        yard.world.evaluate().unwrap();
+        yard.world.commit_pairs(&[pair]).unwrap();
+    }
+    // 16,384 poses: of 2,100 movable groups seven epochs, and at least eight.
+    let mut builder = builder_of(ledger(), &names);
+    let newcomer = load(&mut builder, &text_of("tip"));
+    (0..2_100).for_each(|number| _ = builder.create_object(newcomer, &format!("newcomer_{number}")).unwrap());
+    let mut larger = builder.seal().unwrap().0;
+    let refused = larger.continue_from(&yard.world).unwrap_err().to_string();
+    assert!(refused.contains("at 9 different moments") && refused.contains("room for 8"), "{refused}");
+    assert!(refused.contains("commit all pairs at once first") && !larger.has_contact_state(), "{refused}");
+
+    yard.step(&[]);
+    assert_eq!(larger.continue_from(&yard.world).unwrap().pairs, 9);
+}
+
+/// Equal filters continue: the filtered pair of groups stays without contact, the others keep theirs.
+#[test]
+fn equal_filters_go_on() {
+    let filtered = |names: &[&str]| {
+        let mut builder = builder_of(ledger(), names);
+        let [floor, tip] = ["floor", "tip_a"].map(|name| builder.scene().object(name).unwrap());
+        builder.filter(floor, "", tip, "").unwrap();
+        Yard {
+            world: builder.seal().unwrap().0,
+            names: names.iter().map(|name| (*name).to_owned()).collect(),
+        }
+    };
+    let mut yard = filtered(&["floor", "tip_a", "tip_b"]);
+    yard.step(&[("tip_a", tip(0.0)), ("tip_b", tip(1.0))]);
+    yard.step(&[("tip_a", tip(1e-4)), ("tip_b", tip(1.0 + 1e-4))]);
+    let mut larger = filtered(&["tip_0", "floor", "tip_a", "tip_b"]);
+    let carried = larger.world.continue_from(&yard.world).unwrap();
+    assert_eq!((carried.pairs, carried.contacts), (2, 1));
+    for world in [&mut yard, &mut larger] {
+        world.step(&[("tip_a", tip(2e-4)), ("tip_b", tip(1.0 + 2e-4))]);
+        assert_eq!(world.force("tip_a"), Vec3::zeros());
+        assert!((world.force("tip_b").x + BRISTLE * 2e-4).abs() < 1e-9, "{:?}", world.force("tip_b"));
+    }
+}
