@@ -43,13 +43,41 @@ def take(log, output, at_s, eye, target, lens_mm=50.0, size=(800, 450), arrow_m=
     print(f"{output}: {output.stat().st_size / 1e3:.0f} kB")
 
 
+def animate(log, output, start_s, end_s, eye, travel, target, lens_mm, size, fps, speed, arrow_m=0.3):
+    """Writes an animated picture (WebP, with Pillow) of a response log that repeats without end.
+
+    The camera and what it looks at move by `travel`, m, from the first to the last picture. `speed` 0.5 is half as
+    fast as life.
+    """
+    import bpy
+    from mathutils import Vector
+    from PIL import Image
+    from pong_viz.render import still
+
+    count = len(_show(log, start_s, size, arrow_m, 1.0, end_s, fps, speed).film.times)
+    scene = bpy.context.scene
+    scene.render.dither_intensity = 0.0
+    pictures = []
+    with tempfile.TemporaryDirectory() as folder:
+        for number in range(1, count + 1):
+            shift = Vector(travel) * ((number - 1) / max(count - 1, 1))
+            _look(Vector(eye) + shift, Vector(target) + shift, lens_mm)
+            path = pathlib.Path(folder) / f"{number}.png"
+            still(scene, path, number, caption=False)
+            pictures.append(Image.open(path).convert("RGB"))
+    pictures[0].save(
+        output, save_all=True, append_images=pictures[1:], duration=round(1000 / fps), loop=0, quality=72, method=6
+    )
+    print(f"{output}: {len(pictures)} pictures, {output.stat().st_size / 1e3:.0f} kB")
+
+
 def leave():
     """Skips Blender's own exit, which may crash or hang in a module."""
     sys.stdout.flush()
     os._exit(0)
 
 
-def _show(log, at_s, size, arrow_m, alpha):
+def _show(log, at_s, size, arrow_m, alpha, end_s=None, fps=30, speed=1.0):
     import bpy
     from pong_viz.log import Log
     from pong_viz.render import Picture, prepare
@@ -57,8 +85,11 @@ def _show(log, at_s, size, arrow_m, alpha):
 
     bpy.ops.wm.read_factory_settings(use_empty=True)
     prepare(bpy.context.scene, Picture(*size))
-    options = Options(start=at_s, end=at_s + 0.1, arrow_length=arrow_m, alpha=alpha, shapes="all")
-    show(Log(pathlib.Path(log)), options)
+    end_s = at_s + 0.1 if end_s is None else end_s
+    options = Options(
+        fps=fps, speed=speed, start=at_s, end=end_s, arrow_length=arrow_m, alpha=alpha, shapes="all"
+    )
+    return show(Log(pathlib.Path(log)), options)
 
 
 def _look(eye, target, lens_mm):

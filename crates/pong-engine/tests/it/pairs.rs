@@ -310,7 +310,7 @@ fn evaluations_that_are_not_committed_begin_and_end_nothing() {
     let mut monitor = PairMonitor::new(&scene.world).unwrap();
     let refused = |monitor: &mut PairMonitor, scene: &Scene, step| {
         let told = format!("{:?}", monitor.changes().collect::<Vec<_>>());
-        let error = monitor.observe(&scene.world, step).unwrap_err();
+        let error = monitor.observe(&scene.world, step).expect_err("refused");
         assert_eq!(told, format!("{:?}", monitor.changes().collect::<Vec<_>>()), "nothing was taken in");
         error.to_string()
     };
@@ -327,6 +327,10 @@ fn evaluations_that_are_not_committed_begin_and_end_nothing() {
     scene.world.evaluate().unwrap();
     assert!(refused(&mut monitor, &scene, 0.5).contains("once after each commit"));
     assert!(refused(&mut monitor, &two_balls(0), 0.5).contains("another world"));
+    // A commit that was not observed before the next evaluation.
+    scene.world.commit().unwrap();
+    scene.world.evaluate().unwrap();
+    assert!(refused(&mut monitor, &scene, 0.5).contains("once after each commit"));
     // The states that follow a commit are no matter.
     scene.step_at([1e-3, -1e-3]);
     scene.set(0, at(Vec3::z(), Quat::identity()));

@@ -522,7 +522,7 @@ fn copies_beyond_a_limit_are_refused() {
     );
     let doubled = write(&folder, "doubled.dae", doubled);
     for path in [nodes, primitives, doubled] {
-        let findings = run(&path, &few(100)).unwrap_err();
+        let findings = run(&path, &few(100)).expect_err("refused");
         assert_eq!(rules(&findings), ["too-many-copies"], "{}: {findings}", path.display());
         assert!(findings.faults[0].cure.contains("--triangles-max"), "{findings}");
     }
@@ -530,7 +530,7 @@ fn copies_beyond_a_limit_are_refused() {
     let mut long = Gltf::new();
     let top = long.node(None, json!({"name": "a".repeat(100_000)}));
     (0..800).for_each(|_| _ = long.node(Some(top), json!({"name": "b"})));
-    let findings = run(&long.save(&folder, "names.glb"), &options()).unwrap_err();
+    let findings = run(&long.save(&folder, "names.glb"), &options()).expect_err("refused");
     assert_eq!(rules(&findings), ["too-many-copies"], "{findings}");
 }
 

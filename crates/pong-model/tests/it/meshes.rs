@@ -228,7 +228,7 @@ fn every_solid_of_a_text_stl_is_read() {
     };
     let text = format!("SOLID\nEND SOLID\n{}{}", ascii_stl(&cube_triangles()), ascii_stl(&moved(5.0)));
     folder.write("two.stl", text.as_bytes());
-    let model = folder.load("TriangleMesh(name: \"m\", file: \"two.stl\")").unwrap();
+    let model = folder.load("TriangleMesh(name: \"m\", file: \"two.stl\")").expect("both solids are read");
     assert_eq!((model.bodies[0].triangles.triangles.len(), model.bodies[0].shell_count), (24, 2));
     let end = text.rfind("endloop").unwrap();
     folder.write("cut.stl", &text.as_bytes()[..end]);
