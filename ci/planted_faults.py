@@ -67,7 +67,8 @@ class Fault:
             files = [folder.with_suffix(".rs")]
         elif modules:
             # The first module is a file or a folder of the program.
-            files = [folder / f"{modules.pop(0)}.rs"]
+            module = modules.pop(0)
+            files = [folder / f"{module}.rs", folder / module / "mod.rs"]
         else:
             files = [folder / "main.rs"]
         # A test in a module of the file is indented.

@@ -51,12 +51,22 @@ fn world(
     filters: &[(&str, &str)],
     config: Config,
 ) -> (World, [InterfaceId; 2], usize) {
+    world_of(false, [plug, socket], filters, config)
+}
+
+/// World with the socket or the plug as the first Object of the pair.
+fn world_of(
+    socket_first: bool,
+    [plug, socket]: [&str; 2],
+    filters: &[(&str, &str)],
+    config: Config,
+) -> (World, [InterfaceId; 2], usize) {
     let mut builder = WorldBuilder::new(config);
     let [a, b] = [("plug", plug), ("socket", socket)].map(|(name, text)| {
         let model = builder.add_model(model(text));
         builder.create_object(model, name).unwrap()
     });
-    builder.pair(a, b).unwrap();
+    if socket_first { builder.pair(b, a) } else { builder.pair(a, b) }.unwrap();
     for (of_plug, of_socket) in filters {
         builder.filter(b, of_socket, a, of_plug).unwrap();
     }
@@ -116,6 +126,15 @@ fn the_rest_of_a_pair_is_as_without_the_filtered_groups_to_the_bit() {
             assert_eq!(run(clone, true), expected, "clone, {bound} {count}");
         }
     }
+}
+
+/// The order of the two Objects in their pair does not matter.
+#[test]
+fn filters_hold_for_pairs_in_either_order() {
+    let without = plug("", "Aabb");
+    let expected = run(world_of(true, [&without, SOCKET], &[], Config::default()), true);
+    let lugs = plug(LUGS, "Aabb");
+    assert_eq!(run(world_of(true, [&lugs, SOCKET], &[("lugs", "")], Config::default()), true), expected);
 }
 
 /// A hinged arm beside a base: balls of both overlap, and so do those of a subgroup of each.
