@@ -1,0 +1,68 @@
+//! Search for the nearest points of two cores, after Gilbert, Johnson and Keerthi (1988).
+
+use super::simplex::{Corner, Nearest};
+use super::{Distance, Solid};
+use crate::Vec3;
+
+/// Steps at most. Two polyhedra need as many as they have vertices near; smooth solids converge linearly.
+const STEPS: usize = 200;
+/// Distance below which two cores overlap, relative to the coordinates: accumulated rounding.
+const OVERLAP: f64 = 1e-14;
+/// Gap between the two bounds at which the search ends, relative to the coordinates: rounding of one product.
+const CLOSED: f64 = 8.0 * f64::EPSILON;
+/// Steps in a row without a nearer point after which the search ends.
+const IDLE: usize = 4;
+
+/// Distance of two solids; `None` if it exceeds `limit`, m.
+///
+/// The distance of the cores is bounded from above by the nearest point of the simplex, from below by the
+/// support plane perpendicular to it. Both bounds are the best seen.
+pub(super) fn search(a: &Solid<'_>, b: &Solid<'_>, limit: f64) -> Option<Distance> {
+    let margin = a.margin() + b.margin();
+    let corner = |from_b: &Vec3| {
+        let points = [a.core_support(&-from_b), b.core_support(from_b)];
+        Corner { difference: points[0] - points[1], points }
+    };
+    let between = a.member() - b.member();
+    let start = if between.norm() > 0.0 { between.normalize() } else { Vec3::x() };
+    let mut nearest = Nearest::corner(corner(&start));
+    let (mut least, mut size, mut idle) = (0.0_f64, coordinates(&nearest.corners[0]), 0);
+    for _ in 0..STEPS {
+        if nearest.distance <= margin.max(OVERLAP * size) {
+            return Some(overlap(&nearest));
+        }
+        let next = corner(&nearest.direction);
+        size = size.max(coordinates(&next));
+        least = least.max(nearest.direction.dot(&next.difference));
+        if least - margin > limit {
+            return None;
+        }
+        if nearest.distance - least <= CLOSED * size || idle == IDLE {
+            break;
+        }
+        let Some(found) = nearest.with(next) else { return Some(overlap(&nearest)) };
+        idle = if found.distance < nearest.distance { 0 } else { idle + 1 };
+        nearest = found;
+    }
+    Some(apart(&nearest, [a.margin(), b.margin()], least))
+}
+
+/// Largest coordinate of the points of a corner, m.
+fn coordinates(corner: &Corner) -> f64 {
+    corner.points[0].amax().max(corner.points[1].amax())
+}
+
+fn overlap(nearest: &Nearest) -> Distance {
+    Distance { distance: 0.0, points: nearest.points(), gap: 0.0 }
+}
+
+/// Distance of two cores that are apart, less the margins.
+fn apart(nearest: &Nearest, margins: [f64; 2], least: f64) -> Distance {
+    let [p, q] = nearest.points();
+    let towards_a = nearest.direction;
+    Distance {
+        distance: (nearest.distance - margins[0] - margins[1]).max(0.0),
+        points: [p - towards_a * margins[0], q + towards_a * margins[1]],
+        gap: (nearest.distance - least).max(0.0),
+    }
+}
