@@ -11,7 +11,7 @@ const OVERLAP: f64 = 1e-14;
 /// Gap between the two bounds at which the search ends, relative to the coordinates: rounding of one product.
 const CLOSED: f64 = 8.0 * f64::EPSILON;
 /// Steps in a row without a nearer point after which the search ends.
-const IDLE: usize = 4;
+const IDLE: usize = 16;
 
 /// Distance of two solids; `None` if it exceeds `limit`, m.
 ///
@@ -26,10 +26,10 @@ pub(super) fn search(a: &Solid<'_>, b: &Solid<'_>, limit: f64) -> Option<Distanc
     let between = a.member() - b.member();
     let start = if between.norm() > 0.0 { between.normalize() } else { Vec3::x() };
     let mut nearest = Nearest::corner(corner(&start));
-    let (mut least, mut size, mut idle) = (0.0_f64, coordinates(&nearest.corners[0]), 0);
+    let (mut best, mut least, mut size, mut idle) = (nearest, 0.0_f64, coordinates(&nearest.corners[0]), 0);
     for _ in 0..STEPS {
-        if nearest.distance <= margin.max(OVERLAP * size) {
-            return Some(overlap(&nearest));
+        if best.distance <= margin.max(OVERLAP * size) {
+            return Some(overlap(&best));
         }
         let next = corner(&nearest.direction);
         size = size.max(coordinates(&next));
@@ -37,14 +37,18 @@ pub(super) fn search(a: &Solid<'_>, b: &Solid<'_>, limit: f64) -> Option<Distanc
         if least - margin > limit {
             return None;
         }
-        if nearest.distance - least <= CLOSED * size || idle == IDLE {
+        if best.distance - least <= CLOSED * size || idle == IDLE {
             break;
         }
-        let Some(found) = nearest.with(next) else { return Some(overlap(&nearest)) };
-        idle = if found.distance < nearest.distance { 0 } else { idle + 1 };
+        let Some(found) = nearest.with(next) else { return Some(overlap(&best)) };
+        idle = if found.distance < best.distance { 0 } else { idle + 1 };
+        // Of equal distances the later one counts: its direction is better.
+        if found.distance <= best.distance + CLOSED * size {
+            best = found;
+        }
         nearest = found;
     }
-    Some(apart(&nearest, [a.margin(), b.margin()], least))
+    Some(apart(&best, [a.margin(), b.margin()], least))
 }
 
 /// Largest coordinate of the points of a corner, m.

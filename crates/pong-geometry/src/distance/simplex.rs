@@ -61,33 +61,33 @@ impl Nearest {
     }
 
     /// Nearest point of this part with one more corner; `None` if the origin is inside.
+    ///
+    /// The corner must be nearer along the direction. The nearest point then lies on it, on an edge or on a face of it, even if
+    /// the distance becomes less by nothing but rounding.
     pub fn with(&self, corner: Corner) -> Option<Self> {
         let mut all = [corner; 4];
         all[..self.count].copy_from_slice(&self.corners[..self.count]);
         let all = &all[..=self.count];
-        let mut best = *self;
+        let mut best = on_edge([all[0], corner]);
         let mut consider = |candidate: Self| {
             if candidate.distance < best.distance {
                 best = candidate;
             }
         };
-        for j in 1..all.len() {
-            (0..j).for_each(|i| consider(on_edge([all[i], all[j]])));
+        for i in 1..self.count {
+            consider(on_edge([all[i], corner]));
+            (0..i).filter_map(|j| Face::new([all[j], all[i], corner])?.nearest()).for_each(&mut consider);
         }
-        let mut held_by = 0;
-        for k in 2..all.len() {
-            for j in 1..k {
-                for i in 0..j {
-                    let Some(face) = Face::new([all[i], all[j], all[k]]) else { continue };
-                    face.nearest().into_iter().for_each(&mut consider);
-                    // The corner that is left over has the number that is missing among 0…3.
-                    let rest = all.get(6 - i - j - k);
-                    held_by += usize::from(rest.is_some_and(|rest| face.holds_origin_before(rest)));
-                }
-            }
-        }
-        if held_by == 4 { None } else { Some(best) }
+        if self.count == 3 && holds_origin(all) { None } else { Some(best) }
     }
+}
+
+/// Returns `true` if the origin is in a tetrahedron.
+fn holds_origin(corners: &[Corner]) -> bool {
+    (0..4).all(|top| {
+        let face = [1, 2, 3].map(|k| corners[(top + k) % 4]);
+        Face::new(face).is_some_and(|face| face.holds_origin_before(&corners[top]))
+    })
 }
 
 /// Nearest point of an edge.

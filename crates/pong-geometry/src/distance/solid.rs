@@ -146,9 +146,11 @@ impl Frustum {
         let radial = direction - self.axis * direction.dot(&self.axis);
         let aside = radial.norm();
         let outward = radial / aside.max(f64::MIN_POSITIVE);
-        // A second time: of a direction near the axis, the first difference is mostly rounding.
+        // A second time: of a direction near the axis, the first difference is mostly rounding. Of one along the
+        // axis it is nothing else, and the centre of the circle is as far.
         let outward = outward - self.axis * outward.dot(&self.axis);
-        let outward = outward / outward.norm().max(f64::MIN_POSITIVE);
+        let length = outward.norm();
+        let outward = if length > 0.5 { outward / length.max(0.5) } else { Vec3::zeros() };
         let at = |end: usize| direction.dot(&self.ends[end]) + self.radii[end] * aside;
         let end = if at(1) > at(0) { 1 } else { 0 };
         self.ends[end] + outward * self.radii[end]

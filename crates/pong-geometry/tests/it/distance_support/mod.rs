@@ -28,7 +28,8 @@ pub const KINDS: usize = 10;
 impl Shape {
     /// Shape of a kind below [`KINDS`], of about 1 m, some of them slender or flat.
     pub fn random(kind: usize, random: &mut Random, polyhedra: &[Polyhedron]) -> Self {
-        let slender = |random: &mut Random| if random.chance(0.4) { random.log_between(1e-6, 1.0) } else { 1.0 };
+        let slender =
+            |random: &mut Random| if random.chance(0.4) { random.log_between(1e-6, 1.0) } else { 1.0 };
         let place = random.vector(0.5);
         let ends = [place, place + random.direction() * slender(random)];
         match kind {
