@@ -11,7 +11,7 @@ use pong_testkit::samples;
 /// Accuracy of points, segments, triangles, balls, capsules and polyhedra among each other, relative to coordinates.
 const FLAT: f64 = 1e-12;
 /// Accuracy with an ellipsoid, a cylinder or a cone, relative to coordinates.
-const CURVED: f64 = 1e-9;
+const CURVED: f64 = 1e-10;
 /// Excess of nearest points over their solids, relative to coordinates.
 const MEMBER: f64 = 1e-14;
 
@@ -164,7 +164,8 @@ fn axes(pair: &Pose2) -> Vec<Vec3> {
             Shape::Segment(segment) => (Vec::new(), vec![segment.ends[1] - segment.ends[0]]),
             other => panic!("{other:?} is no polytope of this test"),
         };
-        let turned = |all: Vec<Vec3>| all.iter().map(|v| pair.poses[side].vector(v)).collect::<Vec<_>>();
+        let turned =
+            |all: Vec<Vec3>| all.iter().map(|v| pair.poses[side].vector(v).normalize()).collect::<Vec<_>>();
         (turned(normals), turned(edges))
     });
     axes.extend(others);
