@@ -29,7 +29,7 @@ pub struct pong_distance {
 /// of the other group and that no filter keeps apart; a pair that is off has a distance too. Triangles count without their
 /// thickness. Computed when it is asked for: a frame pays nothing; allocates nothing. PONG_STATUS_BAD_VALUE: both are the same
 /// group, their Objects are not paired, or a bore or a primitive of a host's kind is in the way, which has no convex solid.
-/// PONG_STATUS_WRONG_PHASE: the world is not sealed, or a state was never set.
+/// PONG_STATUS_WRONG_PHASE: the world is not sealed. PONG_STATUS_UNSET_STATE: the state of one was never set.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_distance(
     world: *const pong_world,

@@ -1,4 +1,4 @@
-//! Distance of two movable groups: the nearest two primitives that have a contact test with each other (docs/theory.md, 2.9).
+//! Distance of two movable groups: the nearest two primitives that have a contact test with each other (docs/theory.md, 2.10).
 //!
 //! Every element of A goes down the trees of boxes of B, nearer boxes first, and leaves out those that are farther away than
 //! the nearest pair so far. It allocates nothing.
@@ -46,7 +46,9 @@ pub(crate) fn nearest(scene: &Scene, sealed: &Sealed, group_pair: usize, poses: 
         let x_ba = Pose::relative(&poses[a], &poses[b]).transform();
         let mut search = Search { bodies: [a, b], groups: [a, b].map(|body| scene.body(body)), best };
         for [batch_a, batch_b] in tested_batches(plan, search.groups) {
-            for item_a in &search.groups[0].tree.items[batch_a.items.start as usize..batch_a.items.end as usize] {
+            for item_a in
+                &search.groups[0].tree.items[batch_a.items.start as usize..batch_a.items.end as usize]
+            {
                 if let Some(solid) = solid_of(search.groups[0], batch_a.kind, item_a, &x_ba) {
                     search.against(&solid, *item_a, batch_b);
                 }
@@ -61,15 +63,19 @@ pub(crate) fn nearest(scene: &Scene, sealed: &Sealed, group_pair: usize, poses: 
 fn tested_batches<'m>(plan: &Plan, groups: [&'m MovableGroup; 2]) -> impl Iterator<Item = [&'m Batch; 2]> {
     let [of_a, of_b] = groups.map(|group| &group.tree.batches);
     of_a.iter().enumerate().flat_map(move |(a, batch_a)| {
-        let tested = move |(b, batch_b): &(usize, &Batch)| {
-            plan.tests_batches((a, batch_a.kind), (*b, batch_b.kind))
-        };
+        let tested =
+            move |(b, batch_b): &(usize, &Batch)| plan.tests_batches((a, batch_a.kind), (*b, batch_b.kind));
         of_b.iter().enumerate().filter(tested).map(move |(_, batch_b)| [batch_a, batch_b])
     })
 }
 
 /// Element as a convex solid in the frame that `x` leads to; `None` for planes, bores and a host's kinds.
-fn solid_of<'m>(body: &'m MovableGroup, kind: PrimitiveKind, item: &Item, x: &Transform) -> Option<Solid<'m>> {
+fn solid_of<'m>(
+    body: &'m MovableGroup,
+    kind: PrimitiveKind,
+    item: &Item,
+    x: &Transform,
+) -> Option<Solid<'m>> {
     let element = item.element as usize;
     Some(match kind {
         PrimitiveKind::Point => Solid::point(&body.points[element].carried(x)),
@@ -115,22 +121,24 @@ impl Search<'_> {
             if least >= self.limit() {
                 continue;
             }
-            let (children, count) = farthest_first(tree, &tree.nodes[node as usize], &ball);
-            for &(least, child) in &children[..count] {
+            let node = &tree.nodes[node as usize];
+            let (mut children, count) = farthest_first(tree, node, &ball);
+            let children = &mut children[..count];
+            // Elements are tested nearest first; of nodes the last one pushed is next.
+            if node.is_bottom() {
+                children.reverse();
+            }
+            for &(least, child) in children.iter() {
                 match child {
                     Child::Node(node) => {
                         stack[waiting] = (least, node);
                         waiting += 1;
                     }
+                    Child::Element(place) if least < self.limit() => {
+                        let item_b = self.groups[1].tree.items[(batch_b.items.start + place) as usize];
+                        self.test(solid, [item_a, item_b], batch_b.kind);
+                    }
                     Child::Element(_) => {}
-                }
-            }
-            for &(least, child) in children[..count].iter().rev() {
-                if let Child::Element(place) = child
-                    && least < self.limit()
-                {
-                    let item_b = self.groups[1].tree.items[(batch_b.items.start + place) as usize];
-                    self.test(solid, [item_a, item_b], batch_b.kind);
                 }
             }
         }

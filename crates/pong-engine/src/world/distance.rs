@@ -58,7 +58,7 @@ impl World {
         let frame = &poses[nearest.bodies[1]];
         let side = |body: usize| {
             let side = usize::from(nearest.bodies[1] == body);
-            let (item, point) = (nearest.items[side], nearest.found.points[side]);
+            let (item, point) = (nearest.items[side], nearest.found.points_b[side]);
             let first = self.scene.body(body).primitives[item.primitive as usize].elements.start;
             let point = frame.position + frame.orientation * point;
             NearestPrimitive { primitive: item.primitive, element: item.element - first, point }

@@ -1,4 +1,4 @@
-//! Distance of two convex solids with the points where they are nearest (docs/theory.md, 2.9).
+//! Distance of two convex solids with the points where they are nearest (docs/theory.md, 2.10).
 //!
 //! The solids must be in one frame. A plane is a half space without a bound and has a closed form
 //! ([`Solid::to_plane`]); all others meet in [`Solid::to`], by the algorithm of Gilbert, Johnson and Keerthi.
@@ -7,30 +7,10 @@ mod search;
 mod simplex;
 mod solid;
 
+pub use search::Distance;
 pub use solid::Solid;
 
-use crate::Vec3;
 use crate::primitive::Plane;
-
-/// Distance of two solids.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Distance {
-    /// Smallest distance of the two, m. Zero if they overlap, or touch to rounding.
-    pub distance: f64,
-    /// Nearest points: of the first solid, then of the second, m. Of solids that overlap, some point of each.
-    pub points: [Vec3; 2],
-    /// Bound of the error of the distance, m: no plane was found that keeps the two farther apart than
-    /// `distance − gap`.
-    pub gap: f64,
-}
-
-impl Distance {
-    /// Distance with the first and the second solid exchanged.
-    pub fn exchanged(self) -> Self {
-        let [a, b] = self.points;
-        Self { points: [b, a], ..self }
-    }
-}
 
 impl Solid<'_> {
     /// Distance of this solid from another.
@@ -38,7 +18,7 @@ impl Solid<'_> {
         // No distance exceeds infinity.
         self.to_within(other, f64::INFINITY).unwrap_or(Distance {
             distance: f64::INFINITY,
-            points: [self.member(), other.member()],
+            points_b: [self.member(), other.member()],
             gap: f64::INFINITY,
         })
     }
@@ -52,7 +32,7 @@ impl Solid<'_> {
     pub fn to_plane(&self, plane: &Plane) -> Distance {
         let core = self.core_support(&-plane.normal);
         let height = plane.height(&core);
-        let points = [core - plane.normal * self.margin(), core - plane.normal * height];
-        Distance { distance: (height - self.margin()).max(0.0), points, gap: 0.0 }
+        let points_b = [core - plane.normal * self.margin(), core - plane.normal * height];
+        Distance { distance: (height - self.margin()).max(0.0), points_b, gap: 0.0 }
     }
 }

@@ -11,9 +11,9 @@ use crate::Vec3;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     /// Point of the first core less point of the second, m.
-    pub difference: Vec3,
+    pub difference_b: Vec3,
     /// Points of the two cores, m.
-    pub points: [Vec3; 2],
+    pub points_b: [Vec3; 2],
 }
 
 /// Part of a simplex that holds its nearest point.
@@ -28,7 +28,7 @@ pub(super) struct Nearest {
     /// Distance of the nearest point from the origin, m.
     pub distance: f64,
     /// Unit vector from the origin to the nearest point, perpendicular to the part.
-    pub direction: Vec3,
+    pub direction_b: Vec3,
 }
 
 impl Nearest {
@@ -38,13 +38,13 @@ impl Nearest {
     }
 
     fn new(corners: [Corner; 3], count: usize, shares: [f64; 3], upright: impl FnOnce(Vec3) -> Vec3) -> Self {
-        let mut nearest = Self { corners, count, shares, distance: 0.0, direction: Vec3::x() };
-        let v = nearest.mixed(|corner| corner.difference);
+        let mut nearest = Self { corners, count, shares, distance: 0.0, direction_b: Vec3::x() };
+        let v = nearest.mixed(|corner| corner.difference_b);
         nearest.distance = v.norm();
-        let direction = upright(v);
-        let length = direction.norm();
+        let upright = upright(v);
+        let length = upright.norm();
         if length > 0.0 {
-            nearest.direction = direction / length.max(f64::MIN_POSITIVE);
+            nearest.direction_b = upright / length.max(f64::MIN_POSITIVE);
         }
         nearest
     }
@@ -57,7 +57,7 @@ impl Nearest {
 
     /// Nearest points of the two cores, m.
     pub fn points(&self) -> [Vec3; 2] {
-        [0, 1].map(|side| self.mixed(|corner| corner.points[side]))
+        [0, 1].map(|side| self.mixed(|corner| corner.points_b[side]))
     }
 
     /// Nearest point of this part with one more corner; `None` if the origin is inside.
@@ -93,9 +93,9 @@ fn holds_origin(corners: &[Corner]) -> bool {
 /// Nearest point of an edge.
 fn on_edge(ends: [Corner; 2]) -> Nearest {
     let [a, b] = ends;
-    let along = b.difference - a.difference;
+    let along = b.difference_b - a.difference_b;
     let square = along.norm_squared();
-    let share = -a.difference.dot(&along) / square.max(f64::MIN_POSITIVE);
+    let share = -a.difference_b.dot(&along) / square.max(f64::MIN_POSITIVE);
     if share <= 0.0 || square == 0.0 {
         return Nearest::corner(a);
     }
@@ -121,7 +121,7 @@ struct Face {
 impl Face {
     /// Face of three corners; `None` if they are in line.
     fn new(corners: [Corner; 3]) -> Option<Self> {
-        let square = |i: usize| (corners[(i + 1) % 3].difference - corners[i].difference).norm_squared();
+        let square = |i: usize| (corners[(i + 1) % 3].difference_b - corners[i].difference_b).norm_squared();
         let first = if square(0) >= square(1) && square(0) >= square(2) {
             0
         } else if square(1) >= square(2) {
@@ -130,7 +130,7 @@ impl Face {
             2
         };
         let corners = [0, 1, 2].map(|k| corners[(first + k) % 3]);
-        let [a, b, c] = corners.map(|corner| corner.difference);
+        let [a, b, c] = corners.map(|corner| corner.difference_b);
         let length = (b - a).norm();
         let along = (b - a) / length.max(f64::MIN_POSITIVE);
         let across = (c - a) - along * along.dot(&(c - a));
@@ -152,7 +152,7 @@ impl Face {
 
     /// Nearest point, if the origin is over the inside of the face.
     fn nearest(&self) -> Option<Nearest> {
-        let [a, _, c] = self.corners.map(|corner| corner.difference);
+        let [a, _, c] = self.corners.map(|corner| corner.difference_b);
         let [along, across] = &self.axes;
         let third = -a.dot(across) / self.height.max(f64::MIN_POSITIVE);
         let second = (-a.dot(along) - third * (c - a).dot(along)) / self.length.max(f64::MIN_POSITIVE);
@@ -176,8 +176,8 @@ impl Face {
     /// corner. Of a simplex that is flat to rounding, the second condition is the one that fails.
     fn holds_origin_before(&self, corner: &Corner) -> bool {
         let normal = self.normal();
-        let foot = self.corners[0].difference;
-        let (origin, top) = (-normal.dot(&foot), normal.dot(&(corner.difference - foot)));
+        let foot = self.corners[0].difference_b;
+        let (origin, top) = (-normal.dot(&foot), normal.dot(&(corner.difference_b - foot)));
         if top >= 0.0 { (0.0..=top).contains(&origin) } else { (top..=0.0).contains(&origin) }
     }
 }

@@ -53,8 +53,8 @@ impl Pose2 {
 
     /// Checks that the nearest points prove the distance; returns the error of the distance relative to the size.
     fn certify(&self, found: &Distance) -> f64 {
-        let (size, [p, q]) = (self.size(), found.points);
-        for (side, point) in found.points.iter().enumerate() {
+        let (size, [p, q]) = (self.size(), found.points_b);
+        for (side, point) in found.points_b.iter().enumerate() {
             let own = self.poses[side].inverse().point(point);
             let outside = self.shapes[side].outside(&own);
             assert!(outside <= MEMBER * size, "{outside:e} outside solid {side}: {}", self.describe());
@@ -179,7 +179,8 @@ fn polytopes_overlap_where_no_axis_separates_them() {
     let all = polyhedra(&mut Random::new(4, 0, 0));
     let kinds = [1, 3, 9];
     let (mut apart, mut together) = (0, 0);
-    for index in 0..samples(20_000) {
+    let count = samples(20_000);
+    for index in 0..count {
         let mut random = Random::new(4, 1, index as u64);
         let kinds = [random.pick(&kinds), random.pick(&kinds)];
         let mut pair = random_pair(&mut random, kinds, &all[..6]);
@@ -198,7 +199,7 @@ fn polytopes_overlap_where_no_axis_separates_them() {
         }
     }
     println!("{apart} apart, {together} overlap");
-    assert!(apart > samples(20_000) / 5 && together > samples(20_000) / 20);
+    assert!(apart > count / 5 && together > count / 20);
 }
 
 #[test]
@@ -253,7 +254,7 @@ fn solids_over_a_plane_are_as_far_as_their_lowest_point() {
             "{kinds:?}: {found:?}, {height}"
         );
         if height > 0.0 {
-            let [p, q] = found.points;
+            let [p, q] = found.points_b;
             assert!(((p - q).norm() - height).abs() <= 1e-14 * pair.size(), "{kinds:?}: {found:?}, {height}");
             assert!(plane.height(&q).abs() <= 1e-14 * pair.size(), "{kinds:?}: {found:?}");
             let own = pair.poses[0].inverse().point(&p);
@@ -266,7 +267,7 @@ fn solids_over_a_plane_are_as_far_as_their_lowest_point() {
 fn closed_forms() {
     let ball = |x: f64, radius: f64| Sphere { center: Vec3::new(x, 0.0, 0.0), radius };
     let two = Solid::sphere(&ball(0.0, 0.5)).to(&Solid::sphere(&ball(2.0, 0.25)));
-    assert_eq!((two.distance, two.points), (1.25, [Vec3::x() * 0.5, Vec3::x() * 1.75]));
+    assert_eq!((two.distance, two.points_b), (1.25, [Vec3::x() * 0.5, Vec3::x() * 1.75]));
     // Concentric, touching and overlapping balls.
     for (x, radius) in [(0.0, 0.5), (0.75, 0.25), (0.6, 0.25)] {
         assert_eq!(Solid::sphere(&ball(0.0, 0.5)).to(&Solid::sphere(&ball(x, radius))).distance, 0.0);
@@ -281,7 +282,7 @@ fn closed_forms() {
         let found = Solid::sphere(&ball).to(&cube);
         assert!((found.distance - (distance - 0.25)).abs() <= 1e-15, "{place:?}: {found:?}");
         assert!(
-            (found.points[1] - Vec3::from(place).map(|x| x.min(1.0))).norm() <= 1e-15,
+            (found.points_b[1] - Vec3::from(place).map(|x| x.min(1.0))).norm() <= 1e-15,
             "{place:?}: {found:?}"
         );
     }
