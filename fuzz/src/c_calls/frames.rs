@@ -6,9 +6,9 @@ use pong::contacts::{
     pong_contact, pong_contact_count, pong_find_standing_groups, pong_get_contact_stiffness,
     pong_get_contacts,
 };
+use pong::distance::{PONG_NO_PRIMITIVE, pong_distance, pong_get_distance};
 use pong::frames::{pong_commit, pong_commit_pairs, pong_evaluate, pong_step};
 use pong::ids::{pong_interface_id, pong_pair_id};
-use pong::distance::{PONG_NO_PRIMITIVE, pong_distance, pong_get_distance};
 use pong::pair_monitor::{
     pong_begin_peak_window, pong_contact_change, pong_get_contact_changes, pong_get_pair_peaks,
     pong_observe_pairs, pong_pair_peaks, pong_start_pair_monitor,
@@ -340,9 +340,8 @@ impl Session<'_> {
         let place = self.place::<pong_distance>();
         // Groups without a state, and those with bores, are refused too.
         let sure = known.and(good).and(also).and(place.sure).and(Sure::Unknown).only_if(a != b);
-        let done = self.call("get distance", sure, || unsafe {
-            pong_get_distance(world, a, b, place.pointer)
-        });
+        let done =
+            self.call("get distance", sure, || unsafe { pong_get_distance(world, a, b, place.pointer) });
         if done {
             let found = place.get();
             assert!(found.distance >= 0.0, "{found:?}");

@@ -28,7 +28,9 @@ impl Distance {
 
 impl From<GroupDistance> for Distance {
     fn from(found: GroupDistance) -> Self {
-        let of = |part: fn(&NearestPrimitive) -> u32| found.nearest.as_ref().map(|both| [part(&both[0]), part(&both[1])]);
+        let of = |part: fn(&NearestPrimitive) -> u32| {
+            found.nearest.as_ref().map(|both| [part(&both[0]), part(&both[1])])
+        };
         Self {
             distance: found.distance,
             points: found.nearest.map(|both| both.map(|side| side.point.into())),
