@@ -130,6 +130,8 @@ void list_and_restore(pong::World& world) {
     require(world.wrench_from(ball, ground, pong::Frame::common).force[2] == up &&
                 world.pair_wrench(contacts[0].pair, ground, pong::Frame::common).force[2] == up,
             "the ground alone pushes the ball");
+    const pong::Distance distance = world.distance(ball, ground);
+    require(distance.distance == 0.0 && distance.primitives[0] == contacts[0].a.primitive, "the ball is in the ground");
     require(std::string(world.primitive_path(contacts[0].a.interface, contacts[0].a.primitive)) == "ball/shell",
             "the contact names the sphere");
     world.start_pair_monitor();

@@ -43,6 +43,7 @@ using PairId = pong_pair_id;
 using InterfaceId = pong_interface_id;
 using Contact = pong_contact;
 using ContactChange = pong_contact_change;
+using Distance = pong_distance;
 using PairPeaks = pong_pair_peaks;
 using Report = pong_report;
 using SealReport = pong_seal_report;
@@ -269,6 +270,10 @@ public:
         return result<pong_wrench>([&](pong_wrench* out) {
             return pong_get_pair_wrench(get(), pair, about, static_cast<pong_reference_frame>(frame), out);
         });
+    }
+    /// Distance of two movable groups, with their nearest primitives: pong_get_distance().
+    Distance distance(InterfaceId a, InterfaceId b) const {
+        return result<pong_distance>([&](pong_distance* out) { return pong_get_distance(get(), a, b, out); });
     }
     /// Observes pairs from nothing on: pong_start_pair_monitor(). Allocates.
     void start_pair_monitor() { check(pong_start_pair_monitor(get())); }

@@ -708,6 +708,7 @@ int main(void)
     user_data(&s);
     contacts(&s);
     pair_wrenches(&s);
+    pair_distances(&s);
     pair_monitor(&s);
     standing(&s);
     frames(&s);

@@ -1,4 +1,4 @@
-/* Calls for pairs alone: their wrenches, begin and end of contact, peaks. */
+/* Calls for pairs alone: their wrenches, distance, begin and end of contact, peaks. */
 #ifndef PAIR_CALLS_H
 #define PAIR_CALLS_H
 
@@ -51,6 +51,35 @@ static inline void pair_wrenches(scene *s)
     REFUSED(pong_get_pair_wrench(s->world, s->pair, ball, common, NULL), NULL_ARGUMENT, "`wrench`");
     s->states[0].position[1] = 0.0;
     OK(pong_clear_contact_history(s->world, s->ball));
+}
+
+/* The ball above the ground, deep in it, and groups that are never tested. */
+static inline void pair_distances(scene *s)
+{
+    const pong_interface_id ball = s->interfaces[0], arm = s->interfaces[1], ground = s->interfaces[2];
+    const pong_state before = s->states[0];
+    pong_distance got;
+    memset(&got, 0xff, sizeof got);
+    s->states[0].position[0] = 0.5;
+    s->states[0].position[1] = 0.25;
+    s->states[0].position[2] = 0.75;
+    OK(pong_set_states(s->world, s->interfaces, s->states, 3));
+    OK(pong_get_distance(s->world, ball, ground, &got));
+    TEST(fabs(got.distance - 0.65) < 1e-15 && got.primitives[0] == 0 && got.primitives[1] == 0);
+    TEST(got.elements[0] == 0 && got.elements[1] == 0);
+    TEST(fabs(got.points[0][0] - 0.5) < 1e-15 && fabs(got.points[0][2] - 0.65) < 1e-15);
+    TEST(fabs(got.points[1][1] - 0.25) < 1e-15 && fabs(got.points[1][2]) < 1e-15);
+    OK(pong_get_distance(s->world, ground, ball, &got));
+    TEST(fabs(got.distance - 0.65) < 1e-15 && fabs(got.points[1][2] - 0.65) < 1e-15);
+    s->states[0].position[2] = 0.05;
+    OK(pong_set_states(s->world, s->interfaces, s->states, 3));
+    OK(pong_get_distance(s->world, ball, ground, &got));
+    TEST(got.distance == 0.0);
+    REFUSED(pong_get_distance(s->world, ball, ball, &got), BAD_VALUE, "the same movable group");
+    REFUSED(pong_get_distance(s->world, ball, arm, &got), BAD_VALUE, "not paired");
+    REFUSED(pong_get_distance(s->world, ball, ground, NULL), NULL_ARGUMENT, "`distance`");
+    s->states[0] = before;
+    OK(pong_set_states(s->world, s->interfaces, s->states, 3));
 }
 
 /* The ball comes up, down and stays, in windows of three frames. */

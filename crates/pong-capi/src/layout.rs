@@ -5,6 +5,7 @@ use crate::accounts::{pong_energy_account, pong_pair_energy_account};
 use crate::config::pong_config;
 use crate::contacts::{pong_contact, pong_contact_side};
 use crate::continuation::pong_continuation;
+use crate::distance::pong_distance;
 use crate::ids::{pong_interface_id, pong_model_id, pong_object_id, pong_pair_id};
 use crate::law_types::{pong_friction_input, pong_friction_output, pong_normal_input};
 use crate::log::{pong_log_options, pong_log_report};
@@ -75,6 +76,7 @@ layouts! {
     pong_step_plan { step, wrench_coupling, delay_frames, closing_speed, depth_within, rebound_within, reserved }
     pong_state { position, orientation, linear_velocity, angular_velocity }
     pong_wrench { force, moment }
+    pong_distance { distance, points, primitives, elements }
     pong_contact_side { object, interface, primitive, element, arm }
     pong_contact {
         pair, a, b, feature_kind, feature_index, end, sticks, point, normal, depth, depth_rate, weight, normal_force,

@@ -14,6 +14,7 @@
 //! | `coupling.rs`, `step_plan.rs` | what the host does with wrenches; masses and step, for the check at the seal |
 //! | `seal.rs` | end of set-up |
 //! | `states.rs`, `frames.rs`, `wrenches.rs`, `contacts.rs`, `report.rs`, `accounts.rs`, `tally.rs` | frames |
+//! | `distance.rs` | distance of two movable groups |
 //! | `pair_monitor.rs` | begin and end of contact, peaks over several frames |
 //! | `workers.rs` | workers, around frames |
 //! | `contact_state.rs`, `continuation.rs`, `surfaces.rs`, `user_data.rs` | between frames |
@@ -45,6 +46,7 @@ pub mod contacts;
 pub mod continuation;
 mod counters;
 pub mod coupling;
+pub mod distance;
 mod failure;
 pub mod frames;
 mod guard;

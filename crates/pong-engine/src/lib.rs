@@ -26,6 +26,7 @@
 
 mod builder;
 mod contact;
+mod distance;
 mod energy;
 mod error;
 mod frame;
@@ -63,4 +64,4 @@ pub use report::{
 pub use scene::{Config, Scene, State, WorkerSettings};
 pub use seal::{MetIn, SealReport, SetupNote, SetupWarning, leave_room_for_small_things, require_memory};
 pub use state::StateError;
-pub use world::{Continuation, World};
+pub use world::{Continuation, GroupDistance, NearestPrimitive, World};

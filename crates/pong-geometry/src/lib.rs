@@ -16,6 +16,7 @@
 #![forbid(unsafe_code)]
 
 pub mod bounding;
+pub mod distance;
 pub mod extension;
 pub mod interference;
 pub mod lanes;

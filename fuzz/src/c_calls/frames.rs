@@ -6,6 +6,7 @@ use pong::contacts::{
     pong_contact, pong_contact_count, pong_find_standing_groups, pong_get_contact_stiffness,
     pong_get_contacts,
 };
+use pong::distance::{PONG_NO_PRIMITIVE, pong_distance, pong_get_distance};
 use pong::frames::{pong_commit, pong_commit_pairs, pong_evaluate, pong_step};
 use pong::ids::{pong_interface_id, pong_pair_id};
 use pong::pair_monitor::{
@@ -32,9 +33,10 @@ impl Session<'_> {
             9 => self.frame("evaluate", |world| unsafe { pong_evaluate(world) }),
             10 => self.frame("commit", |world| unsafe { pong_commit(world) }),
             11 => self.commit_pairs(),
-            12 => match self.input.below(3) {
+            12 => match self.input.below(4) {
                 0 => self.wrench(),
                 1 => self.wrench_from(),
+                2 => self.distance(),
                 _ => self.pair_wrench(),
             },
             13 => self.contacts(),
@@ -328,6 +330,24 @@ impl Session<'_> {
         });
         if done {
             finite(place.get().force.iter().chain(&place.get().moment), "pair wrench");
+        }
+    }
+
+    fn distance(&mut self) {
+        let (world, known) = self.world();
+        let (a, good) = self.id(|ids| &ids.interfaces, |bits| pong_interface_id { bits });
+        let (b, also) = self.id(|ids| &ids.interfaces, |bits| pong_interface_id { bits });
+        let place = self.place::<pong_distance>();
+        // Groups without a state, and those with bores, are refused too.
+        let sure = known.and(good).and(also).and(place.sure).and(Sure::Unknown).only_if(a != b);
+        let done =
+            self.call("get distance", sure, || unsafe { pong_get_distance(world, a, b, place.pointer) });
+        if done {
+            let found = place.get();
+            assert!(found.distance >= 0.0, "{found:?}");
+            let is_near = found.distance < f64::INFINITY;
+            assert!(found.primitives.iter().all(|one| (*one != PONG_NO_PRIMITIVE) == is_near), "{found:?}");
+            finite(found.points.iter().flatten(), "nearest points");
         }
     }
 

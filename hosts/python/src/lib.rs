@@ -8,6 +8,7 @@
 //! | `ids.rs` | models, Objects, pairs and Interfaces of a world, and their forms as arguments |
 //! | `model.rs` | models |
 //! | `authored.rs`, `shapes.rs` | model files as written, checks of single shapes: python/pong/model.py |
+//! | `distance.rs` | distance of two movable groups |
 //! | `pair_monitor.rs` | begin and end of contact, peaks over several frames |
 //! | `builder.rs`, `world.rs`, `recording.rs` | set-up, frames, logs of frames |
 //! | `scene.rs`, `simulation.rs`, `run.rs` | scenes in the built-in executive |
@@ -20,6 +21,7 @@ mod arrays;
 mod authored;
 mod builder;
 mod contacts;
+mod distance;
 mod dynamics;
 mod errors;
 mod ids;
@@ -60,6 +62,7 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     add_class::<builder::WorldBuilder>(module)?;
     add_class::<world::World>(module)?;
     add_class::<world::FrameReport>(module)?;
+    add_class::<distance::Distance>(module)?;
     add_class::<pair_monitor::ContactChange>(module)?;
     add_class::<pair_monitor::PairPeaks>(module)?;
     add_class::<scene::Scene>(module)?;

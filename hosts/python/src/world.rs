@@ -4,6 +4,7 @@ use crate::advice;
 use crate::arrays::{self, Matrix, STATE, WRENCH};
 use crate::builder::WorldBuilder;
 use crate::contacts;
+use crate::distance::Distance;
 use crate::errors::{PhaseError, bad_value, lock, of_engine};
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
 use crate::model::{surface_from, surface_values};
@@ -368,6 +369,11 @@ impl World {
         let (world, on, from) = (&inner.world, on.id, source.id);
         let wrench = if common { world.wrench_from_common(on, from) } else { world.wrench_from(on, from) };
         Ok(PyArray1::from_slice(py, &arrays::wrench_row(&wrench.map_err(of_engine)?)))
+    }
+
+    /// Distance of the groups of two Interfaces at the states set last, with their nearest primitives; no frame is needed.
+    fn distance(&self, a: &Interface, b: &Interface) -> PyResult<Distance> {
+        Ok(self.lock()?.world.distance(a.id, b.id).map_err(of_engine)?.into())
     }
 
     /// Observes pairs from nothing on; called again, it begins anew.

@@ -69,6 +69,25 @@ def test_the_wrench_of_a_pair_is_that_of_its_only_two_groups():
         w.pair_wrench(w.pairs[0], ball, axes="world")
 
 
+def test_the_distance_of_a_ball_from_the_ground_needs_no_frame():
+    w = world()
+    ball, ground = w.interfaces
+    with pytest.raises(pong.PongError, match="never set"):
+        w.distance(ball, ground)
+    w.set_states(touching(-0.25))
+    found = w.distance(ball, ground)
+    assert found.distance == pytest.approx(0.25, abs=1e-15)
+    assert found.primitives == [0, 0] and found.elements == [0, 0]
+    (_, _, low), (_, _, floor) = found.points
+    assert low - floor == pytest.approx(0.25, abs=1e-15)
+    assert w.distance(ground, ball).points == found.points[::-1]
+    assert repr(found) == f"<pong.Distance {found.distance} m>"
+    w.set_states(touching(1e-3))
+    assert w.distance(ball, ground).distance == 0.0
+    with pytest.raises(pong.PongError, match="the same movable group"):
+        w.distance(ball, ball)
+
+
 def test_begins_ends_and_peaks_are_told_of_the_frames_observed():
     w = world()
     for call in (w.contact_changes, w.pair_peaks, w.begin_peak_window, lambda: w.observe_pairs(1.0)):

@@ -12,7 +12,7 @@ mod warnings;
 pub(crate) use filters::part_groups;
 pub use memory::{leave_room_for_small_things, require_memory};
 pub(crate) use surfaces::surface_tables;
-pub(crate) use testable::can_be_tested;
+pub(crate) use testable::{can_be_tested, kind_name};
 pub use warnings::{MetIn, SetupNote, SetupWarning};
 
 use crate::energy::account::WrenchCoupling;

@@ -6,6 +6,7 @@
 //! | `changes.rs` | changes between frames: pairs on and off, surface values, contact history |
 //! | `results.rs` | wrenches, contacts and reports of the last frame |
 //! | `pair_wrench.rs` | wrench that one Object or movable group puts on another |
+//! | `distance.rs` | distance of two movable groups |
 //! | `energy.rs` | energies of the last commit |
 //! | `contact_state.rs` | the contact state as a block of bytes |
 //! | `standing.rs` | poses that contradict velocities |
@@ -17,6 +18,7 @@ mod changes;
 mod clone;
 mod contact_state;
 mod continuation;
+mod distance;
 mod energy;
 mod frame;
 mod pair_wrench;
@@ -25,6 +27,7 @@ mod standing;
 mod workers;
 
 pub use continuation::Continuation;
+pub use distance::{GroupDistance, NearestPrimitive};
 
 use crate::inspect::Inspection;
 use crate::runtime::Runtime;

@@ -23,7 +23,7 @@ impl World {
         match runtime.sealed.group_pair_of(on.min(from), on.max(from)) {
             Some(group_pair) => Ok(runtime.frame.wrench_of_groups(&runtime.sealed, group_pair, on)),
             None => {
-                self.require_paired(on, from)?;
+                self.require_paired([on, from], |[on, from]| format!("wrench on `{on}` from `{from}`"))?;
                 Ok(Wrench::zero())
             }
         }
@@ -93,20 +93,23 @@ impl World {
         &self.runtime.sealed
     }
 
-    /// Refuses two movable groups that no pair can bring together.
-    fn require_paired(&self, on: usize, from: usize) -> Result<(), EngineError> {
+    /// Refuses two movable groups that no pair can bring together; `what` names what they were asked for, from their names.
+    pub(super) fn require_paired(
+        &self,
+        groups: [usize; 2],
+        what: impl FnOnce([String; 2]) -> String,
+    ) -> Result<(), EngineError> {
         let scene = &self.scene;
-        let [a, b] = [on, from].map(|body| scene.bodies[body].object);
+        let [a, b] = groups.map(|body| scene.bodies[body].object);
         let paired = scene.pairs.iter().any(|pair| [(a, b), (b, a)].contains(&(pair.a, pair.b)));
-        let cause = if on == from {
+        let cause = if groups[0] == groups[1] {
             "both are the same movable group; name two"
         } else if !paired {
             "their Objects are not paired; name two groups of paired Objects"
         } else {
             return Ok(());
         };
-        let [on, from] = [on, from].map(|body| scene.body_name(body));
-        let what = format!("wrench on `{on}` from `{from}`");
+        let what = what(groups.map(|body| scene.body_name(body)));
         Err(EngineError::BadValue { what, cause: cause.to_owned() })
     }
 }

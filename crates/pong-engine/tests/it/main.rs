@@ -9,6 +9,7 @@ mod common;
 mod contact_state;
 mod continuation;
 mod deep_ellipsoids;
+mod distance;
 mod drops;
 mod ellipsoids_on_pieces;
 mod exceptions;

@@ -9,6 +9,8 @@ mod bounding_things;
 mod bounding_tight;
 mod capsule_polyhedron;
 mod common;
+mod distance;
+mod distance_support;
 mod ellipsoid_plane;
 mod ellipsoid_point;
 mod ellipsoid_polyhedron;

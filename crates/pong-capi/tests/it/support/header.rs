@@ -5,7 +5,7 @@ use cbindgen::{Builder, DocumentationStyle, EnumConfig, ItemType, Language, Rena
 use std::path::Path;
 
 /// Source files in the reading order of the header.
-const FILES: [&str; 32] = [
+const FILES: [&str; 33] = [
     "status",
     "abi",
     "version",
@@ -28,6 +28,7 @@ const FILES: [&str; 32] = [
     "seal",
     "frames",
     "contacts",
+    "distance",
     "pair_monitor",
     "report",
     "accounts",

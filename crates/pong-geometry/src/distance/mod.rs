@@ -1,0 +1,38 @@
+//! Distance of two convex solids with the points where they are nearest (docs/theory.md, 2.10).
+//!
+//! The solids must be in one frame. A plane is a half space without a bound and has a closed form
+//! ([`Solid::to_plane`]); all others meet in [`Solid::to`], by the algorithm of Gilbert, Johnson and Keerthi.
+
+mod search;
+mod simplex;
+mod solid;
+
+pub use search::Distance;
+pub use solid::Solid;
+
+use crate::primitive::Plane;
+
+impl Solid<'_> {
+    /// Distance of this solid from another.
+    pub fn to(&self, other: &Solid<'_>) -> Distance {
+        // No distance exceeds infinity.
+        self.to_within(other, f64::INFINITY).unwrap_or(Distance {
+            distance: f64::INFINITY,
+            points_b: [self.member(), other.member()],
+            gap: f64::INFINITY,
+        })
+    }
+
+    /// As [`to`](Self::to); `None` as soon as the distance is seen to exceed `limit`, m.
+    pub fn to_within(&self, other: &Solid<'_>, limit: f64) -> Option<Distance> {
+        search::search(self, other, limit)
+    }
+
+    /// Distance of this solid from the half space of a plane: the height of its lowest point.
+    pub fn to_plane(&self, plane: &Plane) -> Distance {
+        let core = self.core_support(&-plane.normal);
+        let height = plane.height(&core);
+        let points_b = [core - plane.normal * self.margin(), core - plane.normal * height];
+        Distance { distance: (height - self.margin()).max(0.0), points_b, gap: 0.0 }
+    }
+}

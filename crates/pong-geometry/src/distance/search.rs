@@ -1,0 +1,85 @@
+//! Search for the nearest points of two cores, after Gilbert, Johnson and Keerthi (1988).
+
+use super::simplex::{Corner, Nearest};
+use super::solid::Solid;
+use crate::Vec3;
+
+/// Distance of two solids.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Distance {
+    /// Smallest distance of the two, m. Zero if they overlap, or touch to rounding.
+    pub distance: f64,
+    /// Nearest points: of the first solid, then of the second, m, in the frame of both. Of solids that
+    /// overlap, some point of each.
+    pub points_b: [Vec3; 2],
+    /// Bound of the error of the distance, m: no plane was found that keeps the two farther apart than
+    /// `distance − gap`.
+    pub gap: f64,
+}
+
+/// Steps at most. Two polyhedra need as many as they have vertices near; smooth solids converge linearly.
+const STEPS: usize = 200;
+/// Distance below which two cores overlap, relative to the coordinates: accumulated rounding.
+const OVERLAP: f64 = 1e-14;
+/// Gap between the two bounds at which the search ends, relative to the coordinates: rounding of one product.
+const CLOSED: f64 = 8.0 * f64::EPSILON;
+/// Steps in a row without a nearer point after which the search ends.
+const IDLE: usize = 16;
+
+/// Distance of two solids; `None` if it exceeds `limit`, m.
+///
+/// The distance of the cores is bounded from above by the nearest point of the simplex, from below by the
+/// support plane perpendicular to it. Both bounds are the best seen.
+pub(super) fn search(a: &Solid<'_>, b: &Solid<'_>, limit: f64) -> Option<Distance> {
+    let margin = a.margin() + b.margin();
+    let corner = |towards_a: &Vec3| {
+        let points_b = [a.core_support(&-towards_a), b.core_support(towards_a)];
+        Corner { difference_b: points_b[0] - points_b[1], points_b }
+    };
+    let between = a.member() - b.member();
+    let start = if between.norm() > 0.0 { between.normalize() } else { Vec3::x() };
+    let mut nearest = Nearest::corner(corner(&start));
+    let (mut best, mut least, mut size, mut idle) = (nearest, 0.0_f64, coordinates(&nearest.corners[0]), 0);
+    for _ in 0..STEPS {
+        if best.distance <= margin.max(OVERLAP * size) {
+            return Some(overlap(&best));
+        }
+        let next = corner(&nearest.direction_b);
+        size = size.max(coordinates(&next));
+        least = least.max(nearest.direction_b.dot(&next.difference_b));
+        if least - margin > limit {
+            return None;
+        }
+        if best.distance - least <= CLOSED * size || idle == IDLE {
+            break;
+        }
+        let Some(found) = nearest.with(next) else { return Some(overlap(&best)) };
+        idle = if found.distance < best.distance { 0 } else { idle + 1 };
+        // Of equal distances the later one counts: its direction is better.
+        if found.distance <= best.distance + CLOSED * size {
+            best = found;
+        }
+        nearest = found;
+    }
+    Some(apart(&best, [a.margin(), b.margin()], least))
+}
+
+/// Largest coordinate of the points of a corner, m.
+fn coordinates(corner: &Corner) -> f64 {
+    corner.points_b[0].amax().max(corner.points_b[1].amax())
+}
+
+fn overlap(nearest: &Nearest) -> Distance {
+    Distance { distance: 0.0, points_b: nearest.points(), gap: 0.0 }
+}
+
+/// Distance of two cores that are apart, less the margins.
+fn apart(nearest: &Nearest, margins: [f64; 2], least: f64) -> Distance {
+    let [p, q] = nearest.points();
+    let towards_a = nearest.direction_b;
+    Distance {
+        distance: (nearest.distance - margins[0] - margins[1]).max(0.0),
+        points_b: [p - towards_a * margins[0], q + towards_a * margins[1]],
+        gap: (nearest.distance - least).max(0.0),
+    }
+}

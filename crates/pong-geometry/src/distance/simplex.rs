@@ -1,0 +1,183 @@
+//! Point of a simplex that is nearest to the origin.
+//!
+//! A candidate is the nearest point of every edge and of every face that has one inside; the nearest candidate
+//! counts. Its shares are never negative and add up to one, so it lies in the simplex whatever the rounding.
+//! Slender faces are no exception: their axes come from Gram and Schmidt, longest edge first, which places the
+//! point to rounding of the coordinates whatever the shape, and gives a normal that is as perpendicular.
+
+use crate::Vec3;
+
+/// Difference of two support points, with the points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    /// Point of the first core less point of the second, m.
+    pub difference_b: Vec3,
+    /// Points of the two cores, m.
+    pub points_b: [Vec3; 2],
+}
+
+/// Part of a simplex that holds its nearest point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nearest {
+    /// Its corners, the first `count` of them.
+    pub corners: [Corner; 3],
+    /// Number of corners.
+    pub count: usize,
+    /// Shares of the corners in the nearest point.
+    shares: [f64; 3],
+    /// Distance of the nearest point from the origin, m.
+    pub distance: f64,
+    /// Unit vector from the origin to the nearest point, perpendicular to the part.
+    pub direction_b: Vec3,
+}
+
+impl Nearest {
+    /// One corner alone.
+    pub fn corner(corner: Corner) -> Self {
+        Self::new([corner; 3], 1, [1.0, 0.0, 0.0], |v| v)
+    }
+
+    fn new(corners: [Corner; 3], count: usize, shares: [f64; 3], upright: impl FnOnce(Vec3) -> Vec3) -> Self {
+        let mut nearest = Self { corners, count, shares, distance: 0.0, direction_b: Vec3::x() };
+        let v = nearest.mixed(|corner| corner.difference_b);
+        nearest.distance = v.norm();
+        let upright = upright(v);
+        let length = upright.norm();
+        if length > 0.0 {
+            nearest.direction_b = upright / length.max(f64::MIN_POSITIVE);
+        }
+        nearest
+    }
+
+    /// Sum of something of the corners by their shares.
+    fn mixed(&self, of: impl Fn(&Corner) -> Vec3) -> Vec3 {
+        let parts = self.corners.iter().zip(&self.shares).take(self.count);
+        parts.map(|(corner, share)| of(corner) * *share).sum()
+    }
+
+    /// Nearest points of the two cores, m.
+    pub fn points(&self) -> [Vec3; 2] {
+        [0, 1].map(|side| self.mixed(|corner| corner.points_b[side]))
+    }
+
+    /// Nearest point of this part with one more corner; `None` if the origin is inside.
+    ///
+    /// The corner must be nearer along the direction. The nearest point then lies on it, on an edge or on a face of it, even if
+    /// the distance becomes less by nothing but rounding.
+    pub fn with(&self, corner: Corner) -> Option<Self> {
+        let mut all = [corner; 4];
+        all[..self.count].copy_from_slice(&self.corners[..self.count]);
+        let all = &all[..=self.count];
+        let mut best = on_edge([all[0], corner]);
+        let mut consider = |candidate: Self| {
+            if candidate.distance < best.distance {
+                best = candidate;
+            }
+        };
+        for i in 1..self.count {
+            consider(on_edge([all[i], corner]));
+            (0..i).filter_map(|j| Face::new([all[j], all[i], corner])?.nearest()).for_each(&mut consider);
+        }
+        if self.count == 3 && holds_origin(all) { None } else { Some(best) }
+    }
+}
+
+/// Returns `true` if the origin is in a tetrahedron.
+fn holds_origin(corners: &[Corner]) -> bool {
+    (0..4).all(|top| {
+        let face = [1, 2, 3].map(|k| corners[(top + k) % 4]);
+        Face::new(face).is_some_and(|face| face.holds_origin_before(&corners[top]))
+    })
+}
+
+/// Nearest point of an edge.
+fn on_edge(ends: [Corner; 2]) -> Nearest {
+    let [a, b] = ends;
+    let along = b.difference_b - a.difference_b;
+    let square = along.norm_squared();
+    let share = -a.difference_b.dot(&along) / square.max(f64::MIN_POSITIVE);
+    if share <= 0.0 || square == 0.0 {
+        return Nearest::corner(a);
+    }
+    if share >= 1.0 {
+        return Nearest::corner(b);
+    }
+    let unit = along / square.sqrt().max(f64::MIN_POSITIVE);
+    Nearest::new([a, b, b], 2, [1.0 - share, share, 0.0], |v| v - unit * unit.dot(&v))
+}
+
+/// Face with axes in its plane.
+struct Face {
+    /// Corners; the longest edge runs from the first to the second.
+    corners: [Corner; 3],
+    /// Unit vector along the longest edge, and the unit vector across it towards the third corner.
+    axes: [Vec3; 2],
+    /// Length of the longest edge, m.
+    length: f64,
+    /// Height of the third corner over the longest edge, m.
+    height: f64,
+}
+
+impl Face {
+    /// Face of three corners; `None` if they are in line.
+    fn new(corners: [Corner; 3]) -> Option<Self> {
+        let square = |i: usize| (corners[(i + 1) % 3].difference_b - corners[i].difference_b).norm_squared();
+        let first = if square(0) >= square(1) && square(0) >= square(2) {
+            0
+        } else if square(1) >= square(2) {
+            1
+        } else {
+            2
+        };
+        let corners = [0, 1, 2].map(|k| corners[(first + k) % 3]);
+        let [a, b, c] = corners.map(|corner| corner.difference_b);
+        let length = (b - a).norm();
+        let along = (b - a) / length.max(f64::MIN_POSITIVE);
+        let across = (c - a) - along * along.dot(&(c - a));
+        let height = across.norm();
+        if !(length > 0.0 && height > 0.0) {
+            return None;
+        }
+        let across = across / height.max(f64::MIN_POSITIVE);
+        // A second time: of a slender face the first difference is mostly rounding.
+        let across = across - along * along.dot(&across);
+        let across = across / across.norm().max(f64::MIN_POSITIVE);
+        Some(Self { corners, axes: [along, across], length, height })
+    }
+
+    fn normal(&self) -> Vec3 {
+        let [along, across] = &self.axes;
+        along.cross(across)
+    }
+
+    /// Nearest point, if the origin is over the inside of the face.
+    fn nearest(&self) -> Option<Nearest> {
+        let [a, _, c] = self.corners.map(|corner| corner.difference_b);
+        let [along, across] = &self.axes;
+        let third = -a.dot(across) / self.height.max(f64::MIN_POSITIVE);
+        let second = (-a.dot(along) - third * (c - a).dot(along)) / self.length.max(f64::MIN_POSITIVE);
+        let first = 1.0 - second - third;
+        if !(first > 0.0 && second > 0.0 && third > 0.0) {
+            return None;
+        }
+        // The normal of a face is as exact as its height is long, the vector from the origin as it is itself.
+        let upright = |v: Vec3| {
+            let normal = self.normal();
+            if v.norm() >= self.height {
+                v - along * along.dot(&v)
+            } else {
+                normal * 1.0_f64.copysign(normal.dot(&a))
+            }
+        };
+        Some(Nearest::new(self.corners, 3, [first, second, third], upright))
+    }
+
+    /// Returns `true` if the origin is between the plane of this face and the parallel plane through another
+    /// corner. Of a simplex that is flat to rounding, the second condition is the one that fails.
+    fn holds_origin_before(&self, corner: &Corner) -> bool {
+        let normal = self.normal();
+        let foot = self.corners[0].difference_b;
+        let (origin, top) = (-normal.dot(&foot), normal.dot(&(corner.difference_b - foot)));
+        if top >= 0.0 { (0.0..=top).contains(&origin) } else { (top..=0.0).contains(&origin) }
+    }
+}
