@@ -46,7 +46,7 @@ use run_blocks::run_blocks;
 #[inline]
 pub(crate) fn evaluate(
     given: &EvaluationInput<'_>,
-    mut pool: Option<&mut WorkerPool>,
+    pool: Option<&mut WorkerPool>,
     frame: &mut EvaluationBuffers,
 ) {
     let EvaluationInput { sealed, states, memory, clock, .. } = *given;
@@ -55,7 +55,7 @@ pub(crate) fn evaluate(
     states::latch(sealed, states, frame);
     frame.near.find(sealed, &states.enabled, &frame.poses, &memory.poses);
     watch.lap(Stage::Input, &mut frame.times);
-    find_contacts(given, pool.as_deref_mut(), frame);
+    find_contacts(given, pool, frame);
     watch.lap(Stage::Contacts, &mut frame.times);
     order::put_in_order(given, frame);
     tunnelling::watch(given, frame);
@@ -63,9 +63,6 @@ pub(crate) fn evaluate(
     energy::balance(given, frame);
     watch.lap(Stage::Energy, &mut frame.times);
     reduce::sum(given, frame);
-    if let Some(pool) = pool {
-        pool.end_frame();
-    }
     watch.lap(Stage::Output, &mut frame.times);
 }
 

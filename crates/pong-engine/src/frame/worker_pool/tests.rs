@@ -1,6 +1,5 @@
 //! Tests of workers that need private access: storage of the records, and a worker that starts too late.
 
-use super::trials::ALWAYS_SHARED_NS;
 use super::*;
 use crate::frame::{EvaluationBuffers, FrameContact};
 use crate::runtime::Runtime;
@@ -128,36 +127,6 @@ fn as_many_workers_are_asked_as_there_is_work_for() {
     assert_eq!([0, 1, 2, 3].map(|k| pool.worth_asking(0, 100, k * WORTH_A_WORKER_NS)), [0, 0, 2, 3]);
     assert_eq!(pool.worth_asking(0, 100, WORTH_SHARING_NS), 1);
     assert_eq!(pool.worth_asking(0, 100, WORTH_SHARING_NS - 1), 0);
-}
-
-/// If trials favour the caller alone, workers are used only for long rounds.
-#[test]
-fn rounds_that_are_quicker_alone_ask_and_wake_nobody() {
-    let mut world = brush(config(Some(one_worker())), 0).world;
-    let pool = world.runtime_mut().pool.as_mut().unwrap();
-    pool.prewake(Duration::from_secs(60));
-    while !pool.pool.has_workers_at_hand() {}
-    pool.trials = SharingTrials::ALONE;
-    for cost_ns in [WORTH_SHARING_NS, WORTH_WAKING_NS, ALWAYS_SHARED_NS - 1] {
-        assert_eq!((pool.worth_asking(0, 100, cost_ns), pool.last_cost_ns), (0, 0), "{cost_ns} ns");
-    }
-    assert_eq!(pool.worth_asking(0, 100, ALWAYS_SHARED_NS), 1);
-    assert_eq!(pool.last_cost_ns, ALWAYS_SHARED_NS);
-}
-
-#[test]
-fn trials_are_made_while_frames_run() {
-    let mut brush = brush(config(Some(one_worker())), 0);
-    // No contacts, since they would make these frames long.
-    brush.put([0.0, 0.0, 1e-3], 0.0);
-    for _ in 0..20_000 {
-        brush.world.prewake(Duration::from_millis(100));
-        assert_eq!(brush.world.step().unwrap().contacts, 0);
-        if brush.world.runtime_mut().pool.as_ref().unwrap().trials.any_ended() {
-            return;
-        }
-    }
-    panic!("no trial has ended");
 }
 
 /// Sleeping workers are woken before the blocks are laid out, if the last round was worth it.
