@@ -25,8 +25,6 @@ pub(crate) struct ContactBuffer {
     pub contacts: Table<FrameContact>,
     /// References to the contacts, one each.
     pub places: Table<Place>,
-    /// Copy of `places` for the caller to read, written at the end of a claim. Workers' buffers only.
-    told_places: Table<Place>,
     /// Wrench contributions of the contacts that have a record. Workers' buffers only.
     pub terms: Table<Term>,
     /// Records for the next commit, for the first contacts of the buffer as far as there is room. Written as
@@ -98,7 +96,6 @@ impl ContactBuffer {
             phase: Self::NO_PHASE,
             contacts: Table::with_capacity(contacts, FrameContact::blank()),
             places: Table::with_capacity(contacts, Place::NOWHERE),
-            told_places: Table::with_capacity(if thread > 0 { contacts } else { 0 }, Place::NOWHERE),
             terms: Table::with_capacity(if thread > 0 { records } else { 0 }, Term::nothing()),
             records: Table::with_capacity(records, ContactRecord::blank()),
             bristles: WaitingBristles::new(),
@@ -122,7 +119,6 @@ impl ContactBuffer {
         self.phase = phase;
         self.contacts.clear();
         self.places.clear();
-        self.told_places.clear();
         self.terms.clear();
         self.records.clear();
         self.shares = self.thread > 0;
@@ -165,7 +161,6 @@ impl ContactBuffer {
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
         self.contacts.truncate(checkpoint.contacts);
         self.places.truncate(checkpoint.contacts);
-        self.told_places.truncate(checkpoint.contacts);
         self.terms.truncate(checkpoint.contacts);
         self.records.truncate(checkpoint.contacts);
         self.bristles.clear();
@@ -192,13 +187,11 @@ impl ContactBuffer {
         }
     }
 
-    /// Computes all pending friction, then writes the references and wrench contributions of the new
-    /// contacts. They are written in one go: stores to consecutive cache lines last read by another core
-    /// overlap their misses, scattered stores do not.
+    /// Computes all pending friction, then writes the wrench contributions of the new contacts. They are
+    /// written in one go: stores to consecutive cache lines last read by another core overlap their misses,
+    /// scattered stores do not.
     pub fn finish(&mut self) {
         self.settle();
-        let told = self.told_places.len();
-        self.told_places.extend_from_slice(&self.places[told..]).expect("as much room as for contacts");
         for contact in &self.contacts[self.terms.len()..self.records.len()] {
             self.terms.push(Term::of(contact)).expect("as much room as for records");
         }
@@ -222,7 +215,7 @@ impl ContactBuffer {
     pub fn take_over(&mut self, other: &mut Self) {
         debug_assert!(self.thread == other.thread && self.law_state_len == 0);
         swap(&mut self.contacts, &mut other.contacts);
-        swap(&mut self.places, &mut other.told_places);
+        swap(&mut self.places, &mut other.places);
         swap(&mut self.terms, &mut other.terms);
         swap(&mut self.records, &mut other.records);
         self.demand = other.demand;

@@ -81,7 +81,6 @@ impl Job for Shared {
         let mut context = locked(&self.contexts[thread - 1]);
         if context.out.phase != input.phase {
             context.out.begin(input.phase);
-            memory.records.fetch();
         }
         self.run_blocks((input, memory), blocks, &mut context);
         // Finish on the worker: the data is in this core's cache, not in the caller's.
