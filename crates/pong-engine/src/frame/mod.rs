@@ -21,8 +21,8 @@ pub(crate) use broad_phase::blocks::ROUND;
 pub(crate) use buffers::EvaluationBuffers;
 pub(crate) use energy::interval::Interval;
 pub(crate) use forces::contact::FrameContact;
-pub(crate) use forces::place::Place;
-pub(crate) use forces::term::Term;
+pub(crate) use forces::contact_ref::ContactRef;
+pub(crate) use forces::wrench_term::WrenchTerm;
 pub(crate) use input::motion::PairMotions;
 pub(crate) use input::states::require_states;
 pub(crate) use input::{Block, EvaluationInput, WorkerInput};
@@ -89,7 +89,7 @@ fn find_contacts(
         // A frame may have several rounds: move the workers' contacts of the last round into the caller's
         // buffer first.
         for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
-            assert!(caller.out.absorb(worker), "what was taken over has room in the caller's buffer");
+            assert!(caller.out.merge(worker), "the caller's buffer has room for the contacts of the workers");
         }
         workers.empty();
         let shared =
@@ -104,7 +104,7 @@ fn find_contacts(
         blocks::lay_out(scene, sealed, pairs, (input, caller), &mut work);
     }
     laps.lap_work(Work::BroadPhase, &mut layout);
-    caller.out.settle();
+    caller.out.flush();
     caller.out.times.add(&layout);
     for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
         caller.out.demand.add(&worker.demand);

@@ -212,9 +212,9 @@ impl WorkerPool {
             match taken {
                 Some(taken) if as_they_are && other.out.remembers_all() => {
                     out.counts.add(&other.out.counts);
-                    taken.take_over(&mut other.out);
+                    taken.move_from(&mut other.out);
                 }
-                _ if out.absorb(&other.out) => {}
+                _ if out.merge(&other.out) => {}
                 _ => return false,
             }
         }

@@ -176,11 +176,11 @@ fn compare(change: impl Fn(Config) -> Config, rays: usize) -> SharedFrames {
         let [expected, found] = [&mut alone, &mut shared].map(|brush| brush.world.runtime_mut());
         assert!(found.memory.records == expected.memory.records, "frame {frame}");
         assert_eq!(found.frame.wrenches, expected.frame.wrenches, "frame {frame}");
-        let told = |frame: &EvaluationBuffers| -> Vec<String> {
-            let told = |contact: &FrameContact| (contact.point_b, contact.force(), contact.sticks);
-            frame.pushing().map(|contact| format!("{:?}", told(contact))).collect()
+        let reported = |frame: &EvaluationBuffers| -> Vec<String> {
+            let values = |contact: &FrameContact| (contact.point_b, contact.force(), contact.sticks);
+            frame.pushing().map(|contact| format!("{:?}", values(contact))).collect()
         };
-        assert!(told(&found.frame) == told(&expected.frame), "frame {frame}");
+        assert!(reported(&found.frame) == reported(&expected.frame), "frame {frame}");
         assert_eq!(found.frame.caller.out.counts, expected.frame.caller.out.counts, "frame {frame}");
         if found.thread_work().nth(1).is_some_and(|thread| thread.blocks > 0) {
             shared_frames.by_worker += 1;
