@@ -3,8 +3,8 @@
 use crate::frame::energy::buffers::EnergyBuffers;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::forces::contact_buffer::ContactBuffer;
+use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::forces::found::{FoundContacts, WorkerBuffers};
-use crate::frame::forces::place::Place;
 use crate::frame::input::WorkerInput;
 use crate::frame::input::relative::Motions;
 use crate::frame::near_pairs::NearPairs;
@@ -37,7 +37,7 @@ pub(crate) struct EvaluationBuffers {
     /// context holds them.
     pub workers: WorkerBuffers,
     // order, limit: references to the active contacts, in summation order
-    pub order: Table<Place>,
+    pub order: Table<ContactRef>,
     pub tunnelling: TunnellingEvents,
     // ledger
     pub energy: EnergyBuffers,
@@ -67,7 +67,7 @@ impl EvaluationBuffers {
             input,
             caller: Box::new(WorkerContext::new(sealed, 0, sealed.limits.thread_contacts)),
             workers: WorkerBuffers::new((1..=taken_over).map(buffer).collect()),
-            order: Table::with_capacity(sealed.limits.thread_contacts, Place::NOWHERE),
+            order: Table::with_capacity(sealed.limits.thread_contacts, ContactRef::NOWHERE),
             tunnelling: TunnellingEvents::default(),
             energy: EnergyBuffers::new(scene, sealed),
             wrenches: vec![Wrench::zero(); bodies],

@@ -21,8 +21,8 @@ pub(crate) use broad_phase::blocks::ROUND;
 pub(crate) use buffers::EvaluationBuffers;
 pub(crate) use energy::interval::Interval;
 pub(crate) use forces::contact::FrameContact;
-pub(crate) use forces::place::Place;
-pub(crate) use forces::term::Term;
+pub(crate) use forces::contact_ref::ContactRef;
+pub(crate) use forces::wrench_term::WrenchTerm;
 pub(crate) use input::motion::PairMotions;
 pub(crate) use input::states::require_states;
 pub(crate) use input::{Block, EvaluationInput, WorkerInput};
@@ -46,7 +46,7 @@ use run_blocks::run_blocks;
 #[inline]
 pub(crate) fn evaluate(
     given: &EvaluationInput<'_>,
-    mut pool: Option<&mut WorkerPool>,
+    pool: Option<&mut WorkerPool>,
     frame: &mut EvaluationBuffers,
 ) {
     let EvaluationInput { sealed, states, memory, clock, .. } = *given;
@@ -55,7 +55,7 @@ pub(crate) fn evaluate(
     states::latch(sealed, states, frame);
     frame.near.find(sealed, &states.enabled, &frame.poses, &memory.poses);
     watch.lap(Stage::Input, &mut frame.times);
-    find_contacts(given, pool.as_deref_mut(), frame);
+    find_contacts(given, pool, frame);
     watch.lap(Stage::Contacts, &mut frame.times);
     order::put_in_order(given, frame);
     tunnelling::watch(given, frame);
@@ -63,9 +63,6 @@ pub(crate) fn evaluate(
     energy::balance(given, frame);
     watch.lap(Stage::Energy, &mut frame.times);
     reduce::sum(given, frame);
-    if let Some(pool) = pool {
-        pool.end_frame();
-    }
     watch.lap(Stage::Output, &mut frame.times);
 }
 
@@ -92,7 +89,7 @@ fn find_contacts(
         // A frame may have several rounds: move the workers' contacts of the last round into the caller's
         // buffer first.
         for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
-            assert!(caller.out.absorb(worker), "what was taken over has room in the caller's buffer");
+            assert!(caller.out.merge(worker), "the caller's buffer has room for the contacts of the workers");
         }
         workers.empty();
         let shared =
@@ -107,7 +104,7 @@ fn find_contacts(
         blocks::lay_out(scene, sealed, pairs, (input, caller), &mut work);
     }
     laps.lap_work(Work::BroadPhase, &mut layout);
-    caller.out.settle();
+    caller.out.flush();
     caller.out.times.add(&layout);
     for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
         caller.out.demand.add(&worker.demand);

@@ -3,7 +3,7 @@
 use crate::energy::contact::ContactEnergies;
 use crate::frame::load_sharing::solver::scratch_bytes;
 use crate::frame::narrow_phase::pair_table::most_contacts;
-use crate::frame::{FrameContact, Place, Term, WorkerContext, arena_bytes};
+use crate::frame::{ContactRef, FrameContact, WorkerContext, WrenchTerm, arena_bytes};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits};
 use crate::state::{Records, Slot};
@@ -56,10 +56,10 @@ const BUFFERS_OF_A_WORKER: usize = 2;
 
 /// Minimum memory of a worker, independent of the capacity, bytes.
 pub(super) fn least_thread_bytes(limits: &Limits, law_state_len: usize) -> usize {
-    let contact = size_of::<FrameContact>() + 2 * size_of::<Place>() + law_state_len * size_of::<f64>();
+    let contact = size_of::<FrameContact>() + 2 * size_of::<ContactRef>() + law_state_len * size_of::<f64>();
     BUFFERS_OF_A_WORKER * limits.least_worker_contacts() * contact
         + limits.thread_records()
-            * (Records::LANE_BYTES * RECORDS_OF_A_LANE + size_of::<Term>() * BUFFERS_OF_A_WORKER)
+            * (Records::LANE_BYTES * RECORDS_OF_A_LANE + size_of::<WrenchTerm>() * BUFFERS_OF_A_WORKER)
         + WorkerContext::table_bytes(limits.found)
 }
 
@@ -102,7 +102,7 @@ pub(super) fn bytes_per_contact(scene: &Scene, threads: usize, law_state_len: us
     // A thread's contacts (an eighth more than records), their references, ranks and order, and the scratch
     // for rays and ledger.
     let per_contact =
-        size_of::<((usize, u32, usize, usize), f64)>() + 2 * size_of::<Place>() + size_of::<u32>();
+        size_of::<((usize, u32, usize, usize), f64)>() + 2 * size_of::<ContactRef>() + size_of::<u32>();
     let thread = size_of::<FrameContact>() + numbers + per_contact;
     let found = WorkerContext::BYTES_PER_FOUND;
     // The buffers of all workers together hold twice the caller's.

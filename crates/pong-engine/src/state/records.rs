@@ -71,12 +71,6 @@ fn hint_of(head: u64, used: usize) -> usize {
     ((head >> 32).wrapping_mul(DIRECTION_APART).wrapping_add(head)) as usize & (used - 1)
 }
 
-/// One element per cache line, to load the whole table into the cache.
-fn one_of_each_line<T>(table: &[T]) -> impl Iterator<Item = &T> {
-    const LINE: usize = 64;
-    table.iter().step_by(LINE / size_of::<T>())
-}
-
 /// Thread index that denotes the table in key order.
 const IN_ORDER: usize = Slot::NO_LANE;
 
@@ -280,15 +274,6 @@ impl Records {
         let first_of = |group_pair| ContactKey { group_pair, ..ContactKey::default() }.head();
         let (first, next) = (first_of(group_pair), first_of(group_pair + 1));
         (self.place_of_head(first)..self.place_of_head(next)).map(|index| &self[index])
-    }
-
-    /// Loads the high words, hints and slots into the cache, with overlapping misses. A search would miss on
-    /// one line after another that another core has written.
-    pub fn fetch(&self) {
-        let heads = one_of_each_line(&self.heads).fold(0, |all, head| all ^ head);
-        let slots = one_of_each_line(&self.slots).fold(0, |all, slot| all ^ slot.index());
-        let hints = one_of_each_line(&self.hints[..self.hints_used]).fold(0, |all, hint| all ^ hint);
-        std::hint::black_box((heads, slots, hints));
     }
 
     /// Table that holds a slot.

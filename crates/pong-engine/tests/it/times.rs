@@ -19,7 +19,7 @@ fn other_ticks() -> u64 {
 }
 
 /// Maximum number of worlds to step until workers have taken part in a frame. On a busy machine they come too
-/// late for the first frames of many worlds, and the trials then favour the caller alone.
+/// late for the frames of many worlds.
 const WORLDS: usize = 200;
 
 /// Checks that all times are reported and add up.

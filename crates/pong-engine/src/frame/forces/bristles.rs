@@ -95,7 +95,7 @@ impl WaitingBristles {
 
     /// Computes all pending friction, which completes the contacts, and returns their indices.
     #[inline]
-    pub fn settle(&mut self, contacts: &mut [FrameContact]) -> &[u32] {
+    pub fn flush(&mut self, contacts: &mut [FrameContact]) -> &[u32] {
         let count = std::mem::take(&mut self.count);
         if count > 0 {
             simd::run(Settle { bristles: self, count, contacts });

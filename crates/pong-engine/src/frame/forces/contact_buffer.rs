@@ -3,8 +3,8 @@
 
 use super::bristles::WaitingBristles;
 use crate::frame::forces::contact::FrameContact;
-use crate::frame::forces::place::Place;
-use crate::frame::forces::term::Term;
+use crate::frame::forces::contact_ref::ContactRef;
+use crate::frame::forces::wrench_term::WrenchTerm;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::law::FrictionProps;
 use crate::law::friction::{FrictionInput, FrictionOutput, friction_alone};
@@ -24,11 +24,9 @@ pub(crate) struct ContactBuffer {
     /// Contacts, unordered.
     pub contacts: Table<FrameContact>,
     /// References to the contacts, one each.
-    pub places: Table<Place>,
-    /// Copy of `places` for the caller to read, written at the end of a claim. Workers' buffers only.
-    told_places: Table<Place>,
+    pub places: Table<ContactRef>,
     /// Wrench contributions of the contacts that have a record. Workers' buffers only.
-    pub terms: Table<Term>,
+    pub terms: Table<WrenchTerm>,
     /// Records for the next commit, for the first contacts of the buffer as far as there is room. Written as
     /// soon as a contact is complete, in parallel with other threads.
     pub records: Table<ContactRecord>,
@@ -97,9 +95,8 @@ impl ContactBuffer {
             thread,
             phase: Self::NO_PHASE,
             contacts: Table::with_capacity(contacts, FrameContact::blank()),
-            places: Table::with_capacity(contacts, Place::NOWHERE),
-            told_places: Table::with_capacity(if thread > 0 { contacts } else { 0 }, Place::NOWHERE),
-            terms: Table::with_capacity(if thread > 0 { records } else { 0 }, Term::nothing()),
+            places: Table::with_capacity(contacts, ContactRef::NOWHERE),
+            terms: Table::with_capacity(if thread > 0 { records } else { 0 }, WrenchTerm::nothing()),
             records: Table::with_capacity(records, ContactRecord::blank()),
             bristles: WaitingBristles::new(),
             law_state: Table::with_capacity(contacts * law_state_len, 0.0),
@@ -122,7 +119,6 @@ impl ContactBuffer {
         self.phase = phase;
         self.contacts.clear();
         self.places.clear();
-        self.told_places.clear();
         self.terms.clear();
         self.records.clear();
         self.shares = self.thread > 0;
@@ -157,7 +153,7 @@ impl ContactBuffer {
 
     /// Current state of the buffer. Pending friction is computed first.
     pub fn checkpoint(&mut self) -> Checkpoint {
-        self.settle();
+        self.flush();
         Checkpoint { contacts: self.contacts.len(), demand: self.demand, counts: self.counts }
     }
 
@@ -165,7 +161,6 @@ impl ContactBuffer {
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
         self.contacts.truncate(checkpoint.contacts);
         self.places.truncate(checkpoint.contacts);
-        self.told_places.truncate(checkpoint.contacts);
         self.terms.truncate(checkpoint.contacts);
         self.records.truncate(checkpoint.contacts);
         self.bristles.clear();
@@ -175,10 +170,10 @@ impl ContactBuffer {
     }
 
     /// Computes all pending friction.
-    pub fn settle(&mut self) {
-        let settled = self.bristles.settle(&mut self.contacts);
+    pub fn flush(&mut self) {
+        let flushed = self.bristles.flush(&mut self.contacts);
         if !self.records.is_empty() {
-            for &place in settled {
+            for &place in flushed {
                 remember(&self.contacts, &mut self.records, place as usize);
             }
         }
@@ -186,21 +181,19 @@ impl ContactBuffer {
 
     /// Computes the pending friction if the batch is full.
     #[inline(always)]
-    pub fn settle_if_full(&mut self) {
+    pub fn flush_if_full(&mut self) {
         if self.bristles.is_full() {
-            self.settle();
+            self.flush();
         }
     }
 
-    /// Computes all pending friction, then writes the references and wrench contributions of the new
-    /// contacts. They are written in one go: stores to consecutive cache lines last read by another core
-    /// overlap their misses, scattered stores do not.
+    /// Computes all pending friction, then writes the wrench contributions of the new contacts. They are
+    /// written in one go: stores to consecutive cache lines last read by another core overlap their misses,
+    /// scattered stores do not.
     pub fn finish(&mut self) {
-        self.settle();
-        let told = self.told_places.len();
-        self.told_places.extend_from_slice(&self.places[told..]).expect("as much room as for contacts");
+        self.flush();
         for contact in &self.contacts[self.terms.len()..self.records.len()] {
-            self.terms.push(Term::of(contact)).expect("as much room as for records");
+            self.terms.push(WrenchTerm::of(contact)).expect("as much room as for records");
         }
     }
 
@@ -219,10 +212,10 @@ impl ContactBuffer {
 
     /// Moves everything except the counts out of another [finished](Self::finish) buffer of the same thread,
     /// by swapping the tables.
-    pub fn take_over(&mut self, other: &mut Self) {
+    pub fn move_from(&mut self, other: &mut Self) {
         debug_assert!(self.thread == other.thread && self.law_state_len == 0);
         swap(&mut self.contacts, &mut other.contacts);
-        swap(&mut self.places, &mut other.told_places);
+        swap(&mut self.places, &mut other.places);
         swap(&mut self.terms, &mut other.terms);
         swap(&mut self.records, &mut other.records);
         self.demand = other.demand;
@@ -231,7 +224,7 @@ impl ContactBuffer {
 
     /// Copies everything from another [finished](Self::finish) buffer; returns false if there is not enough
     /// room.
-    pub fn absorb(&mut self, other: &Self) -> bool {
+    pub fn merge(&mut self, other: &Self) -> bool {
         let first = self.contacts.len();
         let room = self.contacts.extend_from_slice(&other.contacts).is_ok()
             && self.law_state.extend_from_slice(&other.law_state).is_ok();
@@ -291,7 +284,7 @@ impl ContactBuffer {
     /// Makes room: keeps the deepest `pushing` contacts that push and the deepest `others` of the rest; ties
     /// by summation order.
     pub fn keep_deepest(&mut self, pushing: usize, others: usize) {
-        self.settle();
+        self.flush();
         self.records.clear();
         let ranked = &mut self.ranked;
         ranked.clear();

@@ -2,8 +2,8 @@
 
 use super::contact::FrameContact;
 use super::contact_buffer::ContactBuffer;
-use super::place::Place;
-use super::term::Term;
+use super::contact_ref::ContactRef;
+use super::wrench_term::WrenchTerm;
 use std::ops::{Deref, DerefMut};
 
 /// Contacts of a frame: the caller's buffer and the workers' buffers that were swapped in.
@@ -15,7 +15,7 @@ pub(crate) struct FoundContacts<'a> {
 
 impl<'a> FoundContacts<'a> {
     #[inline]
-    fn thread(&self, place: &Place) -> &'a ContactBuffer {
+    fn thread(&self, place: &ContactRef) -> &'a ContactBuffer {
         match place.slot.thread() {
             0 => self.caller,
             worker => &self.workers[worker - 1],
@@ -23,15 +23,15 @@ impl<'a> FoundContacts<'a> {
     }
 
     #[inline]
-    pub fn contact(&self, place: &Place) -> &'a FrameContact {
+    pub fn contact(&self, place: &ContactRef) -> &'a FrameContact {
         &self.thread(place).contacts[place.slot.index()]
     }
 
     /// Wrench contribution of a contact.
     #[inline]
-    pub fn term(&self, place: &Place) -> Term {
+    pub fn term(&self, place: &ContactRef) -> WrenchTerm {
         match place.slot.thread() {
-            0 => Term::of(&self.caller.contacts[place.slot.index()]),
+            0 => WrenchTerm::of(&self.caller.contacts[place.slot.index()]),
             worker => self.workers[worker - 1].terms[place.slot.index()],
         }
     }

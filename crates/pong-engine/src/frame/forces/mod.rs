@@ -3,10 +3,10 @@
 mod bristles;
 pub(crate) mod contact;
 pub(crate) mod contact_buffer;
+pub(crate) mod contact_ref;
 pub(crate) mod found;
-pub(crate) mod place;
 pub(crate) mod reference_point;
-pub(crate) mod term;
+pub(crate) mod wrench_term;
 
 use crate::frame::broad_phase::chunk::Chunk;
 use crate::frame::buffers::EvaluationBuffers;
@@ -21,7 +21,7 @@ use crate::state::{ContactRecord, ContactRole};
 use bristles::Bristle;
 use contact::FrameContact;
 use contact_buffer::ContactBuffer;
-use place::Place;
+use contact_ref::ContactRef;
 use pong_geometry::Vec3;
 use pong_geometry::lanes::Lanes;
 use pong_geometry::pose::carry_by_smallest_rotation;
@@ -59,7 +59,7 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
     let EvaluationBuffers { input, caller, order, near, poses, twists, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     let out = &mut caller.out;
-    let key_of = |out: &ContactBuffer, place: &Place| out.contacts[place.slot.index()].found.key;
+    let key_of = |out: &ContactBuffer, place: &ContactRef| out.contacts[place.slot.index()].found.key;
     let mut rest = order.as_slice();
     while let Some(first) = rest.first() {
         let key = key_of(out, first);
@@ -77,7 +77,7 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
             context.compute_force((ElementsOfA { kind, centers: None }, &found), share, index, out);
         }
     }
-    out.settle();
+    out.flush();
 }
 
 /// Share h·w/Σw of the pair's bristle that a contact carries.
@@ -197,12 +197,12 @@ impl PairContext<'_> {
         (*work, *dissipated) = (0.0, 0.0);
         let pushes = found.role == ContactRole::Active;
         let continued = continues.map(|(index, _)| index as u32);
-        out.places[place] = Place::new(found.key.head(), slot, pushes, continued);
+        out.places[place] = ContactRef::new(found.key.head(), slot, pushes, continued);
         if rubs && !matches!(props.friction, FrictionProps::None) {
             let slipping =
                 Slipping { elements_a, found, point, slip_velocity, pressed, continues, share, place };
             self.add_friction(&slipping, props, out);
-            out.settle_if_full();
+            out.flush_if_full();
         } else {
             out.remember(place);
         }

@@ -5,14 +5,12 @@ use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces;
 use crate::frame::forces::contact_buffer::CapacityDemand;
 use crate::frame::forces::found::FoundContacts;
-use crate::frame::forces::place::Place;
 use crate::frame::input::EvaluationInput;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::frame::worker_context::WorkerContext;
 use crate::report::StatusBits;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
-use pong_arena::Arena;
 
 /// Sorts the contacts of all threads.
 #[inline]
@@ -50,75 +48,19 @@ fn saturated(count: u64) -> u32 {
     count.try_into().unwrap_or(u32::MAX)
 }
 
-/// Fewer contacts than this are sorted by comparison.
-const WORTH_DIGITS: usize = 24;
-
 /// Lists all contacts in order.
 #[inline]
 fn list(frame: &mut EvaluationBuffers) {
-    let EvaluationBuffers { caller, workers, order, .. } = &mut *frame;
-    let WorkerContext { scratch, out, .. } = &mut **caller;
-    let found = FoundContacts { caller: out, workers };
+    let EvaluationBuffers { caller, workers, order, .. } = frame;
+    let found = FoundContacts { caller: &caller.out, workers };
     order.clear();
     for thread in found.threads() {
         order.extend_from_slice(&thread.places).expect("as many places as contacts");
     }
-    if order.len() < WORTH_DIGITS {
-        order.sort_unstable_by_key(|place| place.head);
-    } else {
-        sort_by_digits(order.as_mut_slice(), scratch);
-    }
+    // Contacts under one high word are few; only these are compared whole.
+    order.sort_unstable_by_key(|place| place.head);
     for ties in order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
         ties.sort_unstable_by_key(|place| found.contact(place).found.order());
-    }
-}
-
-/// Radix sort of contacts by the high words of their keys, lowest digit first (D. E. Knuth, The Art of
-/// Computer Programming, vol. 3, 5.2.5). Contacts come in tree order, so comparisons would be mispredicted; a
-/// radix sort has none.
-#[inline(never)]
-fn sort_by_digits(places: &mut [Place], scratch: &mut Arena) {
-    let first = places[0].head;
-    let mut differing = places.iter().fold(0, |bits, place| bits | (place.head ^ first));
-    // Digits of equal length, short enough that there are few counters compared with the contacts.
-    let digits = differing.count_ones().div_ceil(DIGIT_BITS).max(1);
-    let bits = differing.count_ones().div_ceil(digits);
-    let mask = (1 << bits) - 1;
-    scratch.reset();
-    let mut from = places;
-    let mut to = scratch.slice(from.len(), Place::NOWHERE).expect("sealing has sized the scratch");
-    let mut is_in_scratch = false;
-    while differing != 0 {
-        let shift = differing.trailing_zeros();
-        place_by_digit((from, to), shift, mask);
-        (from, to) = (to, from);
-        is_in_scratch = !is_in_scratch;
-        differing &= !(mask << shift);
-    }
-    if is_in_scratch {
-        to.copy_from_slice(from);
-    }
-}
-
-/// Maximum bits of a digit.
-const DIGIT_BITS: u32 = 8;
-
-/// Copies the references in the order of one digit of their high words; stable.
-fn place_by_digit((from, to): (&[Place], &mut [Place]), shift: u32, mask: u64) {
-    let digit = |place: &Place| (place.head >> shift & mask) as usize;
-    let mut ends = [0_u32; 1 << DIGIT_BITS];
-    let ends = &mut ends[..=mask as usize];
-    for place in from {
-        ends[digit(place)] += 1;
-    }
-    let mut count = 0;
-    for end in ends.iter_mut() {
-        (*end, count) = (count, count + *end);
-    }
-    for place in from {
-        let next = &mut ends[digit(place)];
-        to[*next as usize] = *place;
-        *next += 1;
     }
 }
 
@@ -150,48 +92,4 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuf
         }
     }
     order.retain(|place| out.contacts[place.slot.index()].found.status != CandidateStatus::Culled);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::state::Slot;
-    use pong_testkit::Random;
-
-    /// High words of few and of many contacts, with few and many directions; equal words keep their order.
-    #[test]
-    fn digits_put_contacts_in_the_order_of_their_heads() {
-        let mut random = Random::new(7, 0, 0);
-        for case in 0..300 {
-            let count = WORTH_DIGITS + random.below(if case % 10 == 0 { 2000 } else { 60 });
-            let [directions, primitives] = [1 << random.below(22), 1 << random.below(31)];
-            let mut places: Vec<Place> = (0..count)
-                .map(|index| {
-                    let head = (random.below(directions) as u64) << 32 | random.below(primitives) as u64;
-                    Place::new(head, Slot::new(index % 3, index), index % 2 == 0, Some(index as u32))
-                })
-                .collect();
-            let mut expected = places.clone();
-            expected.sort_by_key(|place| place.head);
-            let mut scratch = Arena::with_capacity(16 + count * size_of::<Place>());
-            sort_by_digits(&mut places, &mut scratch);
-            let told = |place: &Place| (place.head, place.slot, place.continues());
-            assert!(places.iter().map(told).eq(expected.iter().map(told)), "case {case}");
-        }
-    }
-
-    /// High words that differ only in the highest or lowest bit, or not at all.
-    #[test]
-    fn digits_at_the_ends_of_the_heads_count() {
-        for bit in [0, 1, 32, 55, 56, 62, 63] {
-            let heads = [1_u64 << bit, 0, u64::MAX, !(1 << bit), 1 << bit];
-            let place = |(index, &head): (usize, &u64)| Place::new(head, Slot::new(0, index), true, None);
-            let mut places: Vec<Place> = heads.iter().enumerate().map(place).collect();
-            sort_by_digits(&mut places, &mut Arena::with_capacity(1024));
-            assert!(places.is_sorted_by_key(|place| place.head), "{bit}: {places:?}");
-            places.fill(Place::new(1 << bit, Slot::new(0, 1), true, None));
-            sort_by_digits(&mut places, &mut Arena::with_capacity(1024));
-            assert!(places.iter().all(|place| place.head == 1 << bit));
-        }
-    }
 }

@@ -2,7 +2,7 @@
 
 use super::reduce::Sums;
 use crate::frame::buffers::EvaluationBuffers;
-use crate::frame::forces::place::Place;
+use crate::frame::forces::contact_ref::ContactRef;
 use crate::sealed::Sealed;
 use pong_geometry::{Pose, Wrench};
 
@@ -10,14 +10,14 @@ impl EvaluationBuffers {
     /// Wrench of a pair of movable groups on `on`, one of the two: about and along the frame of that group, by the sums of
     /// [`reduce`](super::reduce).
     pub fn wrench_of_groups(&self, sealed: &Sealed, group_pair: usize, on: usize) -> Wrench {
-        let of = |place: &Place| place.direction().group_pair as usize;
+        let of = |place: &ContactRef| place.direction().group_pair as usize;
         let start = self.order.partition_point(|place| of(place) < group_pair);
         let len = self.order[start..].partition_point(|place| of(place) == group_pair);
         self.wrench_of_places(sealed, &self.order[start..start + len], on)
     }
 
     /// As [`wrench_of_groups`](Self::wrench_of_groups), from all places of the pair.
-    fn wrench_of_places(&self, sealed: &Sealed, places: &[Place], on: usize) -> Wrench {
+    fn wrench_of_places(&self, sealed: &Sealed, places: &[ContactRef], on: usize) -> Wrench {
         let mut wrench = Wrench::zero();
         for places in places.chunk_by(|a, b| a.direction() == b.direction()) {
             let (body_a, body_b) = sealed.bodies_of(places[0].direction());

@@ -6,9 +6,9 @@
 //! (docs/theory.md, 5).
 
 use crate::frame::buffers::EvaluationBuffers;
+use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::forces::found::FoundContacts;
-use crate::frame::forces::place::Place;
-use crate::frame::forces::term::Term;
+use crate::frame::forces::wrench_term::WrenchTerm;
 use crate::frame::input::EvaluationInput;
 use crate::frame::input::relative::Motions;
 use crate::sealed::Sealed;
@@ -59,7 +59,7 @@ impl Sums {
 
     /// Sums over all contacts of a direction, part by part; `origin_a` is A's origin in B's frame, m.
     #[inline]
-    pub fn of_direction(found: &FoundContacts<'_>, places: &[Place], origin_a: &Vec3) -> Self {
+    pub fn of_direction(found: &FoundContacts<'_>, places: &[ContactRef], origin_a: &Vec3) -> Self {
         let mut sums = Self::of_nothing();
         for part in places.chunks(PART) {
             sums.add(&Self::of(found, part, origin_a));
@@ -69,10 +69,10 @@ impl Sums {
 
     /// Sums over some contacts; `origin_a` is A's origin in B's frame, m.
     #[inline]
-    fn of(found: &FoundContacts<'_>, places: &[Place], origin_a: &Vec3) -> Self {
+    fn of(found: &FoundContacts<'_>, places: &[ContactRef], origin_a: &Vec3) -> Self {
         let mut sums = Self::of_nothing();
         for place in places.iter().filter(|place| place.pushes()) {
-            let Term { force_b, point_b, size } = &found.term(place);
+            let WrenchTerm { force_b, point_b, size } = &found.term(place);
             sums.force += force_b;
             sums.about_a += (point_b - origin_a).cross(force_b);
             sums.about_b += point_b.cross(force_b);

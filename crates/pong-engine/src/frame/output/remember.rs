@@ -7,7 +7,7 @@
 
 use crate::energy::contact::ContactEnergyRef;
 use crate::frame::buffers::EvaluationBuffers;
-use crate::frame::forces::place::Place;
+use crate::frame::forces::contact_ref::ContactRef;
 use crate::state::{ContactMemory, Remembered};
 
 /// Replaces all records by those of the frame's contacts.
@@ -46,7 +46,7 @@ fn adopt(frame: &mut EvaluationBuffers, next: &mut ContactMemory) -> bool {
 }
 
 /// Friction-law state and energies of a contact. If there are any, all contacts are in the caller's buffer.
-fn beside<'a>(frame: &'a EvaluationBuffers, place: &Place) -> (&'a [f64], Option<ContactEnergyRef<'a>>) {
+fn beside<'a>(frame: &'a EvaluationBuffers, place: &ContactRef) -> (&'a [f64], Option<ContactEnergyRef<'a>>) {
     let law_state = frame.caller.out.law_state_of(place.slot.index());
     (law_state, frame.energy.contacts.get(place.slot.index()))
 }

@@ -5,7 +5,7 @@ use super::line::{Line, Met};
 use super::swept::{self, Swept};
 use super::{curved, sheets, solids, travel};
 use crate::frame::buffers::EvaluationBuffers;
-use crate::frame::forces::place::Place;
+use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::input::motion::Motion;
 use crate::frame::input::{EvaluationInput, PairContext};
 use crate::frame::narrow_phase::candidate::ContactCandidate;
@@ -219,7 +219,7 @@ fn any_met(batch: &Batch, (low, high): &(Vec3, Vec3), holds: impl Fn(u32) -> boo
 }
 
 /// References to the contacts whose keys have the same high word.
-fn same_head(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item = &Place> + use<'_> {
+fn same_head(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item = &ContactRef> + use<'_> {
     let head = key.head();
     let first = frame.order.partition_point(|place| place.head < head);
     frame.order[first..].iter().take_while(move |place| place.head == head)
@@ -229,7 +229,7 @@ fn same_head(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item =
 /// the key's high word.
 pub(super) fn pushing<'a>(
     frame: &'a EvaluationBuffers,
-    same_head: impl Iterator<Item = &'a Place>,
+    same_head: impl Iterator<Item = &'a ContactRef>,
     key: ContactKey,
 ) -> impl Iterator<Item = &'a Vec3> {
     found(frame, same_head, key).map(|found| &found.normal_b)
@@ -238,7 +238,7 @@ pub(super) fn pushing<'a>(
 /// Contacts that push for a primitive of A and a shell of B, among those with the key's high word.
 fn found<'a>(
     frame: &'a EvaluationBuffers,
-    same_head: impl Iterator<Item = &'a Place>,
+    same_head: impl Iterator<Item = &'a ContactRef>,
     key: ContactKey,
 ) -> impl Iterator<Item = &'a ContactCandidate> {
     let pushing = same_head.filter(|place| place.pushes());

@@ -6,7 +6,6 @@
 
 #[cfg(test)]
 mod tests;
-mod trials;
 
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::input::{Round, WorkerInput};
@@ -20,7 +19,9 @@ use pong_threads::{Job, Outcome, Pool, Settings, StartError};
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
 use std::time::Duration;
-use trials::{SharingTrials, WORTH_SHARING_NS};
+
+/// Cost below which the caller works alone, ns.
+const WORTH_SHARING_NS: u64 = 5_000;
 
 /// Cost below which no worker is woken, ns, unless frames follow each other so closely that workers stay
 /// awake. A wake-up takes 10 µs and more, and the worker starts with cold caches.
@@ -48,7 +49,6 @@ pub(crate) struct WorkerPool {
     worked: bool,
     /// Estimated cost of the last round, ns; 0 if it was not shared.
     last_cost_ns: u64,
-    trials: SharingTrials,
     /// Time per kind of work of the workers in this frame; zero without a clock.
     times: Vec<WorkTimes>,
 }
@@ -81,7 +81,6 @@ impl Job for Shared {
         let mut context = locked(&self.contexts[thread - 1]);
         if context.out.phase != input.phase {
             context.out.begin(input.phase);
-            memory.records.fetch();
         }
         self.run_blocks((input, memory), blocks, &mut context);
         // Finish on the worker: the data is in this core's cache, not in the caller's.
@@ -135,19 +134,16 @@ impl WorkerPool {
         });
         let pool = Pool::start(Arc::clone(&shared) as Arc<dyn Job>, settings)?;
         let times = vec![WorkTimes::default(); workers];
-        let trials = SharingTrials::NONE;
-        Ok(Self { pool, shared, timeouts: 0, lent: false, worked: false, last_cost_ns: 0, trials, times })
+        Ok(Self { pool, shared, timeouts: 0, lent: false, worked: false, last_cost_ns: 0, times })
     }
 
     /// Number of workers worth using for a round with this many blocks and test cost, ns; 0 if the caller
-    /// alone is faster. Each of the `records` of the last commit adds the cost of a contact. In the doubtful
-    /// range, trials decide; call [`end_frame`](Self::end_frame) at the end of the frame.
+    /// alone is faster. Each of the `records` of the last commit adds the cost of a contact.
     pub fn worth_asking(&mut self, records: usize, blocks: usize, cost_ns: u64) -> usize {
         let cost_ns = cost_ns + records as u64 * CONTACT_NS;
         let worth = cost_ns >= WORTH_SHARING_NS
             && blocks >= 2
-            && (self.pool.has_workers_at_hand() || cost_ns >= WORTH_WAKING_NS)
-            && self.trials.shares(cost_ns);
+            && (self.pool.has_workers_at_hand() || cost_ns >= WORTH_WAKING_NS);
         self.last_cost_ns = if worth { cost_ns } else { 0 };
         if worth { self.pool.workers().min(1.max((cost_ns / WORTH_A_WORKER_NS) as usize)) } else { 0 }
     }
@@ -216,9 +212,9 @@ impl WorkerPool {
             match taken {
                 Some(taken) if as_they_are && other.out.remembers_all() => {
                     out.counts.add(&other.out.counts);
-                    taken.take_over(&mut other.out);
+                    taken.move_from(&mut other.out);
                 }
-                _ if out.absorb(&other.out) => {}
+                _ if out.merge(&other.out) => {}
                 _ => return false,
             }
         }
@@ -236,13 +232,6 @@ impl WorkerPool {
             self.times.fill(WorkTimes::default());
             self.worked = false;
         }
-    }
-
-    /// Ends the frame's trial, if one is timed.
-    #[inline]
-    pub fn end_frame(&mut self) {
-        let Self { pool, worked, trials, .. } = self;
-        trials.end_round(|| *worked && pool.work().skip(1).any(|thread| thread.blocks > 0));
     }
 
     /// Returns true if the workers took part in this frame.

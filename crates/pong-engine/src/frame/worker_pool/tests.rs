@@ -1,6 +1,5 @@
 //! Tests of workers that need private access: storage of the records, and a worker that starts too late.
 
-use super::trials::ALWAYS_SHARED_NS;
 use super::*;
 use crate::frame::{EvaluationBuffers, FrameContact};
 use crate::runtime::Runtime;
@@ -130,36 +129,6 @@ fn as_many_workers_are_asked_as_there_is_work_for() {
     assert_eq!(pool.worth_asking(0, 100, WORTH_SHARING_NS - 1), 0);
 }
 
-/// If trials favour the caller alone, workers are used only for long rounds.
-#[test]
-fn rounds_that_are_quicker_alone_ask_and_wake_nobody() {
-    let mut world = brush(config(Some(one_worker())), 0).world;
-    let pool = world.runtime_mut().pool.as_mut().unwrap();
-    pool.prewake(Duration::from_secs(60));
-    while !pool.pool.has_workers_at_hand() {}
-    pool.trials = SharingTrials::ALONE;
-    for cost_ns in [WORTH_SHARING_NS, WORTH_WAKING_NS, ALWAYS_SHARED_NS - 1] {
-        assert_eq!((pool.worth_asking(0, 100, cost_ns), pool.last_cost_ns), (0, 0), "{cost_ns} ns");
-    }
-    assert_eq!(pool.worth_asking(0, 100, ALWAYS_SHARED_NS), 1);
-    assert_eq!(pool.last_cost_ns, ALWAYS_SHARED_NS);
-}
-
-#[test]
-fn trials_are_made_while_frames_run() {
-    let mut brush = brush(config(Some(one_worker())), 0);
-    // No contacts, since they would make these frames long.
-    brush.put([0.0, 0.0, 1e-3], 0.0);
-    for _ in 0..20_000 {
-        brush.world.prewake(Duration::from_millis(100));
-        assert_eq!(brush.world.step().unwrap().contacts, 0);
-        if brush.world.runtime_mut().pool.as_ref().unwrap().trials.any_ended() {
-            return;
-        }
-    }
-    panic!("no trial has ended");
-}
-
 /// Sleeping workers are woken before the blocks are laid out, if the last round was worth it.
 #[test]
 fn a_long_round_wakes_the_workers_of_the_next_before_it_is_laid_out() {
@@ -207,11 +176,11 @@ fn compare(change: impl Fn(Config) -> Config, rays: usize) -> SharedFrames {
         let [expected, found] = [&mut alone, &mut shared].map(|brush| brush.world.runtime_mut());
         assert!(found.memory.records == expected.memory.records, "frame {frame}");
         assert_eq!(found.frame.wrenches, expected.frame.wrenches, "frame {frame}");
-        let told = |frame: &EvaluationBuffers| -> Vec<String> {
-            let told = |contact: &FrameContact| (contact.point_b, contact.force(), contact.sticks);
-            frame.pushing().map(|contact| format!("{:?}", told(contact))).collect()
+        let reported = |frame: &EvaluationBuffers| -> Vec<String> {
+            let values = |contact: &FrameContact| (contact.point_b, contact.force(), contact.sticks);
+            frame.pushing().map(|contact| format!("{:?}", values(contact))).collect()
         };
-        assert!(told(&found.frame) == told(&expected.frame), "frame {frame}");
+        assert!(reported(&found.frame) == reported(&expected.frame), "frame {frame}");
         assert_eq!(found.frame.caller.out.counts, expected.frame.caller.out.counts, "frame {frame}");
         if found.thread_work().nth(1).is_some_and(|thread| thread.blocks > 0) {
             shared_frames.by_worker += 1;

@@ -6,7 +6,7 @@ use crate::state::{ContactKey, Slot};
 /// Reference to a contact, with the high word of its sort key and the flags that are needed before summation.
 /// Most passes then need not read the contacts themselves.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct ContactRef {
     pub head: u64,
     /// Thread's buffer and index in it.
     pub slot: Slot,
@@ -15,7 +15,7 @@ pub(crate) struct Place {
     state: u32,
 }
 
-impl Place {
+impl ContactRef {
     const BEGINS: u32 = u32::MAX >> 1;
 
     /// Reference to the contact in a slot.
@@ -58,16 +58,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_place_tells_all_that_it_was_made_of() {
+    fn references_round_trip() {
         let slot = Slot::new(1, 9);
         for continues in [None, Some(0), Some(1), Some(1 << 30)] {
             for pushes in [false, true] {
-                let place = Place::new(7, slot, pushes, continues);
+                let place = ContactRef::new(7, slot, pushes, continues);
                 assert_eq!((place.head, place.slot, place.pushes()), (7, slot, pushes));
                 assert_eq!(place.continues(), continues.map(|record| record as usize));
             }
         }
-        let nowhere = Place::NOWHERE;
+        let nowhere = ContactRef::NOWHERE;
         assert!(nowhere.slot == Slot::NOWHERE && !nowhere.pushes() && nowhere.continues().is_none());
     }
 }

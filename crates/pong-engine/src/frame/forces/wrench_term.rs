@@ -7,7 +7,7 @@ use pong_geometry::Vec3;
 /// possible of another core's data.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub(crate) struct Term {
+pub(crate) struct WrenchTerm {
     /// Force on A, N.
     pub force_b: Vec3,
     /// Contact point c, m.
@@ -16,7 +16,7 @@ pub(crate) struct Term {
     pub size: f64,
 }
 
-impl Term {
+impl WrenchTerm {
     /// Placeholder to fill memory.
     pub fn nothing() -> Self {
         Self { force_b: Vec3::zeros(), point_b: Vec3::zeros(), size: 0.0 }
