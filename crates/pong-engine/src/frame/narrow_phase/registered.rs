@@ -1,12 +1,13 @@
 //! Contact tests registered by the host.
 
 use super::element_pair::{ChunkCandidates, ElementPair};
+use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::primitive::PrimitiveKind::{self, Custom, Plane, Polyhedron, Triangle};
 use pong_model::{Item, MovableGroup};
 
 /// Runs the test registered for a pair of kinds, if any.
-pub(crate) fn test(pair: &ElementPair<'_>, found: &mut ChunkCandidates<'_>) {
+pub(super) fn test(pair: &ElementPair<'_>, _: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
     let a = element_ref(pair.body_a(), pair.item_a);
     let b = element_ref(pair.body_b(), pair.item_b);
     let extensions = &pair.context.scene.extensions;
