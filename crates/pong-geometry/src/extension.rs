@@ -1,34 +1,13 @@
 //! Extensions by a Rust user: kinds of primitives, kinds of bounding volumes, and the tests of their pairs.
 
-use crate::Transform;
 use crate::bounding::{Bounded, CustomVolume, Volume};
 use crate::interference::Interference;
-use crate::primitive::{
-    Bore, Capsule, CustomPrimitive, Ellipsoid, Frustum, LineSegment, Plane, Point, Polyhedron, PrimitiveKind,
-    Ray, Sphere, TriangleSet,
-};
+use crate::primitive::{CustomPrimitive, Primitive, PrimitiveKind, TriangleSet};
+use crate::{Transform, Vec3};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// Primitive as passed to a registered tester, in the frame of its own movable group.
-#[derive(Clone, Copy, Debug)]
-#[allow(missing_docs)]
-pub enum PrimitiveRef<'a> {
-    Point(&'a Point),
-    LineSegment(&'a LineSegment),
-    Ray(&'a Ray),
-    Sphere(&'a Sphere),
-    Ellipsoid(&'a Ellipsoid),
-    Triangle(&'a TriangleSet, u32),
-    Polyhedron(&'a Polyhedron),
-    Plane(&'a Plane),
-    Custom(&'a dyn CustomPrimitive),
-    Capsule(&'a Capsule),
-    Cylinder(&'a Frustum),
-    Cone(&'a Frustum),
-    Bore(&'a Bore),
-}
 
 /// Creates a custom primitive from the parameters in the model file, or returns the reason why they are
 /// invalid.
@@ -128,26 +107,54 @@ impl Extensions {
     }
 }
 
-impl PrimitiveRef<'_> {
-    /// Kind of the primitive.
-    pub fn kind(&self) -> PrimitiveKind {
-        match self {
-            Self::Point(_) => PrimitiveKind::Point,
-            Self::LineSegment(_) => PrimitiveKind::LineSegment,
-            Self::Ray(_) => PrimitiveKind::Ray,
-            Self::Sphere(_) => PrimitiveKind::Sphere,
-            Self::Ellipsoid(_) => PrimitiveKind::Ellipsoid,
-            Self::Triangle(..) => PrimitiveKind::Triangle,
-            Self::Polyhedron(_) => PrimitiveKind::Polyhedron,
-            Self::Plane(_) => PrimitiveKind::Plane,
-            Self::Custom(_) => PrimitiveKind::Custom,
-            Self::Capsule(_) => PrimitiveKind::Capsule,
-            Self::Cylinder(_) => PrimitiveKind::Cylinder,
-            Self::Cone(_) => PrimitiveKind::Cone,
-            Self::Bore(_) => PrimitiveKind::Bore,
+macro_rules! define_reference {
+    ($($(#[$doc:meta])+ $kind:ident = $number:literal: $shape:ty, $array:ident;)*) => {
+        /// Primitive as passed to a registered tester, in the frame of its own movable group.
+        #[derive(Clone, Copy, Debug)]
+        pub enum PrimitiveRef<'a> {
+            $($(#[$doc])+ $kind(&'a $shape),)*
+            /// Facet of a mesh, by its index.
+            Triangle(&'a TriangleSet, u32),
+            /// Kind defined by the user.
+            Custom(&'a dyn CustomPrimitive),
         }
-    }
 
+        impl<'a> PrimitiveRef<'a> {
+            /// Kind of the primitive.
+            pub fn kind(&self) -> PrimitiveKind {
+                match self {
+                    $(Self::$kind(_) => PrimitiveKind::$kind,)*
+                    Self::Triangle(..) => PrimitiveKind::Triangle,
+                    Self::Custom(_) => PrimitiveKind::Custom,
+                }
+            }
+
+            /// Facts of the primitive by itself; `None` for a triangle, which is a part of its mesh, and for a
+            /// custom primitive, which has only its support function.
+            pub fn facts(&self) -> Option<&'a dyn Primitive> {
+                match *self {
+                    $(Self::$kind(shape) => Some(shape),)*
+                    Self::Triangle(..) | Self::Custom(_) => None,
+                }
+            }
+
+            /// Point of A whose displacement deflects the bristle of a contact, m, as
+            /// [`Primitive::reference_point`]; the centre of a custom primitive's box.
+            #[inline]
+            pub fn reference_point(&self, end: u32) -> Cow<'a, Vec3> {
+                match *self {
+                    $(Self::$kind(shape) => shape.reference_point(end),)*
+                    Self::Triangle(..) => Cow::Owned(Vec3::zeros()),
+                    Self::Custom(custom) => Cow::Owned(middle(custom)),
+                }
+            }
+        }
+    };
+}
+
+crate::for_each_kind!(define_reference);
+
+impl PrimitiveRef<'_> {
     /// Name of the kind; for a custom kind, its own name.
     pub fn kind_name(&self) -> &str {
         match self {
@@ -155,4 +162,12 @@ impl PrimitiveRef<'_> {
             other => other.kind().name(),
         }
     }
+}
+
+/// Centre of a custom primitive's box; the frame's origin if the box is unbounded.
+fn middle(primitive: &dyn CustomPrimitive) -> Vec3 {
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let coordinates = axes.map(|axis| 0.5 * (primitive.support(&axis) - primitive.support(&-axis)));
+    let middle = Vec3::from(coordinates);
+    if middle.iter().all(|x| x.is_finite()) { middle } else { Vec3::zeros() }
 }
