@@ -6,7 +6,6 @@ use crate::primitive::{CustomPrimitive, Primitive, PrimitiveKind, TriangleSet};
 use crate::{Transform, Vec3};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Creates a custom primitive from the parameters in the model file, or returns the reason why they are
@@ -22,7 +21,7 @@ pub type VolumeTest = Arc<dyn Fn(&Volume, &Volume, &Transform) -> bool + Send + 
 pub type ContactTest =
     Arc<dyn Fn(PrimitiveRef<'_>, PrimitiveRef<'_>, &Transform) -> Option<Interference> + Send + Sync>;
 
-/// Kinds and tests registered by a user, and the folders that models may read. Built-in kinds need no entry.
+/// Kinds and tests registered by a user. Built-in kinds need no entry.
 #[derive(Clone, Default)]
 pub struct Extensions {
     primitives: BTreeMap<String, PrimitiveFactory>,
@@ -30,8 +29,6 @@ pub struct Extensions {
     volume_tests: BTreeMap<(String, String), VolumeTest>,
     /// Keyed by the kind of A, then of B, so that a frame can look up by borrowed names.
     contact_tests: BTreeMap<String, BTreeMap<String, ContactTest>>,
-    /// Folders outside a model's own in which files named by the model may lie.
-    folders: Vec<PathBuf>,
 }
 
 /// Shows the names only: functions have no printable form.
@@ -42,7 +39,6 @@ impl std::fmt::Debug for Extensions {
             .field("volumes", &self.volumes.keys())
             .field("volume_tests", &self.volume_tests.keys())
             .field("contact_tests", &self.contact_tests.keys())
-            .field("folders", &self.folders)
             .finish()
     }
 }
@@ -73,17 +69,6 @@ impl Extensions {
     /// [`PrimitiveKind::name`]).
     pub fn add_contact_test(&mut self, kind_a: &str, kind_b: &str, test: ContactTest) {
         self.contact_tests.entry(kind_a.to_owned()).or_default().insert(kind_b.to_owned(), test);
-    }
-
-    /// Allows models to read the mesh files they name from this folder and its subfolders too. Otherwise a
-    /// file outside the model's own folder, even through a link, is refused.
-    pub fn allow_files_below(&mut self, folder: impl Into<PathBuf>) {
-        self.folders.push(folder.into());
-    }
-
-    /// Folders allowed in addition to a model's own.
-    pub fn folders_allowed(&self) -> impl Iterator<Item = &Path> {
-        self.folders.iter().map(PathBuf::as_path)
     }
 
     /// Factory of a kind of primitive, if registered.
