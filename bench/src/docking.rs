@@ -3,9 +3,8 @@
 
 use crate::motion::state;
 use pong_engine::State;
-use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Quat, Twist, Vec3};
-use pong_model::{Model, ModelErrors};
+use pong_model::{Extensions, Model, ModelErrors};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 use std::sync::Arc;

@@ -2,7 +2,7 @@
 
 use crate::rig;
 use pong_engine::{Laws, NormalForce, NormalInput, WorldBuilder};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use std::sync::Arc;
 
 /// A law that no surface uses.

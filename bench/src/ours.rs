@@ -3,7 +3,6 @@
 
 use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, Target};
 use crate::peer::PairPeer;
-use pong_geometry::extension::Extensions;
 use pong_geometry::interference::{
     Feature, Interference, ball_bore::ball_bore, ball_round::ball_capsule, ball_round::ball_frustum,
     capsule_edge::ConvexEdge, capsule_edge::capsule_edge, capsule_polyhedron::CapsuleAtPiece,
@@ -31,7 +30,7 @@ use pong_geometry::primitive::{
 };
 use pong_geometry::simd::{self, Kernel, LANES, Simd};
 use pong_geometry::{Lanes, Mat3, Pose, Transform, Vec3};
-use pong_model::{Model, MovableGroup};
+use pong_model::{Extensions, Model, MovableGroup};
 
 /// Testers of one pair.
 pub struct Ours {

@@ -8,9 +8,8 @@ use crate::ring::{self, Ring, Tip};
 use crate::ron;
 use crate::terrain::{self, Source, Terrain, WHEELS, Wheel};
 use pong_engine::{EngineError, State, WorldBuilder};
-use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Twist, Vec3};
-use pong_model::Model;
+use pong_model::{Extensions, Model};
 use std::error::Error;
 use std::sync::Arc;
 

@@ -3,7 +3,7 @@
 use crate::input::Input;
 use crate::{count, files};
 use pong_engine::{Config, State, WorldBuilder};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use pong_record::{Log, ModelSource, RecordOptions, Recorder, ReplayOptions};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};

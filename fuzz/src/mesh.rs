@@ -2,8 +2,8 @@
 
 use crate::input::Input;
 use crate::{count, exercise, files, text};
-use pong_geometry::extension::Extensions;
 use pong_import::{DefaultSurface, Options};
+use pong_model::Extensions;
 use std::path::Path;
 
 /// Imports a file with this extension; the model is loaded and used.

@@ -2,7 +2,7 @@
 
 use crate::input::Input;
 use crate::{count, exercise, text};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 
 /// Parses text; the states of the frames are taken from the same bytes.
 pub fn run(data: &[u8]) {

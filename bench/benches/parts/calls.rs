@@ -11,7 +11,7 @@ use pong_bench::scenes::{self, FIXED, Scene};
 use pong_bench::terrain::{Source, Terrain};
 use pong_bench::timing::now_ns;
 use pong_engine::{State, WorldBuilder};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use std::error::Error;
 use std::hint::black_box;
 

@@ -12,8 +12,7 @@ use pong_bench::scenes;
 use pong_bench::table::{Table, at_most, or_dash};
 use pong_bench::terrain::{self, Source, Terrain, WHEELS, Wheel};
 use pong_engine::{Config, WorldBuilder};
-use pong_geometry::extension::Extensions;
-use pong_model::MovableGroup;
+use pong_model::{Extensions, MovableGroup};
 use std::error::Error;
 use std::time::Instant;
 

@@ -22,6 +22,7 @@ use crate::setting::Setting;
 use crate::spring::{ContactSprings, Spring, springs};
 use crate::term::Term;
 use nalgebra::DMatrix;
+use pong_engine::has_tester;
 use pong_engine::inspect::GroupPair;
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
@@ -355,31 +356,20 @@ fn distinct(body: &MovableGroup, filters: impl Fn(&PrimitiveInfo) -> Vec<usize>)
 
 fn site(body: &MovableGroup, primitive: usize, springs: ContactSprings) -> Option<ContactSite> {
     let info = &body.primitives[primitive];
-    let element = info.elements.start as usize;
-    let axis = |ends: &[Vec3; 2]| (0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0]));
-    let mut is_loose = false;
-    let ((center, half_axis), radius) = match info.kind {
-        PrimitiveKind::Point => ((body.points[element].position, Vec3::zeros()), 0.0),
-        PrimitiveKind::Sphere => {
-            ((body.spheres[element].center, Vec3::zeros()), body.spheres[element].radius)
-        }
-        PrimitiveKind::LineSegment => (axis(&body.segments[element].ends), 0.0),
-        PrimitiveKind::Capsule => (axis(&body.capsules[element].ends), body.capsules[element].radius),
-        // Box of an ellipsoid, of a round part, of a ray with its tip, or of a kind registered by the host.
-        PrimitiveKind::Ellipsoid
-        | PrimitiveKind::Cylinder
-        | PrimitiveKind::Cone
-        | PrimitiveKind::Ray
-        | PrimitiveKind::Custom => {
-            is_loose = true;
-            let item = Item { primitive: primitive as u32, element: info.elements.start };
-            let (low, high) = Element::new(body, item).extent();
-            ((0.5 * (low + high), Vec3::zeros()), 0.5 * (high - low).norm())
-        }
-        PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane | PrimitiveKind::Bore => {
-            return None;
-        }
-    };
+    let element = info.elements.start;
+    let is_custom = info.kind == PrimitiveKind::Custom;
+    if !is_custom && !PrimitiveKind::ALL.into_iter().any(|kind_b| has_tester(info.kind, kind_b)) {
+        return None;
+    }
+    // A ray touches with its tip, not with the origin on which its core is.
+    let facts = body.element(info.kind, element).facts().filter(|_| info.kind != PrimitiveKind::Ray);
+    let core = facts.and_then(|facts| facts.core());
+    let is_loose = core.is_none();
+    let ([one, other], radius) = core.unwrap_or_else(|| {
+        let (low, high) = Element::new(body, Item { primitive: primitive as u32, element }).extent();
+        ([0.5 * (low + high); 2], 0.5 * (high - low).norm())
+    });
+    let (center, half_axis) = (0.5 * (one + other), 0.5 * (other - one));
     let numbers = center.iter().chain(&half_axis).chain([&radius]);
     numbers.into_iter().all(|x| x.is_finite()).then_some(ContactSite {
         center,

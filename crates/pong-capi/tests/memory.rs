@@ -4,7 +4,7 @@
 
 use pong::memory::of_text;
 use pong_engine::{Config, WorkerSettings, WorldBuilder, WrenchCoupling};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::path::{Path, PathBuf};

@@ -1,7 +1,7 @@
 //! Folders from which models may read files, an option of every command that reads models; and the output
 //! folder for models of a log.
 
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use std::path::{Path, PathBuf};
 
 /// Additional folders from which files may be read.

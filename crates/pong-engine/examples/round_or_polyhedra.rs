@@ -7,7 +7,7 @@
 //! largest error of the depth that follows from the force.
 
 use pong_engine::{Config, InterfaceId, State, World, WorldBuilder};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use pong_testkit::ron::{model, surface};
 use std::f64::consts::TAU;
 use std::sync::Arc;

@@ -8,8 +8,7 @@ use crate::runtime::Runtime;
 use crate::scene::{Config, GroupFilter, GroupInstance, Object, ObjectPair, Scene, State, States, Surfaces};
 use crate::seal::{self, SealReport};
 use crate::world::World;
-use pong_geometry::extension::Extensions;
-use pong_model::{Model, Surface};
+use pong_model::{Extensions, Model, Surface};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 

@@ -3,8 +3,7 @@
 use crate::contents::{self, Contents, SCENE_FILE};
 use crate::unit::{Inputs, Unit};
 use pong_executive::scene::{Scene, Variation};
-use pong_geometry::extension::Extensions;
-use pong_model::Model;
+use pong_model::{Extensions, Model};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

@@ -8,7 +8,7 @@ use crate::unit::{Inputs, Unit};
 use crate::version::Fmi;
 use crate::zip::Zip;
 use pong_executive::scene::Scene;
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use pong_model::grouping::mesh_files;
 use std::path::{Component, Path};
 

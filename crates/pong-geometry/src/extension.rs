@@ -1,34 +1,12 @@
 //! Extensions by a Rust user: kinds of primitives, kinds of bounding volumes, and the tests of their pairs.
 
-use crate::Transform;
 use crate::bounding::{Bounded, CustomVolume, Volume};
 use crate::interference::Interference;
-use crate::primitive::{
-    Bore, Capsule, CustomPrimitive, Ellipsoid, Frustum, LineSegment, Plane, Point, Polyhedron, PrimitiveKind,
-    Ray, Sphere, TriangleSet,
-};
+use crate::primitive::{CustomPrimitive, Primitive, PrimitiveKind, TriangleSet};
+use crate::{Transform, Vec3};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// Primitive as passed to a registered tester, in the frame of its own movable group.
-#[derive(Clone, Copy, Debug)]
-#[allow(missing_docs)]
-pub enum PrimitiveRef<'a> {
-    Point(&'a Point),
-    LineSegment(&'a LineSegment),
-    Ray(&'a Ray),
-    Sphere(&'a Sphere),
-    Ellipsoid(&'a Ellipsoid),
-    Triangle(&'a TriangleSet, u32),
-    Polyhedron(&'a Polyhedron),
-    Plane(&'a Plane),
-    Custom(&'a dyn CustomPrimitive),
-    Capsule(&'a Capsule),
-    Cylinder(&'a Frustum),
-    Cone(&'a Frustum),
-    Bore(&'a Bore),
-}
 
 /// Creates a custom primitive from the parameters in the model file, or returns the reason why they are
 /// invalid.
@@ -43,7 +21,7 @@ pub type VolumeTest = Arc<dyn Fn(&Volume, &Volume, &Transform) -> bool + Send + 
 pub type ContactTest =
     Arc<dyn Fn(PrimitiveRef<'_>, PrimitiveRef<'_>, &Transform) -> Option<Interference> + Send + Sync>;
 
-/// Kinds and tests registered by a user, and the folders that models may read. Built-in kinds need no entry.
+/// Kinds and tests registered by a user. Built-in kinds need no entry.
 #[derive(Clone, Default)]
 pub struct Extensions {
     primitives: BTreeMap<String, PrimitiveFactory>,
@@ -51,8 +29,6 @@ pub struct Extensions {
     volume_tests: BTreeMap<(String, String), VolumeTest>,
     /// Keyed by the kind of A, then of B, so that a frame can look up by borrowed names.
     contact_tests: BTreeMap<String, BTreeMap<String, ContactTest>>,
-    /// Folders outside a model's own in which files named by the model may lie.
-    folders: Vec<PathBuf>,
 }
 
 /// Shows the names only: functions have no printable form.
@@ -63,7 +39,6 @@ impl std::fmt::Debug for Extensions {
             .field("volumes", &self.volumes.keys())
             .field("volume_tests", &self.volume_tests.keys())
             .field("contact_tests", &self.contact_tests.keys())
-            .field("folders", &self.folders)
             .finish()
     }
 }
@@ -96,17 +71,6 @@ impl Extensions {
         self.contact_tests.entry(kind_a.to_owned()).or_default().insert(kind_b.to_owned(), test);
     }
 
-    /// Allows models to read the mesh files they name from this folder and its subfolders too. Otherwise a
-    /// file outside the model's own folder, even through a link, is refused.
-    pub fn allow_files_below(&mut self, folder: impl Into<PathBuf>) {
-        self.folders.push(folder.into());
-    }
-
-    /// Folders allowed in addition to a model's own.
-    pub fn folders_allowed(&self) -> impl Iterator<Item = &Path> {
-        self.folders.iter().map(PathBuf::as_path)
-    }
-
     /// Factory of a kind of primitive, if registered.
     pub fn primitive(&self, kind: &str) -> Option<&PrimitiveFactory> {
         self.primitives.get(kind)
@@ -128,26 +92,54 @@ impl Extensions {
     }
 }
 
-impl PrimitiveRef<'_> {
-    /// Kind of the primitive.
-    pub fn kind(&self) -> PrimitiveKind {
-        match self {
-            Self::Point(_) => PrimitiveKind::Point,
-            Self::LineSegment(_) => PrimitiveKind::LineSegment,
-            Self::Ray(_) => PrimitiveKind::Ray,
-            Self::Sphere(_) => PrimitiveKind::Sphere,
-            Self::Ellipsoid(_) => PrimitiveKind::Ellipsoid,
-            Self::Triangle(..) => PrimitiveKind::Triangle,
-            Self::Polyhedron(_) => PrimitiveKind::Polyhedron,
-            Self::Plane(_) => PrimitiveKind::Plane,
-            Self::Custom(_) => PrimitiveKind::Custom,
-            Self::Capsule(_) => PrimitiveKind::Capsule,
-            Self::Cylinder(_) => PrimitiveKind::Cylinder,
-            Self::Cone(_) => PrimitiveKind::Cone,
-            Self::Bore(_) => PrimitiveKind::Bore,
+macro_rules! define_reference {
+    ($($(#[$doc:meta])+ $kind:ident = $number:literal: $shape:ty, $array:ident;)*) => {
+        /// Primitive as passed to a registered tester, in the frame of its own movable group.
+        #[derive(Clone, Copy, Debug)]
+        pub enum PrimitiveRef<'a> {
+            $($(#[$doc])+ $kind(&'a $shape),)*
+            /// Facet of a mesh, by its index.
+            Triangle(&'a TriangleSet, u32),
+            /// Kind defined by the user.
+            Custom(&'a dyn CustomPrimitive),
         }
-    }
 
+        impl<'a> PrimitiveRef<'a> {
+            /// Kind of the primitive.
+            pub fn kind(&self) -> PrimitiveKind {
+                match self {
+                    $(Self::$kind(_) => PrimitiveKind::$kind,)*
+                    Self::Triangle(..) => PrimitiveKind::Triangle,
+                    Self::Custom(_) => PrimitiveKind::Custom,
+                }
+            }
+
+            /// Facts of the primitive by itself; `None` for a triangle, which is a part of its mesh, and for a
+            /// custom primitive, which has only its support function.
+            pub fn facts(&self) -> Option<&'a dyn Primitive> {
+                match *self {
+                    $(Self::$kind(shape) => Some(shape),)*
+                    Self::Triangle(..) | Self::Custom(_) => None,
+                }
+            }
+
+            /// Point of A whose displacement deflects the bristle of a contact, m, as
+            /// [`Primitive::reference_point`]; the centre of a custom primitive's box.
+            #[inline]
+            pub fn reference_point(&self, end: u32) -> Cow<'a, Vec3> {
+                match *self {
+                    $(Self::$kind(shape) => shape.reference_point(end),)*
+                    Self::Triangle(..) => Cow::Owned(Vec3::zeros()),
+                    Self::Custom(custom) => Cow::Owned(middle(custom)),
+                }
+            }
+        }
+    };
+}
+
+crate::for_each_kind!(define_reference);
+
+impl PrimitiveRef<'_> {
     /// Name of the kind; for a custom kind, its own name.
     pub fn kind_name(&self) -> &str {
         match self {
@@ -155,4 +147,12 @@ impl PrimitiveRef<'_> {
             other => other.kind().name(),
         }
     }
+}
+
+/// Centre of a custom primitive's box; the frame's origin if the box is unbounded.
+fn middle(primitive: &dyn CustomPrimitive) -> Vec3 {
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let coordinates = axes.map(|axis| 0.5 * (primitive.support(&axis) - primitive.support(&-axis)));
+    let middle = Vec3::from(coordinates);
+    if middle.iter().all(|x| x.is_finite()) { middle } else { Vec3::zeros() }
 }

@@ -1,7 +1,7 @@
 //! Writing of a model file and its mesh files: to temporary names, read back, then moved into place together.
 
 use crate::findings::Findings;
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use std::path::{Path, PathBuf};
 
 /// Writes the model and its mesh files once the engine's loader has accepted them; its faults and warnings are noted.

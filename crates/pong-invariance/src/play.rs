@@ -3,9 +3,8 @@
 use crate::scene::{Scene, Shape};
 use crate::text;
 use pong_engine::{Config, InterfaceId, ObjectId, State, StatusBits, WorkerSettings, World, WorldBuilder};
-use pong_geometry::extension::Extensions;
 use pong_geometry::{Vec3, Wrench};
-use pong_model::Fnv;
+use pong_model::{Extensions, Fnv};
 use std::sync::Arc;
 
 /// Answer of one frame.

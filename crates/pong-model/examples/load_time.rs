@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p pong-model --example load_time [cells along one side] [only this case]`
 
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;

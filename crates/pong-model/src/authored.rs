@@ -4,9 +4,9 @@
 //! So a polyhedron that is open can be read, shown and repaired.
 
 use crate::error::ModelErrors;
+use crate::extensions::Extensions;
 use crate::read::{self, Reader};
 use crate::ron_tree;
-use pong_geometry::extension::Extensions;
 use std::path::Path;
 
 pub use crate::ron_tree::{Field, Node, Rows, Value};

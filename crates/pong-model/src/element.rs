@@ -3,6 +3,7 @@
 use crate::model::{Item, MovableGroup};
 use pong_geometry::Vec3;
 use pong_geometry::bounding::{Bounded, CustomBounds, PointCloud};
+use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::primitive::{Ellipsoid, PrimitiveKind};
 
 /// Element of a body, as a shape around which volumes can be fitted.
@@ -37,7 +38,7 @@ impl<'b> Element<'b> {
             PrimitiveKind::Triangle if self.thickness().is_none() => {
                 body.triangles.corners(self.item.element)
             }
-            PrimitiveKind::Point => [body.points[self.index()].position; 3],
+            PrimitiveKind::Point => [body.points[self.item.element as usize].position; 3],
             _ => return self.as_bounded(extent_by_support),
         };
         let [a, b, c] = points;
@@ -48,39 +49,45 @@ impl<'b> Element<'b> {
         self.body.primitives[self.item.primitive as usize].kind
     }
 
-    fn index(&self) -> usize {
-        self.item.element as usize
-    }
-
     fn thickness(&self) -> Option<f64> {
         self.body.primitives[self.item.primitive as usize].thickness
     }
 
     fn as_bounded<R>(&self, ask: impl FnOnce(&dyn Bounded) -> R) -> R {
-        let (body, index) = (self.body, self.index());
-        match self.kind() {
-            PrimitiveKind::Point => ask(&body.points[index]),
-            PrimitiveKind::LineSegment => ask(&body.segments[index]),
-            PrimitiveKind::Ray => ask(&body.rays[index]),
-            PrimitiveKind::Sphere => ask(&body.spheres[index]),
-            PrimitiveKind::Ellipsoid => ask(&WithFeet(&body.ellipsoids[index])),
-            PrimitiveKind::Polyhedron => ask(&body.polyhedra[index]),
-            PrimitiveKind::Plane => ask(&body.planes[index]),
-            PrimitiveKind::Capsule => ask(&body.capsules[index]),
-            PrimitiveKind::Cylinder | PrimitiveKind::Cone => ask(&body.frusta[index]),
-            PrimitiveKind::Bore => ask(&body.bores[index]),
-            PrimitiveKind::Custom => ask(&CustomBounds(body.customs[index].as_ref())),
-            PrimitiveKind::Triangle if self.thickness().is_none() => {
-                ask(&PointCloud(&body.triangles.corners(self.item.element)))
+        match self.body.element(self.kind(), self.item.element) {
+            PrimitiveRef::Ellipsoid(ellipsoid) => ask(&WithFeet(ellipsoid)),
+            PrimitiveRef::Custom(custom) => ask(&CustomBounds(custom)),
+            PrimitiveRef::Triangle(set, triangle) => {
+                let corners = set.corners(triangle);
+                let Some(thickness) = self.thickness() else { return ask(&PointCloud(&corners)) };
+                ask(&ThickTriangle { corners, normal: set.normal(triangle), thickness })
             }
-            PrimitiveKind::Triangle => ask(&ThickTriangle {
-                corners: body.triangles.corners(self.item.element),
-                normal: body.triangles.normal(self.item.element),
-                thickness: self.thickness().unwrap_or(0.0),
-            }),
+            other => ask(other.facts().expect("only triangles and custom primitives have no facts")),
         }
     }
 }
+
+macro_rules! elements {
+    ($($(#[$doc:meta])+ $kind:ident = $number:literal: $shape:ty, $array:ident;)*) => {
+        impl MovableGroup {
+            /// Element of a kind.
+            ///
+            /// # Panics
+            ///
+            /// If the group has no element of that index.
+            #[inline(always)]
+            pub fn element(&self, kind: PrimitiveKind, element: u32) -> PrimitiveRef<'_> {
+                match kind {
+                    $(PrimitiveKind::$kind => PrimitiveRef::$kind(&self.$array[element as usize]),)*
+                    PrimitiveKind::Triangle => PrimitiveRef::Triangle(&self.triangles, element),
+                    PrimitiveKind::Custom => PrimitiveRef::Custom(&*self.customs[element as usize]),
+                }
+            }
+        }
+    };
+}
+
+pong_geometry::for_each_kind!(elements);
 
 fn extent_by_support(thing: &dyn Bounded) -> (Vec3, Vec3) {
     let axes = [Vec3::x(), Vec3::y(), Vec3::z()];

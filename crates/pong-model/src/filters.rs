@@ -1,8 +1,8 @@
 //! Filters: groups that never touch each other, and models whose leaves do not mix such groups with others.
 
+use crate::extensions::Extensions;
 use crate::model::{Item, Model, MovableGroup};
 use crate::{arrange, regroup};
-use pong_geometry::extension::Extensions;
 use std::collections::BTreeMap;
 
 /// Pairs of groups that never touch: the first in one Object's model, the second in another's, each with

@@ -179,7 +179,7 @@ fn faces_of(index: usize, placed: &PlacedGroup<'_>) -> Vec<Face> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pong_geometry::extension::Extensions;
+    use crate::extensions::Extensions;
 
     fn group(primitives: &str) -> MovableGroup {
         let text = format!(

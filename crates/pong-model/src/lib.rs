@@ -15,6 +15,7 @@ mod build;
 mod draft;
 mod element;
 mod error;
+mod extensions;
 pub mod files;
 mod filters;
 pub mod flush;
@@ -45,6 +46,7 @@ pub mod weld;
 
 pub use element::Element;
 pub use error::{ModelError, ModelErrors};
+pub use extensions::Extensions;
 pub use filters::Filters;
 pub use fnv::Fnv;
 pub use limits::{LARGEST, LARGEST_SIZE, SMALLEST_SIZE};
@@ -55,7 +57,6 @@ pub use pair_table::pair_entries;
 pub use printable::{printable, printable_lines};
 pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 
-use pong_geometry::extension::Extensions;
 use read::Reader;
 use std::path::Path;
 

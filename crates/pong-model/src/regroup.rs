@@ -1,10 +1,10 @@
 //! Models with other bounding volumes or other leaves: other times, the same results.
 
 use crate::draft::GroupDraft;
+use crate::extensions::Extensions;
 use crate::model::{Model, MovableGroup};
 use crate::{arrange, tree};
 use pong_geometry::bounding::{BoundKind, Volume};
-use pong_geometry::extension::Extensions;
 
 impl Model {
     /// Model whose groups all have bounding volumes of one kind, fitted anew.

@@ -4,10 +4,10 @@
 use crate::box_tree::{BoxTree, Boxed};
 use crate::draft::GroupDraft;
 use crate::element::Element;
+use crate::extensions::Extensions;
 use crate::model::{Batch, ChunkBoxes, Item, MovableGroup, Node, SegmentLanes, SphereLanes, Tree};
 use pong_geometry::Vec3;
 use pong_geometry::bounding::{BoundKind, Bounded, Volume, fit, fit_aabb_bounds};
-use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::PrimitiveKind;
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -1,7 +1,7 @@
 //! Worlds of a few Objects.
 
 use pong_engine::{Config, InterfaceId, SealReport, World, WorldBuilder};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use std::sync::Arc;
 
 /// A sealed world of Objects `o0`, `o1`, …, of which the first is paired with each of the others; with the

@@ -3,8 +3,7 @@
 use crate::case::Failure;
 use pong_engine::{Config, Contact, InterfaceId, ModelId, ObjectId, World, WorldBuilder};
 use pong_executive::{BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
-use pong_geometry::extension::Extensions;
-use pong_model::{FrictionLaw, NormalLaw, Surface};
+use pong_model::{Extensions, FrictionLaw, NormalLaw, Surface};
 use std::sync::Arc;
 
 /// Standard gravity of all cases, m/s².

@@ -1,38 +1,36 @@
 //! Drawings of round parts: outlines revolved about their axes.
 
 use pong_geometry::Vec3;
-use pong_geometry::primitive::{Bore, Capsule, Frustum};
+use pong_geometry::primitive::Stroke;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Vertices of every circle.
 const AROUND: u32 = 32;
-/// Number of steps along the outline of half a ball.
+/// Number of steps along a quarter of a circle in an outline.
 const ROUNDING: u32 = 8;
 
 /// Vertices and triangles, counter-clockwise seen from the side on which the surface pushes.
 pub(crate) type Mesh = (Vec<Vec3>, Vec<[u32; 3]>);
 
-pub(crate) fn of_capsule(capsule: &Capsule) -> Mesh {
-    let [one, other] = capsule.ends;
-    let length = (other - one).norm();
-    let on_ball =
-        |middle: f64, angle: f64| (middle + capsule.radius * angle.sin(), capsule.radius * angle.cos());
-    let step = |k: u32| FRAC_PI_2 * f64::from(k) / f64::from(ROUNDING);
-    let first = (0..=ROUNDING).map(|k| on_ball(0.0, step(k) - FRAC_PI_2));
-    let second = (0..=ROUNDING).map(|k| on_ball(length, step(k)));
-    turned(&one, &((other - one) / length), &first.chain(second).collect::<Vec<_>>())
+/// Drawing of a surface of revolution.
+pub(crate) fn revolved(origin: &Vec3, axis: &Vec3, outline: &[Stroke]) -> Mesh {
+    turned(origin, axis, &outline.iter().flat_map(corners).collect::<Vec<_>>())
 }
 
-pub(crate) fn of_frustum(frustum: &Frustum) -> Mesh {
-    let [one, other] = frustum.radii;
-    let outline = [(0.0, 0.0), (0.0, one), (frustum.length, other), (frustum.length, 0.0)];
-    turned(&frustum.ends[0], &frustum.axis, &outline)
-}
-
-/// The wall alone, seen from inside.
-pub(crate) fn of_bore(bore: &Bore) -> Mesh {
-    let hole = &bore.hole;
-    turned(&hole.ends[0], &hole.axis, &[(hole.length, hole.radii[1]), (0.0, hole.radii[0])])
+/// Corners of a stroke, as positions along and away from the axis, m.
+fn corners(stroke: &Stroke) -> Vec<(f64, f64)> {
+    match *stroke {
+        Stroke::Corner { along, aside } => vec![(along, aside)],
+        Stroke::Arc { along, aside, radius, quarters: [from, to] } => {
+            let steps = ROUNDING * from.abs_diff(to);
+            let angle = |k: u32| {
+                let share = f64::from(k) / f64::from(steps);
+                FRAC_PI_2 * (f64::from(from) + f64::from(to - from) * share)
+            };
+            let corner = |angle: f64| (along + radius * angle.sin(), aside + radius * angle.cos());
+            (0..=steps).map(|k| corner(angle(k))).collect()
+        }
+    }
 }
 
 /// Revolves an outline, given as positions along and away from the axis, m.
@@ -62,6 +60,14 @@ fn quad(circle: u32, k: u32) -> [[u32; 3]; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pong_geometry::primitive::{Bore, Capsule, Drawing, Frustum, Primitive};
+
+    fn mesh(part: &dyn Primitive) -> Mesh {
+        let Some(Drawing::Revolved { origin, axis, outline }) = part.drawing() else {
+            panic!("not revolved")
+        };
+        revolved(&origin, &axis, &outline)
+    }
 
     /// Six times the volume enclosed by triangles.
     fn volume((corners, triangles): &Mesh) -> f64 {
@@ -82,10 +88,10 @@ mod tests {
         let pi = std::f64::consts::PI;
         let cone = Frustum::new(ends, [0.3, 0.1]);
         let exact = pi * length / 3.0 * (0.09 + 0.03 + 0.01) * polygon;
-        assert!((volume(&of_frustum(&cone)) / exact - 1.0).abs() < 1e-12);
+        assert!((volume(&mesh(&cone)) / exact - 1.0).abs() < 1e-12);
         let capsule = Capsule { ends, radius: 0.2 };
         let exact = (pi * 0.04 * length + 4.0 / 3.0 * pi * 0.008) * polygon;
-        assert!((volume(&of_capsule(&capsule)) / exact - 1.0).abs() < 0.01);
+        assert!((volume(&mesh(&capsule)) / exact - 1.0).abs() < 0.01);
         let bore = Bore { hole: cone, thickness: 0.1, mouths: [true; 2] };
         let toward_axis = |t: &[u32; 3], corners: &[Vec3]| {
             let [a, b, c] = t.map(|v| corners[v as usize]);
@@ -93,7 +99,7 @@ mod tests {
             let on_axis = ends[0] + cone.axis * cone.axis.dot(&(middle - ends[0]));
             (b - a).cross(&(c - a)).dot(&(on_axis - middle)) > 0.0
         };
-        let (corners, triangles) = of_bore(&bore);
+        let (corners, triangles) = mesh(&bore);
         assert!(triangles.iter().all(|t| toward_axis(t, &corners)));
     }
 }

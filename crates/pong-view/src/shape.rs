@@ -4,7 +4,8 @@ use crate::blob::{Blob, Column};
 use crate::hull::hull;
 use crate::round;
 use crate::surface::Surface;
-use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::extension::PrimitiveRef;
+use pong_geometry::primitive::Drawing;
 use pong_geometry::{Mat3, Quat, Vec3};
 use pong_model::{MovableGroup, PrimitiveInfo};
 use serde::Serialize;
@@ -108,43 +109,39 @@ impl Draft {
 
     /// Adds a primitive; returns its range (first and count).
     fn place(&mut self, body: &MovableGroup, info: &PrimitiveInfo) -> (u32, u32) {
-        let index = info.elements.start as usize;
-        match info.kind {
-            PrimitiveKind::Point => {
-                self.reach(&body.points[index].position, 0.0);
-                one(&mut self.points, 3, body.points[index].position.iter().copied())
+        match body.element(info.kind, info.elements.start) {
+            PrimitiveRef::Triangle(set, _) => self.surface.add_mesh(set, info),
+            PrimitiveRef::Polyhedron(polyhedron) => self.surface.add_polyhedron(polyhedron),
+            PrimitiveRef::Custom(custom) => self.surface.add_hull(&hull(custom)),
+            other => {
+                let drawing = other.facts().and_then(|facts| facts.drawing());
+                self.draw(&drawing.expect("only meshes, polyhedra and custom primitives have no drawing"))
             }
-            PrimitiveKind::LineSegment => {
-                let ends = &body.segments[index].ends;
+        }
+    }
+
+    fn draw(&mut self, drawing: &Drawing) -> (u32, u32) {
+        let numbers = |ends: &[Vec3; 2]| ends.map(|end| [end.x, end.y, end.z]).into_iter().flatten();
+        match drawing {
+            Drawing::Point(place) => {
+                self.reach(place, 0.0);
+                one(&mut self.points, 3, place.iter().copied())
+            }
+            Drawing::Segment(ends) => {
                 ends.iter().for_each(|end| self.reach(end, 0.0));
-                one(&mut self.segments, 6, ends.iter().flat_map(|end| [end.x, end.y, end.z]))
+                one(&mut self.segments, 6, numbers(ends))
             }
-            PrimitiveKind::Ray => {
-                let ends = [body.rays[index].origin, body.rays[index].tip()];
+            Drawing::Ray(ends) => {
                 ends.iter().for_each(|end| self.reach(end, 0.0));
-                one(&mut self.rays, 6, ends.iter().flat_map(|end| [end.x, end.y, end.z]))
+                one(&mut self.rays, 6, numbers(ends))
             }
-            PrimitiveKind::Sphere => {
-                let sphere = &body.spheres[index];
-                self.ball(&sphere.center, &Vec3::repeat(sphere.radius), &Mat3::identity())
+            Drawing::Ball { center, axes, semi_axes } => self.ball(center, semi_axes, axes),
+            Drawing::Plane { normal, offset } => {
+                one(&mut self.planes, 4, normal.iter().copied().chain([*offset]))
             }
-            PrimitiveKind::Ellipsoid => {
-                let ellipsoid = &body.ellipsoids[index];
-                self.ball(&ellipsoid.center, &ellipsoid.semi_axes, &ellipsoid.axes)
+            Drawing::Revolved { origin, axis, outline } => {
+                self.surface.add_hull(&round::revolved(origin, axis, outline))
             }
-            PrimitiveKind::Plane => {
-                let plane = &body.planes[index];
-                let numbers = plane.normal.iter().copied().chain([plane.offset]);
-                one(&mut self.planes, 4, numbers)
-            }
-            PrimitiveKind::Triangle => self.surface.add_mesh(&body.triangles, info),
-            PrimitiveKind::Polyhedron => self.surface.add_polyhedron(&body.polyhedra[index]),
-            PrimitiveKind::Capsule => self.surface.add_hull(&round::of_capsule(&body.capsules[index])),
-            PrimitiveKind::Cylinder | PrimitiveKind::Cone => {
-                self.surface.add_hull(&round::of_frustum(&body.frusta[index]))
-            }
-            PrimitiveKind::Bore => self.surface.add_hull(&round::of_bore(&body.bores[index])),
-            PrimitiveKind::Custom => self.surface.add_hull(&hull(body.customs[index].as_ref())),
         }
     }
 

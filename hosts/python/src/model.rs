@@ -3,7 +3,7 @@
 use crate::arrays::refused;
 use crate::dynamics::whole;
 use crate::errors::{bad_value, of_model};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use pong_record::{ModelSource, SurfaceValues};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyList, PyString};

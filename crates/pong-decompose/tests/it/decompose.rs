@@ -2,10 +2,9 @@
 
 use pong_decompose::{DecomposeOptions, Decomposed, Distances, Mass, Method, Report};
 use pong_geometry::Vec3;
-use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::{Polyhedron, RimEdge};
 use pong_import::DefaultSurface;
-use pong_model::Model;
+use pong_model::{Extensions, Model};
 use pong_testkit::meshes::{blocks, cube, obj, torus};
 use pong_testkit::scratch;
 use std::path::PathBuf;

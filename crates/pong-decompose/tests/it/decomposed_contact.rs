@@ -3,8 +3,8 @@
 use pong_decompose::DecomposeOptions;
 use pong_engine::{Config, State, WorldBuilder};
 use pong_geometry::Vec3;
-use pong_geometry::extension::Extensions;
 use pong_import::DefaultSurface;
+use pong_model::Extensions;
 use pong_testkit::meshes::{blocks, obj};
 use pong_testkit::scratch;
 use std::sync::Arc;

@@ -5,8 +5,7 @@ use crate::energy::account::WrenchCoupling;
 use crate::error::EngineError;
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId};
 use pong_geometry::Pose;
-use pong_geometry::extension::Extensions;
-use pong_model::Model;
+use pong_model::{Extensions, Model};
 use std::sync::Arc;
 
 impl Scene {

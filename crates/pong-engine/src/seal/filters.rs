@@ -4,7 +4,6 @@
 use crate::error::EngineError;
 use crate::scene::{GroupFilter, Scene};
 use crate::sealed::{GroupPair, LeafFilter, ObjectFilters};
-use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -96,13 +95,15 @@ pub(super) fn apart(filters: Option<&Filters>, a: &PrimitiveInfo, b: &PrimitiveI
     filters.is_some_and(|filters| filters.keep_apart(&a.path, &b.path))
 }
 
-/// Shapes of a movable group without the primitives that are kept apart from all of another.
-pub(super) fn shapes_that_meet(
-    filters: &Filters,
-    body: &MovableGroup,
+/// Primitives of a group that meet at least one of another, with the group's `side` of the filters; all of
+/// them without filters.
+pub(super) fn primitives_that_meet<'a>(
+    filters: Option<&Filters>,
+    body: &'a MovableGroup,
     side: usize,
     other: &MovableGroup,
-) -> MovableGroup {
+) -> Vec<&'a PrimitiveInfo> {
+    let Some(filters) = filters else { return body.primitives.iter().collect() };
     let others: Vec<&PrimitiveInfo> = representatives(Some(filters), 1 - side, other, |_| ()).collect();
     let meets = |info: &&PrimitiveInfo| {
         others.iter().any(|other| match side {
@@ -110,26 +111,5 @@ pub(super) fn shapes_that_meet(
             _ => !filters.keep_apart(&other.path, &info.path),
         })
     };
-    let kept: Vec<PrimitiveInfo> = body.primitives.iter().filter(meets).cloned().collect();
-    let of = |kinds: &[PrimitiveKind]| -> Vec<usize> {
-        let infos = kept.iter().filter(|info| kinds.contains(&info.kind));
-        infos.flat_map(|info| info.elements.start as usize..info.elements.end as usize).collect()
-    };
-    fn pick<T: Clone>(all: &[T], of: Vec<usize>) -> Vec<T> {
-        of.into_iter().map(|element| all[element].clone()).collect()
-    }
-    MovableGroup {
-        points: pick(&body.points, of(&[PrimitiveKind::Point])),
-        segments: pick(&body.segments, of(&[PrimitiveKind::LineSegment])),
-        rays: pick(&body.rays, of(&[PrimitiveKind::Ray])),
-        spheres: pick(&body.spheres, of(&[PrimitiveKind::Sphere])),
-        ellipsoids: pick(&body.ellipsoids, of(&[PrimitiveKind::Ellipsoid])),
-        polyhedra: pick(&body.polyhedra, of(&[PrimitiveKind::Polyhedron])),
-        planes: pick(&body.planes, of(&[PrimitiveKind::Plane])),
-        capsules: pick(&body.capsules, of(&[PrimitiveKind::Capsule])),
-        frusta: pick(&body.frusta, of(&[PrimitiveKind::Cylinder, PrimitiveKind::Cone])),
-        bores: pick(&body.bores, of(&[PrimitiveKind::Bore])),
-        primitives: kept,
-        ..MovableGroup::default()
-    }
+    body.primitives.iter().filter(meets).collect()
 }

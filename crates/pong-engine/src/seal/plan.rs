@@ -1,6 +1,6 @@
 //! Test plans: kinds of primitives that are tested between two movable groups.
 
-use super::filters::{apart, representatives, shapes_that_meet};
+use super::filters::{apart, primitives_that_meet, representatives};
 use super::testable::{can_be_tested, kind_name};
 use crate::frame::narrow_phase::pair_table::{REGISTERED, kind_pair};
 use crate::frame::{least_travel_m, reach_m};
@@ -32,13 +32,9 @@ fn plan(
     }
     let tests = |a: PrimitiveKind, b: PrimitiveKind| touched[a as usize] >> b as u16 & 1 == 1;
     let filter = filters.map(|filters| Box::new(LeafFilter::new(filters, [a, b])));
-    let (least_travel_m, reach_a_m) = match filters {
-        None => (least_travel_m(a, b, tests), reach_m(a)),
-        Some(filters) => {
-            let (a, b) = (shapes_that_meet(filters, a, 0, b), shapes_that_meet(filters, b, 1, a));
-            (least_travel_m(&a, &b, tests), reach_m(&a))
-        }
-    };
+    let (met_a, met_b) = (primitives_that_meet(filters, a, 0, b), primitives_that_meet(filters, b, 1, a));
+    let least_travel_m = least_travel_m((a, &met_a), (b, &met_b), tests);
+    let reach_a_m = reach_m((a, &met_a));
     Plan { element_ns, touched, least_travel_m, reach_a_m, filter }
 }
 

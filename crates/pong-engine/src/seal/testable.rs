@@ -1,9 +1,8 @@
 //! Testable pairs of primitives: by the tester table, or by a test that the host registered.
 
 use crate::frame::narrow_phase::pair_table::has_tester;
-use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{MovableGroup, PrimitiveInfo};
+use pong_model::{Extensions, MovableGroup, PrimitiveInfo};
 
 /// Name of a primitive's kind; a custom kind has its own name.
 pub(crate) fn kind_name<'a>(body: &'a MovableGroup, info: &PrimitiveInfo) -> &'a str {

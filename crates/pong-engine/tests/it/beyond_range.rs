@@ -5,8 +5,7 @@ use pong_engine::{
     Config, EngineError, FrictionProps, InterfaceId, Laws, NormalForce, NormalInput, State, StateError,
     World, WorldBuilder, combine_surfaces,
 };
-use pong_geometry::extension::Extensions;
-use pong_model::{Exponent, FrictionLaw, NormalLaw, Surface};
+use pong_model::{Exponent, Extensions, FrictionLaw, NormalLaw, Surface};
 use std::sync::Arc;
 
 const CHECKSUM: usize = 8;

@@ -2,10 +2,10 @@
 //! internal faces, in any pose, shallow and deep.
 
 use crate::common::*;
-use pong_geometry::extension::Extensions;
 use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_piece;
 use pong_geometry::primitive::{Ellipsoid, Polyhedron};
 use pong_geometry::{Quat, Vec3};
+use pong_model::Extensions;
 use pong_testkit::Random;
 
 const STIFFNESS: f64 = 1e5;

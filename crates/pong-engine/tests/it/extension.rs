@@ -3,8 +3,8 @@
 use crate::common::own_kinds;
 use crate::common::*;
 use pong_engine::*;
-use pong_geometry::extension::Extensions;
 use pong_geometry::{Quat, Vec3};
+use pong_model::Extensions;
 use std::sync::Arc;
 
 fn custom_laws() -> (String, String) {

@@ -1,8 +1,9 @@
 //! Filters: groups that never touch. The rest of a pair is bit-identical to a scene without these groups.
 
-use pong_engine::{Config, EngineError, InterfaceId, ObjectId, State, WorkerSettings, World, WorldBuilder};
-use pong_geometry::extension::Extensions;
-use pong_model::Model;
+use pong_engine::{
+    Config, EngineError, InterfaceId, ObjectId, State, StatusBits, WorkerSettings, World, WorldBuilder,
+};
+use pong_model::{Extensions, Model};
 use std::sync::Arc;
 
 /// A plug with lugs that reach past the bore of a socket, as in a bayonet: the lugs touch the slots, the pin
@@ -259,4 +260,29 @@ fn bad_filters_are_refused_and_change_nothing() {
     let [a, _] = ["a", "b"].map(|name| other.create_object(model, name).unwrap());
     other.pair(a, a).unwrap();
     assert_ne!(other.seal().unwrap().0.scene_hash(), world.scene_hash(), "filters are in the hash");
+}
+
+/// A ball that is shot through a thin rod is reported, also where a filter leaves out the rods before it.
+#[test]
+fn passages_through_round_solids_are_reported_beside_filtered_ones() {
+    const BALL: &str =
+        "(format: \"pong-model\", version: 1, name: \"ball\", surfaces: { \"s\": (stiffness: 1e5) },
+        root: (name: \"ball\", surface: \"s\", groups: [(name: \"skin\", primitives: [
+            Sphere(name: \"s\", center: (0.0, 0.0, 0.0), radius: 0.01)])]))";
+    const RODS: &str =
+        "(format: \"pong-model\", version: 1, name: \"rods\", surfaces: { \"s\": (stiffness: 1e5) },
+        root: (name: \"rods\", surface: \"s\", groups: [
+            (name: \"far\", primitives: [
+                Capsule(name: \"c\", ends: ((0.0, -1.0, 0.5), (0.0, 1.0, 0.5)), radius: 0.1)]),
+            (name: \"near\", primitives: [
+                Capsule(name: \"c\", ends: ((0.0, -1.0, 0.0), (0.0, 1.0, 0.0)), radius: 0.01)])]))";
+    for filters in [&[][..], &[("ball/skin", "rods/far")]] {
+        let (mut world, [ball, rods], _) = world(BALL, RODS, filters, Config::default());
+        let reported = [0.3, 0.2, -0.2, -0.3].map(|x| {
+            let state = State { position: [x, 0.0, 0.0], ..State::identity() };
+            world.set_states(&[(ball, state), (rods, State::identity())]).unwrap();
+            world.step().unwrap().status.contains(StatusBits::TUNNELLED)
+        });
+        assert_eq!(reported, [false, false, true, false], "{filters:?}");
+    }
 }

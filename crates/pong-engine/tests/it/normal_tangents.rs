@@ -3,8 +3,8 @@
 use crate::common::own_kinds;
 use crate::common::*;
 use pong_engine::{Config, State, WorldBuilder};
-use pong_geometry::extension::Extensions;
 use pong_geometry::{Quat, Vec3};
+use pong_model::Extensions;
 
 const LAWS: [&str; 9] = [
     "normal: Linear(damping: 300.0)",

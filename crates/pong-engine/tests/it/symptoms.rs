@@ -4,10 +4,11 @@ use crate::common::{Rig, at, load, model, surface};
 use pong_engine::{
     Config, EngineError, Laws, NormalForce, NormalInput, ObjectId, State, StatusBits, World, WorldBuilder,
 };
-use pong_geometry::extension::{Extensions, PrimitiveRef};
+use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::CustomPrimitive;
 use pong_geometry::{Quat, Transform, Vec3};
+use pong_model::Extensions;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};

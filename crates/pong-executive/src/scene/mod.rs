@@ -19,7 +19,7 @@ use crate::simulation::Simulation;
 use document::Document;
 use error::Faults;
 use pong_engine::{FrictionPreload, ObjectId, PairId, SealReport, World};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use std::path::{Path, PathBuf};
 
 /// A scene file as read: its notation is valid; [`build`](Self::build) checks the rest.

@@ -4,8 +4,7 @@ use super::document::Document;
 use super::error::{At, Faults};
 use super::variation::Variation;
 use pong_engine::{Config, EngineError, InterfaceId, Laws, ObjectId, SealReport, World, WorldBuilder};
-use pong_geometry::extension::Extensions;
-use pong_model::Model;
+use pong_model::{Extensions, Model};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

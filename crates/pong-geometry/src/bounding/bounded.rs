@@ -2,9 +2,7 @@
 
 use super::volume::{Bounded, Volume};
 use crate::Vec3;
-use crate::primitive::{
-    Bore, Capsule, CustomPrimitive, Ellipsoid, Frustum, LineSegment, Plane, Point, Polyhedron, Ray, Sphere,
-};
+use crate::primitive::CustomPrimitive;
 
 /// Convex hull of points: a triangle, a mesh, or the vertices of a solid.
 #[derive(Clone, Copy, Debug)]
@@ -38,173 +36,6 @@ impl Bounded for PointCloud<'_> {
     fn representatives(&self, out: &mut Vec<Vec3>) {
         out.extend_from_slice(self.0);
     }
-}
-
-impl Bounded for Polyhedron {
-    fn support(&self, direction: &Vec3) -> f64 {
-        support_of_points(self.vertices.iter().map(|v| v.position), direction)
-    }
-
-    fn farthest(&self, from: &Vec3) -> f64 {
-        farthest_of_points(self.vertices.iter().map(|v| v.position), from)
-    }
-
-    fn representatives(&self, out: &mut Vec<Vec3>) {
-        out.extend(self.vertices.iter().map(|v| v.position));
-    }
-}
-
-/// Implements `Bounded` for shapes that are the convex hull of a fixed number of points.
-macro_rules! bounded_by_points {
-    ($($thing:ty: $points:expr;)*) => {$(
-        impl Bounded for $thing {
-            fn support(&self, direction: &Vec3) -> f64 {
-                PointCloud(&$points(self)).support(direction)
-            }
-
-            fn farthest(&self, from: &Vec3) -> f64 {
-                PointCloud(&$points(self)).farthest(from)
-            }
-
-            fn representatives(&self, out: &mut Vec<Vec3>) {
-                out.extend($points(self));
-            }
-        }
-    )*};
-}
-
-bounded_by_points! {
-    Point: |point: &Point| [point.position];
-    LineSegment: |segment: &LineSegment| segment.ends;
-    // A ray also hits surfaces up to `reach` behind its origin. If the triangle defines that distance, the
-    // triangle is dilated by it instead.
-    Ray: |ray: &Ray| [ray.origin - ray.direction * ray.reach.unwrap_or(0.0), ray.tip()];
-}
-
-impl Bounded for Sphere {
-    fn support(&self, direction: &Vec3) -> f64 {
-        direction.dot(&self.center) + self.radius
-    }
-
-    fn farthest(&self, from: &Vec3) -> f64 {
-        (self.center - from).norm() + self.radius
-    }
-
-    fn representatives(&self, out: &mut Vec<Vec3>) {
-        ball_representatives(&self.center, self.radius, out);
-    }
-}
-
-impl Bounded for Ellipsoid {
-    fn support(&self, direction: &Vec3) -> f64 {
-        direction.dot(&self.center) + self.half_width(direction)
-    }
-
-    /// Upper bound of the distance from q to the farthest point y of `Σ(yᵢ/aᵢ)² ≤ 1`, both in the principal
-    /// frame, by duality: for every λ ≥ max aᵢ², `|y − q|² ≤ λ + Σ qᵢ²·λ/(λ − aᵢ²)`, with equality at the
-    /// minimum. So the bound is valid at whichever λ the search stops.
-    fn farthest(&self, from: &Vec3) -> f64 {
-        const BISECTIONS: usize = 40;
-        let q = self.axes.tr_mul(&(from - self.center));
-        let largest = self.semi_axes.max();
-        if q == Vec3::zeros() {
-            return largest;
-        }
-        let squares = self.semi_axes.component_mul(&self.semi_axes);
-        // λ = largest² + excess: this gives λ − aᵢ² without cancellation.
-        let below = self.semi_axes.map(|a| (largest - a) * (largest + a));
-        let sum = |term: &dyn Fn(usize) -> f64| -> f64 { (0..3).filter(|&i| q[i] != 0.0).map(term).sum() };
-        let (mut low, mut high) = (0.0, largest * q.norm());
-        for _ in 0..BISECTIONS {
-            let excess = 0.5 * (low + high);
-            let slope = sum(&|i| squares[i] * (q[i] / (excess + below[i])) * (q[i] / (excess + below[i])));
-            *(if slope > 1.0 { &mut low } else { &mut high }) = excess;
-        }
-        let lambda = largest * largest + high;
-        (lambda + sum(&|i| q[i] * (q[i] * lambda / (high + below[i])))).sqrt()
-    }
-
-    fn representatives(&self, out: &mut Vec<Vec3>) {
-        for i in 0..3 {
-            let arm = self.axes.column(i) * self.semi_axes[i];
-            out.extend([self.center + arm, self.center - arm]);
-        }
-    }
-}
-
-impl Bounded for Capsule {
-    fn support(&self, direction: &Vec3) -> f64 {
-        PointCloud(&self.ends).support(direction) + self.radius
-    }
-
-    fn farthest(&self, from: &Vec3) -> f64 {
-        PointCloud(&self.ends).farthest(from) + self.radius
-    }
-
-    fn representatives(&self, out: &mut Vec<Vec3>) {
-        self.ends.iter().for_each(|end| ball_representatives(end, self.radius, out));
-    }
-}
-
-impl Bounded for Frustum {
-    fn support(&self, direction: &Vec3) -> f64 {
-        Frustum::support(self, direction)
-    }
-
-    /// The farthest point lies on one of the end circles, diametrically opposite to `from` seen from the
-    /// axis.
-    fn farthest(&self, from: &Vec3) -> f64 {
-        let of_circle = |end: usize| {
-            let arm = from - self.ends[end];
-            let along = self.axis.dot(&arm);
-            let aside = (arm - self.axis * along).norm() + self.radii[end];
-            (along * along + aside * aside).sqrt()
-        };
-        largest([0, 1].map(of_circle).into_iter())
-    }
-
-    fn representatives(&self, out: &mut Vec<Vec3>) {
-        let across = crate::any_perpendicular(&self.axis);
-        let other = self.axis.cross(&across);
-        for (end, radius) in self.ends.iter().zip(self.radii) {
-            out.extend([across, -across, other, -other].map(|arm| end + arm * radius));
-        }
-    }
-}
-
-impl Bore {
-    /// Region in which a bore may push: the hole dilated by the thickness. The offset wall alone is too
-    /// small: the origin of a grazing ray that still hits may lie beside it, as may a shape that passes
-    /// through the wall near a mouth.
-    fn pushed(&self) -> Dilated<'_> {
-        Dilated { thing: &self.hole, reach: self.thickness }
-    }
-}
-
-impl Bounded for Bore {
-    fn support(&self, direction: &Vec3) -> f64 {
-        self.pushed().support(direction)
-    }
-
-    fn farthest(&self, from: &Vec3) -> f64 {
-        self.pushed().farthest(from)
-    }
-
-    fn representatives(&self, out: &mut Vec<Vec3>) {
-        self.hole.representatives(out);
-    }
-}
-
-impl Bounded for Plane {
-    fn support(&self, _direction: &Vec3) -> f64 {
-        f64::INFINITY
-    }
-
-    fn farthest(&self, _from: &Vec3) -> f64 {
-        f64::INFINITY
-    }
-
-    fn representatives(&self, _out: &mut Vec<Vec3>) {}
 }
 
 impl Bounded for Dilated<'_> {
@@ -284,19 +115,22 @@ const SIGNS: [Vec3; 8] = [
 ];
 
 /// Maximum of numbers; NaN if one of them is NaN, so that an invalid shape is noticed.
-pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(f64::NEG_INFINITY, |most, value| if value <= most || most.is_nan() { most } else { value })
 }
 
-fn support_of_points(points: impl Iterator<Item = Vec3>, direction: &Vec3) -> f64 {
+/// Support function of points.
+pub(crate) fn support_of_points(points: impl Iterator<Item = Vec3>, direction: &Vec3) -> f64 {
     largest(points.map(|p| direction.dot(&p)))
 }
 
-fn farthest_of_points(points: impl Iterator<Item = Vec3>, from: &Vec3) -> f64 {
+/// Distance of the farthest of points, m.
+pub(crate) fn farthest_of_points(points: impl Iterator<Item = Vec3>, from: &Vec3) -> f64 {
     largest(points.map(|p| (p - from).norm_squared())).sqrt()
 }
 
-fn ball_representatives(center: &Vec3, radius: f64, out: &mut Vec<Vec3>) {
+/// Points of a sphere along the axes of the frame.
+pub(crate) fn ball_representatives(center: &Vec3, radius: f64, out: &mut Vec<Vec3>) {
     for axis in [Vec3::x(), Vec3::y(), Vec3::z()] {
         out.extend([center + axis * radius, center - axis * radius]);
     }

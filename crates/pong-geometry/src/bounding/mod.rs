@@ -26,6 +26,7 @@ mod volume_tests;
 
 pub use aabb::{aabb_of_points, fit_aabb_bounds};
 pub use bounded::{CustomBounds, Dilated, PointCloud};
+pub(crate) use bounded::{ball_representatives, farthest_of_points, largest, support_of_points};
 pub use fit::fit;
 pub use margin::RELATIVE_MARGIN;
 pub use volume::{BoundKind, Bounded, CustomVolume, FromAToB, Volume};

@@ -30,7 +30,7 @@ pub mod ray_plane;
 pub mod ray_polyhedron;
 pub mod ray_round;
 pub mod ray_triangle;
-pub mod round_gap;
+mod round_gap;
 pub mod round_plane;
 mod round_surface;
 pub mod segment_at_walls;

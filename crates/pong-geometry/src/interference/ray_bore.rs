@@ -5,7 +5,7 @@
 use super::Feature;
 use super::ray_plane::RayHit;
 use crate::Vec3;
-use crate::primitive::{Bore, Ray};
+use crate::primitive::{Bore, Curved, Ray};
 
 /// Hit of a ray on the wall from within the hole, if −reach < distance < length. Without its own reach the
 /// ray uses the thickness of the wall.
@@ -52,4 +52,12 @@ pub(crate) fn way_out(origin: &Vec3, direction: &Vec3, bore: &Bore) -> Option<f6
         return None;
     };
     (distance.is_finite() && radius + growth * distance > 0.0).then_some(distance)
+}
+
+impl Curved for Bore {
+    /// Path from the inside of the bore through its wall.
+    fn passed(&self, from: &Vec3, to: &Vec3, _radius: f64) -> Option<Vec3> {
+        let ray = Ray { reach: Some(0.0), ..Ray::between(from, to)? };
+        ray_bore(&ray, self).map(|hit| hit.normal_b)
+    }
 }

@@ -3,8 +3,10 @@
 //! All geometry of one movable group is expressed in the frame of that group.
 
 mod curved;
+mod custom;
 mod edge_blocks;
 mod face_planes;
+mod facts;
 mod polyhedron;
 mod polyhedron_parts;
 mod round;
@@ -12,8 +14,10 @@ mod simple;
 mod triangles;
 
 pub use curved::{Ellipsoid, Sphere};
+pub use custom::CustomPrimitive;
 pub use edge_blocks::{EdgeBlock, EdgeBlocks, EightBoxes, VertexBlock};
 pub use face_planes::{FacePlanes, PlaneBlock};
+pub use facts::{Curved, Drawing, Gap, Primitive, Round, Stroke};
 pub use polyhedron::{Containment, Polyhedron};
 pub use polyhedron_parts::{
     EdgePush, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex, RimEdge,
@@ -22,89 +26,92 @@ pub use round::{Bore, Capsule, Frustum};
 pub use simple::{LineSegment, Plane, Point, Ray, RayResponse};
 pub use triangles::{Lean, MayPush, NO_NEIGHBOR, TriangleRecord, TriangleSet};
 
-use crate::Vec3;
-
-/// Kind of a primitive. Its number enters the hash of models and never changes. The table of pairs says which
-/// kind of a pair is A.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[repr(u8)]
-pub enum PrimitiveKind {
-    /// Vertex without extent.
-    Point = 0,
-    /// Line segment with two ends.
-    LineSegment = 1,
-    /// Plunger: origin, direction, length.
-    Ray = 2,
-    /// Ball.
-    Sphere = 3,
-    /// Ball scaled along three axes.
-    Ellipsoid = 4,
-    /// One-sided or two-sided facet.
-    Triangle = 5,
-    /// Convex solid bounded by planar faces.
-    Polyhedron = 6,
-    /// Half space.
-    Plane = 7,
-    /// Kind defined by the user (see [`CustomPrimitive`]).
-    Custom = 8,
-    /// All points within a radius of a segment.
-    Capsule = 9,
-    /// Straight round solid with flat ends.
-    Cylinder = 10,
-    /// Frustum of a cone.
-    Cone = 11,
-    /// Inner wall of a round hole.
-    Bore = 12,
-}
-
-impl PrimitiveKind {
-    /// All kinds, by number.
-    pub const ALL: [Self; 13] = [
-        Self::Point,
-        Self::LineSegment,
-        Self::Ray,
-        Self::Sphere,
-        Self::Ellipsoid,
-        Self::Triangle,
-        Self::Polyhedron,
-        Self::Plane,
-        Self::Custom,
-        Self::Capsule,
-        Self::Cylinder,
-        Self::Cone,
-        Self::Bore,
-    ];
-
-    /// Name of the kind in model files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Point => "Point",
-            Self::LineSegment => "LineSegment",
-            Self::Ray => "Ray",
-            Self::Sphere => "Sphere",
-            Self::Ellipsoid => "Ellipsoid",
-            Self::Triangle => "Triangle",
-            Self::Polyhedron => "Polyhedron",
-            Self::Plane => "Plane",
-            Self::Custom => "Custom",
-            Self::Capsule => "Capsule",
-            Self::Cylinder => "Cylinder",
-            Self::Cone => "Cone",
-            Self::Bore => "Bore",
+/// Expands a macro for every kind whose elements a movable group keeps in one array: documentation, name,
+/// number, shape, array. Triangles, which are parts of a mesh, and custom primitives stand beside the list
+/// where it is expanded.
+///
+/// A new kind is a row here, a shape with its [`Primitive`](crate::primitive::Primitive) in a file of this
+/// folder, an array in the movable group, its fields in the reader, and rows in the engine's table of pairs.
+#[macro_export]
+macro_rules! for_each_kind {
+    ($then:ident) => {
+        $then! {
+            /// Vertex without extent.
+            Point = 0: $crate::primitive::Point, points;
+            /// Line segment with two ends.
+            LineSegment = 1: $crate::primitive::LineSegment, segments;
+            /// Plunger: origin, direction, length.
+            Ray = 2: $crate::primitive::Ray, rays;
+            /// Ball.
+            Sphere = 3: $crate::primitive::Sphere, spheres;
+            /// Ball scaled along three axes.
+            Ellipsoid = 4: $crate::primitive::Ellipsoid, ellipsoids;
+            /// Convex solid bounded by planar faces.
+            Polyhedron = 6: $crate::primitive::Polyhedron, polyhedra;
+            /// Half space.
+            Plane = 7: $crate::primitive::Plane, planes;
+            /// All points within a radius of a segment.
+            Capsule = 9: $crate::primitive::Capsule, capsules;
+            /// Straight round solid with flat ends.
+            Cylinder = 10: $crate::primitive::Frustum, frusta;
+            /// Frustum of a cone.
+            Cone = 11: $crate::primitive::Frustum, frusta;
+            /// Inner wall of a round hole.
+            Bore = 12: $crate::primitive::Bore, bores;
         }
-    }
+    };
 }
 
-/// Primitive defined by a Rust user. Its testers are registered with the engine by kind name.
-pub trait CustomPrimitive: std::fmt::Debug + Send + Sync + std::any::Any {
-    /// The kind's name, as in the model file and in the registration of its testers.
-    fn kind_name(&self) -> &str;
-
-    /// Support function: the largest `direction · x` over the primitive, in the frame of its movable group, m.
-    ///
-    /// `direction` is a unit vector. Infinity makes the primitive unbounded. Bounding volumes are fitted from it.
-    fn support(&self, direction: &Vec3) -> f64;
-
-    /// The primitive as `Any`, so that a tester can get its own type back.
-    fn as_any(&self) -> &dyn std::any::Any;
+/// Expands a macro for every shape that can be A in the engine's tests: name, shape, array, kinds. Such a
+/// shape has a copy in another frame (`carried`) and a box around everything that it can touch (`region`).
+#[macro_export]
+macro_rules! for_each_moving_shape {
+    ($then:ident) => {
+        $then! {
+            Point: $crate::primitive::Point, points, Point;
+            Segment: $crate::primitive::LineSegment, segments, LineSegment;
+            Ray: $crate::primitive::Ray, rays, Ray;
+            Sphere: $crate::primitive::Sphere, spheres, Sphere;
+            Ellipsoid: $crate::primitive::Ellipsoid, ellipsoids, Ellipsoid;
+            Capsule: $crate::primitive::Capsule, capsules, Capsule;
+            Frustum: $crate::primitive::Frustum, frusta, Cylinder | Cone;
+        }
+    };
 }
+
+macro_rules! define_kinds {
+    ($($(#[$doc:meta])+ $kind:ident = $number:literal: $shape:ty, $array:ident;)*) => {
+        /// Kind of a primitive. Its number enters the hash of models and never changes. The table of pairs
+        /// says which kind of a pair is A.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[repr(u8)]
+        pub enum PrimitiveKind {
+            $($(#[$doc])+ $kind = $number,)*
+            /// One-sided or two-sided facet.
+            Triangle = 5,
+            /// Kind defined by the user (see [`CustomPrimitive`]).
+            Custom = 8,
+        }
+
+        impl PrimitiveKind {
+            /// All kinds, by number.
+            pub const ALL: [Self; [$($number,)* 5, 8].len()] = {
+                let mut all = [Self::Custom; [$($number,)* 5, 8].len()];
+                $(all[$number] = Self::$kind;)*
+                all[Self::Triangle as usize] = Self::Triangle;
+                all
+            };
+
+            /// Name of the kind in model files.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$kind => stringify!($kind),)*
+                    Self::Triangle => "Triangle",
+                    Self::Custom => "Custom",
+                }
+            }
+        }
+    };
+}
+
+for_each_kind!(define_kinds);

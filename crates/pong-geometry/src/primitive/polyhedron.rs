@@ -6,8 +6,10 @@
 
 use super::edge_blocks::{EdgeBlocks, VertexBlock};
 use super::face_planes::FacePlanes;
+use super::facts::{Drawing, Primitive};
 use super::polyhedron_parts::{PolyhedronFace, PolyhedronParts};
 use crate::Vec3;
+use crate::bounding::{Bounded, farthest_of_points, support_of_points};
 use crate::simd::{LaneBits, Simd, Splat, run_at_level};
 
 /// Convex solid: intersection of the half spaces of its faces.
@@ -148,5 +150,35 @@ fn containment_in<S: Simd>(simd: S, p: &Vec3, planes: &FacePlanes) -> Containmen
         (true, 0) => Containment::Inside,
         (true, _) => Containment::AtWall,
         _ => Containment::BeyondWall,
+    }
+}
+
+impl Bounded for Polyhedron {
+    fn support(&self, direction: &Vec3) -> f64 {
+        support_of_points(self.vertices.iter().map(|v| v.position), direction)
+    }
+
+    fn farthest(&self, from: &Vec3) -> f64 {
+        farthest_of_points(self.vertices.iter().map(|v| v.position), from)
+    }
+
+    fn representatives(&self, out: &mut Vec<Vec3>) {
+        out.extend(self.vertices.iter().map(|v| v.position));
+    }
+}
+
+impl Primitive for Polyhedron {
+    /// Least extent along any of the face normals, m.
+    fn least_width_m(&self) -> f64 {
+        let lowest = |normal: &Vec3| {
+            let along = self.vertices.iter().map(|vertex| normal.dot(&vertex.position));
+            along.fold(f64::INFINITY, f64::min)
+        };
+        let widths = self.faces.iter().map(|face| face.offset - lowest(&face.normal));
+        widths.fold(f64::INFINITY, f64::min)
+    }
+
+    fn drawing(&self) -> Option<Drawing> {
+        None
     }
 }

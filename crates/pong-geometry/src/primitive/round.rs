@@ -1,6 +1,9 @@
 //! Round parts: capsule, cylinder, cone and bore (docs/theory.md, 2.8).
 
+use super::facts::{Curved, Drawing, Primitive, Round, Stroke, distance_m, ends_and_middle, on_axis};
+use crate::bounding::{Bounded, Dilated, PointCloud, ball_representatives, largest};
 use crate::{Transform, Vec3};
+use std::borrow::Cow;
 
 /// All points within a radius of a straight segment: a cylinder with a hemisphere at each end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +57,13 @@ impl Capsule {
     pub fn carried(&self, x: &Transform) -> Self {
         Self { ends: self.ends.map(|end| x.point(&end)), radius: self.radius }
     }
+
+    /// Least and greatest coordinates of the region of contact, m.
+    #[inline]
+    pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
+        let [a, b] = &self.ends;
+        (a.inf(b).add_scalar(-self.radius), a.sup(b).add_scalar(self.radius))
+    }
 }
 
 impl Frustum {
@@ -84,11 +94,184 @@ impl Frustum {
         Self { ends: self.ends.map(|end| x.point(&end)), axis: x.vector(&self.axis), ..*self }
     }
 
+    /// Least and greatest coordinates of the region of contact, m. Not inlined, so that the cheaper kinds do
+    /// not pay for its stack frame.
+    #[inline(never)]
+    pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
+        let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+        let along = |sign: f64| Vec3::from(axes.map(|axis| sign * self.support(&(axis * sign))));
+        (along(-1.0), along(1.0))
+    }
+
     /// Maximum of `direction · x` over the solid, m, for a unit direction.
     #[inline]
     pub fn support(&self, direction: &Vec3) -> f64 {
         let aside = direction.cross(&self.axis).norm();
         let at = |end: usize| direction.dot(&self.ends[end]) + self.radii[end] * aside;
         at(0).max(at(1))
+    }
+}
+
+impl Bounded for Capsule {
+    fn support(&self, direction: &Vec3) -> f64 {
+        PointCloud(&self.ends).support(direction) + self.radius
+    }
+
+    fn farthest(&self, from: &Vec3) -> f64 {
+        PointCloud(&self.ends).farthest(from) + self.radius
+    }
+
+    fn representatives(&self, out: &mut Vec<Vec3>) {
+        self.ends.iter().for_each(|end| ball_representatives(end, self.radius, out));
+    }
+}
+
+impl Bounded for Frustum {
+    fn support(&self, direction: &Vec3) -> f64 {
+        Frustum::support(self, direction)
+    }
+
+    /// The farthest point lies on one of the end circles, diametrically opposite to `from` seen from the
+    /// axis.
+    fn farthest(&self, from: &Vec3) -> f64 {
+        let of_circle = |end: usize| {
+            let arm = from - self.ends[end];
+            let along = self.axis.dot(&arm);
+            let aside = (arm - self.axis * along).norm() + self.radii[end];
+            (along * along + aside * aside).sqrt()
+        };
+        largest([0, 1].map(of_circle).into_iter())
+    }
+
+    fn representatives(&self, out: &mut Vec<Vec3>) {
+        let across = crate::any_perpendicular(&self.axis);
+        let other = self.axis.cross(&across);
+        for (end, radius) in self.ends.iter().zip(self.radii) {
+            out.extend([across, -across, other, -other].map(|arm| end + arm * radius));
+        }
+    }
+}
+
+impl Bore {
+    /// Region in which a bore may push: the hole dilated by the thickness. The offset wall alone is too
+    /// small: the origin of a grazing ray that still hits may lie beside it, as may a shape that passes
+    /// through the wall near a mouth.
+    fn pushed(&self) -> Dilated<'_> {
+        Dilated { thing: &self.hole, reach: self.thickness }
+    }
+}
+
+impl Bounded for Bore {
+    fn support(&self, direction: &Vec3) -> f64 {
+        self.pushed().support(direction)
+    }
+
+    fn farthest(&self, from: &Vec3) -> f64 {
+        self.pushed().farthest(from)
+    }
+
+    fn representatives(&self, out: &mut Vec<Vec3>) {
+        self.hole.representatives(out);
+    }
+}
+
+impl Primitive for Capsule {
+    #[inline]
+    fn reference_point(&self, end: u32) -> Cow<'_, Vec3> {
+        on_axis(&self.ends, end)
+    }
+
+    fn followed(&self) -> [Option<Vec3>; 3] {
+        ends_and_middle(&self.ends)
+    }
+
+    fn core(&self) -> Option<([Vec3; 2], f64)> {
+        Some((self.ends, self.radius))
+    }
+
+    fn smallest_radius_m(&self) -> Option<f64> {
+        Some(self.radius)
+    }
+
+    fn least_width_m(&self) -> f64 {
+        self.width_m()
+    }
+
+    fn round(&self) -> Option<&dyn Round> {
+        Some(self)
+    }
+
+    fn sizes_m(&self) -> Vec<(&'static str, f64)> {
+        vec![("the length", distance_m(&self.ends)), ("the radius", self.radius)]
+    }
+
+    fn drawing(&self) -> Option<Drawing> {
+        let (between, radius) = (self.ends[1] - self.ends[0], self.radius);
+        let length = between.norm();
+        let arc = |along, quarters| Stroke::Arc { along, aside: 0.0, radius, quarters };
+        let outline = vec![arc(0.0, [-1, 0]), arc(length, [0, 1])];
+        Some(Drawing::Revolved { origin: self.ends[0], axis: between / length, outline })
+    }
+}
+
+impl Primitive for Frustum {
+    /// Each end disc has two contacts, with the ends 0 and 2, 1 and 3 in their keys.
+    #[inline]
+    fn reference_point(&self, end: u32) -> Cow<'_, Vec3> {
+        Cow::Borrowed(&self.ends[usize::from(!end.is_multiple_of(2))])
+    }
+
+    fn followed(&self) -> [Option<Vec3>; 3] {
+        ends_and_middle(&self.ends)
+    }
+
+    fn least_width_m(&self) -> f64 {
+        self.width_m()
+    }
+
+    fn round(&self) -> Option<&dyn Round> {
+        Some(self)
+    }
+
+    /// The radius of an apex is left out.
+    fn sizes_m(&self) -> Vec<(&'static str, f64)> {
+        let radii = self.radii.into_iter().filter(|radius| *radius > 0.0);
+        radii.map(|radius| ("a radius", radius)).chain([("the length", distance_m(&self.ends))]).collect()
+    }
+
+    fn drawing(&self) -> Option<Drawing> {
+        let corner = |along, aside| Stroke::Corner { along, aside };
+        let wall = self.radii;
+        let outline = vec![
+            corner(0.0, 0.0),
+            corner(0.0, wall[0]),
+            corner(self.length, wall[1]),
+            corner(self.length, 0.0),
+        ];
+        Some(Drawing::Revolved { origin: self.ends[0], axis: self.axis, outline })
+    }
+}
+
+impl Primitive for Bore {
+    fn least_width_m(&self) -> f64 {
+        self.thickness
+    }
+
+    fn curved(&self) -> Option<&dyn Curved> {
+        Some(self)
+    }
+
+    fn sizes_m(&self) -> Vec<(&'static str, f64)> {
+        let mut sizes = self.hole.sizes_m();
+        sizes.push(("the thickness", self.thickness));
+        sizes
+    }
+
+    /// The wall alone, seen from inside.
+    fn drawing(&self) -> Option<Drawing> {
+        let Frustum { ends, radii, axis, length, .. } = self.hole;
+        let corner = |along, aside| Stroke::Corner { along, aside };
+        let outline = vec![corner(length, radii[1]), corner(0.0, radii[0])];
+        Some(Drawing::Revolved { origin: ends[0], axis, outline })
     }
 }

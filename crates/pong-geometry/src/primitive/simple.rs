@@ -1,6 +1,9 @@
 //! Point, plane, line segment and ray.
 
+use super::facts::{Drawing, Primitive, distance_m, ends_and_middle, on_axis};
+use crate::bounding::{Bounded, PointCloud};
 use crate::{Transform, Vec3};
+use std::borrow::Cow;
 
 /// Point: a vertex without extent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +59,12 @@ impl Point {
     pub fn carried(&self, x: &Transform) -> Self {
         Self { position: x.point(&self.position) }
     }
+
+    /// Least and greatest coordinates of the region of contact, m.
+    #[inline]
+    pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
+        (self.position, self.position)
+    }
 }
 
 impl LineSegment {
@@ -63,6 +72,13 @@ impl LineSegment {
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { ends: [x.point(&self.ends[0]), x.point(&self.ends[1])] }
+    }
+
+    /// Least and greatest coordinates of the region of contact, m.
+    #[inline]
+    pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
+        let [a, b] = &self.ends;
+        (a.inf(b), a.sup(b))
     }
 }
 
@@ -93,6 +109,14 @@ impl Ray {
     pub fn carried(&self, x: &Transform) -> Self {
         Self { origin: x.point(&self.origin), direction: x.vector(&self.direction), ..*self }
     }
+
+    /// Least and greatest coordinates of the region of contact, m. A ray also hits surfaces up to its reach
+    /// behind its origin. A reach left to the triangle is part of the triangle's box.
+    #[inline]
+    pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
+        let start = self.origin - self.direction * self.reach.unwrap_or(0.0);
+        (start.inf(&self.tip()), start.sup(&self.tip()))
+    }
 }
 
 impl Plane {
@@ -100,5 +124,117 @@ impl Plane {
     #[inline]
     pub fn height(&self, p: &Vec3) -> f64 {
         self.normal.dot(p) - self.offset
+    }
+}
+
+/// Implements `Bounded` for shapes that are the convex hull of a fixed number of points.
+macro_rules! bounded_by_points {
+    ($($thing:ty: $points:expr;)*) => {$(
+        impl Bounded for $thing {
+            fn support(&self, direction: &Vec3) -> f64 {
+                PointCloud(&$points(self)).support(direction)
+            }
+
+            fn farthest(&self, from: &Vec3) -> f64 {
+                PointCloud(&$points(self)).farthest(from)
+            }
+
+            fn representatives(&self, out: &mut Vec<Vec3>) {
+                out.extend($points(self));
+            }
+        }
+    )*};
+}
+
+bounded_by_points! {
+    Point: |point: &Point| [point.position];
+    LineSegment: |segment: &LineSegment| segment.ends;
+    // A ray also hits surfaces up to `reach` behind its origin. If the triangle defines that distance, the
+    // triangle is dilated by it instead.
+    Ray: |ray: &Ray| [ray.origin - ray.direction * ray.reach.unwrap_or(0.0), ray.tip()];
+}
+
+impl Bounded for Plane {
+    fn support(&self, _direction: &Vec3) -> f64 {
+        f64::INFINITY
+    }
+
+    fn farthest(&self, _from: &Vec3) -> f64 {
+        f64::INFINITY
+    }
+
+    fn representatives(&self, _out: &mut Vec<Vec3>) {}
+}
+
+impl Primitive for Point {
+    #[inline]
+    fn reference_point(&self, _end: u32) -> Cow<'_, Vec3> {
+        Cow::Borrowed(&self.position)
+    }
+
+    fn followed(&self) -> [Option<Vec3>; 3] {
+        [Some(self.position), None, None]
+    }
+
+    fn core(&self) -> Option<([Vec3; 2], f64)> {
+        Some(([self.position; 2], 0.0))
+    }
+
+    fn drawing(&self) -> Option<Drawing> {
+        Some(Drawing::Point(self.position))
+    }
+}
+
+impl Primitive for LineSegment {
+    #[inline]
+    fn reference_point(&self, end: u32) -> Cow<'_, Vec3> {
+        on_axis(&self.ends, end)
+    }
+
+    fn followed(&self) -> [Option<Vec3>; 3] {
+        ends_and_middle(&self.ends)
+    }
+
+    fn core(&self) -> Option<([Vec3; 2], f64)> {
+        Some((self.ends, 0.0))
+    }
+
+    fn sizes_m(&self) -> Vec<(&'static str, f64)> {
+        vec![("the length", distance_m(&self.ends))]
+    }
+
+    fn drawing(&self) -> Option<Drawing> {
+        Some(Drawing::Segment(self.ends))
+    }
+}
+
+impl Primitive for Ray {
+    #[inline]
+    fn reference_point(&self, _end: u32) -> Cow<'_, Vec3> {
+        Cow::Owned(self.tip())
+    }
+
+    fn followed(&self) -> [Option<Vec3>; 3] {
+        [Some(self.origin), None, None]
+    }
+
+    fn core(&self) -> Option<([Vec3; 2], f64)> {
+        Some(([self.origin; 2], 0.0))
+    }
+
+    /// The reach of a ray may be zero.
+    fn sizes_m(&self) -> Vec<(&'static str, f64)> {
+        let reach = self.reach.filter(|reach| *reach > 0.0).map(|reach| ("the reach", reach));
+        [("the length", self.length)].into_iter().chain(reach).collect()
+    }
+
+    fn drawing(&self) -> Option<Drawing> {
+        Some(Drawing::Ray([self.origin, self.tip()]))
+    }
+}
+
+impl Primitive for Plane {
+    fn drawing(&self) -> Option<Drawing> {
+        Some(Drawing::Plane { normal: self.normal, offset: self.offset })
     }
 }

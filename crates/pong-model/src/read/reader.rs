@@ -1,9 +1,9 @@
 //! State shared by all parts of the reading: the text, the caller's extensions, and all faults found.
 
 use crate::error::ModelError;
+use crate::extensions::Extensions;
 use crate::ron_tree::SyntaxError;
 use crate::surface::Surface;
-use pong_geometry::extension::Extensions;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::path::Path;

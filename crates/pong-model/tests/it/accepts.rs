@@ -3,9 +3,8 @@
 use crate::common::{CUBE_FACES, cube_vertices, load, model_of};
 use pong_geometry::Vec3;
 use pong_geometry::bounding::Volume;
-use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::{PrimitiveKind, RayResponse};
-use pong_model::{Exponent, FrictionLaw, NormalLaw};
+use pong_model::{Exponent, Extensions, FrictionLaw, NormalLaw};
 
 #[test]
 fn every_primitive_and_option_is_read() {

@@ -1,7 +1,7 @@
 //! Files as written, and faults of shapes by face and vertex.
 
 use pong_geometry::Vec3;
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use pong_model::authored::{self, Node, Value};
 use pong_model::shapes::{check_polyhedron, check_triangles};
 

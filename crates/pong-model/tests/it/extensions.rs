@@ -3,8 +3,8 @@
 use crate::common::model_of;
 use pong_geometry::Vec3;
 use pong_geometry::bounding::{CustomVolume, Volume};
-use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::CustomPrimitive;
+use pong_model::Extensions;
 use std::any::Any;
 use std::sync::Arc;
 

@@ -1,8 +1,8 @@
 //! Every example of docs/model_format.md loads.
 
 use pong_geometry::Vec3;
-use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::CustomPrimitive;
+use pong_model::Extensions;
 use std::path::Path;
 use std::sync::Arc;
 

@@ -1,9 +1,8 @@
 //! Bounds and leaf sizes of a text, changed and read back: only the trees differ.
 
 use pong_geometry::bounding::{BoundKind, Volume};
-use pong_geometry::extension::Extensions;
 use pong_model::grouping::{Bound, Regrouped, groups, mesh_files, regrouped};
-use pong_model::{Item, Model, Tree};
+use pong_model::{Extensions, Item, Model, Tree};
 
 fn load(text: &str) -> Model {
     pong_model::parse(text, "test.ron", None, &Extensions::new()).unwrap_or_else(|errors| panic!("{errors}"))

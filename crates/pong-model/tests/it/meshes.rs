@@ -1,8 +1,7 @@
 //! Meshes from OBJ and STL files.
 
 use crate::common::model_of;
-use pong_geometry::extension::Extensions;
-use pong_model::{Model, ModelErrors};
+use pong_model::{Extensions, Model, ModelErrors};
 use std::fs;
 use std::path::PathBuf;
 

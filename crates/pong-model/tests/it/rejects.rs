@@ -2,7 +2,7 @@
 
 use crate::common;
 use crate::common::{CUBE_FACES, cube_vertices, faults, model_of};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use std::collections::BTreeSet;
 
 const TRIANGLE: &str = "vertices: ((0,0,0),(1,0,0),(0,1,0))";

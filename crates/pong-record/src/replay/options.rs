@@ -1,8 +1,7 @@
 //! Options of a replay.
 
 use pong_engine::{Laws, WorkerSettings};
-use pong_geometry::extension::Extensions;
-use pong_model::Model;
+use pong_model::{Extensions, Model};
 use std::sync::Arc;
 
 /// Rewrites a model of the log, given its index; an error is a line of cause and cure.

@@ -3,8 +3,7 @@
 use crate::error::LogError;
 use crate::run::{RunModel, is_inside};
 use pong_engine::World;
-use pong_geometry::extension::Extensions;
-use pong_model::Model;
+use pong_model::{Extensions, Model};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

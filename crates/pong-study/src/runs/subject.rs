@@ -1,10 +1,9 @@
 //! A model to be tuned: its text, and the settings of its groups.
 
 use crate::{Result, StudyError};
-use pong_geometry::extension::Extensions;
-use pong_model::Fnv;
 use pong_model::Model;
 use pong_model::grouping::{self, Bound, Group, Regrouped};
+use pong_model::{Extensions, Fnv};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

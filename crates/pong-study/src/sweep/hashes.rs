@@ -2,8 +2,7 @@
 
 use crate::{Result, StudyError};
 use pong_executive::scene::Scene;
-use pong_geometry::extension::Extensions;
-use pong_model::Fnv;
+use pong_model::{Extensions, Fnv};
 use std::io::Read;
 use std::path::Path;
 

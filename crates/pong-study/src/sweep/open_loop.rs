@@ -8,9 +8,8 @@ use crate::sweep::run::Frames;
 use crate::{Result, StudyError};
 use pong_engine::{EngineError, WorkerSettings};
 use pong_geometry::Wrench;
-use pong_geometry::extension::Extensions;
-use pong_model::Fnv;
 use pong_model::Model;
+use pong_model::{Extensions, Fnv};
 use pong_record::{Event, Log, LogError, ReplayOptions, RerunFrame, rerun};
 use std::path::{Path, PathBuf};
 

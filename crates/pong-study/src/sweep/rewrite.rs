@@ -1,8 +1,7 @@
 //! Models changed for a level: without friction, with other bounding volumes, with other leaves.
 
 use crate::sweep::level::Level;
-use pong_geometry::extension::Extensions;
-use pong_model::{FrictionLaw, Model};
+use pong_model::{Extensions, FrictionLaw, Model};
 
 /// The model changed for a level; an error is a line of cause and cure.
 pub(crate) fn model(mut model: Model, level: &Level) -> Result<Model, String> {

@@ -11,8 +11,7 @@ use crate::tree_tuning::bench::{Bench, FrameTimes, relative};
 use crate::tree_tuning::search::{Found, LEAST_GAIN, OVER_NOISE, Proposal, base, search};
 use crate::tree_tuning::words;
 use crate::{Result, StudyError};
-use pong_geometry::extension::Extensions;
-use pong_model::Model;
+use pong_model::{Extensions, Model};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 

@@ -4,9 +4,8 @@ use super::shape::Shape;
 use super::{Output, Settings, Trimmed, trim};
 use crate::Result;
 use crate::runs::samples::{Folder, model, scene};
-use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Vec3};
-use pong_model::Model;
+use pong_model::{Extensions, Model};
 use pong_testkit::Random;
 use std::path::Path;
 

@@ -7,7 +7,7 @@ use crate::measure::rotation;
 use crate::row::Row;
 use pong_engine::State;
 use pong_executive::{Quat, Vec3, Wrench};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use pong_testkit::Random;
 
 pub const SHAPES: Extreme = Extreme {

@@ -4,7 +4,7 @@ use crate::case::Failure;
 use crate::scene::moving;
 use pong_engine::{Config, Contact, InterfaceId, State, World, WorldBuilder};
 use pong_executive::{Pose, Quat, Vec3, Wrench};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use pong_testkit::ron;
 use std::sync::Arc;
 

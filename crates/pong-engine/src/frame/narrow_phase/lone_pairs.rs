@@ -5,7 +5,7 @@
 
 use super::element_pair::{Ball, ChunkCandidates, DeferredPairs, ElementPair};
 use super::on_triangle::thickness_for;
-use super::pair_table::{ellipsoid_triangle, sphere_triangle};
+use super::pair_table::balls::{ball_on_triangle, ellipsoid_on_triangle};
 use super::testers::{Target, is_deferred};
 use crate::frame::broad_phase::chunk::{Chunk, Ellipsoidal};
 use crate::frame::broad_phase::lone_element::{LoneElement, Near};
@@ -154,14 +154,14 @@ fn test_near(pair: LonePair<'_>, (items, way): (&[Item], &LoneElement), found: &
     match Ellipsoidal::of(chunk, 0) {
         Ellipsoidal::Sphere(sphere) => {
             for near in way.found() {
-                sphere_triangle::test_ball(&pair_with(near), &Ball::of(&sphere), near.over_face(), found);
+                ball_on_triangle(&pair_with(near), &Ball::of(&sphere), near.over_face(), found);
             }
         }
         Ellipsoidal::Ellipsoid(ellipsoid) => {
             let mut ready: Option<EllipsoidOnTriangles> = None;
             for near in way.found() {
                 let ready = ready.get_or_insert_with(|| EllipsoidOnTriangles::new(ellipsoid));
-                ellipsoid_triangle::test_ready(&pair_with(near), ready, found);
+                ellipsoid_on_triangle(&pair_with(near), ready, found);
             }
         }
     }

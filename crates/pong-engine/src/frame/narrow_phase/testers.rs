@@ -3,9 +3,10 @@
 
 use super::element_pair::{Ball, ChunkCandidates, ElementPair};
 use super::on_triangle::thickness_for;
-use super::pair_table::{Test, ellipsoid_triangle, sphere_triangle, test_of};
-use super::registered;
+use super::pair_table::balls::{ball_on_triangle, ellipsoid_on_triangle};
+use super::pair_table::{Test, test_of};
 use crate::frame::broad_phase::chunk::{Chunk, Ellipsoidal};
+use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
 use crate::report::FrameCounts;
 use pong_geometry::interference::ellipsoid_triangle::EllipsoidOnTriangles;
@@ -70,7 +71,7 @@ impl<'a> Target<'a> {
     }
 
     #[inline(always)]
-    fn test_one(&self, test: Option<Test>, chunk: &Chunk<'_>, lane: usize, found: &mut ChunkCandidates<'_>) {
+    fn test_one(&self, test: Test, chunk: &Chunk<'_>, lane: usize, found: &mut ChunkCandidates<'_>) {
         let pair = ElementPair {
             context: self.context,
             item_a: chunk.items[lane],
@@ -82,14 +83,12 @@ impl<'a> Target<'a> {
         let a = match chunk.of_lane(lane) {
             Some(one) => {
                 of_lane = one;
-                Some(&of_lane)
+                &of_lane
             }
-            None => chunk.carried(lane),
+            // Kinds that are never A in the table have no transformed copy: a registered test takes the model's.
+            None => chunk.carried(lane).unwrap_or(&TransformedPrimitive::NOTHING),
         };
-        match (test, a) {
-            (Some(test), Some(a)) => test(&pair, a, found),
-            (None, _) | (_, None) => registered::test(&pair, found),
-        }
+        test(&pair, a, found);
     }
 }
 
@@ -144,7 +143,7 @@ fn test_spheres(context: &PairContext<'_>, chunk: &Chunk<'_>, found: &mut ChunkC
         let item_a = chunk.items[usize::from(lane)];
         let pair = ElementPair { context, item_a, lane, item_b, kind_b: Triangle };
         let over_face = told.over_face >> place & 1 == 1;
-        sphere_triangle::test_ball(&pair, &Ball::of(&chunk.sphere(usize::from(lane))), over_face, found);
+        ball_on_triangle(&pair, &Ball::of(&chunk.sphere(usize::from(lane))), over_face, found);
     }
 }
 
@@ -160,10 +159,6 @@ fn test_ellipsoids(context: &PairContext<'_>, chunk: &Chunk<'_>, found: &mut Chu
             other => &mut other.insert((lane, EllipsoidOnTriangles::new(ellipsoid))).1,
         };
         let item_a = chunk.items[usize::from(lane)];
-        ellipsoid_triangle::test_ready(
-            &ElementPair { context, item_a, lane, item_b, kind_b: Triangle },
-            ready,
-            found,
-        );
+        ellipsoid_on_triangle(&ElementPair { context, item_a, lane, item_b, kind_b: Triangle }, ready, found);
     }
 }

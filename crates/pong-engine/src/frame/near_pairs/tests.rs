@@ -6,7 +6,7 @@ use super::swept::Bounds;
 use super::tree::BoundsTree;
 use crate::{Config, FrameReport, InterfaceId, Laws, PairId, State, World, WorldBuilder};
 use pong_geometry::Vec3;
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use std::sync::Arc;
 
 /// Random numbers from a fixed seed.

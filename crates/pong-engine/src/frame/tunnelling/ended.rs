@@ -157,9 +157,13 @@ impl Seen<'_> {
         {
             self.came_out_of_sheet(record, &line)
         } else {
-            let mut round = body.primitives.iter().filter(|info| swept::is_round(info.kind));
-            let info = round.find(|info| info.shell == key.shell_b);
-            info.is_some_and(|info| self.came_out_of_round(record, info.kind))
+            let info = body
+                .primitives
+                .iter()
+                .find(|info| info.kind != PrimitiveKind::Triangle && info.shell == key.shell_b);
+            info.is_some_and(|info| {
+                info.elements.contains(&record.element_b) && self.came_out_of_round(record, info.kind)
+            })
         }
     }
 
@@ -207,13 +211,8 @@ impl Seen<'_> {
     fn smallest_of(&self, record: &ContactRecord) -> f64 {
         let body = self.context.body_a;
         let info = &body.primitives[record.key.primitive_a as usize];
-        let element = info.elements.start as usize;
-        match info.kind {
-            PrimitiveKind::Sphere => body.spheres[element].radius,
-            PrimitiveKind::Ellipsoid => body.ellipsoids[element].smallest_semi_axis(),
-            PrimitiveKind::Capsule => body.capsules[element].radius,
-            _ => 0.0,
-        }
+        let facts = body.element(info.kind, info.elements.start).facts();
+        facts.and_then(|facts| facts.smallest_radius_m()).unwrap_or(0.0)
     }
 
     /// Returns true if a path goes through a shell of triangles from the front.

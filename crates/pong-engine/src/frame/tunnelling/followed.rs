@@ -3,7 +3,7 @@
 use super::events::{TunnellingEvent, TunnellingEvents};
 use super::line::{Line, Met};
 use super::swept::{self, Swept};
-use super::{curved, sheets, solids, travel};
+use super::{sheets, solids, travel};
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::input::motion::Motion;
@@ -15,7 +15,7 @@ use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::Portable;
 use pong_model::box_tree::{Child, lanes};
-use pong_model::{Batch, Item, MovableGroup};
+use pong_model::{Batch, Item};
 
 /// A contact pushes to a side if the cosine between its normal and the side's exceeds this (60°).
 pub(super) const SAME_SIDE_COSINE_MIN: f64 = 0.5;
@@ -49,12 +49,15 @@ impl<'a> Seen<'a> {
                     && travel::sweeps(self.context.motion, batch_a, batch)
             };
             for (_, batch_b) in body_b.tree.batches.iter().enumerate().filter(meets) {
+                let first_b = &body_b.tree.items[batch_b.items.start as usize];
+                let is_round = swept::round(body_b, batch_b.kind, first_b.element).is_some();
                 for item in &body_a.tree.items[batch_a.items.start as usize..batch_a.items.end as usize] {
-                    if swept::is_round(batch_b.kind) {
+                    let Some(facts) = body_a.element(batch_a.kind, item.element).facts() else { continue };
+                    if is_round {
                         self.follow_axis(*item, batch_b, events);
                         continue;
                     }
-                    for place in places(body_a, batch_a.kind, *item).into_iter().flatten() {
+                    for place in facts.followed().into_iter().flatten() {
                         self.follow(*item, &place, batch_b, events);
                     }
                 }
@@ -103,27 +106,31 @@ impl<'a> Seen<'a> {
     pub fn swept(&self, item_a: Item) -> Option<Swept> {
         let (body, motion) = (self.context.body_a, self.context.motion);
         let kind = body.primitives[item_a.primitive as usize].kind;
-        let (axis, radius) = swept::axis_of(body, kind, item_a)?;
+        let (axis, radius) = body.element(kind, item_a.element).facts()?.core()?;
         let since = motion.since_commit.as_ref()?;
         let [from_b, to_b] = [&since.x_ba, &motion.x_ba].map(|x_ba| axis.map(|place| x_ba.point(&place)));
         Some(Swept { from_b, to_b, radius })
     }
 
+    /// Radius of a ball whose centre is followed, m; 0 for other elements.
     fn radius(&self, item_a: Item) -> f64 {
         let body = self.context.body_a;
-        match body.primitives[item_a.primitive as usize].kind {
-            PrimitiveKind::Sphere => body.spheres[item_a.element as usize].radius,
-            _ => 0.0,
-        }
+        let kind = body.primitives[item_a.primitive as usize].kind;
+        let core = body.element(kind, item_a.element).facts().and_then(|facts| facts.core());
+        core.filter(|(ends, _)| ends[0] == ends[1]).map_or(0.0, |(_, radius)| radius)
     }
 
-    /// Outcome of a path against an element of B.
+    /// Outcome of a path against an element of B. Planes are half-spaces and cannot be passed; custom kinds are
+    /// not checked.
     fn met(&self, item_a: Item, line: &Line, kind_b: PrimitiveKind, item_b: Item) -> Option<Met> {
         let body = self.context.body_b;
         match kind_b {
             PrimitiveKind::Polyhedron => solids::meet(body, self.shell(item_b), item_b.element, line),
             PrimitiveKind::Triangle => sheets::meet(&body.triangles, item_b.element, line),
-            _ => curved::meet(&self.context, item_a, item_b, line),
+            _ => {
+                let surface = body.element(kind_b, item_b.element).facts()?.curved()?;
+                surface.passed(&line.from_b, &line.to_b, self.radius(item_a)).map(Met::Through)
+            }
         }
     }
 
@@ -244,23 +251,4 @@ fn found<'a>(
     let pushing = same_head.filter(|place| place.pushes());
     let found = pushing.map(|place| &frame.found().contact(place).found);
     found.filter(move |found| found.key.shell_b == key.shell_b)
-}
-
-/// Points of an element of A that are followed, in A's frame, m.
-fn places(body: &MovableGroup, kind: PrimitiveKind, item: Item) -> [Option<Vec3>; 3] {
-    let i = item.element as usize;
-    match kind {
-        PrimitiveKind::Point => [Some(body.points[i].position), None, None],
-        PrimitiveKind::Sphere => [Some(body.spheres[i].center), None, None],
-        PrimitiveKind::Ellipsoid => [Some(body.ellipsoids[i].center), None, None],
-        PrimitiveKind::Ray => [Some(body.rays[i].origin), None, None],
-        PrimitiveKind::LineSegment => ends_and_middle(&body.segments[i].ends),
-        PrimitiveKind::Capsule => ends_and_middle(&body.capsules[i].ends),
-        PrimitiveKind::Cylinder => ends_and_middle(&body.frusta[i].ends),
-        _ => [None; 3],
-    }
-}
-
-fn ends_and_middle([one, other]: &[Vec3; 2]) -> [Option<Vec3>; 3] {
-    [Some(*one), Some(*other), Some(0.5 * (one + other))]
 }

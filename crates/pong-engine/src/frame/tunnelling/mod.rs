@@ -15,7 +15,6 @@
 //! ([`travel::least_travel_m`]). A shorter path may cut an edge or a corner, but passes through no wall. In
 //! all other frames only ended contacts are checked.
 
-mod curved;
 mod ended;
 pub(crate) mod events;
 mod followed;

@@ -39,13 +39,3 @@ fn pieces(body: &MovableGroup, shell: u32) -> impl Iterator<Item = &Polyhedron> 
     let pieces = of_shell.filter(|info| info.kind == PrimitiveKind::Polyhedron);
     pieces.map(|info| &body.polyhedra[info.elements.start as usize])
 }
-
-/// Least extent of a polyhedron along any of its face normals, m.
-pub(super) fn width_m(polyhedron: &Polyhedron) -> f64 {
-    let lowest = |normal: &Vec3| {
-        let along = polyhedron.vertices.iter().map(|vertex| normal.dot(&vertex.position));
-        along.fold(f64::INFINITY, f64::min)
-    };
-    let widths = polyhedron.faces.iter().map(|face| face.offset - lowest(&face.normal));
-    widths.fold(f64::INFINITY, f64::min)
-}

@@ -2,9 +2,8 @@
 
 use super::line::Met;
 use pong_geometry::Vec3;
-use pong_geometry::interference::round_gap::{Gap, Round};
-use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Item, MovableGroup};
+use pong_geometry::primitive::{Gap, PrimitiveKind, Round};
+use pong_model::MovableGroup;
 
 /// Evenly spaced samples of the gap before the search between them.
 const TIMES: usize = 16;
@@ -18,31 +17,9 @@ pub(super) struct Swept {
     pub radius: f64,
 }
 
-/// Axis of an element of A in A's frame, and its radius, m; `None` for kinds that touch no round solid.
-pub(super) fn axis_of(body: &MovableGroup, kind: PrimitiveKind, item: Item) -> Option<([Vec3; 2], f64)> {
-    let i = item.element as usize;
-    match kind {
-        PrimitiveKind::Point => Some(([body.points[i].position; 2], 0.0)),
-        PrimitiveKind::Ray => Some(([body.rays[i].origin; 2], 0.0)),
-        PrimitiveKind::Sphere => Some(([body.spheres[i].center; 2], body.spheres[i].radius)),
-        PrimitiveKind::LineSegment => Some((body.segments[i].ends, 0.0)),
-        PrimitiveKind::Capsule => Some((body.capsules[i].ends, body.capsules[i].radius)),
-        _ => None,
-    }
-}
-
 /// Round solid of B; `None` for other kinds.
-pub(super) fn round(body: &MovableGroup, kind: PrimitiveKind, element: u32) -> Option<Round<'_>> {
-    let i = element as usize;
-    match kind {
-        PrimitiveKind::Capsule => body.capsules.get(i).map(Round::Capsule),
-        PrimitiveKind::Cylinder | PrimitiveKind::Cone => body.frusta.get(i).map(Round::Frustum),
-        _ => None,
-    }
-}
-
-pub(super) fn is_round(kind: PrimitiveKind) -> bool {
-    matches!(kind, PrimitiveKind::Capsule | PrimitiveKind::Cylinder | PrimitiveKind::Cone)
+pub(super) fn round(body: &MovableGroup, kind: PrimitiveKind, element: u32) -> Option<&dyn Round> {
+    body.element(kind, element).facts()?.round()
 }
 
 impl Swept {
@@ -56,7 +33,7 @@ impl Swept {
 
     /// Outcome `Through` if the element was outside a solid at both times, and in between was deeper in it
     /// than half of the thinner of the two.
-    pub fn meet(&self, solid: Round<'_>) -> Option<Met> {
+    pub fn meet(&self, solid: &dyn Round) -> Option<Met> {
         let beside = self.beside(solid);
         let (first, last) = (beside.gap(0.0), beside.gap(1.0));
         let apart = first.distance >= 0.0 && last.distance >= 0.0;
@@ -68,7 +45,7 @@ impl Swept {
     }
 
     /// Exit direction of an element that was in the solid at the last commit and has left it.
-    pub fn way_out(&self, solid: Round<'_>) -> Option<Vec3> {
+    pub fn way_out(&self, solid: &dyn Round) -> Option<Vec3> {
         let beside = self.beside(solid);
         let left = beside.gap(0.0).distance < 0.0 && beside.gap(1.0).distance >= 0.0;
         left.then(|| beside.crossing(1.0, 0.0).normal_b)
@@ -80,7 +57,7 @@ impl Swept {
         way(0).max(way(1))
     }
 
-    fn beside<'a>(&'a self, solid: Round<'a>) -> Beside<'a> {
+    fn beside<'a>(&'a self, solid: &'a dyn Round) -> Beside<'a> {
         // A sphere passes a smaller solid when that crosses its centre.
         let skin = (self.radius - 0.5 * solid.width_m()).max(0.0);
         Beside { swept: self, solid, skin }
@@ -90,7 +67,7 @@ impl Swept {
 /// A swept axis and one solid whose surface is offset outward by `skin`.
 struct Beside<'a> {
     swept: &'a Swept,
-    solid: Round<'a>,
+    solid: &'a dyn Round,
     skin: f64,
 }
 

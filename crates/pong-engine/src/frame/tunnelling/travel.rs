@@ -1,51 +1,41 @@
 //! Tunnelling test by distance: the travel of a body since the last commit against the thinnest element.
 
-use super::solids::width_m;
-use super::swept;
 use crate::frame::input::motion::Motion;
 use crate::sealed::Plan;
-use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::primitive::{Primitive, PrimitiveKind};
 use pong_geometry::{Transform, Vec3};
-use pong_model::{Batch, MovableGroup};
+use pong_model::{Batch, MovableGroup, PrimitiveInfo};
 
-/// Half the thickness of the thinnest element of B that A can pass through, m; a shorter path passes no wall.
-/// Infinite if there is no such element.
+/// Half the thickness of the thinnest of the given primitives of B that A can pass through, m; a shorter path
+/// passes no wall. Infinite if there is no such primitive.
 pub(crate) fn least_travel_m(
-    a: &MovableGroup,
-    b: &MovableGroup,
+    a: (&MovableGroup, &[&PrimitiveInfo]),
+    b: (&MovableGroup, &[&PrimitiveInfo]),
     tests: impl Fn(PrimitiveKind, PrimitiveKind) -> bool,
 ) -> f64 {
     let kinds = PrimitiveKind::ALL;
     let touched = |kind_b: PrimitiveKind| kinds.iter().any(|&kind_a| tests(kind_a, kind_b));
-    let mut thinnest = f64::INFINITY;
-    if touched(PrimitiveKind::Polyhedron) {
-        thinnest = b.polyhedra.iter().map(width_m).fold(thinnest, f64::min);
-    }
+    let passable = b.1.iter().copied().filter(|info| touched(info.kind));
+    let widths = facts((b.0, passable)).map(|facts| facts.least_width_m());
+    let mut thinnest = widths.fold(f64::INFINITY, f64::min);
     if touched(PrimitiveKind::Triangle) {
-        let of_balls = a.spheres.iter().map(|sphere| sphere.radius);
-        let of_ellipsoids = a.ellipsoids.iter().map(|ellipsoid| ellipsoid.semi_axes.min());
-        let of_capsules = a.capsules.iter().map(|capsule| capsule.radius);
-        let smallest = of_balls.chain(of_ellipsoids).chain(of_capsules).fold(f64::INFINITY, f64::min);
-        let meshes = b.primitives.iter().filter(|info| info.kind == PrimitiveKind::Triangle);
+        let radii = facts((a.0, a.1.iter().copied())).filter_map(|facts| facts.smallest_radius_m());
+        let smallest = radii.fold(f64::INFINITY, f64::min);
+        let meshes = b.1.iter().filter(|info| info.kind == PrimitiveKind::Triangle);
         thinnest = meshes.map(|info| info.thickness.unwrap_or(smallest)).fold(thinnest, f64::min);
-        thinnest = a.rays.iter().map(|ray| ray.length).fold(thinnest, f64::min);
-    }
-    if touched(PrimitiveKind::Sphere) {
-        thinnest = b.spheres.iter().map(|sphere| 2.0 * sphere.radius).fold(thinnest, f64::min);
-    }
-    if touched(PrimitiveKind::Ellipsoid) {
-        let least = b.ellipsoids.iter().map(|ellipsoid| 2.0 * ellipsoid.semi_axes.min());
-        thinnest = least.fold(thinnest, f64::min);
-    }
-    let round = [PrimitiveKind::Capsule, PrimitiveKind::Cylinder, PrimitiveKind::Cone];
-    for info in b.primitives.iter().filter(|info| round.contains(&info.kind) && touched(info.kind)) {
-        let solids = info.elements.clone().filter_map(|element| swept::round(b, info.kind, element));
-        thinnest = solids.map(|solid| solid.width_m()).fold(thinnest, f64::min);
-    }
-    if touched(PrimitiveKind::Bore) {
-        thinnest = b.bores.iter().map(|bore| bore.thickness).fold(thinnest, f64::min);
+        let rays = a.1.iter().filter(|info| info.kind == PrimitiveKind::Ray);
+        let lengths = rays.map(|info| a.0.rays[info.elements.start as usize].length);
+        thinnest = lengths.fold(thinnest, f64::min);
     }
     0.5 * thinnest
+}
+
+/// Facts of the elements of primitives; triangles and custom primitives have none.
+fn facts<'a>(
+    (body, infos): (&'a MovableGroup, impl Iterator<Item = &'a PrimitiveInfo>),
+) -> impl Iterator<Item = &'a dyn Primitive> {
+    let elements = infos.flat_map(|info| info.elements.clone().map(|element| (info.kind, element)));
+    elements.filter_map(|(kind, element)| body.element(kind, element).facts())
 }
 
 /// Returns true if a point of A's body may have moved farther than that.
@@ -65,17 +55,10 @@ pub(super) fn may_go_through(plan: &Plan, motion: &Motion) -> bool {
         && shift_square.sqrt() + turn_square.sqrt() * reach > least
 }
 
-/// Greatest distance of a followed point of A from the origin of its movable group, m.
-pub(crate) fn reach_m(a: &MovableGroup) -> f64 {
-    let points = a.points.iter().map(|point| point.position);
-    let ends = a.segments.iter().flat_map(|segment| segment.ends);
-    let rays = a.rays.iter().map(|ray| ray.origin);
-    let balls = a.spheres.iter().map(|sphere| sphere.center);
-    let ellipsoids = a.ellipsoids.iter().map(|ellipsoid| ellipsoid.center);
-    let round = a.capsules.iter().flat_map(|capsule| capsule.ends);
-    let round = round.chain(a.frusta.iter().flat_map(|frustum| frustum.ends));
-    let all = points.chain(ends).chain(rays).chain(balls).chain(ellipsoids).chain(round);
-    all.map(|place| place.norm()).fold(0.0, f64::max)
+/// Greatest distance of a followed point of the given primitives of A from the origin of its movable group, m.
+pub(crate) fn reach_m((a, infos): (&MovableGroup, &[&PrimitiveInfo])) -> f64 {
+    let places = facts((a, infos.iter().copied())).flat_map(|facts| facts.followed()).flatten();
+    places.map(|place| place.norm()).fold(0.0, f64::max)
 }
 
 /// Returns true if the region swept by a batch of A since the last commit may overlap a batch of B.

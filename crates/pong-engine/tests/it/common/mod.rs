@@ -7,8 +7,8 @@ pub mod scenes;
 pub mod stage;
 
 use pong_engine::{Config, InterfaceId, ModelId, ObjectId, PairId, State, World, WorldBuilder};
-use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Quat, Vec3, Wrench};
+use pong_model::Extensions;
 use pong_testkit::Random;
 pub use pong_testkit::ron::{
     box_polyhedron, model, place_of, plate_mesh, shell_mesh, surface, triangle_mesh,

@@ -2,10 +2,11 @@
 
 use pong_engine::{FrictionForce, FrictionInput, FrictionOutput, Laws, NormalForce, NormalInput};
 use pong_geometry::bounding::{Bounded, CustomVolume, Volume};
-use pong_geometry::extension::{Extensions, PrimitiveRef};
+use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::CustomPrimitive;
 use pong_geometry::{Transform, Vec3};
+use pong_model::Extensions;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;

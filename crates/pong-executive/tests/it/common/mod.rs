@@ -3,7 +3,7 @@
 use pong_engine::{Config, World, WorldBuilder};
 use pong_executive::Simulation;
 use pong_executive::scene::{Scene, Variation};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use std::path::Path;
 use std::sync::Arc;
 

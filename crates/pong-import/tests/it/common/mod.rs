@@ -1,8 +1,7 @@
 //! Small mesh files written by code, and models read back by the engine's loader.
 
-use pong_geometry::extension::Extensions;
 use pong_import::{Findings, Imported, Options};
-use pong_model::Model;
+use pong_model::{Extensions, Model};
 pub use pong_testkit::meshes::*;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};

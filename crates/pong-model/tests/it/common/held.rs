@@ -2,8 +2,8 @@
 
 use super::solids::Solid;
 use pong_geometry::Vec3;
-use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::Polyhedron;
+use pong_model::Extensions;
 
 /// Tolerance of docs/model_format.md, in diameters.
 pub const TOLERANCE: f64 = 1e-6;

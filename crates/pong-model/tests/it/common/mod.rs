@@ -4,8 +4,7 @@ pub mod families;
 pub mod held;
 pub mod solids;
 
-use pong_geometry::extension::Extensions;
-use pong_model::{Model, ModelErrors};
+use pong_model::{Extensions, Model, ModelErrors};
 
 /// Faces of [`cube_vertices`], counter-clockwise from outside: −z, +z, −y, +x, +y, −x.
 pub const CUBE_FACES: &str = "[[0,3,2,1], [4,5,6,7], [0,1,5,4], [1,2,6,5], [2,3,7,6], [3,0,4,7]]";

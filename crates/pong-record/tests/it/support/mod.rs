@@ -1,7 +1,7 @@
 //! A world with bodies that arrive, slide and leave, and a folder for its log.
 
 use pong_engine::{Config, InterfaceId, ObjectId, PairId, State, World, WorldBuilder};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use pong_record::{ModelSource, RecordOptions, Recorder};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};

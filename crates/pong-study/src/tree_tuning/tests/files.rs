@@ -6,8 +6,7 @@ use crate::runs::subject::{Subject, hash_of_trees};
 use crate::tree_tuning::tune::{DONE, TUNED};
 use crate::tree_tuning::words;
 use crate::tree_tuning::{Settings, tune};
-use pong_geometry::extension::Extensions;
-use pong_model::Model;
+use pong_model::{Extensions, Model};
 use std::ops::ControlFlow::{Break, Continue};
 use std::path::PathBuf;
 

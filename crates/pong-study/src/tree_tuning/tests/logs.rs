@@ -3,7 +3,7 @@
 use super::{BALL, Folder, Ready, SHEET, model};
 use crate::StudyError;
 use pong_engine::{Config, State, WorldBuilder};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use pong_record::{ModelSource, RecordOptions, Recorder};
 use std::path::PathBuf;
 use std::sync::Arc;

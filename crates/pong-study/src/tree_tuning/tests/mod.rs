@@ -15,7 +15,7 @@ use crate::runs::samples::{Folder, model, scene};
 use crate::runs::subject::Subject;
 use crate::tree_tuning::bench::Bench;
 use crate::tree_tuning::search::{Judge, Proposal};
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use std::path::{Path, PathBuf};
 
 /// A ball of 0.1 m that falls on a sheet of triangles and slides; both in groups without purpose.

@@ -1,6 +1,6 @@
 //! Table of tested kind pairs: kind of A, kind of B, contact tester and cost. Used by dispatch, block layout,
-//! default capacity and seal. A new pair needs a file beside this one and a row here. Blank pairs are
-//! ignored, since the author may intend them.
+//! default capacity and seal. A new pair needs a row here; a tester that does more than its interference
+//! test is in `balls` or `axes`. Blank pairs are ignored, since the author may intend them.
 //!
 //! ```text
 //!  A \ B         Sphere  Ellipsoid  Triangle  Polyhedron  Plane  Capsule  Cylinder  Cone  Bore
@@ -16,34 +16,35 @@
 //!
 //! Point–Triangle is blank on purpose: no depth can be defined.
 
-mod ball_bore;
-mod ball_round;
-mod capsule_polyhedron;
-mod capsule_triangle;
-mod ellipsoid_plane;
-mod ellipsoid_polyhedron;
-pub(crate) mod ellipsoid_triangle;
-mod line_segment_plane;
-mod line_segment_polyhedron;
-mod point_ellipsoid;
-mod point_plane;
-mod point_polyhedron;
-mod point_sphere;
-mod ray_bore;
-mod ray_plane;
-mod ray_polyhedron;
-mod ray_round;
-mod ray_triangle;
-mod round_plane;
-mod sphere_plane;
-mod sphere_polyhedron;
-mod sphere_sphere;
-pub(crate) mod sphere_triangle;
-mod two_ended_bore;
-mod two_ended_round;
+mod axes;
+pub(crate) mod balls;
 
-use super::element_pair::{ChunkCandidates, ElementPair};
+use super::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
+use super::registered;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
+use axes::{
+    axis_in_bore, capsule_polyhedron, capsule_triangle, emit_halves, emit_shares, line_segment_polyhedron,
+};
+use balls::{
+    ball_in_bore, ball_of, ellipsoid_polyhedron, ellipsoid_triangle, emit_hit, emit_whole, point_polyhedron,
+    ray_on_triangle, sphere_on_triangle, sphere_polyhedron,
+};
+use pong_geometry::interference::ball_round::{ball_capsule, ball_frustum};
+use pong_geometry::interference::ellipsoid_plane::ellipsoid_plane;
+use pong_geometry::interference::line_segment_plane::line_segment_plane;
+use pong_geometry::interference::point_ellipsoid::point_ellipsoid;
+use pong_geometry::interference::point_plane::point_plane;
+use pong_geometry::interference::point_sphere::point_sphere;
+use pong_geometry::interference::ray_bore::ray_bore;
+use pong_geometry::interference::ray_plane::ray_plane;
+use pong_geometry::interference::ray_polyhedron::ray_polyhedron;
+use pong_geometry::interference::ray_round::{ray_capsule, ray_ellipsoid, ray_frustum, ray_sphere};
+use pong_geometry::interference::round_plane::{capsule_plane, frustum_plane};
+use pong_geometry::interference::sphere_plane::sphere_plane;
+use pong_geometry::interference::sphere_sphere::sphere_sphere;
+use pong_geometry::interference::two_ended_round::{
+    capsule_capsule, capsule_frustum, segment_capsule, segment_frustum,
+};
 use pong_geometry::primitive::PrimitiveKind::{self, *};
 
 /// Contact tester: one element of A, in B's frame, against one element of B.
@@ -64,52 +65,68 @@ pub(crate) struct KindPair {
 /// Assumed cost, ns, and number of contacts of a registered test.
 pub(crate) const REGISTERED: (u32, usize) = (200, 1);
 
+/// Tester made of an interference test: shape of A, array of B, test, and the function that adds its contacts.
+macro_rules! by {
+    ($a:ident, $b:ident, $test:expr, $emit:path) => {{
+        fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
+            let TransformedPrimitive::$a(a) = a else { wrong_kind(a) };
+            $emit(pair, a, ($test)(a, &pair.body_b().$b[pair.item_b.element as usize]), found);
+        }
+        test
+    }};
+}
+
+const fn row(a: PrimitiveKind, b: PrimitiveKind, test: Test, cost_ns: u32, contacts: usize) -> KindPair {
+    KindPair { a, b, test, cost_ns, contacts }
+}
+
+/// Kind of A, kind of B, tester, rough cost in ns, number of contacts.
 #[rustfmt::skip]
 const ROWS: &[KindPair] = &[
-    KindPair { a: Point, b: Sphere, test: point_sphere::test, cost_ns: 15, contacts: 1 },
-    KindPair { a: Point, b: Ellipsoid, test: point_ellipsoid::test, cost_ns: 15, contacts: 1 },
-    KindPair { a: Point, b: Polyhedron, test: point_polyhedron::test, cost_ns: 15, contacts: 1 },
-    KindPair { a: Point, b: Plane, test: point_plane::test, cost_ns: 15, contacts: 1 },
-    KindPair { a: LineSegment, b: Polyhedron, test: line_segment_polyhedron::test, cost_ns: 50, contacts: 2 },
-    KindPair { a: LineSegment, b: Plane, test: line_segment_plane::test, cost_ns: 50, contacts: 2 },
-    KindPair { a: Ray, b: Triangle, test: ray_triangle::test, cost_ns: 50, contacts: 1 },
-    KindPair { a: Ray, b: Polyhedron, test: ray_polyhedron::test, cost_ns: 50, contacts: 1 },
-    KindPair { a: Ray, b: Plane, test: ray_plane::test, cost_ns: 50, contacts: 1 },
-    KindPair { a: Sphere, b: Sphere, test: sphere_sphere::test, cost_ns: 15, contacts: 1 },
-    KindPair { a: Sphere, b: Triangle, test: sphere_triangle::test, cost_ns: 1000, contacts: 4 },
-    KindPair { a: Sphere, b: Polyhedron, test: sphere_polyhedron::test, cost_ns: 15, contacts: 4 },
-    KindPair { a: Sphere, b: Plane, test: sphere_plane::test, cost_ns: 15, contacts: 1 },
-    KindPair { a: Ellipsoid, b: Triangle, test: ellipsoid_triangle::test, cost_ns: 1000, contacts: 4 },
-    KindPair { a: Ellipsoid, b: Polyhedron, test: ellipsoid_polyhedron::test, cost_ns: 200, contacts: 4 },
-    KindPair { a: Ellipsoid, b: Plane, test: ellipsoid_plane::test, cost_ns: 200, contacts: 1 },
-    KindPair { a: Point, b: Capsule, test: ball_round::test_capsule, cost_ns: 15, contacts: 1 },
-    KindPair { a: Point, b: Cylinder, test: ball_round::test_frustum, cost_ns: 30, contacts: 1 },
-    KindPair { a: Point, b: Cone, test: ball_round::test_frustum, cost_ns: 30, contacts: 1 },
-    KindPair { a: LineSegment, b: Capsule, test: two_ended_round::test_capsule, cost_ns: 100, contacts: 3 },
-    KindPair { a: LineSegment, b: Cylinder, test: two_ended_round::test_frustum, cost_ns: 1000, contacts: 3 },
-    KindPair { a: LineSegment, b: Cone, test: two_ended_round::test_frustum, cost_ns: 1000, contacts: 3 },
-    KindPair { a: Sphere, b: Capsule, test: ball_round::test_capsule, cost_ns: 15, contacts: 1 },
-    KindPair { a: Sphere, b: Cylinder, test: ball_round::test_frustum, cost_ns: 30, contacts: 1 },
-    KindPair { a: Sphere, b: Cone, test: ball_round::test_frustum, cost_ns: 30, contacts: 1 },
-    KindPair { a: Capsule, b: Capsule, test: two_ended_round::test_capsule, cost_ns: 100, contacts: 3 },
-    KindPair { a: Capsule, b: Cylinder, test: two_ended_round::test_frustum, cost_ns: 1000, contacts: 3 },
-    KindPair { a: Capsule, b: Cone, test: two_ended_round::test_frustum, cost_ns: 1000, contacts: 3 },
-    KindPair { a: Point, b: Bore, test: ball_bore::test, cost_ns: 30, contacts: 1 },
-    KindPair { a: Ray, b: Bore, test: ray_bore::test, cost_ns: 50, contacts: 1 },
-    KindPair { a: Sphere, b: Bore, test: ball_bore::test, cost_ns: 30, contacts: 2 },
-    KindPair { a: Capsule, b: Triangle, test: capsule_triangle::test, cost_ns: 2000, contacts: 10 },
-    KindPair { a: Capsule, b: Polyhedron, test: capsule_polyhedron::test, cost_ns: 500, contacts: 10 },
-    KindPair { a: Capsule, b: Plane, test: round_plane::test, cost_ns: 50, contacts: 2 },
-    KindPair { a: Cylinder, b: Plane, test: round_plane::test, cost_ns: 50, contacts: 4 },
-    KindPair { a: Cone, b: Plane, test: round_plane::test, cost_ns: 50, contacts: 4 },
-    KindPair { a: Ray, b: Sphere, test: ray_round::test_sphere, cost_ns: 50, contacts: 1 },
-    KindPair { a: Ray, b: Ellipsoid, test: ray_round::test_ellipsoid, cost_ns: 50, contacts: 1 },
-    KindPair { a: Ray, b: Capsule, test: ray_round::test_capsule, cost_ns: 50, contacts: 1 },
-    KindPair { a: Ray, b: Cylinder, test: ray_round::test_frustum, cost_ns: 50, contacts: 1 },
-    KindPair { a: Ray, b: Cone, test: ray_round::test_frustum, cost_ns: 50, contacts: 1 },
-    KindPair { a: LineSegment, b: Bore, test: two_ended_bore::test, cost_ns: 1000, contacts: 2 },
-    KindPair { a: Capsule, b: Bore, test: two_ended_bore::test, cost_ns: 1000, contacts: 4 },
-    KindPair { a: Cylinder, b: Bore, test: two_ended_bore::test, cost_ns: 3000, contacts: 4 },
+    row(Point, Sphere, by!(Point, spheres, point_sphere, emit_whole), 15, 1),
+    row(Point, Ellipsoid, by!(Point, ellipsoids, |a, b| point_ellipsoid(&ball_of(a).center, b), emit_whole), 15, 1),
+    row(Point, Polyhedron, point_polyhedron, 15, 1),
+    row(Point, Plane, by!(Point, planes, point_plane, emit_whole), 15, 1),
+    row(Point, Capsule, by!(Point, capsules, |a, b| ball_capsule(&ball_of(a), b), emit_whole), 15, 1),
+    row(Point, Cylinder, by!(Point, frusta, |a, b| ball_frustum(&ball_of(a), b), emit_whole), 30, 1),
+    row(Point, Cone, by!(Point, frusta, |a, b| ball_frustum(&ball_of(a), b), emit_whole), 30, 1),
+    row(Point, Bore, ball_in_bore, 30, 1),
+    row(LineSegment, Polyhedron, line_segment_polyhedron, 50, 2),
+    row(LineSegment, Plane, by!(Segment, planes, line_segment_plane, emit_halves), 50, 2),
+    row(LineSegment, Capsule, by!(Segment, capsules, segment_capsule, emit_shares), 100, 3),
+    row(LineSegment, Cylinder, by!(Segment, frusta, segment_frustum, emit_shares), 1000, 3),
+    row(LineSegment, Cone, by!(Segment, frusta, segment_frustum, emit_shares), 1000, 3),
+    row(LineSegment, Bore, axis_in_bore, 1000, 2),
+    row(Ray, Sphere, by!(Ray, spheres, ray_sphere, emit_hit), 50, 1),
+    row(Ray, Ellipsoid, by!(Ray, ellipsoids, ray_ellipsoid, emit_hit), 50, 1),
+    row(Ray, Triangle, ray_on_triangle, 50, 1),
+    row(Ray, Polyhedron, by!(Ray, polyhedra, ray_polyhedron, emit_hit), 50, 1),
+    row(Ray, Plane, by!(Ray, planes, ray_plane, emit_hit), 50, 1),
+    row(Ray, Capsule, by!(Ray, capsules, ray_capsule, emit_hit), 50, 1),
+    row(Ray, Cylinder, by!(Ray, frusta, ray_frustum, emit_hit), 50, 1),
+    row(Ray, Cone, by!(Ray, frusta, ray_frustum, emit_hit), 50, 1),
+    row(Ray, Bore, by!(Ray, bores, ray_bore, emit_hit), 50, 1),
+    row(Sphere, Sphere, by!(Sphere, spheres, sphere_sphere, emit_whole), 15, 1),
+    row(Sphere, Triangle, sphere_on_triangle, 1000, 4),
+    row(Sphere, Polyhedron, sphere_polyhedron, 15, 4),
+    row(Sphere, Plane, by!(Sphere, planes, sphere_plane, emit_whole), 15, 1),
+    row(Sphere, Capsule, by!(Sphere, capsules, ball_capsule, emit_whole), 15, 1),
+    row(Sphere, Cylinder, by!(Sphere, frusta, ball_frustum, emit_whole), 30, 1),
+    row(Sphere, Cone, by!(Sphere, frusta, ball_frustum, emit_whole), 30, 1),
+    row(Sphere, Bore, ball_in_bore, 30, 2),
+    row(Ellipsoid, Triangle, ellipsoid_triangle, 1000, 4),
+    row(Ellipsoid, Polyhedron, ellipsoid_polyhedron, 200, 4),
+    row(Ellipsoid, Plane, by!(Ellipsoid, planes, ellipsoid_plane, emit_whole), 200, 1),
+    row(Capsule, Triangle, capsule_triangle, 2000, 10),
+    row(Capsule, Polyhedron, capsule_polyhedron, 500, 10),
+    row(Capsule, Plane, by!(Capsule, planes, capsule_plane, emit_halves), 50, 2),
+    row(Capsule, Capsule, by!(Capsule, capsules, capsule_capsule, emit_shares), 100, 3),
+    row(Capsule, Cylinder, by!(Capsule, frusta, capsule_frustum, emit_shares), 1000, 3),
+    row(Capsule, Cone, by!(Capsule, frusta, capsule_frustum, emit_shares), 1000, 3),
+    row(Capsule, Bore, axis_in_bore, 1000, 4),
+    row(Cylinder, Plane, by!(Frustum, planes, frustum_plane, emit_halves), 50, 4),
+    row(Cylinder, Bore, axis_in_bore, 3000, 4),
+    row(Cone, Plane, by!(Frustum, planes, frustum_plane, emit_halves), 50, 4),
 ];
 
 const KINDS: usize = PrimitiveKind::ALL.len();
@@ -134,20 +151,21 @@ pub(crate) fn kind_pair(a: PrimitiveKind, b: PrimitiveKind) -> Option<&'static K
     ROWS.get(PLACES[a as usize][b as usize] as usize)
 }
 
-/// Testers of all pairs by kind numbers; a frame looks here for every two elements that may touch.
-const TESTS: [[Option<Test>; KINDS]; KINDS] = {
-    let mut tests = [[None; KINDS]; KINDS];
+/// Testers of all pairs by kind numbers; a frame looks here for every two elements that may touch. Pairs
+/// without a row go to the test that the host has registered, if any.
+const TESTS: [[Test; KINDS]; KINDS] = {
+    let mut tests = [[registered::test as Test; KINDS]; KINDS];
     let mut row = 0;
     while row < ROWS.len() {
-        tests[ROWS[row].a as usize][ROWS[row].b as usize] = Some(ROWS[row].test);
+        tests[ROWS[row].a as usize][ROWS[row].b as usize] = ROWS[row].test;
         row += 1;
     }
     tests
 };
 
-/// Contact tester of a pair, if any.
+/// Contact tester of a pair.
 #[inline]
-pub(crate) fn test_of(a: PrimitiveKind, b: PrimitiveKind) -> Option<Test> {
+pub(crate) fn test_of(a: PrimitiveKind, b: PrimitiveKind) -> Test {
     TESTS[a as usize][b as usize]
 }
 

@@ -1,0 +1,149 @@
+//! Testers of bodies with two ends: line segments, capsules, cylinders and cones.
+
+use super::balls::{ball_on_piece, ball_on_triangle, emit_in_bore};
+use crate::frame::broad_phase::transformed::TransformedPrimitive;
+use crate::frame::narrow_phase::candidate::CandidateStatus;
+use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, end_spheres, wrong_kind};
+use pong_geometry::interference::capsule_edge::{ConvexEdge, capsule_edge};
+use pong_geometry::interference::capsule_polyhedron::CapsuleAtPiece;
+use pong_geometry::interference::line_segment_polyhedron::{AtWall, line_segment_piece};
+use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
+use pong_geometry::interference::two_ended_bore::{capsule_bore, cylinder_bore, segment_bore};
+use pong_geometry::interference::two_ended_round::EndContacts;
+use pong_geometry::interference::{Feature, Interference};
+use pong_geometry::primitive::{Containment, Polyhedron};
+
+/// A capsule on a piece of a body: the end spheres, and the convex edges that the axis crosses between them.
+pub(super) fn capsule_polyhedron(
+    pair: &ElementPair<'_>,
+    a: &TransformedPrimitive,
+    found: &mut ChunkCandidates<'_>,
+) {
+    let TransformedPrimitive::Capsule(capsule) = a else { wrong_kind(a) };
+    let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
+    let Some(at_piece) = CapsuleAtPiece::new(capsule, polyhedron) else { return };
+    for ball in Ball::at_ends(&end_spheres(capsule)) {
+        ball_on_piece(pair, &ball, found);
+    }
+    at_piece.each_crossing(|crossing| pair.between_ends(crossing, found));
+}
+
+/// A capsule on a triangle: the end spheres, and the convex or free edges that the axis crosses.
+pub(super) fn capsule_triangle(
+    pair: &ElementPair<'_>,
+    a: &TransformedPrimitive,
+    found: &mut ChunkCandidates<'_>,
+) {
+    let TransformedPrimitive::Capsule(capsule) = a else { wrong_kind(a) };
+    for ball in Ball::at_ends(&end_spheres(capsule)) {
+        ball_on_triangle(pair, &ball, false, found);
+    }
+    let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
+    let may_push = set.triangles[triangle as usize].may_push;
+    for k in (0..3).filter(|&k| may_push.edge(k)) {
+        let view = TriangleView::new(set, triangle);
+        let (normals, free_outward_b) = match view.classify_edge(set, k) {
+            EdgeClass::Free => ([view.normal; 2], Some(view.outward(k))),
+            EdgeClass::Convex { normal, .. } if view.owns_edge(set, k) => ([view.normal, normal], None),
+            EdgeClass::Convex { .. } | EdgeClass::Silent { .. } => continue,
+        };
+        let feature = Feature::edge(triangle as usize * 3 + k);
+        let ends_b = view.edge_ends(k);
+        let edge = ConvexEdge { ends_b, normals_b: normals, outwards_b: None, free_outward_b, feature };
+        if let Some(crossing) = capsule_edge(capsule, &edge) {
+            pair.between_ends(&crossing, found);
+        }
+    }
+}
+
+/// A line segment in a piece of a body: each end carries half of the spring.
+pub(super) fn line_segment_polyhedron(
+    pair: &ElementPair<'_>,
+    a: &TransformedPrimitive,
+    found: &mut ChunkCandidates<'_>,
+) {
+    let TransformedPrimitive::Segment(segment) = a else { wrong_kind(a) };
+    let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
+    for (end, found_there) in line_segment_piece(segment, polyhedron).iter().enumerate() {
+        let Some((contact, at_wall)) = found_there else { continue };
+        let status = status_of_end(contact, *at_wall, polyhedron);
+        pair.emit(contact, found, |out| {
+            out.key.end = end as u32;
+            out.half = true;
+            out.status = status;
+        });
+    }
+}
+
+/// Candidate status of a segment's end in a piece of a body.
+fn status_of_end(contact: &Interference, at_wall: AtWall, piece: &Polyhedron) -> CandidateStatus {
+    match at_wall {
+        AtWall::SharedEdge | AtWall::Exit => CandidateStatus::AtWall,
+        AtWall::StandsIn => CandidateStatus::BeyondWall,
+        AtWall::ExitStandsIn => CandidateStatus::StandIn,
+        AtWall::No if piece.planes().all_active || !contact.feature.is_face() => CandidateStatus::Front,
+        AtWall::No => match piece.containment(&contact.deepest_b) {
+            Containment::AtWall | Containment::BeyondWall => CandidateStatus::AtWall,
+            Containment::Inside | Containment::Outside => CandidateStatus::Front,
+        },
+    }
+}
+
+/// A line segment, a capsule or a cylinder in a bore: half a spring at each end of the part in the hole.
+pub(super) fn axis_in_bore(
+    pair: &ElementPair<'_>,
+    a: &TransformedPrimitive,
+    found: &mut ChunkCandidates<'_>,
+) {
+    let bore = &pair.body_b().bores[pair.item_b.element as usize];
+    let (body_a, element) = (pair.body_a(), pair.item_a.element as usize);
+    let (contacts, ends) = match a {
+        TransformedPrimitive::Segment(segment) => {
+            (segment_bore(segment, bore), body_a.segments[element].ends)
+        }
+        TransformedPrimitive::Capsule(capsule) => {
+            (capsule_bore(capsule, bore), body_a.capsules[element].ends)
+        }
+        TransformedPrimitive::Frustum(cylinder) => {
+            (cylinder_bore(cylinder, bore), body_a.frusta[element].ends)
+        }
+        _ => wrong_kind(a),
+    };
+    for ((contacts, local), end) in contacts.iter().zip(&ends).zip(0..) {
+        emit_in_bore(pair, contacts, (local, Some(end)), found);
+    }
+}
+
+/// Adds the contacts at the ends of an axis or at points of the end discs, each with half a spring.
+pub(super) fn emit_halves<A>(
+    pair: &ElementPair<'_>,
+    _: &A,
+    contacts: impl AsRef<[Option<Interference>]>,
+    found: &mut ChunkCandidates<'_>,
+) {
+    for (end, contact) in contacts.as_ref().iter().enumerate() {
+        let Some(contact) = contact else { continue };
+        pair.emit(contact, found, |out| {
+            out.key.end = end as u32;
+            out.half = true;
+        });
+    }
+}
+
+/// Adds the contacts on a round solid: half a spring at each end of the overlap, and one at the deepest point
+/// for the remainder.
+pub(super) fn emit_shares<A>(
+    pair: &ElementPair<'_>,
+    _: &A,
+    contacts: EndContacts,
+    found: &mut ChunkCandidates<'_>,
+) {
+    for (end, contact) in contacts.iter().enumerate() {
+        let Some(contact) = contact else { continue };
+        pair.emit(&contact.interference, found, |out| {
+            out.key.end = end as u32;
+            out.half = true;
+            out.weight = contact.share;
+        });
+    }
+}
