@@ -34,6 +34,7 @@ mod read;
 mod regroup;
 pub mod restitution;
 mod ron_tree;
+pub mod schema;
 pub mod shapes;
 pub mod surface;
 pub mod t_junctions;
