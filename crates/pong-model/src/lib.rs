@@ -43,6 +43,7 @@ mod triangle_topology;
 pub mod trimming;
 #[doc(hidden)]
 pub mod weld;
+pub mod write;
 
 pub use element::Element;
 pub use error::{ModelError, ModelErrors};

@@ -14,3 +14,4 @@ mod round_bounds;
 mod round_parts;
 mod schema;
 mod topology;
+mod written;
