@@ -1,6 +1,6 @@
 //! Text of a model file from values as [`authored::parse`](crate::authored::parse) gives them.
 //!
-//! The same values give the same text, and reading it gives the same values, bit for bit: each number is the
+//! Equal values give equal texts, and reading gives the values that were written, bit for bit: each number is the
 //! shortest decimal of its bits. A value stands on one line if it fits; otherwise each field has a line of its
 //! own, and long lists of numbers are filled. Groups, primitives, surfaces and pairs always have lines of their
 //! own. Nothing is judged: the loader does that.

@@ -36,7 +36,7 @@ pub struct Field {
 pub enum FieldDefault {
     /// It must not be left out.
     Required,
-    /// The same as this value, written as in a file.
+    /// Value of the same effect, written as in a file.
     Value(&'static str),
     /// A value that depends on others or the absence of one, in words.
     Words(&'static str),

@@ -207,3 +207,70 @@ fn the_fuzzer_knows_every_word() {
     let missing: Vec<_> = words().into_iter().filter(|word| !known.contains(word)).collect();
     assert!(missing.is_empty(), "add to fuzz/dictionaries/ron.txt: {missing:?}");
 }
+
+const DOCUMENT: &str = include_str!("../../../../docs/model_format.md");
+
+/// Name and default of each row of the first table behind this text of the document.
+fn documented(behind: &str) -> Vec<(&'static str, &'static str)> {
+    let (_, rest) = DOCUMENT.split_once(behind).unwrap_or_else(|| panic!("no {behind:?}"));
+    let table =
+        rest.lines().skip_while(|line| !line.starts_with("| ")).take_while(|line| line.starts_with('|'));
+    let cells = table.map(|line| line.trim_matches('|').split('|').map(str::trim).collect::<Vec<_>>());
+    let rows = cells.filter(|cells| cells[0].starts_with('`') && cells.len() > 2);
+    rows.map(|cells| (cells[0].trim_matches('`'), cells[cells.len() - 1])).collect()
+}
+
+#[test]
+fn documented_fields_are_those_of_the_schema() {
+    let bristle = schema::FRICTION_LAWS.iter().find(|law| law.name == "Bristle").expect("it exists");
+    let tables = [
+        ("## A whole file", schema::MODEL),
+        ("## Surfaces", schema::SURFACE),
+        ("## Groups", schema::GROUP),
+        ("### Friction", bristle.fields),
+    ];
+    for (heading, fields) in tables {
+        let rows: Vec<_> =
+            documented(heading).into_iter().filter(|(name, _)| *name != bristle.name).collect();
+        let names: Vec<_> = rows.iter().map(|(name, _)| *name).collect();
+        assert_eq!(names, fields.iter().map(|field| field.name).collect::<Vec<_>>(), "{heading}");
+        for ((name, default), field) in rows.iter().zip(fields) {
+            let is_required = field.default == FieldDefault::Required;
+            assert_eq!(*default == "required", is_required, "{heading} {name}: {default}");
+        }
+    }
+}
+
+/// Rows of the table of all kinds: kind, field, type, unit and default.
+fn table_of_kinds() -> String {
+    fn rows<T>(kinds: &'static [schema::Kind<T>], text: &mut String) {
+        for kind in kinds {
+            for (index, field) in kind.fields.iter().enumerate() {
+                let kind = if index == 0 { format!("`{}`", kind.name) } else { String::new() };
+                let inner: Vec<_> = field.value.fields().iter().map(|f| format!("`{}`", f.name)).collect();
+                let value = match field.value {
+                    Type::Word(words) => format!("`{}`", words.join("` or `")),
+                    Type::Record(_) => format!("({})", inner.join(", ")),
+                    other => other.name().replace('_', " "),
+                };
+                let default = match field.default {
+                    FieldDefault::Required => "required".to_owned(),
+                    FieldDefault::Value(value) => format!("`{value}`"),
+                    FieldDefault::Words(words) => words.to_owned(),
+                };
+                *text += &format!("| {kind} | `{}` | {value} | {} | {default} |\n", field.name, field.unit);
+            }
+        }
+    }
+    let mut text = String::from("| kind | field | type | unit | default |\n|---|---|---|---|---|\n");
+    rows(schema::PRIMITIVES, &mut text);
+    rows(schema::NORMAL_LAWS, &mut text);
+    rows(schema::FRICTION_LAWS, &mut text);
+    text
+}
+
+#[test]
+fn the_table_of_kinds_is_documented() {
+    let table = table_of_kinds();
+    assert!(DOCUMENT.contains(&table), "the table in docs/model_format.md must be:\n{table}");
+}
