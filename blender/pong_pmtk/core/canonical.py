@@ -11,7 +11,7 @@ import copy
 import numpy as np
 
 from .model import Group, Model, Primitive
-from .schema import PRIMITIVES, is_default
+from .schema import is_default, primitives
 
 
 def canonical(model: Model) -> Model:
@@ -46,7 +46,7 @@ def _group(group: Group, is_root: bool = False) -> Group:
 
 def _primitive(primitive: Primitive) -> Primitive:
     fields = {}
-    for field in PRIMITIVES[primitive.kind]:
+    for field in primitives()[primitive.kind]:
         value = primitive.fields.get(field.name)
         if value is not None and not is_default(value, field.default):
             fields[field.name] = value

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from .engine import wheel
 from .model import Group, Model, Primitive, Tagged
-from .schema import FRICTION_LAWS, NORMAL_LAWS, PRIMITIVES, Field, is_default, tells_friction
+from .schema import Field, Table, friction_laws, is_default, normal_laws, primitives, tells_friction
 
 
 @dataclass(frozen=True)
@@ -84,9 +84,9 @@ def _tagged(value) -> tuple[str, dict]:
 def _surface(data: dict) -> dict:
     surface = {"stiffness": data["stiffness"]}
     if data.get("normal") is not None:
-        surface["normal"] = _law(data["normal"], NORMAL_LAWS)
+        surface["normal"] = _law(data["normal"], normal_laws())
     if tells_friction(data):
-        surface["friction"] = _law(data["friction"], FRICTION_LAWS)
+        surface["friction"] = _law(data["friction"], friction_laws())
     return surface
 
 
@@ -95,14 +95,14 @@ def _pair(data: dict) -> dict:
     if data.get("stiffness") is not None:
         pair["stiffness"] = data["stiffness"]
     if data.get("normal") is not None:
-        pair["normal"] = _law(data["normal"], NORMAL_LAWS)
+        pair["normal"] = _law(data["normal"], normal_laws())
     if "friction" in data:
         # Here `None` is a value: no friction between these two.
-        pair["friction"] = _law(data["friction"], FRICTION_LAWS)
+        pair["friction"] = _law(data["friction"], friction_laws())
     return pair
 
 
-def _law(value, laws: dict[str, tuple[Field, ...]]) -> Tagged | None:
+def _law(value, laws: Table) -> Tagged | None:
     if value is None:
         return None
     name, fields = _tagged(value)
@@ -140,4 +140,4 @@ def _group(data: dict, is_root: bool = False) -> Group:
 
 def _primitive(value) -> Primitive:
     kind, fields = _tagged(value)
-    return Primitive(kind, fields["name"], _own(fields, PRIMITIVES[kind]), fields.get("surface"))
+    return Primitive(kind, fields["name"], _own(fields, primitives()[kind]), fields.get("surface"))

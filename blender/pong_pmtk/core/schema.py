@@ -1,103 +1,69 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fields of a model file: their order in our layout, their types and their defaults (docs/model_format.md)."""
+"""Fields of a model file: their order in our layout, their types and their defaults, from the wheel (`pong.model.schema`)."""
 
 from __future__ import annotations
 
+import ast
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
+from .engine import wheel
+
 REQUIRED = object()
+RESPONSES = ("Normal", "Axial")  # of a ray; also where there is no wheel
 
 
 @dataclass(frozen=True)
 class Field:
-    """A field: `kind` names the reader of its value, a field at `default` is not written."""
+    """A field: `kind` names the type of its value, a field at `default` is not written."""
 
     name: str
     kind: str
     default: object = None
 
 
-def _fields(*fields: tuple) -> tuple[Field, ...]:
-    return tuple(Field(*field) for field in fields)
+Table = dict[str, tuple[Field, ...]]
 
 
-PRIMITIVES: dict[str, tuple[Field, ...]] = {
-    "Point": _fields(("position", "vector", REQUIRED)),
-    "LineSegment": _fields(("ends", "vectors2", REQUIRED)),
-    "Ray": _fields(
-        ("origin", "vector", REQUIRED),
-        ("direction", "direction", REQUIRED),
-        ("length", "positive", REQUIRED),
-        ("reach", "not_negative"),
-        ("response", "response", "Normal"),
-    ),
-    "Sphere": _fields(("center", "vector", REQUIRED), ("radius", "positive", REQUIRED)),
-    "Ellipsoid": _fields(
-        ("center", "vector", REQUIRED),
-        ("semi_axes", "semi_axes", REQUIRED),
-        ("orientation", "rotation", (1.0, 0.0, 0.0, 0.0)),
-    ),
-    "Plane": _fields(("normal", "direction", REQUIRED), ("offset", "number", REQUIRED)),
-    "Triangle": _fields(("thickness", "positive"), ("two_sided", "boolean", False), ("vertices", "vectors3", REQUIRED)),
-    # Of these, either `file` or the two lists must be present: see read_primitive.py.
-    "TriangleMesh": _fields(
-        ("file", "text_value"),
-        ("scale", "positive", 1.0),
-        ("thickness", "positive"),
-        ("two_sided", "boolean", False),
-        ("vertices", "vertices"),
-        ("triangles", "triangles"),
-    ),
-    "Polyhedron": _fields(
-        ("file", "text_value"),
-        ("scale", "positive", 1.0),
-        ("inactive_faces", "indices", ()),
-        ("vertices", "vertices"),
-        ("faces", "faces"),
-    ),
-    "Capsule": _fields(("ends", "vectors2", REQUIRED), ("radius", "positive", REQUIRED)),
-    "Cylinder": _fields(("ends", "vectors2", REQUIRED), ("radius", "positive", REQUIRED)),
-    "Cone": _fields(("ends", "vectors2", REQUIRED), ("radii", "radii", REQUIRED)),
-    "Bore": _fields(
-        ("ends", "vectors2", REQUIRED),
-        ("radii", "radii", REQUIRED),
-        ("thickness", "positive"),
-        ("mouths", "booleans", (True, True)),
-    ),
-    "Custom": _fields(("kind", "text_value", REQUIRED), ("parameters", "numbers", ())),
-}
+@cache
+def primitives() -> Table:
+    """Fields of each kind of primitive, without `name` and `surface`. Raises `WheelMissing`."""
+    tables = wheel().model.schema()["primitives"]
+    return {kind: tuple(Field(name, row["type"], _default(row)) for name, row in table.items()) for kind, table in tables.items()}
 
-NORMAL_LAWS: dict[str, tuple[Field, ...]] = {
-    "Linear": _fields(("damping", "not_negative"), ("ramp", "not_negative"), ("restitution", "restitution_mass")),
-    "HuntCrossley": _fields(
-        ("dissipation", "not_negative"),
-        ("exponent", "exponent", REQUIRED),
-        ("restitution", "restitution_speed"),
-    ),
-    "PowerLaw": _fields(
-        ("exponent", "exponent", REQUIRED),
-        ("damping_exponent", "not_negative", REQUIRED),
-        ("damping", "not_negative"),
-        ("restitution", "restitution_impact"),
-    ),
-    "Custom": _fields(("name", "text_value", REQUIRED), ("parameters", "numbers", ())),
-}
 
-FRICTION_LAWS: dict[str, tuple[Field, ...]] = {
-    "Bristle": _fields(
-        ("mu", "not_negative", REQUIRED),
-        ("static_excess", "not_negative"),
-        ("stiffness", "finite_stiffness"),
-        ("damping", "not_negative"),
-        ("mass", "positive"),
-    ),
-    "Coulomb": _fields(("mu", "not_negative", REQUIRED), ("slip_speed", "positive", REQUIRED)),
-    "Custom": _fields(("name", "text_value", REQUIRED), ("parameters", "numbers", ())),
-}
+@cache
+def normal_laws() -> Table:
+    """Fields of each normal law; those at their defaults are written as well. Raises `WheelMissing`."""
+    return _laws("normal_laws")
 
-RESPONSES = ("Normal", "Axial")
+
+@cache
+def friction_laws() -> Table:
+    """Fields of each friction law; those at their defaults are written as well. Raises `WheelMissing`."""
+    return _laws("friction_laws")
+
+
+def _laws(name: str) -> Table:
+    tables = wheel().model.schema()[name]
+    default = {"numbers": ()}  # of types: an empty list of parameters is not written
+    return {
+        law: tuple(Field(name, row["type"], default.get(row["type"])) for name, row in table.items())
+        for law, table in tables.items()
+    }
+
+
+def _default(row: dict) -> object:
+    """Value of a default, from its text in a model file."""
+    if row["required"]:
+        return REQUIRED
+    text = row.get("default")
+    if text is None or text.isalpha() and text not in ("true", "false"):
+        return text
+    value = ast.literal_eval(text.replace("true", "True").replace("false", "False"))
+    return tuple(value) if isinstance(value, list) else value
 
 
 def tells_friction(surface: dict) -> bool:

@@ -15,7 +15,7 @@ import numpy as np
 from .canonical import canonical
 from .engine import wheel
 from .model import Group, Model, Primitive, Tagged
-from .schema import FRICTION_LAWS, NORMAL_LAWS, PRIMITIVES, tells_friction
+from .schema import friction_laws, normal_laws, primitives, tells_friction
 
 
 def write_text(model: Model) -> str:
@@ -65,9 +65,9 @@ def data_of(model: Model) -> dict:
 def _surface(fields: dict) -> dict:
     data = {"stiffness": float(fields["stiffness"])}
     if fields.get("normal") is not None:
-        data["normal"] = _law(fields["normal"], NORMAL_LAWS)
+        data["normal"] = _law(fields["normal"], normal_laws())
     if tells_friction(fields):
-        data["friction"] = _law(fields["friction"], FRICTION_LAWS)
+        data["friction"] = _law(fields["friction"], friction_laws())
     return data
 
 
@@ -76,9 +76,9 @@ def _pair(fields: dict) -> dict:
     if fields.get("stiffness") is not None:
         data["stiffness"] = float(fields["stiffness"])
     if fields.get("normal") is not None:
-        data["normal"] = _law(fields["normal"], NORMAL_LAWS)
+        data["normal"] = _law(fields["normal"], normal_laws())
     if "friction" in fields:
-        data["friction"] = _law(fields["friction"], FRICTION_LAWS)
+        data["friction"] = _law(fields["friction"], friction_laws())
     return data
 
 
@@ -125,7 +125,7 @@ def _numbers(values) -> tuple[float, ...] | None:
 
 def _primitive(primitive: Primitive) -> dict:
     fields = {"name": primitive.name, "surface": primitive.surface}
-    for field in PRIMITIVES[primitive.kind]:
+    for field in primitives()[primitive.kind]:
         if field.name in primitive.fields:
             fields[field.name] = _AS_DATA[field.kind](primitive.fields[field.name])
     return {primitive.kind: fields}
@@ -149,9 +149,9 @@ _AS_DATA = {
     "number": float,
     "positive": float,
     "not_negative": float,
-    "text_value": str,
+    "text": str,
     "boolean": bool,
-    "response": str,
+    "word": str,
     "radii": _numbers,
     "booleans": lambda values: tuple(map(bool, values)),
     "numbers": lambda values: [float(x) for x in values],

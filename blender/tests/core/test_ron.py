@@ -9,9 +9,11 @@ import tempfile
 import unittest
 
 from support import PONG, ROOT, check, mesh_files, models, np
-from core import mesh_file
+from core import marks, mesh_file
+from core.engine import wheel
 from core.model import Group, Model, Primitive, Tagged
 from core.read import ModelFaults, read_file, read_text
+from core.schema import RESPONSES, primitives
 from core.surfaces import derived
 from core.write import write_files, write_text
 
@@ -52,6 +54,22 @@ class Notation(unittest.TestCase):
         with self.assertRaises(ModelFaults) as caught:
             read_text("[" * 129 + "]" * 129)
         self.assertEqual([fault.rule for fault in caught.exception.faults], ["too-deep"])
+
+
+class Names(unittest.TestCase):
+    def test_names_are_those_of_the_format(self):
+        tables = wheel().model.schema()
+        self.assertEqual(marks.KINDS, tuple(tables["primitives"]))
+        self.assertEqual((*marks.BOUNDS, "Custom"), tables["bounds"])
+        self.assertEqual(RESPONSES, tables["primitives"]["Ray"]["response"]["choices"])
+
+    def test_defaults_are_values(self):
+        defaults = {(kind, field.name): field.default for kind, table in primitives().items() for field in table}
+        self.assertEqual(defaults["Ellipsoid", "orientation"], (1.0, 0.0, 0.0, 0.0))
+        self.assertEqual(defaults["Bore", "mouths"], (True, True))
+        self.assertEqual(defaults["Polyhedron", "inactive_faces"], ())
+        self.assertEqual((defaults["Ray", "response"], defaults["Ray", "reach"]), ("Normal", None))
+        self.assertEqual((defaults["TriangleMesh", "scale"], defaults["TriangleMesh", "two_sided"]), (1.0, False))
 
 
 class Faults(unittest.TestCase):

@@ -4,7 +4,8 @@ use crate::import::{MeshFile, nothing_written};
 use crate::terminal::{Outcome, print, tell};
 use crate::text::{count, number};
 use pong_decompose::{Mass, MassProperties};
-use pong_import::number::{Grid, decimal};
+use pong_import::number::Grid;
+use pong_model::write::decimal;
 use std::process::ExitCode;
 
 /// Computes mass, centre of mass and inertia of a closed mesh: glTF (.glb, .gltf), Collada (.dae), OBJ or STL.

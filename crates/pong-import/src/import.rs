@@ -171,7 +171,8 @@ fn convert(
 }
 
 fn kinds_of(root: &crate::model::Group) -> Vec<(&'static str, usize)> {
-    let mut counts: Vec<(&'static str, usize)> = crate::marks::KINDS.iter().map(|kind| (*kind, 0)).collect();
+    let mut counts: Vec<(&'static str, usize)> =
+        crate::marks::kinds().into_iter().map(|kind| (kind, 0)).collect();
     let mut open = vec![root];
     while let Some(group) = open.pop() {
         for primitive in &group.primitives {

@@ -9,22 +9,11 @@ const VERSION: u64 = 1;
 
 const ROLES: [&str; 4] = ["none", "root", "group", "primitive"];
 const BOUNDS: [&str; 3] = ["Aabb", "Sphere", "Obb"];
-pub(crate) const KINDS: [&str; 14] = [
-    "Point",
-    "LineSegment",
-    "Ray",
-    "Sphere",
-    "Ellipsoid",
-    "Plane",
-    "Triangle",
-    "TriangleMesh",
-    "Polyhedron",
-    "Capsule",
-    "Cylinder",
-    "Cone",
-    "Bore",
-    "Custom",
-];
+
+/// Kinds of primitives, in the order of the format.
+pub(crate) fn kinds() -> Vec<&'static str> {
+    pong_model::schema::names(pong_model::schema::PRIMITIVES)
+}
 
 /// Mark of one node; lengths in units of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -37,7 +26,7 @@ pub(crate) struct Mark {
     /// Position among siblings, from 1; 0 for last, sorted by name.
     pub(crate) order: u64,
     pub(crate) movable: bool,
-    /// Name as in model files; empty for `Aabb`, the default.
+    /// Name as in model files, or `Custom:` and the name of a registered kind; empty for `Aabb`, the default.
     pub(crate) bound: String,
     pub(crate) kind: String,
     /// Radius before the node's scale, as are semi-axes and length.
@@ -138,7 +127,7 @@ impl<'a> Fields<'a> {
         match (custom.as_str(), bound.as_str()) {
             ("", "Aabb") => String::new(),
             ("", _) => bound,
-            _ => format!("Custom({custom:?})"),
+            _ => format!("Custom:{custom}"),
         }
     }
 
@@ -208,7 +197,7 @@ impl Mark {
             movable: fields.flag("movable").unwrap_or(false),
             order: fields.take("order", "a whole number", Value::as_u64).unwrap_or(0),
             bound: fields.bound(),
-            kind: fields.word("kind", &[&KINDS[..], &[""]].concat(), ""),
+            kind: fields.word("kind", &[kinds().as_slice(), &[""]].concat(), ""),
             radius: fields.number("radius").unwrap_or(0.0),
             semi_axes: fields.take("semi_axes", "three numbers", numbers).unwrap_or([0.0; 3]),
             length: fields.number("length").unwrap_or(0.0),

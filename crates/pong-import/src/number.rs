@@ -1,5 +1,4 @@
-//! Conversion of numbers: single precision to the decimal its author typed, and decimals as model files write
-//! them.
+//! Numbers as their authors typed them: from single precision, and after transforms.
 
 use nalgebra::Vector3;
 
@@ -51,22 +50,6 @@ impl Grid {
     }
 }
 
-/// Decimal text of model files: shortest digits that give the same bits, never an integer; scientific
-/// notation outside of 1e-4 to 1e16.
-pub fn decimal(value: f64) -> String {
-    let value = value + 0.0;
-    if value.is_infinite() {
-        return if value > 0.0 { "inf" } else { "-inf" }.to_owned();
-    }
-    if value == 0.0 || (1e-4..1e16).contains(&value.abs()) {
-        return format!("{value:?}");
-    }
-    let text = format!("{value:e}");
-    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let (sign, size) = exponent.strip_prefix('-').map_or(('+', exponent), |size| ('-', size));
-    format!("{digits}e{sign}{size:0>2}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -90,16 +73,5 @@ mod tests {
         assert_eq!(grid.round(-1e-17).to_bits(), 0);
         assert_eq!(Grid::of_size(1e-3).round(1.23456789012e-4), 1.23456789012e-4);
         assert_eq!(Grid::of_size(1e30).round(1e30), 1e30);
-    }
-
-    #[test]
-    fn decimals_are_never_integers() {
-        assert_eq!(decimal(1.0), "1.0");
-        assert_eq!(decimal(-0.0), "0.0");
-        assert_eq!(decimal(f64::INFINITY), "inf");
-        for (value, text) in [(1e16, "1e+16"), (-1.5e-7, "-1.5e-07"), (0.0001, "0.0001"), (1e100, "1e+100")] {
-            assert_eq!(decimal(value), text);
-            assert_eq!(text.parse::<f64>(), Ok(value));
-        }
     }
 }

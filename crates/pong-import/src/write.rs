@@ -1,126 +1,119 @@
-//! Text of a model file from a `Model`, in the layout of the modelling toolkit: the same model gives the same
-//! bytes.
-
-mod layout;
+//! Text of a model file from a `Model`: its fields as values for the writer of `pong_model`.
 
 use crate::model::{Field, Group, Model, Primitive, Record};
-use crate::number::decimal;
-use layout::{Item, Shown, lay_out, quoted};
 use nalgebra::Vector3;
+use pong_model::authored::Value;
+use pong_model::write;
+
+/// Fields of a struct before they become a value.
+type Fields<'f> = Vec<(&'f str, Value)>;
 
 /// The text of a model file.
 pub fn text(model: &Model) -> String {
-    let mut items: Vec<Item> = vec![
-        ("format: ".into(), Shown::Flat(quoted("pong-model"))),
-        ("version: ".into(), Shown::Flat("1".to_owned())),
-        ("name: ".into(), Shown::Flat(quoted(&model.name))),
-    ];
+    let mut fields: Fields<'_> = Vec::new();
     if !model.entry_memory {
-        items.push(("entry_memory: ".into(), Shown::Flat("false".to_owned())));
+        fields.push(("entry_memory", Value::Bool(false)));
     }
-    let surfaces = model
-        .surfaces
-        .iter()
-        .map(|(name, fields)| (format!("{}: ", quoted(name)).into(), record("", fields)));
-    items.push(("surfaces: ".into(), Shown::broken("{", surfaces.collect(), "}")));
+    let surfaces = model.surfaces.iter().map(|(name, fields)| (name.as_str(), record("", fields)));
+    fields.push(("surfaces", Value::map(surfaces)));
     if !model.pairs.is_empty() {
-        let pairs = model.pairs.iter().map(|fields| ("".into(), record("", fields))).collect();
-        items.push(("pairs: ".into(), Shown::broken("[", pairs, "]")));
+        fields.push(("pairs", Value::list(model.pairs.iter().map(|pair| record("", pair)))));
     }
     if !model.filters.is_empty() {
-        let both = |[a, b]: &[String; 2]| ("".into(), Shown::Flat(format!("({}, {})", quoted(a), quoted(b))));
-        items.push(("filters: ".into(), Shown::block("[", model.filters.iter().map(both).collect(), "]")));
+        fields.push(("filters", Value::list(model.filters.iter().map(|groups| texts(groups)))));
     }
-    items.push(("root: ".into(), group(&model.root)));
-    let mut out: String = model.comment.iter().map(|line| format!("// {line}\n")).collect();
-    lay_out("", &Shown::broken("(", items, ")"), 0, &mut out);
-    // No comma follows the outermost bracket.
-    out.truncate(out.len() - 2);
-    out.push('\n');
-    out
+    fields.push(("root", group(&model.root)));
+    let comment: String = model.comment.iter().map(|line| format!("// {line}\n")).collect();
+    comment + &write::text(&Value::model(&model.name, fields))
 }
 
-fn group(node: &Group) -> Shown {
-    let mut items: Vec<Item> = vec![("name: ".into(), Shown::Flat(quoted(&node.name)))];
-    let mut add = |label: &'static str, value: Shown| items.push((label.into(), value));
+fn group(node: &Group) -> Value {
+    let mut fields: Fields<'_> = vec![("name", Value::text(&node.name))];
     if node.movable {
-        add("movable: ", Shown::Flat("true".to_owned()));
+        fields.push(("movable", Value::Bool(true)));
     }
-    let mut pose: Vec<Item> = Vec::new();
+    let mut pose: Fields<'_> = Vec::new();
     if let Some(position) = node.position.filter(|position| *position != [0.0; 3]) {
-        pose.push(("position: ".into(), Shown::Flat(tuple(&position))));
+        pose.push(("position", numbers(&position)));
     }
     if let Some(orientation) = node.orientation.filter(|orientation| *orientation != [1.0, 0.0, 0.0, 0.0]) {
-        pose.push(("orientation: ".into(), Shown::Flat(tuple(&orientation))));
+        pose.push(("orientation", numbers(&orientation)));
     }
     if !pose.is_empty() {
-        add("pose: ", Shown::block("(", pose, ")"));
+        fields.push(("pose", Value::fields(pose)));
     }
     if let Some(bound) = node.bound.as_ref().filter(|bound| !bound.is_empty()) {
-        add("bound: ", Shown::Flat(bound.clone()));
+        fields.push(("bound", self::bound(bound)));
     }
     if let Some(surface) = &node.surface {
-        add("surface: ", Shown::Flat(quoted(surface)));
+        fields.push(("surface", Value::text(surface)));
     }
     if !node.groups.is_empty() {
-        let below = node.groups.iter().map(|below| ("".into(), group(below))).collect();
-        add("groups: ", Shown::broken("[", below, "]"));
+        fields.push(("groups", Value::list(node.groups.iter().map(group))));
     }
     if !node.primitives.is_empty() {
-        let below = node.primitives.iter().map(|item| ("".into(), primitive(item))).collect();
-        add("primitives: ", Shown::broken("[", below, "]"));
+        fields.push(("primitives", Value::list(node.primitives.iter().map(primitive))));
     }
-    Shown::broken("(", items, ")")
+    Value::fields(fields)
 }
 
-fn primitive(item: &Primitive) -> Shown {
-    let mut items: Vec<Item> = vec![("name: ".into(), Shown::Flat(quoted(&item.name)))];
+/// Name of a bounding volume, or `Custom:` and the name of a registered kind.
+fn bound(bound: &str) -> Value {
+    match bound.strip_prefix("Custom:") {
+        Some(kind) => Value::Tuple(Some("Custom".into()), vec![Value::text(kind).into()]),
+        None => Value::name(bound),
+    }
+}
+
+fn primitive(item: &Primitive) -> Value {
+    let mut fields: Fields<'_> = vec![("name", Value::text(&item.name))];
     if let Some(surface) = &item.surface {
-        items.push(("surface: ".into(), Shown::Flat(quoted(surface))));
+        fields.push(("surface", Value::text(surface)));
     }
-    items.extend(fields(&item.fields));
-    Shown::block(&format!("{}(", item.kind), items, ")")
+    fields.extend(item.fields.iter().map(|(name, field)| (name.as_str(), value(field))));
+    Value::named(item.kind, fields)
 }
 
-fn record(name: &str, record: &Record) -> Shown {
-    Shown::block(&format!("{name}("), fields(record).collect(), ")")
+fn record(name: &str, record: &Record) -> Value {
+    let fields = record.iter().map(|(name, field)| (name.as_str(), value(field)));
+    if name.is_empty() { Value::fields(fields) } else { Value::named(name, fields) }
 }
 
-fn fields(record: &Record) -> impl Iterator<Item = Item> + '_ {
-    record.iter().map(|(name, value)| (format!("{name}: ").into(), shown(value)))
-}
-
-fn shown(value: &Field) -> Shown {
-    match value {
-        Field::Number(value) => Shown::Flat(decimal(*value)),
-        Field::Text(text) => Shown::Flat(quoted(text)),
-        Field::Word(word) => Shown::Flat(word.clone()),
-        Field::Tuple(values) => Shown::Flat(tuple(values)),
-        Field::Texts(texts) => {
-            Shown::Flat(format!("({})", texts.iter().map(|text| quoted(text)).collect::<Vec<_>>().join(", ")))
-        }
-        Field::Tuples(places) => {
-            Shown::Flat(format!("({})", places.iter().map(coordinates).collect::<Vec<_>>().join(", ")))
-        }
-        Field::Numbers(values) => Shown::Filled(values.iter().map(|value| decimal(*value)).collect()),
+fn value(field: &Field) -> Value {
+    match field {
+        Field::Number(number) => Value::Number(plus_zero(*number)),
+        Field::Text(text) => Value::text(text),
+        Field::Word(word) => Value::name(word),
+        Field::Flags(flags) => Value::tuple(flags.iter().map(|flag| Value::Bool(*flag))),
+        Field::Tuple(values) => numbers(values),
+        Field::Texts(all) => texts(all),
+        Field::Tuples(places) => Value::tuple(places.iter().map(|place| numbers(place.as_slice()))),
+        Field::Numbers(values) => Value::list(values.iter().map(|value| Value::Number(plus_zero(*value)))),
         Field::Record(name, inner) => record(name, inner),
-        Field::Vertices(places) => Shown::Filled(places.iter().map(coordinates).collect()),
+        Field::Vertices(places) => Value::rows(false, places.iter().map(coordinates)),
         Field::Triangles(triangles) => {
-            Shown::Filled(triangles.iter().map(|[a, b, c]| format!("({a}, {b}, {c})")).collect())
+            Value::rows(false, triangles.iter().map(|corners| corners.map(f64::from)))
         }
-        Field::Faces(faces) => Shown::Filled(faces.iter().map(|face| indices(face)).collect()),
-        Field::Indices(all) => Shown::Filled(all.iter().map(usize::to_string).collect()),
+        Field::Faces(faces) => {
+            Value::rows(true, faces.iter().map(|face| face.iter().copied().map(f64::from)))
+        }
+        Field::Indices(all) => Value::list(all.iter().map(|index| Value::Number(*index as f64))),
     }
 }
 
-fn tuple(values: &[f64]) -> String {
-    format!("({})", values.iter().map(|value| decimal(*value)).collect::<Vec<_>>().join(", "))
+fn texts(texts: &[String]) -> Value {
+    Value::tuple(texts.iter().map(|text| Value::text(text)))
 }
 
-fn coordinates(place: &Vector3<f64>) -> String {
-    tuple(place.as_slice())
+fn numbers(values: &[f64]) -> Value {
+    Value::numbers(&values.iter().copied().map(plus_zero).collect::<Vec<_>>())
 }
 
-fn indices(face: &[u32]) -> String {
-    format!("[{}]", face.iter().map(u32::to_string).collect::<Vec<_>>().join(", "))
+fn coordinates(place: &Vector3<f64>) -> [f64; 3] {
+    [place.x, place.y, place.z].map(plus_zero)
+}
+
+/// The number, with 0 for -0, which transforms leave where nothing is meant by it.
+fn plus_zero(number: f64) -> f64 {
+    number + 0.0
 }

@@ -3,59 +3,75 @@
 use crate::round_part::{RoundKind, RoundPart};
 use crate::scene::{Body, Friction, Mesh, Normal, Scene, Shape, Solid, Surface};
 use pong_engine::State;
-use pong_geometry::{Quat, Vec3};
+use pong_geometry::{Pose, Quat, Vec3};
+use pong_model::authored::Value;
+use pong_model::write;
 use std::fmt::Write as _;
+
+/// Fields of a struct before they become a value.
+type Fields = Vec<(&'static str, Value)>;
 
 /// The text of a model file.
 pub fn model(body: &Body, name: &str, surface: &str) -> String {
-    let mut text = String::with_capacity(512);
-    let _ = write!(
-        text,
-        "(\n    format: \"pong-model\", version: 1, name: \"{name}\",\n    surfaces: {{ \"{surface}\": {} }},\n",
-        self::surface(&body.surface)
-    );
-    let _ = write!(text, "    root: (name: \"{name}\", surface: \"{surface}\",{}", bound(body, 0));
-    groups(&mut text, body);
-    text.push_str("),\n)\n");
-    text
+    let mut root: Fields = vec![("name", Value::text(name)), ("surface", Value::text(surface))];
+    root.extend(bound(body, 0));
+    root.push(contents(body));
+    let surfaces = Value::map([(surface, self::surface(&body.surface))]);
+    write::text(&Value::model(name, [("surfaces", surfaces), ("root", Value::fields(root))]))
 }
 
-fn surface(surface: &Surface) -> String {
+fn surface(surface: &Surface) -> Value {
+    let number = Value::Number;
     let normal = match surface.normal {
-        Normal::Linear { damping, ramp } => format!("Linear(damping: {damping:?}, ramp: {ramp:?})"),
-        Normal::HuntCrossley { dissipation, exponent } => {
-            format!("HuntCrossley(dissipation: {dissipation:?}, exponent: {exponent:?})")
+        Normal::Linear { damping, ramp } => {
+            Value::named("Linear", [("damping", number(damping)), ("ramp", number(ramp))])
         }
-        Normal::PowerLaw { damping, exponent, damping_exponent } => format!(
-            "PowerLaw(exponent: {exponent:?}, damping_exponent: {damping_exponent:?}, damping: {damping:?})"
+        Normal::HuntCrossley { dissipation, exponent } => Value::named(
+            "HuntCrossley",
+            [("dissipation", number(dissipation)), ("exponent", number(exponent))],
+        ),
+        Normal::PowerLaw { damping, exponent, damping_exponent } => Value::named(
+            "PowerLaw",
+            [
+                ("exponent", number(exponent)),
+                ("damping_exponent", number(damping_exponent)),
+                ("damping", number(damping)),
+            ],
         ),
     };
     let friction = match surface.friction {
-        Friction::Smooth => "None".to_owned(),
-        Friction::Bristle { mu, excess, stiffness, damping } => format!(
-            "Bristle(mu: {mu:?}, static_excess: {excess:?}, stiffness: {stiffness:?}, damping: {damping:?})"
+        Friction::Smooth => Value::name("None"),
+        Friction::Bristle { mu, excess, stiffness, damping } => Value::named(
+            "Bristle",
+            [
+                ("mu", number(mu)),
+                ("static_excess", number(excess)),
+                ("stiffness", number(stiffness)),
+                ("damping", number(damping)),
+            ],
         ),
-        Friction::Coulomb { mu, slip_speed } => format!("Coulomb(mu: {mu:?}, slip_speed: {slip_speed:?})"),
+        Friction::Coulomb { mu, slip_speed } => {
+            Value::named("Coulomb", [("mu", number(mu)), ("slip_speed", number(slip_speed))])
+        }
     };
-    format!("(stiffness: {:?}, normal: {normal}, friction: {friction})", surface.stiffness)
+    Value::fields([("stiffness", number(surface.stiffness)), ("normal", normal), ("friction", friction)])
 }
 
-fn bound(body: &Body, group: usize) -> String {
-    let mut text = String::new();
+fn bound(body: &Body, group: usize) -> Fields {
+    let mut fields = Fields::new();
     if !body.grouping.bounds.is_empty() {
-        let _ = write!(text, " bound: {},", body.grouping.bounds[group % body.grouping.bounds.len()]);
+        let bound = body.grouping.bounds[group % body.grouping.bounds.len()];
+        fields.push(("bound", Value::name(bound)));
     }
-    if let Some(size) = body.grouping.leaf_size {
-        let _ = write!(text, " leaf_size: {size},");
-    }
-    text
+    fields.extend(body.grouping.leaf_size.map(|size| ("leaf_size", Value::Number(size as f64))));
+    fields
 }
 
-/// Content of the root after its name: primitives directly, or groups with poses and leaves.
-fn groups(text: &mut String, body: &Body) {
-    let is_placed = body.place != pong_geometry::Pose::identity();
+/// Content of the root: primitives directly, or groups with poses and leaves.
+fn contents(body: &Body) -> (&'static str, Value) {
+    let is_placed = body.place != Pose::identity();
     if body.grouping.leaves.is_empty() && !is_placed {
-        return primitives(text, body, 0..body.shapes.len());
+        return primitives(body, 0..body.shapes.len());
     }
     let mut starts = vec![0];
     starts.extend(body.grouping.leaves.iter().scan(0, |sum, count| {
@@ -65,107 +81,111 @@ fn groups(text: &mut String, body: &Body) {
     if starts.last() != Some(&body.shapes.len()) {
         starts.push(body.shapes.len());
     }
-    text.push_str(" groups: [\n");
-    for (leaf, range) in starts.windows(2).enumerate() {
-        let _ = write!(text, "    (name: \"leaf {leaf}\",");
-        if is_placed {
-            let _ = write!(
-                text,
-                " pose: (position: {}, orientation: {}),",
-                triple(&body.place.position),
-                quaternion(&body.place.orientation)
-            );
-        }
-        text.push_str(&bound(body, leaf + 1));
-        for level in 0..body.grouping.depth {
-            let _ = write!(text, " groups: [(name: \"level {level}\",{}", bound(body, leaf + level + 2));
-        }
-        primitives(text, body, range[0]..range[1]);
-        text.push_str(&")]".repeat(body.grouping.depth));
-        text.push_str("),\n");
-    }
-    text.push(']');
+    let leaves = starts.windows(2).enumerate().map(|(index, range)| leaf(body, index, range[0]..range[1]));
+    ("groups", Value::list(leaves))
 }
 
-fn primitives(text: &mut String, body: &Body, range: std::ops::Range<usize>) {
-    text.push_str(" primitives: [\n");
-    for index in range {
-        text.push_str("        ");
-        primitive(text, &body.shapes[index], body.names[index]);
-        text.push_str(",\n");
+/// Leaf with further groups inside it, the innermost with the primitives.
+fn leaf(body: &Body, index: usize, range: std::ops::Range<usize>) -> Value {
+    let mut inner = primitives(body, range);
+    for level in (0..body.grouping.depth).rev() {
+        let mut fields: Fields = vec![("name", Value::text(&format!("level {level}")))];
+        fields.extend(bound(body, index + level + 2));
+        fields.push(inner);
+        inner = ("groups", Value::list([Value::fields(fields)]));
     }
-    text.push_str("    ]");
+    let mut fields: Fields = vec![("name", Value::text(&format!("leaf {index}")))];
+    if body.place != Pose::identity() {
+        let pose = [
+            ("position", triple(&body.place.position)),
+            ("orientation", quaternion(&body.place.orientation)),
+        ];
+        fields.push(("pose", Value::fields(pose)));
+    }
+    fields.extend(bound(body, index + 1));
+    fields.push(inner);
+    Value::fields(fields)
 }
 
-fn primitive(text: &mut String, shape: &Shape, name: usize) {
-    let _ = write!(text, "{}(name: \"{}_{name}\", ", shape.kind(), shape.kind().to_lowercase());
-    let _ = match shape {
-        Shape::Point { position } => write!(text, "position: {}", triple(position)),
-        Shape::Segment { ends } => write!(text, "ends: ({}, {})", triple(&ends[0]), triple(&ends[1])),
-        Shape::Ray { origin, direction, length, axial } => write!(
-            text,
-            "origin: {}, direction: {}, length: {length:?}, response: {}",
-            triple(origin),
-            triple(direction),
-            if *axial { "Axial" } else { "Normal" }
+fn primitives(body: &Body, range: std::ops::Range<usize>) -> (&'static str, Value) {
+    ("primitives", Value::list(range.map(|index| primitive(&body.shapes[index], body.names[index]))))
+}
+
+fn primitive(shape: &Shape, name: usize) -> Value {
+    let number = Value::Number;
+    let mut fields: Fields = vec![("name", Value::text(&format!("{}_{name}", shape.kind().to_lowercase())))];
+    match shape {
+        Shape::Point { position } => fields.push(("position", triple(position))),
+        Shape::Segment { ends } => fields.push(("ends", Value::tuple(ends.iter().map(triple)))),
+        Shape::Ray { origin, direction, length, axial } => fields.extend([
+            ("origin", triple(origin)),
+            ("direction", triple(direction)),
+            ("length", number(*length)),
+            ("response", Value::name(if *axial { "Axial" } else { "Normal" })),
+        ]),
+        Shape::Sphere { center, radius } => {
+            fields.extend([("center", triple(center)), ("radius", number(*radius))]);
+        }
+        Shape::Ellipsoid { center, semi_axes, orientation } => fields.extend([
+            ("center", triple(center)),
+            ("semi_axes", triple(semi_axes)),
+            ("orientation", quaternion(orientation)),
+        ]),
+        Shape::Plane { normal, offset } => {
+            fields.extend([("normal", triple(normal)), ("offset", number(*offset))]);
+        }
+        Shape::Polyhedron(solid) => fields.extend(polyhedron(solid)),
+        Shape::Mesh(mesh) => fields.extend(triangle_mesh(mesh)),
+        Shape::Round(part) => fields.extend(round_part(part)),
+    }
+    Value::named(shape.kind(), fields)
+}
+
+fn polyhedron(Solid { vertices, faces, inactive }: &Solid) -> Fields {
+    let index = |index: &usize| *index as f64;
+    let mut fields = vec![
+        ("vertices", Value::rows(false, vertices.iter().map(|v| [v.x, v.y, v.z]))),
+        ("faces", Value::rows(true, faces.iter().map(|face| face.iter().map(index)))),
+    ];
+    if !inactive.is_empty() {
+        fields.push(("inactive_faces", Value::list(inactive.iter().map(index).map(Value::Number))));
+    }
+    fields
+}
+
+fn triangle_mesh(Mesh { vertices, triangles, two_sided, thickness }: &Mesh) -> Fields {
+    let mut fields = vec![
+        ("vertices", Value::rows(false, vertices.iter().map(|v| [v.x, v.y, v.z]))),
+        (
+            "triangles",
+            Value::rows(false, triangles.iter().map(|corners| corners.map(|corner| corner as f64))),
         ),
-        Shape::Sphere { center, radius } => write!(text, "center: {}, radius: {radius:?}", triple(center)),
-        Shape::Ellipsoid { center, semi_axes, orientation } => write!(
-            text,
-            "center: {}, semi_axes: {}, orientation: {}",
-            triple(center),
-            triple(semi_axes),
-            quaternion(orientation)
-        ),
-        Shape::Plane { normal, offset } => write!(text, "normal: {}, offset: {offset:?}", triple(normal)),
-        Shape::Polyhedron(Solid { vertices, faces, inactive }) => {
-            let _ = write!(text, "vertices: [{}], faces: {faces:?}", list(vertices));
-            if inactive.is_empty() { Ok(()) } else { write!(text, ", inactive_faces: {inactive:?}") }
-        }
-        Shape::Mesh(Mesh { vertices, triangles, two_sided, thickness }) => {
-            let _ = write!(text, "vertices: [{}], triangles: [", list(vertices));
-            for [a, b, c] in triangles {
-                let _ = write!(text, "({a}, {b}, {c}), ");
-            }
-            let _ = write!(text, "], two_sided: {two_sided}");
-            thickness.map_or(Ok(()), |thickness| write!(text, ", thickness: {thickness:?}"))
-        }
-        Shape::Round(part) => {
-            round_part(text, part);
-            Ok(())
-        }
-    };
-    text.push(')');
+        ("two_sided", Value::Bool(*two_sided)),
+    ];
+    fields.extend(thickness.map(|thickness| ("thickness", Value::Number(thickness))));
+    fields
 }
 
-fn round_part(text: &mut String, part: &RoundPart) {
-    let RoundPart { kind, ends: [p, q], radii: [r, s], thickness, mouths } = part;
-    let _ = write!(text, "ends: ({}, {}), ", triple(p), triple(q));
-    let _ = match kind {
-        RoundKind::Capsule | RoundKind::Cylinder => write!(text, "radius: {r:?}"),
-        RoundKind::Cone => write!(text, "radii: ({r:?}, {s:?})"),
-        RoundKind::Bore => write!(text, "radii: ({r:?}, {s:?}), mouths: ({}, {})", mouths[0], mouths[1]),
-    };
-    if let Some(thickness) = thickness {
-        let _ = write!(text, ", thickness: {thickness:?}");
+fn round_part(RoundPart { kind, ends, radii, thickness, mouths }: &RoundPart) -> Fields {
+    let mut fields = vec![("ends", Value::tuple(ends.iter().map(triple)))];
+    match kind {
+        RoundKind::Capsule | RoundKind::Cylinder => fields.push(("radius", Value::Number(radii[0]))),
+        RoundKind::Cone => fields.push(("radii", Value::numbers(radii))),
+        RoundKind::Bore => fields.extend([
+            ("radii", Value::numbers(radii)),
+            ("mouths", Value::tuple(mouths.iter().map(|mouth| Value::Bool(*mouth)))),
+        ]),
     }
+    fields.extend(thickness.map(|thickness| ("thickness", Value::Number(thickness))));
+    fields
 }
 
-fn triple(v: &Vec3) -> String {
-    format!("({:?}, {:?}, {:?})", v.x, v.y, v.z)
+fn triple(v: &Vec3) -> Value {
+    Value::numbers(v.as_slice())
 }
 
-fn quaternion(q: &Quat) -> String {
-    format!("({:?}, {:?}, {:?}, {:?})", q.w, q.i, q.j, q.k)
-}
-
-fn list(vertices: &[Vec3]) -> String {
-    let mut text = String::with_capacity(60 * vertices.len());
-    for vertex in vertices {
-        text.push_str(&triple(vertex));
-        text.push_str(", ");
-    }
-    text
+fn quaternion(q: &Quat) -> Value {
+    Value::numbers(&[q.w, q.i, q.j, q.k])
 }
 
 /// Full text of a scene: both model files and every state.

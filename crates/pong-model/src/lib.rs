@@ -35,6 +35,7 @@ mod read;
 mod regroup;
 pub mod restitution;
 mod ron_tree;
+pub mod schema;
 pub mod shapes;
 pub mod surface;
 pub mod t_junctions;
@@ -43,6 +44,7 @@ mod triangle_topology;
 pub mod trimming;
 #[doc(hidden)]
 pub mod weld;
+pub mod write;
 
 pub use element::Element;
 pub use error::{ModelError, ModelErrors};

@@ -7,7 +7,7 @@
 //! | `contacts.rs` | contacts as a structured NumPy array |
 //! | `ids.rs` | models, Objects, pairs and Interfaces of a world, and their forms as arguments |
 //! | `model.rs` | models |
-//! | `authored.rs`, `shapes.rs` | model files as written, checks of single shapes: python/pong/model.py |
+//! | `authored.rs`, `written.rs`, `shapes.rs` | model files as data, their text and schema, checks of single shapes: python/pong/model.py |
 //! | `distance.rs` | distance of two movable groups |
 //! | `pair_monitor.rs` | begin and end of contact, peaks over several frames |
 //! | `builder.rs`, `world.rs`, `recording.rs` | set-up, frames, logs of frames |
@@ -38,6 +38,7 @@ mod trade;
 mod tune;
 mod verify;
 mod world;
+mod written;
 
 use pyo3::PyClass;
 use pyo3::prelude::*;
@@ -82,6 +83,8 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(log::check_log, module)?)?;
     module.add_function(wrap_pyfunction!(authored::read_authored, module)?)?;
     module.add_function(wrap_pyfunction!(authored::parse_authored, module)?)?;
+    module.add_function(wrap_pyfunction!(written::write_authored, module)?)?;
+    module.add_function(wrap_pyfunction!(written::model_schema, module)?)?;
     module.add_function(wrap_pyfunction!(shapes::check_polyhedron, module)?)?;
     module.add_function(wrap_pyfunction!(shapes::check_triangles, module)?)?;
     Ok(())

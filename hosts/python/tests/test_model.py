@@ -145,6 +145,31 @@ def test_every_number_and_every_text_comes_back():
     assert same(pong.model.parse(pong.model.write(data)), data)
 
 
+def test_one_line_has_the_same_data():
+    for text in (BALL, GROUND):
+        data = pong.model.parse(text)
+        line = pong.model.write(data, one_line=True)
+        assert "\n" not in line and same(pong.model.parse(line), data)
+
+
+def test_the_schema_has_every_kind_and_field():
+    tables = pong.model.schema()
+    assert list(tables["primitives"])[:3] == ["Point", "LineSegment", "Ray"] and len(tables["primitives"]) == 14
+    radius = tables["primitives"]["Sphere"]["radius"]
+    assert radius == {"type": "positive", "unit": "m", "required": True}
+    assert tables["primitives"]["Ray"]["response"]["choices"] == ("Normal", "Axial")
+    assert tables["normal_laws"]["Linear"]["restitution"]["fields"]["mass"]["unit"] == "kg"
+    assert tables["group"]["bound"]["default"] == "Aabb" and "Custom" in tables["bounds"]
+    assert list(tables["friction_laws"]) == ["None", "Bristle", "Coulomb", "Custom"]
+
+
+def test_values_that_contain_themselves_are_refused():
+    endless = {"name": "g"}
+    endless["groups"] = [endless]
+    with pytest.raises(ValueError, match="128 deep"):
+        pong.model.write({"root": endless})
+
+
 def test_what_has_no_form_is_refused():
     with pytest.raises(TypeError, match="no form for .*, which is a set"):
         pong.model.write({"name": {1, 2}})

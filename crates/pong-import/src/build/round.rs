@@ -54,7 +54,7 @@ pub(super) fn marked(
         primitive.fields.extend(mark.thickness.map(|thickness| field("thickness", Field::Number(thickness))));
         if mark.mouths != [true; 2] {
             let [low, high] = mark.mouths;
-            primitive.fields.push(field("mouths", Field::Word(format!("({low}, {high})"))));
+            primitive.fields.push(field("mouths", Field::Flags(vec![low, high])));
         }
     }
     Some(primitive)

@@ -6,6 +6,7 @@ use super::reader::Reader;
 use super::stiffness::finite_stiffness;
 use crate::limits::LARGEST;
 use crate::ron_tree::{Node, Value};
+use crate::schema::{Friction, Kind};
 use crate::surface::{FrictionLaw, Surface};
 
 /// Values given next to a friction law.
@@ -21,10 +22,9 @@ pub(super) fn bristle(
     reader: &mut Reader<'_>,
     node: &Node,
     path: &str,
-    beside: Beside<'_>,
+    (law, beside): (&Kind<Friction>, Beside<'_>),
 ) -> Option<FrictionLaw> {
-    let allowed = ["mu", "static_excess", "stiffness", "damping", "mass"];
-    let fields = Fields::open(reader, node, path, &allowed)?;
+    let fields = Fields::open(reader, node, path, &[law.fields])?;
     either_or(reader, &fields, path, "damping", "mass");
     let mu = fields.required(reader, "mu").and_then(|node| reader.not_negative(node, path, "mu"));
     let static_excess = match fields.optional("static_excess") {

@@ -8,9 +8,7 @@ use super::reader::Reader;
 use super::surface;
 use crate::draft::{BodyDraft, ModelDraft};
 use crate::ron_tree::{Node, Value};
-
-const FIELDS: [&str; 8] =
-    ["format", "version", "name", "entry_memory", "surfaces", "pairs", "filters", "root"];
+use crate::schema;
 
 /// Reads the whole file; `None` only if it is not a struct. Faults go to the reader.
 pub(crate) fn document(reader: &mut Reader<'_>, node: &Node) -> Option<ModelDraft> {
@@ -18,7 +16,7 @@ pub(crate) fn document(reader: &mut Reader<'_>, node: &Node) -> Option<ModelDraf
         let cure = "run it with `pong run`; the models that it lists are files of their own";
         return reader.refuse(node.at, "model", "format", "this is a scene, not a model", cure);
     }
-    let fields = Fields::open(reader, node, "model", &FIELDS)?;
+    let fields = Fields::open(reader, node, "model", &[schema::MODEL])?;
     check_format(reader, &fields);
     let name = fields.required(reader, "name").and_then(|node| model_name(reader, node));
     let entry_memory = match fields.optional("entry_memory") {

@@ -3,6 +3,7 @@
 use super::reader::Reader;
 use super::suggest;
 use crate::ron_tree::{Field, Node, Value};
+use crate::schema;
 
 /// Fields of one struct, checked against the allowed names.
 pub(crate) struct Fields<'n> {
@@ -13,15 +14,16 @@ pub(crate) struct Fields<'n> {
 }
 
 impl<'n> Fields<'n> {
-    /// Opens a struct with the `allowed` fields; reports unknown and repeated ones.
+    /// Opens a struct with the fields of these tables; reports unknown and repeated ones.
     ///
     /// `None` only if the node is not a struct.
     pub(crate) fn open(
         reader: &mut Reader<'_>,
         node: &'n Node,
         path: &str,
-        allowed: &[&str],
+        tables: &[&'static [schema::Field]],
     ) -> Option<Self> {
+        let allowed: Vec<&str> = tables.iter().copied().flatten().map(|field| field.name).collect();
         let fields: &[Field] = match &node.value {
             Value::Struct(_, fields) => fields,
             Value::Tuple(_, items) if items.is_empty() => &[],
@@ -37,7 +39,7 @@ impl<'n> Fields<'n> {
                 );
             }
         };
-        check_names(reader, fields, path, allowed);
+        check_names(reader, fields, path, &allowed);
         Some(Self { at: node.at, path: path.to_owned(), fields })
     }
 

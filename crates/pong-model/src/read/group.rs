@@ -7,12 +7,10 @@ use super::reader::Reader;
 use crate::draft::{BodyDraft, GroupDraft};
 use crate::model::MovableGroup;
 use crate::ron_tree::{Node, Value};
+use crate::schema;
 use pong_geometry::Pose;
 use pong_geometry::bounding::BoundKind;
 use std::collections::HashSet;
-
-const FIELDS: [&str; 8] =
-    ["name", "movable", "pose", "bound", "leaf_size", "surface", "groups", "primitives"];
 
 /// Values that a group inherits from the group above it.
 #[derive(Clone)]
@@ -40,7 +38,7 @@ fn read_group(
     siblings: &mut HashSet<String>,
 ) {
     let path = join(&above.path, authored_name(node).unwrap_or(nameless));
-    let Some(fields) = Fields::open(groups.reader, node, &path, &FIELDS) else { return };
+    let Some(fields) = Fields::open(groups.reader, node, &path, &[schema::GROUP]) else { return };
     let name = read_name(groups.reader, &fields, &path, siblings);
     let is_root = above.owner.is_none();
     let movable = read_movable(groups.reader, &fields, &path, is_root);
@@ -164,7 +162,7 @@ fn read_pose(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, is_root: 
             cure,
         );
     }
-    let Some(fields) = Fields::open(reader, node, path, &["position", "orientation"]) else {
+    let Some(fields) = Fields::open(reader, node, path, &[schema::POSE]) else {
         return Pose::identity();
     };
     let position = fields.optional("position").and_then(|node| reader.vector(node, path));
@@ -179,7 +177,7 @@ fn read_pose(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, is_root: 
 /// Kind of a group's volume; `None` if it has no volume of its own.
 fn read_bound(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, movable: bool) -> Option<BoundKind> {
     let Some(node) = fields.optional("bound") else { return Some(BoundKind::Aabb) };
-    match reader.variant(node, path, &["Aabb", "Sphere", "Obb", "Above", "Custom"]) {
+    match reader.variant(node, path, schema::BOUNDS) {
         Some("Sphere") => Some(BoundKind::Sphere),
         Some("Obb") => Some(BoundKind::Obb),
         Some("Custom") => Some(custom_bound(reader, node, path)),

@@ -6,6 +6,7 @@ use super::reader::Reader;
 use crate::limits::LARGEST;
 use crate::restitution::{Impact, power_law_damping};
 use crate::ron_tree::Node;
+use crate::schema::{Field, Kind, Normal};
 use crate::surface::{Exponent, NormalLaw};
 
 /// Reads the law; `stiffness` is that of the surface or pair, if it could be read.
@@ -13,10 +14,9 @@ pub(super) fn power_law(
     reader: &mut Reader<'_>,
     node: &Node,
     path: &str,
-    stiffness: Option<f64>,
+    (law, stiffness): (&Kind<Normal>, Option<f64>),
 ) -> Option<NormalLaw> {
-    let names = ["exponent", "damping_exponent", "damping", "restitution"];
-    let fields = Fields::open(reader, node, path, &names)?;
+    let fields = Fields::open(reader, node, path, &[law.fields])?;
     either_or(reader, &fields, path, "damping", "restitution");
     let exponent = fields.required(reader, "exponent").and_then(|node| exponent(reader, node, path));
     let damping_exponent = fields
@@ -25,7 +25,7 @@ pub(super) fn power_law(
     let powers = exponent.zip(damping_exponent);
     let damping = match (fields.optional("damping"), fields.optional("restitution")) {
         (Some(node), _) => reader.not_negative(node, path, "the damping"),
-        (None, Some(node)) => damping_of(reader, node, path, (stiffness, powers)),
+        (None, Some(node)) => damping_of(reader, node, path, (law.nested("restitution"), stiffness, powers)),
         (None, None) => Some(0.0),
     };
     let (exponent, damping_exponent) = powers?;
@@ -60,9 +60,9 @@ fn damping_of(
     reader: &mut Reader<'_>,
     node: &Node,
     path: &str,
-    (stiffness, powers): (Option<f64>, Option<(Exponent, f64)>),
+    (table, stiffness, powers): (&'static [Field], Option<f64>, Option<(Exponent, f64)>),
 ) -> Option<f64> {
-    let fields = Fields::open(reader, node, path, &["e", "speed", "mass"])?;
+    let fields = Fields::open(reader, node, path, &[table])?;
     let e = fields.required(reader, "e").and_then(|node| restitution(reader, node, path));
     let speed = fields.required(reader, "speed").and_then(|node| reader.positive(node, path, "the speed"));
     let mass = fields.required(reader, "mass").and_then(|node| reader.positive(node, path, "the mass"));

@@ -8,28 +8,12 @@ use super::{custom, mesh_primitive, round, size};
 use crate::draft::BodyDraft;
 use crate::model::{Item, PrimitiveInfo};
 use crate::ron_tree::Node;
+use crate::schema::{self, Shape};
 use pong_geometry::Quat;
 use pong_geometry::primitive::{
     Ellipsoid, LineSegment, Plane, Point, PrimitiveKind, Ray, RayResponse, Sphere,
 };
 use std::collections::HashSet;
-
-const KINDS: [&str; 14] = [
-    "Point",
-    "Plane",
-    "LineSegment",
-    "Ray",
-    "Sphere",
-    "Ellipsoid",
-    "Triangle",
-    "TriangleMesh",
-    "Polyhedron",
-    "Capsule",
-    "Cylinder",
-    "Cone",
-    "Bore",
-    "Custom",
-];
 
 pub(super) fn read_primitive(
     groups: &mut GroupReader<'_, '_>,
@@ -42,8 +26,9 @@ pub(super) fn read_primitive(
         Some(name) => format!("{}/{name}", place.path),
         None => format!("{}/primitives[{index}]", place.path),
     };
-    let Some(kind) = groups.reader.variant(node, &path, &KINDS) else { return };
-    let Some(fields) = Fields::open(groups.reader, node, &path, &allowed(kind)) else { return };
+    let Some(kind) = groups.reader.kind(node, &path, schema::PRIMITIVES) else { return };
+    let tables = [schema::PRIMITIVE, kind.fields];
+    let Some(fields) = Fields::open(groups.reader, node, &path, &tables) else { return };
     let name = read_name(groups.reader, &fields, &path, siblings);
     let surface = match fields.optional("surface") {
         Some(node) => surface_index(groups.reader, groups.surfaces, node, &path),
@@ -57,7 +42,7 @@ pub(super) fn read_primitive(
     let info = PrimitiveInfo {
         name: name.unwrap_or_default(),
         path: path.clone(),
-        kind: primitive_kind(kind),
+        kind: primitive_kind(kind.tag),
         surface: surface.unwrap_or(0),
         elements: 0..0,
         shell: 0,
@@ -65,14 +50,14 @@ pub(super) fn read_primitive(
         first_mirror: 0,
     };
     let mut primitive = Primitive { fields, at: node.at, path, x: place.x_bg.transform(), draft };
-    if let Some(info) = read_shape(groups.reader, &mut primitive, kind, info)
+    if let Some(info) = read_shape(groups.reader, &mut primitive, kind.tag, info)
         && size::check(groups.reader, draft, &info, node.at)
     {
         place_items(draft, place.group, &info);
         draft.body.surfaces.push(info.surface);
         draft.body.primitives.push(info);
         draft.primitive_at.push(node.at);
-        draft.lone_triangle.push(kind == "Triangle");
+        draft.lone_triangle.push(kind.tag == Shape::Triangle);
     }
 }
 
@@ -82,88 +67,79 @@ fn place_items(draft: &mut BodyDraft, group: usize, info: &PrimitiveInfo) {
     draft.groups[group].items.extend(items);
 }
 
-fn allowed(kind: &str) -> Vec<&'static str> {
-    let own: &[&str] = match kind {
-        "Point" => &["position"],
-        "Plane" => &["normal", "offset"],
-        "LineSegment" => &["ends"],
-        "Ray" => &["origin", "direction", "length", "reach", "response"],
-        "Sphere" => &["center", "radius"],
-        "Ellipsoid" => &["center", "semi_axes", "orientation"],
-        "Triangle" => &["vertices", "thickness", "two_sided"],
-        "TriangleMesh" => &["vertices", "triangles", "file", "scale", "thickness", "two_sided"],
-        "Polyhedron" => &["vertices", "faces", "file", "scale", "inactive_faces"],
-        "Capsule" | "Cylinder" => &["ends", "radius"],
-        "Cone" => &["ends", "radii"],
-        "Bore" => &["ends", "radii", "thickness", "mouths"],
-        _ => &["kind", "parameters"],
-    };
-    [&["name", "surface"], own].concat()
-}
-
-fn primitive_kind(kind: &str) -> PrimitiveKind {
-    let own = if kind == "TriangleMesh" { "Triangle" } else { kind };
-    PrimitiveKind::ALL.into_iter().find(|k| k.name() == own).unwrap_or(PrimitiveKind::Custom)
+fn primitive_kind(shape: Shape) -> PrimitiveKind {
+    match shape {
+        Shape::Point => PrimitiveKind::Point,
+        Shape::LineSegment => PrimitiveKind::LineSegment,
+        Shape::Ray => PrimitiveKind::Ray,
+        Shape::Sphere => PrimitiveKind::Sphere,
+        Shape::Ellipsoid => PrimitiveKind::Ellipsoid,
+        Shape::Plane => PrimitiveKind::Plane,
+        Shape::Triangle | Shape::TriangleMesh => PrimitiveKind::Triangle,
+        Shape::Polyhedron => PrimitiveKind::Polyhedron,
+        Shape::Capsule => PrimitiveKind::Capsule,
+        Shape::Cylinder => PrimitiveKind::Cylinder,
+        Shape::Cone => PrimitiveKind::Cone,
+        Shape::Bore => PrimitiveKind::Bore,
+        Shape::Custom => PrimitiveKind::Custom,
+    }
 }
 
 /// Reads the shape into the arrays of its kind; `None` if it is faulty.
 fn read_shape(
     reader: &mut Reader<'_>,
     p: &mut Primitive<'_, '_>,
-    kind: &str,
+    shape: Shape,
     mut info: PrimitiveInfo,
 ) -> Option<PrimitiveInfo> {
-    match kind {
-        "Triangle" => return mesh_primitive::triangle(reader, p, info),
-        "TriangleMesh" => return mesh_primitive::triangle_mesh(reader, p, info),
-        _ => {}
-    }
-    let count = match kind {
-        "Point" => {
+    let count = match shape {
+        Shape::Triangle => return mesh_primitive::triangle(reader, p, info),
+        Shape::TriangleMesh => return mesh_primitive::triangle_mesh(reader, p, info),
+        Shape::Point => {
             let point = point(reader, p)?;
             push(&mut p.draft.body.points, point)
         }
-        "Plane" => {
+        Shape::Plane => {
             let plane = plane(reader, p)?;
             push(&mut p.draft.body.planes, plane)
         }
-        "LineSegment" => {
+        Shape::LineSegment => {
             let segment = segment(reader, p)?;
             push(&mut p.draft.body.segments, segment)
         }
-        "Ray" => {
+        Shape::Ray => {
             let ray = ray(reader, p)?;
             push(&mut p.draft.body.rays, ray)
         }
-        "Sphere" => {
+        Shape::Sphere => {
             let sphere = sphere(reader, p)?;
             push(&mut p.draft.body.spheres, sphere)
         }
-        "Ellipsoid" => {
+        Shape::Ellipsoid => {
             let ellipsoid = ellipsoid(reader, p)?;
             push(&mut p.draft.body.ellipsoids, ellipsoid)
         }
-        "Polyhedron" => {
+        Shape::Polyhedron => {
             let hull = mesh_primitive::polyhedron(reader, p)?;
             push(&mut p.draft.hulls, hull)
         }
-        "Capsule" => {
+        Shape::Capsule => {
             let capsule = round::capsule(reader, p)?;
             push(&mut p.draft.body.capsules, capsule)
         }
-        "Cylinder" => {
+        Shape::Cylinder => {
             let cylinder = round::cylinder(reader, p)?;
             push(&mut p.draft.body.frusta, cylinder)
         }
-        "Cone" => {
+        Shape::Cone => {
             let cone = round::cone(reader, p)?;
             push(&mut p.draft.body.frusta, cone)
         }
-        "Bore" => {
+        Shape::Bore => {
             let bore = round::bore(reader, p)?;
             push(&mut p.draft.body.bores, bore)
         }
-        _ => {
+        Shape::Custom => {
             let primitive = custom::custom(reader, p)?;
             push(&mut p.draft.body.customs, primitive)
         }

@@ -3,6 +3,7 @@
 use super::reader::Reader;
 use crate::limits::{NumberFault, not_finite, out_of_range};
 use crate::ron_tree::{Node, Value};
+use crate::schema::{self, Kind};
 use pong_geometry::{Quat, Vec3};
 
 /// Largest deviation from 1 of the norm of an authored quaternion.
@@ -194,6 +195,17 @@ impl Reader<'_> {
             }
             None => self.wrong_type(node, path, &format!("one of {}", expected.join(", "))),
         }
+    }
+
+    /// Kind of a named value.
+    pub(crate) fn kind<T>(
+        &mut self,
+        node: &Node,
+        path: &str,
+        kinds: &'static [Kind<T>],
+    ) -> Option<&'static Kind<T>> {
+        let name = self.variant(node, path, &schema::names(kinds))?;
+        kinds.iter().find(|kind| kind.name == name)
     }
 
     /// Items of a list.

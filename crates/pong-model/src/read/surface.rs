@@ -9,6 +9,7 @@ use super::stiffness::{finite_stiffness, in_range};
 use crate::limits::LARGEST;
 use crate::restitution::{chi_for_restitution, zeta_for_restitution};
 use crate::ron_tree::{Node, Value};
+use crate::schema::{self, Field, Friction, Kind, Normal};
 use crate::surface::{FrictionLaw, NormalLaw, PairOverride, Surface};
 use std::collections::HashSet;
 
@@ -44,7 +45,7 @@ fn surface(reader: &mut Reader<'_>, node: &Node, name: String, path: &str) -> Su
         normal: NormalLaw::Linear { damping: 0.0, ramp: 0.0 },
         friction: FrictionLaw::None,
     };
-    let Some(fields) = Fields::open(reader, node, path, &["stiffness", "normal", "friction"]) else {
+    let Some(fields) = Fields::open(reader, node, path, &[schema::SURFACE]) else {
         return surface;
     };
     let stiffness = fields.required(reader, "stiffness").and_then(|node| stiffness(reader, node, path));
@@ -94,16 +95,25 @@ fn normal_law(
     path: &str,
     known_stiffness: Option<f64>,
 ) -> Option<NormalLaw> {
-    match reader.variant(node, path, &["Linear", "HuntCrossley", "PowerLaw", "Custom"])? {
-        "Linear" => linear(reader, node, path, known_stiffness),
-        "HuntCrossley" => hunt_crossley(reader, node, path),
-        "PowerLaw" => power_law(reader, node, path, known_stiffness),
-        _ => custom(reader, node, path).map(|(name, parameters)| NormalLaw::Custom { name, parameters }),
+    let law = reader.kind(node, path, schema::NORMAL_LAWS)?;
+    match law.tag {
+        Normal::Linear => linear(reader, node, path, (law, known_stiffness)),
+        Normal::HuntCrossley => hunt_crossley(reader, node, path, law),
+        Normal::PowerLaw => power_law(reader, node, path, (law, known_stiffness)),
+        Normal::Custom => {
+            let (name, parameters) = custom(reader, node, path, law.fields)?;
+            Some(NormalLaw::Custom { name, parameters })
+        }
     }
 }
 
-fn linear(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: Option<f64>) -> Option<NormalLaw> {
-    let fields = Fields::open(reader, node, path, &["damping", "ramp", "restitution"])?;
+fn linear(
+    reader: &mut Reader<'_>,
+    node: &Node,
+    path: &str,
+    (law, stiffness): (&Kind<Normal>, Option<f64>),
+) -> Option<NormalLaw> {
+    let fields = Fields::open(reader, node, path, &[law.fields])?;
     either_or(reader, &fields, path, "damping", "restitution");
     let ramp = match fields.optional("ramp") {
         Some(node) => reader.not_negative(node, path, "the ramp")?,
@@ -111,15 +121,20 @@ fn linear(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: Option<f6
     };
     let damping = match (fields.optional("damping"), fields.optional("restitution")) {
         (Some(node), _) => reader.not_negative(node, path, "the damping")?,
-        (None, Some(node)) => linear_damping(reader, node, path, stiffness)?,
+        (None, Some(node)) => linear_damping(reader, node, path, (law.nested("restitution"), stiffness))?,
         (None, None) => 0.0,
     };
     Some(NormalLaw::Linear { damping, ramp })
 }
 
 /// Computes c = 2·ζ·√(k·m), with ζ from the law that never pulls.
-fn linear_damping(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: Option<f64>) -> Option<f64> {
-    let fields = Fields::open(reader, node, path, &["e", "mass"])?;
+fn linear_damping(
+    reader: &mut Reader<'_>,
+    node: &Node,
+    path: &str,
+    (table, stiffness): (&'static [Field], Option<f64>),
+) -> Option<f64> {
+    let fields = Fields::open(reader, node, path, &[table])?;
     let e = fields.required(reader, "e").and_then(|node| restitution(reader, node, path));
     let mass = fields.required(reader, "mass").and_then(|node| reader.positive(node, path, "the mass"));
     let (e, mass, stiffness) = (e?, mass?, not_rigid(reader, node, path, stiffness?)?);
@@ -132,20 +147,20 @@ fn linear_damping(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: O
     reader.refuse(node.at, path, "restitution-range", cause, "give a smaller mass or stiffness")
 }
 
-fn hunt_crossley(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<NormalLaw> {
-    let fields = Fields::open(reader, node, path, &["dissipation", "exponent", "restitution"])?;
+fn hunt_crossley(reader: &mut Reader<'_>, node: &Node, path: &str, law: &Kind<Normal>) -> Option<NormalLaw> {
+    let fields = Fields::open(reader, node, path, &[law.fields])?;
     either_or(reader, &fields, path, "dissipation", "restitution");
     let exponent = fields.required(reader, "exponent").and_then(|node| exponent(reader, node, path));
     let dissipation = match (fields.optional("dissipation"), fields.optional("restitution")) {
         (Some(node), _) => reader.not_negative(node, path, "the dissipation"),
-        (None, Some(node)) => chi(reader, node, path),
+        (None, Some(node)) => chi(reader, node, path, law.nested("restitution")),
         (None, None) => Some(0.0),
     };
     Some(NormalLaw::HuntCrossley { dissipation: dissipation?, exponent: exponent? })
 }
 
-fn chi(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
-    let fields = Fields::open(reader, node, path, &["e", "speed"])?;
+fn chi(reader: &mut Reader<'_>, node: &Node, path: &str, table: &'static [Field]) -> Option<f64> {
+    let fields = Fields::open(reader, node, path, &[table])?;
     let e = fields.required(reader, "e").and_then(|node| restitution(reader, node, path));
     let speed = fields.required(reader, "speed").and_then(|node| reader.positive(node, path, "the speed"));
     let (e, speed) = (e?, speed?);
@@ -162,24 +177,33 @@ fn friction_law(reader: &mut Reader<'_>, node: &Node, path: &str, beside: Beside
         Value::Tuple(Some(name), items) if name.as_ref() == "Some" && items.len() == 1 => &items[0],
         _ => node,
     };
-    match reader.variant(node, path, &["None", "Bristle", "Coulomb", "Custom"])? {
-        "None" => Some(FrictionLaw::None),
-        "Bristle" => bristle(reader, node, path, beside),
-        "Coulomb" => coulomb(reader, node, path),
-        _ => custom(reader, node, path).map(|(name, parameters)| FrictionLaw::Custom { name, parameters }),
+    let law = reader.kind(node, path, schema::FRICTION_LAWS)?;
+    match law.tag {
+        Friction::None => Some(FrictionLaw::None),
+        Friction::Bristle => bristle(reader, node, path, (law, beside)),
+        Friction::Coulomb => coulomb(reader, node, path, law.fields),
+        Friction::Custom => {
+            let (name, parameters) = custom(reader, node, path, law.fields)?;
+            Some(FrictionLaw::Custom { name, parameters })
+        }
     }
 }
 
-fn coulomb(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<FrictionLaw> {
-    let fields = Fields::open(reader, node, path, &["mu", "slip_speed"])?;
+fn coulomb(reader: &mut Reader<'_>, node: &Node, path: &str, table: &'static [Field]) -> Option<FrictionLaw> {
+    let fields = Fields::open(reader, node, path, &[table])?;
     let mu = fields.required(reader, "mu").and_then(|node| reader.not_negative(node, path, "mu"));
     let slip_speed =
         fields.required(reader, "slip_speed").and_then(|node| reader.positive(node, path, "the slip speed"));
     Some(FrictionLaw::Coulomb { mu: mu?, slip_speed: slip_speed? })
 }
 
-fn custom(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<(String, Vec<f64>)> {
-    let fields = Fields::open(reader, node, path, &["name", "parameters"])?;
+fn custom(
+    reader: &mut Reader<'_>,
+    node: &Node,
+    path: &str,
+    table: &'static [Field],
+) -> Option<(String, Vec<f64>)> {
+    let fields = Fields::open(reader, node, path, &[table])?;
     let name = fields.required(reader, "name").and_then(|node| reader.text(node, path));
     let parameters = match fields.optional("parameters") {
         Some(node) => reader.numbers(node, path)?,
@@ -216,7 +240,7 @@ pub(super) fn pairs(
 type Defined<'d> = (&'d str, &'d [Surface]);
 
 fn pair(reader: &mut Reader<'_>, node: &Node, path: &str, defined: Defined<'_>) -> Option<PairOverride> {
-    let fields = Fields::open(reader, node, path, &["surfaces", "stiffness", "normal", "friction"])?;
+    let fields = Fields::open(reader, node, path, &[schema::PAIR])?;
     let names = fields.required(reader, "surfaces").and_then(|node| pair_names(reader, node, path, defined));
     let stiffness = match fields.optional("stiffness") {
         Some(node) => Some(pair_stiffness(reader, node, path)?),

@@ -4,6 +4,7 @@
 //! Long lists of number tuples (vertices and triangles of meshes) are stored as [`Rows`], about as compact as
 //! the numbers themselves.
 
+mod made;
 mod number;
 mod parser;
 #[cfg(test)]

@@ -12,4 +12,6 @@ mod meshes;
 mod rejects;
 mod round_bounds;
 mod round_parts;
+mod schema;
 mod topology;
+mod written;

@@ -48,12 +48,14 @@ __all__ = [
     "check_log",
     "check_polyhedron",
     "check_triangles",
+    "model_schema",
     "parse_authored",
     "read_authored",
     "replay",
     "trade",
     "tune",
     "verify",
+    "write_authored",
 ]
 
 __version__: str
@@ -569,6 +571,8 @@ def tune(
 def check_log(folder: _Path) -> tuple[bool, int]: ...
 def read_authored(path: _Path) -> dict[str, Any]: ...
 def parse_authored(text: str, *, name: str = "model") -> dict[str, Any]: ...
+def write_authored(data: dict[str, Any], one_line: bool) -> str: ...
+def model_schema() -> dict[str, Any]: ...
 def check_polyhedron(
     vertices: ArrayLike, faces: Sequence[Sequence[int]], inactive: Sequence[int] = ...
 ) -> list[dict[str, Any]]: ...

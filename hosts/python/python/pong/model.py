@@ -2,6 +2,7 @@
 
     data = pong.model.read("gripper.ron")            the file as it is written: dictionaries, tuples, arrays
     text = pong.model.write(data)                    data like that as the text of a model file
+    tables = pong.model.schema()                     kinds and fields of the format
     found = pong.model.check(text)                   every error and warning of a text
     pong.model.check_polyhedron(vertices, faces)     what keeps a shape from being a polyhedron
     pong.model.check_triangles(corners)              what is wrong about the triangles of one body
@@ -19,10 +20,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _pong, _write
+from . import _pong
 from ._pong import Model, ModelError
 
-__all__ = ["Checked", "check", "check_polyhedron", "check_triangles", "parse", "read", "write"]
+__all__ = ["Checked", "check", "check_polyhedron", "check_triangles", "parse", "read", "schema", "write"]
 
 _Path = str | os.PathLike[str]
 _Indices = NDArray[np.integer[Any]]
@@ -47,10 +48,20 @@ def parse(text: str, *, name: str = "model") -> dict[str, Any]:
     return _pong.parse_authored(text, name=name)
 
 
-def write(data: dict[str, Any]) -> str:
+def write(data: dict[str, Any], *, one_line: bool = False) -> str:
     """Text of a model file with this data, in the form that `read` gives. The same data gives the same text, and
     reading it gives the same data: numbers keep every bit. Nothing is checked; `check` checks the text."""
-    return _write.write(data)
+    return _pong.write_authored({"format": "pong-model", "version": 1} | data, one_line)
+
+
+def schema() -> dict[str, Any]:
+    """Kinds and fields of model files (docs/model_format.md), in the order of writing.
+
+    `primitives`, `normal_laws` and `friction_laws` are tables of fields by kind; `model`, `surface`, `pair`, `group`
+    and `primitive` (of every kind) are tables of fields; `bounds` are names. A field has `type`, `unit` and
+    `required`, and may have `default` (as written in a file), `words` (of a default that is no value), `fields` and
+    `choices`."""
+    return _pong.model_schema()
 
 
 def check(

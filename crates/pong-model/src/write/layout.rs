@@ -1,4 +1,4 @@
-//! Layout of RON values: on one line if they fit, otherwise one field per line, with long lists filled.
+//! Layout of values: on one line if they fit, otherwise one field per line, with long lists filled.
 
 use std::borrow::Cow;
 
@@ -6,20 +6,20 @@ use std::borrow::Cow;
 const WIDTH: usize = 120;
 const INDENT: usize = 4;
 
-/// A label and its value.
+/// Label and its value.
 pub(super) type Item = (Cow<'static, str>, Shown);
 
-/// A value ready for layout.
+/// Value ready for layout.
 pub(super) enum Shown {
     Flat(String),
-    /// A bracketed list; always one item per line if `broken`.
+    /// Bracketed list; always one item per line if `broken`.
     Block {
         opening: String,
         items: Vec<Item>,
         closing: &'static str,
         broken: bool,
     },
-    /// A long list of short tokens, as many per line as fit.
+    /// Long list of short tokens, as many per line as fit.
     Filled(Vec<String>),
 }
 
@@ -28,27 +28,12 @@ impl Shown {
         Self::Block { opening: opening.to_owned(), items, closing, broken: false }
     }
 
-    pub(super) fn broken(opening: &str, items: Vec<Item>, closing: &'static str) -> Self {
-        let broken = !items.is_empty();
-        Self::Block { opening: opening.to_owned(), items, closing, broken }
-    }
-}
-
-/// Text in quotes.
-pub(super) fn quoted(text: &str) -> String {
-    let mut out = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '\\' => out.push_str("\\\\"),
-            '"' => out.push_str("\\\""),
-            '\n' => out.push_str("\\n"),
-            '\r' => out.push_str("\\r"),
-            '\t' => out.push_str("\\t"),
-            c if c.is_control() => out.push_str(&format!("\\u{{{:x}}}", c as u32)),
-            c => out.push(c),
+    /// Gives each item of a list a line of its own, unless it is empty.
+    pub(super) fn break_up(&mut self) {
+        if let Self::Block { items, broken, .. } = self {
+            *broken = !items.is_empty();
         }
     }
-    out + "\""
 }
 
 /// Appends the lines of label and value; the last ends with a comma.
@@ -74,18 +59,30 @@ pub(super) fn lay_out(label: &str, value: &Shown, indent: usize, out: &mut Strin
     }
 }
 
-/// The value on one line; `None` if it is longer than the room.
+/// The value on one line, however long.
+pub(super) fn one_line(value: &Shown) -> String {
+    match value {
+        Shown::Flat(line) => line.clone(),
+        Shown::Filled(tokens) => format!("[{}]", tokens.join(", ")),
+        Shown::Block { opening, items, closing, .. } => {
+            let parts: Vec<String> =
+                items.iter().map(|(label, inner)| format!("{label}{}", one_line(inner))).collect();
+            format!("{opening}{}{closing}", parts.join(", "))
+        }
+    }
+}
+
+/// The value on one line; `None` if it is longer than the room or has lines of its own.
 fn flat(value: &Shown, room: usize) -> Option<String> {
     let line = match value {
-        Shown::Flat(line) => line.clone(),
         Shown::Filled(tokens) if 3 * tokens.len() > room + 3 => return None,
-        Shown::Filled(tokens) => format!("[{}]", tokens.join(", ")),
         Shown::Block { broken: true, .. } => return None,
         Shown::Block { opening, items, closing, .. } => {
             let parts: Option<Vec<String>> =
                 items.iter().map(|(label, inner)| Some(format!("{label}{}", flat(inner, room)?))).collect();
             format!("{opening}{}{closing}", parts?.join(", "))
         }
+        Shown::Flat(_) | Shown::Filled(_) => one_line(value),
     };
     (line.chars().count() <= room).then_some(line)
 }
@@ -95,7 +92,7 @@ fn fill(tokens: &[String], indent: usize, out: &mut String) {
     let mut used = 0;
     for token in tokens {
         // Token and comma, plus a space unless it is the first on the line.
-        let width = token.len() + 1;
+        let width = token.chars().count() + 1;
         if used > 0 && used + 1 + width <= WIDTH - indent {
             out.push(' ');
             used += 1 + width;
