@@ -2,6 +2,13 @@
 
 use std::ffi::CString;
 
+/// The configuration did not ask for it.
+pub const PONG_GRANT_NOT_ASKED: u32 = 0;
+/// It was asked for and granted.
+pub const PONG_GRANT_GRANTED: u32 = 1;
+/// It was asked for and refused; pong_worker_text() has the reason.
+pub const PONG_GRANT_REFUSED: u32 = 2;
+
 /// Placement of a worker, and its share of the last frame.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

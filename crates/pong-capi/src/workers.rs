@@ -7,18 +7,11 @@ use crate::names::c_text;
 use crate::report::by_work;
 use crate::status::pong_status;
 use crate::worker::Started;
-pub use crate::worker::pong_worker;
+pub use crate::worker::{PONG_GRANT_GRANTED, PONG_GRANT_NOT_ASKED, PONG_GRANT_REFUSED, pong_worker};
 use pong_engine::{ThreadWork, WorkerStart};
 use pong_threads::Grant;
 use std::ffi::c_char;
 use std::time::Duration;
-
-/// The configuration did not ask for it.
-pub const PONG_GRANT_NOT_ASKED: u32 = 0;
-/// It was asked for and granted.
-pub const PONG_GRANT_GRANTED: u32 = 1;
-/// It was asked for and refused; pong_worker_text() has the reason.
-pub const PONG_GRANT_REFUSED: u32 = 2;
 
 /// Wakes the workers shortly before a frame (some 100 us): they look for its work until it comes or `at_most_us` has
 /// passed. For hosts whose frames are further apart than the workers' spin_us. Does nothing without workers.
