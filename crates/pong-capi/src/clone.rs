@@ -14,10 +14,10 @@ use std::sync::Mutex;
 
 /// Clones a sealed world as it stands: with its states, pairs, surfaces, contact state and user data, and the
 /// same ids. It takes a fraction of the time of loading and sealing again. From here on both are independent;
-/// given the same calls, they give the same bits. The clone has memory and workers of its own; it has
-/// computed no frame yet and has no log. Both call the same laws: the `user` data of a law must live as long
-/// as either. The clone is the caller's: destroy it with pong_destroy_world(). On failure `clone` gets NULL.
-/// PONG_STATUS_WRONG_PHASE before the seal.
+/// given the same calls, they give the same bits. The clone has memory and workers of its own; it has computed
+/// no frame yet and has no log and no monitor. Both call the same laws: the `user` data of a law must live as
+/// long as either. The clone is the caller's: destroy it with pong_destroy_world(). On failure `clone` gets
+/// NULL. After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_clone_world(
     world: *const pong_world,

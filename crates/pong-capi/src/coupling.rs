@@ -2,11 +2,13 @@
 
 use pong_engine::WrenchCoupling;
 
-/// The wrench is evaluated again at every stage of an integrator of higher order (the classic Runge-Kutta method).
+/// The host evaluates the wrench again at every stage of an integrator of higher order (the classic Runge-Kutta
+/// method).
 pub const PONG_COUPLING_STAGES: u32 = 1;
-/// The wrench is evaluated once a step; it gives the velocities with which the bodies then move (semi-implicit Euler).
+/// The host evaluates the wrench once a step; it gives the velocities with which the bodies then move
+/// (semi-implicit Euler).
 pub const PONG_COUPLING_SEMI_IMPLICIT: u32 = 2;
-/// The wrench is evaluated once a frame and held from one commit to the next.
+/// The host evaluates the wrench once a frame and holds it from one commit to the next.
 pub const PONG_COUPLING_ZERO_ORDER_HOLD: u32 = 3;
 
 /// The coupling of this number; `None` if there is no such number.

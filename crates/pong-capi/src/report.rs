@@ -11,11 +11,11 @@ use std::ffi::{CStr, c_char};
 
 /// The frame had more contacts than the world's capacity: the deepest were kept.
 pub const PONG_FLAG_CONTACT_LIMIT: u32 = 1;
-/// One ball had more contacts with one surface than could be shared exactly: the deepest were shared.
+/// A sphere had more contacts with one surface than could be shared exactly: the deepest were shared.
 pub const PONG_FLAG_LOAD_SHARING_LIMIT: u32 = 2;
-/// A contact was missed: something passed right through something else since the last commit, or came out on
-/// the far side of what pushed it back. Remedy: shorter frames, a thicker wall or a stiffer surface. Before
-/// an intended jump call pong_clear_contact_history().
+/// A contact was missed: a body passed right through another one since the last commit, or came out on the far
+/// side of the one that pushed it back. Remedy: shorter frames, a thicker wall or a stiffer surface. Before an
+/// intended jump call pong_clear_contact_history().
 pub const PONG_FLAG_TUNNELLED: u32 = 4;
 
 /// `stage_ns` of states in and relative motion.
@@ -105,7 +105,7 @@ pub struct pong_report {
     pub reserved: [u64; 3],
 }
 
-/// Counts, times, memory and flags of the last frame; before the first all zero, except the capacities.
+/// Copies counts, times, memory and flags of the last frame; before the first all zero, except the capacities.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_report(world: *const pong_world, report: *mut pong_report) -> pong_status {
     get(world, (report, "report"), |inner| Ok(report_of(&inner.phase, &inner.counters)))
@@ -197,7 +197,8 @@ pub struct pong_ledger {
     pub dissipated: f64,
 }
 
-/// The energies; work and dissipation are zero unless the configuration has keep_ledger.
+/// Copies the energies at the last commit; work and dissipation are zero unless the configuration has
+/// keep_ledger.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_ledger(world: *const pong_world, ledger: *mut pong_ledger) -> pong_status {
     with_world(world, |inner| {

@@ -82,7 +82,7 @@ pub struct pong_step_check {
     pub damping_rate: f64,
 }
 
-/// A plan without a step: held wrenches, depth within 5 % and rebound within 2 %.
+/// The default plan: held wrenches, depth within 5 % and rebound within 2 %. Its step is 0 and must be set.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_default_step_plan() -> pong_step_plan {
     let Accuracy { depth, rebound } = Accuracy::default();
@@ -97,8 +97,9 @@ pub extern "C" fn pong_default_step_plan() -> pong_step_plan {
     }
 }
 
-/// Sets the mass properties of a movable group, for the check that pong_plan_step() asks for. Before sealing. A hinged body
-/// gets its own mass and inertia, as if it were free; that is on the safe side, and pong_set_joints() gives a sharp limit.
+/// Sets the mass properties of a movable group, for the check that pong_plan_step() requests. Before sealing. A
+/// hinged body gets its own mass and inertia, as if it were free; that is on the safe side, and
+/// pong_set_joints() gives a sharp limit.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_mass(
     world: *mut pong_world,
@@ -113,8 +114,8 @@ pub unsafe extern "C" fn pong_set_mass(
     })
 }
 
-/// Sets how a movable group on joints yields, in addition to its mass of pong_set_mass(), which must be set
-/// first. Before sealing for the check of pong_plan_step(), and as often as the pose changes for
+/// Sets the response of a movable group on joints, in addition to its mass of pong_set_mass(), which must be
+/// set first. Before sealing for the check of pong_plan_step(), and as often as the pose changes for
 /// pong_check_step().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_joints(
@@ -135,9 +136,9 @@ pub unsafe extern "C" fn pong_set_joints(
     })
 }
 
-/// Has the seal check every contact against the host's step, by the masses of pong_set_mass(). Contacts for
-/// which the step is too long, or which cannot be judged, appear in pong_seal_warning(); those for which it
-/// may be too long, if enough contacts act at once, in pong_seal_note(). Before sealing.
+/// Makes the seal check every contact against the host's step, by the masses of pong_set_mass(). Contacts for
+/// which the step is too long, or which cannot be judged, appear in pong_seal_warning(); those for which it may
+/// be too long, if enough contacts act at once, in pong_seal_note(). Before sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_plan_step(world: *mut pong_world, plan: *const pong_step_plan) -> pong_status {
     setting_up(world, |inner| {
@@ -150,8 +151,8 @@ pub unsafe extern "C" fn pong_plan_step(world: *mut pong_world, plan: *const pon
     })
 }
 
-/// Checks the planned step against the contacts of the last frame, with their true levers and normals. Needs
-/// the plan and the masses from before the seal, and a frame. Allocates.
+/// Checks the planned step against the contacts of the last frame, with their actual lever arms and normals.
+/// Allocates. PONG_STATUS_WRONG_PHASE: no step was planned before the seal, or there is no frame.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_check_step(
     world: *const pong_world,

@@ -10,7 +10,7 @@ use crate::status::pong_status;
 use pong_model::{Exponent, FrictionLaw, NormalLaw, Surface};
 use std::ffi::c_char;
 
-/// F = k d + c d', with a ramp.
+/// F = k d + c d', with a ramp: d is the depth, k the stiffness, c the damping.
 pub const PONG_NORMAL_LINEAR: i32 = 0;
 /// F = k d (1 + chi d').
 pub const PONG_NORMAL_HUNT_CROSSLEY: i32 = 1;
@@ -76,7 +76,7 @@ pub unsafe extern "C" fn pong_surface_count(
     get(world, (count, "count"), |inner| Ok(inner.names.model(model)?.surfaces.len()))
 }
 
-/// Name of a surface of a model. The text lives as long as the world.
+/// Returns the name of a surface of a model; `index` counts from 0. The text lives as long as the world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_surface_name(
     world: *const pong_world,
@@ -87,7 +87,7 @@ pub unsafe extern "C" fn pong_surface_name(
     get(world, (name, "name"), |inner| text_at("surface", &inner.names.model(model)?.surfaces, index))
 }
 
-/// The values of a surface as they are now.
+/// Copies the present values of a surface, named as in the model.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_surface(
     world: *const pong_world,
@@ -102,8 +102,9 @@ pub unsafe extern "C" fn pong_get_surface(
     })
 }
 
-/// Sets the values of a surface for all Objects of a model, from the next evaluation on. Allocates: between
-/// frames, not in them.
+/// Sets the values of a surface for all Objects of a model, from the next evaluation on, before or after
+/// sealing. Allocates: between frames, not in them. PONG_STATUS_BAD_VALUE: another law than the surface has, or
+/// a value outside its range.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_surface(
     world: *mut pong_world,

@@ -38,8 +38,8 @@ pub unsafe extern "C" fn pong_tally_count(world: *const pong_world, count: *mut 
     get(world, (count, "count"), |inner| Ok(tallies(&counts_of(inner)).count()))
 }
 
-/// A tally of the last frame. Bounding volumes come first, then primitives, always in the same order of kinds. The
-/// numbers are the same for any number of workers.
+/// Copies a tally of the last frame; `index` counts from 0. Bounding volumes come first, then primitives,
+/// always in the same order of kinds. The numbers are the same for any number of workers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_tally(
     world: *const pong_world,

@@ -2,11 +2,11 @@
 
 use std::ffi::CString;
 
-/// The configuration did not ask for it.
+/// Outcome of a request that the configuration does not make.
 pub const PONG_GRANT_NOT_ASKED: u32 = 0;
-/// It was asked for and granted.
+/// Outcome: requested and granted.
 pub const PONG_GRANT_GRANTED: u32 = 1;
-/// It was asked for and refused; pong_worker_text() has the reason.
+/// Outcome: requested and refused; pong_worker_text() has the reason.
 pub const PONG_GRANT_REFUSED: u32 = 2;
 
 /// Placement of a worker, and its share of the last frame.
@@ -17,11 +17,11 @@ pub struct pong_worker {
     pub index: u32,
     /// Outcome of binding it to a core: PONG_GRANT_...
     pub core_grant: u32,
-    /// The core that was asked for; 0 if none was.
+    /// The core that was requested; 0 if none was.
     pub core: u32,
-    /// Outcome of asking for SCHED_FIFO: PONG_GRANT_...
+    /// Outcome of requesting SCHED_FIFO: PONG_GRANT_...
     pub fifo_grant: u32,
-    /// The priority that was asked for; 0 if none was.
+    /// The priority that was requested; 0 if none was.
     pub fifo_priority: u32,
     /// Blocks of work done in the last round of work that was shared out. A frame with too little work to
     /// share has none, and the number stays that of an earlier frame.

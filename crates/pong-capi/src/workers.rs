@@ -13,9 +13,9 @@ use pong_threads::Grant;
 use std::ffi::c_char;
 use std::time::Duration;
 
-/// Wakes the workers shortly before a frame (some 100 us): they look for its work until it comes or `at_most_us` has
-/// passed. For hosts whose frames are further apart than the workers' spin_us. Does nothing without workers.
-/// PONG_STATUS_WRONG_PHASE before the seal.
+/// Wakes the workers shortly before a frame (some 100 us): they look for its work until it comes or
+/// `at_most_us`, us, have passed. For hosts whose frames are further apart than the workers' spin_us. Does
+/// nothing without workers. After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_prewake(world: *mut pong_world, at_most_us: u64) -> pong_status {
     with_world(world, |inner| {
@@ -25,7 +25,7 @@ pub unsafe extern "C" fn pong_prewake(world: *mut pong_world, at_most_us: u64) -
 }
 
 /// Lets the workers sleep at once, as in a freeze. The next frame wakes them. Does nothing without workers.
-/// PONG_STATUS_WRONG_PHASE before the seal.
+/// After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_quiesce(world: *mut pong_world) -> pong_status {
     with_world(world, |inner| {
@@ -34,8 +34,7 @@ pub unsafe extern "C" fn pong_quiesce(world: *mut pong_world) -> pong_status {
     })
 }
 
-/// Number of workers that were started, which may be fewer than the configuration asks for.
-/// PONG_STATUS_WRONG_PHASE before the seal.
+/// Number of workers that were started, which may be fewer than the configuration requests. After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_worker_count(world: *const pong_world, count: *mut usize) -> pong_status {
     get(world, (count, "count"), |inner| {
@@ -44,8 +43,8 @@ pub unsafe extern "C" fn pong_worker_count(world: *const pong_world, count: *mut
     })
 }
 
-/// Placement of a worker and its share of the last frame. `index` is 1 to pong_worker_count(), or 0 for the
-/// calling thread. PONG_STATUS_WRONG_PHASE before the seal.
+/// Copies the placement of a worker and its share of the last frame. `index` is 1 to pong_worker_count(), or 0
+/// for the calling thread. After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_worker(
     world: *const pong_world,
@@ -61,8 +60,8 @@ pub unsafe extern "C" fn pong_get_worker(
     })
 }
 
-/// Placement of a worker, in words: its core and priority, or why it does not have them. `index` is 1 to
-/// pong_worker_count(). The text lives as long as the world. PONG_STATUS_WRONG_PHASE before the seal.
+/// Returns the placement of a worker in words: its core and priority, or why it does not have them. `index` is
+/// 1 to pong_worker_count(). The text lives as long as the world. After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_worker_text(
     world: *const pong_world,
