@@ -132,6 +132,9 @@ pong_status pong_check_abi(uint32_t abi_version, uint64_t hash);
 /// are independent.
 typedef struct pong_world pong_world;
 
+/// Use of the wrench by the host: PONG_COUPLING_...
+typedef uint32_t pong_coupling;
+
 /// The host evaluates the wrench again at every stage of an integrator of higher order (the classic Runge-Kutta
 /// method).
 #define PONG_COUPLING_STAGES 1
@@ -182,7 +185,7 @@ typedef struct pong_config {
     /// PONG_COUPLING_...: keeps energy accounts of contacts and pairs, see pong_get_pair_energy_account().
     /// The coupling is the host's use of wrenches, on which their work depends. Keeps the ledger as well. 0
     /// (default) keeps no accounts and costs nothing.
-    uint32_t energy_accounts;
+    pong_coupling energy_accounts;
     /// With PONG_COUPLING_ZERO_ORDER_HOLD: delay of the wrenches in whole frames after the first possible
     /// one, at most 16; 0 by default.
     uint32_t delay_frames;
@@ -384,7 +387,7 @@ typedef struct pong_step_plan {
     /// The step or frame, s; must be set.
     double step;
     /// Use of the wrench: one of PONG_COUPLING_...; PONG_COUPLING_ZERO_ORDER_HOLD by default.
-    uint32_t wrench_coupling;
+    pong_coupling wrench_coupling;
     /// With PONG_COUPLING_ZERO_ORDER_HOLD: delay of the wrench in whole frames after the first possible one,
     /// at most 100; 0 by default.
     uint32_t delay_frames;
@@ -599,6 +602,9 @@ pong_status pong_get_pair_wrench(const struct pong_world *world,
 
 /* ---- Results: contacts ----------------------------------------------------------------------------------- */
 
+/// Kind of a feature of a primitive: PONG_FEATURE_...
+typedef uint32_t pong_feature_kind;
+
 /// `feature_kind` of a face, or of a surface as a whole.
 #define PONG_FEATURE_FACE 0
 /// `feature_kind` of an edge.
@@ -630,7 +636,7 @@ typedef struct pong_contact {
     /// Side B.
     struct pong_contact_side b;
     /// Feature of B that pushes: PONG_FEATURE_FACE, PONG_FEATURE_EDGE or PONG_FEATURE_VERTEX.
-    uint32_t feature_kind;
+    pong_feature_kind feature_kind;
     /// Index of that feature among those of its kind.
     uint32_t feature_index;
     /// End of an elongated body: 0 and 1 at its ends, 2 and above between them; 0 for other bodies.
@@ -836,6 +842,9 @@ pong_status pong_clear_contact_history(struct pong_world *world, struct pong_obj
 /// until then. A log records the switch by itself.
 pong_status pong_set_pair_enabled(struct pong_world *world, struct pong_pair_id pair, int32_t enabled);
 
+/// Kind of a normal force law: PONG_NORMAL_...
+typedef int32_t pong_normal_kind;
+
 /// F = k d + c d', with a ramp: d is the depth, k the stiffness, c the damping.
 #define PONG_NORMAL_LINEAR 0
 /// F = k d (1 + chi d').
@@ -850,6 +859,9 @@ pong_status pong_set_pair_enabled(struct pong_world *world, struct pong_pair_id 
 #define PONG_NORMAL_POWER_LAW 5
 /// F = k d^(3/2) + c d^q d', with the q of the model file.
 #define PONG_NORMAL_POWER_LAW_HERTZ 6
+
+/// Kind of a friction law: PONG_FRICTION_...
+typedef int32_t pong_friction_kind;
 
 /// No friction.
 #define PONG_FRICTION_NONE 0
@@ -866,9 +878,9 @@ pong_status pong_set_pair_enabled(struct pong_world *world, struct pong_pair_id 
 /// laws do not use are 0 when got and ignored when set. No value but a rigid stiffness is beyond 1e100.
 typedef struct pong_surface_values {
     /// Normal law of the surface: PONG_NORMAL_...
-    int32_t normal_law;
+    pong_normal_kind normal_law;
     /// Friction law of the surface: PONG_FRICTION_...
-    int32_t friction_law;
+    pong_friction_kind friction_law;
     /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_..._HERTZ), 1e-100 to 1e100; infinite means rigid.
     double stiffness;
     /// Linear, power law: damping, N s/m (N s/m^(1+q) with the power law).
@@ -973,6 +985,9 @@ pong_status pong_continue_from(struct pong_world *world,
 
 /* ---- Response logs --------------------------------------------------------------------------------------- */
 
+/// Behaviour of a log whose buffer is full: PONG_LOG_...
+typedef uint32_t pong_log_when_full;
+
 /// `when_full`: frames for which there is no room are left out of the log as a whole, counted and marked.
 #define PONG_LOG_DROP 0
 /// `when_full`: pong_log_frame() waits until there is room: for unattended runs.
@@ -998,7 +1013,7 @@ typedef struct pong_log_options {
     uint32_t flush_ms;
     /// Behaviour when the disk is slower than the run: PONG_LOG_DROP (default) or PONG_LOG_WAIT. A disk that
     /// accepts nothing for 30 s has failed.
-    uint32_t when_full;
+    pong_log_when_full when_full;
     /// 1: replaces a log that lies in the folder. 0 (default): such a folder is refused.
     uint32_t overwrite;
     /// Number of commits that each logged frame stands for, for readers of the log; 0 (default) if that
@@ -1175,6 +1190,9 @@ pong_status pong_get_primitive_user_data(const struct pong_world *world,
 
 /* ---- Workers --------------------------------------------------------------------------------------------- */
 
+/// Outcome of a request to the system: PONG_GRANT_...
+typedef uint32_t pong_grant;
+
 /// Outcome of a request that the configuration does not make.
 #define PONG_GRANT_NOT_ASKED 0
 /// Outcome: requested and granted.
@@ -1187,11 +1205,11 @@ typedef struct pong_worker {
     /// Thread: 0 is the calling thread, 1 the first worker.
     uint32_t index;
     /// Outcome of binding it to a core: PONG_GRANT_...
-    uint32_t core_grant;
+    pong_grant core_grant;
     /// The core that was requested; 0 if none was.
     uint32_t core;
     /// Outcome of requesting SCHED_FIFO: PONG_GRANT_...
-    uint32_t fifo_grant;
+    pong_grant fifo_grant;
     /// The priority that was requested; 0 if none was.
     uint32_t fifo_priority;
     /// Blocks of work done in the last round of work that was shared out. A frame with too little work to
@@ -1231,6 +1249,9 @@ pong_status pong_worker_text(const struct pong_world *world,
 
 /* ---- Diagnostics: report --------------------------------------------------------------------------------- */
 
+/// Limits that a frame reached: a sum of PONG_FLAG_...
+typedef uint32_t pong_flags;
+
 /// The frame had more contacts than the world's capacity: the deepest were kept.
 #define PONG_FLAG_CONTACT_LIMIT 1
 /// A sphere had more contacts with one surface than could be shared exactly: the deepest were shared.
@@ -1265,7 +1286,7 @@ pong_status pong_worker_text(const struct pong_world *world,
 /// Counts, times, memory use and flags of the last frame.
 typedef struct pong_report {
     /// Limits that the last frame hit, PONG_FLAG_...; 0 if none. See pong_flag_name().
-    uint32_t flags;
+    pong_flags flags;
     /// Contacts listed.
     uint32_t contacts;
     /// Contacts before the limit was applied: the capacity to ask for after PONG_FLAG_CONTACT_LIMIT.
@@ -1323,7 +1344,7 @@ pong_status pong_get_report(const struct pong_world *world,
 
 /// Meaning of a flag of the report, in words: "contact limit", "load sharing limit", "tunnelled"; "unknown
 /// limit" for a number that is no single flag. Lives as long as the library.
-const char *pong_flag_name(uint32_t flag);
+const char *pong_flag_name(pong_flags flag);
 
 /// Name of a stage, PONG_STAGE_...: "input", "contacts", "order", "energy", "output", "commit"; empty for an
 /// index of `stage_ns` that has no stage. Lives as long as the library.
@@ -1333,6 +1354,9 @@ const char *pong_stage_name(size_t stage);
 /// "forces"; empty for an index outside `work_ns`. Lives as long as the library.
 const char *pong_work_name(size_t work);
 
+/// Kind of the tests of a tally: PONG_TALLY_...
+typedef uint32_t pong_tally_kind;
+
 /// `what` of a tally of tests of the models' bounding volumes.
 #define PONG_TALLY_VOLUMES 0
 /// `what` of a tally of contact tests.
@@ -1341,7 +1365,7 @@ const char *pong_work_name(size_t work);
 /// Tests of one kind against another in the last frame.
 typedef struct pong_tally {
     /// Kind of the tests: PONG_TALLY_...
-    uint32_t what;
+    pong_tally_kind what;
     /// Tests.
     uint32_t tested;
     /// For volumes, tests that did not find the two apart; the others were rejected. For primitives, contacts
@@ -1381,6 +1405,9 @@ typedef struct pong_ledger {
 /// keep_ledger.
 pong_status pong_get_ledger(const struct pong_world *world, struct pong_ledger *ledger);
 
+/// Verdict on an energy account: PONG_VERDICT_...
+typedef uint32_t pong_verdict;
+
 /// `verdict`: less energy came out than went in.
 #define PONG_VERDICT_DISSIPATED 0
 /// `verdict`: as much energy came out as went in, as far as the accounts can tell.
@@ -1408,7 +1435,7 @@ typedef struct pong_energy_account {
     /// Uncertainty of `work_out - work_in`, rounding apart; 0 except with PONG_COUPLING_STAGES.
     double resolution;
     /// Verdict: PONG_VERDICT_...
-    uint32_t verdict;
+    pong_verdict verdict;
     /// Zero.
     uint32_t reserved;
 } pong_energy_account;

@@ -10,12 +10,15 @@ use crate::status::pong_status;
 use pong_engine::{EnergyAccount, PairEnergyAccount, Verdict, World};
 use std::ffi::c_char;
 
+/// Verdict on an energy account: PONG_VERDICT_...
+pub type pong_verdict = u32;
+
 /// `verdict`: less energy came out than went in.
-pub const PONG_VERDICT_DISSIPATED: u32 = 0;
+pub const PONG_VERDICT_DISSIPATED: pong_verdict = 0;
 /// `verdict`: as much energy came out as went in, as far as the accounts can tell.
-pub const PONG_VERDICT_UNRESOLVED: u32 = 1;
+pub const PONG_VERDICT_UNRESOLVED: pong_verdict = 1;
 /// `verdict`: more energy came out than went in.
-pub const PONG_VERDICT_GAINED: u32 = 2;
+pub const PONG_VERDICT_GAINED: pong_verdict = 2;
 
 /// Energies, J. To rounding  work_in + inserted + hold_error = work_out + stored + damping_loss + friction_loss.
 #[repr(C)]
@@ -39,7 +42,7 @@ pub struct pong_energy_account {
     /// Uncertainty of `work_out - work_in`, rounding apart; 0 except with PONG_COUPLING_STAGES.
     pub resolution: f64,
     /// Verdict: PONG_VERDICT_...
-    pub verdict: u32,
+    pub verdict: pong_verdict,
     /// Zero.
     pub reserved: u32,
 }

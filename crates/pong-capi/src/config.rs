@@ -1,7 +1,7 @@
 //! Settings of a world.
 
 use crate::abi::PONG_ABI_VERSION;
-use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD};
+use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD, pong_coupling};
 use crate::failure::{Failure, Outcome};
 use crate::status::pong_status;
 use pong_engine::{Config, WorkerSettings, WrenchCoupling};
@@ -53,7 +53,7 @@ pub struct pong_config {
     /// PONG_COUPLING_...: keeps energy accounts of contacts and pairs, see pong_get_pair_energy_account().
     /// The coupling is the host's use of wrenches, on which their work depends. Keeps the ledger as well. 0
     /// (default) keeps no accounts and costs nothing.
-    pub energy_accounts: u32,
+    pub energy_accounts: pong_coupling,
     /// With PONG_COUPLING_ZERO_ORDER_HOLD: delay of the wrenches in whole frames after the first possible
     /// one, at most 16; 0 by default.
     pub delay_frames: u32,

@@ -8,12 +8,15 @@ use crate::pointers::{Out, OutArray, apart};
 use crate::status::pong_status;
 use pong_engine::{Contact, ContactSide, World};
 
+/// Kind of a feature of a primitive: PONG_FEATURE_...
+pub type pong_feature_kind = u32;
+
 /// `feature_kind` of a face, or of a surface as a whole.
-pub const PONG_FEATURE_FACE: u32 = 0;
+pub const PONG_FEATURE_FACE: pong_feature_kind = 0;
 /// `feature_kind` of an edge.
-pub const PONG_FEATURE_EDGE: u32 = 1;
+pub const PONG_FEATURE_EDGE: pong_feature_kind = 1;
 /// `feature_kind` of a vertex.
-pub const PONG_FEATURE_VERTEX: u32 = 2;
+pub const PONG_FEATURE_VERTEX: pong_feature_kind = 2;
 
 /// One side of a contact.
 #[repr(C)]
@@ -43,7 +46,7 @@ pub struct pong_contact {
     /// Side B.
     pub b: pong_contact_side,
     /// Feature of B that pushes: PONG_FEATURE_FACE, PONG_FEATURE_EDGE or PONG_FEATURE_VERTEX.
-    pub feature_kind: u32,
+    pub feature_kind: pong_feature_kind,
     /// Index of that feature among those of its kind.
     pub feature_index: u32,
     /// End of an elongated body: 0 and 1 at its ends, 2 and above between them; 0 for other bodies.

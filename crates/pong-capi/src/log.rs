@@ -12,10 +12,13 @@ use std::ffi::c_char;
 use std::path::Path;
 use std::time::Duration;
 
+/// Behaviour of a log whose buffer is full: PONG_LOG_...
+pub type pong_log_when_full = u32;
+
 /// `when_full`: frames for which there is no room are left out of the log as a whole, counted and marked.
-pub const PONG_LOG_DROP: u32 = 0;
+pub const PONG_LOG_DROP: pong_log_when_full = 0;
 /// `when_full`: pong_log_frame() waits until there is room: for unattended runs.
-pub const PONG_LOG_WAIT: u32 = 1;
+pub const PONG_LOG_WAIT: pong_log_when_full = 1;
 
 /// Marks options made by pong_default_log_options().
 const COOKIE: u64 = 0x706f_6e67_2d6c_6f67;
@@ -46,7 +49,7 @@ pub struct pong_log_options {
     pub flush_ms: u32,
     /// Behaviour when the disk is slower than the run: PONG_LOG_DROP (default) or PONG_LOG_WAIT. A disk that
     /// accepts nothing for 30 s has failed.
-    pub when_full: u32,
+    pub when_full: pong_log_when_full,
     /// 1: replaces a log that lies in the folder. 0 (default): such a folder is refused.
     pub overwrite: u32,
     /// Number of commits that each logged frame stands for, for readers of the log; 0 (default) if that

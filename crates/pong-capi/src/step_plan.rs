@@ -1,6 +1,6 @@
 //! Input of the step adviser before the seal: masses, and the host's use of the wrench.
 
-use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD};
+use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD, pong_coupling};
 use crate::failure::{Failure, Outcome};
 use crate::guard::{get, setting_up};
 use crate::handle::pong_world;
@@ -50,7 +50,7 @@ pub struct pong_step_plan {
     /// The step or frame, s; must be set.
     pub step: f64,
     /// Use of the wrench: one of PONG_COUPLING_...; PONG_COUPLING_ZERO_ORDER_HOLD by default.
-    pub wrench_coupling: u32,
+    pub wrench_coupling: pong_coupling,
     /// With PONG_COUPLING_ZERO_ORDER_HOLD: delay of the wrench in whole frames after the first possible one,
     /// at most 100; 0 by default.
     pub delay_frames: u32,

@@ -2,12 +2,15 @@
 
 use std::ffi::CString;
 
+/// Outcome of a request to the system: PONG_GRANT_...
+pub type pong_grant = u32;
+
 /// Outcome of a request that the configuration does not make.
-pub const PONG_GRANT_NOT_ASKED: u32 = 0;
+pub const PONG_GRANT_NOT_ASKED: pong_grant = 0;
 /// Outcome: requested and granted.
-pub const PONG_GRANT_GRANTED: u32 = 1;
+pub const PONG_GRANT_GRANTED: pong_grant = 1;
 /// Outcome: requested and refused; pong_worker_text() has the reason.
-pub const PONG_GRANT_REFUSED: u32 = 2;
+pub const PONG_GRANT_REFUSED: pong_grant = 2;
 
 /// Placement of a worker, and its share of the last frame.
 #[repr(C)]
@@ -16,11 +19,11 @@ pub struct pong_worker {
     /// Thread: 0 is the calling thread, 1 the first worker.
     pub index: u32,
     /// Outcome of binding it to a core: PONG_GRANT_...
-    pub core_grant: u32,
+    pub core_grant: pong_grant,
     /// The core that was requested; 0 if none was.
     pub core: u32,
     /// Outcome of requesting SCHED_FIFO: PONG_GRANT_...
-    pub fifo_grant: u32,
+    pub fifo_grant: pong_grant,
     /// The priority that was requested; 0 if none was.
     pub fifo_priority: u32,
     /// Blocks of work done in the last round of work that was shared out. A frame with too little work to

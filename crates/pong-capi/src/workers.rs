@@ -7,7 +7,9 @@ use crate::names::c_text;
 use crate::report::by_work;
 use crate::status::pong_status;
 use crate::worker::Started;
-pub use crate::worker::{PONG_GRANT_GRANTED, PONG_GRANT_NOT_ASKED, PONG_GRANT_REFUSED, pong_worker};
+pub use crate::worker::{
+    PONG_GRANT_GRANTED, PONG_GRANT_NOT_ASKED, PONG_GRANT_REFUSED, pong_grant, pong_worker,
+};
 use pong_engine::{ThreadWork, WorkerStart};
 use pong_threads::Grant;
 use std::ffi::c_char;
