@@ -1135,7 +1135,7 @@ typedef struct pong_friction_output {
 /// A normal force law, or the energy it stores: returns N, or J. See pong_register_normal_law().
 typedef double (*pong_normal_law)(const struct pong_normal_input *input, void *user);
 
-/// A friction law. `state` holds the numbers that the law remembers for this contact, as committed (zero for a new
+/// A friction law. `state` holds the numbers that the law keeps for this contact, as committed (zero for a new
 /// contact), and takes the new ones, which count only if the host commits; vectors in it are the law's to turn with
 /// the normal. See pong_register_friction_law().
 typedef void (*pong_friction_law)(const struct pong_friction_input *input,

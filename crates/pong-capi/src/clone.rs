@@ -36,7 +36,7 @@ impl Inner {
     fn try_clone(&self) -> Outcome<Self> {
         let world = self.phase.frames("clone the world")?;
         memory::require_for_object(self.names.interface_count())?;
-        // Separate fault flags: a law that fails in one world must not spoil the frame of the other.
+        // Separate fault flags: a law that fails in one world does not fail a frame of the other.
         let mut law_faults = LawFaults::default();
         let (callbacks, laws) = law_faults.watch_again(&self.callbacks);
         let world =

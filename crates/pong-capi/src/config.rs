@@ -84,7 +84,7 @@ pub extern "C" fn pong_default_config() -> pong_config {
     }
 }
 
-/// Settings that a configuration asks for.
+/// Checked settings of a configuration.
 pub(crate) struct Wanted {
     pub engine: Config,
     /// True if the engine gets a clock.
@@ -181,7 +181,7 @@ impl pong_config {
     }
 }
 
-/// Upper limit: a larger value is more likely a typing error than a scene, and its memory could not be had.
+/// Upper limit: a larger value is more likely a typing error than a scene, and its memory is not available.
 const MOST_CONTACTS: u64 = 1 << 24;
 
 /// Longest time of a setting, us: a larger value is more likely a wrong unit.

@@ -69,7 +69,7 @@ pub unsafe extern "C" fn pong_restore_contact_state(
         world.restore_state(block)?;
         // The logged block ends where the present contact state does.
         let used = world.state_used();
-        inner.tell_log(|log| log.restored(&block[..used]));
+        inner.log_event(|log| log.restored(&block[..used]));
         Ok(())
     })
 }
@@ -103,7 +103,7 @@ pub unsafe extern "C" fn pong_preload_friction(
         if inner.log.is_some() {
             let mut block = Vec::new();
             inner.phase.frames("preload friction")?.save_state_packed(&mut block);
-            inner.tell_log(|log| log.restored(&block));
+            inner.log_event(|log| log.restored(&block));
         }
         out.set(set);
         Ok(())

@@ -42,7 +42,7 @@ pub unsafe extern "C" fn pong_commit_pairs(
         ids.extend(pairs.iter().map(|id| id.id()));
         let outcome = inner.commit(|world| world.commit_pairs(&ids));
         if outcome.is_ok() {
-            inner.tell_log(|log| log.committed_some(&ids));
+            inner.log_event(|log| log.committed_some(&ids));
         }
         inner.pairs = ids;
         outcome
@@ -63,10 +63,10 @@ impl Inner {
         let start = Instant::now();
         let evaluated = self.phase.frames_mut("evaluate")?.evaluate();
         // Collect faults even when the evaluation failed: a law's fault may be the cause of an overflow and
-        // is then the one to report, and a fault left over would be reported for the next, good frame.
+        // is then the one to report, and a fault that is left would be reported for the next frame.
         self.law_faults.collect();
         if let Ok(report) = &evaluated {
-            self.tell_log(Recorder::evaluated);
+            self.log_event(Recorder::evaluated);
             self.counters.evaluate_ns = elapsed_ns(start);
             self.counters.evaluations += 1;
             self.counters.note_wanted(report);
@@ -78,7 +78,7 @@ impl Inner {
 
     fn commit_all(&mut self) -> Outcome {
         self.commit(|world| world.commit())?;
-        self.tell_log(Recorder::committed);
+        self.log_event(Recorder::committed);
         Ok(())
     }
 

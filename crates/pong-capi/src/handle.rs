@@ -1,4 +1,4 @@
-//! World handle of C, and the data that the C interface keeps with it.
+//! Handle of a world, and the data of the C interface for it.
 
 use crate::advice::Advice;
 use crate::counters::Counters;

@@ -64,7 +64,7 @@ pub struct pong_friction_output {
 pub type pong_normal_law =
     Option<unsafe extern "C" fn(input: *const pong_normal_input, user: *mut c_void) -> f64>;
 
-/// A friction law. `state` holds the numbers that the law remembers for this contact, as committed (zero for a new
+/// A friction law. `state` holds the numbers that the law keeps for this contact, as committed (zero for a new
 /// contact), and takes the new ones, which count only if the host commits; vectors in it are the law's to turn with
 /// the normal. See pong_register_friction_law().
 pub type pong_friction_law = Option<

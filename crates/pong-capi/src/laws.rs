@@ -49,7 +49,7 @@ pub unsafe extern "C" fn pong_register_friction_law(
         let evaluate = law.ok_or_else(|| no_function("law"))?;
         if state_len > MOST_NUMBERS {
             let message = format!(
-                "law `{name}`: state_len is {state_len}; a law remembers at most {MOST_NUMBERS} numbers"
+                "law `{name}`: state_len is {state_len}; a law keeps at most {MOST_NUMBERS} numbers per contact"
             );
             return Err(Failure::new(pong_status::BadValue, message));
         }
@@ -64,11 +64,11 @@ pub unsafe extern "C" fn pong_register_friction_law(
 const MOST_NUMBERS: usize = 64;
 
 fn no_function(name: &str) -> Failure {
-    Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; give a function"))
+    Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; pass a function"))
 }
 
 impl Inner {
-    /// Refuses a law that may not be added.
+    /// Refuses a law after the seal, and one whose name is taken.
     fn check_new_law(&mut self, name: &str, is_same: impl Fn(&Callback) -> bool) -> Outcome {
         self.phase.set_up("register a law")?;
         if self.callbacks.iter().any(is_same) {

@@ -177,10 +177,10 @@ pub unsafe extern "C" fn pong_stop_log(world: *mut pong_world, report: *mut pong
 }
 
 impl Inner {
-    /// Calls `tell` with the log's recorder, if there is a log.
-    pub(crate) fn tell_log(&mut self, tell: impl FnOnce(&mut Recorder)) {
+    /// Records an event in the log, if there is one.
+    pub(crate) fn log_event(&mut self, record: impl FnOnce(&mut Recorder)) {
         if let Some(log) = &mut self.log {
-            tell(log);
+            record(log);
         }
     }
 }

@@ -48,16 +48,16 @@ pub unsafe extern "C" fn pong_load_model_text(
 ) -> pong_status {
     with_world(world, |inner| {
         if text.is_null() {
-            return Err(Failure::new(pong_status::NullArgument, "`text` is NULL; give the text of a model"));
+            return Err(Failure::new(pong_status::NullArgument, "`text` is NULL; pass the text of a model"));
         }
         let bytes = array(text.cast::<u8>(), length, "text")?;
-        memory::require_little()?;
+        memory::require_small()?;
         let name = crate::pointers::text(name, "name")?;
         let mesh_dir =
             if mesh_dir.is_null() { None } else { Some(crate::pointers::text(mesh_dir, "mesh_dir")?) };
         let out = Out::new(model, "model")?;
         let Ok(text) = std::str::from_utf8(bytes) else {
-            let message = format!("{name}: this is no UTF-8 text; save the model as UTF-8");
+            let message = format!("{name}: the text is not UTF-8; save the model as UTF-8");
             return Err(Failure::new(pong_status::ModelError, message));
         };
         memory::require_for_text(bytes, mesh_dir.map(Path::new))?;

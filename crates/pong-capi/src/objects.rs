@@ -63,8 +63,8 @@ pub unsafe extern "C" fn pong_clear_contact_history(
 ) -> pong_status {
     with_world(world, |inner| {
         inner.names.object(object)?;
-        inner.phase.frames_mut("forget an Object")?.clear_contact_history(object.id())?;
-        inner.tell_log(|log| log.forgot(object.id()));
+        inner.phase.frames_mut("clear a contact history")?.clear_contact_history(object.id())?;
+        inner.log_event(|log| log.forgot(object.id()));
         Ok(())
     })
 }

@@ -80,7 +80,7 @@ pub unsafe extern "C" fn pong_set_pair_enabled(
     with_world(world, |inner| {
         let enabled = yes_or_no(enabled)?;
         inner.phase.set_pair_enabled(pair.id(), enabled)?;
-        inner.tell_log(|log| log.pair_switched(pair.id(), enabled));
+        inner.log_event(|log| log.pair_switched(pair.id(), enabled));
         Ok(())
     })
 }

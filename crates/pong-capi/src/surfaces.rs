@@ -123,7 +123,7 @@ pub unsafe extern "C" fn pong_set_surface(
         let old = inner.phase.surface(model.id(), name)?;
         let new = values.applied_to(old)?;
         inner.phase.set_surface(model.id(), &new)?;
-        inner.tell_log(|log| log.surface_set(model.id(), &new));
+        inner.log_event(|log| log.surface_set(model.id(), &new));
         Ok(())
     })
 }

@@ -39,6 +39,6 @@ pub struct pong_worker {
 
 /// Constant data of the workers, from their start.
 pub(crate) struct Started {
-    pub asked: pong_worker,
+    pub placement: pong_worker,
     pub text: CString,
 }

@@ -54,11 +54,11 @@ pub unsafe extern "C" fn pong_get_worker(
     worker: *mut pong_worker,
 ) -> pong_status {
     get(world, (worker, "worker"), |inner| {
-        let world = inner.phase.frames("ask for a worker")?;
-        let asked = if index == 0 { pong_worker::default() } else { inner.worker(index)?.asked };
+        let world = inner.phase.frames("get a worker")?;
+        let placement = if index == 0 { pong_worker::default() } else { inner.worker(index)?.placement };
         let ThreadWork { blocks, busy_ns } = world.thread_work().nth(index).unwrap_or_default();
         let work_ns = world.thread_times().nth(index).map_or([0; 4], |times| by_work(&times));
-        Ok(pong_worker { blocks, busy_ns, work_ns, ..asked })
+        Ok(pong_worker { blocks, busy_ns, work_ns, ..placement })
     })
 }
 
@@ -75,7 +75,7 @@ pub unsafe extern "C" fn pong_worker_text(
 
 impl Inner {
     fn worker(&self, index: usize) -> Outcome<&Started> {
-        self.phase.frames("ask for a worker")?;
+        self.phase.frames("get a worker")?;
         let workers = &self.workers;
         let found = index.checked_sub(1).and_then(|index| workers.get(index));
         found.ok_or_else(|| {
@@ -93,9 +93,9 @@ impl From<&WorkerStart> for Started {
         let (core_grant, core) = grant(&start.core, |core| core as u32);
         let (fifo_grant, fifo_priority) = grant(&start.fifo_priority, u32::from);
         let index = start.thread as u32;
-        let asked =
+        let placement =
             pong_worker { index, core_grant, core, fifo_grant, fifo_priority, ..pong_worker::default() };
-        Self { asked, text: c_text(&start.to_string()) }
+        Self { placement, text: c_text(&start.to_string()) }
     }
 }
 
