@@ -41,26 +41,24 @@ using ModelId = pong_model_id;
 using ObjectId = pong_object_id;
 using PairId = pong_pair_id;
 using InterfaceId = pong_interface_id;
-using Contact = pong_contact;
-using ContactChange = pong_contact_change;
-using Distance = pong_distance;
-using PairPeaks = pong_pair_peaks;
-using Report = pong_report;
-using SealReport = pong_seal_report;
-using Ledger = pong_ledger;
-using Continuation = pong_continuation;
-using Account = pong_energy_account;
-using PairAccount = pong_pair_energy_account;
-using SurfaceValues = pong_surface_values;
-using Tally = pong_tally;
-using Worker = pong_worker;
-using LogOptions = pong_log_options;
 using Mass = pong_mass;
 using Joints = pong_joints;
 using StepPlan = pong_step_plan;
 using StepCheck = pong_step_check;
-using Acting = StepCheck;
+using SealReport = pong_seal_report;
+using Contact = pong_contact;
+using ContactChange = pong_contact_change;
+using PairPeaks = pong_pair_peaks;
+using SurfaceValues = pong_surface_values;
+using Continuation = pong_continuation;
+using LogOptions = pong_log_options;
 using LogReport = pong_log_report;
+using Worker = pong_worker;
+using Report = pong_report;
+using Tally = pong_tally;
+using Ledger = pong_ledger;
+using EnergyAccount = pong_energy_account;
+using PairEnergyAccount = pong_pair_energy_account;
 using Vec3 = std::array<double, 3>;
 
 /// State of a movable group; see pong_state for frames and units. Begins at rest at the common origin.
@@ -119,41 +117,11 @@ public:
         world_.reset(made);
     }
 
-    /// Clones this sealed world as it stands; both are independent from here on. See pong_clone_world().
-    World clone() const {
-        World made(nullptr);
-        pong_world* world = nullptr;
-        check(pong_clone_world(get(), &world));
-        made.world_.reset(world);
-        return made;
-    }
-
-    /// A world in set-up with everything that this sealed one was made of, with the same ids: add what arrives, seal it, and let
-    /// it go on where this one is by then. See pong_extend_world().
-    World extended() const {
-        World made(nullptr);
-        pong_world* world = nullptr;
-        check(pong_extend_world(get(), &world));
-        made.world_.reset(world);
-        return made;
-    }
-
-    /// Goes on where another world is, with the contacts of what is in both. See pong_continue_from().
-    Continuation continue_from(const World& other) {
-        return result<Continuation>([&](Continuation* out) { return pong_continue_from(get(), other.get(), out); });
-    }
-
     /// Handle for calls that this class does not have.
     pong_world* get() const noexcept { return world_.get(); }
 
-    // Set-up.
+    // Set-up: models, Objects and pairs.
 
-    void register_normal_law(const char* name, pong_normal_law force, pong_normal_law stored, void* user) {
-        check(pong_register_normal_law(get(), name, force, stored, user));
-    }
-    void register_friction_law(const char* name, std::size_t numbers, pong_friction_law law, void* user) {
-        check(pong_register_friction_law(get(), name, numbers, law, user));
-    }
     ModelId load_model(const std::string& path) {
         return result<ModelId>([&](ModelId* out) { return pong_load_model(get(), path.c_str(), out); });
     }
@@ -166,37 +134,25 @@ public:
     ObjectId create_object(ModelId model, const std::string& name) {
         return result<ObjectId>([&](ObjectId* out) { return pong_create_object(get(), model, name.c_str(), out); });
     }
+    ObjectId object(const std::string& name) const {
+        return result<ObjectId>([&](ObjectId* out) { return pong_find_object(get(), name.c_str(), out); });
+    }
+    const char* name(ObjectId object) const {
+        return result<const char*>([&](const char** out) { return pong_object_name(get(), object, out); });
+    }
     PairId pair(ObjectId a, ObjectId b) {
         return result<PairId>([&](PairId* out) { return pong_pair_objects(get(), a, b, out); });
     }
     PairId pair(const std::string& a, const std::string& b) {
         return result<PairId>([&](PairId* out) { return pong_pair_by_name(get(), a.c_str(), b.c_str(), out); });
     }
-    /// Keeps two groups apart, each with everything below it, by path or name; an empty one is the whole Object.
+    /// Excludes contacts between two groups, each with everything below it, by path or name; an empty one is the whole Object.
     void filter_groups(ObjectId a, const std::string& group_a, ObjectId b, const std::string& group_b) {
         check(pong_filter_groups(get(), a, group_a.c_str(), b, group_b.c_str()));
     }
-    /// Masses for the check that plan_step() asks for; no frame reads them.
-    void set_mass(InterfaceId interface, const Mass& mass) { check(pong_set_mass(get(), interface, &mass)); }
-    /// Sets the compliance of a group on joints, after its mass. Start from zeros.
-    void set_joints(InterfaceId interface, const Joints& joints) { check(pong_set_joints(get(), interface, &joints)); }
-    /// Start from pong_default_step_plan() and set the step.
-    void plan_step(const StepPlan& plan) { check(pong_plan_step(get(), &plan)); }
-    SealReport seal() {
-        return result<SealReport>([&](SealReport* out) { return pong_seal(get(), out); });
-    }
-    const char* seal_warning(std::size_t index) const {
-        return result<const char*>([&](const char** out) { return pong_seal_warning(get(), index, out); });
-    }
-    const char* seal_note(std::size_t index) const {
-        return result<const char*>([&](const char** out) { return pong_seal_note(get(), index, out); });
-    }
 
-    // Look-up.
+    // Set-up: Interfaces and primitives.
 
-    ObjectId object(const std::string& name) const {
-        return result<ObjectId>([&](ObjectId* out) { return pong_find_object(get(), name.c_str(), out); });
-    }
     InterfaceId interface(ObjectId object, const std::string& path = "") const {
         return result<InterfaceId>([&](InterfaceId* out) { return pong_find_interface(get(), object, path.c_str(), out); });
     }
@@ -205,38 +161,39 @@ public:
             return pong_list_interfaces(get(), object, out, capacity, count);
         });
     }
-    const char* name(ObjectId object) const {
-        return result<const char*>([&](const char** out) { return pong_object_name(get(), object, out); });
-    }
     const char* path(InterfaceId interface) const {
         return result<const char*>([&](const char** out) { return pong_interface_path(get(), interface, out); });
     }
-    const char* primitive_path(InterfaceId interface, std::uint32_t primitive) const {
-        return result<const char*>([&](const char** out) { return pong_primitive_path(get(), interface, primitive, out); });
-    }
     std::uint32_t primitive_count(InterfaceId interface) const {
         return result<std::uint32_t>([&](std::uint32_t* out) { return pong_primitive_count(get(), interface, out); });
+    }
+    const char* primitive_path(InterfaceId interface, std::uint32_t primitive) const {
+        return result<const char*>([&](const char** out) { return pong_primitive_path(get(), interface, primitive, out); });
     }
     std::uint32_t find_primitive(InterfaceId interface, const std::string& path) const {
         return result<std::uint32_t>(
             [&](std::uint32_t* out) { return pong_find_primitive(get(), interface, path.c_str(), out); });
     }
-    State authored_state(InterfaceId interface) const {
-        return result<pong_state>([&](pong_state* out) { return pong_get_authored_state(get(), interface, out); });
-    }
 
-    // User data: numbers of the host's that the engine never looks at.
+    // Set-up: masses and step.
 
-    void set_user_data(ObjectId object, std::uint64_t data) { check(pong_set_object_user_data(get(), object, data)); }
-    std::uint64_t user_data(ObjectId object) const {
-        return result<std::uint64_t>([&](std::uint64_t* out) { return pong_get_object_user_data(get(), object, out); });
+    /// Sets masses for the check that plan_step() requests; no frame reads them.
+    void set_mass(InterfaceId interface, const Mass& mass) { check(pong_set_mass(get(), interface, &mass)); }
+    /// Sets the response of a group on joints, after its mass. Start from zeros.
+    void set_joints(InterfaceId interface, const Joints& joints) { check(pong_set_joints(get(), interface, &joints)); }
+    /// Plans the step: start from pong_default_step_plan() and set the step.
+    void plan_step(const StepPlan& plan) { check(pong_plan_step(get(), &plan)); }
+
+    // Set-up: seal.
+
+    SealReport seal() {
+        return result<SealReport>([&](SealReport* out) { return pong_seal(get(), out); });
     }
-    void set_user_data(InterfaceId interface, std::uint32_t primitive, std::uint64_t data) {
-        check(pong_set_primitive_user_data(get(), interface, primitive, data));
+    const char* seal_warning(std::size_t index) const {
+        return result<const char*>([&](const char** out) { return pong_seal_warning(get(), index, out); });
     }
-    std::uint64_t user_data(InterfaceId interface, std::uint32_t primitive) const {
-        return result<std::uint64_t>(
-            [&](std::uint64_t* out) { return pong_get_primitive_user_data(get(), interface, primitive, out); });
+    const char* seal_note(std::size_t index) const {
+        return result<const char*>([&](const char** out) { return pong_seal_note(get(), index, out); });
     }
 
     // Frames.
@@ -249,11 +206,20 @@ public:
     void set_states(const InterfaceId* interfaces, const pong_state* states, std::size_t n) {
         check(pong_set_states(get(), interfaces, states, n));
     }
+    State authored_state(InterfaceId interface) const {
+        return result<pong_state>([&](pong_state* out) { return pong_get_authored_state(get(), interface, out); });
+    }
     void evaluate() { check(pong_evaluate(get())); }
     void commit() { check(pong_commit(get())); }
     void commit(const std::vector<PairId>& pairs) { check(pong_commit_pairs(get(), pairs.data(), pairs.size())); }
     void step() { check(pong_step(get())); }
 
+    // Results: wrenches.
+
+    /// All wrenches in one call: `n` ids and room for as many wrenches of pong.h.
+    void wrenches(const InterfaceId* interfaces, Frame frame, pong_wrench* out, std::size_t n) const {
+        check(pong_get_wrenches(get(), interfaces, static_cast<pong_reference_frame>(frame), out, n));
+    }
     Wrench wrench(InterfaceId interface, Frame frame = Frame::group) const {
         return result<pong_wrench>([&](pong_wrench* out) {
             return pong_get_wrench(get(), interface, static_cast<pong_reference_frame>(frame), out);
@@ -271,31 +237,9 @@ public:
             return pong_get_pair_wrench(get(), pair, about, static_cast<pong_reference_frame>(frame), out);
         });
     }
-    /// Distance of two movable groups, with their nearest primitives: pong_get_distance().
-    Distance distance(InterfaceId a, InterfaceId b) const {
-        return result<pong_distance>([&](pong_distance* out) { return pong_get_distance(get(), a, b, out); });
-    }
-    /// Observes pairs from nothing on: pong_start_pair_monitor(). Allocates.
-    void start_pair_monitor() { check(pong_start_pair_monitor(get())); }
-    /// Takes in a frame, once after each commit; `step` is the time since the commit before, s.
-    void observe_pairs(double step) { check(pong_observe_pairs(get(), step)); }
-    /// Begins and ends of contact in the frame observed last. Allocates.
-    std::vector<ContactChange> contact_changes() const {
-        return list<ContactChange>([&](ContactChange* out, std::size_t capacity, std::size_t* count) {
-            return pong_get_contact_changes(get(), out, capacity, count);
-        });
-    }
-    /// Peaks and means of the window. Allocates.
-    std::vector<PairPeaks> pair_peaks() const {
-        return list<PairPeaks>([&](PairPeaks* out, std::size_t capacity, std::size_t* count) {
-            return pong_get_pair_peaks(get(), out, capacity, count);
-        });
-    }
-    void begin_peak_window() { check(pong_begin_peak_window(get())); }
-    /// All wrenches in one call: `n` ids and room for as many wrenches of pong.h.
-    void wrenches(const InterfaceId* interfaces, Frame frame, pong_wrench* out, std::size_t n) const {
-        check(pong_get_wrenches(get(), interfaces, static_cast<pong_reference_frame>(frame), out, n));
-    }
+
+    // Results: contacts.
+
     std::size_t contact_count() const {
         return result<std::size_t>([&](std::size_t* out) { return pong_contact_count(get(), out); });
     }
@@ -332,61 +276,28 @@ public:
     StepCheck check_step() const {
         return result<StepCheck>([&](StepCheck* out) { return pong_check_step(get(), out); });
     }
-    Report report() const {
-        return result<Report>([&](Report* out) { return pong_get_report(get(), out); });
-    }
-    Ledger ledger() const {
-        return result<Ledger>([&](Ledger* out) { return pong_get_ledger(get(), out); });
-    }
-    /// Accounts of all contacts together; zero unless the configuration has energy_accounts.
-    Account account() const {
-        return result<Account>([&](Account* out) { return pong_get_energy_account(get(), out); });
-    }
-    /// Accounts of all pairs of movable groups.
-    std::vector<PairAccount> pair_accounts() const {
-        std::vector<PairAccount> all(
-            result<std::size_t>([&](std::size_t* out) { return pong_pair_energy_account_count(get(), out); }));
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            check(pong_get_pair_energy_account(get(), i, &all[i]));
-        }
-        return all;
-    }
-    /// Accounts of the contacts of the last frame, in the order of contacts().
-    std::vector<Account> contact_accounts() const {
-        return list<Account>([&](Account* out, std::size_t capacity, std::size_t* count) {
-            return pong_get_contact_energy_accounts(get(), out, capacity, count);
+
+    // Results: begin, end and peaks of contact.
+
+    /// Starts the pair monitor, or begins it anew: pong_start_pair_monitor(). Allocates.
+    void start_pair_monitor() { check(pong_start_pair_monitor(get())); }
+    /// Observes the frame last committed, once after each commit; `step` is the time since the commit before, s.
+    void observe_pairs(double step) { check(pong_observe_pairs(get(), step)); }
+    /// Begins and ends of contact in the frame observed last. Allocates.
+    std::vector<ContactChange> contact_changes() const {
+        return list<ContactChange>([&](ContactChange* out, std::size_t capacity, std::size_t* count) {
+            return pong_get_contact_changes(get(), out, capacity, count);
         });
     }
-    /// Remedy for a pair (an index in pair_accounts()) that gains energy.
-    std::string pair_remedy(std::size_t pair) const {
-        return result<const char*>([&](const char** out) { return pong_pair_remedy(get(), pair, out); });
-    }
-    std::vector<Tally> tallies() const {
-        std::vector<Tally> all(result<std::size_t>([&](std::size_t* out) { return pong_tally_count(get(), out); }));
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            check(pong_get_tally(get(), i, &all[i]));
-        }
-        return all;
+    void begin_peak_window() { check(pong_begin_peak_window(get())); }
+    /// Peaks and means of the window. Allocates.
+    std::vector<PairPeaks> pair_peaks() const {
+        return list<PairPeaks>([&](PairPeaks* out, std::size_t capacity, std::size_t* count) {
+            return pong_get_pair_peaks(get(), out, capacity, count);
+        });
     }
 
-    // Workers.
-
-    void prewake(std::chrono::microseconds at_most) {
-        check(pong_prewake(get(), at_most.count() < 0 ? 0 : static_cast<std::uint64_t>(at_most.count())));
-    }
-    void quiesce() { check(pong_quiesce(get())); }
-    std::size_t worker_count() const {
-        return result<std::size_t>([&](std::size_t* out) { return pong_worker_count(get(), out); });
-    }
-    /// Index 0 is the calling thread, 1 to worker_count() are the workers.
-    Worker worker(std::size_t index) const {
-        return result<Worker>([&](Worker* out) { return pong_get_worker(get(), index, out); });
-    }
-    const char* worker_text(std::size_t index) const {
-        return result<const char*>([&](const char** out) { return pong_worker_text(get(), index, out); });
-    }
-
-    // Between frames.
+    // Contact state.
 
     /// Present size of the contact state, bytes.
     std::size_t contact_state_used() const {
@@ -414,15 +325,18 @@ public:
     void restore_contact_state(const std::vector<unsigned char>& bytes) {
         restore_contact_state(bytes.data(), bytes.size());
     }
-    /// Preloads friction as after a long slide: pong_preload_friction(). Returns how many bristles were set.
+    /// Preloads friction as after a long slide: pong_preload_friction(). Returns the number of bristles that were set.
     std::size_t preload_sliding(PairId pair) {
         return result<std::size_t>([&](std::size_t* out) { return pong_preload_friction(get(), pair, nullptr, out); });
     }
-    /// Friction that holds a force on the Object named first, N, along the common axes.
+    /// Preloads friction that holds a force on the Object named first, N, along the common axes.
     std::size_t preload_holding(PairId pair, const Vec3& force) {
         return result<std::size_t>([&](std::size_t* out) { return pong_preload_friction(get(), pair, force.data(), out); });
     }
     void clear_contact_history(ObjectId object) { check(pong_clear_contact_history(get(), object)); }
+
+    // Changes between frames.
+
     void set_pair_enabled(PairId pair, bool enabled) { check(pong_set_pair_enabled(get(), pair, enabled ? 1 : 0)); }
     SurfaceValues surface(ModelId model, const std::string& name) const {
         return result<SurfaceValues>(
@@ -430,6 +344,30 @@ public:
     }
     void set_surface(ModelId model, const std::string& name, const SurfaceValues& values) {
         check(pong_set_surface(get(), model, name.c_str(), &values));
+    }
+
+    // Further worlds.
+
+    /// Clones this sealed world as it stands; both are independent from here on. See pong_clone_world().
+    World clone() const {
+        World made(nullptr);
+        pong_world* world = nullptr;
+        check(pong_clone_world(get(), &world));
+        made.world_.reset(world);
+        return made;
+    }
+    /// Returns a world in set-up with everything that this sealed one was made of, with the same ids: add what arrives, seal it,
+    /// and call continue_from(). See pong_extend_world().
+    World extended() const {
+        World made(nullptr);
+        pong_world* world = nullptr;
+        check(pong_extend_world(get(), &world));
+        made.world_.reset(world);
+        return made;
+    }
+    /// Continues the run of another world: the contacts of Objects that both have go on. See pong_continue_from().
+    Continuation continue_from(const World& other) {
+        return result<Continuation>([&](Continuation* out) { return pong_continue_from(get(), other.get(), out); });
     }
 
     // Response logs.
@@ -444,6 +382,88 @@ public:
     }
     LogReport stop_log() {
         return result<LogReport>([&](LogReport* out) { return pong_stop_log(get(), out); });
+    }
+
+    // Own force laws.
+
+    void register_normal_law(const char* name, pong_normal_law force, pong_normal_law stored, void* user) {
+        check(pong_register_normal_law(get(), name, force, stored, user));
+    }
+    void register_friction_law(const char* name, std::size_t numbers, pong_friction_law law, void* user) {
+        check(pong_register_friction_law(get(), name, numbers, law, user));
+    }
+
+    // User data: numbers of the host's that the engine never reads.
+
+    void set_user_data(ObjectId object, std::uint64_t data) { check(pong_set_object_user_data(get(), object, data)); }
+    void set_user_data(InterfaceId interface, std::uint32_t primitive, std::uint64_t data) {
+        check(pong_set_primitive_user_data(get(), interface, primitive, data));
+    }
+    std::uint64_t user_data(ObjectId object) const {
+        return result<std::uint64_t>([&](std::uint64_t* out) { return pong_get_object_user_data(get(), object, out); });
+    }
+    std::uint64_t user_data(InterfaceId interface, std::uint32_t primitive) const {
+        return result<std::uint64_t>(
+            [&](std::uint64_t* out) { return pong_get_primitive_user_data(get(), interface, primitive, out); });
+    }
+
+    // Workers.
+
+    void prewake(std::chrono::microseconds at_most) {
+        check(pong_prewake(get(), at_most.count() < 0 ? 0 : static_cast<std::uint64_t>(at_most.count())));
+    }
+    void quiesce() { check(pong_quiesce(get())); }
+    std::size_t worker_count() const {
+        return result<std::size_t>([&](std::size_t* out) { return pong_worker_count(get(), out); });
+    }
+    /// Index 0 is the calling thread, 1 to worker_count() are the workers.
+    Worker worker(std::size_t index) const {
+        return result<Worker>([&](Worker* out) { return pong_get_worker(get(), index, out); });
+    }
+    const char* worker_text(std::size_t index) const {
+        return result<const char*>([&](const char** out) { return pong_worker_text(get(), index, out); });
+    }
+
+    // Diagnostics: report.
+
+    Report report() const {
+        return result<Report>([&](Report* out) { return pong_get_report(get(), out); });
+    }
+    std::vector<Tally> tallies() const {
+        std::vector<Tally> all(result<std::size_t>([&](std::size_t* out) { return pong_tally_count(get(), out); }));
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            check(pong_get_tally(get(), i, &all[i]));
+        }
+        return all;
+    }
+
+    // Diagnostics: energies.
+
+    Ledger ledger() const {
+        return result<Ledger>([&](Ledger* out) { return pong_get_ledger(get(), out); });
+    }
+    /// Accounts of all contacts together; zero unless the configuration has energy_accounts.
+    EnergyAccount energy_account() const {
+        return result<EnergyAccount>([&](EnergyAccount* out) { return pong_get_energy_account(get(), out); });
+    }
+    /// Accounts of all pairs of movable groups.
+    std::vector<PairEnergyAccount> pair_energy_accounts() const {
+        std::vector<PairEnergyAccount> all(
+            result<std::size_t>([&](std::size_t* out) { return pong_pair_energy_account_count(get(), out); }));
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            check(pong_get_pair_energy_account(get(), i, &all[i]));
+        }
+        return all;
+    }
+    /// Remedy for a pair (an index in pair_energy_accounts()) that gains energy.
+    std::string pair_remedy(std::size_t pair) const {
+        return result<const char*>([&](const char** out) { return pong_pair_remedy(get(), pair, out); });
+    }
+    /// Accounts of the contacts of the last frame, in the order of contacts().
+    std::vector<EnergyAccount> contact_energy_accounts() const {
+        return list<EnergyAccount>([&](EnergyAccount* out, std::size_t capacity, std::size_t* count) {
+            return pong_get_contact_energy_accounts(get(), out, capacity, count);
+        });
     }
 
 private:

@@ -1,6 +1,6 @@
 //! Prints `pong.h`: `cargo run -p pong-capi --example generate_header > include/pong.h`.
 
-#[path = "../tests/it/support/header.rs"]
+#[path = "../tests/it/support/header/mod.rs"]
 mod header;
 
 fn main() {

@@ -10,12 +10,15 @@ use crate::status::pong_status;
 use pong_engine::{EnergyAccount, PairEnergyAccount, Verdict, World};
 use std::ffi::c_char;
 
+/// Verdict on an energy account: PONG_VERDICT_...
+pub type pong_verdict = u32;
+
 /// `verdict`: less energy came out than went in.
-pub const PONG_VERDICT_DISSIPATED: u32 = 0;
+pub const PONG_VERDICT_DISSIPATED: pong_verdict = 0;
 /// `verdict`: as much energy came out as went in, as far as the accounts can tell.
-pub const PONG_VERDICT_UNRESOLVED: u32 = 1;
+pub const PONG_VERDICT_UNRESOLVED: pong_verdict = 1;
 /// `verdict`: more energy came out than went in.
-pub const PONG_VERDICT_GAINED: u32 = 2;
+pub const PONG_VERDICT_GAINED: pong_verdict = 2;
 
 /// Energies, J. To rounding  work_in + inserted + hold_error = work_out + stored + damping_loss + friction_loss.
 #[repr(C)]
@@ -38,8 +41,8 @@ pub struct pong_energy_account {
     pub friction_loss: f64,
     /// Uncertainty of `work_out - work_in`, rounding apart; 0 except with PONG_COUPLING_STAGES.
     pub resolution: f64,
-    /// PONG_VERDICT_...
-    pub verdict: u32,
+    /// Verdict: PONG_VERDICT_...
+    pub verdict: pong_verdict,
     /// Zero.
     pub reserved: u32,
 }
@@ -57,9 +60,9 @@ pub struct pong_pair_energy_account {
     pub total: pong_energy_account,
     /// Account of the contact episode in progress; zero if there is none.
     pub episode: pong_energy_account,
-    /// 1 if an episode is in progress.
+    /// 1: an episode is in progress. 0: none is.
     pub in_contact: i32,
-    /// 1 if an episode, over or not, has gained energy. Remedy: pong_pair_remedy().
+    /// 1: an episode, over or not, has gained energy; remedy: pong_pair_remedy(). 0: none has.
     pub gains_energy: i32,
     /// Episodes that have ended.
     pub episodes: u64,
@@ -77,7 +80,8 @@ pub struct pong_pair_energy_account {
     pub damping: f64,
 }
 
-/// The accounts of all pairs together at the last commit; zero unless the configuration has energy_accounts.
+/// Copies the accounts of all pairs together at the last commit; zero unless the configuration has
+/// energy_accounts.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_energy_account(
     world: *const pong_world,
@@ -98,7 +102,8 @@ pub unsafe extern "C" fn pong_pair_energy_account_count(
     get(world, (count, "count"), |inner| Ok(inner.pair_accounts().count()))
 }
 
-/// The accounts of a pair of movable groups at the last commit, always in the same order.
+/// Copies the accounts of a pair of movable groups at the last commit, always in the same order; `index` counts
+/// from 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_pair_energy_account(
     world: *const pong_world,
@@ -112,8 +117,9 @@ pub unsafe extern "C" fn pong_get_pair_energy_account(
     })
 }
 
-/// Remedy, in words with the numbers of the pair, for a pair of movable groups that gains energy. The text
-/// lives until the next call of this function for the world.
+/// Returns a remedy for a pair of movable groups that gains energy, in words with the numbers of the pair;
+/// `index` as for pong_get_pair_energy_account(). The text lives until the next call of this function for the
+/// world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_pair_remedy(
     world: *const pong_world,
@@ -129,9 +135,9 @@ pub unsafe extern "C" fn pong_pair_remedy(
     })
 }
 
-/// The accounts of the contacts of the last frame, each since the contact began, in the order of pong_get_contacts(): the
-/// first `capacity` are copied, `count` gets their number, which is 0 unless the configuration has energy_accounts.
-/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `accounts` may be NULL.
+/// Copies the accounts of the contacts of the last frame, each since the contact began, in the order of
+/// pong_get_contacts(): the first `capacity`; `count` gets their number, which is 0 unless the configuration
+/// has energy_accounts. PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `accounts` may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_contact_energy_accounts(
     world: *const pong_world,

@@ -1,4 +1,4 @@
-//! Masses, joints and step plan that the host gave the step adviser before the seal.
+//! Input of the step adviser, kept until the seal and for later checks.
 
 use pong_advise::{GroupMass, Joints, SpringRates, StepPlan, StepReport};
 use pong_engine::{EngineError, InterfaceId, Scene, World};
@@ -34,12 +34,12 @@ impl Advice {
     ) -> Result<(), EngineError> {
         let name = scene.interface_name(interface)?;
         let Some(mass) = self.masses.get_mut(&interface) else {
-            let cause = "no mass is told; call pong_set_mass() first".to_owned();
+            let cause = "the group has no mass; call pong_set_mass() first".to_owned();
             return Err(EngineError::BadValue { what: format!("joints of `{name}`"), cause });
         };
-        let told = GroupMass { joints: Some(joints), springs, ..*mass };
-        told.check(&name)?;
-        *mass = told;
+        let changed = GroupMass { joints: Some(joints), springs, ..*mass };
+        changed.check(&name)?;
+        *mass = changed;
         Ok(())
     }
 

@@ -14,10 +14,10 @@ use std::sync::Mutex;
 
 /// Clones a sealed world as it stands: with its states, pairs, surfaces, contact state and user data, and the
 /// same ids. It takes a fraction of the time of loading and sealing again. From here on both are independent;
-/// given the same calls, they give the same bits. The clone has memory and workers of its own; it has
-/// computed no frame yet and has no log. Both call the same laws: the `user` data of a law must live as long
-/// as either. The clone is the caller's: destroy it with pong_destroy_world(). On failure `clone` gets NULL.
-/// PONG_STATUS_WRONG_PHASE before the seal.
+/// given the same calls, they give the same bits. The clone has memory and workers of its own; it has computed
+/// no frame yet and has no log and no monitor. Both call the same laws: the `user` data of a law must live as
+/// long as either. The clone is the caller's: destroy it with pong_destroy_world(). On failure `clone` gets
+/// NULL. After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_clone_world(
     world: *const pong_world,
@@ -36,7 +36,7 @@ impl Inner {
     fn try_clone(&self) -> Outcome<Self> {
         let world = self.phase.frames("clone the world")?;
         memory::require_for_object(self.names.interface_count())?;
-        // Separate fault flags: a law that fails in one world must not spoil the frame of the other.
+        // Separate fault flags: a law that fails in one world does not fail a frame of the other.
         let mut law_faults = LawFaults::default();
         let (callbacks, laws) = law_faults.watch_again(&self.callbacks);
         let world =

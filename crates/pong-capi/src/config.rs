@@ -1,7 +1,7 @@
 //! Settings of a world.
 
 use crate::abi::PONG_ABI_VERSION;
-use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD};
+use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD, pong_coupling};
 use crate::failure::{Failure, Outcome};
 use crate::status::pong_status;
 use pong_engine::{Config, WorkerSettings, WrenchCoupling};
@@ -10,7 +10,7 @@ use std::time::Duration;
 /// Marks a configuration made by pong_default_config().
 const COOKIE: u64 = 0x706f_6e67_2d63_6667;
 
-/// Settings of a world. Make it with pong_default_config(), change what you like, hand it to
+/// Settings of a world. Make it with pong_default_config(), change what you like, pass it to
 /// pong_create_world().
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,16 +24,16 @@ pub struct pong_config {
     /// Most contacts of a frame; 0 takes the worst case of the scene, at least 256 and at most 65536. When a frame
     /// has more, the deepest are kept and the report has PONG_FLAG_CONTACT_LIMIT.
     pub contact_capacity: u64,
-    /// 1 keeps energies for pong_get_ledger(); 0 (default) does not and costs nothing.
+    /// 1: keeps energies for pong_get_ledger(). 0 (default): does not, and costs nothing.
     pub keep_ledger: u32,
-    /// 1 times the stages of a frame and the workers by CLOCK_MONOTONIC, for pong_get_report() and pong_get_worker();
-    /// 0 (default) does not ask for the time in them.
+    /// 1: times the stages of a frame and the workers by CLOCK_MONOTONIC, for pong_get_report() and
+    /// pong_get_worker(). 0 (default): reads no clock in them.
     pub report_times: u32,
     /// Threads that share a frame's work with the calling one, at most 64; 0 (default) for the calling thread alone.
     /// The results are the same bits for any number. There will be no more than there are cores beside the caller's
     /// in the affinity mask of the thread that seals the world; see `oversubscribe`.
     pub workers: u32,
-    /// 1 starts all `workers`, even if there are fewer cores; 0 by default.
+    /// 1: starts all `workers`, even if there are fewer cores. 0 (default): at most one for each core.
     pub oversubscribe: u32,
     /// Time for which a worker looks for work before it sleeps, us; 50 by default, at most 1000000. Waking a sleeping
     /// one takes tens of us; see pong_prewake().
@@ -41,11 +41,10 @@ pub struct pong_config {
     /// Time for which the calling thread waits for a worker that does not finish its part of the frame, us; then it
     /// does that work again itself. 1000 by default, 1 to 1000000.
     pub worker_timeout_us: u32,
-    /// 1 binds each worker to a core of its own; 0 by default. The calling thread stays as it is: bind it to
-    /// the first core of its mask, which the workers leave free. Outcome: pong_get_worker().
+    /// 1: binds each worker to a core of its own; outcome: pong_get_worker(). 0 (default): binds none. The
+    /// calling thread stays as it is: bind it to the first core of its mask, which the workers leave free.
     pub pin_workers: u32,
-    /// SCHED_FIFO priority to ask for, 1 to 99, for the workers; 0 (default) does not ask. Outcome:
-    /// pong_get_worker().
+    /// SCHED_FIFO priority of the workers, 1 to 99; 0 (default) requests none. Outcome: pong_get_worker().
     pub fifo_priority: u32,
     /// With pin_workers: the cores of the workers, bit n for core n, the lowest for the first worker. They may be
     /// outside the affinity mask, and their number is the limit of the workers. 0 (default) for the cores of the
@@ -54,7 +53,7 @@ pub struct pong_config {
     /// PONG_COUPLING_...: keeps energy accounts of contacts and pairs, see pong_get_pair_energy_account().
     /// The coupling is the host's use of wrenches, on which their work depends. Keeps the ledger as well. 0
     /// (default) keeps no accounts and costs nothing.
-    pub energy_accounts: u32,
+    pub energy_accounts: pong_coupling,
     /// With PONG_COUPLING_ZERO_ORDER_HOLD: delay of the wrenches in whole frames after the first possible
     /// one, at most 16; 0 by default.
     pub delay_frames: u32,
@@ -62,7 +61,7 @@ pub struct pong_config {
     pub reserved: [u64; 7],
 }
 
-/// The default settings.
+/// The default settings: no workers, no energies, capacities by the scene.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_default_config() -> pong_config {
     pong_config {
@@ -85,7 +84,7 @@ pub extern "C" fn pong_default_config() -> pong_config {
     }
 }
 
-/// Settings that a configuration asks for.
+/// Checked settings of a configuration.
 pub(crate) struct Wanted {
     pub engine: Config,
     /// True if the engine gets a clock.
@@ -182,7 +181,7 @@ impl pong_config {
     }
 }
 
-/// Upper limit: a larger value is more likely a typing error than a scene, and its memory could not be had.
+/// Upper limit: a larger value is more likely a typing error than a scene, and its memory is not available.
 const MOST_CONTACTS: u64 = 1 << 24;
 
 /// Longest time of a setting, us: a larger value is more likely a wrong unit.

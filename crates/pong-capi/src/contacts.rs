@@ -8,12 +8,15 @@ use crate::pointers::{Out, OutArray, apart};
 use crate::status::pong_status;
 use pong_engine::{Contact, ContactSide, World};
 
+/// Kind of a feature of a primitive: PONG_FEATURE_...
+pub type pong_feature_kind = u32;
+
 /// `feature_kind` of a face, or of a surface as a whole.
-pub const PONG_FEATURE_FACE: u32 = 0;
+pub const PONG_FEATURE_FACE: pong_feature_kind = 0;
 /// `feature_kind` of an edge.
-pub const PONG_FEATURE_EDGE: u32 = 1;
+pub const PONG_FEATURE_EDGE: pong_feature_kind = 1;
 /// `feature_kind` of a vertex.
-pub const PONG_FEATURE_VERTEX: u32 = 2;
+pub const PONG_FEATURE_VERTEX: pong_feature_kind = 2;
 
 /// One side of a contact.
 #[repr(C)]
@@ -27,7 +30,7 @@ pub struct pong_contact_side {
     pub primitive: u32,
     /// The triangle of a mesh, counted from its first; 0 otherwise.
     pub element: u32,
-    /// From the group's origin to the place of the contact, m, along common axes.
+    /// Lever arm from the group's origin to the point of the contact, m, along common axes.
     pub arm: [f64; 3],
 }
 
@@ -43,18 +46,18 @@ pub struct pong_contact {
     /// Side B.
     pub b: pong_contact_side,
     /// Feature of B that pushes: PONG_FEATURE_FACE, PONG_FEATURE_EDGE or PONG_FEATURE_VERTEX.
-    pub feature_kind: u32,
+    pub feature_kind: pong_feature_kind,
     /// Index of that feature among those of its kind.
     pub feature_index: u32,
     /// End of an elongated body: 0 and 1 at its ends, 2 and above between them; 0 for other bodies.
     pub end: u32,
-    /// 1 if friction sticks, 0 if it slips.
+    /// 1: friction sticks. 0: it slips, or there is none.
     pub sticks: i32,
     /// Point at which the force acts, m.
     pub point: [f64; 3],
     /// Unit normal from B to A.
     pub normal: [f64; 3],
-    /// Depth, m.
+    /// Depth of penetration, m, positive.
     pub depth: f64,
     /// Rate of the depth, m/s, positive while closing.
     pub depth_rate: f64,
@@ -62,7 +65,7 @@ pub struct pong_contact {
     pub weight: f64,
     /// Normal force, N, never negative.
     pub normal_force: f64,
-    /// Friction force on A, N.
+    /// Friction force on A, N, tangential.
     pub friction_force: [f64; 3],
     /// Total force on A, N.
     pub force: [f64; 3],
@@ -72,15 +75,16 @@ pub struct pong_contact {
     pub stored: f64,
 }
 
-/// Number of contacts of the last frame; 0 before the first.
+/// Copies the number of contacts of the last frame; 0 before the first.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_contact_count(world: *const pong_world, count: *mut usize) -> pong_status {
     get(world, (count, "count"), |inner| Ok(inner.phase.report().contacts as usize))
 }
 
-/// The contacts of the last frame, always in the same order for the same frame: the first `capacity` are copied,
-/// `count` gets their number. PONG_STATUS_BUFFER_TOO_SMALL if not all fit; the contact capacity of the seal report
-/// is always enough. With capacity 0 `contacts` may be NULL.
+/// Copies the contacts of the last frame, always in the same order for the same frame: the first `capacity`;
+/// `count` gets their number. None before the first frame. PONG_STATUS_BUFFER_TOO_SMALL if not all fit; the
+/// contact capacity of the seal report is always enough. With capacity 0 `contacts` may be NULL.
+/// PONG_STATUS_LAW_FAILED after a frame that a law spoilt.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_contacts(
     world: *const pong_world,
@@ -100,12 +104,14 @@ pub unsafe extern "C" fn pong_get_contacts(
     })
 }
 
-/// Movable groups in contact whose pose stayed the same, bit for bit, from one commit to the next, though
-/// their velocity would have moved them within `step`, the time between the two, s: the first `capacity` are
-/// copied, `count` gets their number. For use right after pong_step() or pong_commit(); none otherwise.
-/// Friction by bristles follows poses: a belt that is to carry needs a pose that moves, or Coulomb friction,
-/// which uses velocities alone. A frame that is committed twice, as in a pause, is listed too.
-/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `groups` may be NULL. Allocates.
+/// Lists movable groups in contact whose pose stayed the same, bit for bit, from one commit to the next, though
+/// their velocity would have moved them within `step`, the time between the two, s: copies the first
+/// `capacity`; `count` gets their number.
+///
+/// Friction by bristles follows poses, so a belt that is to carry needs a pose that moves, or Coulomb friction,
+/// which uses velocities alone. Call it right after pong_step() or pong_commit(); at other times the list is
+/// empty. A frame that is committed twice, as in a pause, is listed too. PONG_STATUS_BUFFER_TOO_SMALL if not
+/// all fit. With capacity 0 `groups` may be NULL. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_find_standing_groups(
     world: *const pong_world,

@@ -102,7 +102,7 @@ impl Inner {
         let world = self.phase.frames("extend the world")?;
         memory::require_for_object(self.names.interface_count())?;
         let mut builder = WorldBuilder::extending(world);
-        // A law that fails in one world must not spoil the frame of the other.
+        // Separate fault flags: a law that fails in one world does not fail a frame of the other.
         let mut law_faults = LawFaults::default();
         let (callbacks, laws) = law_faults.watch_again(&self.callbacks);
         *builder.laws_mut() = laws;

@@ -2,12 +2,17 @@
 
 use pong_engine::WrenchCoupling;
 
-/// The wrench is evaluated again at every stage of an integrator of higher order (the classic Runge-Kutta method).
-pub const PONG_COUPLING_STAGES: u32 = 1;
-/// The wrench is evaluated once a step; it gives the velocities with which the bodies then move (semi-implicit Euler).
-pub const PONG_COUPLING_SEMI_IMPLICIT: u32 = 2;
-/// The wrench is evaluated once a frame and held from one commit to the next.
-pub const PONG_COUPLING_ZERO_ORDER_HOLD: u32 = 3;
+/// Use of the wrench by the host: PONG_COUPLING_...
+pub type pong_coupling = u32;
+
+/// The host evaluates the wrench again at every stage of an integrator of higher order (the classic Runge-Kutta
+/// method).
+pub const PONG_COUPLING_STAGES: pong_coupling = 1;
+/// The host evaluates the wrench once a step; it gives the velocities with which the bodies then move
+/// (semi-implicit Euler).
+pub const PONG_COUPLING_SEMI_IMPLICIT: pong_coupling = 2;
+/// The host evaluates the wrench once a frame and holds it from one commit to the next.
+pub const PONG_COUPLING_ZERO_ORDER_HOLD: pong_coupling = 3;
 
 /// The coupling of this number; `None` if there is no such number.
 pub(crate) fn of_number(coupling: u32, delay_frames: u32) -> Option<WrenchCoupling> {

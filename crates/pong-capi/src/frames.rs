@@ -10,22 +10,24 @@ use pong_engine::{EngineError, World};
 use pong_record::Recorder;
 use std::time::Instant;
 
-/// Computes contacts and wrenches from the states and the committed contact state. Does not affect any later
-/// evaluate or commit: integrators call it any number of times, at times in any order. A frame that hit a
-/// limit succeeds; its report has a flag.
+/// Computes contacts and wrenches from the states and the committed contact state. Affects no later evaluate or
+/// commit: integrators call it any number of times, at times in any order. A frame that reached a limit
+/// succeeds; its report has a flag. After sealing. PONG_STATUS_UNSET_STATE: a paired group has no state.
+/// PONG_STATUS_LAW_FAILED, PONG_STATUS_BAD_STATE: the frame does not count.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_evaluate(world: *mut pong_world) -> pong_status {
     with_world(world, Inner::evaluate)
 }
 
-/// Accepts the states presently set, evaluating them first if the last evaluation used other ones. The only
-/// writer of contact state: call it once per accepted step, never from a stage of an integrator.
+/// Accepts the states presently set: writes the contact state of the frame, which is evaluated first if the
+/// last evaluation used other states. Nothing else writes contact state in a frame: call it once per accepted
+/// step, never from a stage of an integrator. Errors as for pong_evaluate(); nothing is committed then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_commit(world: *mut pong_world) -> pong_status {
     with_world(world, Inner::commit_all)
 }
 
-/// As pong_commit(), for some pairs only: the others keep their last committed state. For executives that run
+/// As pong_commit(), for `n` pairs only: the others keep their last committed state. For executives that run
 /// several rates. With n = 0 `pairs` may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_commit_pairs(
@@ -40,14 +42,14 @@ pub unsafe extern "C" fn pong_commit_pairs(
         ids.extend(pairs.iter().map(|id| id.id()));
         let outcome = inner.commit(|world| world.commit_pairs(&ids));
         if outcome.is_ok() {
-            inner.tell_log(|log| log.committed_some(&ids));
+            inner.log_event(|log| log.committed_some(&ids));
         }
         inner.pairs = ids;
         outcome
     })
 }
 
-/// Evaluate and commit, for executives that call once a frame.
+/// Evaluates and commits, for executives that call once a frame. Errors as for pong_evaluate().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_step(world: *mut pong_world) -> pong_status {
     with_world(world, |inner| {
@@ -61,10 +63,10 @@ impl Inner {
         let start = Instant::now();
         let evaluated = self.phase.frames_mut("evaluate")?.evaluate();
         // Collect faults even when the evaluation failed: a law's fault may be the cause of an overflow and
-        // is then the one to report, and a fault left over would be reported for the next, good frame.
+        // is then the one to report, and a fault that is left would be reported for the next frame.
         self.law_faults.collect();
         if let Ok(report) = &evaluated {
-            self.tell_log(Recorder::evaluated);
+            self.log_event(Recorder::evaluated);
             self.counters.evaluate_ns = elapsed_ns(start);
             self.counters.evaluations += 1;
             self.counters.note_wanted(report);
@@ -76,7 +78,7 @@ impl Inner {
 
     fn commit_all(&mut self) -> Outcome {
         self.commit(|world| world.commit())?;
-        self.tell_log(Recorder::committed);
+        self.log_event(Recorder::committed);
         Ok(())
     }
 

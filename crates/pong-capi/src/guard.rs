@@ -45,7 +45,7 @@ pub(crate) unsafe fn with_world(
     guarded(|| locked(world, "world", call))
 }
 
-/// Calls with what a world's lock guards. `name` is that of the argument.
+/// Calls a function with the data that a world's lock guards. `name` is that of the argument.
 ///
 /// # Safety
 /// As [`with_world`].
@@ -72,18 +72,17 @@ pub(crate) unsafe fn locked(
     }
 }
 
-/// As [`with_world`], for calls that return one value: written to `place`, which messages call by the given
-/// name.
+/// As [`with_world`], for calls that return one value: written to `pointer`, the argument `name` of messages.
 ///
 /// # Safety
-/// As [`with_world`]; `place` is NULL or may be written.
+/// As [`with_world`]; `pointer` is NULL or may be written.
 pub(crate) unsafe fn get<T>(
     world: *const pong_world,
-    (place, name): (*mut T, &str),
+    (pointer, name): (*mut T, &str),
     call: impl FnOnce(&mut Inner) -> Outcome<T>,
 ) -> pong_status {
     with_world(world, |inner| {
-        let out = Out::new(place, name)?;
+        let out = Out::new(pointer, name)?;
         out.set(call(inner)?);
         Ok(())
     })
@@ -98,19 +97,19 @@ pub(crate) unsafe fn setting_up(
     call: impl FnOnce(&mut Inner) -> Outcome,
 ) -> pong_status {
     with_world(world, |inner| {
-        memory::require_little()?;
+        memory::require_small()?;
         call(inner)
     })
 }
 
 fn fault(payload: Box<dyn Any + Send>) -> Failure {
-    let said = match (payload.downcast_ref::<&str>(), payload.downcast_ref::<String>()) {
+    let reason = match (payload.downcast_ref::<&str>(), payload.downcast_ref::<String>()) {
         (Some(text), _) => text,
         (_, Some(text)) => text.as_str(),
         _ => "no reason given",
     };
-    let message = format!("a fault inside the library: {said}; destroy the world and report this");
-    // Forgotten, not dropped: the payload's destructor is unknown code, and would run outside the guard.
+    let message = format!("a fault inside the library: {reason}; destroy the world and report this");
+    // Leaked, not dropped: the payload's destructor is unknown code, and would run outside the guard.
     std::mem::forget(payload);
     Failure::new(pong_status::Panic, message)
 }

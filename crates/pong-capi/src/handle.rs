@@ -1,4 +1,4 @@
-//! World handle of C, and the data that the C interface keeps with it.
+//! Handle of a world, and the data of the C interface for it.
 
 use crate::advice::Advice;
 use crate::counters::Counters;
@@ -12,10 +12,10 @@ use pong_record::{ModelSource, Recorder};
 use std::ffi::CString;
 use std::sync::Mutex;
 
-/// A contact world: models, Objects, pairs and everything remembered between frames. Opaque.
+/// A contact world: models, Objects, pairs and contact state. Opaque.
 ///
-/// One thread at a time may call it, any thread; a second call meanwhile returns PONG_STATUS_BUSY. Different
-/// worlds are independent.
+/// Any thread may call it, one at a time; a second call meanwhile returns PONG_STATUS_BUSY. Different worlds
+/// are independent.
 pub struct pong_world {
     pub(crate) inner: Mutex<Inner>,
 }

@@ -18,36 +18,36 @@ macro_rules! id_conversions {
     };
 }
 
-/// A model of a world. Zero is none. Ids are plain numbers: copy, compare and store them freely. An id of
+/// A model of a world; zero is none. Ids are plain numbers: copy, compare and store them freely. An id of
 /// another world, or of a destroyed one, is recognised and refused.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct pong_model_id {
-    /// Do not build it yourself.
+    /// Set by the library.
     pub bits: u64,
 }
 
-/// An Object: an instance of a model. Zero is none.
+/// An Object: an instance of a model; zero is none.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct pong_object_id {
-    /// Do not build it yourself.
+    /// Set by the library.
     pub bits: u64,
 }
 
-/// Two Objects that are tested against each other. Zero is none.
+/// Two Objects that are tested against each other; zero is none.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct pong_pair_id {
-    /// Do not build it yourself.
+    /// Set by the library.
     pub bits: u64,
 }
 
-/// An Interface: state in and wrench out of one movable group of one Object. Zero is none.
+/// An Interface: state in and wrench out of one movable group of one Object; zero is none.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct pong_interface_id {
-    /// Do not build it yourself.
+    /// Set by the library.
     pub bits: u64,
 }
 

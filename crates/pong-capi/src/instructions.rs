@@ -11,15 +11,15 @@ const NAMES: [(&str, Level); 3] =
     [("portable", Level::Portable), ("avx2", Level::Avx2), ("avx512", Level::Avx512)];
 
 /// Applies the environment variable, once in a process. Results are the same bits at every level.
-pub(crate) fn obey_environment() -> Outcome {
-    static OBEYED: OnceLock<Result<(), String>> = OnceLock::new();
-    let obeyed = OBEYED.get_or_init(|| match std::env::var_os(VARIABLE) {
+pub(crate) fn apply_environment() -> Outcome {
+    static APPLIED: OnceLock<Result<(), String>> = OnceLock::new();
+    let applied = APPLIED.get_or_init(|| match std::env::var_os(VARIABLE) {
         None => Ok(()),
         Some(text) => level(&text.to_string_lossy()).map(|level| {
             set_level(level);
         }),
     });
-    obeyed.clone().map_err(|message| Failure::new(pong_status::Config, message))
+    applied.clone().map_err(|message| Failure::new(pong_status::Config, message))
 }
 
 fn level(text: &str) -> Result<Level, String> {

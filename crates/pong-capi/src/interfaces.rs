@@ -9,8 +9,8 @@ use crate::states::pong_state;
 use crate::status::pong_status;
 use std::ffi::c_char;
 
-/// The Interface of a movable group: by its path in the model, "root/arm/latch"; by its bare name where only one
-/// movable group of the model has it; "" for the root.
+/// Finds the Interface of a movable group: by its path in the model, "root/arm/latch"; by its bare name where
+/// only one movable group of the model has it; "" for the root.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_find_interface(
     world: *const pong_world,
@@ -25,7 +25,7 @@ pub unsafe extern "C" fn pong_find_interface(
     })
 }
 
-/// All Interfaces of an Object, the root's first, as many as `capacity`; `count` gets their number.
+/// Lists all Interfaces of an Object, the root's first: copies the first `capacity`; `count` gets their number.
 /// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `interfaces` may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_list_interfaces(
@@ -55,7 +55,7 @@ pub(crate) fn too_small(what: &str, capacity: usize, count: usize) -> crate::fai
     Err(Failure::new(pong_status::BufferTooSmall, message))
 }
 
-/// Path of an Interface's movable group in its model. The text lives as long as the world.
+/// Returns the path of an Interface's movable group in its model. The text lives as long as the world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_interface_path(
     world: *const pong_world,
@@ -65,7 +65,7 @@ pub unsafe extern "C" fn pong_interface_path(
     get(world, (path, "path"), |inner| Ok(inner.names.path(interface)?.as_ptr()))
 }
 
-/// The Object an Interface belongs to.
+/// Returns the Object that an Interface belongs to.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_interface_object(
     world: *const pong_world,
@@ -75,8 +75,8 @@ pub unsafe extern "C" fn pong_interface_object(
     get(world, (object, "object"), |inner| Ok(inner.names.object_of(interface)?.into()))
 }
 
-/// Pose that the model's author gave a movable group in the frame of the root group, at rest: an initial
-/// state. The identity for the root.
+/// Copies the pose that the model's author gave a movable group, at rest, relative to the frame of the root
+/// group: an initial state. It is the identity for the root.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_authored_state(
     world: *const pong_world,

@@ -39,7 +39,7 @@ impl Fault {
 #[derive(Debug, Default)]
 pub(crate) struct LawFaults {
     watched: Vec<(String, Fault)>,
-    /// The law that spoilt the last frame.
+    /// Index of the law that returned a number that is not finite in the last frame.
     failed: Option<usize>,
 }
 
@@ -74,11 +74,11 @@ impl LawFaults {
         }
     }
 
-    /// Fails if a law spoilt the frame.
+    /// Fails if a law returned a number that is not finite in the last frame.
     pub fn check(&self) -> Outcome {
         let Some(index) = self.failed else { return Ok(()) };
         let message = format!(
-            "law `{}`: it returned a number that is not finite; the frame does not count: mend the law or the states \
+            "law `{}`: it returned a number that is not finite; the frame does not count: correct the law or the states \
              and evaluate again",
             self.watched[index].0
         );
@@ -114,7 +114,7 @@ pub(crate) struct NormalCallback {
 
 impl NormalForce for NormalCallback {
     fn force(&self, input: &NormalInput<'_>) -> f64 {
-        // SAFETY: the caller vouched for the function when it was registered; the input lives during the call.
+        // SAFETY: the function may be called by the contract of its registration; the input lives during the call.
         self.fault.finite(lent(|| unsafe { (self.force)(&c_input(input), self.user.0) }))
     }
 
@@ -164,7 +164,7 @@ impl FrictionForce for FrictionCallback {
             reserved: 0,
         };
         let mut output = pong_friction_output::default();
-        // SAFETY: the caller vouched for the function when it was registered; all places live during the call and
+        // SAFETY: the function may be called by the contract of its registration; all places live during the call and
         // `state` has `state_len` numbers.
         lent(|| unsafe { (self.evaluate)(&c_input, state.as_mut_ptr(), &mut output, self.user.0) });
         state.iter_mut().for_each(|number| *number = self.fault.finite(*number));

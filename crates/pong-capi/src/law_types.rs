@@ -40,7 +40,7 @@ pub struct pong_friction_input {
     pub parameters: *const f64,
     /// Number of parameters.
     pub parameter_count: usize,
-    /// 1 if the contact stuck at the last commit or is new, else 0.
+    /// 1: the contact stuck at the last commit or is new. 0: it slipped.
     pub stuck: i32,
     /// Zero.
     pub reserved: i32,
@@ -54,7 +54,7 @@ pub struct pong_friction_output {
     pub force_b: [f64; 3],
     /// Energy stored in the law's state, J; for the ledger.
     pub stored: f64,
-    /// 1 if the contact sticks, 0 if it slips.
+    /// 1: the contact sticks. 0: it slips.
     pub sticks: i32,
     /// Leave it zero.
     pub reserved: i32,
@@ -64,7 +64,7 @@ pub struct pong_friction_output {
 pub type pong_normal_law =
     Option<unsafe extern "C" fn(input: *const pong_normal_input, user: *mut c_void) -> f64>;
 
-/// A friction law. `state` holds the numbers that the law remembers for this contact, as committed (zero for a new
+/// A friction law. `state` holds the numbers that the law keeps for this contact, as committed (zero for a new
 /// contact), and takes the new ones, which count only if the host commits; vectors in it are the law's to turn with
 /// the normal. See pong_register_friction_law().
 pub type pong_friction_law = Option<

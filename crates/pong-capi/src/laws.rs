@@ -12,9 +12,10 @@ use std::ffi::{c_char, c_void};
 /// Adds a normal force law that models then name as Custom(name: "...", parameters: [...]). Before sealing.
 ///
 /// `force` returns the force of a whole contact in N (negative counts as 0), `stored` the energy stored at this
-/// depth in J; NULL for `stored` counts none, and the ledger then takes it as dissipated. Both must be pure (same
-/// input, same answer) and may be called from any thread and from several at once; they must not throw, jump out
-/// or call this world. `user` is handed to them as it is and must live as long as the world.
+/// depth in J; with NULL for `stored` none is stored, and the ledger takes all of it as dissipated. Both must
+/// be pure (same input, same answer) and may be called from any thread and from several at once; they must not
+/// throw, jump out or call this world. `user` is passed to them unchanged and must live as long as the world.
+/// PONG_STATUS_DUPLICATE: there is a normal law of this name.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_register_normal_law(
     world: *mut pong_world,
@@ -33,8 +34,8 @@ pub unsafe extern "C" fn pong_register_normal_law(
     })
 }
 
-/// Adds a friction law that remembers `state_len` numbers per contact (at most 64). The same rules as for
-/// pong_register_normal_law().
+/// Adds a friction law that keeps `state_len` numbers per contact (at most 64) as contact state. The same rules
+/// as for pong_register_normal_law().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_register_friction_law(
     world: *mut pong_world,
@@ -48,7 +49,7 @@ pub unsafe extern "C" fn pong_register_friction_law(
         let evaluate = law.ok_or_else(|| no_function("law"))?;
         if state_len > MOST_NUMBERS {
             let message = format!(
-                "law `{name}`: state_len is {state_len}; a law remembers at most {MOST_NUMBERS} numbers"
+                "law `{name}`: state_len is {state_len}; a law keeps at most {MOST_NUMBERS} numbers per contact"
             );
             return Err(Failure::new(pong_status::BadValue, message));
         }
@@ -63,11 +64,11 @@ pub unsafe extern "C" fn pong_register_friction_law(
 const MOST_NUMBERS: usize = 64;
 
 fn no_function(name: &str) -> Failure {
-    Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; give a function"))
+    Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; pass a function"))
 }
 
 impl Inner {
-    /// Refuses a law that may not be added.
+    /// Refuses a law after the seal, and one whose name is taken.
     fn check_new_law(&mut self, name: &str, is_same: impl Fn(&Callback) -> bool) -> Outcome {
         self.phase.set_up("register a law")?;
         if self.callbacks.iter().any(is_same) {

@@ -1,24 +1,20 @@
 //! The C interface: names, handles, guards. No physics.
 //!
 //! The C side is described where C programmers read it: `include/pong.h` is generated from the comments of this
-//! crate, `include/README.md` tells calling order, ownership and threads. The files follow the calling order:
+//! crate, `include/README.md` has calling order, ownership and threads. The header has sections in calling order; the
+//! files of each (`tests/it/support/header/sections.rs`):
 //!
-//! | file | calls |
+//! | section of pong.h | files |
 //! |---|---|
-//! | `version.rs` | version, layout check |
-//! | `status.rs`, `message.rs` | status numbers, the last message |
-//! | `config.rs`, `world.rs`, `clone.rs` | create, destroy and clone a world |
-//! | `phase.rs` | set-up or frames: refuses calls in the wrong phase |
-//! | `laws.rs`, `law_types.rs` | force laws by callback |
-//! | `models.rs`, `objects.rs`, `pairs.rs`, `interfaces.rs`, `primitives.rs` | set-up and look-up |
-//! | `coupling.rs`, `step_plan.rs` | what the host does with wrenches; masses and step, for the check at the seal |
-//! | `seal.rs` | end of set-up |
-//! | `states.rs`, `frames.rs`, `wrenches.rs`, `contacts.rs`, `report.rs`, `accounts.rs`, `tally.rs` | frames |
-//! | `distance.rs` | distance of two movable groups |
-//! | `pair_monitor.rs` | begin and end of contact, peaks over several frames |
-//! | `workers.rs` | workers, around frames |
-//! | `contact_state.rs`, `continuation.rs`, `surfaces.rs`, `user_data.rs` | between frames |
-//! | `log.rs` | response logs |
+//! | Status and messages; Version | `status.rs`, `message.rs`; `abi.rs`, `version.rs` |
+//! | Set-up | `handle.rs`, `coupling.rs`, `config.rs`, `world.rs`, `ids.rs`, `models.rs`, `objects.rs`, `pairs.rs`, `interfaces.rs`, `primitives.rs`, `step_plan.rs`, `seal.rs` |
+//! | Frames | `states.rs`, `frames.rs` |
+//! | Results | `wrenches.rs`, `contacts.rs`, `distance.rs`, `pair_monitor.rs` |
+//! | Contact state; Changes between frames; Further worlds | `contact_state.rs`; `surfaces.rs`; `clone.rs`, `continuation.rs` |
+//! | Response logs; Own force laws; User data | `log.rs`; `law_types.rs`, `laws.rs`; `user_data.rs` |
+//! | Workers; Diagnostics | `worker.rs`, `workers.rs`; `report.rs`, `tally.rs`, `accounts.rs` |
+//!
+//! `phase.rs` keeps set-up and frames apart: it refuses calls in the wrong phase.
 //!
 //! Every entry, except those that return a constant, goes through `guard.rs`: a message of its own, one call
 //! at a time, no panic into C, the floating-point environment of `pong-fpenv`. Entries of set-up ask for

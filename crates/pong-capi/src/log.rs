@@ -12,10 +12,13 @@ use std::ffi::c_char;
 use std::path::Path;
 use std::time::Duration;
 
+/// Behaviour of a log whose buffer is full: PONG_LOG_...
+pub type pong_log_when_full = u32;
+
 /// `when_full`: frames for which there is no room are left out of the log as a whole, counted and marked.
-pub const PONG_LOG_DROP: u32 = 0;
+pub const PONG_LOG_DROP: pong_log_when_full = 0;
 /// `when_full`: pong_log_frame() waits until there is room: for unattended runs.
-pub const PONG_LOG_WAIT: u32 = 1;
+pub const PONG_LOG_WAIT: pong_log_when_full = 1;
 
 /// Marks options made by pong_default_log_options().
 const COOKIE: u64 = 0x706f_6e67_2d6c_6f67;
@@ -24,7 +27,7 @@ const MOST_MS: u32 = 3_600_000;
 /// Upper limit: a larger value is more likely a wrong unit.
 const MOST_BYTES: u64 = 1 << 36;
 
-/// Options of a log. Make it with pong_default_log_options(), change what you like, hand it to
+/// Options of a log. Make it with pong_default_log_options(), change what you like, pass it to
 /// pong_start_log().
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -46,8 +49,8 @@ pub struct pong_log_options {
     pub flush_ms: u32,
     /// Behaviour when the disk is slower than the run: PONG_LOG_DROP (default) or PONG_LOG_WAIT. A disk that
     /// accepts nothing for 30 s has failed.
-    pub when_full: u32,
-    /// 1 replaces a log that lies in the folder; 0 (default) refuses to.
+    pub when_full: pong_log_when_full,
+    /// 1: replaces a log that lies in the folder. 0 (default): such a folder is refused.
     pub overwrite: u32,
     /// Number of commits that each logged frame stands for, for readers of the log; 0 (default) if that
     /// varies.
@@ -74,8 +77,8 @@ pub struct pong_log_report {
     pub buffer_peak: u64,
     /// Number of bytes that may wait for the disk.
     pub buffer_size: u64,
-    /// 1 if the files cannot be written any more: every frame from then on is lost. pong_stop_log() returns
-    /// the cause.
+    /// 1: the files cannot be written any more, and every frame from then on is lost; pong_stop_log()
+    /// returns the cause. 0: not so.
     pub failed: u32,
     /// Zero in this version.
     pub reserved_flags: u32,
@@ -83,7 +86,7 @@ pub struct pong_log_report {
     pub reserved: [u64; 4],
 }
 
-/// The default options.
+/// The default options, as their comments say.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_default_log_options() -> pong_log_options {
     pong_log_options {
@@ -145,7 +148,7 @@ pub unsafe extern "C" fn pong_log_frame(world: *mut pong_world, time: f64) -> po
     })
 }
 
-/// The progress of the log.
+/// Copies the progress of the log. PONG_STATUS_WRONG_PHASE: there is no log.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_log_report(
     world: *const pong_world,
@@ -157,8 +160,7 @@ pub unsafe extern "C" fn pong_get_log_report(
 /// Writes the rest and closes the log. Waits for the disk until it has accepted nothing for 30 s; a log that
 /// has already failed for that reason closes at once. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files
 /// could not be written to the end; the message has the cause and where the log ends. It is closed all the
-/// same.
-/// pong_destroy_world() closes a log too, without a report.
+/// same. pong_destroy_world() closes a log too, without a report. PONG_STATUS_WRONG_PHASE: there is no log.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_stop_log(world: *mut pong_world, report: *mut pong_log_report) -> pong_status {
     with_world(world, |inner| {
@@ -175,10 +177,10 @@ pub unsafe extern "C" fn pong_stop_log(world: *mut pong_world, report: *mut pong
 }
 
 impl Inner {
-    /// Calls `tell` with the log's recorder, if there is a log.
-    pub(crate) fn tell_log(&mut self, tell: impl FnOnce(&mut Recorder)) {
+    /// Records an event in the log, if there is one.
+    pub(crate) fn log_event(&mut self, record: impl FnOnce(&mut Recorder)) {
         if let Some(log) = &mut self.log {
-            tell(log);
+            record(log);
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Check of the memory of set-up before it is taken.
 //!
 //! Rust's collections abort the process where the system has no memory for them; a host gets a status
-//! instead. So every call of set-up first asks the system for one block as large as the call can need, and
-//! gives it back. Another thread of the host may take the memory in between; that is not detected.
+//! instead. So every call of set-up first allocates one block as large as the call can need, and frees it.
+//! Another thread of the host may take the memory in between; that is not detected.
 
 use crate::failure::Outcome;
 use pong_engine::require_memory;
@@ -20,8 +20,8 @@ const PER_BYTE: usize = 24;
 /// Memory per byte of a mesh file: a vertex of an OBJ file has 20 bytes or more, a facet of an STL file 50.
 const PER_MESH_BYTE: usize = 256;
 
-/// Checks the memory of a call of set-up that takes little.
-pub(crate) fn require_little() -> Outcome {
+/// Checks the memory of a call of set-up that takes at most `SMALL`.
+pub(crate) fn require_small() -> Outcome {
     Ok(require_memory("set-up", SMALL, "leave the process more memory")?)
 }
 
@@ -40,7 +40,7 @@ pub(crate) fn require_for_text(text: &[u8], mesh_dir: Option<&Path>) -> Outcome 
 
 /// Checks the memory of a model from a file. A file that cannot be read is reported by the reader.
 pub(crate) fn require_for_file(path: &Path) -> Outcome {
-    require_little()?;
+    require_small()?;
     if !path.is_file() {
         return Ok(());
     }

@@ -48,16 +48,16 @@ pub unsafe extern "C" fn pong_load_model_text(
 ) -> pong_status {
     with_world(world, |inner| {
         if text.is_null() {
-            return Err(Failure::new(pong_status::NullArgument, "`text` is NULL; give the text of a model"));
+            return Err(Failure::new(pong_status::NullArgument, "`text` is NULL; pass the text of a model"));
         }
         let bytes = array(text.cast::<u8>(), length, "text")?;
-        memory::require_little()?;
+        memory::require_small()?;
         let name = crate::pointers::text(name, "name")?;
         let mesh_dir =
             if mesh_dir.is_null() { None } else { Some(crate::pointers::text(mesh_dir, "mesh_dir")?) };
         let out = Out::new(model, "model")?;
         let Ok(text) = std::str::from_utf8(bytes) else {
-            let message = format!("{name}: this is no UTF-8 text; save the model as UTF-8");
+            let message = format!("{name}: the text is not UTF-8; save the model as UTF-8");
             return Err(Failure::new(pong_status::ModelError, message));
         };
         memory::require_for_text(bytes, mesh_dir.map(Path::new))?;
@@ -69,9 +69,9 @@ pub unsafe extern "C" fn pong_load_model_text(
     })
 }
 
-/// Lets models loaded from now on also read meshes from `folder` (UTF-8 path) and the folders below it.
-/// Without it a mesh that lies outside the model's own folder, through a link, is refused. Before sealing;
-/// may be called for several folders.
+/// Lets models loaded from now on also read meshes from `folder` (UTF-8 path) and the folders below it. Without
+/// it a mesh that lies outside the model's own folder, through a link, is refused. Before sealing; may be
+/// called for several folders.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_allow_files_below(
     world: *mut pong_world,
@@ -94,7 +94,8 @@ impl Inner {
     }
 }
 
-/// Number of warnings that loading a model left: things its author should know though the model is valid.
+/// Number of warnings that loading a model gave: a valid model may still have something that its author should
+/// know.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_model_warning_count(
     world: *const pong_world,
@@ -104,7 +105,7 @@ pub unsafe extern "C" fn pong_model_warning_count(
     get(world, (count, "count"), |inner| Ok(inner.names.model(model)?.warnings.len()))
 }
 
-/// A warning of a model. The text lives as long as the world.
+/// Returns a warning of a model; `index` counts from 0. The text lives as long as the world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_model_warning(
     world: *const pong_world,

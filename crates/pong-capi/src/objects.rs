@@ -8,7 +8,8 @@ use crate::pointers::{Out, text};
 use crate::status::pong_status;
 use std::ffi::c_char;
 
-/// Creates an Object from a model, under a name of its own. Objects of one model are independent. Before sealing.
+/// Creates an Object from a model, under a name of its own. Objects of one model are independent. Before
+/// sealing. PONG_STATUS_DUPLICATE: the name is taken.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_create_object(
     world: *mut pong_world,
@@ -29,7 +30,7 @@ pub unsafe extern "C" fn pong_create_object(
     })
 }
 
-/// The Object with this name.
+/// Finds the Object with this name.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_find_object(
     world: *const pong_world,
@@ -43,7 +44,7 @@ pub unsafe extern "C" fn pong_find_object(
     })
 }
 
-/// Name of an Object. The text lives as long as the world.
+/// Returns the name of an Object. The text lives as long as the world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_object_name(
     world: *const pong_world,
@@ -53,7 +54,8 @@ pub unsafe extern "C" fn pong_object_name(
     get(world, (name, "name"), |inner| Ok(inner.names.object(object)?.as_ptr()))
 }
 
-/// Clears an Object's contact state, after a teleport or a reset. After sealing.
+/// Clears the contact state of an Object, after a teleport or a reset: its contacts begin anew, with bristles
+/// at zero. After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_clear_contact_history(
     world: *mut pong_world,
@@ -61,8 +63,8 @@ pub unsafe extern "C" fn pong_clear_contact_history(
 ) -> pong_status {
     with_world(world, |inner| {
         inner.names.object(object)?;
-        inner.phase.frames_mut("forget an Object")?.clear_contact_history(object.id())?;
-        inner.tell_log(|log| log.forgot(object.id()));
+        inner.phase.frames_mut("clear a contact history")?.clear_contact_history(object.id())?;
+        inner.log_event(|log| log.forgot(object.id()));
         Ok(())
     })
 }

@@ -19,7 +19,7 @@ pub struct pong_contact_change {
     /// The two movable groups: first that of the Object that was named first in the pair. In an Object paired with itself, the
     /// one with the lower id.
     pub interfaces: [pong_interface_id; 2],
-    /// 1 if contact begins, 0 if it ends.
+    /// 1: contact begins. 0: it ends.
     pub begins: i32,
     /// Zero.
     pub reserved: u32,
@@ -46,15 +46,15 @@ pub struct pong_pair_peaks {
     pub begins: u32,
     /// Number of its ends.
     pub ends: u32,
-    /// 1 if they touch in the frame last observed.
+    /// 1: they touch in the frame last observed. 0: they do not.
     pub touches: i32,
     /// Zero.
     pub reserved: u32,
 }
 
-/// Has the world kept under observation by pong_observe_pairs(), from nothing on: takes memory for every pair of movable groups,
-/// so that nothing takes any later. Called again, it begins anew. After the seal; a clone is not observed. A world that is not
-/// observed pays nothing.
+/// Starts the pair monitor of a world: takes memory for every pair of movable groups, so that later calls take
+/// none. Called again, it begins anew. After sealing; a clone has no monitor. A world without a monitor pays
+/// nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_start_pair_monitor(world: *mut pong_world) -> pong_status {
     with_world(world, |inner| {
@@ -63,14 +63,18 @@ pub unsafe extern "C" fn pong_start_pair_monitor(world: *mut pong_world) -> pong
     })
 }
 
-/// Observes the frame that was committed last, which stands for `step`, the time since the commit before, s: call it once after
-/// each pong_step(), pong_commit() or pong_commit_pairs(), before the next evaluation. After a commit of some pairs all contacts
-/// of the frame count. Two movable groups touch in a frame that lists a contact of theirs; begins and ends are told by comparison
-/// with the frame observed before, whatever became of the contact state in between, so those of two groups alternate: the first
-/// frame begins all contacts that there are, a pair that is switched off ends with the next commit, a cleared history changes
-/// nothing where groups go on touching, and after a restored contact state the next frame is compared with the last one
-/// observed. PONG_STATUS_WRONG_PHASE: there is no monitor, or the last frame is not committed or was observed already.
-/// Allocates nothing.
+/// Observes the frame that was committed last; it stands for `step`, the time since the commit before, s. Call
+/// it once after each pong_step(), pong_commit() or pong_commit_pairs(), before the next evaluation. Allocates
+/// nothing.
+///
+/// Two movable groups touch in a frame that lists a contact of theirs; after a commit of some pairs, all
+/// contacts of the frame count. Begins and ends come from the comparison with the frame observed before,
+/// whatever became of the contact state in between, so those of two groups alternate. The first frame begins
+/// all its contacts. A pair that is switched off ends with the next commit. A cleared history changes nothing
+/// where groups go on touching. After a restored contact state the next frame is compared with the last one
+/// observed.
+///
+/// PONG_STATUS_WRONG_PHASE: there is no monitor, or the last frame is not committed or was observed already.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_observe_pairs(world: *mut pong_world, step: f64) -> pong_status {
     with_world(world, |inner| {
@@ -80,10 +84,10 @@ pub unsafe extern "C" fn pong_observe_pairs(world: *mut pong_world, step: f64) -
     })
 }
 
-/// Begins and ends of contact from the frame observed before to the one observed last, in the order of the pairs of Objects and
-/// then of the groups, always the same: the first `capacity` are copied, `count` gets their number.
-/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit; `group_pairs` of the seal report is always enough. With capacity 0 `changes` may
-/// be NULL.
+/// Copies begins and ends of contact from the frame observed before to the one observed last, always in the
+/// same order: by pairs of Objects, then by groups. Copies the first `capacity`; `count` gets their number.
+/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit; `group_pairs` of the seal report is always enough. With
+/// capacity 0 `changes` may be NULL. PONG_STATUS_WRONG_PHASE without a monitor.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_contact_changes(
     world: *const pong_world,
@@ -102,7 +106,8 @@ pub unsafe extern "C" fn pong_get_contact_changes(
     })
 }
 
-/// Begins another window: pong_get_pair_peaks() then tells of the frames observed from now on. What touches is kept.
+/// Begins another window: pong_get_pair_peaks() then covers the frames observed from now on. Groups that touch
+/// go on touching. PONG_STATUS_WRONG_PHASE without a monitor.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_begin_peak_window(world: *mut pong_world) -> pong_status {
     with_world(world, |inner| {
@@ -111,9 +116,10 @@ pub unsafe extern "C" fn pong_begin_peak_window(world: *mut pong_world) -> pong_
     })
 }
 
-/// Peak normal force and mean wrench of all movable groups that touched in the window, or whose contact ended in it, in the order
-/// of pong_get_contact_changes(): the first `capacity` are copied, `count` gets their number. PONG_STATUS_BUFFER_TOO_SMALL if
-/// not all fit; `group_pairs` of the seal report is always enough. With capacity 0 `peaks` may be NULL.
+/// Copies peak normal force and mean wrench of all movable groups that touched in the window, or whose contact
+/// ended in it, in the order of pong_get_contact_changes(): the first `capacity`; `count` gets their number.
+/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit; `group_pairs` of the seal report is always enough. With
+/// capacity 0 `peaks` may be NULL. PONG_STATUS_WRONG_PHASE without a monitor.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_pair_peaks(
     world: *const pong_world,

@@ -8,8 +8,8 @@ use crate::pointers::{Out, text};
 use crate::status::pong_status;
 use std::ffi::c_char;
 
-/// Declares that two Objects may touch. An Object paired with itself has its movable groups tested against each
-/// other. Before sealing. `pair` may be NULL.
+/// Declares that two Objects may touch. The movable groups of an Object that is paired with itself are tested
+/// against each other. Before sealing. `pair` may be NULL. PONG_STATUS_DUPLICATE: they are a pair already.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_pair_objects(
     world: *mut pong_world,
@@ -64,11 +64,13 @@ pub unsafe extern "C" fn pong_filter_groups(
     })
 }
 
-/// Switches a pair on (1, as it begins) or off (0). A pair that is off has no contacts; when it is switched on again it has no
-/// past. Both drop what the pair remembers at once: bristles begin anew, as after pong_clear_contact_history(). Wrenches and
-/// contacts stay those of the last frame until the next evaluation, and that frame no longer belongs to what is set: evaluate
-/// before the wrenches are read again. pong_commit() and pong_step() evaluate by themselves; pong_log_frame() is refused until
-/// then. A log takes note of the switch by itself. Switching to what a pair is already does nothing.
+/// Switches a pair on (1, as it begins) or off (0), before or after sealing. A pair that is off has no
+/// contacts. Both drop the contact state of the pair at once: bristles begin anew, as after
+/// pong_clear_contact_history(). Switching to the present setting does nothing.
+///
+/// Wrenches and contacts stay those of the last frame until the next evaluation, so evaluate before the
+/// wrenches are read again. pong_commit() and pong_step() evaluate by themselves; pong_log_frame() is refused
+/// until then. A log records the switch by itself.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_pair_enabled(
     world: *mut pong_world,
@@ -78,7 +80,7 @@ pub unsafe extern "C" fn pong_set_pair_enabled(
     with_world(world, |inner| {
         let enabled = yes_or_no(enabled)?;
         inner.phase.set_pair_enabled(pair.id(), enabled)?;
-        inner.tell_log(|log| log.pair_switched(pair.id(), enabled));
+        inner.log_event(|log| log.pair_switched(pair.id(), enabled));
         Ok(())
     })
 }

@@ -1,5 +1,4 @@
-//! The two phases of a world. Rust's types keep a Rust host from calling in the wrong one; a C host is
-//! refused here.
+//! The two phases of a world: calls of C in the wrong one are refused here. In Rust the types exclude them.
 
 use pong_engine::{
     Config, EngineError, FrameReport, InterfaceId, ModelId, PairId, Scene, SealReport, State, World,
@@ -62,10 +61,9 @@ impl Phase {
     /// Ends set-up. After a failure set-up goes on, unchanged.
     pub fn seal(&mut self) -> Result<SealReport, EngineError> {
         self.set_up("seal")?;
-        // Replaced by an empty world meanwhile; should the seal panic, the lock is poisoned and nobody sees
-        // it.
+        // An empty builder stands in during the seal; if that panics, the lock is poisoned and no call sees it.
         let kept = Self::SetUp(WorldBuilder::new(Config::default()));
-        let Self::SetUp(builder) = std::mem::replace(self, kept) else { unreachable!("asked above") };
+        let Self::SetUp(builder) = std::mem::replace(self, kept) else { unreachable!("checked above") };
         match builder.seal() {
             Ok((world, report)) => {
                 *self = Self::Frames(world);

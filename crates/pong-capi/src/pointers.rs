@@ -1,4 +1,4 @@
-//! Pointers from C, checked as far as possible.
+//! Pointers from C: NULL, alignment, lengths and overlap are checked.
 
 use crate::failure::{Failure, Outcome};
 use crate::status::pong_status;
@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::ptr::NonNull;
 
 fn null(name: &str) -> Failure {
-    Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; give a place for it"))
+    Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; pass a pointer to a variable"))
 }
 
 fn check<T>(pointer: *const T, name: &str) -> Outcome {
@@ -16,7 +16,7 @@ fn check<T>(pointer: *const T, name: &str) -> Outcome {
     }
     if !pointer.is_aligned() {
         let message =
-            format!("`{name}` is not aligned to {} bytes; hand over a variable of its type", align_of::<T>());
+            format!("`{name}` is not aligned to {} bytes; pass a variable of its type", align_of::<T>());
         return Err(Failure::new(pong_status::BadValue, message));
     }
     Ok(())
@@ -43,9 +43,9 @@ impl<T> Out<T> {
 
     /// Writes the result.
     pub fn set(&self, value: T) {
-        if let Some(place) = self.0 {
-            // SAFETY: `new` has checked the pointer and its caller vouches for the rest.
-            unsafe { place.write(value) };
+        if let Some(pointer) = self.0 {
+            // SAFETY: `new` has checked the pointer; the rest is its contract.
+            unsafe { pointer.write(value) };
         }
     }
 }
@@ -141,11 +141,13 @@ fn bytes<T>(pointer: *const T, len: usize) -> Range<usize> {
 /// `pointer` is NULL or the text can be read and does not change for `'a`.
 pub(crate) unsafe fn text<'a>(pointer: *const c_char, name: &str) -> Outcome<&'a str> {
     if pointer.is_null() {
-        return Err(Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; give a text")));
+        return Err(Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; pass a string")));
     }
     // SAFETY: not NULL; the rest is the contract of this function.
     let text = unsafe { CStr::from_ptr(pointer) };
-    text.to_str().map_err(|_| Failure::new(pong_status::BadValue, format!("`{name}` is no UTF-8 text")))
+    text.to_str().map_err(|_| {
+        Failure::new(pong_status::BadValue, format!("`{name}` is not UTF-8; encode it as UTF-8"))
+    })
 }
 
 fn check_len<T>(len: usize, name: &str) -> Outcome {

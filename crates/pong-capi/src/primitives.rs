@@ -19,7 +19,7 @@ pub unsafe extern "C" fn pong_primitive_count(
     get(world, (count, "count"), |inner| Ok(inner.names.primitives(interface)?.len() as u32))
 }
 
-/// Path of a primitive in its model. The text lives as long as the world.
+/// Returns the path of a primitive in its model. The text lives as long as the world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_primitive_path(
     world: *const pong_world,
@@ -34,7 +34,7 @@ pub unsafe extern "C" fn pong_primitive_path(
     })
 }
 
-/// Index of the primitive with this path in its model.
+/// Finds the index of the primitive with this path in its model.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_find_primitive(
     world: *const pong_world,

@@ -9,14 +9,17 @@ use crate::status::pong_status;
 use pong_engine::{Stage, StageTimes, Work, WorkTimes, World};
 use std::ffi::{CStr, c_char};
 
+/// Limits that a frame reached: a sum of PONG_FLAG_...
+pub type pong_flags = u32;
+
 /// The frame had more contacts than the world's capacity: the deepest were kept.
-pub const PONG_FLAG_CONTACT_LIMIT: u32 = 1;
-/// One ball had more contacts with one surface than could be shared exactly: the deepest were shared.
-pub const PONG_FLAG_LOAD_SHARING_LIMIT: u32 = 2;
-/// A contact was missed: something passed right through something else since the last commit, or came out on
-/// the far side of what pushed it back. Remedy: shorter frames, a thicker wall or a stiffer surface. Before
-/// an intended jump call pong_clear_contact_history().
-pub const PONG_FLAG_TUNNELLED: u32 = 4;
+pub const PONG_FLAG_CONTACT_LIMIT: pong_flags = 1;
+/// A sphere had more contacts with one surface than could be shared exactly: the deepest were shared.
+pub const PONG_FLAG_LOAD_SHARING_LIMIT: pong_flags = 2;
+/// A contact was missed: a body passed right through another one since the last commit, or came out on the far
+/// side of the one that pushed it back. Remedy: shorter frames, a thicker wall or a stiffer surface. Before an
+/// intended jump call pong_clear_contact_history().
+pub const PONG_FLAG_TUNNELLED: pong_flags = 4;
 
 /// `stage_ns` of states in and relative motion.
 pub const PONG_STAGE_INPUT: usize = 0;
@@ -53,7 +56,7 @@ const STAGES: usize = 8;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct pong_report {
     /// Limits that the last frame hit, PONG_FLAG_...; 0 if none. See pong_flag_name().
-    pub flags: u32,
+    pub flags: pong_flags,
     /// Contacts listed.
     pub contacts: u32,
     /// Contacts before the limit was applied: the capacity to ask for after PONG_FLAG_CONTACT_LIMIT.
@@ -105,7 +108,7 @@ pub struct pong_report {
     pub reserved: [u64; 3],
 }
 
-/// Counts, times, memory and flags of the last frame; before the first all zero, except the capacities.
+/// Copies counts, times, memory and flags of the last frame; before the first all zero, except the capacities.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_report(world: *const pong_world, report: *mut pong_report) -> pong_status {
     get(world, (report, "report"), |inner| Ok(report_of(&inner.phase, &inner.counters)))
@@ -159,7 +162,7 @@ pub(crate) fn by_work(times: &WorkTimes) -> [u64; 4] {
 /// Meaning of a flag of the report, in words: "contact limit", "load sharing limit", "tunnelled"; "unknown
 /// limit" for a number that is no single flag. Lives as long as the library.
 #[unsafe(no_mangle)]
-pub extern "C" fn pong_flag_name(flag: u32) -> *const c_char {
+pub extern "C" fn pong_flag_name(flag: pong_flags) -> *const c_char {
     let name: &CStr = match flag {
         PONG_FLAG_CONTACT_LIMIT => c"contact limit",
         PONG_FLAG_LOAD_SHARING_LIMIT => c"load sharing limit",
@@ -197,7 +200,8 @@ pub struct pong_ledger {
     pub dissipated: f64,
 }
 
-/// The energies; work and dissipation are zero unless the configuration has keep_ledger.
+/// Copies the energies at the last commit; work and dissipation are zero unless the configuration has
+/// keep_ledger.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_ledger(world: *const pong_world, ledger: *mut pong_ledger) -> pong_status {
     with_world(world, |inner| {

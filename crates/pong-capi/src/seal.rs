@@ -35,9 +35,9 @@ pub struct pong_seal_report {
     pub reserved: [u64; 4],
 }
 
-/// Ends set-up: checks that everything that may meet can be tested and combined, sizes all memory of the frames and
-/// takes it, and starts the workers. `report` may be NULL. After a failure the world is still in set-up, and the
-/// message lists every reason.
+/// Ends set-up: checks that everything that may meet can be tested and combined, sizes and takes all memory of
+/// the frames, and starts the workers. `report` may be NULL. PONG_STATUS_SEAL_FAILED,
+/// PONG_STATUS_OUT_OF_MEMORY: the world is still in set-up, and the message lists every reason.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_seal_report) -> pong_status {
     setting_up(world, |inner| {
@@ -70,8 +70,8 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
     })
 }
 
-/// A warning of sealing: something the author may not have intended, or a contact that gains energy at the
-/// planned step. The text lives as long as the world.
+/// Returns a warning of the seal: a probable mistake in the set-up, or a contact that gains energy at the
+/// planned step. `index` counts from 0. The text lives as long as the world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_seal_warning(
     world: *const pong_world,
@@ -81,8 +81,8 @@ pub unsafe extern "C" fn pong_seal_warning(
     get(world, (warning, "warning"), |inner| text_at("warning", &inner.seal_warnings, index))
 }
 
-/// A note of sealing: something that may, but need not, go wrong at the planned step if enough contacts act
-/// at once. The text lives as long as the world.
+/// Returns a note of the seal: something that may, but need not, go wrong at the planned step if enough
+/// contacts act at once. `index` counts from 0. The text lives as long as the world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_seal_note(
     world: *const pong_world,

@@ -13,25 +13,27 @@ use pong_geometry::{Pose, Twist};
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct pong_state {
-    /// Position of the group's origin, m.
+    /// Position of the group's origin in the common frame, m.
     pub position: [f64; 3],
     /// Quaternion (w, x, y, z), Hamilton, that takes group components to common components. Normalised on entry;
     /// refused if its norm is off by more than 1e-3.
     pub orientation: [f64; 4],
-    /// Velocity of the group's origin, m/s.
+    /// Velocity of the group's origin, m/s, along common axes.
     pub linear_velocity: [f64; 3],
-    /// Angular velocity, rad/s.
+    /// Angular velocity, rad/s, along common axes.
     pub angular_velocity: [f64; 3],
 }
 
-/// At rest at the common origin.
+/// State at rest at the common origin, along the common axes.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_default_state() -> pong_state {
     State::identity().into()
 }
 
-/// Sets the states of `n` movable groups in one call: all of them or, if any is refused, none. With n = 0 the
-/// arrays may be NULL. Groups that are not named keep their state; one that is named twice is refused.
+/// Sets the states of `n` movable groups in one call: all of them or, if any is refused, none. Groups that are
+/// not named keep their state. With n = 0 the arrays may be NULL. In set-up and in frames.
+/// PONG_STATUS_BAD_STATE: a number is not finite or beyond 1e100, or a quaternion is not of unit length.
+/// PONG_STATUS_DUPLICATE: a group is named twice.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_states(
     world: *mut pong_world,
@@ -49,7 +51,8 @@ pub unsafe extern "C" fn pong_set_states(
     })
 }
 
-/// Sets the state of one movable group.
+/// Sets the state of one movable group. In set-up and in frames. PONG_STATUS_BAD_STATE as for
+/// pong_set_states().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_state(
     world: *mut pong_world,
@@ -62,7 +65,8 @@ pub unsafe extern "C" fn pong_set_state(
     })
 }
 
-/// The state last set for a movable group, its quaternion normalised. PONG_STATUS_UNSET_STATE if there is none.
+/// Copies the state last set for a movable group, its quaternion normalised. PONG_STATUS_UNSET_STATE if there
+/// is none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_state(
     world: *const pong_world,

@@ -1,6 +1,6 @@
 //! Input of the step adviser before the seal: masses, and the host's use of the wrench.
 
-use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD};
+use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD, pong_coupling};
 use crate::failure::{Failure, Outcome};
 use crate::guard::{get, setting_up};
 use crate::handle::pong_world;
@@ -50,7 +50,7 @@ pub struct pong_step_plan {
     /// The step or frame, s; must be set.
     pub step: f64,
     /// Use of the wrench: one of PONG_COUPLING_...; PONG_COUPLING_ZERO_ORDER_HOLD by default.
-    pub wrench_coupling: u32,
+    pub wrench_coupling: pong_coupling,
     /// With PONG_COUPLING_ZERO_ORDER_HOLD: delay of the wrench in whole frames after the first possible one,
     /// at most 100; 0 by default.
     pub delay_frames: u32,
@@ -82,7 +82,7 @@ pub struct pong_step_check {
     pub damping_rate: f64,
 }
 
-/// A plan without a step: held wrenches, depth within 5 % and rebound within 2 %.
+/// The default plan: held wrenches, depth within 5 % and rebound within 2 %. Its step is 0 and must be set.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_default_step_plan() -> pong_step_plan {
     let Accuracy { depth, rebound } = Accuracy::default();
@@ -97,8 +97,9 @@ pub extern "C" fn pong_default_step_plan() -> pong_step_plan {
     }
 }
 
-/// Sets the mass properties of a movable group, for the check that pong_plan_step() asks for. Before sealing. A hinged body
-/// gets its own mass and inertia, as if it were free; that is on the safe side, and pong_set_joints() gives a sharp limit.
+/// Sets the mass properties of a movable group, for the check that pong_plan_step() requests. Before sealing. A
+/// hinged body gets its own mass and inertia, as if it were free; that is on the safe side, and
+/// pong_set_joints() gives a sharp limit.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_mass(
     world: *mut pong_world,
@@ -113,8 +114,8 @@ pub unsafe extern "C" fn pong_set_mass(
     })
 }
 
-/// Sets how a movable group on joints yields, in addition to its mass of pong_set_mass(), which must be set
-/// first. Before sealing for the check of pong_plan_step(), and as often as the pose changes for
+/// Sets the response of a movable group on joints, in addition to its mass of pong_set_mass(), which must be
+/// set first. Before sealing for the check of pong_plan_step(), and as often as the pose changes for
 /// pong_check_step().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_joints(
@@ -135,9 +136,9 @@ pub unsafe extern "C" fn pong_set_joints(
     })
 }
 
-/// Has the seal check every contact against the host's step, by the masses of pong_set_mass(). Contacts for
-/// which the step is too long, or which cannot be judged, appear in pong_seal_warning(); those for which it
-/// may be too long, if enough contacts act at once, in pong_seal_note(). Before sealing.
+/// Makes the seal check every contact against the host's step, by the masses of pong_set_mass(). Contacts for
+/// which the step is too long, or which cannot be judged, appear in pong_seal_warning(); those for which it may
+/// be too long, if enough contacts act at once, in pong_seal_note(). Before sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_plan_step(world: *mut pong_world, plan: *const pong_step_plan) -> pong_status {
     setting_up(world, |inner| {
@@ -150,8 +151,8 @@ pub unsafe extern "C" fn pong_plan_step(world: *mut pong_world, plan: *const pon
     })
 }
 
-/// Checks the planned step against the contacts of the last frame, with their true levers and normals. Needs
-/// the plan and the masses from before the seal, and a frame. Allocates.
+/// Checks the planned step against the contacts of the last frame, with their actual lever arms and normals.
+/// Allocates. PONG_STATUS_WRONG_PHASE: no step was planned before the seal, or there is no frame.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_check_step(
     world: *const pong_world,

@@ -10,31 +10,37 @@ use crate::status::pong_status;
 use pong_model::{Exponent, FrictionLaw, NormalLaw, Surface};
 use std::ffi::c_char;
 
-/// F = k d + c d', with a ramp.
-pub const PONG_NORMAL_LINEAR: i32 = 0;
+/// Kind of a normal force law: PONG_NORMAL_...
+pub type pong_normal_kind = i32;
+
+/// F = k d + c d', with a ramp: d is the depth, k the stiffness, c the damping.
+pub const PONG_NORMAL_LINEAR: pong_normal_kind = 0;
 /// F = k d (1 + chi d').
-pub const PONG_NORMAL_HUNT_CROSSLEY: i32 = 1;
+pub const PONG_NORMAL_HUNT_CROSSLEY: pong_normal_kind = 1;
 /// F = k d^(3/2) (1 + chi d').
-pub const PONG_NORMAL_HUNT_CROSSLEY_HERTZ: i32 = 2;
+pub const PONG_NORMAL_HUNT_CROSSLEY_HERTZ: pong_normal_kind = 2;
 /// A law given by callback; its parameters stay as the model gives them.
-pub const PONG_NORMAL_CUSTOM: i32 = 3;
+pub const PONG_NORMAL_CUSTOM: pong_normal_kind = 3;
 /// Law of the surface it meets, for a rigid surface that names none. It stays rigid.
-pub const PONG_NORMAL_INHERITED: i32 = 4;
+pub const PONG_NORMAL_INHERITED: pong_normal_kind = 4;
 /// F = k d + c d^q d', with the q of the model file.
-pub const PONG_NORMAL_POWER_LAW: i32 = 5;
+pub const PONG_NORMAL_POWER_LAW: pong_normal_kind = 5;
 /// F = k d^(3/2) + c d^q d', with the q of the model file.
-pub const PONG_NORMAL_POWER_LAW_HERTZ: i32 = 6;
+pub const PONG_NORMAL_POWER_LAW_HERTZ: pong_normal_kind = 6;
+
+/// Kind of a friction law: PONG_FRICTION_...
+pub type pong_friction_kind = i32;
 
 /// No friction.
-pub const PONG_FRICTION_NONE: i32 = 0;
+pub const PONG_FRICTION_NONE: pong_friction_kind = 0;
 /// Bristle with reset.
-pub const PONG_FRICTION_BRISTLE: i32 = 1;
+pub const PONG_FRICTION_BRISTLE: pong_friction_kind = 1;
 /// Regularised Coulomb friction.
-pub const PONG_FRICTION_COULOMB: i32 = 2;
+pub const PONG_FRICTION_COULOMB: pong_friction_kind = 2;
 /// A law given by callback; its parameters stay as the model gives them.
-pub const PONG_FRICTION_CUSTOM: i32 = 3;
+pub const PONG_FRICTION_CUSTOM: pong_friction_kind = 3;
 /// Law of the surface it meets, for a rigid surface that names none. It stays rigid.
-pub const PONG_FRICTION_INHERITED: i32 = 4;
+pub const PONG_FRICTION_INHERITED: pong_friction_kind = 4;
 
 /// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's
 /// laws do not use are 0 when got and ignored when set. No value but a rigid stiffness is beyond 1e100.
@@ -42,9 +48,9 @@ pub const PONG_FRICTION_INHERITED: i32 = 4;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct pong_surface_values {
     /// Normal law of the surface: PONG_NORMAL_...
-    pub normal_law: i32,
+    pub normal_law: pong_normal_kind,
     /// Friction law of the surface: PONG_FRICTION_...
-    pub friction_law: i32,
+    pub friction_law: pong_friction_kind,
     /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_..._HERTZ), 1e-100 to 1e100; infinite means rigid.
     pub stiffness: f64,
     /// Linear, power law: damping, N s/m (N s/m^(1+q) with the power law).
@@ -76,7 +82,7 @@ pub unsafe extern "C" fn pong_surface_count(
     get(world, (count, "count"), |inner| Ok(inner.names.model(model)?.surfaces.len()))
 }
 
-/// Name of a surface of a model. The text lives as long as the world.
+/// Returns the name of a surface of a model; `index` counts from 0. The text lives as long as the world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_surface_name(
     world: *const pong_world,
@@ -87,7 +93,7 @@ pub unsafe extern "C" fn pong_surface_name(
     get(world, (name, "name"), |inner| text_at("surface", &inner.names.model(model)?.surfaces, index))
 }
 
-/// The values of a surface as they are now.
+/// Copies the present values of a surface, named as in the model.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_surface(
     world: *const pong_world,
@@ -102,8 +108,9 @@ pub unsafe extern "C" fn pong_get_surface(
     })
 }
 
-/// Sets the values of a surface for all Objects of a model, from the next evaluation on. Allocates: between
-/// frames, not in them.
+/// Sets the values of a surface for all Objects of a model, from the next evaluation on, before or after
+/// sealing. Allocates: between frames, not in them. PONG_STATUS_BAD_VALUE: another law than the surface has, or
+/// a value outside its range.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_surface(
     world: *mut pong_world,
@@ -116,7 +123,7 @@ pub unsafe extern "C" fn pong_set_surface(
         let old = inner.phase.surface(model.id(), name)?;
         let new = values.applied_to(old)?;
         inner.phase.set_surface(model.id(), &new)?;
-        inner.tell_log(|log| log.surface_set(model.id(), &new));
+        inner.log_event(|log| log.surface_set(model.id(), &new));
         Ok(())
     })
 }

@@ -7,17 +7,20 @@ use crate::status::pong_status;
 use pong_engine::{FrameCounts, Tally, World};
 use std::ffi::c_char;
 
+/// Kind of the tests of a tally: PONG_TALLY_...
+pub type pong_tally_kind = u32;
+
 /// `what` of a tally of tests of the models' bounding volumes.
-pub const PONG_TALLY_VOLUMES: u32 = 0;
+pub const PONG_TALLY_VOLUMES: pong_tally_kind = 0;
 /// `what` of a tally of contact tests.
-pub const PONG_TALLY_PRIMITIVES: u32 = 1;
+pub const PONG_TALLY_PRIMITIVES: pong_tally_kind = 1;
 
 /// Tests of one kind against another in the last frame.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct pong_tally {
     /// Kind of the tests: PONG_TALLY_...
-    pub what: u32,
+    pub what: pong_tally_kind,
     /// Tests.
     pub tested: u32,
     /// For volumes, tests that did not find the two apart; the others were rejected. For primitives, contacts
@@ -38,8 +41,8 @@ pub unsafe extern "C" fn pong_tally_count(world: *const pong_world, count: *mut 
     get(world, (count, "count"), |inner| Ok(tallies(&counts_of(inner)).count()))
 }
 
-/// A tally of the last frame. Bounding volumes come first, then primitives, always in the same order of kinds. The
-/// numbers are the same for any number of workers.
+/// Copies a tally of the last frame; `index` counts from 0. Bounding volumes come first, then primitives,
+/// always in the same order of kinds. The numbers are the same for any number of workers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_tally(
     world: *const pong_world,

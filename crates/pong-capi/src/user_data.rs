@@ -6,7 +6,7 @@ use crate::ids::{pong_interface_id, pong_object_id};
 use crate::names::no_such;
 use crate::status::pong_status;
 
-/// Keeps a number of the host's with an Object: an index, a pointer. The engine never looks at it.
+/// Keeps a number of the host's with an Object: an index, a pointer. The engine never reads it. May allocate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_object_user_data(
     world: *mut pong_world,
@@ -20,7 +20,7 @@ pub unsafe extern "C" fn pong_set_object_user_data(
     })
 }
 
-/// The number kept with an Object; 0 if none was set.
+/// Copies the number kept with an Object; 0 if none was set.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_object_user_data(
     world: *const pong_world,
@@ -33,7 +33,7 @@ pub unsafe extern "C" fn pong_get_object_user_data(
     })
 }
 
-/// Keeps a number of the host's with a primitive of one Object.
+/// Keeps a number of the host's with a primitive of one Object. The engine never reads it. May allocate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_primitive_user_data(
     world: *mut pong_world,
@@ -48,7 +48,7 @@ pub unsafe extern "C" fn pong_set_primitive_user_data(
     })
 }
 
-/// The number kept with a primitive; 0 if none was set.
+/// Copies the number kept with a primitive; 0 if none was set.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_primitive_user_data(
     world: *const pong_world,

@@ -7,22 +7,17 @@ use crate::names::c_text;
 use crate::report::by_work;
 use crate::status::pong_status;
 use crate::worker::Started;
-pub use crate::worker::pong_worker;
+pub use crate::worker::{
+    PONG_GRANT_GRANTED, PONG_GRANT_NOT_ASKED, PONG_GRANT_REFUSED, pong_grant, pong_worker,
+};
 use pong_engine::{ThreadWork, WorkerStart};
 use pong_threads::Grant;
 use std::ffi::c_char;
 use std::time::Duration;
 
-/// The configuration did not ask for it.
-pub const PONG_GRANT_NOT_ASKED: u32 = 0;
-/// It was asked for and granted.
-pub const PONG_GRANT_GRANTED: u32 = 1;
-/// It was asked for and refused; pong_worker_text() has the reason.
-pub const PONG_GRANT_REFUSED: u32 = 2;
-
-/// Wakes the workers shortly before a frame (some 100 us): they look for its work until it comes or `at_most_us` has
-/// passed. For hosts whose frames are further apart than the workers' spin_us. Does nothing without workers.
-/// PONG_STATUS_WRONG_PHASE before the seal.
+/// Wakes the workers shortly before a frame (some 100 us): they look for its work until it comes or
+/// `at_most_us`, us, have passed. For hosts whose frames are further apart than the workers' spin_us. Does
+/// nothing without workers. After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_prewake(world: *mut pong_world, at_most_us: u64) -> pong_status {
     with_world(world, |inner| {
@@ -32,7 +27,7 @@ pub unsafe extern "C" fn pong_prewake(world: *mut pong_world, at_most_us: u64) -
 }
 
 /// Lets the workers sleep at once, as in a freeze. The next frame wakes them. Does nothing without workers.
-/// PONG_STATUS_WRONG_PHASE before the seal.
+/// After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_quiesce(world: *mut pong_world) -> pong_status {
     with_world(world, |inner| {
@@ -41,8 +36,7 @@ pub unsafe extern "C" fn pong_quiesce(world: *mut pong_world) -> pong_status {
     })
 }
 
-/// Number of workers that were started, which may be fewer than the configuration asks for.
-/// PONG_STATUS_WRONG_PHASE before the seal.
+/// Number of workers that were started, which may be fewer than the configuration requests. After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_worker_count(world: *const pong_world, count: *mut usize) -> pong_status {
     get(world, (count, "count"), |inner| {
@@ -51,8 +45,8 @@ pub unsafe extern "C" fn pong_worker_count(world: *const pong_world, count: *mut
     })
 }
 
-/// Placement of a worker and its share of the last frame. `index` is 1 to pong_worker_count(), or 0 for the
-/// calling thread. PONG_STATUS_WRONG_PHASE before the seal.
+/// Copies the placement of a worker and its share of the last frame. `index` is 1 to pong_worker_count(), or 0
+/// for the calling thread. After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_worker(
     world: *const pong_world,
@@ -60,16 +54,16 @@ pub unsafe extern "C" fn pong_get_worker(
     worker: *mut pong_worker,
 ) -> pong_status {
     get(world, (worker, "worker"), |inner| {
-        let world = inner.phase.frames("ask for a worker")?;
-        let asked = if index == 0 { pong_worker::default() } else { inner.worker(index)?.asked };
+        let world = inner.phase.frames("get a worker")?;
+        let placement = if index == 0 { pong_worker::default() } else { inner.worker(index)?.placement };
         let ThreadWork { blocks, busy_ns } = world.thread_work().nth(index).unwrap_or_default();
         let work_ns = world.thread_times().nth(index).map_or([0; 4], |times| by_work(&times));
-        Ok(pong_worker { blocks, busy_ns, work_ns, ..asked })
+        Ok(pong_worker { blocks, busy_ns, work_ns, ..placement })
     })
 }
 
-/// Placement of a worker, in words: its core and priority, or why it does not have them. `index` is 1 to
-/// pong_worker_count(). The text lives as long as the world. PONG_STATUS_WRONG_PHASE before the seal.
+/// Returns the placement of a worker in words: its core and priority, or why it does not have them. `index` is
+/// 1 to pong_worker_count(). The text lives as long as the world. After sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_worker_text(
     world: *const pong_world,
@@ -81,7 +75,7 @@ pub unsafe extern "C" fn pong_worker_text(
 
 impl Inner {
     fn worker(&self, index: usize) -> Outcome<&Started> {
-        self.phase.frames("ask for a worker")?;
+        self.phase.frames("get a worker")?;
         let workers = &self.workers;
         let found = index.checked_sub(1).and_then(|index| workers.get(index));
         found.ok_or_else(|| {
@@ -99,9 +93,9 @@ impl From<&WorkerStart> for Started {
         let (core_grant, core) = grant(&start.core, |core| core as u32);
         let (fifo_grant, fifo_priority) = grant(&start.fifo_priority, u32::from);
         let index = start.thread as u32;
-        let asked =
+        let placement =
             pong_worker { index, core_grant, core, fifo_grant, fifo_priority, ..pong_worker::default() };
-        Self { asked, text: c_text(&start.to_string()) }
+        Self { placement, text: c_text(&start.to_string()) }
     }
 }
 

@@ -34,8 +34,8 @@ pub unsafe extern "C" fn pong_create_world(
         // SAFETY: as above.
         let config = unsafe { one(config, "config")? };
         let wanted = config.check()?;
-        memory::require_little()?;
-        instructions::obey_environment()?;
+        memory::require_small()?;
+        instructions::apply_environment()?;
         let mut builder = WorldBuilder::new(wanted.engine);
         if wanted.times {
             builder.set_clock(clock::now_ns);
@@ -87,7 +87,7 @@ pub unsafe extern "C" fn pong_destroy_world(world: *mut pong_world) -> pong_stat
             left => {
                 let message = format!(
                     "the world is destroyed, but {left} of its workers had not ended in time: the system does not run \
-                     them; keep what the laws' `user` pointers name, and the library, until they have ended"
+                     them; keep the `user` data of the laws and the library until they have ended"
                 );
                 Err(Failure::new(pong_status::WorkerLeft, message))
             }

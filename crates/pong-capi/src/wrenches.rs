@@ -27,8 +27,9 @@ pub struct pong_wrench {
     pub moment: [f64; 3],
 }
 
-/// Wrenches of the last frame on `n` movable groups in one call. With n = 0 the arrays may be NULL. They must not share
-/// memory.
+/// Copies the wrenches of the last frame on `n` movable groups, N and N m, about the origin of each and along
+/// the axes that `frame` names. The arrays must not share memory; with n = 0 they may be NULL.
+/// PONG_STATUS_WRONG_PHASE before the first frame; PONG_STATUS_LAW_FAILED after a frame that a law spoilt.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_wrenches(
     world: *const pong_world,
@@ -50,7 +51,7 @@ pub unsafe extern "C" fn pong_get_wrenches(
     })
 }
 
-/// Wrench of the last frame on one movable group.
+/// Copies the wrench of the last frame on one movable group. Errors as for pong_get_wrenches().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_wrench(
     world: *const pong_world,
@@ -64,10 +65,11 @@ pub unsafe extern "C" fn pong_get_wrench(
     })
 }
 
-/// Wrench of the last frame on the movable group `interface` from its contacts with the movable group `from` alone, about the
-/// origin of `interface`, as pong_get_wrench(): over all groups that `interface` can touch, these add up to that wrench, to
-/// rounding. Zero where the two do not touch, their pair is off or a filter keeps them apart. Summed when it is asked for: a
-/// frame pays nothing; allocates nothing. PONG_STATUS_BAD_VALUE: both are the same group, or their Objects are not paired.
+/// Copies the wrench of the last frame on the movable group `interface` from its contacts with the movable
+/// group `from` alone, about the origin of `interface`. Over all groups that `interface` can touch, these add
+/// up to pong_get_wrench(), to rounding. Zero where the two do not touch, their pair is off or a filter keeps
+/// them apart. It is summed in this call, so frames pay nothing; allocates nothing. PONG_STATUS_BAD_VALUE: both
+/// are the same group, or their Objects are not paired. Otherwise errors as for pong_get_wrenches().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_wrench_from(
     world: *const pong_world,
@@ -86,11 +88,12 @@ pub unsafe extern "C" fn pong_get_wrench_from(
     })
 }
 
-/// Wrench of the last frame of a pair of Objects: the sum over all its contacts, on the Object that was named first in the pair
-/// from the other, about the origin of `about`, a movable group of either Object. PONG_REFERENCE_FRAME_GROUP: along the axes of
-/// `about`. The Object named second receives the opposite about the same point. Zero where the two do not touch or the pair is
-/// off. Summed when it is asked for: a frame pays nothing; allocates nothing. PONG_STATUS_BAD_VALUE: `about` is of neither
-/// Object, or an Object is paired with itself: ask pong_get_wrench_from() for two of its groups.
+/// Copies the wrench of the last frame of a pair of Objects: the sum over all its contacts, on the Object that
+/// was named first in the pair from the other, about the origin of `about`, a movable group of either Object.
+/// PONG_REFERENCE_FRAME_GROUP: along the axes of `about`. The Object named second receives the opposite about
+/// the same point. Zero where the two do not touch or the pair is off. It is summed in this call, so frames pay
+/// nothing; allocates nothing. PONG_STATUS_BAD_VALUE: `about` is of neither Object, or an Object is paired with
+/// itself: call pong_get_wrench_from() for two of its groups. Otherwise errors as for pong_get_wrenches().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_pair_wrench(
     world: *const pong_world,

@@ -26,8 +26,8 @@ typedef struct {
 
 typedef struct {
     limits l;
-    enum phase phase;
-    double since, quiet_since, gap, ends[PHASES];
+    phases phases;
+    double gap;
     int fault; /* a latch did not draw its fitting in */
     double moved_early, pressed_gap;
     double arm[ARM];
@@ -55,16 +55,15 @@ static void read_limits(limits *l, const numbers *n)
     }
 }
 
-static void open_sequencer(sequencer *s, const machine *m)
+static void open_sequencer(void *state, const machine *m)
 {
+    sequencer *s = state;
     char name[24];
     int i;
     memset(s, 0, sizeof *s);
     read_limits(&s->l, &m->numbers);
     s->gap = s->l.start_gap;
-    for (i = 0; i < PHASES; i++) {
-        s->ends[i] = -1.0;
-    }
+    begin_phases(&s->phases, NAMES, APPROACH);
     for (i = 0; i < ARM; i++) {
         s->arm[i] = number_at(&m->numbers, "arm", i);
     }
@@ -134,28 +133,19 @@ static int all_stowed(const sequencer *s, const machine *m)
 
 /* --- the phases ----------------------------------------------------------------------------------------------------- */
 
-/* True if a condition has held for a time. */
-static int lasting(sequencer *s, int holds, double seconds, double time)
-{
-    if (!holds) {
-        s->quiet_since = time;
-    }
-    return holds && time - s->quiet_since > seconds;
-}
-
 static int finished(sequencer *s, const machine *m)
 {
     const limits *l = &s->l;
-    double time = m->data->time, waited = time - s->since;
-    switch (s->phase) {
+    double waited = m->data->time - s->phases.since;
+    switch (s->phases.now) {
     case APPROACH:
-        return lasting(s, all_ready(s, m), l->ready_for, time);
+        return has_held(&s->phases, m, all_ready(s, m), l->ready_for);
     case CAPTURE:
-        return lasting(s, least(m->data->qpos, s->crank) >= l->caught, l->caught_for, time) || waited > l->capture_most;
+        return has_held(&s->phases, m, least(m->data->qpos, s->crank) >= l->caught, l->caught_for) || waited > l->capture_most;
     case LIMP:
         return waited > l->limp_for;
     case PULL:
-        return (lasting(s, fastest(s, m) < l->stands, l->stands_for, time) && waited > l->ramp) || waited > l->pull_most;
+        return (has_held(&s->phases, m, fastest(s, m) < l->stands, l->stands_for) && waited > l->ramp) || waited > l->pull_most;
     case HOLD:
         return waited > l->held_for;
     case BOLT:
@@ -169,15 +159,13 @@ static int finished(sequencer *s, const machine *m)
 
 static void next(sequencer *s, const machine *m)
 {
-    s->ends[s->phase] = m->data->time;
-    if (s->phase == PULL) {
+    if (s->phases.now == PULL) {
         s->fault = least(m->data->qpos, s->crank) < s->l.closed_least;
     }
-    if (s->phase == HOLD) {
+    if (s->phases.now == HOLD) {
         s->pressed_gap = m->data->xpos[s->height];
     }
-    s->phase += 1;
-    s->since = s->quiet_since = m->data->time;
+    enter_phase(&s->phases, m, s->phases.now + 1);
 }
 
 /* Voltage at which a turning motor acts as one with this share of the stall torque, and the same free speed. */
@@ -189,12 +177,12 @@ static double driven(const sequencer *s, double share, double speed)
 static double voltage(const sequencer *s, const machine *m, int latch)
 {
     double speed = m->data->qvel[s->crank_speed[latch]], risen;
-    switch (s->phase) {
+    switch (s->phases.now) {
     case CAPTURE:
     case LIMP:
         return driven(s, s->l.capture_share, speed);
     case PULL:
-        risen = fmin(1.0, (m->data->time - s->since) / s->l.ramp);
+        risen = fmin(1.0, (m->data->time - s->phases.since) / s->l.ramp);
         return driven(s, s->l.capture_share + (1.0 - s->l.capture_share) * risen, speed);
     case HOLD:
     case BOLT:
@@ -215,8 +203,8 @@ static void drive(const sequencer *s, machine *m)
     for (i = 0; i < ARM; i++) {
         m->data->ctrl[LATCHES + i] = i == 2 ? s->gap + s->arm[i] : s->arm[i];
     }
-    m->model->opt.disableactuator = s->phase <= CAPTURE ? 0 : s->arm_group;
-    m->data->eq_active[s->bolts] = s->phase == BOLT || s->phase == OPEN;
+    m->model->opt.disableactuator = s->phases.now <= CAPTURE ? 0 : s->arm_group;
+    m->data->eq_active[s->bolts] = s->phases.now == BOLT || s->phases.now == OPEN;
 }
 
 static int control(machine *m, void *state)
@@ -225,11 +213,11 @@ static int control(machine *m, void *state)
     if (finished(s, m)) {
         next(s, m);
     }
-    if (s->phase == APPROACH) {
+    if (s->phases.now == APPROACH) {
         s->gap = fmax(s->l.pushed_gap, s->l.start_gap - s->l.approach_speed * m->data->time);
         s->moved_early = fmax(s->moved_early, farthest(s, m));
     }
-    if (s->phase == AWAY && m->data->time - s->since > s->l.away_for) {
+    if (s->phases.now == AWAY && m->data->time - s->phases.since > s->l.away_for) {
         return 0;
     }
     drive(s, m);
@@ -238,15 +226,14 @@ static int control(machine *m, void *state)
 
 /* --- the outcome ---------------------------------------------------------------------------------------------------- */
 
-static int judge(const sequencer *s, const machine *m)
+static int judge(const void *state, const machine *m)
 {
+    const sequencer *s = state;
     double predicted = number(&m->numbers, "pressed_gap"), within = number(&m->numbers, "pressed_within");
     double gap = m->data->xpos[s->height];
-    int i, held = fabs(s->pressed_gap - predicted) <= within * fabs(predicted);
+    int held = fabs(s->pressed_gap - predicted) <= within * fabs(predicted);
     int off = gap > number(&m->numbers, "away_gap"), early = s->moved_early > number(&m->numbers, "moved_early");
-    for (i = 0; i < AWAY; i++) {
-        printf("%-9s ended at %7.3f s\n", NAMES[i], s->ends[i]);
-    }
+    print_ends(&s->phases, AWAY);
     printf("latches moved by %.1e rad before the indicators were ready; rings pressed together by %.1f um, predicted %.1f um;"
            " gap at the end %.4f m; flags %d\n",
            s->moved_early, -1e6 * s->pressed_gap, -1e6 * predicted, gap, m->flags);
@@ -256,19 +243,7 @@ static int judge(const sequencer *s, const machine *m)
 
 int main(int argc, char **argv)
 {
-    run_options o;
-    machine m;
     sequencer s;
-    int outcome;
-    read_options(&o, argc, argv);
-    open_machine(&m, &o);
-    open_sequencer(&s, &m);
-    if (run_machine(&m, &o, control, &s)) {
-        outcome = judge(&s, &m);
-    } else {
-        printf("stopped in the phase %s\n", NAMES[s.phase]);
-        outcome = UNFINISHED;
-    }
-    close_machine(&m);
-    return outcome;
+    program p = { &s, &s.phases, open_sequencer, control, judge };
+    return run_program(&p, argc, argv);
 }

@@ -26,10 +26,10 @@ typedef struct {
 
 typedef struct {
     phase_row rows[PHASES];
-    enum phase phase, missed; /* `missed`: in which it gave up; DONE if it did not */
-    double since, calm, carriage;
+    phases phases;
+    enum phase missed; /* in which it gave up; DONE if it did not */
+    double carriage;
     int steps_after;
-    double ends[PHASES];
     double on_pads, preload; /* N, at the end of the hold */
     int turn, turning, retract, turn_dof;
     int ring, screw, plungers;
@@ -68,14 +68,15 @@ static enum phase first_phase(const machine *m)
     exit(WRONG_USE);
 }
 
-static void open_sequencer(sequencer *s, const machine *m)
+static void open_sequencer(void *state, const machine *m)
 {
+    sequencer *s = state;
     int i;
     memset(s, 0, sizeof *s);
     for (i = 0; i < PHASES; i++) {
         s->rows[i] = read_row(m, (enum phase)i);
     }
-    s->phase = first_phase(m);
+    begin_phases(&s->phases, NAMES, first_phase(m));
     s->missed = DONE;
     s->turn = place_of(m, "turn");
     s->turning = s->turn_dof = speed_of(m, "turn");
@@ -135,18 +136,12 @@ static int near(const sequencer *s, const machine *m) { return height(s, m) <= n
 
 static int rested(sequencer *s, const machine *m, const phase_row *row)
 {
-    if (fabs(m->data->qvel[row->rests]) > row->slower_than) {
-        s->calm = m->data->time;
-    }
-    return m->data->time - s->calm > row->lasting;
+    return has_held(&s->phases, m, fabs(m->data->qvel[row->rests]) <= row->slower_than, row->lasting);
 }
 
 static int apart(sequencer *s, const machine *m)
 {
-    if (touched(m, "plungers", 3)) {
-        s->calm = m->data->time;
-    }
-    return m->data->time - s->calm > number(&m->numbers, "apart_for");
+    return has_held(&s->phases, m, !touched(m, "plungers", 3), number(&m->numbers, "apart_for"));
 }
 
 static int unloaded(const sequencer *s, const machine *m)
@@ -157,14 +152,14 @@ static int unloaded(const sequencer *s, const machine *m)
 
 static int finished(sequencer *s, const machine *m)
 {
-    const phase_row *row = &s->rows[s->phase];
-    if (m->data->time - s->since >= row->limit) {
+    const phase_row *row = &s->rows[s->phases.now];
+    if (m->data->time - s->phases.since >= row->limit) {
         return 1;
     }
     if (row->rests >= 0) {
         return rested(s, m, row);
     }
-    switch (s->phase) {
+    switch (s->phases.now) {
     case APPROACH:
         return near(s, m);
     case RELEASE:
@@ -181,7 +176,7 @@ static int finished(sequencer *s, const machine *m)
 /* True if the phase failed: nothing entered the mouth, the closed snare touches nothing, or nothing presses the pads. */
 static int failed(const sequencer *s, const machine *m)
 {
-    switch (s->phase) {
+    switch (s->phases.now) {
     case APPROACH:
         return !near(s, m);
     case SNARE:
@@ -195,14 +190,12 @@ static int failed(const sequencer *s, const machine *m)
 
 static void next(sequencer *s, const machine *m)
 {
-    s->ends[s->phase] = m->data->time;
     if (failed(s, m)) {
-        s->missed = s->phase;
-        s->phase = DONE;
+        s->missed = s->phases.now;
+        enter_phase(&s->phases, m, DONE);
     } else {
-        s->phase += 1;
+        enter_phase(&s->phases, m, s->phases.now + 1);
     }
-    s->since = s->calm = m->data->time;
     s->carriage = m->data->qpos[s->retract];
 }
 
@@ -216,7 +209,7 @@ static double ring_voltage(const sequencer *s, const machine *m, double wanted)
 
 static void drive(const sequencer *s, machine *m)
 {
-    const phase_row *row = &s->rows[s->phase];
+    const phase_row *row = &s->rows[s->phases.now];
     m->data->ctrl[s->ring] = ring_voltage(s, m, row->ring);
     m->data->ctrl[s->screw] = row->screw;
     m->data->ctrl[s->plungers] = row->plungers;
@@ -226,14 +219,14 @@ static void drive(const sequencer *s, machine *m)
 static int control(machine *m, void *state)
 {
     sequencer *s = state;
-    if (s->phase == DONE && ++s->steps_after > (int)number(&m->numbers, "steps_after")) {
+    if (s->phases.now == DONE && ++s->steps_after > (int)number(&m->numbers, "steps_after")) {
         return 0;
     }
-    if (s->phase == HOLD) {
+    if (s->phases.now == HOLD) {
         s->on_pads = axial(s, m, "pads");
         s->preload = s->on_pads + axial(s, m, "teeth") + axial(s, m, "rollers");
     }
-    if (s->phase != DONE && finished(s, m)) {
+    if (s->phases.now != DONE && finished(s, m)) {
         next(s, m);
     }
     drive(s, m);
@@ -242,14 +235,12 @@ static int control(machine *m, void *state)
 
 /* --- the outcome ---------------------------------------------------------------------------------------------------- */
 
-static int judge(const sequencer *s, const machine *m)
+static int judge(const void *state, const machine *m)
 {
+    const sequencer *s = state;
     double predicted = number(&m->numbers, "preload"), within = number(&m->numbers, "preload_within");
     int captured = s->missed == DONE && s->on_pads > 0.5 * predicted;
-    int i;
-    for (i = 0; i < DONE; i++) {
-        printf("%-9s ended at %7.3f s\n", NAMES[i], s->ends[i]);
-    }
+    print_ends(&s->phases, DONE);
     printf("preload %.1f N, predicted %.1f N; flags %d\n", s->preload, predicted, m->flags);
     printf("verdict: %s\n", captured ? "captured, pressed, released" : "not captured");
     return captured && fabs(s->preload - predicted) <= within * predicted && m->flags == 0 ? AS_PREDICTED : OTHERWISE;
@@ -257,19 +248,7 @@ static int judge(const sequencer *s, const machine *m)
 
 int main(int argc, char **argv)
 {
-    run_options o;
-    machine m;
     sequencer s;
-    int outcome;
-    read_options(&o, argc, argv);
-    open_machine(&m, &o);
-    open_sequencer(&s, &m);
-    if (run_machine(&m, &o, control, &s)) {
-        outcome = judge(&s, &m);
-    } else {
-        printf("stopped in the phase %s\n", NAMES[s.phase]);
-        outcome = UNFINISHED;
-    }
-    close_machine(&m);
-    return outcome;
+    program p = { &s, &s.phases, open_sequencer, control, judge };
+    return run_program(&p, argc, argv);
 }

@@ -36,7 +36,7 @@ static double amount(int argc, char **argv, int *i, double least, double most)
     return value;
 }
 
-void read_options(run_options *o, int argc, char **argv)
+static void read_options(run_options *o, int argc, char **argv)
 {
     int i;
     memset(o, 0, sizeof *o);
@@ -77,7 +77,9 @@ static void set_velocities(machine *m)
     }
 }
 
-void open_machine(machine *m, const run_options *o)
+/* Opens FOLDER/machine.xml and FOLDER/numbers.txt, at rest except for the velocities in `qvel`. Changes to
+ * the folder, because the plugin searches the models from there. */
+static void open_machine(machine *m, const run_options *o)
 {
     char error[1000] = "";
     memset(m, 0, sizeof *m);
@@ -99,7 +101,7 @@ void open_machine(machine *m, const run_options *o)
     mj_forward(m->model, m->data);
 }
 
-void close_machine(machine *m)
+static void close_machine(machine *m)
 {
     mj_deleteData(m->data);
     mj_deleteModel(m->model);
@@ -118,6 +120,44 @@ int id_of(const machine *m, mjtObj kind, const char *name)
 int place_of(const machine *m, const char *joint) { return m->model->jnt_qposadr[id_of(m, mjOBJ_JOINT, joint)]; }
 
 int speed_of(const machine *m, const char *joint) { return m->model->jnt_dofadr[id_of(m, mjOBJ_JOINT, joint)]; }
+
+/* --- phases --------------------------------------------------------------------------------------------------------- */
+
+void begin_phases(phases *p, const char *const *names, int first)
+{
+    int i;
+    memset(p, 0, sizeof *p);
+    p->names = names;
+    p->now = first;
+    for (i = 0; i < MOST_PHASES; i++) {
+        p->ends[i] = -1.0;
+    }
+}
+
+void enter_phase(phases *p, const machine *m, int phase)
+{
+    p->ends[p->now] = m->data->time;
+    p->now = phase;
+    p->since = p->unmet = m->data->time;
+}
+
+int has_held(phases *p, const machine *m, int holds, double seconds)
+{
+    if (!holds) {
+        p->unmet = m->data->time;
+    }
+    return holds && m->data->time - p->unmet > seconds;
+}
+
+void print_ends(const phases *p, int count)
+{
+    int i;
+    for (i = 0; i < count; i++) {
+        if (p->ends[i] >= 0.0) {
+            printf("%-9s ended at %7.3f s\n", p->names[i], p->ends[i]);
+        }
+    }
+}
 
 /* --- the run -------------------------------------------------------------------------------------------------------- */
 
@@ -146,7 +186,8 @@ static void print_grants(const grants *granted)
     printf("memory: %s\nscheduling: %s\ncore: %s\n", granted->memory, granted->scheduling, granted->core);
 }
 
-int run_machine(machine *m, const run_options *o, sequence control, void *state)
+/* Returns 1 if the program is over, 0 if the seconds of the options have passed. */
+static int run_machine(machine *m, const run_options *o, const program *p)
 {
     double period = m->model->opt.timestep;
     size_t steps = (size_t)(o->seconds / period + 0.5), n;
@@ -167,7 +208,7 @@ int run_machine(machine *m, const run_options *o, sequence control, void *state)
         if (o->fast) {
             plan.release = start;
         }
-        over = !control(m, state);
+        over = !p->control(m, p->sequencer);
         if (over) {
             break;
         }
@@ -180,4 +221,22 @@ int run_machine(machine *m, const run_options *o, sequence control, void *state)
         write_end(m, o->end);
     }
     return over;
+}
+
+int run_program(const program *p, int argc, char **argv)
+{
+    run_options o;
+    machine m;
+    int outcome;
+    read_options(&o, argc, argv);
+    open_machine(&m, &o);
+    p->open(p->sequencer, &m);
+    if (run_machine(&m, &o, p)) {
+        outcome = p->judge(p->sequencer, &m);
+    } else {
+        printf("stopped in the phase %s\n", p->phases->names[p->phases->now]);
+        outcome = UNFINISHED;
+    }
+    close_machine(&m);
+    return outcome;
 }

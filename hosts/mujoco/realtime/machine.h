@@ -11,6 +11,8 @@
 /* Exit codes of the programs. */
 enum { AS_PREDICTED = 0, OTHERWISE = 1, WRONG_USE = 2, REFUSED = 3, UNFINISHED = 4 };
 
+enum { MOST_PHASES = 16 };
+
 typedef struct {
     const char *folder, *end;
     int fast;
@@ -26,24 +28,42 @@ typedef struct {
     int flags;
 } machine;
 
-/* Reads the arguments of a program; exits if they are wrong. */
-void read_options(run_options *o, int argc, char **argv);
-
-/* Opens FOLDER/machine.xml and FOLDER/numbers.txt, at rest except for the velocities in `qvel`. Changes to
- * the folder, because the plugin searches the models from there. */
-void open_machine(machine *m, const run_options *o);
-void close_machine(machine *m);
-
 /* Addresses of a joint in qpos and qvel, and indices of other elements; exits if there is none of the name. */
 int place_of(const machine *m, const char *joint);
 int speed_of(const machine *m, const char *joint);
 int id_of(const machine *m, mjtObj kind, const char *name);
 
-/* Sets the controls of a step; returns 0 when the run is over. */
-typedef int (*sequence)(machine *m, void *state);
+/* The phases that a sequencer goes through. */
+typedef struct {
+    const char *const *names;
+    int now;
+    double since;             /* begin of the present phase, s */
+    double unmet;             /* when the condition of `has_held` last did not hold, s */
+    double ends[MOST_PHASES]; /* s; -1 for a phase that has not ended */
+} phases;
 
-/* Steps until the sequence is over (returns 1) or the seconds of the options have passed (returns 0). Prints
- * the statistics of the deadlines, and writes qpos and qvel in binary into the file of the option --end. */
-int run_machine(machine *m, const run_options *o, sequence control, void *state);
+void begin_phases(phases *p, const char *const *names, int first);
+
+/* Ends the present phase and enters another one. */
+void enter_phase(phases *p, const machine *m, int phase);
+
+/* True if a condition, tested at every step of a phase, has held for more than `seconds`. */
+int has_held(phases *p, const machine *m, int holds, double seconds);
+
+/* Prints the ends of the first `count` phases, as far as they have ended. */
+void print_ends(const phases *p, int count);
+
+/* A program that runs a machine by a sequencer. */
+typedef struct {
+    void *sequencer;
+    const phases *phases;
+    void (*open)(void *sequencer, const machine *m);
+    int (*control)(machine *m, void *sequencer); /* sets the controls of a step; returns 0 when the run is over */
+    int (*judge)(const void *sequencer, const machine *m); /* prints the outcome; returns the exit code */
+} program;
+
+/* Steps until the program is over or the seconds of the options have passed. Prints the statistics of the deadlines and the
+ * outcome, and writes qpos and qvel in binary into the file of the option --end. Returns the exit code. */
+int run_program(const program *p, int argc, char **argv);
 
 #endif

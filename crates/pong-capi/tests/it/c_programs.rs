@@ -1,20 +1,13 @@
 //! The C and C++ programs of `c_examples`, built with warnings as errors, and run.
 
-use crate::support::c::{arguments, build, command};
+use crate::support::c::{build, builder, command};
 use crate::support::{lib_dir, out_dir, root, run};
 use std::process::Command;
 
-/// Against the shared library; `ci/c_examples` runs them against the static one, too, and under Valgrind.
+/// Against the shared library; `ci/c_examples` runs some against the static one, too, and under Valgrind.
 #[test]
 fn the_programs_build_and_run() {
-    let out = out_dir("c_programs");
-    for program in PROGRAMS {
-        let Some(built) = build(program, &out) else {
-            println!("{program}: left out, as there is no C++ compiler");
-            continue;
-        };
-        run(command(&built, &out).args(arguments(program)).current_dir(root()));
-    }
+    println!("{}", run(builder(&out_dir("c_programs")).arg("--run").args(PROGRAMS)));
 }
 
 const PROGRAMS: [&str; 12] = [
@@ -36,14 +29,14 @@ const PROGRAMS: [&str; 12] = [
 #[test]
 fn the_environment_limits_the_instructions() {
     let out = out_dir("instructions");
-    let built = build("minimal", &out).unwrap();
-    let minimal = |level: &str| command(&built, &out).env("PONG_SIMD", level).output().unwrap();
+    let built = build("minimal", &out);
+    let minimal = |level: &str| command(&built).env("PONG_SIMD", level).output().unwrap();
     let [narrow, wide] = ["portable", "avx512"].map(minimal);
     assert!(narrow.status.success() && wide.status.success());
     assert_eq!(narrow.stdout, wide.stdout, "the same numbers");
     let refused = minimal("sse");
-    let told = String::from_utf8(refused.stderr).unwrap();
-    assert!(!refused.status.success() && told.contains("PONG_SIMD is `sse`"), "{told}");
+    let message = String::from_utf8(refused.stderr).unwrap();
+    assert!(!refused.status.success() && message.contains("PONG_SIMD is `sse`"), "{message}");
 }
 
 /// The log of a C host can be replayed with the same bits, with cleared histories, switched pairs, commits of
@@ -51,10 +44,10 @@ fn the_environment_limits_the_instructions() {
 #[test]
 fn the_log_of_a_c_host_can_be_replayed() {
     let out = out_dir("response_log");
-    let built = build("response_log", &out).unwrap();
+    let built = build("response_log", &out);
     let folder = out.join("logs");
     let _ = std::fs::remove_dir_all(&folder);
-    run(command(&built, &out).arg(&folder));
+    run(command(&built).arg(&folder));
     let mut log = pong_record::Log::open(&folder.join("frames")).unwrap();
     let report = pong_record::replay(&mut log, &pong_record::ReplayOptions::default(), &mut |_| {
         std::ops::ControlFlow::Continue(())
@@ -63,9 +56,9 @@ fn the_log_of_a_c_host_can_be_replayed() {
     assert!(report.agrees() && report.compared == 3000 && report.contacts > 700, "{report:?}");
     let kinds =
         |kind| log.events().iter().filter(|event| std::mem::discriminant(&event.event) == kind).count();
-    let forgotten = std::mem::discriminant(&pong_record::Event::ClearContactHistory { object: 0 });
+    let cleared = std::mem::discriminant(&pong_record::Event::ClearContactHistory { object: 0 });
     let some = std::mem::discriminant(&pong_record::Event::Commit { pairs: Vec::new() });
-    assert_eq!((kinds(forgotten), kinds(some)), (6, 1200));
+    assert_eq!((kinds(cleared), kinds(some)), (6, 1200));
 }
 
 #[test]
