@@ -17,6 +17,7 @@ ARROWS = {
     "pong-threads": set(),
     "pong-model": {"pong-geometry"},
     "pong-engine": {"pong-arena", "pong-geometry", "pong-model", "pong-threads"},
+    "pong": {"pong-geometry", "pong-model", "pong-engine", "pong-threads"},
     "pong-advise": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-executive": {"pong-advise", "pong-geometry", "pong-model", "pong-engine"},
     "pong-record": {"pong-geometry", "pong-model", "pong-engine"},
