@@ -61,6 +61,6 @@ pub use report::{
     WorkTimes,
 };
 pub use scene::{Config, Scene, State, WorkerSettings};
-pub use seal::{MetIn, SealReport, SetupNote, SetupWarning, leave_room_for_small_things, require_memory};
+pub use seal::{MetIn, SealReport, SetupNote, SetupWarning};
 pub use state::StateError;
 pub use world::{Continuation, World};
