@@ -24,6 +24,11 @@
 
 #![forbid(unsafe_code)]
 
+/// Text of the README, whose example runs with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
+
 mod builder;
 mod contact;
 mod energy;
