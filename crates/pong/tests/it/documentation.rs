@@ -17,6 +17,17 @@ fn readme_of_the_crate_holds_the_minimal_example() {
     assert!(read("README.md").contains(&format!("```no_run\n{}```", program())));
 }
 
+/// Program and models of the repository's README are the files of the example.
+#[test]
+fn readme_of_the_repository_holds_the_minimal_example_and_its_models() {
+    let readme = read("../../README.md");
+    assert!(readme.contains(&format!("```rust\n{}```", program())));
+    for model in ["ball", "ground"] {
+        let text = read(&format!("examples/{model}.ron"));
+        assert!(readme.contains(&format!("```ron\n{text}```")), "{model}.ron");
+    }
+}
+
 /// A `pub use` of a name of another crate carries a code block.
 #[test]
 fn every_reexported_name_has_an_example() {
