@@ -17,9 +17,10 @@ ARROWS = {
     "pong-threads": set(),
     "pong-model": {"pong-geometry"},
     "pong-engine": {"pong-arena", "pong-geometry", "pong-model", "pong-threads"},
+    "pong": {"pong-geometry", "pong-model", "pong-engine", "pong-threads"},
     "pong-advise": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-executive": {"pong-advise", "pong-geometry", "pong-model", "pong-engine"},
-    "pong-record": {"pong-geometry", "pong-model", "pong-engine"},
+    "pong-record": {"pong-arena", "pong-geometry", "pong-model", "pong-engine"},
     "pong-verify": {"pong-testkit", "pong-report", "pong-geometry", "pong-model", "pong-engine", "pong-executive"},
     "pong-report": {"pong-model"},
     "pong-study": {"pong-report", "pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-record"},
@@ -31,7 +32,9 @@ ARROWS = {
     "pong-fmu": {"pong-engine", "pong-executive", "pong-fpenv", "pong-geometry", "pong-model"},
     "pong-testkit": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-view": {"pong-geometry", "pong-model", "pong-record"},
-    "pong-capi": {"pong-advise", "pong-fpenv", "pong-geometry", "pong-model", "pong-engine", "pong-record", "pong-threads"},
+    "pong-capi": {
+        "pong-advise", "pong-arena", "pong-fpenv", "pong-geometry", "pong-model", "pong-engine", "pong-record", "pong-threads",
+    },
     "pong-cli": {
         "pong-advise", "pong-decompose", "pong-doctor", "pong-geometry", "pong-import", "pong-invariance", "pong-model", "pong-engine", "pong-executive", "pong-fmu", "pong-record",
         "pong-verify", "pong-report", "pong-study", "pong-view",

@@ -1,6 +1,7 @@
 //! Failure of a call: its status and its message.
 
 use crate::status::pong_status;
+use pong_arena::OutOfMemory;
 use pong_engine::EngineError;
 use pong_model::ModelErrors;
 
@@ -47,6 +48,12 @@ impl From<EngineError> for Failure {
             EngineError::OutOfMemory { .. } => Self { status, why: Why::Error(error) },
             _ => Self::new(status, error.to_string()),
         }
+    }
+}
+
+impl From<OutOfMemory> for Failure {
+    fn from(refused: OutOfMemory) -> Self {
+        EngineError::from(refused).into()
     }
 }
 

@@ -5,7 +5,7 @@
 //! Another thread of the host may take the memory in between; that is not detected.
 
 use crate::failure::Outcome;
-use pong_engine::require_memory;
+use pong_arena::require_memory;
 use std::ffi::OsStr;
 use std::path::Path;
 

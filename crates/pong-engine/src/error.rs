@@ -1,6 +1,7 @@
 //! Errors, each with thing, cause and cure.
 
 use crate::state::StateError;
+use pong_arena::OutOfMemory;
 use pong_model::printable;
 
 /// An error of the engine. The world is as it was before the call.
@@ -97,6 +98,12 @@ pub enum EngineError {
     /// A saved contact state was refused.
     #[error(transparent)]
     State(#[from] StateError),
+}
+
+impl From<OutOfMemory> for EngineError {
+    fn from(OutOfMemory { what, bytes, cure }: OutOfMemory) -> Self {
+        Self::OutOfMemory { what, bytes, cure }
+    }
 }
 
 fn names(known: &[String]) -> String {

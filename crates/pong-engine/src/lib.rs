@@ -24,6 +24,11 @@
 
 #![forbid(unsafe_code)]
 
+/// Text of the README, whose example runs with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
+
 mod builder;
 mod contact;
 mod distance;
@@ -62,6 +67,6 @@ pub use report::{
     WorkTimes,
 };
 pub use scene::{Config, Scene, State, WorkerSettings};
-pub use seal::{MetIn, SealReport, SetupNote, SetupWarning, leave_room_for_small_things, require_memory};
+pub use seal::{MetIn, SealReport, SetupNote, SetupWarning};
 pub use state::StateError;
 pub use world::{Continuation, GroupDistance, NearestPrimitive, World};

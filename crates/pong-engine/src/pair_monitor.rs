@@ -2,9 +2,9 @@
 
 use crate::error::EngineError;
 use crate::ids::{InterfaceId, PairId, WorldStamp};
-use crate::seal::require_memory;
 use crate::sealed::{GroupPair, Sealed};
 use crate::world::World;
+use pong_arena::require_memory;
 use pong_geometry::Wrench;
 use pong_model::LARGEST;
 use std::sync::Arc;

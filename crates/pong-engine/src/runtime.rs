@@ -11,7 +11,6 @@ use crate::frame::{
 };
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
-use crate::seal::leave_room_for_small_things;
 use crate::sealed::{GroupPair, Sealed, SurfaceTable};
 use crate::state::{
     CarryOutcome, CommittedPoses, ContactKey, ContactMemory, ContactRole, Counterparts, StateError,
@@ -95,7 +94,7 @@ impl Runtime {
                     return Err(EngineError::Workers { cause });
                 }
                 let settings = crate::scene::WorkerSettings { clock: clock.0, ..settings.clone() };
-                leave_room_for_small_things();
+                pong_arena::keep_small_blocks_free();
                 let started = WorkerPool::start(scene, &sealed, input(), &nothing, &settings);
                 Some(started.map_err(|error| EngineError::Workers { cause: error.to_string() })?)
             }

@@ -15,6 +15,11 @@
 
 #![forbid(unsafe_code)]
 
+/// Text of the README, whose example runs with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
+
 pub mod bounding;
 pub mod distance;
 pub mod extension;

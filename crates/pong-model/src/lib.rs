@@ -8,6 +8,11 @@
 
 #![forbid(unsafe_code)]
 
+/// Text of the README, whose example runs with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
+
 mod arrange;
 pub mod authored;
 pub mod box_tree;

@@ -1,15 +1,12 @@
-//! Memory demand of sealing, checked before any of it is allocated.
+//! Memory demand of sealing, checked before any of it is allocated ([`pong_arena::require_memory`]).
 //!
-//! Allocation failures in mid-operation cannot be reported, because Rust's collections abort the process. The
-//! sizes that follow from the scene are therefore added up first, and one block of that size is requested and
-//! freed. This is done twice: for data per pair of movable groups, before they are listed, and for the
+//! The sizes that follow from the scene are added up. This is done twice: for data per pair of movable groups, before they are listed, and for the
 //! frames, once their limits are known.
 
 use super::limits::{bytes_per_contact, least_thread_bytes};
 use crate::energy::account::WrenchCoupling;
 use crate::energy::episodes::PairEnergy;
 use crate::energy::ledger::LedgerEntry;
-use crate::error::EngineError;
 use crate::frame::{Block, Interval, MOTIONS_AT_ONCE, NearPairs, PairMotions, ROUND};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits, Plan};
@@ -22,27 +19,6 @@ const SLACK: usize = 1 << 18;
 
 /// Stack of a worker, bytes: Rust's default size with its guard page.
 const STACK: usize = (2 << 20) + (1 << 16);
-
-/// Requests this many bytes in one block and frees them.
-///
-/// # Errors
-/// [`EngineError::OutOfMemory`] with the size if the system refuses. Creating the error does not allocate.
-pub fn require_memory(what: &'static str, bytes: usize, cure: &'static str) -> Result<(), EngineError> {
-    let mut block = Vec::<u8>::new();
-    let outcome = block.try_reserve_exact(bytes);
-    // Keeps the compiler from removing the unused allocation.
-    std::hint::black_box(block.as_mut_ptr());
-    outcome.map_err(|_| EngineError::OutOfMemory { what, bytes, cure })
-}
-
-/// Makes the allocator keep some free small blocks. Once threads run, their address-space reservations may
-/// have taken all that is left.
-pub fn leave_room_for_small_things() {
-    const PIECES: usize = 64;
-    const PIECE: usize = 1 << 10;
-    let pieces: [Vec<u8>; PIECES] = std::array::from_fn(|_| Vec::with_capacity(PIECE));
-    std::hint::black_box(&pieces);
-}
 
 /// Memory to list and check the pairs of movable groups, and to keep their data in the frames, bytes.
 pub(super) fn for_pairs(scene: &Scene, pairs: usize) -> usize {

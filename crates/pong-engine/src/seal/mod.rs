@@ -10,7 +10,6 @@ mod testable;
 mod warnings;
 
 pub(crate) use filters::part_groups;
-pub use memory::{leave_room_for_small_things, require_memory};
 pub(crate) use surfaces::surface_tables;
 pub(crate) use testable::{can_be_tested, kind_name};
 pub use warnings::{MetIn, SetupNote, SetupWarning};
@@ -24,6 +23,7 @@ use filters::{drop_kept_apart, filter_count, filters_of_objects};
 use known_limits::known_limits;
 use limits::{limits, too_large, worst_case};
 use plan::plans;
+use pong_arena::require_memory;
 use pong_geometry::bounding::VolumeTests;
 use pong_model::{Fnv, Surface};
 use pong_threads::WorkerStart;
@@ -150,7 +150,8 @@ pub(crate) fn require_memory_of_clone(scene: &Scene, sealed: &Sealed) -> Result<
         "clone: the frames",
         memory::for_frames(scene, pairs, limits, *contact_capacity, *law_state_len),
         "destroy worlds that are not needed, or seal the first with a smaller `contact_capacity`",
-    )
+    )?;
+    Ok(())
 }
 
 /// Number of pairs of movable groups that [`group_pairs`] lists.

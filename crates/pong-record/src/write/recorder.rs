@@ -10,9 +10,8 @@ use super::{describe, folder};
 use crate::error::LogError;
 use crate::event::{Event, LoggedEvent};
 use crate::table::{EnergyRow, FrameRow};
-use pong_engine::{
-    EngineError, ModelId, ObjectId, PairId, World, leave_room_for_small_things, require_memory,
-};
+use pong_arena::{keep_small_blocks_free, require_memory};
+use pong_engine::{EngineError, ModelId, ObjectId, PairId, World};
 use pong_model::Surface;
 use rtrb::{Producer, RingBuffer};
 use std::io::Write as _;
@@ -124,7 +123,7 @@ impl Recorder {
         // Before the thread starts, because the allocator reserves address space for it.
         let (line, message) = (Vec::with_capacity(line), Vec::with_capacity(longest));
         let block = if world.has_contact_state() { vec![0; state_size] } else { Vec::new() };
-        leave_room_for_small_things();
+        keep_small_blocks_free();
         let thread = {
             let (shared, on_start) = (Arc::clone(&shared), options.on_thread_start);
             std::thread::Builder::new().name("pong log".to_owned()).spawn(move || {
@@ -515,7 +514,7 @@ fn require(bytes: usize) -> Result<(), EngineError> {
     if memory_available().is_some_and(|available| bytes as u64 > available) {
         return Err(EngineError::OutOfMemory { what: WHAT, bytes, cure: CURE });
     }
-    require_memory(WHAT, bytes, CURE)
+    Ok(require_memory(WHAT, bytes, CURE)?)
 }
 
 /// Memory that the system can give without taking it from other processes, bytes, where it is known. Linux

@@ -1,0 +1,5 @@
+//! Tests of the crate as a host uses it.
+
+mod documentation;
+mod errors;
+mod examples;
