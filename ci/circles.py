@@ -1,4 +1,4 @@
-"""Circles of files: within a crate no file may use, by whatever detour, a file that uses it.
+"""Circles of files: within a crate or a Python tree no file may use, by whatever detour, a file that uses it.
 
 The nodes are the files of a crate, tests aside. The arrows are the paths that begin with `crate::`, `self::`, `super::` or the
 name of a child module: from the file that names something to the file that defines it. A name that a module only passes on
@@ -7,6 +7,8 @@ name of a child module: from the file that names something to the file that defi
 
 import pathlib
 import re
+
+import python_circles
 
 IDENTIFIER = r"[A-Za-z_][A-Za-z0-9_]*"
 STRING = re.compile(r'"(?:\\.|[^"\\])*"', re.DOTALL)
@@ -199,12 +201,19 @@ def shortest_circle(arrows, members):
     return best
 
 
+# Programs in Rust outside of the crates.
+PROGRAMS = ("bench/src", "fuzz/src", "hosts/python/src")
+
+
 def check(root):
-    """A line for each circle of files."""
-    for source in sorted((root / "crates").glob("*/src")):
+    """A line for each circle of files, in Rust and in Python."""
+    graphs = []
+    for source in [*sorted((root / "crates").glob("*/src")), *(root / program for program in PROGRAMS)]:
         crate = Crate(source)
-        arrows = crate.arrows()
+        graphs.append({crate.files[module]: {crate.files[to] for to in used} for module, used in crate.arrows().items()})
+    graphs.append(python_circles.Tree(root).arrows())
+    for arrows in graphs:
         for members in circles(arrows):
-            name = lambda module: str(crate.files[module].relative_to(root))
-            way = " -> ".join(name(module) for module in shortest_circle(arrows, members))
+            name = lambda file: str(file.relative_to(root))
+            way = " -> ".join(name(file) for file in shortest_circle(arrows, members))
             yield f"{name(sorted(members)[0])}: in a circle of {len(members)} files, e.g. {way}"

@@ -48,6 +48,7 @@ using StepCheck = pong_step_check;
 using SealReport = pong_seal_report;
 using Contact = pong_contact;
 using ContactChange = pong_contact_change;
+using Distance = pong_distance;
 using PairPeaks = pong_pair_peaks;
 using SurfaceValues = pong_surface_values;
 using Continuation = pong_continuation;
@@ -275,6 +276,13 @@ public:
     /// Checks the planned step against the contacts of the last frame: pong_check_step(). Allocates.
     StepCheck check_step() const {
         return result<StepCheck>([&](StepCheck* out) { return pong_check_step(get(), out); });
+    }
+
+    // Results: distance.
+
+    /// Distance of two movable groups, with their nearest primitives: pong_get_distance().
+    Distance distance(InterfaceId a, InterfaceId b) const {
+        return result<pong_distance>([&](pong_distance* out) { return pong_get_distance(get(), a, b, out); });
     }
 
     // Results: begin, end and peaks of contact.

@@ -1,7 +1,7 @@
 //! The convex polyhedra and the triangle of W1.
 
-use crate::peer::parry::vector;
 use crate::ron;
+use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::convex_hull;
 use pong_geometry::Vec3;
 use std::f64::consts::PI;
@@ -28,7 +28,7 @@ impl Hull {
             let across = (1.0 - z * z).sqrt();
             Vec3::new(across * cosine, across * sine, z).component_mul(&Vec3::from(SEMI_AXES))
         };
-        let cloud: Vec<_> = (0..vertices).map(|i| vector(&vertex(i))).collect();
+        let cloud: Vec<_> = (0..vertices).map(&vertex).map(|v| Vector::new(v.x, v.y, v.z)).collect();
         let (vertices, faces) = convex_hull(&cloud);
         Self { vertices: vertices.iter().map(|v| Vec3::new(v.x, v.y, v.z)).collect(), faces }
     }

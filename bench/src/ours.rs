@@ -2,7 +2,6 @@
 //! and tested there.
 
 use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, Target};
-use crate::peer::PairPeer;
 use pong_geometry::interference::{
     Feature, Interference, ball_bore::ball_bore, ball_round::ball_capsule, ball_round::ball_frustum,
     capsule_edge::ConvexEdge, capsule_edge::capsule_edge, capsule_polyhedron::CapsuleAtPiece,
@@ -94,14 +93,15 @@ impl Ours {
         answers[0].hit()
     }
 
-    fn test_all(&self, movers: &impl Movers, answers: &mut [Answer]) {
+    /// Tests all movers against the target.
+    pub(crate) fn test_all(&self, movers: &impl Movers, answers: &mut [Answer]) {
         let Self { mover, kind, .. } = *self;
         simd::run(Pass { mover, kind, body: self.body(), movers, answers });
     }
 }
 
 /// Movers of a pass, each in the target's frame.
-trait Movers {
+pub(crate) trait Movers {
     fn point(&self, i: usize) -> Point;
     fn segment(&self, i: usize) -> LineSegment;
     fn ray(&self, i: usize) -> Ray;
@@ -499,17 +499,6 @@ impl<M: Movers> Pass<'_, M> {
     }
 }
 
-impl PairPeer for Ours {
-    fn pass(&mut self, queries: &Queries, answers: &mut [Answer]) {
-        self.test_all(queries, answers);
-    }
-
-    fn pass_over_elements(&mut self, elements: &Elements, answers: &mut [Answer]) -> bool {
-        self.test_all(elements, answers);
-        true
-    }
-}
-
 fn sphere_on_hull(a: &Sphere, b: &Polyhedron) -> Option<Interference> {
     match b.contains(&a.center) {
         true => Some(sphere_inside_polyhedron(a, b, shallowest_face(&a.center, b)?)),
@@ -586,6 +575,7 @@ impl From<Interference> for Answer {
 mod tests {
     use super::*;
     use crate::pairs::{self, TARGET_RADIUS};
+    use crate::peer::PairPeer;
     use std::collections::BTreeSet;
 
     #[test]

@@ -4,6 +4,7 @@
 pub mod mujoco;
 #[cfg(feature = "ode")]
 pub mod ode;
+mod ours;
 pub mod parry;
 pub mod parry_pairs;
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from .build_groups import build_root
-from .build_primitives import Origin
+from .shape import Origin
 from .engine import CURE, is_there
 from .engine_check import check_loads
 from .finding import Findings

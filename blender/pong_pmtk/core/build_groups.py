@@ -12,11 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import transforms
-from .build_primitives import Origin, Place, build_primitive, origin_of
+from .build_primitives import build_primitive
 from .marks import BOUNDS
 from .model import Group, Primitive
 from .naming import natural
 from .scene import Scene
+from .shape import Origin, Place, origin_of
 from .snapshot import SnapshotObject
 from .transforms import Affine, Local, TransformFault
 

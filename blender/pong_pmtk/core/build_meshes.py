@@ -6,12 +6,12 @@ from __future__ import annotations
 import numpy as np
 
 from . import mesh_file
-from .build_primitives import Origin, Shape
 from .engine import PLANE_TOLERANCE, WheelMissing, polyhedron_faults
 from .exact import meant, rounded
 from .model import Primitive
 from .pieces import pieces_of
 from .polygon import off_planes, triangulated
+from .shape import Origin, Shape, thickness_of
 
 Made = list[tuple[Primitive, Origin]]
 CONVEX_FACES = 500  # nobody asks of larger meshes whether they are convex
@@ -55,18 +55,6 @@ def _tell_loose(shape: Shape) -> None:
     if len(loose):
         cause = f"{len(loose)} vertices belong to no face and are not exported"
         shape.warn("loose-geometry", cause, "delete them, or mark them as Points", vertices=loose, fix="delete-loose")
-
-
-def thickness_of(shape: Shape) -> dict:
-    """The thickness of a mark, if it is given."""
-    options = {}
-    thickness = shape.place.number("thickness")
-    if thickness is not None:
-        options["thickness"] = float(thickness)
-        if not (np.isfinite(options["thickness"]) and options["thickness"] > 0.0):
-            cause = f"its thickness is {options['thickness']}"
-            shape.error("thickness", cause, "it is above zero; leave it out for the default")
-    return options
 
 
 def _sheet(shape: Shape) -> dict:

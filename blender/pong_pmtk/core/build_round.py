@@ -6,10 +6,10 @@ from __future__ import annotations
 import numpy as np
 
 from . import transforms
-from .build_primitives import Shape
 from .exact import meant
 from .round_pieces import round_bodies, several
 from .round_shape import ONE_RADIUS, fault_of, numbers_of, radii_of
+from .shape import Shape, thickness_of
 from .size_check import check_round
 
 WITHOUT_LENGTH = {"Capsule": "mark it as a Sphere or a Cylinder, make it longer than wide, or give it a length above zero"}
@@ -63,8 +63,6 @@ def _options(shape: Shape) -> dict:
     """Fields that only a bore has."""
     if shape.kind != "Bore":
         return {}
-    from .build_meshes import thickness_of
-
     mouths = tuple(map(bool, shape.mark.mouths))
     return {**thickness_of(shape), **({} if mouths == (True, True) else {"mouths": mouths})}
 

@@ -8,7 +8,7 @@ import re
 import tempfile
 from pathlib import Path
 
-from .build_primitives import Origin
+from .shape import Origin
 from .engine import wheel
 from .model import Group, Model
 from .scene import Scene

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .build_primitives import Place, Shape, ready
 from .marks import Part
+from .shape import Place, Shape, ready
 from .snapshot import Mesh
 
 # Elements that each kind takes from a part.

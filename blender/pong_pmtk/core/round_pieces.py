@@ -20,7 +20,7 @@ from .size_check import SIZE_TOLERANCE
 from .snapshot import Mesh, SnapshotObject
 
 if TYPE_CHECKING:
-    from .build_primitives import Shape
+    from .shape import Shape
 
 SINGLE = 2.0**-23  # of the largest coordinate: the rounding of single precision
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .build_primitives import Origin
+from .shape import Origin
 from .model import Group, Primitive
 from .round_shape import ROUND_KINDS
 from .scene import Scene

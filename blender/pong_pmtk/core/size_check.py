@@ -15,7 +15,7 @@ from .propose import CENTER_TOLERANCE, round_fit
 from .round_shape import FIT_TOLERANCE, ONE_RADIUS, find, fit, off
 
 if TYPE_CHECKING:
-    from .build_primitives import Shape
+    from .shape import Shape
 
 ROUND_DEPTH = 0.75  # as in propose.py, for coarse balls too: the middles of an icosahedron's faces lie at 0.79
 # Relative tolerance. Single precision and the fit's own rounding are far below; smaller scalings are not noticed.
@@ -42,7 +42,7 @@ def check_size(shape: Shape, axes) -> None:
 
 def _check_mesh(shape: Shape, axes: np.ndarray) -> None:
     vertices, starts = np.asarray(shape.mesh.vertices, dtype=np.float64), np.asarray(shape.mesh.face_starts)
-    # Every face has a corner at this point (build_primitives.ready).
+    # Every face has a corner at this point (shape.ready).
     sums = np.add.reduceat(vertices[shape.mesh.loops], starts[:-1]) if len(starts) > 1 else np.zeros((0, 3))
     fitted = round_fit(vertices, sums / np.diff(starts)[:, None], ROUND_DEPTH)
     if fitted is None:

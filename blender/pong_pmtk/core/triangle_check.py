@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .build_primitives import Origin
+from .shape import Origin
 from .engine import wheel
 from .model import Group, Primitive
 from .scene import Scene

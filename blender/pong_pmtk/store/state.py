@@ -21,10 +21,12 @@ class PONG_PG_finding(bpy.types.PropertyGroup):
     elements: bpy.props.StringProperty()  # JSON: {"vertices": [...], "edges": [...], "faces": [...]}
 
 
-def _redraw(_self, _context):
-    from ..ui import overlay
+listeners = []  # functions without arguments, called after a change of a toggle
 
-    overlay.later()
+
+def _redraw(_self, _context):
+    for listener in listeners:
+        listener()
 
 
 def _active_object(_self):

@@ -14,7 +14,7 @@ from bpy.app.handlers import persistent
 
 from ..core import overlay
 from ..scene import session
-from ..store.changes import listeners
+from ..store import changes, state as toggles
 from ..store.references import current_root
 from ..store.state import state
 
@@ -141,14 +141,16 @@ def lists_of_handlers():
 
 
 def listen():
-    listeners.append(later)
+    for listeners in (changes.listeners, toggles.listeners):
+        listeners.append(later)
     for handlers in lists_of_handlers():
         handlers.append(later)
 
 
 def listen_no_more():
-    if later in listeners:
-        listeners.remove(later)
+    for listeners in (changes.listeners, toggles.listeners):
+        if later in listeners:
+            listeners.remove(later)
     for handlers in lists_of_handlers():
         if later in handlers:
             handlers.remove(later)

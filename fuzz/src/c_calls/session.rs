@@ -114,7 +114,6 @@ impl<'a> Session<'a> {
             self.current = slot;
             self.destroy();
         }
-        super::logs::remove_folders();
         (self.refused, self.frames, self.alone)
     }
 

@@ -1,15 +1,48 @@
 //! Stiffness and damping for a wanted bounce (docs/advise.md).
 
 use crate::arrays;
-use crate::builder::coupling;
 use crate::dynamics::check_names;
 use crate::errors::{bad_value, of_engine};
+use crate::setup::coupling;
 use pong_advise::{Accuracy, ContactWish, GroupMass, Joints, StepPlan};
 use pong_engine::World;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
-/// Values of a pair of surfaces, by name, that give a wanted depth and rebound.
+/// Finds the values of a pair of surfaces that give a wanted depth and rebound (docs/advise.md).
+///
+/// Parameters
+/// ----------
+/// mass : float
+///     Reduced mass of the two bodies, kg.
+/// speed : float
+///     Closing speed, m/s.
+/// depth : float
+///     Largest depth wanted, m.
+/// restitution : float
+///     Wanted ratio of the speeds after and before.
+/// coupling : {"stages", "semi_implicit", "zero_order_hold"}, default "stages"
+///     Use of a wrench by the host's integrator.
+/// delay_frames : int, default 0
+///     Frames by which a held wrench comes late.
+/// step : float, optional
+///     Step of the host, s.
+/// depth_accuracy : float, default 0.05
+///     Relative error of the depth that is accepted.
+/// rebound_accuracy : float, default 0.02
+///     Relative error of the rebound that is accepted.
+///
+/// Returns
+/// -------
+/// dict[str, float]
+///     `stiffness` and `friction_stiffness` (N/m), `damping` and `friction_damping` (N·s/m), `damping_ratio`, `frequency`
+///     (Hz), `duration` (s), `peak_force` (N), `step`, `accurate_step` and `stable_step` (s), `least_depth` (m).
+///
+/// Examples
+/// --------
+/// >>> advice = pong.advise_contact(mass=1.0, speed=0.5, depth=2e-3, restitution=0.6)
+/// >>> advice["stiffness"] > 0.0 and advice["damping"] > 0.0
+/// True
 #[pyfunction]
 #[pyo3(name = "advise_contact")]
 #[pyo3(signature = (

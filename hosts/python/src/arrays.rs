@@ -72,7 +72,7 @@ pub(crate) fn described(given: &Bound<'_, PyAny>) -> String {
 }
 
 /// States given as rows of 13 numbers, appended to `out`.
-pub(crate) fn states(view: &ArrayView2<'_, f64>, ids: &[InterfaceId], out: &mut Vec<(InterfaceId, State)>) {
+fn states(view: &ArrayView2<'_, f64>, ids: &[InterfaceId], out: &mut Vec<(InterfaceId, State)>) {
     for (row, id) in view.rows().into_iter().zip(ids) {
         let part = |from: usize| std::array::from_fn(|i| row[from + i]);
         let state = State {
@@ -85,8 +85,46 @@ pub(crate) fn states(view: &ArrayView2<'_, f64>, ids: &[InterfaceId], out: &mut 
     }
 }
 
+/// States of a call: rows of 13 numbers, or the four parts separately. They replace `out`.
+pub(crate) fn given_states(
+    states: Option<Bound<'_, PyAny>>,
+    parts: [Option<Bound<'_, PyAny>>; 4],
+    ids: &[InterfaceId],
+    out: &mut Vec<(InterfaceId, State)>,
+) -> PyResult<()> {
+    out.clear();
+    let cause = match (states, &parts) {
+        (Some(array), [None, None, None, None]) => {
+            let array = rows("states", &array, ids.len(), STATE)?;
+            self::states(&array.as_array(), ids, out);
+            return Ok(());
+        }
+        (None, [Some(_), ..]) => return separate_states(parts, ids, out),
+        (Some(_), _) => "an array of states and parts of states are given",
+        (None, _) => "neither `states` nor `position` is given",
+    };
+    Err(bad_value("states", cause, "give one array of 13 columns, or `position` and the others"))
+}
+
+fn separate_states(
+    parts: [Option<Bound<'_, PyAny>>; 4],
+    ids: &[InterfaceId],
+    out: &mut Vec<(InterfaceId, State)>,
+) -> PyResult<()> {
+    let count = ids.len();
+    let [p, q, v, w] = parts.each_ref().map(Option::as_ref);
+    let p = part("position", p, count, [0.0; 3])?;
+    let q = part("orientation", q, count, [1.0, 0.0, 0.0, 0.0])?;
+    let v = part("linear_velocity", v, count, [0.0; 3])?;
+    let w = part("angular_velocity", w, count, [0.0; 3])?;
+    let state =
+        |i: usize| State { position: p[i], orientation: q[i], linear_velocity: v[i], angular_velocity: w[i] };
+    out.extend(ids.iter().enumerate().map(|(i, id)| (*id, state(i))));
+    Ok(())
+}
+
 /// One of the four parts of states that are given separately.
-pub(crate) fn part<const N: usize>(
+fn part<const N: usize>(
     thing: &str,
     given: Option<&Bound<'_, PyAny>>,
     count: usize,

@@ -10,13 +10,33 @@ use pyo3::types::{PyDict, PyList, PyTuple};
 use std::path::PathBuf;
 
 /// Reads a model file as written. The mesh files it names are not read.
+///
+/// Parameters
+/// ----------
+/// path : path_like
+///     Model file.
+///
+/// Returns
+/// -------
+/// dict
 #[pyfunction]
 pub(crate) fn read_authored(py: Python<'_>, path: PathBuf) -> PyResult<Py<PyAny>> {
     let read = py.detach(|| authored::load(&path));
     value(py, &read.map_err(of_model)?)
 }
 
-/// Reads a model from text as written. `name` stands for the file in errors.
+/// Reads a model from text as written.
+///
+/// Parameters
+/// ----------
+/// text : str
+///     Text of a model file.
+/// name : str, default "model"
+///     Name that stands for the file in errors.
+///
+/// Returns
+/// -------
+/// dict
 #[pyfunction]
 #[pyo3(signature = (text, *, name = "model"))]
 pub(crate) fn parse_authored(py: Python<'_>, text: &str, name: &str) -> PyResult<Py<PyAny>> {

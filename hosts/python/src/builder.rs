@@ -1,28 +1,15 @@
-//! Set-up of a world.
+//! Calls of a set-up.
 
 use crate::arrays::refused;
-use crate::errors::{PhaseError, bad_value, lock, of_engine};
+use crate::errors::{bad_value, of_engine};
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
 use crate::model::{Model, extensions};
-use crate::world::World;
-use pong_engine::{Config, Laws, WorkerSettings, WrenchCoupling};
-use pong_record::ModelSource;
+use crate::sealed::World;
+use crate::setup::{Setup, WorldBuilder, coupling, sealed, worker_settings};
+use pong_engine::{Config, Laws};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
-
-/// Sets up a world: models, Objects, pairs. `seal` creates the world.
-#[pyclass(frozen, module = "pong")]
-pub(crate) struct WorldBuilder {
-    /// `None` once sealed.
-    setup: Mutex<Option<Setup>>,
-}
-
-struct Setup {
-    builder: pong_engine::WorldBuilder,
-    sources: Vec<ModelSource>,
-    folders: Vec<PathBuf>,
-}
 
 /// A model, or its file.
 #[derive(FromPyObject)]
@@ -50,14 +37,6 @@ impl<'py> AddedRef<'py> {
             )),
         }
     }
-}
-
-/// Settings for this number of worker threads, in addition to the calling thread; `None` for 0.
-pub(crate) fn worker_settings(workers: i64) -> PyResult<Option<WorkerSettings>> {
-    let cure = "give the number of threads that help the calling thread, or 0";
-    let workers = usize::try_from(workers)
-        .map_err(|_| bad_value("workers", format!("{workers} threads cannot be started"), cure))?;
-    Ok((workers > 0).then(|| WorkerSettings { workers, ..WorkerSettings::default() }))
 }
 
 #[pymethods]
@@ -93,7 +72,21 @@ impl WorldBuilder {
         Ok(Self { setup: Mutex::new(Some(setup)) })
     }
 
-    /// Adds a model, or the model of a file.
+    /// Adds a model.
+    ///
+    /// Parameters
+    /// ----------
+    /// model : Model or path_like
+    ///     Model, or the path of its file.
+    ///
+    /// Returns
+    /// -------
+    /// AddedModel
+    ///
+    /// Raises
+    /// ------
+    /// ModelError
+    ///     The file is at fault: `errors` lists every fault.
     fn add_model(&self, py: Python<'_>, model: ModelRef<'_>) -> PyResult<AddedModel> {
         self.with(|setup| {
             let (shared, source) = match model {
@@ -114,6 +107,17 @@ impl WorldBuilder {
     }
 
     /// Creates an Object from a model. Objects of one model are independent.
+    ///
+    /// Parameters
+    /// ----------
+    /// model : AddedModel
+    ///     Model, as `add_model` returned it.
+    /// name : str
+    ///     Name of the Object, unique in the world.
+    ///
+    /// Returns
+    /// -------
+    /// Object
     fn create_object(&self, model: AddedRef<'_>, name: &str) -> PyResult<Object> {
         let model = model.resolve()?;
         self.with(|setup| {
@@ -122,7 +126,16 @@ impl WorldBuilder {
         })
     }
 
-    /// Declares that two Objects, given directly or by name, may touch.
+    /// Declares that two Objects may touch.
+    ///
+    /// Parameters
+    /// ----------
+    /// a, b : Object or str
+    ///     Objects, or their names. Wrenches of the pair are those on `a`.
+    ///
+    /// Returns
+    /// -------
+    /// Pair
     fn pair(&self, a: ObjectRef<'_>, b: ObjectRef<'_>) -> PyResult<Pair> {
         self.with(|setup| {
             let (a, b) = (a.resolve(setup.builder.scene())?, b.resolve(setup.builder.scene())?);
@@ -132,8 +145,18 @@ impl WorldBuilder {
         })
     }
 
-    /// Disables contact between two groups of Objects, each with everything below it, given by path or name;
-    /// an empty one is the whole Object.
+    /// Disables contact between two groups of Objects, each with everything below it.
+    ///
+    /// Parameters
+    /// ----------
+    /// a : Object or str
+    ///     First Object, or its name.
+    /// group_a : str
+    ///     Path or name of its group; empty for the whole Object.
+    /// b : Object or str
+    ///     Second Object, or its name.
+    /// group_b : str
+    ///     Path or name of its group; empty for the whole Object.
     fn filter(&self, a: ObjectRef<'_>, group_a: &str, b: ObjectRef<'_>, group_b: &str) -> PyResult<()> {
         self.with(|setup| {
             let (a, b) = (a.resolve(setup.builder.scene())?, b.resolve(setup.builder.scene())?);
@@ -141,7 +164,18 @@ impl WorldBuilder {
         })
     }
 
-    /// The Interface of a movable group by its path or name. An empty path is the root.
+    /// Finds the Interface of a movable group.
+    ///
+    /// Parameters
+    /// ----------
+    /// object : Object or str
+    ///     Object, or its name.
+    /// path : str, optional
+    ///     Path or name of the group; empty for the root.
+    ///
+    /// Returns
+    /// -------
+    /// Interface
     #[pyo3(signature = (object, path = ""))]
     fn interface(&self, object: ObjectRef<'_>, path: &str) -> PyResult<Interface> {
         self.with(|setup| {
@@ -151,7 +185,17 @@ impl WorldBuilder {
         })
     }
 
-    /// Ends set-up. The builder is used up; if the seal is refused, it can be corrected and sealed again.
+    /// Ends set-up: checks everything, and takes the memory of the frames.
+    ///
+    /// Returns
+    /// -------
+    /// World
+    ///     The world. The builder is used up.
+    ///
+    /// Raises
+    /// ------
+    /// SealError
+    ///     The world cannot be sealed: `problems` lists every reason. The builder can be corrected and sealed again.
     fn seal(&self, py: Python<'_>) -> PyResult<World> {
         let mut place = self.lock()?;
         let Setup { builder, sources, folders } = place.take().ok_or_else(sealed)?;
@@ -162,46 +206,6 @@ impl WorldBuilder {
                 *place = Some(Setup { builder, sources, folders });
                 Err(of_engine(error))
             }
-        }
-    }
-}
-
-impl WorldBuilder {
-    /// One that was begun elsewhere.
-    pub fn new_from(
-        builder: pong_engine::WorldBuilder,
-        sources: Vec<ModelSource>,
-        folders: Vec<PathBuf>,
-    ) -> Self {
-        Self { setup: Mutex::new(Some(Setup { builder, sources, folders })) }
-    }
-
-    fn lock(&self) -> PyResult<std::sync::MutexGuard<'_, Option<Setup>>> {
-        lock("world builder", &self.setup, "set a world up in one thread")
-    }
-
-    fn with<T>(&self, call: impl FnOnce(&mut Setup) -> PyResult<T>) -> PyResult<T> {
-        call(self.lock()?.as_mut().ok_or_else(sealed)?)
-    }
-}
-
-fn sealed() -> PyErr {
-    PhaseError::new_err("world builder: its world was sealed; make another builder for another world")
-}
-
-/// Coupling of the wrenches to the host's integrator, by name.
-pub(crate) fn coupling(thing: &str, name: &str, delay_frames: u32) -> PyResult<WrenchCoupling> {
-    if delay_frames > 0 && ["stages", "semi_implicit"].contains(&name) {
-        let cause = format!("it is {delay_frames}, and {thing} is \"{name}\", which never comes late");
-        return Err(bad_value("delay_frames", cause, "give it with \"zero_order_hold\", or leave it out"));
-    }
-    match name {
-        "stages" => Ok(WrenchCoupling::Stages),
-        "semi_implicit" => Ok(WrenchCoupling::SemiImplicit),
-        "zero_order_hold" => Ok(WrenchCoupling::ZeroOrderHold { delay_frames }),
-        other => {
-            let cause = format!("there is no `{other}`");
-            Err(bad_value(thing, cause, "give \"stages\", \"semi_implicit\" or \"zero_order_hold\""))
         }
     }
 }

@@ -4,18 +4,18 @@ use pong_engine::{GroupDistance, NearestPrimitive};
 use pyo3::prelude::*;
 
 /// Distance of two movable groups.
-#[pyclass(frozen, eq, module = "pong", get_all)]
+#[pyclass(frozen, eq, module = "pong.types", get_all)]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Distance {
-    /// Smallest distance of two primitives that have a contact test with each other, m: 0 if such overlap, infinite if there are
+    /// float : Smallest distance of two primitives that have a contact test with each other, m: 0 if such overlap, infinite if there are
     /// none.
     distance: f64,
-    /// Nearest points of the two, m, in the common frame; `None` if the distance is infinite. If primitives overlap, some points
+    /// list of list of float or None : Nearest points of the two, m, in the common frame; `None` if the distance is infinite. If primitives overlap, some points
     /// near.
     points: Option<[[f64; 3]; 2]>,
-    /// Numbers of the nearest primitives, as `primitive_path` takes them; `None` if the distance is infinite.
+    /// list of int or None : Numbers of the nearest primitives, as `primitive_path` takes them; `None` if the distance is infinite.
     primitives: Option<[u32; 2]>,
-    /// Elements within the primitives: a mesh's triangles, from 0; 0 for all other kinds.
+    /// list of int or None : Elements within the primitives: a mesh's triangles, from 0; 0 for all other kinds.
     elements: Option<[u32; 2]>,
 }
 

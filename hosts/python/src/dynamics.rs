@@ -1,8 +1,8 @@
-//! Masses and springs of a scene as dictionaries.
+//! Masses, springs and energies of a scene as dictionaries.
 
 use crate::arrays;
 use crate::errors::{bad_value, of_executive};
-use pong_executive::{BodyId, MassProperties, Simulation, Spring};
+use pong_executive::{BodyId, Energy, MassProperties, Simulation, Spring};
 use pong_geometry::{Mat3, Vec3};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
@@ -85,7 +85,7 @@ pub(crate) fn set_spring(
 }
 
 /// Refuses a dictionary with missing or unknown keys, so that a misspelt key is not ignored.
-pub(crate) fn whole(thing: &str, values: &Bound<'_, PyDict>, names: &[&str]) -> PyResult<()> {
+fn whole(thing: &str, values: &Bound<'_, PyDict>, names: &[&str]) -> PyResult<()> {
     check_names(thing, values, names)?;
     for name in names {
         if !values.contains(name)? {
@@ -115,4 +115,19 @@ pub(crate) fn check_names(thing: &str, values: &Bound<'_, PyDict>, names: &[&str
 /// A value of a dictionary checked by [`whole`].
 fn value<'py>(values: &Bound<'py, PyDict>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     values.as_any().get_item(name)
+}
+
+/// Energies by name.
+pub(crate) fn energies<'py>(py: Python<'py>, energy: &Energy) -> PyResult<Bound<'py, PyDict>> {
+    let terms = [
+        ("kinetic", energy.kinetic),
+        ("potential", energy.potential),
+        ("springs", energy.springs),
+        ("contacts", energy.contacts),
+        ("contact_loss", energy.contact_loss),
+        ("spring_loss", energy.spring_loss),
+        ("work_in", energy.work_in),
+        ("balance", energy.balance()),
+    ];
+    terms.into_py_dict(py)
 }

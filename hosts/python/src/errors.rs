@@ -12,8 +12,18 @@ use pyo3::types::{PyDict, PyList};
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
 create_exception!(pong, PongError, PyException, "Base of all errors of Pong.");
-create_exception!(pong, ModelError, PongError, "A model file is at fault. `errors` lists every fault.");
-create_exception!(pong, SceneError, PongError, "A scene is at fault. `errors` lists every fault.");
+create_exception!(
+    pong,
+    ModelError,
+    PongError,
+    "A model file is at fault.\n\nAttributes\n----------\nerrors : list[dict[str, Any]]\n    Every fault, with `file`, `line`, `column`, `path`, `rule`, `cause` and `cure`."
+);
+create_exception!(
+    pong,
+    SceneError,
+    PongError,
+    "A scene is at fault.\n\nAttributes\n----------\nerrors : list[dict[str, Any]]\n    Every fault, with `file`, `line`, `column`, `thing`, `cause` and `cure`."
+);
 create_exception!(
     pong,
     EngineError,
@@ -23,7 +33,12 @@ create_exception!(
 create_exception!(pong, NotFoundError, EngineError, "A name that nothing has, or an id of another world.");
 create_exception!(pong, DuplicateError, EngineError, "A name or a pair that is there already.");
 create_exception!(pong, PhaseError, EngineError, "A call at a time at which it is not allowed.");
-create_exception!(pong, SealError, EngineError, "A world cannot be sealed. `problems` lists every reason.");
+create_exception!(
+    pong,
+    SealError,
+    EngineError,
+    "A world cannot be sealed.\n\nAttributes\n----------\nproblems : list[str]\n    Every reason."
+);
 create_exception!(pong, StateError, EngineError, "A state that is refused, or was never set.");
 create_exception!(pong, NotFiniteError, EngineError, "Forces or energies beyond what a number holds.");
 create_exception!(pong, BadValueError, EngineError, "A value that a setting or an argument cannot have.");

@@ -8,18 +8,18 @@ use pyo3::prelude::*;
 macro_rules! handle {
     ($(#[$doc:meta])* $name:ident, $id:ident) => {
         $(#[$doc])*
-        #[pyclass(frozen, eq, hash, module = "pong")]
+        #[pyclass(frozen, eq, hash, module = "pong.types")]
         #[derive(Clone, PartialEq, Eq, Hash)]
         pub(crate) struct $name {
             pub id: $id,
-            /// Name.
+            /// str : Name.
             #[pyo3(get)]
             pub name: String,
         }
 
         #[pymethods]
         impl $name {
-            /// Index among those of its kind in its world, from 0.
+            /// int : Index among those of its kind in its world, from 0.
             #[getter]
             fn index(&self) -> usize {
                 self.id.index()
@@ -67,7 +67,9 @@ impl ObjectRef<'_> {
         match self {
             Self::Id(object) => Ok(object.id),
             Self::Name(name) => scene.object(name).map_err(of_engine),
-            Self::Other(given) => Err(refused("object", given, "give a pong.Object, or its name")),
+            Self::Other(given) => {
+                Err(refused("object", given, "give what `create_object` returned, or its name"))
+            }
         }
     }
 }

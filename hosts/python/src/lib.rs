@@ -10,7 +10,9 @@
 //! | `authored.rs`, `written.rs`, `shapes.rs` | model files as data, their text and schema, checks of single shapes: python/pong/model.py |
 //! | `distance.rs` | distance of two movable groups |
 //! | `pair_monitor.rs` | begin and end of contact, peaks over several frames |
-//! | `builder.rs`, `world.rs`, `recording.rs` | set-up, frames, logs of frames |
+//! | `setup.rs`, `builder.rs` | state and calls of a set-up |
+//! | `sealed.rs`, `world.rs` | state and calls of a sealed world: frames |
+//! | `frame_report.rs`, `recording.rs` | reports of frames and logs of them |
 //! | `scene.rs`, `simulation.rs`, `run.rs` | scenes in the built-in executive |
 //! | `log.rs` | check of a log before NumPy maps its tables |
 //! | `replay.rs`, `trade.rs`, `tune.rs` | logs compared, speed against accuracy, bounds and leaves |
@@ -24,6 +26,7 @@ mod contacts;
 mod distance;
 mod dynamics;
 mod errors;
+mod frame_report;
 mod ids;
 mod log;
 mod model;
@@ -32,6 +35,8 @@ mod recording;
 mod replay;
 mod run;
 mod scene;
+mod sealed;
+mod setup;
 mod shapes;
 mod simulation;
 mod trade;
@@ -60,9 +65,9 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     add_class::<ids::Object>(module)?;
     add_class::<ids::Pair>(module)?;
     add_class::<ids::Interface>(module)?;
-    add_class::<builder::WorldBuilder>(module)?;
-    add_class::<world::World>(module)?;
-    add_class::<world::FrameReport>(module)?;
+    add_class::<setup::WorldBuilder>(module)?;
+    add_class::<sealed::World>(module)?;
+    add_class::<frame_report::FrameReport>(module)?;
     add_class::<distance::Distance>(module)?;
     add_class::<pair_monitor::ContactChange>(module)?;
     add_class::<pair_monitor::PairPeaks>(module)?;

@@ -1,7 +1,7 @@
 //! Model files.
 
 use crate::arrays::refused;
-use crate::dynamics::whole;
+use crate::dynamics::check_names;
 use crate::errors::{bad_value, of_model};
 use pong_model::Extensions;
 use pong_record::{ModelSource, SurfaceValues};
@@ -10,7 +10,7 @@ use pyo3::types::{PyBool, PyDict, PyFloat, PyList, PyString};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A validated, immutable model. Worlds share it.
+/// A validated, immutable model. Worlds share it. `load` and `parse` make it.
 #[pyclass(frozen, module = "pong")]
 pub(crate) struct Model {
     pub model: Arc<pong_model::Model>,
@@ -27,6 +27,22 @@ pub(crate) fn extensions(allow_files_below: Vec<PathBuf>) -> Extensions {
 #[pymethods]
 impl Model {
     /// Reads a model file. Meshes are searched beside it, and in the allowed folders.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : path_like
+    ///     Model file.
+    /// allow_files_below : sequence of path_like, optional
+    ///     Further folders from which the model may read meshes.
+    ///
+    /// Returns
+    /// -------
+    /// Model
+    ///
+    /// Raises
+    /// ------
+    /// ModelError
+    ///     The file is at fault: `errors` lists every fault, with line, column, cause and cure.
     #[staticmethod]
     #[pyo3(signature = (path, *, allow_files_below = Vec::new()))]
     pub fn load(py: Python<'_>, path: PathBuf, allow_files_below: Vec<PathBuf>) -> PyResult<Self> {
@@ -36,7 +52,27 @@ impl Model {
         Ok(Self { model: Arc::new(model), source: ModelSource::File(path) })
     }
 
-    /// Reads a model from text. `name` stands for the file in errors; meshes are searched in `folder`.
+    /// Reads a model from text.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     Text of a model file.
+    /// name : str, default "model"
+    ///     Name that stands for the file in errors.
+    /// folder : path_like, optional
+    ///     Folder in which meshes are searched.
+    /// allow_files_below : sequence of path_like, optional
+    ///     Further folders from which the model may read meshes.
+    ///
+    /// Returns
+    /// -------
+    /// Model
+    ///
+    /// Raises
+    /// ------
+    /// ModelError
+    ///     The text is at fault: `errors` lists every fault, with line, column, cause and cure.
     #[staticmethod]
     #[pyo3(signature = (text, *, name = "model", folder = None, allow_files_below = Vec::new()))]
     fn parse(
@@ -52,31 +88,41 @@ impl Model {
         Ok(Self { model: Arc::new(model), source: ModelSource::Text { text, mesh_dir: folder } })
     }
 
-    /// Name as given in the file.
+    /// str : Name as given in the file.
     #[getter]
     fn name(&self) -> &str {
         &self.model.name
     }
 
-    /// Hash of all data that affects results.
+    /// int : Hash of all data that affects results.
     #[getter]
     fn hash(&self) -> u64 {
         self.model.hash
     }
 
-    /// Warnings for the author of a valid model.
+    /// list of str : Warnings for the author of a valid model.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.model.warnings.clone()
     }
 
-    /// Paths of the movable groups, the root's first.
+    /// list of str : Paths of the movable groups, the root's first.
     #[getter]
     fn groups(&self) -> Vec<String> {
         self.model.bodies.iter().map(|group| group.path.clone()).collect()
     }
 
-    /// Primitives of a movable group, given by index: path, kind and surface of each.
+    /// Lists the primitives of a movable group.
+    ///
+    /// Parameters
+    /// ----------
+    /// group : int, default 0
+    ///     Index of the group in `groups`.
+    ///
+    /// Returns
+    /// -------
+    /// list[tuple[str, str, str]]
+    ///     Path, kind and surface of each.
     #[pyo3(signature = (group = 0))]
     fn primitives(&self, group: usize) -> PyResult<Vec<(String, String, String)>> {
         let Some(group) = self.model.bodies.get(group) else {
@@ -91,7 +137,7 @@ impl Model {
         Ok(group.primitives.iter().map(row).collect())
     }
 
-    /// Surfaces by name, as `World.surface` gives them.
+    /// dict[str, dict[str, Any]] : Surfaces by name, as `World.surface` gives them.
     #[getter]
     fn surfaces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = PyDict::new(py);
@@ -101,7 +147,13 @@ impl Model {
         Ok(all)
     }
 
-    /// Bounding volume of every group that has one, in the frame of its movable group.
+    /// Lists the bounding volume of every group that has one.
+    ///
+    /// Returns
+    /// -------
+    /// list[dict[str, Any]]
+    ///     `path`, `movable_group`, `kind`, and, if it has a size, `center` (3,), `half` (3,) (m) and `axes` (3, 3) (columns),
+    ///     in the frame of the movable group.
     fn bounds<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         crate::shapes::bounds(py, &self.model)
     }
@@ -123,7 +175,7 @@ pub(crate) fn surface_values<'py>(
     Ok(values)
 }
 
-/// A surface from the values of [`surface_values`] for a known one, possibly changed.
+/// A known surface with some values changed, nested as [`surface_values`] gives them.
 pub(crate) fn surface_from(
     py: Python<'_>,
     known: &pong_model::Surface,
@@ -138,20 +190,26 @@ pub(crate) fn surface_from(
     Ok(read.map_err(|error| bad_value(&thing, error, cure))?.surface(&known.name))
 }
 
-/// Values as JSON, if they have the fields and kinds of the known ones.
+/// Values as JSON: those given, if they have fields and kinds of the known ones, and the known ones for the rest.
 fn plain_values<'py>(
     thing: &str,
     values: &Bound<'py, PyDict>,
     known: &Bound<'py, PyDict>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let plain = PyDict::new(values.py());
     let law = |of: &Bound<'py, PyDict>| of.get_item("law").map(|law| law.map(|law| law.to_string()));
+    let given = law(values)?;
     // Another law has other fields; the engine then refuses the change of law.
-    if law(values)? == law(known)? {
+    let complete = if given.is_none() || given == law(known)? {
         let names: Vec<String> = known.keys().iter().map(|key| key.to_string()).collect();
-        whole(thing, values, &names.iter().map(String::as_str).collect::<Vec<_>>())?;
-    }
-    for (key, value) in values {
+        check_names(thing, values, &names.iter().map(String::as_str).collect::<Vec<_>>())?;
+        let complete = known.copy()?;
+        complete.update(values.as_mapping())?;
+        complete
+    } else {
+        values.clone()
+    };
+    let plain = PyDict::new(values.py());
+    for (key, value) in complete {
         let like = known.get_item(&key)?;
         plain.set_item(&key, plain_value(&format!("{thing}: {key}"), &value, like.as_ref())?)?;
     }

@@ -6,16 +6,16 @@ use crate::errors::PhaseError;
 use pyo3::prelude::*;
 
 /// Begin or end of contact between two movable groups.
-#[pyclass(frozen, eq, module = "pong", get_all)]
+#[pyclass(frozen, eq, module = "pong.types", get_all)]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct ContactChange {
-    /// Number of the pair of Objects.
+    /// int : Number of the pair of Objects.
     pair: usize,
-    /// Number of the Interface of the Object that was named first in the pair.
+    /// int : Number of the Interface of the Object that was named first in the pair.
     interface_a: usize,
-    /// Number of the other Interface.
+    /// int : Number of the other Interface.
     interface_b: usize,
-    /// True where contact begins, false where it ends.
+    /// bool : True where contact begins, false where it ends.
     begins: bool,
 }
 
@@ -36,26 +36,27 @@ impl From<pong_engine::ContactChange> for ContactChange {
 }
 
 /// Contact between two movable groups over a window of several frames.
-#[pyclass(frozen, eq, module = "pong", get_all)]
+#[pyclass(frozen, eq, module = "pong.types", get_all)]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct PairPeaks {
-    /// Number of the pair of Objects.
+    /// int : Number of the pair of Objects.
     pair: usize,
-    /// Number of the Interface of the Object that was named first in the pair.
+    /// int : Number of the Interface of the Object that was named first in the pair.
     interface_a: usize,
-    /// Number of the other Interface.
+    /// int : Number of the other Interface.
     interface_b: usize,
-    /// True if they touch in the frame last observed.
+    /// bool : True if they touch in the frame last observed.
     touches: bool,
-    /// Number of begins of contact in the window.
+    /// int : Number of begins of contact in the window.
     begins: u32,
-    /// Number of its ends.
+    /// int : Number of its ends.
     ends: u32,
-    /// Largest sum of the normal forces of all their contacts in a frame, N.
+    /// float : Largest sum of the normal forces of all their contacts in a frame, N.
     peak_normal_force: f64,
-    /// Mean over the window of the wrench (force, moment) on the first group, about its origin along the common axes.
+    /// list of float : Mean over the window of the wrench on the first group: force (3, N) and moment (3, N·m) about its
+    /// origin, along the common axes.
     mean: [f64; WRENCH],
-    /// Time of the frames in which they touched, s.
+    /// float : Time of the frames in which they touched, s.
     contact_time: f64,
 }
 

@@ -1,19 +1,21 @@
 //! Response logs of a world whose frames a Python program computes.
 
-use crate::errors::{LogError, PhaseError, of_log};
-use crate::world::Inner;
+use crate::errors::{LogError, of_log};
 use pong_engine::World;
-use pong_record::{RecordOptions, Recorder};
+use pong_record::{ModelSource, RecordOptions, Recorder};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 
-pub(crate) fn start(inner: &Inner, folder: PathBuf, options: RecordOptions) -> PyResult<Recorder> {
-    if inner.recorder.is_some() {
-        return Err(PhaseError::new_err("log: one is open already; call stop_log first"));
-    }
+/// Begins a log of a world in a folder.
+pub(crate) fn start(
+    world: &World,
+    sources: &[ModelSource],
+    folder: PathBuf,
+    options: RecordOptions,
+) -> PyResult<Recorder> {
     let writer = concat!("pong for Python ", env!("CARGO_PKG_VERSION")).to_owned();
     let options = RecordOptions { writer, ..options };
-    Recorder::start(&inner.world, &folder, &inner.sources, &options).map_err(of_log)
+    Recorder::start(world, &folder, sources, &options).map_err(of_log)
 }
 
 pub(crate) fn record(py: Python<'_>, recorder: &mut Recorder, world: &mut World, time: f64) -> PyResult<()> {

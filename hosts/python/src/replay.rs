@@ -1,8 +1,8 @@
 //! Replay of logs through the engine (docs/response_logs.md, Replay).
 
-use crate::builder::worker_settings;
 use crate::errors::{in_range, of_log};
 use crate::model::extensions;
+use crate::setup::worker_settings;
 use pong_record::{Log, ReplayOptions};
 use pyo3::prelude::*;
 use std::ops::ControlFlow;
@@ -10,19 +10,19 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// Result of a replay.
-#[pyclass(frozen, module = "pong", get_all)]
+#[pyclass(frozen, module = "pong.types", get_all)]
 pub(crate) struct Replay {
-    /// True if every frame of the log was compared and none differs.
+    /// bool : True if every frame of the log was compared and none differs.
     agrees: bool,
-    /// Frames of the log.
+    /// int : Frames of the log.
     frames: u64,
-    /// Frames compared, including the one that differs.
+    /// int : Frames compared, including the one that differs.
     compared: u64,
-    /// Contacts of these frames.
+    /// int : Contacts of these frames.
     contacts: u64,
-    /// Differences in the first frame that differs, as text.
+    /// list of str : Differences in the first frame that differs.
     differences: Vec<String>,
-    /// Reason why the log cannot be replayed exactly from some frame on; `None` if it can.
+    /// str or None : Reason why the log cannot be replayed exactly from some frame on; None if it can.
     obstacle: Option<String>,
 }
 
@@ -60,7 +60,27 @@ impl Interrupt {
     }
 }
 
-/// Runs the recorded states of a log through the engine again and compares wrenches and contacts bit for bit.
+/// Replays the states of a log through the engine, and compares the results.
+///
+/// Parameters
+/// ----------
+/// log : path_like
+///     Folder of the log.
+/// tolerance : float, optional
+///     Relative difference that is allowed; without it, bits are compared.
+/// workers : int, default 0
+///     Threads that help the calling thread.
+/// allow_files_below : sequence of path_like, optional
+///     Further folders from which models may read meshes.
+///
+/// Returns
+/// -------
+/// Replay
+///
+/// Raises
+/// ------
+/// LogError
+///     The log cannot be read.
 #[pyfunction]
 #[pyo3(signature = (log, *, tolerance = None, workers = 0, allow_files_below = Vec::new()))]
 pub(crate) fn replay(

@@ -1,8 +1,8 @@
 //! A run of a scene: its instants as arrays, its peaks, its log.
 
 use crate::arrays::{STATE, WRENCH, motion_row, wrench_row};
+use crate::dynamics::energies;
 use crate::errors::{of_executive, of_log};
-use crate::simulation::energies;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pong_executive::scene::BuiltScene;
 use pong_executive::{RunStatistics, Simulation};
@@ -15,38 +15,38 @@ use std::time::{Duration, Instant};
 /// Polling interval of a long run for interruptions.
 const LOOK_EVERY: Duration = Duration::from_millis(100);
 
-/// Result of a run.
-#[pyclass(frozen, module = "pong", get_all)]
+/// Result of a run: instants that were kept, and peaks over every step.
+#[pyclass(frozen, module = "pong.types", get_all)]
 pub(crate) struct Run {
-    /// Names of the bodies.
+    /// list of str : Names of the bodies.
     bodies: Vec<String>,
-    /// Times of the instants, s.
+    /// ndarray, shape (k,) : Times of the instants, s.
     time: Py<PyAny>,
-    /// States: instants × bodies × 13.
+    /// ndarray, shape (k, n, 13) : States at the instants, in the common frame: position, quaternion w, x, y, z, velocities.
     states: Py<PyAny>,
-    /// Contact wrenches along the common axes: instants × bodies × 6.
+    /// ndarray, shape (k, n, 6) : Contact wrenches at the instants along the common axes: force, N, and moment, N·m.
     wrenches: Py<PyAny>,
-    /// Contacts of each instant.
+    /// NDArray[np.uint64], shape (k,) : Number of contacts at the instants.
     contacts: Py<PyAny>,
-    /// Largest contact force of each body over all steps, N.
+    /// ndarray, shape (n,) : Largest contact force of each body over all steps, N.
     peak_force: Py<PyAny>,
-    /// Largest contact moment, N·m.
+    /// ndarray, shape (n,) : Largest contact moment, N·m.
     peak_moment: Py<PyAny>,
-    /// Largest depth, m.
+    /// ndarray, shape (n,) : Largest depth, m.
     peak_depth: Py<PyAny>,
-    /// ∫ contact force dt of each body, N·s: bodies × 3.
+    /// ndarray, shape (n, 3) : ∫ contact force dt of each body, N·s.
     impulse: Py<PyAny>,
-    /// Most contacts at once.
+    /// int : Most contacts at once.
     most_contacts: usize,
-    /// Energies at the end, J, by name.
+    /// dict[str, float] : Energies at the end, J, by name.
     energy: Py<PyDict>,
-    /// Largest deviation of the energy balance from its first value, J, by the ledger.
+    /// float : Largest deviation of the energy balance from its first value, J, by the ledger.
     worst_balance: f64,
-    /// Steps in which a primitive tunnelled through another.
+    /// int : Steps in which a primitive tunnelled through another.
     tunnelled: u64,
-    /// Warnings of `pong run` after a run.
+    /// list of str : Warnings of `pong run` after a run.
     warnings: Vec<String>,
-    /// True if `stop` ended it.
+    /// bool : True if `stop` ended it.
     stopped: bool,
 }
 

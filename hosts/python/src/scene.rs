@@ -1,8 +1,8 @@
 //! Scene files (docs/scene_format.md).
 
-use crate::builder::worker_settings;
 use crate::errors::{bad_value, of_scene};
 use crate::model::extensions;
+use crate::setup::worker_settings;
 use crate::simulation::Simulation;
 use pong_executive::Integrator;
 use pong_executive::scene::Variation;
@@ -18,6 +18,22 @@ pub(crate) struct Scene {
 #[pymethods]
 impl Scene {
     /// Reads a scene file; models are searched beside it.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : path_like
+    ///     Scene file.
+    /// allow_files_below : sequence of path_like, optional
+    ///     Further folders from which its models may read meshes.
+    ///
+    /// Returns
+    /// -------
+    /// Scene
+    ///
+    /// Raises
+    /// ------
+    /// SceneError
+    ///     The file is at fault: `errors` lists every fault.
     #[staticmethod]
     #[pyo3(signature = (path, *, allow_files_below = Vec::new()))]
     fn load(path: PathBuf, allow_files_below: Vec<PathBuf>) -> PyResult<Self> {
@@ -26,7 +42,27 @@ impl Scene {
         Ok(Self { scene: scene.with_extensions(extensions(allow_files_below)) })
     }
 
-    /// Reads a scene from text. `name` stands for the file in errors; models are searched in `folder`.
+    /// Reads a scene from text.
+    ///
+    /// Parameters
+    /// ----------
+    /// text : str
+    ///     Text of a scene file.
+    /// name : str, default "scene"
+    ///     Name that stands for the file in errors.
+    /// folder : path_like, optional
+    ///     Folder in which models are searched.
+    /// allow_files_below : sequence of path_like, optional
+    ///     Further folders from which its models may read meshes.
+    ///
+    /// Returns
+    /// -------
+    /// Scene
+    ///
+    /// Raises
+    /// ------
+    /// SceneError
+    ///     The text is at fault: `errors` lists every fault.
     #[staticmethod]
     #[pyo3(signature = (text, *, name = "scene", folder = PathBuf::new(), allow_files_below = Vec::new()))]
     fn parse(text: &str, name: &str, folder: PathBuf, allow_files_below: Vec<PathBuf>) -> PyResult<Self> {
@@ -35,37 +71,37 @@ impl Scene {
         Ok(Self { scene: scene.with_extensions(extensions(allow_files_below)) })
     }
 
-    /// Name as given in the file.
+    /// str : Name as given in the file.
     #[getter]
     fn name(&self) -> &str {
         self.scene.name()
     }
 
-    /// Step, s.
+    /// float : Step, s.
     #[getter]
     fn step(&self) -> f64 {
         self.scene.step()
     }
 
-    /// Duration, s.
+    /// float : Duration, s.
     #[getter]
     fn duration(&self) -> f64 {
         self.scene.duration()
     }
 
-    /// Integrator, as the scene format spells it.
+    /// str : Integrator, as the scene format spells it.
     #[getter]
     fn integrator(&self) -> String {
         self.scene.integrator().to_string()
     }
 
-    /// Names of the alternatives.
+    /// list of str : Names of the alternatives.
     #[getter]
     fn alternatives(&self) -> Vec<&str> {
         self.scene.alternatives().collect()
     }
 
-    /// Every model file that the scene names, including those of its alternatives.
+    /// list of Path : Every model file that the scene names, including those of its alternatives.
     #[getter]
     fn model_files(&self) -> Vec<PathBuf> {
         self.scene.model_files()
@@ -73,7 +109,29 @@ impl Scene {
 
     /// Loads the models and sets everything up, or reports every fault.
     ///
-    /// `integrator` is "RungeKutta4", "SemiImplicitEuler" or "ZeroOrderHold" (with `substeps` and `delay_frames`).
+    /// Parameters
+    /// ----------
+    /// step : float, optional
+    ///     Step, s, instead of the file's.
+    /// integrator : {"RungeKutta4", "SemiImplicitEuler", "ZeroOrderHold"}, optional
+    ///     Integrator instead of the file's.
+    /// substeps : int, default 1
+    ///     Substeps of "ZeroOrderHold".
+    /// delay_frames : int, default 0
+    ///     Frames by which its wrenches come late.
+    /// workers : int, default 0
+    ///     Threads that help the calling thread.
+    /// alternative : str, optional
+    ///     Name of an alternative of the scene.
+    ///
+    /// Returns
+    /// -------
+    /// Simulation
+    ///
+    /// Raises
+    /// ------
+    /// SceneError
+    ///     The scene or a model is at fault.
     #[pyo3(signature = (*, step = None, integrator = None, substeps = 1, delay_frames = 0, workers = 0, alternative = None))]
     #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
     fn build(

@@ -10,7 +10,21 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::collections::HashSet;
 
-/// Lists the faults of a polyhedron found by the first check that fails; empty if it is valid.
+/// Lists the faults of a polyhedron found by the first check that fails.
+///
+/// Parameters
+/// ----------
+/// vertices : array_like, shape (n, 3)
+///     Vertices, m.
+/// faces : sequence of sequence of int
+///     Indices of the vertices of each face.
+/// inactive : sequence of int, optional
+///     Faces that take no contact.
+///
+/// Returns
+/// -------
+/// list[dict[str, Any]]
+///     Faults; empty if it is valid.
 #[pyfunction]
 #[pyo3(signature = (vertices, faces, inactive = Vec::new()))]
 pub(crate) fn check_polyhedron<'py>(
@@ -44,7 +58,17 @@ pub(crate) fn check_polyhedron<'py>(
     faults.into_iter().map(told).collect()
 }
 
-/// Lists faults and oddities of the triangles of one body, given as an array (n, 3, 3) of corners.
+/// Lists faults and oddities of the triangles of one body.
+///
+/// Parameters
+/// ----------
+/// corners : array_like, shape (n, 3, 3)
+///     Corners of the triangles, m.
+///
+/// Returns
+/// -------
+/// list[dict[str, Any]]
+///     An entry for each rule.
 #[pyfunction]
 #[pyo3(signature = (corners))]
 pub(crate) fn check_triangles<'py>(

@@ -4,21 +4,22 @@ use crate::arrays::{self, Matrix, STATE};
 use crate::contacts;
 use crate::dynamics;
 use crate::errors::{bad_value, lock, of_engine, of_executive};
+use crate::frame_report::FrameReport;
 use crate::model::{surface_from, surface_values};
 use crate::run::{Run, RunLog, Stop, Wanted};
-use crate::world::FrameReport;
+use pong_executive::BodyId;
 use pong_executive::scene::BuiltScene;
-use pong_executive::{BodyId, Energy};
 use pong_geometry::{Pose, Twist, Vec3};
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict};
+use pyo3::types::PyDict;
 use std::collections::HashSet;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard};
 
-/// A running scene: its bodies, integrator and world.
+/// A running scene: its bodies, integrator and world. `Scene.build` makes it.
 ///
-/// One thread at a time may call it. `step` and `run` release the GIL.
+/// One thread at a time may call it. `step` and `run` release the GIL. A row of a state is position (3, m), quaternion
+/// w, x, y, z (4), velocity of the origin (3, m/s) and angular velocity (3, rad/s) in the common frame.
 #[pyclass(frozen, module = "pong")]
 pub(crate) struct Simulation {
     built: Mutex<Box<BuiltScene>>,
@@ -47,55 +48,55 @@ impl Simulation {
 
 #[pymethods]
 impl Simulation {
-    /// Name of the scene.
+    /// str : Name of the scene.
     #[getter]
     fn name(&self) -> PyResult<String> {
         Ok(self.lock()?.name.clone())
     }
 
-    /// Names of the bodies: the rows of `states` and `wrenches`.
+    /// list of str : Names of the bodies: the rows of `states` and `wrenches`.
     #[getter]
     fn bodies(&self) -> Vec<String> {
         self.bodies.clone()
     }
 
-    /// Time, s.
+    /// float : Time, s.
     #[getter]
     fn time(&self) -> PyResult<f64> {
         Ok(self.lock()?.simulation.time())
     }
 
-    /// Step, s.
+    /// float : Step, s.
     #[getter]
     fn step_length(&self) -> PyResult<f64> {
         Ok(self.lock()?.simulation.step_length())
     }
 
-    /// Steps in the duration of the scene.
+    /// int : Steps in the duration of the scene.
     #[getter]
     fn steps(&self) -> PyResult<u64> {
         Ok(self.lock()?.steps)
     }
 
-    /// Interval of the scene's records, in steps.
+    /// int : Interval of the scene's records, in steps.
     #[getter]
     fn record_every(&self) -> PyResult<u64> {
         Ok(self.lock()?.record_every)
     }
 
-    /// Integrator, as the scene format spells it.
+    /// str : Integrator, as the scene format spells it.
     #[getter]
     fn integrator(&self) -> PyResult<String> {
         Ok(self.lock()?.simulation.integrator().to_string())
     }
 
-    /// Hash of the world: simulations with equal hashes have the same world.
+    /// int : Hash of the world: simulations with equal hashes have the same world.
     #[getter]
     fn scene_hash(&self) -> PyResult<u64> {
         Ok(self.lock()?.simulation.world().scene_hash())
     }
 
-    /// Warnings of `pong run`: models, seal, contacts that gain energy at the step.
+    /// list of str : Warnings of `pong run`: models, seal, contacts that gain energy at the step.
     #[getter]
     fn warnings(&self) -> PyResult<Vec<String>> {
         let built = self.lock()?;
@@ -103,7 +104,7 @@ impl Simulation {
         Ok(built.warnings.iter().cloned().chain(seal).chain(built.simulation.step_warnings()).collect())
     }
 
-    /// Notes about contacts that may gain energy at the step if they act together.
+    /// list of str : Notes about contacts that may gain energy at the step if they act together.
     #[getter]
     fn notes(&self) -> PyResult<Vec<String>> {
         let built = self.lock()?;
@@ -111,7 +112,17 @@ impl Simulation {
         Ok(seal.chain(built.simulation.step_notes()).collect())
     }
 
-    /// States of the bodies: a row of 13 numbers for each.
+    /// Returns the states of the bodies.
+    ///
+    /// Parameters
+    /// ----------
+    /// out : ndarray, shape (n, 13), optional
+    ///     Array of float64 to write into.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (n, 13)
+    ///     `out` or a new array, a row for each body.
     #[pyo3(signature = (out = None))]
     fn states<'py>(&self, py: Python<'py>, out: Option<Bound<'py, PyAny>>) -> PyResult<Matrix<'py>> {
         let built = self.lock()?;
@@ -121,7 +132,17 @@ impl Simulation {
         })
     }
 
-    /// Contact wrenches on the bodies along the common axes: a row (force, moment about the group's origin) for each.
+    /// Returns the contact wrenches on the bodies, along the common axes.
+    ///
+    /// Parameters
+    /// ----------
+    /// out : ndarray, shape (n, 6), optional
+    ///     Array of float64 to write into.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (n, 6)
+    ///     `out` or a new array: force (N) and moment (N·m) about the origin of the group, a row for each body.
     #[pyo3(signature = (out = None))]
     fn wrenches<'py>(&self, py: Python<'py>, out: Option<Bound<'py, PyAny>>) -> PyResult<Matrix<'py>> {
         let built = self.lock()?;
@@ -129,27 +150,60 @@ impl Simulation {
         arrays::fill(py, out, self.ids.len(), |index| Ok(arrays::wrench_row(&wrench(index))))
     }
 
-    /// Contacts of the present instant: a structured array of `pong.CONTACT_DTYPE`.
+    /// Returns the contacts of the present instant.
+    ///
+    /// Returns
+    /// -------
+    /// structured ndarray, shape (k,)
+    ///     Rows of `pong.CONTACT_DTYPE`, along the common axes.
     fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         contacts::array(py, self.lock()?.simulation.world())
     }
 
-    /// Stiffness (N/m) and damping (N·s/m) of each contact along its normal, in the order of `contacts`.
+    /// Returns stiffness and damping of each contact along its normal.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (k, 2)
+    ///     Stiffness (N/m) and damping (N·s/m) in the order of `contacts`; NaN for a normal law of the host.
     fn contact_stiffness<'py>(&self, py: Python<'py>) -> PyResult<Matrix<'py>> {
         contacts::stiffness(py, self.lock()?.simulation.world())
     }
 
-    /// Report of the last frame.
+    /// Returns the report of the last frame.
+    ///
+    /// Returns
+    /// -------
+    /// FrameReport
     fn report(&self) -> PyResult<FrameReport> {
         Ok(self.lock()?.simulation.world().report().into())
     }
 
-    /// Energies of the present instant, J, by name.
+    /// Returns the energies of the present instant.
+    ///
+    /// Returns
+    /// -------
+    /// dict[str, float]
+    ///     Energies by name, J.
     fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        energies(py, &self.lock()?.simulation.energy())
+        dynamics::energies(py, &self.lock()?.simulation.energy())
     }
 
-    /// Moves free or fixed bodies: a row of 13 numbers for each named body. The contact history stays.
+    /// Moves free or fixed bodies. The contact history stays.
+    ///
+    /// Parameters
+    /// ----------
+    /// states : array_like, shape (n, 13)
+    ///     State of each named body. A fixed body gets the pose and stays at rest.
+    /// bodies : sequence of str
+    ///     Names of the bodies, one for each row.
+    ///
+    /// Raises
+    /// ------
+    /// BadValueError
+    ///     A body is unknown or given twice, or its row is no state.
+    /// RunError
+    ///     A body is on a prescribed path.
     fn set_states(&self, states: Bound<'_, PyAny>, bodies: Vec<String>) -> PyResult<()> {
         let rows = arrays::rows("states", &states, bodies.len(), STATE)?;
         let rows = rows.as_array();
@@ -178,7 +232,12 @@ impl Simulation {
         Ok(())
     }
 
-    /// Sets gravity, m/s², along the common axes.
+    /// Sets gravity.
+    ///
+    /// Parameters
+    /// ----------
+    /// gravity : array_like, shape (3,)
+    ///     Acceleration along the common axes, m/s².
     fn set_gravity(&self, gravity: Bound<'_, PyAny>) -> PyResult<()> {
         let gravity = arrays::vector::<3>("gravity", &gravity)?;
         if let Some(value) = gravity.iter().find(|value| !value.is_finite()) {
@@ -188,48 +247,95 @@ impl Simulation {
         Ok(())
     }
 
-    /// Gravity, m/s², along the common axes.
+    /// tuple[float, float, float] : Gravity, m/s², along the common axes.
     #[getter]
     fn gravity(&self) -> PyResult<(f64, f64, f64)> {
         let gravity = self.lock()?.simulation.gravity();
         Ok((gravity.x, gravity.y, gravity.z))
     }
 
-    /// Mass, inertia and mass centre of a free body, by their names.
+    /// Returns mass, inertia and mass centre of a free body.
+    ///
+    /// Parameters
+    /// ----------
+    /// body : str
+    ///     Name of the body.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     `mass` (kg), `inertia` (3, 3) (kg·m², about the mass centre), `mass_center` (3,) (m), along the axes of the group.
     fn mass<'py>(&self, py: Python<'py>, body: &str) -> PyResult<Bound<'py, PyDict>> {
         let id = self.body(body)?;
         dynamics::mass(py, &self.lock()?.simulation, id)
     }
 
     /// Replaces mass, inertia and mass centre of a free body. Its pose and velocities stay.
+    ///
+    /// Parameters
+    /// ----------
+    /// body : str
+    ///     Name of the body.
+    /// values : dict
+    ///     All values that `mass` gives.
     fn set_mass(&self, body: &str, values: &Bound<'_, PyDict>) -> PyResult<()> {
         let id = self.body(body)?;
         dynamics::set_mass(&mut self.lock()?.simulation, id, values)
     }
 
-    /// Number of springs; they are numbered from 0 in the order of the scene.
+    /// int : Number of springs; they are numbered from 0 in the order of the scene.
     #[getter]
     fn springs(&self) -> PyResult<usize> {
         Ok(self.lock()?.simulation.springs().len())
     }
 
-    /// Stiffness, damping and preload of a spring, by their names.
+    /// Returns stiffness, damping and preload of a spring.
+    ///
+    /// Parameters
+    /// ----------
+    /// number : int
+    ///     Number of the spring.
+    ///
+    /// Returns
+    /// -------
+    /// dict[str, list[float]]
+    ///     `stiffness`, `damping` and `preload`, six numbers each: three translations (N/m, N·s/m, N), then three rotations
+    ///     (N·m/rad, N·m·s/rad, N·m).
     fn spring<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyDict>> {
         dynamics::spring(py, &self.lock()?.simulation, number)
     }
 
     /// Replaces stiffness, damping and preload of a spring. Its ends and its rest pose stay.
+    ///
+    /// Parameters
+    /// ----------
+    /// number : int
+    ///     Number of the spring.
+    /// values : dict
+    ///     All values that `spring` gives.
     fn set_spring(&self, number: usize, values: &Bound<'_, PyDict>) -> PyResult<()> {
         dynamics::set_spring(&mut self.lock()?.simulation, number, values)
     }
 
-    /// Names of the models.
+    /// list of str : Names of the models.
     #[getter]
     fn models(&self) -> PyResult<Vec<String>> {
         Ok(self.lock()?.simulation.world().scene().models().map(|(_, model)| model.name.clone()).collect())
     }
 
-    /// Present values of a surface of a model, by name.
+    /// Returns the present values of a surface of a model.
+    ///
+    /// Parameters
+    /// ----------
+    /// model : str
+    ///     Name of the model.
+    /// name : str
+    ///     Name of the surface.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     `stiffness` (N/m), `normal` and `friction` with their `law`.
     fn surface<'py>(&self, py: Python<'py>, model: &str, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let built = self.lock()?;
         let world = built.simulation.world();
@@ -237,7 +343,21 @@ impl Simulation {
         surface_values(py, world.surface(id, name).map_err(of_engine)?)
     }
 
-    /// Replaces the values of a surface. Laws may not change.
+    /// Changes values of a surface. Laws may not change.
+    ///
+    /// Parameters
+    /// ----------
+    /// model : str
+    ///     Name of the model.
+    /// name : str
+    ///     Name of the surface.
+    /// values : dict
+    ///     New values, nested as `surface` gives them; what is left out stays as it is.
+    ///
+    /// Raises
+    /// ------
+    /// BadValueError
+    ///     A key is no value of this surface, or a value is outside of its range.
     fn set_surface(
         &self,
         py: Python<'_>,
@@ -254,6 +374,16 @@ impl Simulation {
     }
 
     /// Advances by some steps.
+    ///
+    /// Parameters
+    /// ----------
+    /// count : int, default 1
+    ///     Number of steps.
+    ///
+    /// Raises
+    /// ------
+    /// RunError
+    ///     The run diverges.
     #[pyo3(signature = (count = 1))]
     fn step(&self, py: Python<'_>, count: u64) -> PyResult<()> {
         let mut built = self.lock()?;
@@ -261,11 +391,34 @@ impl Simulation {
         py.detach(|| (0..count).try_for_each(|_| simulation.step())).map_err(of_executive)
     }
 
-    /// Runs, by default to the end of the scene's duration, and keeps every `every`-th instant, by default as
-    /// in the scene, and always the first and the last. `log` is a folder for a response log of the same
-    /// instants.
+    /// Runs, by default to the end of the scene's duration.
     ///
-    /// `stop(time, states)` is called at the start and after every `stop_every`-th step; true ends the run there.
+    /// Parameters
+    /// ----------
+    /// steps : int, optional
+    ///     Number of steps.
+    /// every : int, optional
+    ///     Interval of the kept instants in steps, by default that of the scene. The first and the last are always kept.
+    /// log : path_like, optional
+    ///     Folder for a response log of the same instants.
+    /// overwrite : bool, default False
+    ///     Replaces a log that is in the folder already.
+    /// stop : Callable[[float, ndarray], object], optional
+    ///     Function of the time (s) and the states (n, 13), called at the start and after every `stop_every`-th step; true
+    ///     ends the run there. It must not call the simulation.
+    /// stop_every : int, default 1
+    ///     Interval of its calls, in steps.
+    ///
+    /// Returns
+    /// -------
+    /// Run
+    ///
+    /// Raises
+    /// ------
+    /// RunError
+    ///     The run diverges.
+    /// LogError
+    ///     The log cannot be written.
     #[pyo3(signature = (steps = None, *, every = None, log = None, overwrite = false, stop = None, stop_every = 1))]
     #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
     fn run(
@@ -309,19 +462,4 @@ fn model_id(world: &pong_engine::World, name: &str) -> PyResult<pong_engine::Mod
         let cure = format!("name one of: {}", known.join(", "));
         bad_value("model", format!("there is no model `{name}`"), &cure)
     })
-}
-
-/// Energies by name.
-pub(crate) fn energies<'py>(py: Python<'py>, energy: &Energy) -> PyResult<Bound<'py, PyDict>> {
-    let terms = [
-        ("kinetic", energy.kinetic),
-        ("potential", energy.potential),
-        ("springs", energy.springs),
-        ("contacts", energy.contacts),
-        ("contact_loss", energy.contact_loss),
-        ("spring_loss", energy.spring_loss),
-        ("work_in", energy.work_in),
-        ("balance", energy.balance()),
-    ];
-    terms.into_py_dict(py)
 }

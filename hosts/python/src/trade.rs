@@ -14,40 +14,40 @@ use std::ffi::CString;
 use std::path::PathBuf;
 
 /// Result of a study. The files of `pong trade` are in the given folder.
-#[pyclass(frozen, module = "pong", get_all)]
+#[pyclass(frozen, module = "pong.types", get_all)]
 pub(crate) struct Trade {
-    /// Name of the scene or log.
+    /// str : Name of the scene or log.
     name: String,
-    /// Page that `pong trade` prints, in Markdown.
+    /// str : Page that `pong trade` prints, in Markdown.
     page: String,
-    /// Levels: step and integrator, then those with one lever more.
+    /// list of Level : Levels: step and integrator, then those with one lever more.
     levels: Vec<Py<Level>>,
-    /// Level of least median time within the tolerance; `None` if there is none or the reference has not
+    /// Level or None : Level of least median time within the tolerance; None if there is none or the reference has not
     /// converged.
     cheapest: Option<Py<Level>>,
-    /// True if the reference is accurate enough to judge by.
+    /// bool : True if the reference is accurate enough to judge by.
     converged: bool,
-    /// Relative uncertainty of the reference itself, in the quantities that count.
+    /// float : Relative uncertainty of the reference itself, in the quantities that count.
     uncertainty: f64,
 }
 
 /// One setting of every lever, with its result.
-#[pyclass(frozen, module = "pong", get_all)]
+#[pyclass(frozen, module = "pong.types", get_all)]
 pub(crate) struct Level {
-    /// Name, as in the tables.
+    /// str : Name, as in the tables.
     name: String,
-    /// Relative errors by quantity; `None` if the run did not reach its end.
+    /// dict[str, float] or None : Relative errors by quantity; None if the run did not reach its end.
     errors: Option<BTreeMap<&'static str, f64>>,
-    /// Largest error of the quantities that count.
+    /// float or None : Largest error of the quantities that count.
     error: Option<f64>,
-    /// Median frame time, s; `None` if the run did not reach its end.
+    /// float or None : Median frame time, s; None if the run did not reach its end.
     median_time: Option<f64>,
-    /// 99th percentile of the frame time, s.
+    /// float or None : 99th percentile of the frame time, s.
     tail_time: Option<f64>,
-    /// True if no other level is as fast and as accurate.
+    /// bool : True if no other level is as fast and as accurate.
     on_front: bool,
-    /// For a lever that must not change the answer: true if the bits equal those without it. `False` is a
-    /// fault of the engine.
+    /// bool or None : For a lever that must not change the answer: true if the bits equal those without it. False is a fault
+    /// of the engine.
     same_bits: Option<bool>,
 }
 
@@ -115,8 +115,50 @@ fn granted(py: Python<'_>, wanted: Vec<usize>) -> PyResult<Vec<usize>> {
     Ok(granted)
 }
 
-/// Runs a scene, or the motions of a log, over the levers for speed, and reports frame time and error of
-/// each.
+/// Runs a scene, or the motions of a log, over the levers for speed, and reports frame time and error of each
+/// (docs/trade.md).
+///
+/// Parameters
+/// ----------
+/// subject : path_like
+///     Scene file, or folder of a log.
+/// output : path_like
+///     Folder for the page and its tables.
+/// within : float, default 0.02
+///     Relative error that is accepted.
+/// of : sequence of str, optional
+///     Quantities that count; all without it.
+/// frame : float, optional
+///     Frame of the host, s.
+/// halvings : int, optional
+///     Number of halvings of the step.
+/// duration : float, optional
+///     Duration of a run, s.
+/// levers : sequence of str, optional
+///     Levers to be tried; all without it.
+/// alternatives : Mapping[str, Mapping[str, path_like]], optional
+///     Alternatives of a log: for each name, model files by the name of the model that they replace.
+/// leaves : sequence of int, optional
+///     Leaf sizes to be tried.
+/// workers : sequence of int, optional
+///     Numbers of workers to be tried.
+/// rounds : int, default 3
+///     Number of timings of each level.
+/// refinements : int, default 2
+///     Refinements of the reference.
+/// fresh : bool, default False
+///     Measures again what the folder has already.
+/// allow_files_below : sequence of path_like, optional
+///     Further folders from which models may read meshes.
+///
+/// Returns
+/// -------
+/// Trade
+///
+/// Raises
+/// ------
+/// StudyError
+///     The subject or a setting cannot be used.
 #[pyfunction]
 #[pyo3(signature = (
     subject, output, *, within = 0.02, of = None, frame = None, halvings = None, duration = None, levers = None,

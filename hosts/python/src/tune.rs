@@ -10,19 +10,19 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Result of a tuning.
-#[pyclass(frozen, module = "pong", get_all)]
+#[pyclass(frozen, module = "pong.types", get_all)]
 pub(crate) struct Tuned {
-    /// Page that `pong tune` prints, in Markdown.
+    /// str : Page that `pong tune` prints, in Markdown.
     page: String,
-    /// Written model files by model name; empty if nothing is faster by more than noise.
+    /// dict[str, Path] : Written model files by model name; empty if nothing is faster by more than noise.
     written: BTreeMap<String, PathBuf>,
-    /// Changes in each written model, group by group.
+    /// dict[str, list[str]] : Changes in each written model, group by group.
     changes: BTreeMap<String, Vec<String>>,
-    /// Relative reduction of the time.
+    /// float : Relative reduction of the time.
     gain: f64,
-    /// Relative difference of repeated timings.
+    /// float : Relative difference of repeated timings.
     noise: f64,
-    /// Proposals discarded because they would have changed an answer, or could not be built.
+    /// list of str : Proposals discarded because they would have changed an answer, or could not be built.
     refused: Vec<String>,
 }
 
@@ -41,7 +41,34 @@ pub(crate) enum Runs {
     Other(Py<PyAny>),
 }
 
-/// Searches for bounding volumes and leaves that reduce the frame time of runs, and writes new model files.
+/// Searches for bounding volumes and leaves that reduce the frame time of runs with the same bits, and writes new model
+/// files (docs/tune.md).
+///
+/// Parameters
+/// ----------
+/// runs : path_like or sequence of path_like
+///     Scene files or folders of logs.
+/// output : path_like, optional
+///     Folder for the model files.
+/// force : bool, default False
+///     Replaces files that are in the folder already.
+/// duration : float, optional
+///     Duration of a run, s.
+/// rounds : int, default 5
+///     Number of timings of each proposal.
+/// frames : int, default 4096
+///     Most frames of a timing.
+/// allow_files_below : sequence of path_like, optional
+///     Further folders from which models may read meshes.
+///
+/// Returns
+/// -------
+/// Tuned
+///
+/// Raises
+/// ------
+/// StudyError
+///     A run or a setting cannot be used.
 #[pyfunction]
 #[pyo3(signature = (
     runs, *, output = None, force = false, duration = None, rounds = 5, frames = 4096, allow_files_below = Vec::new(),

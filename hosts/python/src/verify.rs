@@ -4,36 +4,36 @@ use crate::errors::bad_value;
 use pyo3::prelude::*;
 
 /// A case with a known answer, and its verdict.
-#[pyclass(frozen, module = "pong", get_all)]
+#[pyclass(frozen, module = "pong.types", get_all)]
 pub(crate) struct Case {
-    /// Name.
+    /// str : Name.
     id: String,
-    /// Subject.
+    /// str : Subject.
     title: String,
-    /// Source of the expected values.
+    /// str : Source of the expected values.
     source: String,
-    /// Rows of the case.
+    /// list of Row : Rows of the case.
     rows: Vec<Py<Row>>,
-    /// Reason why it could not be run; `None` if it could.
+    /// str or None : Reason why it could not be run; None if it could.
     failure: Option<String>,
-    /// True if every row is within its tolerance.
+    /// bool : True if every row is within its tolerance.
     passes: bool,
 }
 
 /// A quantity with its expected and its measured value.
-#[pyclass(frozen, module = "pong", get_all)]
+#[pyclass(frozen, module = "pong.types", get_all)]
 pub(crate) struct Row {
-    /// Name of the quantity.
+    /// str : Name of the quantity.
     quantity: String,
-    /// Unit.
+    /// str : Unit.
     unit: String,
-    /// Closed-form value.
+    /// float : Closed-form value, in the unit.
     expected: f64,
-    /// Measured value.
+    /// float : Measured value, in the unit.
     got: f64,
-    /// Largest allowed error, in the unit.
+    /// float : Largest allowed error, in the unit.
     allowed: f64,
-    /// True if the error is within the tolerance.
+    /// bool : True if the error is within the tolerance.
     passes: bool,
 }
 
@@ -52,7 +52,26 @@ impl Row {
     }
 }
 
-/// Runs the cases named, or all.
+/// Runs cases with known answers (docs/verification.md).
+///
+/// Parameters
+/// ----------
+/// cases : sequence of str, optional
+///     Names of the cases; all without it.
+///
+/// Returns
+/// -------
+/// list of Case
+///
+/// Raises
+/// ------
+/// BadValueError
+///     There is no case of this name.
+///
+/// Examples
+/// --------
+/// >>> [case.passes for case in pong.verify(["V1", "V2"])]
+/// [True, True]
 #[pyfunction]
 #[pyo3(signature = (cases = None))]
 pub(crate) fn verify(py: Python<'_>, cases: Option<Vec<String>>) -> PyResult<Vec<Case>> {

@@ -1,120 +1,24 @@
-//! A sealed world: frames.
+//! Calls of a sealed world: frames.
 
 use crate::advice;
 use crate::arrays::{self, Matrix, STATE, WRENCH};
-use crate::builder::WorldBuilder;
 use crate::contacts;
 use crate::distance::Distance;
-use crate::errors::{PhaseError, bad_value, lock, of_engine};
+use crate::errors::{PhaseError, bad_value, of_engine};
+use crate::frame_report::FrameReport;
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
 use crate::model::{surface_from, surface_values};
 use crate::pair_monitor::{ContactChange, PairPeaks, no_monitor};
 use crate::recording;
+use crate::sealed::{Inner, World};
+use crate::setup::WorldBuilder;
 use numpy::PyArray1;
 use pong_advise::StepPlan;
-use pong_engine::{EngineError, FrictionPreload, InterfaceId, PairMonitor, SealReport, State};
-use pong_record::{ModelSource, RecordOptions, Recorder, WhenFull};
+use pong_engine::{Continuation, EngineError, FrictionPreload, PairMonitor};
+use pong_record::{RecordOptions, Recorder, WhenFull};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict};
-use std::collections::HashSet;
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard};
-
-/// A sealed world: states in, wrenches out.
-///
-/// One thread at a time may call it. `evaluate`, `commit` and `step` release the GIL.
-#[pyclass(frozen, module = "pong")]
-pub(crate) struct World {
-    inner: Mutex<Box<Inner>>,
-    /// All Interfaces, in the order of the rows of arrays.
-    interfaces: Vec<Interface>,
-    ids: Vec<InterfaceId>,
-    warnings: Vec<String>,
-    notes: Vec<String>,
-}
-
-pub(crate) struct Inner {
-    pub world: pong_engine::World,
-    pub sources: Vec<ModelSource>,
-    pub recorder: Option<Recorder>,
-    /// Folders that models may read meshes from, for a builder that extends the world.
-    pub folders: Vec<PathBuf>,
-    monitor: Option<PairMonitor>,
-    /// Buffer for states from an array on their way into the world.
-    states: Vec<(InterfaceId, State)>,
-}
-
-/// Report of a frame.
-#[pyclass(frozen, eq, module = "pong", get_all)]
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) struct FrameReport {
-    /// Incomplete or missed parts, as the bits of `pong.Status`.
-    status: u32,
-    /// Contacts listed.
-    contacts: u32,
-    /// Contacts that would have been listed without the limit.
-    contacts_wanted: u32,
-}
-
-impl From<pong_engine::FrameReport> for FrameReport {
-    fn from(report: pong_engine::FrameReport) -> Self {
-        let pong_engine::FrameReport { status, contacts, contacts_wanted } = report;
-        Self { status: status.bits(), contacts, contacts_wanted }
-    }
-}
-
-#[pymethods]
-impl FrameReport {
-    /// True if nothing was left out or missed.
-    #[getter]
-    fn is_complete(&self) -> bool {
-        self.status == 0
-    }
-
-    fn __repr__(&self) -> String {
-        let Self { status, contacts, contacts_wanted } = self;
-        format!("<pong.FrameReport status={status} contacts={contacts} contacts_wanted={contacts_wanted}>")
-    }
-}
-
-impl World {
-    pub(crate) fn new(
-        world: pong_engine::World,
-        (sources, folders): (Vec<ModelSource>, Vec<PathBuf>),
-        report: &SealReport,
-    ) -> PyResult<Self> {
-        let interfaces = ids::interfaces(world.scene())?;
-        Ok(Self {
-            ids: interfaces.iter().map(|interface| interface.id).collect(),
-            interfaces,
-            warnings: report.warnings.iter().map(ToString::to_string).collect(),
-            notes: report.notes.iter().map(ToString::to_string).collect(),
-            inner: Mutex::new(Box::new(Inner {
-                world,
-                sources,
-                recorder: None,
-                folders,
-                monitor: None,
-                states: Vec::new(),
-            })),
-        })
-    }
-
-    fn lock(&self) -> PyResult<MutexGuard<'_, Box<Inner>>> {
-        lock("world", &self.inner, "give each thread a world of its own, or wait for the other call")
-    }
-
-    /// Interfaces of a call: all, in their order, or those it names.
-    fn chosen(&self, interfaces: Option<Vec<PyRef<'_, Interface>>>) -> PyResult<Option<Vec<InterfaceId>>> {
-        let Some(chosen) = interfaces else { return Ok(None) };
-        let mut seen = HashSet::new();
-        if let Some(twice) = chosen.iter().find(|interface| !seen.insert(interface.id)) {
-            let cause = format!("`{}` is given twice", twice.name);
-            return Err(bad_value("interfaces", cause, "give each Interface once"));
-        }
-        Ok(Some(chosen.iter().map(|interface| interface.id).collect()))
-    }
-}
 
 /// True if `axes` are those of the common frame, false if those of a group.
 fn along_common_axes(axes: &str) -> PyResult<bool> {
@@ -127,26 +31,45 @@ fn along_common_axes(axes: &str) -> PyResult<bool> {
 
 #[pymethods]
 impl World {
-    /// All Interfaces: the rows of `states` and `wrenches`.
+    /// list of Interface : All Interfaces: the rows of `states` and `wrenches`.
     #[getter]
     fn interfaces(&self) -> Vec<Interface> {
         self.interfaces.clone()
     }
 
-    /// Warnings of the seal: pairs of kinds that meet but have no tester.
+    /// list of str : Warnings of the seal: pairs of kinds that meet but have no tester.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.warnings.clone()
     }
 
-    /// Notes of the seal.
+    /// list of str : Notes of the seal.
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.notes.clone()
     }
 
-    /// Steps that contacts can bear, by the masses of Interfaces (by name) and the joints that they hang on: `stable_step`,
-    /// `surely_stable_step`, `warnings`, `notes`, `not_judged`.
+    /// Tests how long the step of a host may be for the contacts of this world.
+    ///
+    /// Parameters
+    /// ----------
+    /// masses : dict[str, dict[str, Any]]
+    ///     Entry for each Interface, by name: `mass` (kg), `inertia` (3, 3) (kg·m², about the mass centre), `mass_center`
+    ///     (m), both along the axes of the group; on joints also `inverse_inertia` (6, 6), `mechanism`, `spring_rate` (1/s²)
+    ///     and `damper_rate` (1/s).
+    /// step : float
+    ///     Step of the host, s.
+    /// coupling : {"stages", "semi_implicit", "zero_order_hold"}, default "stages"
+    ///     Use of a wrench by the host's integrator.
+    /// delay_frames : int, default 0
+    ///     Frames by which a held wrench comes late.
+    /// closing_speed : float, optional
+    ///     Largest speed at which bodies meet, m/s.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     `stable_step` and `surely_stable_step` (s), `warnings`, `notes`, `not_judged`.
     #[pyo3(signature = (masses, *, step, coupling = "stages", delay_frames = 0, closing_speed = None))]
     fn step_report<'py>(
         &self,
@@ -157,12 +80,12 @@ impl World {
         delay_frames: u32,
         closing_speed: Option<f64>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let coupling = crate::builder::coupling("coupling", coupling, delay_frames)?;
+        let coupling = crate::setup::coupling("coupling", coupling, delay_frames)?;
         let plan = StepPlan { closing_speed, accuracy: None, ..StepPlan::new(step, coupling) };
         advice::step_report(py, &self.lock()?.world, masses, &plan)
     }
 
-    /// All Objects.
+    /// list of Object : All Objects.
     #[getter]
     fn objects(&self) -> PyResult<Vec<Object>> {
         let inner = self.lock()?;
@@ -173,13 +96,13 @@ impl World {
         inner.world.scene().objects().map(object).collect()
     }
 
-    /// All pairs.
+    /// list of Pair : All pairs.
     #[getter]
     fn pairs(&self) -> PyResult<Vec<Pair>> {
         ids::pairs(self.lock()?.world.scene())
     }
 
-    /// All models.
+    /// list of AddedModel : All models.
     #[getter]
     fn models(&self) -> PyResult<Vec<AddedModel>> {
         let inner = self.lock()?;
@@ -187,19 +110,35 @@ impl World {
         Ok(models.map(|(id, model)| AddedModel { id, name: model.name.clone() }).collect())
     }
 
-    /// Most contacts of a frame.
+    /// int : Most contacts of a frame.
     #[getter]
     fn contact_capacity(&self) -> PyResult<usize> {
         Ok(self.lock()?.world.contact_capacity())
     }
 
-    /// Hash of the scene: worlds with equal hashes can exchange contact state.
+    /// int : Hash of the scene: worlds with equal hashes can exchange contact state.
     #[getter]
     fn scene_hash(&self) -> PyResult<u64> {
         Ok(self.lock()?.world.scene_hash())
     }
 
-    /// The Interface of a movable group, by path or name. An empty path is the root.
+    /// Finds the Interface of a movable group.
+    ///
+    /// Parameters
+    /// ----------
+    /// object : Object or str
+    ///     Object, or its name.
+    /// path : str, optional
+    ///     Path or name of the group; empty for the root.
+    ///
+    /// Returns
+    /// -------
+    /// Interface
+    ///
+    /// Raises
+    /// ------
+    /// NotFoundError
+    ///     No Object or group has this name.
     #[pyo3(signature = (object, path = ""))]
     fn interface(&self, object: ObjectRef<'_>, path: &str) -> PyResult<Interface> {
         let inner = self.lock()?;
@@ -208,7 +147,19 @@ impl World {
         ids::interface(inner.world.scene(), id)
     }
 
-    /// `object/path` of a primitive, as contacts name it.
+    /// Finds the name of a primitive by the numbers that contacts give.
+    ///
+    /// Parameters
+    /// ----------
+    /// interface : int
+    ///     Number of the Interface.
+    /// primitive : int
+    ///     Number of the primitive in it.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    ///     `object/path`.
     fn primitive_path(&self, interface: usize, primitive: u32) -> PyResult<String> {
         let Some(id) = self.ids.get(interface) else {
             let cause = format!("there is no Interface {interface}, the world has {}", self.ids.len());
@@ -220,7 +171,30 @@ impl World {
         Ok(format!("{object}/{path}"))
     }
 
-    /// Sets states: an array of 13 columns, or the four parts separately. If any is refused, none is set.
+    /// Sets the states of all or some Interfaces. If any is refused, none is set.
+    ///
+    /// Parameters
+    /// ----------
+    /// states : array_like, shape (n, 13), optional
+    ///     Position (3, m), quaternion w, x, y, z (4), velocity of the origin (3, m/s) and angular velocity (3, rad/s) of each
+    ///     group in the common frame. An array of float64 is read in place.
+    /// position : array_like, shape (n, 3), optional
+    ///     Positions of the origins, m, instead of `states`.
+    /// orientation : array_like, shape (n, 4), optional
+    ///     Unit quaternions (w, x, y, z) that turn axes of the group into common ones; without them groups are unturned.
+    /// linear_velocity : array_like, shape (n, 3), optional
+    ///     Velocities of the origins, m/s; at rest without them.
+    /// angular_velocity : array_like, shape (n, 3), optional
+    ///     Angular velocities, rad/s, along the common axes; at rest without them.
+    /// interfaces : sequence of Interface, optional
+    ///     Interfaces of the rows; all, in the order of `interfaces`, without it.
+    ///
+    /// Raises
+    /// ------
+    /// StateError
+    ///     A number is not finite, or a quaternion is no unit quaternion.
+    /// BadValueError
+    ///     An array has another shape, or an Interface is given twice.
     #[pyo3(signature = (
         states = None,
         *,
@@ -243,45 +217,22 @@ impl World {
         let ids = chosen.as_deref().unwrap_or(&self.ids);
         let mut inner = self.lock()?;
         let Inner { world, states: room, .. } = &mut **inner;
-        room.clear();
-        let parts = [&position, &orientation, &linear_velocity, &angular_velocity];
-        match &states {
-            Some(array) if parts.iter().all(|part| part.is_none()) => {
-                let array = arrays::rows("states", array, ids.len(), STATE)?;
-                arrays::states(&array.as_array(), ids, room);
-            }
-            None if position.is_some() => {
-                let count = ids.len();
-                let p = arrays::part("position", position.as_ref(), count, [0.0; 3])?;
-                let q = arrays::part("orientation", orientation.as_ref(), count, [1.0, 0.0, 0.0, 0.0])?;
-                let v = arrays::part("linear_velocity", linear_velocity.as_ref(), count, [0.0; 3])?;
-                let w = arrays::part("angular_velocity", angular_velocity.as_ref(), count, [0.0; 3])?;
-                room.extend(ids.iter().enumerate().map(|(i, id)| {
-                    let state = State {
-                        position: p[i],
-                        orientation: q[i],
-                        linear_velocity: v[i],
-                        angular_velocity: w[i],
-                    };
-                    (*id, state)
-                }));
-            }
-            given => {
-                let cause = match given {
-                    Some(_) => "an array of states and parts of states are given",
-                    None => "neither `states` nor `position` is given",
-                };
-                return Err(bad_value(
-                    "states",
-                    cause,
-                    "give one array of 13 columns, or `position` and the others",
-                ));
-            }
-        }
+        let parts = [position, orientation, linear_velocity, angular_velocity];
+        arrays::given_states(states, parts, ids, room)?;
         world.set_states(room).map_err(of_engine)
     }
 
-    /// States as set, a row for each Interface; NaN for those not set.
+    /// Returns the states as they were set.
+    ///
+    /// Parameters
+    /// ----------
+    /// out : ndarray, shape (n, 13), optional
+    ///     Array of float64 to write into.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (n, 13)
+    ///     `out` or a new array; NaN for states that were never set. Columns as in `set_states`.
     #[pyo3(signature = (out = None))]
     fn states<'py>(&self, py: Python<'py>, out: Option<Bound<'py, PyAny>>) -> PyResult<Matrix<'py>> {
         let inner = self.lock()?;
@@ -299,6 +250,17 @@ impl World {
     }
 
     /// Computes wrenches from the states and the committed contact state, and changes nothing else.
+    ///
+    /// Returns
+    /// -------
+    /// FrameReport
+    ///
+    /// Raises
+    /// ------
+    /// StateError
+    ///     A state was never set.
+    /// NotFiniteError
+    ///     A force is beyond what a number holds.
     fn evaluate(&self, py: Python<'_>) -> PyResult<FrameReport> {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
@@ -307,7 +269,12 @@ impl World {
         Ok(report.into())
     }
 
-    /// Commits the states presently set, for all pairs or for some.
+    /// Makes the contact state of the last evaluation the committed one.
+    ///
+    /// Parameters
+    /// ----------
+    /// pairs : sequence of Pair, optional
+    ///     Pairs to commit; all without it.
     #[pyo3(signature = (pairs = None))]
     fn commit(&self, py: Python<'_>, pairs: Option<Vec<PyRef<'_, Pair>>>) -> PyResult<()> {
         let pairs: Option<Vec<_>> = pairs.map(|pairs| pairs.iter().map(|pair| pair.id).collect());
@@ -326,6 +293,17 @@ impl World {
     }
 
     /// Evaluates and commits, for hosts that call once a frame.
+    ///
+    /// Returns
+    /// -------
+    /// FrameReport
+    ///
+    /// Raises
+    /// ------
+    /// StateError
+    ///     A state was never set.
+    /// NotFiniteError
+    ///     A force is beyond what a number holds.
     fn step(&self, py: Python<'_>) -> PyResult<FrameReport> {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
@@ -337,7 +315,19 @@ impl World {
         Ok(report.into())
     }
 
-    /// Wrenches of the last frame, a row (force, moment) for each Interface, about the origin of its group.
+    /// Returns the contact wrenches of the last frame.
+    ///
+    /// Parameters
+    /// ----------
+    /// out : ndarray, shape (n, 6), optional
+    ///     Array of float64 to write into.
+    /// axes : {"common", "group"}, default "common"
+    ///     Axes of the components: those of the common frame, or of each group.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (n, 6)
+    ///     `out` or a new array: force (N) and moment (N·m) about the origin of the group, a row for each Interface.
     #[pyo3(signature = (out = None, *, axes = "common"))]
     fn wrenches<'py>(
         &self,
@@ -354,8 +344,21 @@ impl World {
         })
     }
 
-    /// Wrench (force, moment) of the last frame on one Interface's group from its contacts with another's alone, about the origin
-    /// of the first. Over all groups that it can touch, these add up to its row of `wrenches`.
+    /// Returns the part of a row of `wrenches` that comes from the contacts with one other group.
+    ///
+    /// Parameters
+    /// ----------
+    /// on : Interface
+    ///     Group on which the wrench acts.
+    /// source : Interface
+    ///     Group from which it comes.
+    /// axes : {"common", "group"}, default "common"
+    ///     Axes of the components.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (6,)
+    ///     Force (N) and moment (N·m) about the origin of `on`. Over all sources, these add up to its row of `wrenches`.
     #[pyo3(signature = (on, source, *, axes = "common"))]
     fn wrench_from<'py>(
         &self,
@@ -371,32 +374,54 @@ impl World {
         Ok(PyArray1::from_slice(py, &arrays::wrench_row(&wrench.map_err(of_engine)?)))
     }
 
-    /// Distance of the groups of two Interfaces at the states set last, with their nearest primitives; no frame is needed.
+    /// Returns the distance of two movable groups at the states set last; no frame is needed.
+    ///
+    /// Parameters
+    /// ----------
+    /// a, b : Interface
+    ///     The groups.
+    ///
+    /// Returns
+    /// -------
+    /// Distance
     fn distance(&self, a: &Interface, b: &Interface) -> PyResult<Distance> {
         Ok(self.lock()?.world.distance(a.id, b.id).map_err(of_engine)?.into())
     }
 
-    /// Observes pairs from nothing on; called again, it begins anew.
+    /// Starts to observe pairs, from no contact on; called again, it begins anew.
     fn start_pair_monitor(&self) -> PyResult<()> {
         let mut inner = self.lock()?;
         inner.monitor = Some(PairMonitor::new(&inner.world).map_err(of_engine)?);
         Ok(())
     }
 
-    /// Takes in the frame that was committed last: once after each commit. `step` is the time since the commit before, s.
+    /// Observes the frame that was committed last: once after each commit.
+    ///
+    /// Parameters
+    /// ----------
+    /// step : float
+    ///     Time since the commit before, s.
     fn observe_pairs(&self, step: f64) -> PyResult<()> {
         let mut inner = self.lock()?;
         let Inner { world, monitor, .. } = &mut **inner;
         monitor.as_mut().ok_or_else(no_monitor)?.observe(world, step).map_err(of_engine)
     }
 
-    /// Begins and ends of contact in the frame observed last, by pair of Objects and groups.
+    /// Returns begins and ends of contact in the frame observed last, by pair of Objects and groups.
+    ///
+    /// Returns
+    /// -------
+    /// list of ContactChange
     fn contact_changes(&self) -> PyResult<Vec<ContactChange>> {
         let inner = self.lock()?;
         Ok(inner.monitor.as_ref().ok_or_else(no_monitor)?.changes().map(Into::into).collect())
     }
 
-    /// Peak and mean of all pairs of groups that touched in the window, or whose contact ended in it.
+    /// Returns peak and mean of all pairs of groups that touched in the window, or whose contact ended in it.
+    ///
+    /// Returns
+    /// -------
+    /// list of PairPeaks
     fn pair_peaks(&self) -> PyResult<Vec<PairPeaks>> {
         let inner = self.lock()?;
         Ok(inner.monitor.as_ref().ok_or_else(no_monitor)?.peaks().map(Into::into).collect())
@@ -408,8 +433,21 @@ impl World {
         Ok(())
     }
 
-    /// Wrench (force, moment) of the last frame of a pair, on the Object that was named first in it from the other, about the
-    /// origin of the group of `about`, an Interface of either.
+    /// Returns the wrench of a pair in the last frame, on the Object that was named first in it from the other.
+    ///
+    /// Parameters
+    /// ----------
+    /// pair : Pair
+    ///     Pair of Objects.
+    /// about : Interface
+    ///     Group of either Object, about whose origin the moment is taken.
+    /// axes : {"common", "group"}, default "common"
+    ///     Axes of the components: common, or those of `about`.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (6,)
+    ///     Force (N) and moment (N·m).
     #[pyo3(signature = (pair, about, *, axes = "common"))]
     fn pair_wrench<'py>(
         &self,
@@ -426,23 +464,41 @@ impl World {
         Ok(PyArray1::from_slice(py, &arrays::wrench_row(&wrench.map_err(of_engine)?)))
     }
 
-    /// Contacts of the last frame: a structured array of `pong.CONTACT_DTYPE`.
+    /// Returns the contacts of the last frame, in the order of every sum.
+    ///
+    /// Returns
+    /// -------
+    /// structured ndarray, shape (k,)
+    ///     Rows of `pong.CONTACT_DTYPE`, along the common axes.
     fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         contacts::array(py, &self.lock()?.world)
     }
 
-    /// Derivatives of each contact's normal force by its depth (N/m) and by its depth rate (N·s/m): a row for
-    /// each, in the order of `contacts`; NaN for a normal law of the host.
+    /// Returns the derivatives of each contact's normal force by its depth and by its depth rate.
+    ///
+    /// Returns
+    /// -------
+    /// ndarray, shape (k, 2)
+    ///     Stiffness (N/m) and damping (N·s/m) in the order of `contacts`; NaN for a normal law of the host.
     fn contact_stiffness<'py>(&self, py: Python<'py>) -> PyResult<Matrix<'py>> {
         contacts::stiffness(py, &self.lock()?.world)
     }
 
-    /// Report of the last frame.
+    /// Returns the report of the last frame.
+    ///
+    /// Returns
+    /// -------
+    /// FrameReport
     fn report(&self) -> PyResult<FrameReport> {
         Ok(self.lock()?.world.report().into())
     }
 
-    /// Description of a tunnelling event since the last commit; `None` if there was none.
+    /// Describes a tunnelling event since the last commit.
+    ///
+    /// Returns
+    /// -------
+    /// str or None
+    ///     The event; None if there was none.
     fn tunnelling(&self) -> PyResult<Option<String>> {
         let inner = self.lock()?;
         let Some(event) = inner.world.tunnelling() else { return Ok(None) };
@@ -455,6 +511,11 @@ impl World {
     }
 
     /// Returns the committed contact state.
+    ///
+    /// Returns
+    /// -------
+    /// bytes
+    ///     The contact state. The states of the groups are the caller's.
     fn save_state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let inner = self.lock()?;
         PyBytes::new_with(py, inner.world.state_used(), |room| {
@@ -463,6 +524,16 @@ impl World {
     }
 
     /// Restores a contact state saved by a world built by the same calls.
+    ///
+    /// Parameters
+    /// ----------
+    /// block : bytes
+    ///     Contact state of `save_state`. Set the states that belong to it afterwards, and evaluate.
+    ///
+    /// Raises
+    /// ------
+    /// ContactStateError
+    ///     The state is damaged, or of another world.
     fn restore_state(&self, block: &[u8]) -> PyResult<()> {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
@@ -471,8 +542,12 @@ impl World {
         Ok(())
     }
 
-    /// A builder that begins with everything that this world was made of, and with its states, pairs and surfaces as they are
-    /// now: add what arrives, seal, and let the new world `continue_from` this one, which may run on meanwhile.
+    /// Returns a builder that begins with everything that this world was made of, and with its states, pairs and surfaces as
+    /// they are now: add what arrives, seal, and let the new world `continue_from` this one, which may run on meanwhile.
+    ///
+    /// Returns
+    /// -------
+    /// WorldBuilder
     fn extended(&self) -> PyResult<WorldBuilder> {
         let inner = self.lock()?;
         let builder = pong_engine::WorldBuilder::extending(&inner.world);
@@ -480,7 +555,18 @@ impl World {
     }
 
     /// Continues the run of another world, with the states, pairs, surfaces and contact state of the Objects that are in both,
-    /// by name. Returns the counts of what continues and of what was left behind.
+    /// by name.
+    ///
+    /// Parameters
+    /// ----------
+    /// other : World
+    ///     World whose run goes on.
+    ///
+    /// Returns
+    /// -------
+    /// dict[str, float]
+    ///     Counts of what continues (`objects`, `pairs`, `contacts`) and of what was left behind (`objects_left`,
+    ///     `pairs_left`, `contacts_left`, `energy_left` in J).
     fn continue_from<'py>(slf: &Bound<'py, Self>, other: &Bound<'py, Self>) -> PyResult<Bound<'py, PyDict>> {
         if slf.is(other) {
             let cure = "give the world whose run goes on";
@@ -494,22 +580,15 @@ impl World {
             ));
         }
         let of = inner.world.continue_from(&other.world).map_err(of_engine)?;
-        let told = PyDict::new(slf.py());
-        for (name, count) in [
-            ("objects", of.objects),
-            ("pairs", of.pairs),
-            ("contacts", of.contacts),
-            ("objects_left", of.objects_left),
-            ("pairs_left", of.pairs_left),
-            ("contacts_left", of.contacts_left),
-        ] {
-            told.set_item(name, count)?;
-        }
-        told.set_item("energy_left", of.energy_left)?;
-        Ok(told)
+        continued(slf.py(), &of)
     }
 
     /// Drops the contact state of an Object, after a teleport or a reset.
+    ///
+    /// Parameters
+    /// ----------
+    /// object : Object or str
+    ///     Object, or its name.
     fn clear_contact_history(&self, object: ObjectRef<'_>) -> PyResult<()> {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
@@ -520,6 +599,13 @@ impl World {
     }
 
     /// Enables or disables a pair.
+    ///
+    /// Parameters
+    /// ----------
+    /// pair : Pair
+    ///     Pair of Objects.
+    /// enabled : bool
+    ///     True if they may touch.
     fn set_pair_enabled(&self, pair: &Pair, enabled: bool) -> PyResult<()> {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
@@ -528,13 +614,43 @@ impl World {
         Ok(())
     }
 
-    /// Present values of a surface of a model.
+    /// Returns the present values of a surface of a model.
+    ///
+    /// Parameters
+    /// ----------
+    /// model : AddedModel
+    ///     Model of this world.
+    /// name : str
+    ///     Name of the surface.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     `stiffness` (N/m), `normal` and `friction` with their `law`.
     fn surface<'py>(&self, py: Python<'py>, model: &AddedModel, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let inner = self.lock()?;
         surface_values(py, inner.world.surface(model.id, name).map_err(of_engine)?)
     }
 
-    /// Replaces the values of a surface, for all Objects of the model. Laws may not change.
+    /// Changes values of a surface, for all Objects of the model, from the next evaluation on. Laws may not change.
+    ///
+    /// Parameters
+    /// ----------
+    /// model : AddedModel
+    ///     Model of this world.
+    /// name : str
+    ///     Name of the surface.
+    /// values : dict
+    ///     New values, nested as `surface` gives them; what is left out stays as it is.
+    ///
+    /// Raises
+    /// ------
+    /// BadValueError
+    ///     A key is no value of this surface, or a value is outside of its range.
+    ///
+    /// Examples
+    /// --------
+    /// >>> world.set_surface(world.models[0], "rubber", {"friction": {"mu": 0.2}})
     fn set_surface(
         &self,
         py: Python<'_>,
@@ -551,8 +667,20 @@ impl World {
         Ok(())
     }
 
-    /// Commits, and preloads the bristles of a pair: `holding` is the force on its first Object, N; without
-    /// it, moving contacts are assumed to slide. Returns the number of preloaded bristles.
+    /// Commits, and preloads the bristles of a pair.
+    ///
+    /// Parameters
+    /// ----------
+    /// pair : Pair
+    ///     Pair of Objects.
+    /// holding : array_like, shape (3,), optional
+    ///     Force that friction holds on the pair's first Object, N, along the common axes; without it, moving contacts are
+    ///     assumed to slide.
+    ///
+    /// Returns
+    /// -------
+    /// int
+    ///     Number of preloaded bristles.
     #[pyo3(signature = (pair, holding = None))]
     fn preload_friction(&self, pair: &Pair, holding: Option<Bound<'_, PyAny>>) -> PyResult<usize> {
         let preload = match holding {
@@ -571,13 +699,38 @@ impl World {
         Ok(set)
     }
 
-    /// Energies of all contacts at the last commit, J. Zero unless the world keeps the ledger.
+    /// Returns the energies of all contacts at the last commit.
+    ///
+    /// Returns
+    /// -------
+    /// dict[str, float]
+    ///     `stored`, `work` and `dissipated`, J; zero unless the world keeps the ledger.
     fn ledger<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let ledger = self.lock()?.world.ledger();
         [("stored", ledger.stored), ("work", ledger.work), ("dissipated", ledger.dissipated)].into_py_dict(py)
     }
 
     /// Begins a response log in a folder.
+    ///
+    /// Parameters
+    /// ----------
+    /// folder : path_like
+    ///     Folder of the log.
+    /// name : str, optional
+    ///     Name of the run.
+    /// step : float, optional
+    ///     Step of the host, s.
+    /// commits_per_frame : int, optional
+    ///     Commits for each frame of the log.
+    /// overwrite : bool, default False
+    ///     Replaces a log that is in the folder already.
+    /// lose : bool, default False
+    ///     Loses frames if the disk is too slow, instead of waiting.
+    ///
+    /// Raises
+    /// ------
+    /// LogError
+    ///     The folder cannot be written, or has a log already.
     #[pyo3(signature = (folder, *, name = "", step = None, commits_per_frame = None, overwrite = false, lose = false))]
     fn start_log(
         &self,
@@ -597,18 +750,31 @@ impl World {
             when_full: if lose { WhenFull::Lose } else { WhenFull::Wait },
             ..RecordOptions::default()
         };
-        inner.recorder = Some(recording::start(&inner, folder, options)?);
+        if inner.recorder.is_some() {
+            return Err(PhaseError::new_err("log: one is open already; call stop_log first"));
+        }
+        inner.recorder = Some(recording::start(&inner.world, &inner.sources, folder, options)?);
         Ok(())
     }
 
-    /// Records the frame last computed, at a time (s).
+    /// Records the frame last computed.
+    ///
+    /// Parameters
+    /// ----------
+    /// time : float
+    ///     Time of the frame, s.
     fn log_frame(&self, py: Python<'_>, time: f64) -> PyResult<()> {
         let mut inner = self.lock()?;
         let Inner { world, recorder, .. } = &mut **inner;
         recording::record(py, recorder.as_mut().ok_or_else(no_log)?, world, time)
     }
 
-    /// Writes the remaining data and closes the log. Returns its number of frames.
+    /// Writes the remaining data and closes the log.
+    ///
+    /// Returns
+    /// -------
+    /// int
+    ///     Number of frames in the log.
     fn stop_log(&self, py: Python<'_>) -> PyResult<u64> {
         let recorder = self.lock()?.recorder.take().ok_or_else(no_log)?;
         recording::finish(py, recorder)
@@ -617,4 +783,19 @@ impl World {
 
 fn no_log() -> PyErr {
     PhaseError::new_err("log: none is open; call start_log first")
+}
+
+/// Counts of a continued run, by name.
+fn continued<'py>(py: Python<'py>, of: &Continuation) -> PyResult<Bound<'py, PyDict>> {
+    let counts = [
+        ("objects", of.objects),
+        ("pairs", of.pairs),
+        ("contacts", of.contacts),
+        ("objects_left", of.objects_left),
+        ("pairs_left", of.pairs_left),
+        ("contacts_left", of.contacts_left),
+    ];
+    let told = counts.into_py_dict(py)?;
+    told.set_item("energy_left", of.energy_left)?;
+    Ok(told)
 }

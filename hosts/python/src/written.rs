@@ -11,7 +11,18 @@ use pyo3::types::{PyBool, PyDict, PyList, PyString, PyTuple};
 /// Deepest nesting of values; the reader accepts no deeper ones.
 const DEEPEST: usize = 128;
 
-/// Text of a model file with this data, or the same on one line.
+/// Text of a model file with this data.
+///
+/// Parameters
+/// ----------
+/// data : dict
+///     Data in the form that `read_authored` gives.
+/// one_line : bool
+///     Write everything on one line.
+///
+/// Returns
+/// -------
+/// str
 #[pyfunction]
 pub(crate) fn write_authored(data: &Bound<'_, PyDict>, one_line: bool) -> PyResult<String> {
     let model = Value::Struct(None, fields(data, 0)?);
@@ -123,7 +134,11 @@ fn list(items: &Bound<'_, PyAny>, of: Option<Type>, depth: usize) -> PyResult<Va
     Ok(Value::List(items.collect::<PyResult<_>>()?))
 }
 
-/// Kinds and fields of model files: see `pong.model.schema`.
+/// Returns kinds and fields of model files: see `pong.model.schema`.
+///
+/// Returns
+/// -------
+/// dict
 #[pyfunction]
 pub(crate) fn model_schema(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let all = PyDict::new(py);

@@ -304,6 +304,16 @@ def test_surfaces_can_be_changed_between_frames():
     assert w.wrenches()[0, 2] == pytest.approx(2 * STIFFNESS * 1e-3, rel=1e-12)
 
 
+def test_values_of_a_surface_that_are_left_out_stay():
+    w = world()
+    ball = w.models[0]
+    values = w.surface(ball, "rubber")
+    w.set_surface(ball, "rubber", {"friction": {"mu": 0.2}})
+    w.set_surface(ball, "rubber", {"stiffness": 3 * STIFFNESS, "normal": {}})
+    w.set_surface(ball, "rubber", {})
+    assert w.surface(ball, "rubber") == values | {"friction": values["friction"] | {"mu": 0.2}, "stiffness": 3 * STIFFNESS}
+
+
 def test_friction_can_be_there_from_the_start():
     w = world()
     w.set_states(touching(1e-3))

@@ -1,8 +1,8 @@
 """Contact dynamics: states in, wrenches out.
 
     builder = pong.WorldBuilder()
-    builder.create_object(builder.add_model("ball.ron"), "ball")
-    builder.create_object(builder.add_model("ground.ron"), "ground")
+    builder.create_object(builder.add_model(pong.load_model("ball.ron")), "ball")
+    builder.create_object(builder.add_model(pong.load_model("ground.ron")), "ground")
     builder.pair("ball", "ground")
     world = builder.seal()
     world.set_states(states)            # an array: a row of 13 numbers for each Interface
@@ -12,37 +12,28 @@
 docs/python.md tells the rest; `pong.campaign` runs a scene thousands of times (docs/campaigns.md).
 """
 
+import os
+import warnings
+from collections.abc import Sequence
 from enum import IntFlag
+from typing import TYPE_CHECKING, Any
 
-from . import model
+from . import model, types
 from ._log import Log
 from ._pong import (
     CONTACT_DTYPE,
-    AddedModel,
     BadValueError,
-    Case,
-    ContactChange,
     ContactStateError,
-    Distance,
     DuplicateError,
     EngineError,
-    FrameReport,
-    Interface,
-    Level,
     LogError,
     Model,
     ModelError,
     NotFiniteError,
     NotFoundError,
-    Object,
-    Pair,
-    PairPeaks,
     PhaseError,
     PongError,
-    Replay,
     ResourceError,
-    Row,
-    Run,
     RunError,
     Scene,
     SceneError,
@@ -50,8 +41,6 @@ from ._pong import (
     Simulation,
     StateError,
     StudyError,
-    Trade,
-    Tuned,
     World,
     WorldBuilder,
     __version__,
@@ -64,32 +53,19 @@ from ._pong import (
 
 __all__ = [
     "CONTACT_DTYPE",
-    "AddedModel",
     "BadValueError",
-    "Case",
-    "ContactChange",
     "ContactStateError",
-    "Distance",
     "DuplicateError",
     "EngineError",
-    "FrameReport",
-    "Interface",
-    "Level",
     "Log",
     "LogError",
     "Model",
     "ModelError",
     "NotFiniteError",
     "NotFoundError",
-    "Object",
-    "Pair",
-    "PairPeaks",
     "PhaseError",
     "PongError",
-    "Replay",
     "ResourceError",
-    "Row",
-    "Run",
     "RunError",
     "Scene",
     "SceneError",
@@ -98,16 +74,16 @@ __all__ = [
     "StateError",
     "Status",
     "StudyError",
-    "Trade",
-    "Tuned",
     "World",
     "WorldBuilder",
     "__version__",
     "advise_contact",
+    "load_model",
     "model",
     "replay",
     "trade",
     "tune",
+    "types",
     "verify",
 ]
 
@@ -118,3 +94,40 @@ class Status(IntFlag):
     CONTACT_LIMIT = 1
     LOAD_SHARING_LIMIT = 2
     TUNNELLED = 4
+
+
+def load_model(path: str | os.PathLike[str], *, allow_files_below: Sequence[str | os.PathLike[str]] = ()) -> Model:
+    """Reads a model file: `Model.load`.
+
+    Parameters
+    ----------
+    path : path_like
+        Model file. Meshes are searched beside it.
+    allow_files_below : sequence of path_like, optional
+        Further folders from which the model may read meshes.
+
+    Returns
+    -------
+    Model
+
+    Raises
+    ------
+    ModelError
+        The file is at fault: `errors` lists every fault, with line, column, cause and cure.
+
+    Examples
+    --------
+    >>> pong.load_model("ball.ron").groups
+    ['ball']
+    """
+    return Model.load(path, allow_files_below=list(allow_files_below))
+
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> Any:
+        """Finds names that were here until 0.1 and are in `pong.types` now."""
+        if name in types.__all__:
+            warnings.warn(f"pong.{name} is pong.types.{name} now", DeprecationWarning, stacklevel=2)
+            return getattr(types, name)
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -31,7 +31,17 @@ _Indices = NDArray[np.integer[Any]]
 
 @dataclass
 class Checked:
-    """Findings about a model. `model` is None if there is an error."""
+    """Findings about a model.
+
+    Attributes
+    ----------
+    model : Model or None
+        The model; None if there is an error.
+    errors : list of dict
+        Errors, with `line`, `column`, `cause` and `cure`.
+    warnings : list of str
+        Warnings of a model without errors.
+    """
 
     model: Model | None
     errors: list[dict[str, Any]] = field(default_factory=list)
@@ -39,35 +49,110 @@ class Checked:
 
 
 def read(path: _Path) -> dict[str, Any]:
-    """Reads a model file as written. Raises ModelError; shapes are not checked, and mesh files not read."""
+    """Reads a model file as written. Shapes are not checked, and mesh files not read.
+
+    Parameters
+    ----------
+    path : path_like
+        Model file.
+
+    Returns
+    -------
+    dict
+        Fields of the model format by name. In meshes, `vertices` is an ndarray (n, 3) in m.
+
+    Raises
+    ------
+    ModelError
+        Notation, fields, types, names or indices are at fault.
+    """
     return _pong.read_authored(path)
 
 
 def parse(text: str, *, name: str = "model") -> dict[str, Any]:
-    """As `read`, from text. `name` stands for the file in errors."""
+    """Reads the text of a model file as written; see `read`.
+
+    Parameters
+    ----------
+    text : str
+        Text of a model file.
+    name : str, default "model"
+        Name that stands for the file in errors.
+
+    Returns
+    -------
+    dict
+        Fields of the model format by name.
+
+    Raises
+    ------
+    ModelError
+        Notation, fields, types, names or indices are at fault.
+
+    Examples
+    --------
+    >>> data = pong.model.read("ball.ron")
+    >>> data["root"]["primitives"][0]["Sphere"]["radius"]
+    0.1
+    >>> pong.model.parse(pong.model.write(data)) == data
+    True
+    """
     return _pong.parse_authored(text, name=name)
 
 
 def write(data: dict[str, Any], *, one_line: bool = False) -> str:
-    """Text of a model file with this data, in the form that `read` gives. The same data gives the same text, and
-    reading it gives the same data: numbers keep every bit. Nothing is checked; `check` checks the text."""
+    """Writes a model file. Nothing is checked; `check` checks the text.
+
+    Parameters
+    ----------
+    data : dict
+        Data in the form that `read` gives.
+    one_line : bool, default False
+        Write everything on one line.
+
+    Returns
+    -------
+    str
+        Text of a model file. The same data gives the same text, and reading it gives the same data: numbers keep every
+        bit.
+    """
     return _pong.write_authored({"format": "pong-model", "version": 1} | data, one_line)
 
 
 def schema() -> dict[str, Any]:
-    """Kinds and fields of model files (docs/model_format.md), in the order of writing.
+    """Returns kinds and fields of model files (docs/model_format.md), in the order of writing.
 
-    `primitives`, `normal_laws` and `friction_laws` are tables of fields by kind; `model`, `surface`, `pair`, `group`
-    and `primitive` (of every kind) are tables of fields; `bounds` are names. A field has `type`, `unit` and
-    `required`, and may have `default` (as written in a file), `words` (of a default that is no value), `fields` and
-    `choices`."""
+    Returns
+    -------
+    dict
+        `primitives`, `normal_laws` and `friction_laws` are tables of fields by kind; `model`, `surface`, `pair`,
+        `group` and `primitive` (of every kind) are tables of fields; `bounds` are names. A field has `type`, `unit`
+        and `required`, and may have `default` (as written in a file), `words` (of a default that is no value),
+        `fields` and `choices`.
+    """
     return _pong.model_schema()
 
 
 def check(
     text: str, *, name: str = "model", folder: _Path | None = None, allow_files_below: Sequence[_Path] = ()
 ) -> Checked:
-    """All errors, or all warnings, of the text of a model. Meshes are searched in `folder`."""
+    """Finds all errors, or all warnings, of the text of a model. It raises nothing.
+
+    Parameters
+    ----------
+    text : str
+        Text of a model file.
+    name : str, default "model"
+        Name that stands for the file in errors.
+    folder : path_like, optional
+        Folder in which meshes are searched.
+    allow_files_below : sequence of path_like, optional
+        Further folders from which the model may read meshes.
+
+    Returns
+    -------
+    Checked
+    """
     try:
         model = Model.parse(text, name=name, folder=folder, allow_files_below=list(allow_files_below))
     except ModelError as refused:
@@ -78,12 +163,38 @@ def check(
 def check_polyhedron(
     vertices: ArrayLike, faces: _Indices | Sequence[Sequence[int] | _Indices], inactive: Sequence[int] = ()
 ) -> list[dict[str, Any]]:
-    """Faults that keep vertices (n, 3) and faces of vertex indices from being a polyhedron; empty if it is valid."""
+    """Lists faults that keep a shape from being a polyhedron.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (n, 3)
+        Vertices, m.
+    faces : array_like or sequence of array_like of int
+        Indices of the vertices of each face.
+    inactive : sequence of int, optional
+        Faces that take no contact.
+
+    Returns
+    -------
+    list of dict
+        Faults with `rule`, `cause`, `cure`, `face`, `places` (m) and `off` (m); empty if it is valid.
+    """
     indices = faces.tolist() if isinstance(faces, np.ndarray) else [np.asarray(face).tolist() for face in faces]
     places = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
     return _pong.check_polyhedron(places, indices, list(map(int, inactive)))
 
 
 def check_triangles(corners: ArrayLike) -> list[dict[str, Any]]:
-    """Faults and oddities of the triangles of one body, given by their corners (n, 3, 3): an entry for each rule."""
+    """Lists faults and oddities of the triangles of one body.
+
+    Parameters
+    ----------
+    corners : array_like, shape (n, 3, 3)
+        Corners of the triangles, m.
+
+    Returns
+    -------
+    list of dict
+        An entry for each rule: `severity`, `rule`, `cause`, `cure` and `triangles`, the indices.
+    """
     return _pong.check_triangles(np.asarray(corners, dtype=np.float64).reshape(-1, 3, 3))

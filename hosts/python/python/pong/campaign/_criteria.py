@@ -23,8 +23,21 @@ def triple(thing, unit, given):
 
 @dataclass(frozen=True)
 class Within:
-    """Success if, at the end of a run, the origin of `body`, in the frame of the body `of`, lies between `low` and
-    `high` (m), and its relative speed is at most `speed` (m/s)."""
+    """Criterion of success: at the end of a run, the origin of a body is within a box that is fixed to another body.
+
+    Parameters
+    ----------
+    name : str
+        Name of the criterion, and of its column in the results.
+    body : str
+        Name of the body.
+    of : str
+        Name of the body that the box is fixed to.
+    low, high : array_like, shape (3,)
+        Corners of the box, m, from the origin of `of` along its axes. The border is inside.
+    speed : float, optional
+        Largest speed of the origin relative to the body `of`, m/s, also in its rotation; any without it.
+    """
 
     name: str
     body: str

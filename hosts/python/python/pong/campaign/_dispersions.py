@@ -32,7 +32,15 @@ METHODS = ("random", "latin_hypercube", "corners")
 
 @dataclass(frozen=True)
 class Uniform:
-    """Uniform distribution between `low` and `high`."""
+    """Uniform distribution of a parameter.
+
+    Parameters
+    ----------
+    parameter : str
+        Address of the parameter, such as `chaser.position.x` (docs/campaigns.md).
+    low, high : float
+        Ends of the interval, in the unit of the parameter.
+    """
 
     parameter: str
     low: float
@@ -48,16 +56,35 @@ class Uniform:
         return None
 
     def at(self, share):
-        """Quantile function: the value below which lies a share of all values."""
+        """Returns a quantile: the value below which lies a share of all values.
+
+        Parameters
+        ----------
+        share : float
+            Share, from 0 to 1.
+
+        Returns
+        -------
+        float
+        """
         return self.low + (self.high - self.low) * share
 
     def ends(self):
+        """Returns the values at the corners: both ends of the interval."""
         return self.low, self.high
 
 
 @dataclass(frozen=True)
 class Normal:
-    """Normal distribution."""
+    """Normal distribution of a parameter.
+
+    Parameters
+    ----------
+    parameter : str
+        Address of the parameter, such as `chaser.velocity.z` (docs/campaigns.md).
+    mean, deviation : float
+        Mean and standard deviation, in the unit of the parameter.
+    """
 
     parameter: str
     mean: float
@@ -73,11 +100,21 @@ class Normal:
         return None
 
     def at(self, share):
-        """Quantile function: the value below which lies a share of all values."""
+        """Returns a quantile: the value below which lies a share of all values.
+
+        Parameters
+        ----------
+        share : float
+            Share, from 0 to 1.
+
+        Returns
+        -------
+        float
+        """
         return NormalDist(self.mean, self.deviation).inv_cdf(share)
 
     def ends(self):
-        """Corner values; those of an unbounded distribution are at three standard deviations."""
+        """Returns the values at the corners, three standard deviations from the mean."""
         return self.mean - 3 * self.deviation, self.mean + 3 * self.deviation
 
 

@@ -29,11 +29,40 @@ def listed(thing, kinds, given):
 
 @dataclass(frozen=True)
 class Plan:
-    """A scene, its dispersions, and its criteria of success.
+    """Plan of a campaign: a scene, its dispersions, and its criteria of success.
 
-    `method` is "random", "latin_hypercube" or "corners" (every combination of both ends; `runs` is then left out).
-    `stops` end a run before its duration is over; they are looked at every `look_every` seconds.
-    `pivots` names, for an Object, the point in the frame of its root group about which its rotation is dispersed.
+    Parameters
+    ----------
+    scene : path_like
+        Scene file.
+    dispersions : list of Uniform or Normal
+        Parameters that differ from run to run.
+    runs : int
+        Number of runs; left out for `corners`.
+    seed : int, default 0
+        Seed of the values.
+    method : {"random", "latin_hypercube", "corners"}, default "random"
+        Method that draws the values; `corners` takes every combination of both ends.
+    criteria : list of Within, optional
+        Criteria of success.
+    pivots : dict, optional
+        Points about which Objects are rotated: for the name of an Object (x, y, z) in m, in the frame of its root
+        group. Without it, the origin of the group.
+    duration : float, optional
+        Length of a run, s, instead of the scene's.
+    step : float, optional
+        Step of the integrator, s, instead of the scene's.
+    integrator : {"SemiImplicitEuler", "RungeKutta4", "ZeroOrderHold"}, optional
+        Integrator instead of the scene's.
+    stops : list of Held or Beyond, optional
+        Conditions that end a run before its duration is over.
+    look_every : float, default 0.1
+        Interval of their checks, s.
+
+    Raises
+    ------
+    CampaignError
+        The plan cannot be used; the message has every reason.
     """
 
     scene: str
@@ -99,9 +128,11 @@ class Plan:
 
     @property
     def parameters(self):
+        """list of str : Addresses of the dispersed parameters."""
         return [dispersion.parameter for dispersion in self.dispersions]
 
     def to_json(self):
+        """Returns the plan as it is stored in campaign.json."""
         entry = asdict(self)
         entry["dispersions"] = [{"kind": dispersions_of.kind_of(d), **asdict(d)} for d in self.dispersions]
         entry["stops"] = [{"kind": type(stop).__name__, **asdict(stop)} for stop in self.stops]
@@ -112,6 +143,17 @@ class Plan:
 
     @classmethod
     def from_json(cls, entry):
+        """Makes a plan from what `to_json` returned.
+
+        Parameters
+        ----------
+        entry : dict
+            Plan as it is stored in campaign.json.
+
+        Returns
+        -------
+        Plan
+        """
         entry = dict(entry)
         entry["dispersions"] = [dispersions_of.from_json(d) for d in entry["dispersions"]]
         entry["criteria"] = [

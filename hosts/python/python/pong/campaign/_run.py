@@ -53,10 +53,32 @@ def checked(plan):
 
 
 def run(plan, folder, *, workers=None, scheduler=None, runs_per_task=1, progress=True):
-    """Runs a campaign, or its remaining runs, into a folder.
+    """Runs a campaign, or its remaining runs, into a folder. Runs that fail are kept apart and do not end it.
 
-    Without `scheduler`, the address of a Dask cluster, workers of this machine are started: `workers` processes, by default
-    one for each core. Runs that fail are kept apart (`failures`) and do not end the campaign. Answers the rows as a table.
+    Parameters
+    ----------
+    plan : Plan
+        Plan of the campaign; for remaining runs, the same as before.
+    folder : path_like
+        Folder of the results.
+    workers : int, optional
+        Processes that are started on this machine; by default one for each core.
+    scheduler : str, optional
+        Address of a Dask cluster, instead of processes on this machine.
+    runs_per_task : int, default 1
+        Runs that a worker takes at once.
+    progress : bool, default True
+        Prints the progress.
+
+    Returns
+    -------
+    pyarrow.Table
+        Rows of all completed runs, as `results` gives them.
+
+    Raises
+    ------
+    CampaignError
+        The plan, the scene or the folder cannot be used.
     """
     store = Store(folder)
     if not isinstance(plan, Plan):
@@ -153,7 +175,27 @@ def killed(job, index, values, reason):
 
 
 def repeat(folder, index, *, log=None):
-    """Repeats one run of a campaign in this process and returns its row; `log` is a folder for its response log."""
+    """Repeats one run of a campaign in this process.
+
+    Parameters
+    ----------
+    folder : path_like
+        Folder of the campaign.
+    index : int
+        Number of the run.
+    log : path_like, optional
+        Folder for its response log.
+
+    Returns
+    -------
+    dict
+        Row of the run.
+
+    Raises
+    ------
+    CampaignError
+        The campaign has no such run, or its scene is another than before.
+    """
     store = Store(folder)
     plan = store.plan()
     if not 0 <= index < plan.runs:

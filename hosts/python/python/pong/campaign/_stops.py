@@ -18,7 +18,17 @@ def positive(thing, unit, given):
 
 @dataclass(frozen=True)
 class Held:
-    """Ends the run when a criterion has been met at every check for `time` seconds."""
+    """Stop: a criterion has been met at every check for some time.
+
+    Parameters
+    ----------
+    name : str
+        Name of the stop, for the column `ended_by`.
+    criterion : str
+        Name of a criterion of the plan.
+    time : float
+        Time for which it is met, s.
+    """
 
     name: str
     criterion: str
@@ -31,8 +41,17 @@ class Held:
 
 @dataclass(frozen=True)
 class Beyond:
-    """Ends the run when the origins of two bodies are farther apart than `distance` (m), and farther than at the check
-    before."""
+    """Stop: two bodies are far apart, and farther than at the check before.
+
+    Parameters
+    ----------
+    name : str
+        Name of the stop, for the column `ended_by`.
+    body, of : str
+        Names of the two bodies.
+    distance : float
+        Distance of their origins, m.
+    """
 
     name: str
     body: str

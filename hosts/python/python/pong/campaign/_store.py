@@ -217,10 +217,32 @@ def first_line(reason):
 
 
 def results(folder):
-    """Rows of all completed runs, as a PyArrow table, in the order of the runs."""
+    """Reads the rows of all completed runs.
+
+    Parameters
+    ----------
+    folder : path_like
+        Folder of the campaign.
+
+    Returns
+    -------
+    pyarrow.Table
+        A row for each run, in their order: dispersed values, peaks (N, N·m, m), criteria, end.
+    """
     return Store(folder).table()
 
 
 def failures(folder):
-    """Failed runs: number, values, error and message of each."""
+    """Reads the failed runs.
+
+    Parameters
+    ----------
+    folder : path_like
+        Folder of the campaign.
+
+    Returns
+    -------
+    list of dict
+        Number (`run`), dispersed values, `error` and `message` of each.
+    """
     return Store(folder).failures()

@@ -19,8 +19,21 @@ def check_share(name, share):
 
 
 def wilson(count, of, confidence=0.95):
-    """Wilson's interval of a probability, from `count` successes in `of` runs: all p that differ from the observed
-    share by no more than the normal approximation at p allows."""
+    """Returns Wilson's interval of a probability: all p that differ from the observed share by no more than the normal
+    approximation at p allows.
+
+    Parameters
+    ----------
+    count, of : int
+        Number of successes, and of runs.
+    confidence : float, default 0.95
+        Confidence of the interval.
+
+    Returns
+    -------
+    tuple[float, float]
+        Ends of the interval.
+    """
     check_share("confidence", confidence)
     if not 0 <= count <= of or of < 1:
         raise CampaignError(f"share: {count} of {of} runs is none; give at least one run and no more successes than runs")
@@ -43,8 +56,22 @@ def binomial_cumulative(of, share):
 
 
 def quantile_interval(values, share, confidence=0.95):
-    """Distribution-free interval of a quantile between two order statistics. Each side is missed with at most half of 1
-    − confidence; a side for which there are too few runs is infinite."""
+    """Returns a distribution-free interval of a quantile, between two order statistics.
+
+    Parameters
+    ----------
+    values : array_like, shape (n,)
+        Values of the runs.
+    share : float
+        Share of the values below the quantile.
+    confidence : float, default 0.95
+        Confidence of the interval; each side is missed with at most half of 1 − confidence.
+
+    Returns
+    -------
+    tuple[float, float]
+        Ends of the interval; infinite on a side for which there are too few runs.
+    """
     check_share("quantile", share)
     check_share("confidence", confidence)
     ordered = np.sort(np.asarray(values, dtype=float))
@@ -63,7 +90,19 @@ def quantile_interval(values, share, confidence=0.95):
 
 @dataclass(frozen=True)
 class Proportion:
-    """Number of runs that met a criterion, with Wilson's interval."""
+    """Share of the runs that met a criterion, with Wilson's interval.
+
+    Attributes
+    ----------
+    name : str
+        Name of the criterion.
+    count, of : int
+        Number of runs that met it, and of all finished ones.
+    share : float
+        Their ratio.
+    low, high : float
+        Ends of the interval.
+    """
 
     name: str
     count: int
@@ -75,7 +114,19 @@ class Proportion:
 
 @dataclass(frozen=True)
 class Quantile:
-    """A quantile of a quantity over all runs, with the interval between two order statistics."""
+    """Quantile of a quantity over all runs, with the interval between two order statistics.
+
+    Attributes
+    ----------
+    name : str
+        Name of the column.
+    share : float
+        Share of the runs below it.
+    value : float
+        Value, in the unit of the column.
+    low, high : float
+        Ends of the interval.
+    """
 
     name: str
     share: float
@@ -86,7 +137,23 @@ class Quantile:
 
 @dataclass(frozen=True)
 class Summary:
-    """Statistics of a campaign. `print` shows them as a table."""
+    """Statistics of a campaign. `print` shows them as a table.
+
+    Attributes
+    ----------
+    runs, finished, failed : int
+        Number of runs of the plan, and of those that were finished and that failed.
+    tunnelled : int
+        Runs in which something was passed through.
+    touching_at_start : int
+        Runs that began in contact.
+    confidence : float
+        Confidence of the intervals.
+    proportions : list of Proportion
+        Shares of the criteria.
+    quantiles : list of Quantile
+        Quantiles of the quantities.
+    """
 
     runs: int
     finished: int
@@ -114,9 +181,28 @@ class Summary:
 
 
 def summary(folder, *, quantiles=QUANTILES, quantities=None, confidence=0.95):
-    """Shares of the criteria, and quantiles of the peak loads or of the columns that `quantities` names.
+    """Computes shares of the criteria and quantiles. Failed runs are in none of them; their number is given.
 
-    Failed runs are in no share and no quantile; their number is given."""
+    Parameters
+    ----------
+    folder : path_like
+        Folder of the campaign.
+    quantiles : sequence of float, optional
+        Shares of the quantiles; without it, 0.5, 0.95 and 0.99.
+    quantities : sequence of str, optional
+        Columns of the results; without it, all peak loads.
+    confidence : float, default 0.95
+        Confidence of the intervals.
+
+    Returns
+    -------
+    Summary
+
+    Raises
+    ------
+    CampaignError
+        The results have no such column.
+    """
     store = Store(folder)
     plan, table, failed = store.plan(), store.table(), store.failures()
     columns = table.column_names

@@ -21,7 +21,23 @@ def _figure():
 
 
 def distribution(folder, quantity, *, quantiles=QUANTILES, confidence=0.95):
-    """Share of runs up to each value of a quantity, and quantiles with their intervals."""
+    """Plots the share of runs up to each value of a quantity, and quantiles with their intervals.
+
+    Parameters
+    ----------
+    folder : path_like
+        Folder of the campaign.
+    quantity : str
+        Column of the results.
+    quantiles : sequence of float, optional
+        Shares of the quantiles.
+    confidence : float, default 0.95
+        Confidence of the intervals.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
     values = np.sort(_column(Store(folder).table(), quantity))
     figure, axes = _figure()
     axes.step(values, np.arange(1, len(values) + 1) / len(values), where="post", color="black", linewidth=1)
@@ -36,7 +52,21 @@ def distribution(folder, quantity, *, quantiles=QUANTILES, confidence=0.95):
 
 
 def envelope(folder, x, y, criterion):
-    """Scatter plot of successful and other runs over two dispersed parameters."""
+    """Plots successful and other runs over two dispersed parameters.
+
+    Parameters
+    ----------
+    folder : path_like
+        Folder of the campaign.
+    x, y : str
+        Columns of the results along both axes.
+    criterion : str
+        Name of the criterion.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
     table = Store(folder).table()
     met = _column(table, criterion).astype(bool)
     across, up = _column(table, x), _column(table, y)
@@ -49,9 +79,25 @@ def envelope(folder, x, y, criterion):
 
 
 def share(folder, parameter, criterion, *, bins=12, confidence=0.95):
-    """Share of runs that met a criterion over a dispersed parameter, with Wilson's interval of each bin.
+    """Plots the share of runs that met a criterion over a parameter, with Wilson's interval of each bin.
 
-    `parameter` is the name of a column, or a pair of a label and a value for each row of the results."""
+    Parameters
+    ----------
+    folder : path_like
+        Folder of the campaign.
+    parameter : str or tuple[str, array_like]
+        Column of the results, or a label and a value for each of their rows.
+    criterion : str
+        Name of the criterion.
+    bins : int, default 12
+        Number of bins.
+    confidence : float, default 0.95
+        Confidence of the intervals.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
     table = Store(folder).table()
     met = _column(table, criterion).astype(bool)
     label, values = (parameter, _column(table, parameter)) if isinstance(parameter, str) else parameter

@@ -1,0 +1,36 @@
+//! Report of a frame.
+
+use pyo3::prelude::*;
+
+/// Report of a frame.
+#[pyclass(frozen, eq, module = "pong.types", get_all)]
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct FrameReport {
+    /// int : Incomplete or missed parts, as the bits of `pong.Status`.
+    status: u32,
+    /// int : Contacts listed.
+    contacts: u32,
+    /// int : Contacts that would have been listed without the limit.
+    contacts_wanted: u32,
+}
+
+impl From<pong_engine::FrameReport> for FrameReport {
+    fn from(report: pong_engine::FrameReport) -> Self {
+        let pong_engine::FrameReport { status, contacts, contacts_wanted } = report;
+        Self { status: status.bits(), contacts, contacts_wanted }
+    }
+}
+
+#[pymethods]
+impl FrameReport {
+    /// bool : True if nothing was left out or missed.
+    #[getter]
+    fn is_complete(&self) -> bool {
+        self.status == 0
+    }
+
+    fn __repr__(&self) -> String {
+        let Self { status, contacts, contacts_wanted } = self;
+        format!("<pong.FrameReport status={status} contacts={contacts} contacts_wanted={contacts_wanted}>")
+    }
+}
