@@ -102,7 +102,7 @@ const char *pong_last_message(void);
 /* ---- Version --------------------------------------------------------------------------------------------- */
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0xf96801101d1c6230ULL
+#define PONG_LAYOUT_HASH 0x93554f8fd748de6bULL
 
 /// Checks that this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -706,6 +706,35 @@ pong_status pong_get_contact_stiffness(const struct pong_world *world,
 /// Checks the planned step against the contacts of the last frame, with their actual lever arms and normals.
 /// Allocates. PONG_STATUS_WRONG_PHASE: no step was planned before the seal, or there is no frame.
 pong_status pong_check_step(const struct pong_world *world, struct pong_step_check *check);
+
+/* ---- Results: distance ----------------------------------------------------------------------------------- */
+
+/// Primitive number that names no primitive.
+#define PONG_NO_PRIMITIVE UINT32_MAX
+
+/// Distance of two movable groups a and b, with their nearest primitives, that of a first.
+typedef struct pong_distance {
+    /// Smallest distance of two primitives that have a contact test with each other, m: 0 if such overlap, infinite if there
+    /// are none.
+    double distance;
+    /// Nearest points, m, in the common frame. If primitives overlap, some points near; zero if the distance is infinite.
+    double points[2][3];
+    /// The primitives: indices within the movable groups, see pong_primitive_path(). PONG_NO_PRIMITIVE if the distance is
+    /// infinite.
+    uint32_t primitives[2];
+    /// Elements within the primitives: a mesh's triangles, from 0; 0 for all other kinds.
+    uint32_t elements[2];
+} pong_distance;
+
+/// Distance of two movable groups at the states set last; no frame is needed. Primitives count that have a contact test with one
+/// of the other group and that no filter keeps apart; a pair that is off has a distance too. Triangles count without their
+/// thickness. Computed when it is asked for: a frame pays nothing; allocates nothing. PONG_STATUS_BAD_VALUE: both are the same
+/// group, their Objects are not paired, or a bore or a primitive of a host's kind is in the way, which has no convex solid.
+/// PONG_STATUS_WRONG_PHASE: the world is not sealed. PONG_STATUS_UNSET_STATE: the state of one was never set.
+pong_status pong_get_distance(const struct pong_world *world,
+                              struct pong_interface_id a,
+                              struct pong_interface_id b,
+                              struct pong_distance *distance);
 
 /* ---- Results: begin, end and peaks of contact ------------------------------------------------------------ */
 

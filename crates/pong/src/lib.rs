@@ -425,7 +425,7 @@ pub use pong_geometry::Quat;
 /// let builder = WorldBuilder::with_extensions(Config::default(), extensions, Laws::default());
 /// assert_eq!(builder.scene().extensions().folders_allowed().count(), 1);
 /// ```
-pub use pong_geometry::extension::Extensions;
+pub use pong_model::Extensions;
 
 /// Validated, immutable model. [`Load`] makes one; it may serve several worlds.
 ///

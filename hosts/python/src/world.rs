@@ -1,17 +1,15 @@
 //! Calls of a sealed world: frames.
 
-use crate::advice;
 use crate::arrays::{self, Matrix, STATE, WRENCH};
-use crate::contacts;
 use crate::distance::Distance;
 use crate::errors::{PhaseError, bad_value, of_engine};
 use crate::frame_report::FrameReport;
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
 use crate::model::{surface_from, surface_values};
 use crate::pair_monitor::{ContactChange, PairPeaks, no_monitor};
-use crate::recording;
 use crate::sealed::{Inner, World};
 use crate::setup::WorldBuilder;
+use crate::{advice, contacts, recording};
 use numpy::PyArray1;
 use pong_advise::StepPlan;
 use pong_engine::{Continuation, EngineError, FrictionPreload, PairMonitor};

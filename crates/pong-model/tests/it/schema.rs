@@ -1,7 +1,7 @@
 //! The tables of the schema, the reader, docs/model_format.md and the fuzzer's words agree.
 
-use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::{CustomPrimitive, PrimitiveKind};
+use pong_model::Extensions;
 use pong_model::schema::{self, Field, FieldDefault, Type};
 use std::fmt::Debug;
 use std::sync::Arc;

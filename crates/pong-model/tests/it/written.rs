@@ -1,6 +1,6 @@
 //! The writer: reading gives what was written, to the last bit.
 
-use pong_geometry::extension::Extensions;
+use pong_model::Extensions;
 use pong_model::authored::{self, Node, Value};
 use pong_model::write;
 use std::path::{Path, PathBuf};
