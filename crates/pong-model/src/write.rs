@@ -120,8 +120,9 @@ fn row_tokens(rows: &Rows, is_whole: bool) -> Vec<String> {
 }
 
 fn token(number: f64, is_whole: bool) -> String {
-    let int = number as i64;
-    if is_whole && int as f64 == number { int.to_string() } else { decimal(number) }
+    // Formatted, not cast: a cast of a number beyond the range of integers would trap.
+    let is_integer = is_whole && number == number.trunc() && number.abs() < 1e18;
+    if is_integer { format!("{:.0}", number + 0.0) } else { decimal(number) }
 }
 
 fn opening(name: Option<&str>) -> String {
