@@ -123,7 +123,9 @@ def members(kind):
     if "__new__" in vars(kind) and not issubclass(kind, Exception):
         yield from function("__new__", kind, ["cls"], kind.__name__)
     descriptors = (types.GetSetDescriptorType, types.MemberDescriptorType)
-    for name, member in sorted(vars(kind).items(), key=lambda entry: not isinstance(entry[1], descriptors)):
+    # Properties first, by name: their order in the module differs from build to build.
+    in_order = sorted(vars(kind).items(), key=lambda entry: (not isinstance(entry[1], descriptors), entry[0]))
+    for name, member in in_order:
         if name in COMPARISONS:
             yield COMPARISONS[name] if member is not None else f"{name} = None  # type: ignore[assignment]"
         elif name.startswith("_"):
