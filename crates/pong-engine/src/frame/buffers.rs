@@ -1,5 +1,6 @@
 //! Buffers that a frame writes, grouped by stage.
 
+use crate::frame::broad_phase::blocks::PendingParts;
 use crate::frame::energy::buffers::EnergyBuffers;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::forces::contact_buffer::ContactBuffer;
@@ -30,6 +31,8 @@ pub(crate) struct EvaluationBuffers {
     pub near: NearPairs,
     // relative motion, broad phase
     pub input: WorkerInput,
+    /// Stack of the layout of the blocks.
+    pub pending: PendingParts,
     // narrow phase, load sharing, forces: unordered
     /// Boxed, because a world is moved over the stack a few times while it is built or cloned.
     pub caller: Box<WorkerContext>,
@@ -65,6 +68,7 @@ impl EvaluationBuffers {
             twists: vec![Twist::zero(); bodies],
             near: NearPairs::new(scene, sealed),
             input,
+            pending: PendingParts::for_tree(sealed.limits.tree_parts),
             caller: Box::new(WorkerContext::new(sealed, 0, sealed.limits.thread_contacts)),
             workers: WorkerBuffers::new((1..=taken_over).map(buffer).collect()),
             order: Table::with_capacity(sealed.limits.thread_contacts, ContactRef::NOWHERE),

@@ -17,7 +17,7 @@ mod worker_context;
 mod worker_pool;
 
 pub(crate) use block::arena_bytes;
-pub(crate) use broad_phase::blocks::ROUND;
+pub(crate) use broad_phase::blocks::{PendingParts, ROUND};
 pub(crate) use buffers::EvaluationBuffers;
 pub(crate) use energy::interval::Interval;
 pub(crate) use forces::contact::FrameContact;
@@ -35,7 +35,7 @@ pub(crate) use worker_context::WorkerContext;
 pub(crate) use worker_pool::WorkerPool;
 
 use crate::report::{Stage, Work, WorkTimes};
-use broad_phase::blocks;
+use broad_phase::blocks::Layout;
 use forces::found::WorkerBuffers;
 use input::relative::Motions;
 use input::states;
@@ -52,7 +52,7 @@ pub(crate) fn evaluate(
     let EvaluationInput { sealed, states, memory, clock, .. } = *given;
     frame.begin(sealed);
     let mut watch = clock.start();
-    states::latch(sealed, states, frame);
+    states::latch(sealed, states, &mut frame.poses, &mut frame.twists);
     frame.near.find(sealed, &states.enabled, &frame.poses, &memory.poses);
     watch.lap(Stage::Input, &mut frame.times);
     find_contacts(given, pool, frame);
@@ -75,43 +75,55 @@ fn find_contacts(
     frame: &mut EvaluationBuffers,
 ) {
     let EvaluationInput { scene, sealed, memory, clock, .. } = *given;
-    let EvaluationBuffers { input, caller, workers, times, near, poses, twists, number, .. } = frame;
+    let EvaluationBuffers { input, caller, workers, times, near, poses, twists, number, pending, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     input.clock = clock;
     if let Some(pool) = &mut pool {
         pool.begin_frame();
     }
     // Time between the rounds is spent by the caller in the broad phase.
-    let (mut laps, mut layout) = (clock.start(), WorkTimes::default());
-    let mut work = |input: &mut WorkerInput, caller: &mut WorkerContext, cost_ns| {
-        laps.lap_work(Work::BroadPhase, &mut layout);
-        input.phase += 1;
-        // A frame may have several rounds: move the workers' contacts of the last round into the caller's
-        // buffer first.
-        for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
-            assert!(caller.out.merge(worker), "the caller's buffer has room for the contacts of the workers");
-        }
-        workers.empty();
-        let shared =
-            pool.as_mut().is_some_and(|pool| run_parallel(given, pool, (input, cost_ns), caller, workers));
-        if !shared {
-            run_blocks(&given.round(input), 0..input.blocks.len(), caller);
-        }
-        laps = clock.start();
-    };
+    let (mut laps, mut layout_times) = (clock.start(), WorkTimes::default());
     for pairs in near.list().chunks(MOTIONS_AT_ONCE) {
         motions.relate(pairs, *number, &mut input.motions);
-        blocks::lay_out(scene, sealed, pairs, (input, caller), &mut work);
+        let mut layout = Layout::new(scene, sealed, pairs, pending);
+        while let Some(cost_ns) = layout.next_round(&input.motions, &mut input.blocks, &mut caller.out.counts)
+        {
+            laps.lap_work(Work::BroadPhase, &mut layout_times);
+            input.phase += 1;
+            run_round(given, pool.as_deref_mut(), (input, cost_ns), caller, workers);
+            laps = clock.start();
+        }
     }
-    laps.lap_work(Work::BroadPhase, &mut layout);
+    laps.lap_work(Work::BroadPhase, &mut layout_times);
     caller.out.flush();
-    caller.out.times.add(&layout);
+    caller.out.times.add(&layout_times);
     for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
         caller.out.demand.add(&worker.demand);
     }
     times.work = caller.out.times;
     if let Some(pool) = pool.filter(|pool| pool.has_worked()) {
         pool.times().for_each(|worker| times.work.add(worker));
+    }
+}
+
+/// Runs a round on the workers or, if that does not pay or fails, on the caller; `cost_ns` is its estimated
+/// cost.
+fn run_round(
+    given: &EvaluationInput<'_>,
+    pool: Option<&mut WorkerPool>,
+    (input, cost_ns): (&WorkerInput, u64),
+    caller: &mut WorkerContext,
+    workers: &mut WorkerBuffers,
+) {
+    // A frame may have several rounds: move the workers' contacts of the last round into the caller's buffer
+    // first.
+    for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
+        assert!(caller.out.merge(worker), "the caller's buffer has room for the contacts of the workers");
+    }
+    workers.empty();
+    let shared = pool.is_some_and(|pool| run_parallel(given, pool, (input, cost_ns), caller, workers));
+    if !shared {
+        run_blocks(&given.round(input), 0..input.blocks.len(), caller);
     }
 }
 

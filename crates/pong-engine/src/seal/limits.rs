@@ -36,6 +36,7 @@ pub(super) fn limits(
         bodies.max().unwrap_or(0)
     };
     let (nodes, batches) = (in_tree(|tree| tree.nodes.len()), in_tree(|tree| tree.batches.len()));
+    let tree_parts = nodes + batches;
     let arena_bytes = arena_bytes(nodes, batches);
     /// Allowance for rounding each piece up to the arena's grain.
     const GRAINS: usize = 64;
@@ -44,7 +45,7 @@ pub(super) fn limits(
     // Registered laws and the ledger add to the records after the threads have found their contacts.
     let workers = scene.config.workers.as_ref().map_or(0, |settings| settings.workers);
     let threads_write_records = workers > 0 && law_state_len == 0 && !scene.config.ledger;
-    Limits { thread_contacts, threads_write_records, found, arena_bytes, scratch_bytes }
+    Limits { thread_contacts, threads_write_records, found, tree_parts, arena_bytes, scratch_bytes }
 }
 
 /// Copies of a thread's records: in the committed contact state, in the next one, in one that a stuck worker

@@ -7,7 +7,7 @@ use super::limits::{bytes_per_contact, least_thread_bytes};
 use crate::energy::account::WrenchCoupling;
 use crate::energy::episodes::PairEnergy;
 use crate::energy::ledger::LedgerEntry;
-use crate::frame::{Block, Interval, MOTIONS_AT_ONCE, NearPairs, PairMotions, ROUND};
+use crate::frame::{Block, Interval, MOTIONS_AT_ONCE, NearPairs, PairMotions, PendingParts, ROUND};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits, Plan};
 use crate::state::CommittedPoses;
@@ -70,7 +70,7 @@ pub(super) fn for_frames(
     let threads = scene.config.workers.as_ref().map_or(0, |_| workers + 1);
     let contacts = capacity.saturating_mul(bytes_per_contact(scene, threads, stride));
     let scratch = limits.arena_bytes + limits.scratch_bytes + least_thread_bytes(limits, stride);
-    let blocks = 2 * ROUND * size_of::<Block>();
+    let blocks = 2 * ROUND * size_of::<Block>() + PendingParts::bytes(limits.tree_parts);
     let bodies = scene.bodies.len() * (size_of::<(Pose, Twist)>() + size_of::<Wrench>());
     let committed =
         (2 + usize::from(threads > 0)) * CommittedPoses::bytes(scene.bodies.len(), scene.pairs.len());

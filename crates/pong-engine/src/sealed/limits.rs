@@ -14,6 +14,8 @@ pub(crate) struct Limits {
     pub threads_write_records: bool,
     /// Capacity in candidates of one chunk of A.
     pub found: usize,
+    /// Most nodes and batches together in the tree of a movable group.
+    pub tree_parts: usize,
     /// Arena of the testers of a block, bytes.
     pub arena_bytes: usize,
     /// Scratch memory for load sharing, ledger and rays, bytes.

@@ -1,9 +1,9 @@
 //! Trees of bounding volumes: splits the work into blocks, and finds the leaves of B that a leaf of A may
 //! touch.
 
-use crate::frame::broad_phase::candidate_pairs::SUPERCHUNK;
-use crate::frame::input::{Block, PairContext, WorkerInput};
-use crate::frame::worker_context::WorkerContext;
+use crate::frame::broad_phase::candidate_pairs::{DEPTH_MAX, SUPERCHUNK};
+use crate::frame::input::motion::PairMotions;
+use crate::frame::input::{Block, PairContext};
 use crate::report::FrameCounts;
 use crate::scene::Scene;
 use crate::sealed::{Direction, Plan, Sealed};
@@ -24,144 +24,239 @@ const NODE_NS: u32 = 4000;
 /// thread runs the blocks of one claim as one, so small blocks cost little.
 const BLOCK_NS: u32 = 1000;
 
-/// Lays out the blocks of some pairs, whose motions are in the same order, and calls `work` with each full
-/// round and with the last one. `work` receives the estimated cost of the round, ns. Overlap tests are
-/// counted in the caller's counts.
-pub(crate) fn lay_out(
-    scene: &Scene,
-    sealed: &Sealed,
-    pairs: &[u32],
-    (input, caller): (&mut WorkerInput, &mut WorkerContext),
-    work: &mut dyn FnMut(&mut WorkerInput, &mut WorkerContext, u64),
-) {
-    let mut cost = 0;
-    input.blocks.clear();
-    for (slot, &group_pair) in pairs.iter().enumerate() {
-        for (plan, direction) in sealed.plans_of(group_pair) {
-            let (body_a, body_b) = sealed.bodies_of(direction);
-            let bodies = (scene.body(body_a), scene.body(body_b));
-            let slot = slot as u32;
-            let mut layout = Layout {
-                sealed,
-                plan,
-                bodies,
-                direction,
-                slot,
-                leads: true,
-                input,
-                caller,
-                cost: &mut cost,
-                work,
-            };
-            layout.visit_leaves(0);
-        }
-    }
-    work(input, caller, cost);
-    input.blocks.clear();
+/// Elements of one batch of A, in a leaf of its tree.
+#[derive(Clone, Copy, Debug)]
+struct BatchOfA {
+    leaf: u32,
+    batch: u32,
+    /// Rough cost of an element, ns.
+    element_ns: u32,
 }
 
-/// Lays out the blocks of one direction of a pair of movable groups.
-struct Layout<'a, 'w> {
+/// Part of A's trees that has not been laid out yet.
+#[derive(Clone, Copy, Debug)]
+enum Pending {
+    /// Node of A's tree of bounding volumes.
+    Node(u32),
+    Batch(BatchOfA),
+    /// Node of the box tree of a batch.
+    Boxes(BatchOfA, u32),
+    /// Elements of a batch: the first, and one past the last.
+    Elements(BatchOfA, [u32; 2]),
+}
+
+/// Stack of pending parts.
+pub(crate) struct PendingParts(Vec<Pending>);
+
+impl PendingParts {
+    /// Allocates the stack for a tree with at most this many nodes and batches together: each is pending at
+    /// most once, and beside them the box tree of one batch.
+    pub fn for_tree(nodes_and_batches: usize) -> Self {
+        Self(Vec::with_capacity(nodes_and_batches + DEPTH_MAX))
+    }
+
+    /// Memory of that stack, bytes.
+    pub const fn bytes(nodes_and_batches: usize) -> usize {
+        (nodes_and_batches + DEPTH_MAX) * size_of::<Pending>()
+    }
+}
+
+/// Layout of the blocks of some pairs, round by round.
+pub(crate) struct Layout<'a> {
+    scene: &'a Scene,
     sealed: &'a Sealed,
+    /// Pairs of movable groups, and their motions in the same order.
+    pairs: &'a [u32],
+    /// Next pair, and its next direction.
+    next: (usize, usize),
+    of: Option<OfDirection<'a>>,
+    pending: &'a mut Vec<Pending>,
+    /// True until the first block of the current batch has been laid out.
+    leads: bool,
+    ended: bool,
+}
+
+/// Direction of a pair in progress.
+#[derive(Clone, Copy)]
+struct OfDirection<'a> {
     plan: &'a Plan,
     /// Movable groups A and B.
     bodies: (&'a MovableGroup, &'a MovableGroup),
     direction: Direction,
+    /// Index of the pair's motions.
     slot: u32,
-    /// True until the first block of the current batch has been laid out.
-    leads: bool,
-    input: &'a mut WorkerInput,
-    caller: &'a mut WorkerContext,
-    cost: &'a mut u64,
-    work: &'a mut (dyn FnMut(&mut WorkerInput, &mut WorkerContext, u64) + 'w),
 }
 
-impl Layout<'_, '_> {
-    /// Returns true if a volume of A overlaps the root volume of B's tree.
-    fn reaches_b(&mut self, volume: &Volume) -> bool {
-        let root = &self.bodies.1.tree.nodes[0].volume;
-        let x_ba = &self.input.motions[self.slot as usize].of(self.direction).x_ba;
-        let meets = self.sealed.volume_tests.overlap(volume, root, x_ba);
-        self.caller.out.counts.note_volumes(volume, root, meets);
-        meets
+/// Output of a layout: the blocks of a round, their estimated cost, ns, and the counts of overlap tests.
+struct Out<'o> {
+    blocks: &'o mut Vec<Block>,
+    cost_ns: u64,
+    counts: &'o mut FrameCounts,
+}
+
+impl<'a> Layout<'a> {
+    /// Starts at the first pair.
+    pub fn new(
+        scene: &'a Scene,
+        sealed: &'a Sealed,
+        pairs: &'a [u32],
+        pending: &'a mut PendingParts,
+    ) -> Self {
+        let pending = &mut pending.0;
+        // A panic may have left parts behind.
+        pending.clear();
+        Self { scene, sealed, pairs, next: (0, 0), of: None, pending, leads: true, ended: false }
     }
 
-    fn visit_leaves(&mut self, node: u32) {
-        let tree = &self.bodies.0.tree;
-        if let Some(filter) = &self.plan.filter
+    /// Lays out the blocks of the next round, and counts overlap tests. Returns the estimated cost of the
+    /// round, ns; `None` after the last one. The last round may be empty.
+    #[inline]
+    pub fn next_round(
+        &mut self,
+        motions: &[PairMotions],
+        blocks: &mut Vec<Block>,
+        counts: &mut FrameCounts,
+    ) -> Option<u64> {
+        blocks.clear();
+        if self.ended {
+            return None;
+        }
+        let mut out = Out { blocks, cost_ns: 0, counts };
+        while out.blocks.len() < ROUND {
+            if let (Some(of), Some(part)) = (self.of, self.pending.pop()) {
+                self.lay_out(&of, part, motions, &mut out);
+            } else if !self.begin_direction() {
+                self.ended = true;
+                break;
+            }
+        }
+        Some(out.cost_ns)
+    }
+
+    /// Goes on to the next direction that has tests; returns false if there is none.
+    #[inline]
+    fn begin_direction(&mut self) -> bool {
+        let (slot, skipped) = self.next;
+        let Some(&group_pair) = self.pairs.get(slot) else { return false };
+        match self.sealed.plans_of(group_pair).nth(skipped) {
+            None => (self.next, self.of) = ((slot + 1, 0), None),
+            Some((plan, direction)) => {
+                let (body_a, body_b) = self.sealed.bodies_of(direction);
+                let bodies = (self.scene.body(body_a), self.scene.body(body_b));
+                self.next = (slot, skipped + 1);
+                self.of = Some(OfDirection { plan, bodies, direction, slot: slot as u32 });
+                self.pending.push(Pending::Node(0));
+            }
+        }
+        true
+    }
+
+    /// Lays out one part: adds at most one block, and keeps the rest pending.
+    #[inline]
+    fn lay_out(&mut self, of: &OfDirection<'a>, part: Pending, motions: &[PairMotions], out: &mut Out<'_>) {
+        let tree = &of.bodies.0.tree;
+        match part {
+            Pending::Node(node) => self.visit(of, node, motions, out),
+            Pending::Batch(of_a) => {
+                self.leads = true;
+                // A single element needs no split. (The split costs a measurable part of a one-element pair.)
+                match tree.batches[of_a.batch as usize].items.len() {
+                    1 => self.add(of, of_a, [0, 1], out),
+                    _ => self.cut(of, of_a, 0, motions, out),
+                }
+            }
+            Pending::Boxes(of_a, node) => self.cut(of, of_a, node, motions, out),
+            Pending::Elements(of_a, elements) => self.slice(of, of_a, elements, out),
+        }
+    }
+
+    /// Makes the children and the batches of a node pending if it reaches B, the children first.
+    #[inline]
+    fn visit(&mut self, of: &OfDirection<'a>, node: u32, motions: &[PairMotions], out: &mut Out<'_>) {
+        if let Some(filter) = &of.plan.filter
             && filter.keeps_from_all(node)
         {
             return;
         }
+        let tree = &of.bodies.0.tree;
         let Node { volume, children, batches, .. } = &tree.nodes[node as usize];
-        if !self.reaches_b(volume) {
+        if !self.reaches_b(of, volume, motions, out) {
             return;
         }
-        for child in children.clone() {
-            self.visit_leaves(child);
-        }
-        for batch in batches.clone() {
-            let Some(element_ns) = self.plan.element_ns(tree.batches[batch as usize].kind) else { continue };
-            let Batch { boxes, items, .. } = &tree.batches[batch as usize];
-            let (direction, slot, is_lone) = (self.direction, self.slot, items.len() == 1);
-            let block = Block { direction, slot, leaf: node, batch, first: 0, end: 0, leads: false, is_lone };
-            self.leads = true;
-            // A single element needs no split. (The split costs a measurable part of a one-element pair.)
-            if is_lone {
-                self.add(Block { end: 1, ..block }, element_ns);
-            } else {
-                self.cut(boxes, 0, element_ns, block);
+        for batch in batches.clone().rev() {
+            if let Some(element_ns) = of.plan.element_ns(tree.batches[batch as usize].kind) {
+                self.pending.push(Pending::Batch(BatchOfA { leaf: node, batch, element_ns }));
             }
         }
+        self.pending.extend(children.clone().rev().map(Pending::Node));
+    }
+
+    /// Returns true if a volume of A overlaps the root volume of B's tree.
+    fn reaches_b(
+        &self,
+        of: &OfDirection<'a>,
+        volume: &Volume,
+        motions: &[PairMotions],
+        out: &mut Out<'_>,
+    ) -> bool {
+        let root = &of.bodies.1.tree.nodes[0].volume;
+        let x_ba = &motions[of.slot as usize].of(of.direction).x_ba;
+        let meets = self.sealed.volume_tests.overlap(volume, root, x_ba);
+        out.counts.note_volumes(volume, root, meets);
+        meets
     }
 
     /// Splits the elements below a box node into blocks, skipping children of a large node that do not reach
     /// B.
-    fn cut(&mut self, boxes: &BoxTree, node: u32, element_ns: u32, block: Block) {
+    fn cut(
+        &mut self,
+        of: &OfDirection<'a>,
+        of_a: BatchOfA,
+        node: u32,
+        motions: &[PairMotions],
+        out: &mut Out<'_>,
+    ) {
+        let boxes = &of.bodies.0.tree.batches[of_a.batch as usize].boxes;
         let node: &BoxNode = &boxes.nodes[node as usize];
-        let elements = node.elements.clone();
-        if node.is_bottom() {
-            return self.slice(elements, element_ns, block);
+        let Range { start, end } = node.elements;
+        let at_most = (NODE_NS / of_a.element_ns).next_multiple_of(LANES as u32);
+        if node.is_bottom() || end - start <= at_most {
+            return self.slice(of, of_a, [start, end], out);
         }
-        let at_most = (NODE_NS / element_ns).next_multiple_of(LANES as u32);
-        if elements.end - elements.start <= at_most {
-            return self.slice(elements, element_ns, block);
-        }
+        let first = self.pending.len();
         for (lane, child) in node.children().enumerate() {
             let Child::Node(child) = child else { continue };
             let below = &boxes.nodes[child as usize].elements;
             let small = below.end - below.start <= at_most;
-            if small || self.reaches_b(&as_volume(boxes, &node.boxes.lane(lane))) {
-                self.cut(boxes, child, element_ns, block);
+            if small || self.reaches_b(of, &as_volume(boxes, &node.boxes.lane(lane)), motions, out) {
+                self.pending.push(Pending::Boxes(of_a, child));
             }
         }
+        self.pending[first..].reverse();
     }
 
-    /// Splits consecutive elements into blocks at superchunk boundaries.
-    fn slice(&mut self, elements: Range<u32>, element_ns: u32, block: Block) {
-        let Range { start: mut first, end: past } = elements;
-        let of_group = |element: u32| (element / SUPERCHUNK) * SUPERCHUNK;
+    /// Makes a block of the first of some consecutive elements, up to a superchunk boundary.
+    fn slice(&mut self, of: &OfDirection<'a>, of_a: BatchOfA, [first, past]: [u32; 2], out: &mut Out<'_>) {
+        let group = (first / SUPERCHUNK) * SUPERCHUNK;
         // Most ranges lie within one superchunk, which is never split; skip the division for them.
-        if past <= of_group(first) + SUPERCHUNK {
-            return self.add(Block { first, end: past, ..block }, element_ns);
+        if past <= group + SUPERCHUNK {
+            return self.add(of, of_a, [first, past], out);
         }
-        let step = (BLOCK_NS / element_ns).next_multiple_of(SUPERCHUNK).max(SUPERCHUNK);
-        while first < past {
-            let end = past.min(of_group(first) + step);
-            self.add(Block { first, end, ..block }, element_ns);
-            first = end;
+        let step = (BLOCK_NS / of_a.element_ns).next_multiple_of(SUPERCHUNK).max(SUPERCHUNK);
+        let end = past.min(group + step);
+        self.add(of, of_a, [first, end], out);
+        if end < past {
+            self.pending.push(Pending::Elements(of_a, [end, past]));
         }
     }
 
-    fn add(&mut self, block: Block, element_ns: u32) {
-        self.input.blocks.push(Block { leads: self.leads, ..block });
-        self.leads = false;
-        *self.cost += u64::from(block.end - block.first) * u64::from(element_ns);
-        if self.input.blocks.len() == ROUND {
-            (self.work)(self.input, self.caller, *self.cost);
-            self.input.blocks.clear();
-            *self.cost = 0;
-        }
+    #[inline]
+    fn add(&mut self, of: &OfDirection<'a>, of_a: BatchOfA, [first, end]: [u32; 2], out: &mut Out<'_>) {
+        let BatchOfA { leaf, batch, element_ns } = of_a;
+        let is_lone = of.bodies.0.tree.batches[batch as usize].items.len() == 1;
+        let (direction, slot, leads) = (of.direction, of.slot, std::mem::take(&mut self.leads));
+        out.blocks.push(Block { direction, slot, leaf, batch, first, end, leads, is_lone });
+        out.cost_ns += u64::from(end - first) * u64::from(element_ns);
     }
 }
 

@@ -1,9 +1,9 @@
 //! Latches the states of the movable groups at the start of a frame. They were validated when they were set.
 
 use crate::error::EngineError;
-use crate::frame::buffers::EvaluationBuffers;
 use crate::scene::{Scene, States};
 use crate::sealed::Sealed;
+use pong_geometry::{Pose, Twist};
 
 /// Refuses a frame if a movable group of an enabled pair has no state.
 #[inline]
@@ -22,14 +22,14 @@ pub(crate) fn require_states(scene: &Scene, sealed: &Sealed, states: &States) ->
     Ok(())
 }
 
-/// Copies the states into the frame.
+/// Copies the states into the poses and twists of the frame.
 #[inline]
-pub(crate) fn latch(sealed: &Sealed, states: &States, frame: &mut EvaluationBuffers) {
+pub(crate) fn latch(sealed: &Sealed, states: &States, poses: &mut [Pose], twists: &mut [Twist]) {
     for &body in &*sealed.paired_bodies {
         if let Some(state) = &states.bodies[body] {
-            frame.poses[body] = states.poses[body];
+            poses[body] = states.poses[body];
             // Field-wise: a struct copy right after narrow stores would stall (store forwarding).
-            let twist = &mut frame.twists[body];
+            let twist = &mut twists[body];
             twist.linear.copy_from_slice(&state.linear_velocity);
             twist.angular.copy_from_slice(&state.angular_velocity);
         }
