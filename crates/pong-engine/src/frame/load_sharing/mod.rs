@@ -6,6 +6,7 @@ mod pieces;
 mod ray_hits;
 mod rims;
 pub(crate) mod solver;
+pub(crate) mod status;
 
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};

@@ -1,5 +1,6 @@
 //! Contact candidates, as the contact testers find them.
 
+pub(crate) use crate::frame::load_sharing::status::CandidateStatus;
 use crate::state::{ContactKey, ContactRole, NO_FACE, RecordRange};
 use pong_geometry::Vec3;
 use pong_geometry::interference::{Feature, Interference};
@@ -40,32 +41,6 @@ pub(crate) struct ContactCandidate {
     pub ray_distance: f64,
     /// Weight w of docs/theory.md, 2.2; 1 for a single contact.
     pub weight: f64,
-}
-
-/// Standing of a candidate among those of the same surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum CandidateStatus {
-    /// Regular contact, with the centre in front.
-    Front,
-    /// Regular contact, with the centre behind the face.
-    BackFace,
-    /// Fallback for a contact lost to rounding; used only if no regular contact is at the same point.
-    Fallback,
-    /// Fallback with the centre behind the face.
-    BackFaceFallback,
-    /// Fallback for a feature whose foot point lies just outside it by rounding; used only if no regular
-    /// contact is as deep. For a segment: an exit through an internal face, within rounding of its boundary
-    /// edge.
-    StandIn,
-    /// Point or segment end in a piece, on an internal face or on the boundary edge of one; used unless a
-    /// piece of lower index has the same contact. Also the exit of a segment next to an internal face, which
-    /// only one piece carries.
-    AtWall,
-    /// Point or segment end just beyond an internal face of a piece; used only if rounding leaves it in no
-    /// piece.
-    BeyondWall,
-    /// Dropped.
-    Culled,
 }
 
 impl ContactCandidate {
