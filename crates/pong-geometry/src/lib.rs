@@ -25,6 +25,7 @@ pub mod distance;
 pub mod extension;
 pub mod interference;
 pub mod lanes;
+pub mod overlap;
 pub mod pose;
 pub mod primitive;
 pub mod simd;

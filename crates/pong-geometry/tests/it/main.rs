@@ -29,6 +29,7 @@ mod oracle_point_sphere;
 mod oracle_ray;
 mod oracle_sphere_triangle;
 mod oracle_support;
+mod overlap;
 mod ray_round;
 mod rods_in_bores;
 mod round_parts;

@@ -1,0 +1,149 @@
+//! Volume that two solids share, divided by the nearest face of one of them (docs/theory.md, 2.11).
+//!
+//! Body B is convex: the intersection of half spaces. Its *field* at a point inside is the depth below the
+//! nearest of its faces. Solid A is any closed surface of planar facets, in B's frame. [`Overlap::cells`] cuts
+//! A by the planes of B and returns the moments of every *cell*: the part of the shared volume nearest to one
+//! face. From them follow the stored energy, its exact gradient, damping and friction.
+
+mod clip;
+mod moments;
+
+pub use clip::Surface;
+pub use moments::Moments;
+
+use crate::{Vec3, Wrench};
+
+/// Half space: `normal · x ≤ offset`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSpace {
+    /// Unit outward normal.
+    pub normal: Vec3,
+    /// Distance of the plane from the frame's origin along the normal, m.
+    pub offset: f64,
+}
+
+impl HalfSpace {
+    /// Depth of a point below the plane (negative outside), m.
+    #[inline]
+    pub fn depth(&self, x: &Vec3) -> f64 {
+        self.offset - self.normal.dot(x)
+    }
+}
+
+/// Convex body with a field.
+#[derive(Clone, Copy, Debug)]
+pub struct Field<'a> {
+    /// Planes of the faces that push. Coplanar faces of a body that was cut into pieces stand here once.
+    pub faces: &'a [HalfSpace],
+    /// Planes that bound the body but do not push: internal faces towards other pieces of one body.
+    pub walls: &'a [HalfSpace],
+}
+
+/// Part of the shared volume that is nearest to one face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cell {
+    /// Index into [`Field::faces`].
+    pub face: usize,
+    /// Moments about [`Overlap::reference`].
+    pub moments: Moments,
+}
+
+/// Workspace for the overlap of two solids, and its result.
+#[derive(Clone, Debug, Default)]
+pub struct Overlap {
+    shared: Surface,
+    cell: Surface,
+    spare: Surface,
+    /// Faces that may be the nearest somewhere in the shared volume.
+    nearest: Vec<usize>,
+    cells: Vec<Cell>,
+    reference: Vec3,
+}
+
+impl Overlap {
+    /// Makes a workspace for solids of `facets` planar facets in all, of A and B together.
+    pub fn with_capacity(facets: usize) -> Self {
+        let surface = || Surface::with_capacity(facets);
+        Self {
+            shared: surface(),
+            cell: surface(),
+            spare: surface(),
+            nearest: Vec::with_capacity(facets),
+            cells: Vec::with_capacity(facets),
+            reference: Vec3::zeros(),
+        }
+    }
+
+    /// Point about which the moments of the last result are taken, m: a vertex of the shared volume.
+    pub fn reference(&self) -> Vec3 {
+        self.reference
+    }
+
+    /// Cells of the volume that a closed surface and a convex body share, by increasing face index; empty if
+    /// they share none. Both are in one frame.
+    pub fn cells(&mut self, a: &Surface, b: &Field<'_>) -> &[Cell] {
+        self.cells.clear();
+        self.shared.copy_from(a);
+        for half_space in b.faces.iter().chain(b.walls) {
+            if !self.shared.clip(|x| half_space.depth(x), &mut self.spare) {
+                return &self.cells;
+            }
+        }
+        let Some(reference) = self.shared.vertices().next() else { return &self.cells };
+        self.reference = *reference;
+        self.find_nearest(b.faces);
+        for at in 0..self.nearest.len() {
+            self.push_cell(b.faces, self.nearest[at]);
+        }
+        &self.cells
+    }
+
+    /// Lists the faces that may be the nearest of some point of the shared volume. The depth of the nearest
+    /// face is nowhere more than the greatest depth below any one face.
+    fn find_nearest(&mut self, faces: &[HalfSpace]) {
+        let greatest = |face: &HalfSpace| self.shared.vertices().map(|x| face.depth(x)).fold(0.0, f64::max);
+        let bound = faces.iter().map(greatest).fold(f64::INFINITY, f64::min);
+        self.nearest.clear();
+        for (index, face) in faces.iter().enumerate() {
+            if self.shared.vertices().any(|x| face.depth(x) <= bound) {
+                self.nearest.push(index);
+            }
+        }
+    }
+
+    /// Cuts the cell of a face out of the shared volume by the planes in which another face is as near.
+    fn push_cell(&mut self, faces: &[HalfSpace], face: usize) {
+        self.cell.copy_from(&self.shared);
+        for &other in self.nearest.iter().filter(|other| **other != face) {
+            let normal = faces[other].normal - faces[face].normal;
+            let offset = faces[other].offset - faces[face].offset;
+            let farther = HalfSpace { normal, offset };
+            // Of two faces in one plane the one of lower index has the cell.
+            if normal == Vec3::zeros() && offset == 0.0 && other < face {
+                return;
+            }
+            if !self.cell.clip(|x| farther.depth(x), &mut self.spare) {
+                return;
+            }
+        }
+        let moments = self.cell.moments(&self.reference);
+        if moments.volume > 0.0 {
+            self.cells.push(Cell { face, moments });
+        }
+    }
+}
+
+/// Energy and wrench of cells for a foundation modulus of 1 N/m³: `∫ depth dV` in m⁴, and its gradient.
+///
+/// The wrench acts on A, about the origin of the frame (N and N·m per N/m³). B gets the opposite one.
+pub fn energy_and_wrench(cells: &[Cell], reference: &Vec3, faces: &[HalfSpace]) -> (f64, Wrench) {
+    let mut energy = 0.0;
+    let mut wrench = Wrench::zero();
+    for Cell { face, moments } in cells {
+        let face = &faces[*face];
+        energy += face.depth(reference) * moments.volume - face.normal.dot(&moments.first);
+        wrench.force += face.normal * moments.volume;
+        wrench.moment += (moments.first + reference * moments.volume).cross(&face.normal);
+    }
+    (energy, wrench)
+}

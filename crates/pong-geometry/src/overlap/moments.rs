@@ -1,0 +1,33 @@
+//! Moments of a volume up to the second order.
+
+use crate::{Mat3, Vec3};
+
+/// Moments of a volume about a reference point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Moments {
+    /// Volume ∫ dV, m³.
+    pub volume: f64,
+    /// First moment ∫ y dV, m⁴; y is the position from the reference point.
+    pub first: Vec3,
+    /// Second moment ∫ y yᵀ dV, m⁵.
+    pub second: Mat3,
+}
+
+impl Moments {
+    /// Adds a tetrahedron between the reference point and a triangle, by the positions of its corners from the
+    /// point, m; counter-clockwise seen from outside it counts positive.
+    #[inline]
+    pub(super) fn add(&mut self, [a, b, c]: [Vec3; 3]) {
+        let volume = a.dot(&b.cross(&c)) / 6.0;
+        let sum = a + b + c;
+        self.volume += volume;
+        self.first += sum * (volume / 4.0);
+        let squares = a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose();
+        self.second += squares * (volume / 20.0);
+    }
+
+    /// Centroid from the reference point, m.
+    pub fn centroid(&self) -> Vec3 {
+        self.first / self.volume
+    }
+}
