@@ -169,8 +169,8 @@ impl RoundSolid for Frustum {
     }
 }
 
-/// Point of a segment nearest to a convex solid. Along the segment the distance is convex, and its derivative
-/// is the component of `normal_b`. The search stops at the first distance of at most `enough` (m).
+/// Point of a segment nearest to a convex solid. The distance along the segment is convex and has the
+/// derivative `normal_b·along`. The search stops at the first point whose distance is at most `enough` (m).
 fn least_on_segment(segment: &[Vec3; 2], enough: f64, nearest: impl Fn(&Vec3) -> Nearest) -> (Vec3, Nearest) {
     /// Largest slope that counts as zero, relative to the length of the segment.
     const FLAT: f64 = 4.0 * f64::EPSILON;
@@ -232,9 +232,9 @@ fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
 /// Search for the minimum translation of a segment out of a frustum.
 ///
 /// Let h be the support function of the frustum and n a unit vector. The segment's end p leaves the frustum
-/// when translated along n by h(n) − n·p; the segment needs the larger of its ends' two lengths. At the
-/// minimum over n, either one end leaves last, through an end face or the nearest generator of the lateral
-/// surface, or both ends leave together, and then n is perpendicular to the segment.
+/// when translated along n by h(n) − n·p, so the segment leaves after the larger of these lengths of its two
+/// ends. At the minimum over n, either one end leaves last, through an end face or the nearest generator of
+/// the lateral surface, or both ends leave together, and then n is perpendicular to the segment.
 struct TranslationSearch<'a> {
     segment: &'a [Vec3; 2],
     frustum: &'a Frustum,
@@ -394,9 +394,9 @@ impl<'a> TranslationSearch<'a> {
     }
 
     /// Distance along the segment, m, of the point that touches the frustum after the translation along
-    /// `normal`. It lies at the end circle that extends farther along `normal`. If both extend equally far,
-    /// it lies where the line of the lateral surface between them crosses the plane of the segment and
-    /// `normal`. For a segment along the lateral surface or an end face it is the middle of the overlap.
+    /// `normal`. The point lies at the end circle that extends farther along `normal`. If both extend equally
+    /// far, it lies where the line of the lateral surface between them crosses the plane of the segment and
+    /// `normal`. For a segment along the lateral surface or an end face, it is the middle of their overlap.
     fn travelled(&self, along: &Vec3, normal: &Vec3, rounding: f64) -> f64 {
         if let Some(middle) = self.middle_over_face(along, normal) {
             return middle;

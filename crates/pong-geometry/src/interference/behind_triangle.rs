@@ -14,10 +14,9 @@ use crate::Vec3;
 /// * a vertex: `p` belongs to the triangle if it is behind all faces around the vertex, and the vertex is the
 ///   nearest point of each of these faces.
 ///
-/// In this wedge of an edge and at a vertex, `p` must also be within `thickness` (m) of the nearest point.
-/// How a flat face is cut into triangles does not matter, because `p` belongs to the triangle that contains
-/// the nearest point. Within `slack` (m) of an edge or a face, `p` does not count as beyond the edge or
-/// behind the face.
+/// In the first and the last case, `p` must also be within `thickness` (m) of the nearest point. How a flat
+/// face is cut into triangles does not matter, because `p` belongs to the triangle that contains the nearest
+/// point. Within `slack` (m) of an edge or a face, `p` does not count as beyond the edge or behind the face.
 pub(super) fn has_behind(edges: &TriangleEdges<'_>, p: &Vec3, thickness: f64, slack: f64) -> bool {
     /// Largest cosine, between an edge and the direction from its vertex to `p`, at which the vertex counts
     /// as nearest. Not zero: where only rounding decides between vertex and edge, both have `p`.

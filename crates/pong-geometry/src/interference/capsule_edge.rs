@@ -78,7 +78,7 @@ fn over(
     // Tolerance for an axis along a face, where rounding puts the normal on either side of the face's normal.
     let is_between = |outward: &Vec3| outward.dot(&normal) > -ROUNDING;
     let leaves_there = || edge.outwards_b.is_some_and(|outwards| outwards.iter().all(is_between));
-    // Without `outwards_b`, an axis that has passed the edge is not pushed. Tolerance if they intersect.
+    // Without `outwards_b`, an axis that has passed the edge by more than rounding is not pushed.
     let lowest = if edge.outwards_b.is_some() { 0.0 } else { -rounding(axis, of_edge) };
     if height >= capsule.radius || (height <= lowest && !leaves_there()) {
         return None;

@@ -234,8 +234,8 @@ impl<S: Simd> Axis<S> {
     }
 
     /// Returns the edges that the axis crosses within `Query::reach`, between the ends of axis and edge.
-    /// Computed as in [`capsule_edge`], so that both find the same crossings of nearly parallel edges, which
-    /// are noise.
+    /// Computed as in [`capsule_edge`], so that both functions find the same crossings even where these are
+    /// noise, for nearly parallel edges.
     #[inline(always)]
     fn crosses(&self, block: &EdgeBlock) -> LaneBits {
         /// Margins far above rounding: `NOISE` relative to the squared distance between the nearest points,

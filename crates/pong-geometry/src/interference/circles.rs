@@ -59,7 +59,8 @@ pub(super) struct Reach {
 /// Search over the directions perpendicular to the unit vector `about_b`.
 pub(super) struct Across {
     pub about_b: Vec3,
-    /// Direction from which the search starts: fixed to the bodies, so that rotating both changes no result.
+    /// Direction from which the search starts. It is fixed to the bodies, so that rotating them together
+    /// changes no result.
     pub first_b: Vec3,
 }
 

@@ -3,8 +3,8 @@
 //! # The equation
 //!
 //! In the principal frame let `aᵢ` be the semi-axes, `A = diag(aᵢ)` and `y` the given point. The foot `x` of
-//! a normal through `y` has the components `xᵢ = aᵢ²·yᵢ/(aᵢ² + t)`. It lies on the surface if the secular
-//! equation holds:
+//! a normal through `y` has the components `xᵢ = aᵢ²·yᵢ/(aᵢ² + t)` with a parameter `t`. It lies on the
+//! surface if the secular equation holds:
 //!
 //! ```text
 //! f(t) = Σ qᵢ² = 1,    qᵢ = xᵢ/aᵢ = aᵢ·yᵢ/(aᵢ² + t).
@@ -15,10 +15,10 @@
 //! normal is `g = A⁻²·x`.
 //!
 //! * `t > −a_min²`: `H` is positive definite. `f` falls from ∞ to 0, so there is one root: the nearest point.
-//! * `−a_mid² < t < −a_min²`: `H` has one negative eigenvalue. On the tangent plane one eigenvalue of `H` is
-//!   positive (interlacing), and the determinant of `H` has the sign of `gᵀ·adj(H)·g = −½·det(H)·f'(t)`, that
-//!   is of `f'`. `f` is convex here and has at most two roots: the larger one, where `f' ≥ 0`, is the only
-//!   local minimum.
+//! * `−a_mid² < t < −a_min²`: `H` has one negative eigenvalue. Restricted to the tangent plane, `H` has at
+//!   least one positive eigenvalue (interlacing), and its determinant has the sign of
+//!   `gᵀ·adj(H)·g = −½·det(H)·f'(t)`, that is of `f'`. `f` is convex here and has at most two roots: the
+//!   larger one, where `f' ≥ 0`, is the only local minimum.
 //! * `t < −a_mid²`: `H` has two negative eigenvalues, so on every plane it has a negative one: no local
 //!   minimum.
 //!
@@ -27,13 +27,14 @@
 //!
 //! # Why the iteration converges
 //!
-//! `ψ = 1/√f` is concave between the poles of `f`: `ψ'' ≤ 0` is `3·f'² ≤ 2·f·f''`, that is
-//! `(Σ wᵢ²/(σ+dᵢ)³)² ≤ Σ wᵢ²/(σ+dᵢ)² · Σ wᵢ²/(σ+dᵢ)⁴`, the inequality of Cauchy and Schwarz. The tangent of a
-//! concave function lies above it. So Newton's method for `ψ = 1`, started where `ψ ≤ 1` and `ψ` rises,
-//! approaches the root quadratically and never passes it. The start `σ = maxᵢ(|wᵢ| − dᵢ)` has `1 ≤ f ≤ N`.
-//! The second minimum is found by the same iteration in `τ = −σ`, started at `τ = |wᵢ|` of the shortest axis
-//! `i`. If `ψ` falls, or has a pole, before it reaches 1, there is no second minimum. With rounding, the
-//! iteration ends when the sequence no longer rises.
+//! With `σ = (t + a_min²)/a_min²`, `wᵢ = aᵢ·yᵢ/a_min²` and `dᵢ = (aᵢ² − a_min²)/a_min² ≥ 0`,
+//! `f = Σ (wᵢ/(σ + dᵢ))²`. `ψ = 1/√f` is concave between the poles of `f`: `ψ'' ≤ 0` is `3·f'² ≤ 2·f·f''`,
+//! that is `(Σ wᵢ²/(σ+dᵢ)³)² ≤ Σ wᵢ²/(σ+dᵢ)² · Σ wᵢ²/(σ+dᵢ)⁴`, the inequality of Cauchy and Schwarz. The
+//! tangent of a concave function lies above it. So Newton's method for `ψ = 1`, started where `ψ ≤ 1` and `ψ`
+//! rises, approaches the root quadratically and never passes it. The start `σ = maxᵢ(|wᵢ| − dᵢ)` has
+//! `1 ≤ f ≤ N`. The second minimum is found by the same iteration in `τ = −σ`, started at `τ = |wᵢ|` of the
+//! shortest axis `i`. If `ψ` falls, or has a pole, before it reaches 1, there is no second minimum. With
+//! rounding, the iteration ends when the sequence no longer rises.
 //!
 //! Only the dimensionless `d` and `w` enter: scaling the scene changes nothing but rounding.
 
@@ -51,7 +52,8 @@ pub struct NormalFoot<const N: usize> {
     pub point: [f64; N],
     /// Outward unit normal at that point.
     pub normal: [f64; N],
-    /// Height of the tangent plane at `point` above the given point, m; positive if this is inside.
+    /// Height of the tangent plane at `point` above the given point, m; positive if the given point is
+    /// inside.
     pub depth: f64,
 }
 
@@ -184,8 +186,8 @@ impl<const N: usize> Secular<N> {
     }
 
     /// Vector `q` at `t = −a_min²`. Its component along the shortest axis has the given sign and makes `q` a
-    /// unit vector. `None` if the other components alone are longer, or if the point has a component along a
-    /// second axis that is equally short.
+    /// unit vector. `None` if the other components alone are longer than 1, or if the point has a component
+    /// along a second axis that is equally short.
     #[inline]
     fn on_medial_plane(&self, sign: f64) -> Option<[f64; N]> {
         let mut q = [0.0; N];

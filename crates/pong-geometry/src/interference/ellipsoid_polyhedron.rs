@@ -39,8 +39,8 @@
 //! neighbours. Each feature of the body belongs to one piece, so the piece that has the minimising feature
 //! finds the body's minimum. Other pieces find other local minima, which are not less deep. Load sharing,
 //! which sees the contacts of all pieces, decides which count. A piece applies two rules. It drops minima
-//! deeper than the least overlap of its active faces, since the body's minimum is not deeper. If none of its
-//! features contains its foot, it returns its active face of least overlap as a
+//! deeper than the least overlap of its active faces, since the body's minimum is not deeper. If no feature
+//! of the piece contains its own foot, the piece returns its active face of least overlap as a
 //! [fallback](PieceContact::stands_in), which counts only if no piece of the body finds anything else.
 
 use super::ellipsoid_math::{
@@ -179,9 +179,9 @@ impl Lead {
     }
 }
 
-/// Active face of least overlap (ties: lowest index). Only faces count above which the centre's height
-/// exceeds `least_height` (m). `None` if one of them, active or not, separates the bodies, or if none is
-/// active.
+/// Active face of least overlap (ties: lowest index). A face may be skipped if the height of the centre above
+/// it is at most `least_height` (m). `None` if another face, active or not, separates the bodies, or if no
+/// other face is active.
 #[inline(always)]
 fn least_overlap<S: Simd>(
     simd: S,
@@ -286,8 +286,8 @@ impl<'a> Search<'a> {
             witness = Some(found);
         }
         self.try_lead_face();
-        // An edge of an internal face may belong to a face of another piece, which is no suspect of this
-        // piece: then all features are tested.
+        // With internal faces all features are tested: an edge may also belong to a face of another piece,
+        // which is not among the suspects.
         match suspects.listed().filter(|_| self.all_active) {
             Some(faces) => self.try_features_of(faces),
             None => self.try_all_features(),

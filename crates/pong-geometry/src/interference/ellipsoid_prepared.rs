@@ -36,8 +36,8 @@ impl PreparedEllipsoid {
         Vec3::new(self.widen[0].dot(n), self.widen[1].dot(n), self.widen[2].dot(n))
     }
 
-    /// Farthest point along a normal, from its scaled normal: relative to the centre and times the half
-    /// width, m².
+    /// Farthest point along a normal, given the scaled normal. Relative to the centre and multiplied by the
+    /// half width, m².
     #[inline]
     pub(crate) fn reach(&self, widened: &Vec3) -> Vec3 {
         self.widen[0] * widened.x + self.widen[1] * widened.y + self.widen[2] * widened.z
@@ -63,15 +63,15 @@ impl PreparedEllipsoid {
     }
 
     /// Returns `true` if a second local minimum ([`ellipsoid_math`](super::ellipsoid_math)) can have a depth
-    /// of at most `depth` (m). There t < −a_min², and the depth is −t/h with the half width h ≤ a_max. So the
-    /// depth is at least a_min²/a_max, the smallest radius of curvature.
+    /// of at most `depth` (m). At such a minimum t < −a_min², and the depth is −t/h with the half width
+    /// h ≤ a_max: at least a_min²/a_max, the smallest radius of curvature.
     #[inline]
     pub(crate) fn allows_second(&self, depth: f64) -> bool {
         depth * self.largest >= self.smallest * self.smallest
     }
 
-    /// Lower bound of the overlap D over the normals between those of two faces, with the centre's heights
-    /// (m).
+    /// Lower bound of the overlap D over the normals between those of two faces. `heights` (m) are the
+    /// heights of the centre above the two faces.
     ///
     /// Extended to vectors n of any length, D is convex, so between the two normals it is no less than its
     /// linearisations at the two normals. Along the arc a linearisation is a sine wave, concave where
@@ -116,7 +116,7 @@ impl Shadow {
     #[inline]
     pub(crate) fn new(e: &PreparedEllipsoid, u: &Vec3, v: &Vec3) -> Self {
         let (wide_u, wide_v) = (e.widened(u), e.widened(v));
-        /// 2⁵¹²: the square of a larger `zeta` overflows, and the rotation would be zero within rounding.
+        /// Limit of `zeta`, 2⁵¹²: a larger square overflows, and the rotation would be zero within rounding.
         const LARGEST_COTANGENT: f64 = f64::from_bits((1023 + 512) << 52);
         let (uu, vv, uv) = (wide_u.norm_squared(), wide_v.norm_squared(), wide_u.dot(&wide_v));
         if 2.0 * uv.abs() * LARGEST_COTANGENT <= (vv - uu).abs() || uv == 0.0 {

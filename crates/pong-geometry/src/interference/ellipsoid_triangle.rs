@@ -16,7 +16,7 @@
 //! An ellipsoid may sink so deep into a valley that on each of its two faces the foot lies beyond the concave
 //! edge between them. Then neither face contains its foot, and the centre decides. A face with the centre in
 //! front of it gives a fallback if the centre is not beyond the edge; a face with the centre behind it, if it
-//! would push a ball at the centre. This fallback (`Standing::StandIn`) counts if no other contact is as
+//! would push a ball at the centre. This fallback (`Standing::StandIn`) counts only if no other contact is as
 //! deep.
 //!
 //! Degenerate cases: a centre in the plane of a face, on an edge or at a vertex counts as in front of it. A
@@ -209,8 +209,8 @@ impl Tester<'_> {
         self.edges.beyond(k, foot) > self.foot_slack
     }
 
-    /// Returns `true` if edge `k` is concave or flat, and the face across the edge does not contain its own
-    /// foot, because it lies beyond the edge as well.
+    /// Returns `true` if edge `k` is concave or flat, and the foot on the face across it lies beyond the edge
+    /// as well.
     fn is_lost_beyond(&self, k: usize) -> bool {
         let EdgeClass::Silent { neighbor, outward } = self.edges.class(k) else { return false };
         self.is_lost_to(neighbor, &outward, &self.view.edge_ends(k)[0])
@@ -285,7 +285,7 @@ impl Tester<'_> {
         }
     }
 
-    /// Local minima of the overlap with edge `k` whose normals are among those along which it may push.
+    /// Local minima of the overlap with edge `k`, at normals along which the edge may push.
     fn edge_minima(&self, k: usize) -> [Option<EdgeMinimum>; 2] {
         if self.misses_edge(k) {
             return [None, None];
@@ -384,7 +384,7 @@ impl Tester<'_> {
         if y.component_div(semi_axes).norm_squared() < 1.0 {
             self.try_vertex(corner, &nearest_on_ellipsoid(semi_axes, &y), emit);
         }
-        // A second minimum deeper than a face around the vertex does not count (first tested for this face).
+        // A second minimum counts only if no face around the vertex is less deep; this face is tested first.
         let second = self.allows_second().then(|| second_nearest_on_ellipsoid(semi_axes, &y)).flatten();
         if let Some(foot) = second.filter(|foot| self.no_deeper_than_the_fan(corner, foot.depth)) {
             self.try_vertex(corner, &foot, emit);

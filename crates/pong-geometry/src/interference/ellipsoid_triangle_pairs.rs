@@ -122,8 +122,8 @@ fn may_touch(pairs: &EllipsoidTrianglePairs) -> LaneBits {
 /// Smallest distance beyond an edge that counts, relative to the lengths involved: far above the foot
 /// tolerance.
 const FAR_SLACK: f64 = 1e-9;
-/// Amount by which a squared distance must exceed 1 to be outside the unit ball: ten times that of
-/// `misses_edge`.
+/// Amount by which a squared distance must exceed 1 to be outside the unit ball: ten times that of the single
+/// test, `misses_edge`.
 const OUTSIDE_SLACK: f64 = 1e-5;
 /// Additional amount, relative to the squared lengths involved: covers rounding at distant corners.
 const OUTSIDE_SHARE: f64 = 1e-12;

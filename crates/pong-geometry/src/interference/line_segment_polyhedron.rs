@@ -36,7 +36,7 @@ pub type PieceContacts = [Option<(Interference, AtWall)>; 2];
 /// Role of the neighbouring pieces in a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AtWall {
-    /// None, as far as this test knows. For a tip on an internal face see [`Polyhedron::containment`].
+    /// None. Exception: for a tip on an internal face the caller tests [`Polyhedron::containment`].
     No,
     /// Crossing of an edge at which an internal face ends. The piece behind that face may report it as well.
     SharedEdge,
@@ -53,9 +53,9 @@ pub enum AtWall {
 /// Energies within this factor count as equal, so that rounding does not choose between equal faces.
 const TIE: f64 = 1.0 - 1e-12;
 
-/// Tests a segment against one convex solid, or one piece alone: of the pieces with an edge at which an
-/// internal face ends, the first has its crossings. Each contact carries half of the pair's stiffness and
-/// damping.
+/// Tests a segment against one convex solid, or one piece alone. A crossing of an edge at which an internal
+/// face ends is returned only for the first piece that has the edge. Each contact carries half of the pair's
+/// stiffness and damping.
 #[inline]
 pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
     let counts = |(contact, at_wall): &(Interference, AtWall)| match at_wall {
@@ -77,7 +77,7 @@ pub fn line_segment_piece(segment: &LineSegment, polyhedron: &Polyhedron) -> Pie
     }
 }
 
-/// Largest numbers of face blocks of the three variants; above `MANY`, every face is evaluated.
+/// Largest numbers of face blocks of the three variants of the test; above `MANY`, every face is evaluated.
 const FEW: usize = 2;
 const SOME: usize = FacePlanes::IN_REGISTERS;
 const MANY: usize = 16;
@@ -298,9 +298,9 @@ impl Search<'_> {
         matches!(best.ends[1 - end], Measured::Leaves) && matches!(of_exit(), Some(Measured::Crossing(_)))
     }
 
-    /// Contact at an end that leaves through an internal face. The piece behind that face carries the end,
-    /// except for a crossing of a convex edge in which the internal face ends, and for a tip at internal
-    /// faces.
+    /// Contact at an end that leaves through an internal face. `None` because the piece behind that face
+    /// reports this end, except for a crossing of a convex edge in which the internal face ends, and for a
+    /// tip at internal faces.
     #[cold]
     fn carried_at_wall(
         &self,
