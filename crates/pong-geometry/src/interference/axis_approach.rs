@@ -231,10 +231,10 @@ fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
 
 /// Search for the minimum translation of a segment out of a frustum.
 ///
-/// Let h be the support function of the frustum and n a unit vector. The segment's end p leaves the frustum
-/// when translated along n by h(n) − n·p, so the segment leaves after the larger of these lengths of its two
-/// ends. At the minimum over n, either one end leaves last, through an end face or the nearest generator of
-/// the lateral surface, or both ends leave together, and then n is perpendicular to the segment.
+/// Let h be the support function of the frustum and n a unit vector. Translated along n, the end p of the
+/// segment leaves the frustum after the length h(n) − n·p, and the segment after the larger length of its two
+/// ends. At the minimum over n, either one end of the segment leaves last, through an end face or the nearest
+/// generator of the lateral surface, or both leave together, and then n is perpendicular to the segment.
 struct TranslationSearch<'a> {
     segment: &'a [Vec3; 2],
     frustum: &'a Frustum,
@@ -364,12 +364,14 @@ impl<'a> TranslationSearch<'a> {
         any_perpendicular(along)
     }
 
-    /// Normals of the lateral surface perpendicular to the segment: both ends extend equally far along them.
+    /// Normals of the lateral surface perpendicular to the segment: along them both end circles extend
+    /// equally far.
     fn lateral_normals(&self, along: &Vec3) -> Option<[Vec3; 2]> {
         let across = self.frustum.axis - along * along.dot(&self.frustum.axis);
         // Clamped because a compiler may divide, or take the root, before the checks.
         let length = across.norm().max(ROUNDING);
-        // With the axis parallel to the segment, both ends extend equally far in all directions or in none.
+        // With the axis parallel to the segment, the end circles extend equally far in all directions or in
+        // none.
         if length <= ROUNDING {
             return None;
         }
@@ -394,9 +396,10 @@ impl<'a> TranslationSearch<'a> {
     }
 
     /// Distance along the segment, m, of the point that touches the frustum after the translation along
-    /// `normal`. The point lies at the end circle that extends farther along `normal`. If both extend equally
-    /// far, it lies where the line of the lateral surface between them crosses the plane of the segment and
-    /// `normal`. For a segment along the lateral surface or an end face, it is the middle of their overlap.
+    /// `normal`. The point lies at the end circle that extends farther along `normal`. If both circles extend
+    /// equally far, the point lies where the line of the lateral surface between them crosses the plane of
+    /// the segment and `normal`. For a segment along the lateral surface or an end face, it is the middle of
+    /// their overlap.
     fn travelled(&self, along: &Vec3, normal: &Vec3, rounding: f64) -> f64 {
         if let Some(middle) = self.middle_over_face(along, normal) {
             return middle;
@@ -431,15 +434,15 @@ impl<'a> TranslationSearch<'a> {
         Some(0.5 * (first + last))
     }
 
-    /// Considers the translation along `normal`, which is perpendicular to the segment: both ends leave
-    /// together. It replaces the best translation even if it is longer by a rounding error, because the best
-    /// one may name a single end as the point of contact.
+    /// Considers the translation along `normal`, which is perpendicular to the segment, so that both ends of
+    /// the segment leave together. It replaces the best translation even if it is longer by a rounding error,
+    /// because the best one may name a single end as the point of contact.
     fn offer_at(&mut self, along: &Vec3, normal: &Vec3) {
         /// One minus the cosine of the largest angle (1.4e-7 rad) between directions that count as equal.
         const SAME: f64 = 1e-14;
         let [one, other] = self.segment;
         let distance = normal.dot(one) - self.frustum.support(normal);
-        // Rounding error of the coordinates, and of the direction times both lengths.
+        // Rounding error of the coordinates, and of the direction times the lengths.
         let lengths = (other - one).norm() + self.frustum.length + self.frustum.radii[0];
         let rounding =
             4.0 * ROUNDING * (one.amax().max(other.amax()).max(self.frustum.ends[0].amax()) + lengths);

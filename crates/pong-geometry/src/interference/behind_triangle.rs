@@ -19,7 +19,7 @@ use crate::Vec3;
 /// point. Within `slack` (m) of an edge or a face, `p` does not count as beyond the edge or behind the face.
 pub(super) fn has_behind(edges: &TriangleEdges<'_>, p: &Vec3, thickness: f64, slack: f64) -> bool {
     /// Largest cosine, between an edge and the direction from its vertex to `p`, at which the vertex counts
-    /// as nearest. Not zero: where only rounding decides between vertex and edge, both have `p`.
+    /// as nearest. Not zero: where only rounding decides between vertex and edge, `p` belongs to both.
     const ALONG_COSINE: f64 = 1e-12;
     let (set, view) = (edges.set, edges.view);
     let (square, place) = nearest_on_triangle(p, &view.corners);

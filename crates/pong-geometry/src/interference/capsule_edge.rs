@@ -52,8 +52,8 @@ pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference
     let distance = square.sqrt();
     let is_in_axis = distance <= rounding(&axis, &of_edge);
     if is_between && is_in_axis && axis.across(&of_edge).is_some() {
-        // The axis intersects the end of the edge up to rounding: the direction between them is noise, and
-        // the common perpendicular replaces it.
+        // The axis intersects the end of the edge up to rounding. The direction from edge to axis is noise,
+        // so the common perpendicular is used.
         return over(capsule, edge, &axis, &of_edge, at, if corner == edge.ends_b[0] { 0.0 } else { 1.0 });
     }
     if !(is_between && is_outside && distance < capsule.radius) {

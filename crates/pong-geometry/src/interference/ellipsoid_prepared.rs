@@ -73,7 +73,7 @@ impl PreparedEllipsoid {
     /// Lower bound of the overlap D over the normals between those of two faces. `heights` (m) are the
     /// heights of the centre above the two faces.
     ///
-    /// Extended to vectors n of any length, D is convex, so between the two normals it is no less than its
+    /// Extended to vectors n of any length, D is convex. So between the two normals, D is no less than its
     /// linearisations at the two normals. Along the arc a linearisation is a sine wave, concave where
     /// positive. So the larger of the two is least at an end of the arc or where they are equal. That point
     /// is found on the chord, and its value divided by its distance from the origin.

@@ -10,8 +10,8 @@
 //!   minimum.
 //!
 //! The remaining pairs go through [`EllipsoidOnTriangles`](super::ellipsoid_triangle::EllipsoidOnTriangles)
-//! one by one. This filter changes no result: it makes the same comparisons with a larger margin, and NaN
-//! never rejects.
+//! one by one. This filter changes no result: it makes the comparisons of that test with a larger margin, and
+//! a NaN never rejects a pair.
 
 use super::triangle_lanes::{
     EightVectors, NOTHING, TriangleLanes, bit_of_each, fill_in, fill_vectors_in, put,

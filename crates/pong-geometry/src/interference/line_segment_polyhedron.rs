@@ -42,8 +42,8 @@ pub enum AtWall {
     SharedEdge,
     /// Fallback for a tip that rounding puts beyond an internal face: counts if no piece contains the tip.
     StandsIn,
-    /// Exit through an active face where an internal face ends: the piece behind it may report this end as
-    /// well.
+    /// Exit through an active face where an internal face ends. The piece behind the internal face may report
+    /// this end as well.
     Exit,
     /// Fallback for an exit as in `Exit` that rounding puts on the internal face. It counts if no other piece
     /// reports this end, and none contains the segment beyond the exit.
