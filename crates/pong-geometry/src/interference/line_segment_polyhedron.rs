@@ -114,7 +114,7 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
     let exits = if polyhedron.planes().all_active {
         [AtWall::No; 2]
     } else {
-        exits_at_wall(segment, polyhedron, &mut inside.ends)
+        assign_exits(segment, polyhedron, &mut inside.ends)
     };
     let mut search = Search { segment, polyhedron, inside: inside.ends, exits, best: None };
     let moderate =
@@ -146,7 +146,7 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
 #[cold]
 fn along_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts {
     let Some(mut inside) = inside_of_wide_walls(segment, polyhedron) else { return [None, None] };
-    let exits = exits_at_wall(segment, polyhedron, &mut inside);
+    let exits = assign_exits(segment, polyhedron, &mut inside);
     let mut search = Search { segment, polyhedron, inside, exits, best: None };
     search.visit_all();
     let contacts = search.contacts();
@@ -162,7 +162,7 @@ fn along_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts 
 
 /// Assigns exits at the boundary edge of an internal face to the active face at that edge, even if rounding
 /// named the internal face. Returns the role of the neighbouring pieces at each end.
-fn exits_at_wall(segment: &LineSegment, polyhedron: &Polyhedron, inside: &mut [InsideEnd; 2]) -> [AtWall; 2] {
+fn assign_exits(segment: &LineSegment, polyhedron: &Polyhedron, inside: &mut [InsideEnd; 2]) -> [AtWall; 2] {
     [0, 1].map(|end: usize| match leaves_at_wall(segment, polyhedron, &inside[end], end) {
         None => AtWall::No,
         Some(by_active) => {
