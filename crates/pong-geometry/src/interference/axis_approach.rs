@@ -1,5 +1,5 @@
-//! Distance between the axis of a two-ended body and a round solid, or their minimum translation if they
-//! overlap (docs/theory.md, 2.8).
+//! Distance between a segment (a line segment, or the axis of a round part) and a round solid (capsule,
+//! cylinder or cone); if they overlap, the minimum translation that separates them (docs/theory.md, 2.8).
 
 use super::Feature;
 use super::circles::Circle;
@@ -7,32 +7,32 @@ use super::round_surface::{Nearest, ROUNDING, nearest_on_segment, of_capsule, of
 use crate::primitive::{Capsule, Frustum};
 use crate::{Vec3, any_perpendicular, divisor};
 
-/// Separation of a segment and a solid: nearest points, or minimum translation.
+/// Separation of a segment and a round solid: distance, or in overlap the minimum translation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Approach {
-    /// Distance, m; if negative, minus the length of the minimum translation that takes the segment out.
+    /// Distance from the solid's surface, m; in overlap, minus the length of the minimum translation.
     pub distance: f64,
     /// Unit vector from the solid to the segment; in overlap, the direction of the minimum translation.
     pub normal_b: Vec3,
-    /// Nearest, or in overlap deepest, point of the segment, m.
+    /// Point of the segment nearest to the solid; in overlap, its deepest point, m.
     pub place_b: Vec3,
-    /// Feature of the solid that is touched.
+    /// Feature of the solid that is nearest to the segment, or in overlap pushes it.
     pub feature: Feature,
 }
 
-/// Round convex solid, as B of a two-ended body.
+/// Round convex solid (B), tested against a segment (A) or the axis of a round part (A).
 pub(crate) trait RoundSolid {
-    /// Nearest point of the surface to an end of a segment.
+    /// Point of the solid's surface nearest to the segment's end `end`.
     fn nearest(&self, end: usize, segment: &[Vec3; 2]) -> Nearest;
 
     /// Separation of a segment and the solid.
     fn approach(&self, segment: &[Vec3; 2]) -> Approach;
 
-    /// Separation of a segment and an end of the solid: a ball or a disc. `None` if their distance certainly
-    /// exceeds `reach` (m).
+    /// Separation of a segment and the solid's end `end`: the ball of a capsule, or the disc of a cylinder or
+    /// cone. `None` if their distance certainly exceeds `reach` (m).
     fn approach_end(&self, end: usize, segment: &[Vec3; 2], reach: f64) -> Option<Approach>;
 
-    /// Vector from end 0 to end 1, of any length.
+    /// Vector from the solid's end 0 to its end 1, of any length.
     fn axis(&self) -> Vec3;
 }
 
@@ -71,8 +71,8 @@ impl RoundSolid for Capsule {
 }
 
 impl Capsule {
-    /// Nearest point of the surface to a point of a segment. If the axes cross, or one ends in the other, the
-    /// normal is perpendicular to both.
+    /// Point of the capsule's surface nearest to the point `place` of a segment. If `place` lies on the
+    /// capsule's axis, the normal is perpendicular to the axis and to the segment.
     fn nearest_of(&self, place: &Vec3, segment: &[Vec3; 2]) -> Nearest {
         let nearest = of_capsule(place, self);
         let crosses = self.is_in_axis(nearest.distance + self.radius, place);
@@ -80,13 +80,13 @@ impl Capsule {
         Nearest { normal_b: across.unwrap_or(nearest.normal_b), ..nearest }
     }
 
-    /// Returns `true` if a point at this distance from the axis is on it up to rounding: the direction from
-    /// the axis is then noise.
+    /// Returns `true` if a point at `distance` (m) from the axis lies on the axis up to rounding. The
+    /// direction from the axis to the point is then noise.
     fn is_in_axis(&self, distance: f64, place: &Vec3) -> bool {
         distance <= 64.0 * f64::EPSILON * place.amax().max(self.ends[0].amax()).max(self.ends[1].amax())
     }
 
-    /// Unit vector perpendicular to both axes, if they are not parallel. It rotates with the bodies.
+    /// Unit vector perpendicular to the segment and to the capsule's axis; `None` if these are parallel.
     fn across(&self, segment: &[Vec3; 2]) -> Option<Vec3> {
         let along = [segment[1] - segment[0], self.axis()];
         let across = along[0].cross(&along[1]);
@@ -112,7 +112,8 @@ fn nearest_to_segment(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Vec3 {
     best.1
 }
 
-/// End points of the common perpendicular of two segments, if both lie between the ends.
+/// End points of the common perpendicular of two segments, the first on `segment`. `None` if the segments are
+/// parallel, or if an end point lies outside its segment.
 fn common_perpendicular(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Option<(Vec3, Vec3)> {
     let (u, v, between) = (segment[1] - segment[0], other[1] - other[0], other[0] - segment[0]);
     let across = u.cross(&v);
@@ -132,7 +133,8 @@ impl RoundSolid for Frustum {
     }
 
     fn approach(&self, segment: &[Vec3; 2]) -> Approach {
-        /// Relative distance below which a segment counts as inside; for a disc no distance can be negative.
+        /// Largest distance at which a segment counts as overlapping, relative to the frustum's size. Not
+        /// zero, because distances from a disc (a frustum without length) are never negative.
         const INSIDE: f64 = 1e-13;
         let inside = INSIDE * self.length.max(self.radii[0]).max(self.radii[1]);
         let (place, nearest) = least_on_segment(segment, inside, |place| of_frustum(place, self));
@@ -140,11 +142,11 @@ impl RoundSolid for Frustum {
             let Nearest { distance, normal_b, feature } = nearest;
             return Approach { distance, normal_b, place_b: place, feature };
         }
-        WayOut::new(segment, self).shortest()
+        TranslationSearch::new(segment, self).shortest()
     }
 
     fn approach_end(&self, end: usize, segment: &[Vec3; 2], reach: f64) -> Option<Approach> {
-        /// Relative to the coordinates: far above rounding.
+        /// Margin relative to the coordinates, far above rounding.
         const SLACK: f64 = 1e-9;
         let (center, disc) = (self.ends[end], self.disc(end));
         let [one, other] = segment.map(|place| self.axis.dot(&(place - center)));
@@ -153,10 +155,10 @@ impl RoundSolid for Frustum {
             return None;
         }
         if one * other < 0.0 {
-            // A search along a segment that passes through a disc would converge slowly.
+            // Where the segment passes through the disc, the search in `approach` would converge slowly.
             let through = segment[0] + (segment[1] - segment[0]) * (one / divisor(one - other));
             if (through - center).norm() < disc.radii[0] - slack {
-                return Some(WayOut::new(segment, &disc).shortest());
+                return Some(TranslationSearch::new(segment, &disc).shortest());
             }
         }
         Some(disc.approach(segment))
@@ -167,10 +169,10 @@ impl RoundSolid for Frustum {
     }
 }
 
-/// Point of a segment nearest to a convex solid. The distance is convex along the segment, and its slope is
-/// the component of the normal along it. The search stops at any point no farther than `enough` (m).
+/// Point of a segment nearest to a convex solid. The distance along the segment is convex and has the
+/// derivative `normal_b·along`. The search stops at the first point whose distance is at most `enough` (m).
 fn least_on_segment(segment: &[Vec3; 2], enough: f64, nearest: impl Fn(&Vec3) -> Nearest) -> (Vec3, Nearest) {
-    /// Relative to the segment: slopes up to this count as zero.
+    /// Largest slope that counts as zero, relative to the length of the segment.
     const FLAT: f64 = 4.0 * f64::EPSILON;
     let along = segment[1] - segment[0];
     let flat = FLAT * along.norm();
@@ -194,8 +196,9 @@ fn least_on_segment(segment: &[Vec3; 2], enough: f64, nearest: impl Fn(&Vec3) ->
     }))
 }
 
-/// Zero between 0 and 1 of a function that changes from non-positive to positive, by the secant method with
-/// the Illinois rule: the value at an end that is kept for a second time is halved.
+/// Zero of a function between 0, where its value `first` is negative, and 1, where its value `last` is
+/// positive. Secant method with the Illinois rule: if the same end of the interval is kept twice in a row,
+/// the value at that end is halved.
 fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
     // Three steps per bit of precision.
     const STEPS: usize = 160;
@@ -206,7 +209,7 @@ fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
         if width <= 2.0 * f64::EPSILON {
             break;
         }
-        // Bisects where the function bends sharply and secants converge slowly.
+        // Bisects if two steps have not halved the interval, as where the function bends sharply.
         let crawls = width > 0.5 * std::mem::replace(&mut widths[step % 2], width);
         let secant = if crawls { 0.5 } else { -from.1 / divisor(to.1 - from.1) };
         let share = (from.0 + width * secant).clamp(from.0 + f64::EPSILON, to.0 - f64::EPSILON);
@@ -228,16 +231,17 @@ fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
 
 /// Search for the minimum translation of a segment out of a frustum.
 ///
-/// Along a unit vector n the translation is max over the ends p of h(n) − n·p, where h is the support
-/// function of the frustum. At the minimum either one end alone is last out, through the nearest lateral
-/// surface or end face, or both ends are, and then n is perpendicular to the segment.
-struct WayOut<'a> {
+/// Let h be the support function of the frustum and n a unit vector. Translated along n, the end p of the
+/// segment leaves the frustum after the length h(n) − n·p, and the segment after the larger length of its two
+/// ends. At the minimum over n, either one end of the segment leaves last, through an end face or the nearest
+/// generator of the lateral surface, or both leave together, and then n is perpendicular to the segment.
+struct TranslationSearch<'a> {
     segment: &'a [Vec3; 2],
     frustum: &'a Frustum,
     best: Approach,
 }
 
-impl<'a> WayOut<'a> {
+impl<'a> TranslationSearch<'a> {
     fn new(segment: &'a [Vec3; 2], frustum: &'a Frustum) -> Self {
         let best = Approach {
             distance: f64::NEG_INFINITY,
@@ -255,8 +259,7 @@ impl<'a> WayOut<'a> {
         for end in self.segment {
             let arm = end - self.frustum.ends[0];
             let across = arm - axis * axis.dot(&arm);
-            // Orthogonalised twice: for a short vector, the rounding error along the axis is relatively
-            // large.
+            // Orthogonalised twice: for a short vector, the rounding error is relatively large.
             let across = across - axis * axis.dot(&across);
             let aside = across.norm();
             // From a point on the axis all directions through the lateral surface are equivalent.
@@ -272,7 +275,7 @@ impl<'a> WayOut<'a> {
         self.best
     }
 
-    /// Considers the translation along a unit vector.
+    /// Keeps the translation along a unit vector if it is shorter than the best one.
     fn offer(&mut self, normal: &Vec3, feature: Feature) {
         let [one, other] = self.segment;
         let place = if normal.dot(&(other - one)) < 0.0 { other } else { one };
@@ -282,9 +285,9 @@ impl<'a> WayOut<'a> {
         }
     }
 
-    /// Considers translations perpendicular to the segment. Seen along the segment, the solid is the convex
-    /// hull of two ellipses and the segment is a point. The minimum leads out of one of the ellipses, or is
-    /// where both are equally far out.
+    /// Considers translations perpendicular to the segment. Seen along the segment, the frustum is the convex
+    /// hull of two ellipses (its end discs), and the segment is a point. The minimum translation leads out of
+    /// one ellipse, or is along a direction in which both ellipses extend equally far.
     fn offer_across(&mut self) {
         let along = (self.segment[1] - self.segment[0]).normalize();
         let first = self.first_across(&along);
@@ -295,18 +298,20 @@ impl<'a> WayOut<'a> {
                 }
             }
         }
-        for normal in self.jumps(&along).into_iter().flatten() {
+        for normal in self.lateral_normals(&along).into_iter().flatten() {
             self.offer_at(&along, &normal);
         }
     }
 
-    /// Direction perpendicular to the segment, within 90° of the short axis of an end's ellipse, that
-    /// minimises the translation out of the ellipse.
+    /// Direction that minimises the translation out of the ellipse of end `end`: perpendicular to the
+    /// segment, and within 90° of `toward`, a direction of the ellipse's short axis. `None` if there is no
+    /// minimum.
     ///
-    /// With t the tangent of the angle from the short axis, ρ and p the semi-axes and (x, y) the centre
-    /// relative to the segment, the derivative of the translation has the sign of
-    /// y − x·t + (ρ² − p²)·t/√(p² + ρ²t²). Without y it is odd in t and concave for t > 0, so Newton's method
-    /// started at 0 never passes the first point where it equals |y|.
+    /// Let t be the tangent of the angle from `toward`, p and ρ the short and the long semi-axis, and (x, y)
+    /// the ellipse's centre relative to the segment, x along `toward`. The derivative of the translation has
+    /// the sign of y + g(t) with g(t) = (ρ² − p²)·t/√(p² + ρ²t²) − x·t. g is odd, and concave for t > 0, so
+    /// Newton's method for g(t) = |y|, started at 0, never passes the first root. The minimum is there, on
+    /// the side opposite to y.
     fn least_of_end(&self, end: usize, along: &Vec3, toward: &Vec3) -> Option<Vec3> {
         const STEPS: usize = 60;
         /// Tangent of a right angle, within rounding.
@@ -343,8 +348,8 @@ impl<'a> WayOut<'a> {
         Some(unit(toward - sideways * (tangent * y.signum())))
     }
 
-    /// Direction perpendicular to the segment along the short axis of the ellipses: the reference for angles.
-    /// For circles, a direction that rotates with the two bodies, so that no result depends on their pose.
+    /// Reference direction for angles, perpendicular to the segment: the short axis of the ellipses. For
+    /// circles, the direction from frustum to segment, so that rotating both together changes no result.
     fn first_across(&self, along: &Vec3) -> Vec3 {
         let across = |v: &Vec3| v - along * along.dot(v);
         let arm = self.segment[0] - self.frustum.ends[0];
@@ -359,13 +364,14 @@ impl<'a> WayOut<'a> {
         any_perpendicular(along)
     }
 
-    /// Directions perpendicular to the segment in which both ends of the solid are equally far out.
-    fn jumps(&self, along: &Vec3) -> Option<[Vec3; 2]> {
+    /// Normals of the lateral surface perpendicular to the segment: along them both end circles extend
+    /// equally far.
+    fn lateral_normals(&self, along: &Vec3) -> Option<[Vec3; 2]> {
         let across = self.frustum.axis - along * along.dot(&self.frustum.axis);
-        // The lower bounds do not change any accepted result: a compiler may move the division and the root
-        // before the checks.
+        // Clamped because a compiler may divide, or take the root, before the checks.
         let length = across.norm().max(ROUNDING);
-        // For a solid parallel to the segment, both ends are equally far out in all directions or in none.
+        // With the axis parallel to the segment, the end circles extend equally far in all directions or in
+        // none.
         if length <= ROUNDING {
             return None;
         }
@@ -381,7 +387,7 @@ impl<'a> WayOut<'a> {
         Some([1.0, -1.0].map(|sign| unit(toward * share + sideways * sign)))
     }
 
-    /// Farthest point of each end circle along a unit vector.
+    /// Point of each end circle that is farthest along a unit vector.
     fn farthest(&self, normal: &Vec3) -> [Vec3; 2] {
         let across = normal - self.frustum.axis * self.frustum.axis.dot(normal);
         let aside = across.norm();
@@ -389,10 +395,11 @@ impl<'a> WayOut<'a> {
         [0, 1].map(|end| self.frustum.ends[end] + way * self.frustum.radii[end])
     }
 
-    /// Distance along the segment at which the minimum perpendicular translation touches the solid: at the
-    /// end of the solid that is farther out. If both are equally far, it is the point of the lateral surface
-    /// between them at which the translation has no tendency to rotate; for a segment along the lateral
-    /// surface or an end face, the middle of the overlap.
+    /// Distance along the segment, m, of the point that touches the frustum after the translation along
+    /// `normal`. The point lies at the end circle that extends farther along `normal`. If both circles extend
+    /// equally far, the point lies where the line of the lateral surface between them crosses the plane of
+    /// the segment and `normal`. For a segment along the lateral surface or an end face, it is the middle of
+    /// their overlap.
     fn travelled(&self, along: &Vec3, normal: &Vec3, rounding: f64) -> f64 {
         if let Some(middle) = self.middle_over_face(along, normal) {
             return middle;
@@ -413,8 +420,8 @@ impl<'a> WayOut<'a> {
         (at + (other - at) * share).clamp(0.0, length)
     }
 
-    /// Distance along the segment to the middle of its part over an end face, if the face is perpendicular to
-    /// `normal` and the segment parallel to it: then all points of the face are equally far out.
+    /// Distance along the segment, m, to the middle of its part over an end face. `None` unless `normal` is
+    /// perpendicular to that face: then all points of the face extend equally far.
     fn middle_over_face(&self, along: &Vec3, normal: &Vec3) -> Option<f64> {
         let [one, other] = self.segment;
         let end = usize::from(self.frustum.axis.dot(normal) > 0.0);
@@ -427,21 +434,22 @@ impl<'a> WayOut<'a> {
         Some(0.5 * (first + last))
     }
 
-    /// Considers a direction in which both ends of the segment are last out, as along the lateral surface,
-    /// though rounding may name one.
+    /// Considers the translation along `normal`, which is perpendicular to the segment, so that both ends of
+    /// the segment leave together. It replaces the best translation even if it is longer by a rounding error,
+    /// because the best one may name a single end as the point of contact.
     fn offer_at(&mut self, along: &Vec3, normal: &Vec3) {
-        /// One minus the cosine between directions that differ only by rounding, or by the square root of it.
+        /// One minus the cosine of the largest angle (1.4e-7 rad) between directions that count as equal.
         const SAME: f64 = 1e-14;
         let [one, other] = self.segment;
         let distance = normal.dot(one) - self.frustum.support(normal);
-        // Error of the coordinates, and of directions found by bisection multiplied by both lengths.
+        // Rounding error of the coordinates, and of the direction times the lengths.
         let lengths = (other - one).norm() + self.frustum.length + self.frustum.radii[0];
         let rounding =
             4.0 * ROUNDING * (one.amax().max(other.amax()).max(self.frustum.ends[0].amax()) + lengths);
         if distance > self.best.distance - rounding {
             let place = one + along * self.travelled(along, normal, rounding);
-            // Along the lateral surface the two directions in which both ends are equally far out coincide up
-            // to rounding.
+            // If the segment lies along the lateral surface, its `lateral_normals` equal the best direction
+            // up to rounding: the best direction is kept.
             let is_known =
                 normal.dot(&self.best.normal_b) > 1.0 - SAME && distance <= self.best.distance + rounding;
             let normal_b = if is_known { self.best.normal_b } else { *normal };
@@ -450,8 +458,7 @@ impl<'a> WayOut<'a> {
     }
 }
 
-/// Normalises a vector that is known to be non-zero. The clamp is for compilers that move the division before
-/// the check for zero.
+/// Normalises a non-zero vector. Clamped because a compiler may divide before the caller's check for zero.
 fn unit(v: Vec3) -> Vec3 {
     v / v.norm().max(f64::MIN_POSITIVE)
 }

@@ -1,16 +1,16 @@
-//! Point and sphere (A) – bore (B): contact with the wall nearest to the centre and, for a sphere too large
-//! for the hole, with the opposite wall as well (docs/theory.md, 2.8).
+//! Point and sphere (A) – bore (B): contact with the wall on the side of the centre and, for a sphere too
+//! large for the hole, with the opposite wall as well (docs/theory.md, 2.8).
 
 use super::round_surface::{Meridian, ROUNDING};
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Bore, Frustum, Sphere};
 
-/// Contacts of a sphere in a hole: on the side of its centre, and on the opposite side.
+/// Contacts of a sphere with the wall of a bore: on the side of its centre, and on the opposite side.
 pub type BallContacts = [Option<Interference>; 2];
 
-/// Tests a sphere, or with radius 0 a point, against a bore. The two contacts share one spring if they push
-/// the same way.
+/// Tests a sphere, or with radius 0 a point, against a bore. Two contacts share one spring (docs/theory.md,
+/// 2.2).
 pub fn ball_bore(ball: &Sphere, bore: &Bore) -> BallContacts {
     let at = Meridian::new(&ball.center, &bore.hole);
     let beside = Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b };
@@ -18,30 +18,30 @@ pub fn ball_bore(ball: &Sphere, bore: &Bore) -> BallContacts {
     [beside.touched(ball), opposite.touched(ball)]
 }
 
-/// Tests a sphere against the circle of one mouth, regardless of its position along the axis.
+/// Tests a sphere against the circular edge of one mouth, wherever along the axis the sphere's centre lies.
 pub(super) fn ball_mouth(ball: &Sphere, bore: &Bore, mouth: usize) -> Option<Interference> {
     let at = Meridian::new(&ball.center, &bore.hole);
     Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b }.touched_at_mouth(ball, mouth)
 }
 
-/// Returns `true` if a point (m) is behind the wall of a bore, between its ends: a shape that comes from
-/// there is not pushed into the hole.
+/// Returns `true` if a point (m) is behind the wall of a bore and its foot point lies between the ends of the
+/// wall. A shape that comes from such a point is not pushed into the hole.
 pub fn is_behind_wall(place: &Vec3, bore: &Bore) -> bool {
     let at = Meridian::new(place, &bore.hole);
     let beside = Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b };
     beside.height() > ROUNDING * place.amax().max(bore.hole.ends[0].amax()) && beside.past_end().is_none()
 }
 
-/// Centre in the coordinates of one side of the wall: the half plane through the axis on the centre's side,
-/// or the opposite one.
+/// Sphere's centre in the coordinates of a half plane bounded by the bore's axis: the half plane that
+/// contains the centre, or the opposite one.
 #[derive(Clone, Copy)]
 struct Beside<'a> {
     bore: &'a Bore,
-    /// Distance from end 0 along the axis, m.
+    /// Distance from end 0 of the bore along its axis, m.
     along: f64,
-    /// Distance from the axis towards this side, m.
+    /// Distance from the axis, m; negative if the centre is in the opposite half plane.
     aside: f64,
-    /// Unit vector from the axis to this side.
+    /// Unit vector from the axis into the half plane, perpendicular to the axis.
     away_b: Vec3,
 }
 
@@ -56,7 +56,7 @@ impl Beside<'_> {
         self.along * wall_along + (self.aside - self.hole().radii[0]) * wall_aside
     }
 
-    /// End beyond which the centre's foot point on the wall lies, if any.
+    /// End of the wall beyond which the centre's foot point lies, if any.
     fn past_end(&self) -> Option<usize> {
         let [first, last] = self.hole().radii;
         let (length, widening) = (self.hole().length, last - first);
@@ -81,8 +81,8 @@ impl Beside<'_> {
             .flatten()
     }
 
-    /// A convex mouth pushes within its normal cone. A sphere over the face around the hole is in contact
-    /// with that face instead.
+    /// Contact with the circular edge of a mouth. `None` if the mouth is not convex, or if the centre is
+    /// farther from the axis than the edge: there the sphere is in contact with the face around the hole.
     fn touched_at_mouth(&self, ball: &Sphere, end: usize) -> Option<Interference> {
         let radius = self.hole().radii[end];
         let mouth_along = if end == 0 { 0.0 } else { self.hole().length };

@@ -1,24 +1,25 @@
-//! Assignment of points behind a surface to its triangles, where the prisms behind the faces leave gaps
-//! (docs/theory.md, 2.2).
+//! Assignment of points behind a surface to its triangles, where the prisms that extend behind the faces
+//! leave gaps (docs/theory.md, 2.2).
 
 use super::nearest_on_triangle::{Place, nearest_on_triangle};
 use super::triangle_features::{EdgeClass, TriangleEdges, TriangleView, walk_fan_while};
 use crate::Vec3;
 
-/// Returns `true` if a point behind the triangle, and beyond some of its edges, still belongs to it. The
-/// nearest point of the triangle decides:
+/// Returns `true` if a point `p` that is behind the triangle and beyond some of its edges still belongs to
+/// it. The part of the triangle that is nearest to `p` decides:
 ///
-/// * on a silent edge: the point belongs to the triangle in the wedge behind and beyond both faces. It
-///   belongs to both of them, so that the direction of the push does not depend on which face is lower;
-/// * at a vertex: the point belongs to the triangle if it is behind all faces around the vertex, and the
-///   vertex is the nearest point of each.
+/// * a concave or flat edge, with `p` behind and beyond both of its faces: `p` belongs to both, so that the
+///   direction of the push does not depend on the order of the triangles;
+/// * such an edge, with `p` not behind the face across it: `has_on_seam` decides, as for a point in front;
+/// * a vertex: `p` belongs to the triangle if it is behind all faces around the vertex, and the vertex is the
+///   nearest point of each of these faces.
 ///
-/// In both cases it must be within `thickness` (m) of the nearest point. The triangulation of a face does not
-/// matter: the triangle that holds the nearest point also has the point. Within `slack` (m) of an edge or a
-/// face the point does not count as beyond or behind it.
+/// In the first and the last case, `p` must also be within `thickness` (m) of the nearest point. How a flat
+/// face is cut into triangles does not matter, because `p` belongs to the triangle that contains the nearest
+/// point. Within `slack` (m) of an edge or a face, `p` does not count as beyond the edge or behind the face.
 pub(super) fn has_behind(edges: &TriangleEdges<'_>, p: &Vec3, thickness: f64, slack: f64) -> bool {
-    /// Cosine below which only rounding decides between a vertex and an edge that ends in it: both then have
-    /// the point.
+    /// Largest cosine, between an edge and the direction from its vertex to `p`, at which the vertex counts
+    /// as nearest. Not zero: where only rounding decides between vertex and edge, `p` belongs to both.
     const ALONG_COSINE: f64 = 1e-12;
     let (set, view) = (edges.set, edges.view);
     let (square, place) = nearest_on_triangle(p, &view.corners);

@@ -1,35 +1,35 @@
-//! Capsule (A) – convex edge of a polyhedron or triangle surface (B), crossed between the capsule's ends
-//! (docs/theory.md, 2.8). Contacts of the end spheres are not tested here.
+//! Capsule (A) – convex or free edge of a polyhedron or triangle surface (B), crossed between the capsule's
+//! ends (docs/theory.md, 2.8). Contacts of the end spheres are not tested here.
 //!
-//! Degenerate case: an axis parallel to the edge has no crossing, because its end spheres are as near as the
-//! part between them.
+//! Degenerate case: an axis parallel to the edge does not cross it, because an end of the axis or of the edge
+//! is among the nearest points.
 
 use super::round_surface::ROUNDING;
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::Capsule;
 
-/// Convex edge, as the capsule test needs it.
+/// Convex or free edge, as the capsule test needs it.
 #[derive(Clone, Copy, Debug)]
 pub struct ConvexEdge {
     /// End points, m.
     pub ends_b: [Vec3; 2],
     /// Unit normals of the two faces at the edge; for a free edge, its face's normal twice.
     pub normals_b: [Vec3; 2],
-    /// Unit vectors perpendicular to the edge, in the plane of each face, pointing out of it; `None` if the
-    /// edge pushes only shapes in front of it.
+    /// For each of the two faces, the unit vector in the face's plane that is perpendicular to the edge and
+    /// points out of the face. `None` if the edge never pushes an axis that has passed it.
     pub outwards_b: Option<[Vec3; 2]>,
-    /// For a free edge, the unit vector perpendicular to it, in the plane of its face, pointing out of it. An
-    /// axis perpendicular to the face is pushed that way, because it is as much in front of the face as
-    /// behind it.
+    /// For a free edge, the unit vector in the face's plane that is perpendicular to the edge and points out
+    /// of the face. It gives the sign of a contact normal that lies in the face's plane, as for an axis
+    /// perpendicular to the face.
     pub free_outward_b: Option<Vec3>,
-    /// Feature of B that the edge is.
+    /// The edge as a feature of B.
     pub feature: Feature,
 }
 
-/// Tests the edge against the capsule where the axis is nearest to it, if that point is between the ends of
-/// the axis. The normal points from the edge to the axis. If the axis has sunk below the edge, the depth
-/// exceeds the radius; such a contact is returned as long as the direction of separation is between the
+/// Tests a capsule against an edge. `None` if the point of the axis nearest to the edge is an end of the
+/// axis. The normal points from the edge to the axis. If the axis has sunk below the edge, the normal points
+/// out of the solid and the depth exceeds the radius; there is a contact only if the normal lies between the
 /// normals of the two faces.
 pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference> {
     let axis = Segment::new(&capsule.ends);
@@ -37,8 +37,8 @@ pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference
     if let Some((at, on_edge)) = axis.crossing(&of_edge) {
         return over(capsule, edge, &axis, &of_edge, at, on_edge);
     }
-    // Otherwise the nearest point is an end of the axis or of the edge. Only an end of the edge is a contact
-    // of this test.
+    // Without a crossing, an end of the axis or of the edge is nearest. The ends of the axis are not tested
+    // here.
     let tips =
         capsule.ends.map(|tip| (tip - of_edge.at(of_edge.nearest(&tip).clamp(0.0, 1.0))).norm_squared());
     let [one, other] = edge.ends_b.map(|corner| {
@@ -52,7 +52,8 @@ pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference
     let distance = square.sqrt();
     let is_in_axis = distance <= rounding(&axis, &of_edge);
     if is_between && is_in_axis && axis.across(&of_edge).is_some() {
-        // The direction from the edge to the axis is noise, so the end counts as a point of the edge.
+        // The axis intersects the end of the edge up to rounding. The direction from edge to axis is noise,
+        // so the common perpendicular is used.
         return over(capsule, edge, &axis, &of_edge, at, if corner == edge.ends_b[0] { 0.0 } else { 1.0 });
     }
     if !(is_between && is_outside && distance < capsule.radius) {
@@ -61,7 +62,7 @@ pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference
     Some(touched(capsule, edge, (arm / distance).normalize(), distance, &axis.at(at)))
 }
 
-/// Contact of a crossing whose common perpendicular ends between the ends of both segments.
+/// Contact at a crossing: parameters `at` of the axis and `on_edge` of the edge.
 fn over(
     capsule: &Capsule,
     edge: &ConvexEdge,
@@ -74,11 +75,10 @@ fn over(
     let outside = outside(edge, &across);
     let normal = if outside < 0.0 { -across } else { across };
     let height = normal.dot(&(axis.at(at) - of_edge.at(on_edge)));
-    // The tolerance keeps a normal that coincides with a face normal: for an axis along a face rounding puts
-    // it on either side.
+    // Tolerance for an axis along a face, where rounding puts the normal on either side of the face's normal.
     let is_between = |outward: &Vec3| outward.dot(&normal) > -ROUNDING;
     let leaves_there = || edge.outwards_b.is_some_and(|outwards| outwards.iter().all(is_between));
-    // Tolerance for an axis that lies in the edge: it has not passed it.
+    // Without `outwards_b`, an axis that has passed the edge by more than rounding is not pushed.
     let lowest = if edge.outwards_b.is_some() { 0.0 } else { -rounding(axis, of_edge) };
     if height >= capsule.radius || (height <= lowest && !leaves_there()) {
         return None;
@@ -86,21 +86,21 @@ fn over(
     Some(touched(capsule, edge, normal, height, &axis.at(at)))
 }
 
-/// Signed amount by which a unit vector perpendicular to the edge points out of the solid: of two opposite
-/// ones the positive one pushes.
+/// Outward component of a unit vector perpendicular to the edge. Of two opposite vectors, the one with the
+/// positive component is the contact normal.
 fn outside(edge: &ConvexEdge, across: &Vec3) -> f64 {
     let in_front = edge.normals_b.iter().sum::<Vec3>().dot(across);
-    // For an axis perpendicular to a face only rounding decides what is in front.
+    // For an axis perpendicular to the face of a free edge, only rounding decides the sign of `in_front`.
     edge.free_outward_b.filter(|_| in_front.abs() <= ROUNDING).map_or(in_front, |outward| outward.dot(across))
 }
 
-/// Rounding error of a distance between the two, m.
+/// Rounding error of a distance between the axis and the edge, m.
 fn rounding(axis: &Segment, of_edge: &Segment) -> f64 {
     let reach = |segment: &Segment| segment.start.amax() + segment.along.amax();
     ROUNDING * reach(axis).max(reach(of_edge))
 }
 
-/// Contact whose edge lies `height` below `place`, a point of the axis, measured along the normal.
+/// Contact with an edge that lies `height` (m) below the point `place` of the axis, along the normal.
 fn touched(capsule: &Capsule, edge: &ConvexEdge, normal: Vec3, height: f64, place: &Vec3) -> Interference {
     Interference {
         depth: capsule.radius - height,
@@ -124,19 +124,20 @@ impl Segment {
         self.start + self.along * share
     }
 
-    /// Parameter of a point's projection onto the line.
+    /// Parameter of a point's projection onto the segment's line.
     fn nearest(&self, place: &Vec3) -> f64 {
         (place - self.start).dot(&self.along) / self.along.norm_squared()
     }
 
-    /// Vector perpendicular to both, of any length, if they are not parallel.
+    /// Vector perpendicular to both segments, of any length; `None` if they are parallel.
     fn across(&self, other: &Self) -> Option<Vec3> {
         let across = self.along.cross(&other.along);
         let least = f64::EPSILON * f64::EPSILON * self.along.norm_squared() * other.along.norm_squared();
         (across.norm_squared() > least).then_some(across)
     }
 
-    /// Parameters of the end points of the common perpendicular, if both lie between the ends.
+    /// Parameters of the end points of the common perpendicular, on `self` and on `other`. `None` if the
+    /// segments are parallel, or if an end point is not strictly between the ends of its segment.
     fn crossing(&self, other: &Self) -> Option<(f64, f64)> {
         let (u, v, between) = (self.along, other.along, other.start - self.start);
         let across = self.across(other)?;

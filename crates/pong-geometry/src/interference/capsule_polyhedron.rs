@@ -1,10 +1,10 @@
-//! Capsule (A) – a piece of a body (B): convex edges that the axis crosses between the capsule's ends, and
-//! that push it (docs/theory.md, 2.8). Contacts of the end spheres belong to the sphere test.
+//! Capsule (A) – a piece of a body (B): contacts with convex edges that the axis crosses between the
+//! capsule's ends (docs/theory.md, 2.8). Contacts of the end spheres are tested as spheres.
 //!
-//! An edge below the axis pushes if its distance is less than the radius. An edge that the axis has sunk
-//! below pushes if it gives the minimum translation: no face and no other edge is nearer. So edges farther
-//! from the axis than the radius, and than the nearest face, cannot matter. They are rejected eight at a
-//! time; the rest are tested one by one.
+//! An edge below the axis pushes if its distance from the axis is less than the radius. An edge that the axis
+//! has sunk below pushes if it gives the minimum translation: every face and every other edge is a longer way
+//! out. So an edge cannot push if its distance from the axis exceeds both the radius and the depth of the
+//! axis below the nearest face. Such edges are rejected eight at a time; the others are tested one by one.
 
 use super::capsule_edge::{ConvexEdge, capsule_edge};
 use super::round_surface::ROUNDING;
@@ -18,19 +18,20 @@ use crate::simd::{LANES, LaneBits, Numbers, Simd, Splat, Vectors, run_at_level};
 pub struct CapsuleAtPiece<'a> {
     capsule: &'a Capsule,
     polyhedron: &'a Polyhedron,
-    /// Height of the lower end of the axis above the face that it is highest above, m; negative below it.
+    /// Largest height of the axis above a face's plane, m, over all faces. The height of the axis is that of
+    /// its lower end above this plane, negative below the plane.
     top: f64,
 }
 
 impl<'a> CapsuleAtPiece<'a> {
-    /// Returns `None` if a face separates the capsule from the piece, or it only touches a face.
+    /// Returns `None` if a face separates the capsule from the piece, or if the capsule only touches a face.
     #[inline]
     pub fn new(capsule: &'a Capsule, polyhedron: &'a Polyhedron) -> Option<Self> {
         let top = run_at_level!(highest_of_lower_end(capsule: Capsule, polyhedron: Polyhedron) -> f64);
         (top < capsule.radius).then_some(Self { capsule, polyhedron, top })
     }
 
-    /// Passes the contact of each edge that pushes to `visit`, in edge order.
+    /// Calls `visit` with the contact of each edge that pushes, in edge order.
     pub fn each_crossing(&self, mut visit: impl FnMut(&Interference)) {
         let mut shortest = None;
         self.each_near(&mut |crossing| {
@@ -46,8 +47,7 @@ impl<'a> CapsuleAtPiece<'a> {
         ROUNDING * self.capsule.ends[0].amax().max(self.capsule.ends[1].amax())
     }
 
-    /// Length of the minimum translation that takes the axis out of the piece, past a face or over an edge,
-    /// m.
+    /// Length of the minimum translation of the capsule out of the piece, past a face or over an edge, m.
     #[cold]
     fn shortest_way_out(&self) -> f64 {
         let mut shortest = self.capsule.radius - self.top;
@@ -59,8 +59,9 @@ impl<'a> CapsuleAtPiece<'a> {
         shortest
     }
 
-    /// Returns `true` if an axis that has sunk below an edge is in the piece there and no translation is
-    /// shorter. The tolerance covers an axis along a face: that face and its edges are equally near.
+    /// Returns `true` if an edge that the axis has sunk below pushes: the point of the crossing is inside the
+    /// piece, and the depth is at most `shortest` (m). The tolerance covers an axis along a face: the face
+    /// and its edges are then equally near.
     fn leaves_by(&self, crossing: &Interference, shortest: f64) -> bool {
         let place = crossing.deepest_b + crossing.normal_b * self.capsule.radius;
         let rounding = self.rounding();
@@ -68,7 +69,7 @@ impl<'a> CapsuleAtPiece<'a> {
             && self.polyhedron.faces.iter().all(|face| face.height(&place) <= rounding)
     }
 
-    /// Passes the contacts of all edges that are near enough to matter to `visit`, in edge order.
+    /// Calls `visit` with the contacts of all edges that are near enough to push, in edge order.
     fn each_near(&self, visit: &mut dyn FnMut(&Interference)) {
         for first in (0..self.polyhedron.edges.len()).step_by(SomeEdges::COUNT) {
             SomeEdges::near(self, first).each(|index| {
@@ -79,7 +80,7 @@ impl<'a> CapsuleAtPiece<'a> {
         }
     }
 
-    /// Contact of an edge; `None` if it does not push or the index is out of range.
+    /// Contact with an edge; `None` if there is none or the index is out of range.
     fn crossing(&self, index: usize) -> Option<Interference> {
         let edge = self.polyhedron.edges.get(index)?;
         let push = edge.push.as_ref()?;
@@ -94,7 +95,7 @@ impl<'a> CapsuleAtPiece<'a> {
     }
 }
 
-/// Height of the lower end of the axis above the face that it is highest above, m.
+/// Computes `CapsuleAtPiece::top`, m.
 #[inline(always)]
 fn highest_of_lower_end<S: Simd>(simd: S, capsule: &Capsule, polyhedron: &Polyhedron) -> f64 {
     let ends = [Splat::new(simd, &capsule.ends[0]), Splat::new(simd, &capsule.ends[1])];
@@ -118,7 +119,8 @@ impl SomeEdges {
     const WORDS: usize = 8;
     const COUNT: usize = Self::WORDS * u64::BITS as usize;
 
-    /// Selects the edges from `first` on that are near enough to matter, and perhaps some others.
+    /// Selects, among `COUNT` edges from `first` on, all that are near enough to push, and perhaps some
+    /// others.
     fn near(at: &CapsuleAtPiece<'_>, first: usize) -> Self {
         let (query, polyhedron, first) = (&Query::new(at), at.polyhedron, &first);
         run_at_level!(near_in(query: Query, polyhedron: Polyhedron, first: usize) -> SomeEdges)
@@ -143,13 +145,13 @@ impl SomeEdges {
     }
 }
 
-/// Query for near edges.
+/// Distances for the selection of near edges.
 struct Query {
     /// Ends of the axis, m.
     ends: [Vec3; 2],
-    /// Edges farther than this from the axis cannot matter, m.
+    /// Largest distance from the axis at which an edge can push, m.
     reach: f64,
-    /// Ends of edges farther than this from the axis cannot matter, m.
+    /// Largest distance from the axis at which an end of an edge can push, m.
     beside: f64,
 }
 
@@ -166,7 +168,7 @@ impl Query {
     }
 }
 
-/// Selects the near edges, among those in boxes that overlap the box around the axis widened by the reach.
+/// Kernel of `SomeEdges::near`: tests the edges in boxes that overlap the axis's box, widened by `reach`.
 #[inline(always)]
 fn near_in<S: Simd>(simd: S, query: &Query, polyhedron: &Polyhedron, first: &usize) -> SomeEdges {
     let mut near = SomeEdges { first: *first, bits: [0; SomeEdges::WORDS] };
@@ -178,7 +180,8 @@ fn near_in<S: Simd>(simd: S, query: &Query, polyhedron: &Polyhedron, first: &usi
     for (boxes, blocks) in edges.boxes.iter().zip(edges.blocks.chunks(LANES)) {
         let mut met = boxes.meet(simd, &around);
         while met != 0 {
-            // Unused lanes repeat the last box; unused lanes of a block mark their edge twice.
+            // Unused lanes repeat the last box (no block is left for it) or the last edge (it is marked
+            // twice).
             let Some(block) = blocks.get(met.trailing_zeros() as usize) else { break };
             let mut marked = axis.near(block);
             while marked != 0 {
@@ -198,7 +201,7 @@ struct Axis<S: Simd> {
     along: Vectors<S>,
     /// Squared length of the axis, m².
     length_square: Numbers<S>,
-    /// Squared distances of the query, m².
+    /// Squares of the distances in `Query`, m².
     reach_square: Numbers<S>,
     beside_square: Numbers<S>,
 }
@@ -218,7 +221,7 @@ impl<S: Simd> Axis<S> {
         }
     }
 
-    /// Returns the edges of a block that are near enough to matter.
+    /// Returns the edges of a block that are near enough to push.
     #[inline(always)]
     fn near(&self, block: &EdgeBlock) -> LaneBits {
         self.crosses(block) | self.passes_beside(&block.first) | self.passes_beside(&block.second)
@@ -230,13 +233,13 @@ impl<S: Simd> Axis<S> {
         self.simd.and(share.all(0.0).below(share), share.below(share.all(1.0)))
     }
 
-    /// Returns the edges that the axis crosses between the ends of both, computed as in [`capsule_edge`]: for
-    /// nearly parallel edges the crossing is noise, and both must find the same.
+    /// Returns the edges that the axis crosses within `Query::reach`, between the ends of axis and edge.
+    /// Computed as in [`capsule_edge`], so that both functions find the same crossings even where these are
+    /// noise, for nearly parallel edges.
     #[inline(always)]
     fn crosses(&self, block: &EdgeBlock) -> LaneBits {
-        /// Margins far above rounding, relative to squares: to the squared distance between the two points
-        /// (its component along the edge included) and to the squared reach. The factor covers the sum of the
-        /// two.
+        /// Margins far above rounding: `NOISE` relative to the squared distance between the nearest points,
+        /// `WIDER` a factor on the squared reach that also covers the mixed term of (reach + noise)².
         const NOISE: f64 = 1e-18;
         const WIDER: f64 = 1.0 + 1e-6;
         let simd = self.simd;
@@ -250,13 +253,13 @@ impl<S: Simd> Axis<S> {
         let height = across.dot(apart);
         let reach = self.reach_square * square.all(WIDER) + apart.norm_squared() * square.all(NOISE);
         let inside = simd.and(self.is_inside(at), self.is_inside(on_edge));
-        // Vectors so short that the quotients are invalid: the edge counts as near.
+        // Cross products so short that the quotients are invalid: the edge counts as near.
         let least = square.all(f64::MIN_POSITIVE);
-        let untold = simd.and(square.all(0.0).below(square), square.below(least));
-        simd.bits(simd.and(inside, (reach * square).at_least(height * height))) | simd.bits(untold)
+        let is_too_short = simd.and(square.all(0.0).below(square), square.below(least));
+        simd.bits(simd.and(inside, (reach * square).at_least(height * height))) | simd.bits(is_too_short)
     }
 
-    /// Returns the points that the axis passes near enough between its ends.
+    /// Returns the points within `Query::beside` of the axis that project between the ends of the axis.
     #[inline(always)]
     fn passes_beside(&self, places: &[[f64; LANES]; 3]) -> LaneBits {
         let simd = self.simd;

@@ -1,5 +1,5 @@
-//! Circles against each other: directions perpendicular to an axis in which one extends farthest beyond the
-//! other (docs/theory.md, 2.8).
+//! Directions perpendicular to an axis in which the rim of a rod (segment, capsule or pin) extends farthest
+//! beyond the wall of a bore, or the side of the rod beyond the circle of a mouth (docs/theory.md, 2.8).
 
 use super::{Feature, Interference};
 use crate::Vec3;
@@ -17,19 +17,20 @@ pub(super) struct Circle {
 }
 
 impl Circle {
-    /// Point farthest along a unit vector. Along the axis all points are equally far, and the centre is
-    /// returned.
+    /// Point of the disc that is farthest along a unit vector: the centre if the vector is parallel to the
+    /// disc's axis, where all points are equally far.
     pub fn farthest(&self, direction: &Vec3) -> Vec3 {
-        /// Perpendicular components up to this are rounding: they have no direction and may even lie along
-        /// the axis.
+        /// Length up to which the component of `direction` perpendicular to the axis is rounding.
         const LEAST: f64 = 1e-12;
         self.rim_toward(direction, LEAST).unwrap_or(self.center_b)
     }
 
-    /// Ends of the chord on a line along a unit vector parallel to the plane, which passes the centre at
-    /// `beside`, if all points of the disc are equally far along `direction`; else `None`.
+    /// Ends of the chord that the disc cuts from a line parallel to its plane. `line` is the unit vector
+    /// along the line, `beside` the vector from the disc's centre to the nearest point of the line. `None`
+    /// unless all points of the disc are equally far along `direction`.
     pub fn chord(&self, direction: &Vec3, line: &Vec3, beside: &Vec3) -> Option<[Vec3; 2]> {
-        /// Larger than the tolerance at which a search for the axis direction stops.
+        /// Length up to which the component of `direction` perpendicular to the axis counts as zero: more
+        /// than the tolerance of the searches that find `direction`.
         const LEAST: f64 = 1e-10;
         if self.rim_toward(direction, LEAST).is_some() {
             return None;
@@ -42,37 +43,38 @@ impl Circle {
     fn rim_toward(&self, direction: &Vec3, least: f64) -> Option<Vec3> {
         let across = direction - self.axis_b * self.axis_b.dot(direction);
         let length = across.norm();
-        // A compiler may divide before it compares.
+        // Clamped because a compiler may divide before it compares.
         (length > least).then(|| self.center_b + across * (self.radius / length.max(least)))
     }
 }
 
-/// Extent of a shape along a direction, m, and its derivative with the rotation of the direction.
+/// Distance by which a shape extends beyond another in a direction, m, and its derivative with the angle,
+/// m/rad.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     pub depth: f64,
     pub slope: f64,
 }
 
-/// Plane of directions perpendicular to a unit vector.
+/// Search over the directions perpendicular to the unit vector `about_b`.
 pub(super) struct Across {
     pub about_b: Vec3,
-    /// Direction in the plane from which the search starts. It rotates with the bodies, so that no result
-    /// depends on their pose.
+    /// Direction from which the search starts. It is fixed to the bodies, so that rotating them together
+    /// changes no result.
     pub first_b: Vec3,
 }
 
 const C: f64 = 0.923_879_532_511_286_8;
 const D: f64 = std::f64::consts::FRAC_1_SQRT_2;
 const E: f64 = 0.382_683_432_365_089_8;
-/// First quarter of sixteen directions in a plane, every 22.5°.
+/// Cosine and sine of the first four of sixteen directions in a plane, every 22.5°.
 const QUARTER: [(f64, f64); 4] = [(1.0, 0.0), (C, E), (D, D), (E, C)];
 const COUNT: usize = 16;
 
 impl Across {
-    /// Starts at the first of the preferred vectors that has a perpendicular component.
+    /// Starts the search at the first of the preferred vectors that is not parallel to `about`.
     pub fn new(about: &Vec3, preferred: &[Vec3]) -> Self {
-        /// Relative size below which a component is rounding.
+        /// Length of a perpendicular component, relative to the whole vector, up to which it is rounding.
         const LEAST: f64 = 1e-9;
         let parts = preferred.iter().map(|v| (v - about * about.dot(v), v.norm()));
         let part = parts.into_iter().find(|(part, whole)| part.norm() > LEAST * whole);
@@ -93,7 +95,7 @@ impl Across {
         self.first_b * x + second * y
     }
 
-    /// Directions of local maxima of the reach, the greatest first; at most two, which is enough for circles.
+    /// Directions of local maxima of the depth, the deepest first: at most two, which is enough for circles.
     pub fn greatest(&self, reach: impl Fn(&Vec3) -> Reach) -> [Option<Vec3>; 2] {
         let directions: [Vec3; COUNT] = std::array::from_fn(|index| self.direction(index));
         let depths = directions.map(|direction| reach(&direction).depth);
@@ -117,7 +119,8 @@ impl Across {
         [ways[0].or(Some(self.first_b)), ways[1]]
     }
 
-    /// Direction of the line along which both sides together are compressed most.
+    /// Direction that maximises λ·p + λ′·p′ (docs/theory.md, 2.8), with the depths p in this direction and p′
+    /// in the opposite one. `cosine`: of the angle between the normals of the two contacts.
     pub fn most_pinched(&self, cosine: f64, reach: impl Fn(&Vec3) -> Reach) -> Vec3 {
         let pinched = |direction: &Vec3| {
             let (one, two) = (reach(direction), reach(&-direction));
@@ -133,8 +136,8 @@ impl Across {
     }
 }
 
-/// Shares λ (m) of two depths that act on one spring (docs/theory.md, 2.2), for the cosine between their
-/// normals.
+/// Shares λ (m) of two contacts that act on one spring (docs/theory.md, 2.2), for their depths (m) and the
+/// cosine of the angle between their normals.
 pub(super) fn shares(depths: [f64; 2], cosine: f64) -> [f64; 2] {
     let [one, two] = depths.map(|depth| depth.max(0.0));
     let g = cosine.max(0.0);
@@ -148,9 +151,9 @@ pub(super) fn shares(depths: [f64; 2], cosine: f64) -> [f64; 2] {
     }
 }
 
-/// Direction of zero slope between three consecutive directions.
+/// Direction of zero slope near `middle`, where the depth is no less than at `before` and at `after`.
 fn turned(reach: &impl Fn(&Vec3) -> Reach, [before, middle, after]: [Vec3; 3]) -> Vec3 {
-    /// Two steps halve the remaining interval.
+    /// Enough for double precision: two steps at least halve the remaining interval.
     const STEPS: usize = 110;
     let at_middle = reach(&middle).slope;
     let (mut low, mut high) = if at_middle > 0.0 {
@@ -165,8 +168,7 @@ fn turned(reach: &impl Fn(&Vec3) -> Reach, [before, middle, after]: [Vec3; 3]) -
         if !(rises > 0.0 && falls < 0.0) || is_wide <= f64::EPSILON * f64::EPSILON {
             break;
         }
-        // A secant that stays on one side converges slowly, as at a step of the slope: then the next step
-        // bisects.
+        // Bisects if the last secant has not halved the interval, as where the slope has a step.
         let crawls = is_wide > 0.25 * was_wide;
         was_wide = if crawls { f64::INFINITY } else { is_wide };
         let share = if crawls { 0.5 } else { (rises / (rises - falls)).clamp(1e-3, 1.0 - 1e-3) };
@@ -177,7 +179,7 @@ fn turned(reach: &impl Fn(&Vec3) -> Reach, [before, middle, after]: [Vec3; 3]) -
     if low.1.abs() <= high.1.abs() { low.0 } else { high.0 }
 }
 
-/// Wall of a bore, as a surface that shapes extend beyond.
+/// Wall of a bore, continued past its mouths.
 pub(super) struct Wall<'a>(pub &'a Bore);
 
 impl Wall<'_> {
@@ -185,25 +187,25 @@ impl Wall<'_> {
         &self.0.hole
     }
 
-    /// Outward normal on the side given by a unit vector perpendicular to the axis.
+    /// Unit normal of the wall, out of the hole. `side`: unit vector perpendicular to the axis.
     pub fn outward(&self, side: &Vec3) -> Vec3 {
         let [along, aside] = self.hole().wall;
         self.hole().axis * along + side * aside
     }
 
-    /// Cosine between the normals of opposite sides.
+    /// Cosine of the angle between the normals of opposite sides.
     pub fn cosine_opposite(&self) -> f64 {
         let [along, aside] = self.hole().wall;
         (along - aside) * (along + aside)
     }
 
-    /// Height of a point beyond the straight wall line on one side, m.
+    /// Distance of a point behind the wall on one side, m; negative in the hole.
     pub fn height(&self, side: &Vec3, place: &Vec3) -> f64 {
         let [_, aside] = self.hole().wall;
         self.outward(side).dot(&(place - self.hole().ends[0])) - self.hole().radii[0] * aside
     }
 
-    /// Distance along the wall line from an end to a point's projection, m, positive inside.
+    /// Distance of a point's projection onto the wall from end `end`, m; positive towards the other end.
     pub fn inside(&self, side: &Vec3, place: &Vec3, end: usize) -> f64 {
         let [along, aside] = self.hole().wall;
         // Unit vector along the wall from end 0 to end 1.
@@ -213,7 +215,7 @@ impl Wall<'_> {
         if end == 0 { travelled } else { -travelled }
     }
 
-    /// Reach of a circle beyond the wall.
+    /// Distance by which a circle extends behind the wall on one side, with its derivative.
     pub fn reach(&self, circle: &Circle, side: &Vec3) -> Reach {
         let [_, aside] = self.hole().wall;
         let place = circle.farthest(&self.outward(side));
@@ -221,7 +223,8 @@ impl Wall<'_> {
         Reach { depth: self.height(side, &place), slope: turning.dot(&(place - self.hole().ends[0])) }
     }
 
-    /// Contact of a point beyond the wall, with a skin of thickness `skin` (m) around it.
+    /// Contact of a point that has a skin of thickness `skin` (m). `None` if the skin does not reach the
+    /// wall, or if the point is behind the wall by at least the bore's thickness.
     pub fn pushed(&self, side: &Vec3, place: &Vec3, skin: f64) -> Option<Interference> {
         let height = self.height(side, place);
         let outward = self.outward(side).normalize();

@@ -2,40 +2,46 @@
 //!
 //! # The equation
 //!
-//! In the principal frame let `aᵢ` be the semi-axes, `y` the given point and `x = aᵢ²·yᵢ/(aᵢ² + t)` the foot of a
-//! normal through `y`. That `x` lies on the surface is the secular equation
+//! In the principal frame let `aᵢ` be the semi-axes, `A = diag(aᵢ)` and `y` the given point. The foot `x` of
+//! a normal through `y` has the components `xᵢ = aᵢ²·yᵢ/(aᵢ² + t)` with a parameter `t`. It lies on the
+//! surface if the secular equation holds:
 //!
 //! ```text
 //! f(t) = Σ qᵢ² = 1,    qᵢ = xᵢ/aᵢ = aᵢ·yᵢ/(aᵢ² + t).
 //! ```
 //!
-//! `x − y = −t·A⁻²·x`, so `y` lies inside along the normal for `t < 0`. A root is a local minimum of the distance if
-//! `H = I + t·A⁻²` is positive semidefinite on the tangent plane at `x`, whose normal is `g = A⁻²·x`.
+//! From `x − y = −t·A⁻²·x`, `y` lies on the inner side of the surface at `x` if `t < 0`. A root is a local
+//! minimum of the distance if `H = I + t·A⁻²` is positive semidefinite on the tangent plane at `x`, whose
+//! normal is `g = A⁻²·x`.
 //!
-//! * `t > −a_min²`: `H` is positive definite. `f` falls from ∞ to 0, there is one root: the nearest point.
-//! * `−a_mid² < t < −a_min²`: `H` has one negative eigenvalue. The determinant of `H` on the tangent plane has the
-//!   sign of `gᵀ·adj(H)·g = −½·det(H)·f'(t)`, that is of `f'`; the other eigenvalue is positive by interlacing. `f` is
-//!   convex here, so of its at most two roots the larger, where `f' ≥ 0`, is a local minimum, and the only one.
-//! * `t < −a_mid²`: two negative eigenvalues meet every tangent plane in three dimensions: no local minimum.
+//! * `t > −a_min²`: `H` is positive definite. `f` falls from ∞ to 0, so there is one root: the nearest point.
+//! * `−a_mid² < t < −a_min²`: `H` has one negative eigenvalue. Restricted to the tangent plane, `H` has at
+//!   least one positive eigenvalue (interlacing), and its determinant has the sign of
+//!   `gᵀ·adj(H)·g = −½·det(H)·f'(t)`, that is of `f'`. `f` is convex here and has at most two roots: the
+//!   larger one, where `f' ≥ 0`, is the only local minimum.
+//! * `t < −a_mid²`: `H` has two negative eigenvalues, so on every plane it has a negative one: no local
+//!   minimum.
 //!
-//! If `y` lies in the plane across the shortest axis, both minima can fall on `t = −a_min²`, and are then mirror images.
+//! If `y` lies in the plane through the centre perpendicular to the shortest axis, both minima can fall on
+//! `t = −a_min²`, and are then mirror images.
 //!
 //! # Why the iteration converges
 //!
-//! With `σ = (t + a_min²)/a_min²`, `wᵢ = aᵢ·yᵢ/a_min²` and `dᵢ = (aᵢ² − a_min²)/a_min² ≥ 0`, `f = Σ (wᵢ/(σ + dᵢ))²`.
-//! `ψ = 1/√f` is concave wherever no pole is crossed: `ψ'' ≤ 0` is `3·f'² ≤ 2·f·f''`, that is
-//! `(Σ wᵢ²/(σ+dᵢ)³)² ≤ Σ wᵢ²/(σ+dᵢ)² · Σ wᵢ²/(σ+dᵢ)⁴`, the inequality of Cauchy and Schwarz. The tangent of a concave
-//! function lies above it, so Newton's method for `ψ = 1`, started where `ψ ≤ 1` on the rising side, moves towards the
-//! root without ever passing it, and near it at second order. The start `σ = maxᵢ(|wᵢ| − dᵢ)` has `1 ≤ f ≤ N`.
-//! The second minimum is the same iteration in `τ = −σ` from `τ = |w_min|`: if it comes to a falling `ψ`, or to the
-//! pole, before `ψ = 1`, there is no root. Rounded, the sequence rises until it stops rising: it always ends.
+//! With `σ = (t + a_min²)/a_min²`, `wᵢ = aᵢ·yᵢ/a_min²` and `dᵢ = (aᵢ² − a_min²)/a_min² ≥ 0`,
+//! `f = Σ (wᵢ/(σ + dᵢ))²`. `ψ = 1/√f` is concave between the poles of `f`: `ψ'' ≤ 0` is `3·f'² ≤ 2·f·f''`,
+//! that is `(Σ wᵢ²/(σ+dᵢ)³)² ≤ Σ wᵢ²/(σ+dᵢ)² · Σ wᵢ²/(σ+dᵢ)⁴`, the inequality of Cauchy and Schwarz. The
+//! tangent of a concave function lies above it. So Newton's method for `ψ = 1`, started where `ψ ≤ 1` and `ψ`
+//! rises, approaches the root quadratically and never passes it. The start `σ = maxᵢ(|wᵢ| − dᵢ)` has
+//! `1 ≤ f ≤ N`. The second minimum is found by the same iteration in `τ = −σ`, started at `τ = |wᵢ|` of the
+//! shortest axis `i`. If `ψ` falls, or has a pole, before it reaches 1, there is no second minimum. With
+//! rounding, the iteration ends when the sequence no longer rises.
 //!
-//! Only `d` and `w` enter, both free of units: scaling the scene changes nothing but rounding.
+//! Only the dimensionless `d` and `w` enter: scaling the scene changes nothing but rounding.
 
 use crate::{Vec3, divisor};
 
-/// Far more than the quadratic phase needs. The slowest convergence is for a point within rounding of the
-/// focal curve: σ grows by half per iteration, from 1e-8 to 1.
+/// Maximum number of iterations. A point within rounding of the focal curve needs most, about 50: σ grows by
+/// half per iteration, from 1e-8 to 1, before the convergence is quadratic.
 const MOST_ITERATIONS: usize = 100;
 
 /// Foot point of a normal from a point to an ellipse (`N` = 2) or ellipsoid (`N` = 3), in its principal
@@ -46,20 +52,20 @@ pub struct NormalFoot<const N: usize> {
     pub point: [f64; N],
     /// Outward unit normal at that point.
     pub normal: [f64; N],
-    /// Height of the tangent plane above the given point, m: positive if the point is inside.
+    /// Height of the tangent plane at `point` above the given point, m; positive if the given point is
+    /// inside.
     pub depth: f64,
 }
 
 /// Surface point nearest to `y`, inside or outside, in the principal frame.
 ///
-/// Where it is not unique the choice is fixed: towards positive coordinates, along the first of the smallest
-/// axes.
+/// If several points are nearest: the one towards positive coordinates along the (first) shortest axis.
 pub fn nearest_on_ellipsoid(semi_axes: &Vec3, y: &Vec3) -> NormalFoot<3> {
     nearest([semi_axes.x, semi_axes.y, semi_axes.z], [y.x, y.y, y.z])
 }
 
-/// Other local minimum of the distance from `y` to the surface, on the far side of the plane across the
-/// shortest axis, if it exists.
+/// Second local minimum of the distance from `y` to the surface, if there is one. It is on the other side of
+/// the plane through the centre perpendicular to the shortest axis.
 pub fn second_nearest_on_ellipsoid(semi_axes: &Vec3, y: &Vec3) -> Option<NormalFoot<3>> {
     second_nearest([semi_axes.x, semi_axes.y, semi_axes.z], [y.x, y.y, y.z])
 }
@@ -123,7 +129,8 @@ impl<const N: usize> Secular<N> {
             sigma = sigma.max(self.w[i].abs() - self.d[i]);
         }
         if sigma == 0.0 {
-            // The point lies in the plane across the shortest axis, and the terms with a pole at 0 vanish.
+            // The point lies in the plane through the centre perpendicular to the shortest axis: the terms
+            // with a pole at σ = 0 vanish.
             if let Some(q) = self.on_medial_plane(1.0) {
                 return q;
             }
@@ -178,9 +185,9 @@ impl<const N: usize> Secular<N> {
         Some(std::array::from_fn(|i| self.w[i] / (self.d[i] - tau)))
     }
 
-    /// Vector `q` at `t = −a_min²`: its component along the shortest axis has the given sign and completes
-    /// the unit length. `None` if the others exceed unit length, as along a second axis that is also
-    /// shortest.
+    /// Vector `q` at `t = −a_min²`. Its component along the shortest axis has the given sign and makes `q` a
+    /// unit vector. `None` if the other components alone are longer than 1, or if the point has a component
+    /// along a second axis that is equally short.
     #[inline]
     fn on_medial_plane(&self, sign: f64) -> Option<[f64; N]> {
         let mut q = [0.0; N];
@@ -206,7 +213,7 @@ impl<const N: usize> Secular<N> {
         (0..N).all(|i| i == self.shortest || self.d[i] > 0.0)
     }
 
-    /// `1/(σ + dᵢ)`; 0 at the pole, where the component vanishes.
+    /// `1/(σ + dᵢ)`; 0 at the pole, where `wᵢ` is 0.
     #[inline]
     fn reciprocal(&self, sigma: f64, i: usize) -> f64 {
         let sum = sigma + self.d[i];
@@ -224,8 +231,9 @@ fn normalize<const N: usize>(v: &mut [f64; N]) -> f64 {
     length
 }
 
-/// Computes the depth as `h(n) − n·y` from the normal: at a stationary normal an error of the root enters it
-/// only at second order, and it never falls below the true minimum by more than rounding.
+/// Foot point of the vector `q`. The depth is computed as `h(n) − n·y` with the normal n and the support
+/// function h: an error of the root then has a second-order effect, and only rounding can take the depth
+/// below the true minimum.
 #[inline]
 fn foot<const N: usize>(a: &[f64; N], y: &[f64; N], q: [f64; N]) -> NormalFoot<N> {
     let mut normal: [f64; N] = std::array::from_fn(|i| q[i] / a[i]);

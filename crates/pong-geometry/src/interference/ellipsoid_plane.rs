@@ -1,4 +1,4 @@
-//! Ellipsoid against plane: `δ = d − n·c + √Σ(aᵢ·nᵢ)²`.
+//! Ellipsoid (A) – plane `n·x = d` (B): depth `d − n·c + √Σ(aᵢ·nᵢ)²`, with the centre c and the semi-axes aᵢ.
 
 use super::{Feature, Interference};
 use crate::primitive::{Ellipsoid, Plane};

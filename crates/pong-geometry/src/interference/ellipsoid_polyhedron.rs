@@ -1,45 +1,46 @@
 //! Ellipsoid (A) – polyhedron (B): the minimum translation, exact, feature by feature.
 //!
-//! Over unit normals the overlap is `D(n) = h_E(n) − n·c + h_P(n)`, with the support functions h of the ellipsoid
-//! about its centre c and of the polyhedron; the depth is its minimum. At the minimiser one feature of the
-//! polyhedron supports it:
+//! Along a unit normal n the overlap is `D(n) = h_E(n) − n·c + h_P(n)`, with the support functions h_E of the
+//! ellipsoid about its centre c and h_P of the polyhedron. The depth is the minimum of D. Let the foot be the
+//! ellipsoid's deepest point after the ellipsoid is pushed out. At the minimum, one feature of the polyhedron
+//! is farthest along n:
 //!
-//! * a face: `n` is its normal, and the foot of the ellipsoid's deepest point lies in its outline;
-//! * an edge: `n` lies between the normals of its two faces and is a local minimum of the overlap of the edge's line,
-//!   which is that of a point and an ellipse seen along the edge; the deepest point's foot lies between the ends;
-//! * a vertex: `n` lies in its normal cone and is a local minimum for a point and an ellipsoid.
+//! * a face: n is its normal, and the foot lies in its outline;
+//! * an edge: n lies between the normals of its two faces, and the foot between its ends; n is a local
+//!   minimum of the overlap with the edge's line (seen along the edge: of an ellipse with a point);
+//! * a vertex: n lies in its normal cone, and is a local minimum of the overlap with the vertex.
 //!
-//! A point has at most two local minima ([`ellipsoid_math`](super::ellipsoid_math)), so the candidates are few and
-//! the true minimum is one of them: no sampling. The smallest candidate that may push is the contact (ties: the lower
-//! feature).
+//! A point has at most two local minima ([`ellipsoid_math`](super::ellipsoid_math)), so there are few
+//! candidates, and the true minimum is one of them. The contact is the candidate of least depth (ties: the
+//! lower feature).
 //!
 //! # Rejecting most candidates
 //!
-//! Let `a` be the ellipsoid's deepest point below a face of overlap δ: it lies δ below that face. For every
-//! n, `D(n)` is at least the depth of `a` along n. If `a` is at least δ below every other face, it is so
-//! along every n: that face is the minimum, and nothing else is tested. Otherwise a smaller minimum can only
-//! belong to an edge or vertex of a face that `a` is less deep below, a *suspect*: n is a sum of the
-//! feature's face normals with coefficients whose sum is at least 1. The start is the face of least overlap
-//! (the *lead*), computed for eight faces at a time; faces that the centre is far below are skipped.
+//! The search starts with the *lead*, the active face of least overlap δ. The ellipsoid's deepest point `a`
+//! lies δ below it. For every n, `D(n)` is at least the depth of `a` along n. The normal of an edge or vertex
+//! is a sum of its faces' normals, with non-negative coefficients whose sum is at least 1: if `a` lies at
+//! least δ below each of these faces, then `D(n) ≥ δ`. So a smaller minimum can only belong to an edge or
+//! vertex of a *suspect*, a face that `a` lies less than δ below. Without suspects the lead is the contact.
+//! The lead is computed for eight faces at a time; faces that the centre is far below are skipped.
 //!
 //! # Rounding
 //!
-//! A foot point may lie outside its face or edge, and a normal outside its cone, within a tolerance for
-//! rounding. The overlap of a face or an edge is `D` wherever its foot point lies; for a normal outside its
-//! cone, `D` is computed with the whole polyhedron. So every candidate is at least the minimum, and one that
-//! belongs to two features is found for at least one of them. If no candidate is found although every face is
-//! active, the fallback is the lead face, or the direction from the polyhedron's nearest point to the centre
-//! (nearest in the metric in which the ellipsoid is a ball), again with the `D` of the whole polyhedron: an
-//! overlapping body never loses its contact.
+//! A foot may lie outside its face or edge, and a normal outside its cone, within a tolerance for rounding.
+//! `D(n)` of a face or an edge does not depend on the position of the foot; for a normal outside its cone,
+//! `D(n)` is computed with all vertices. So no candidate is below the minimum, and a minimum on the boundary
+//! of two features is found for at least one of them. If no candidate is found although every face is active,
+//! two fallbacks are compared, each with its `D(n)`: the lead, and the direction from the polyhedron's
+//! nearest point to the centre (nearest in the metric in which the ellipsoid is a ball). So an overlapping
+//! body never loses its contact.
 //!
 //! # Internal faces
 //!
-//! Only active features push, and a piece does not know its neighbours. It finds the minimum among its own
-//! features, by the same tests. Each feature of the body belongs to one piece, so the piece that has the
-//! minimising feature finds the body's minimum. Other pieces find other local minima, which are not less
-//! deep; the body, which sees all of them, decides which count. A piece applies two rules: it drops minima
-//! deeper than the least overlap of one of its active faces, since the body's minimum is not deeper; and if
-//! none of its features holds a foot point, it returns its least active face as a
+//! Only active features push. A piece finds the minimum among its own active features, without knowing its
+//! neighbours. Each feature of the body belongs to one piece, so the piece that has the minimising feature
+//! finds the body's minimum. Other pieces find other local minima, which are not less deep. Load sharing,
+//! which sees the contacts of all pieces, decides which count. A piece applies two rules. It drops minima
+//! deeper than the least overlap of its active faces, since the body's minimum is not deeper. If no feature
+//! of the piece contains its own foot, the piece returns its active face of least overlap as a
 //! [fallback](PieceContact::stands_in), which counts only if no piece of the body finds anything else.
 
 use super::ellipsoid_math::{
@@ -53,16 +54,15 @@ use crate::Vec3;
 use crate::primitive::{EdgePush, Ellipsoid, FacePlanes, Polyhedron};
 use crate::simd::{Finder, First, LANES, LaneBits, Simd, Splat, Vectors, run_at_level};
 
-/// Distance by which a foot point may lie outside its feature, relative to the sizes involved.
+/// Distance by which a foot may lie outside its feature, relative to the sizes involved.
 const FOOT_SLACK: f64 = 1e-12;
-/// Sine by which a normal may lie outside its cone.
+/// Sine of the angle by which a normal may lie outside its cone.
 const CONE_SLACK: f64 = 1e-9;
-/// A lower bound must exceed the best depth by this relative amount to exclude a candidate.
+/// Relative amount by which a lower bound must exceed the best depth to exclude a candidate.
 const BOUND_SLACK: f64 = 1e-9;
-/// Relative squared distance from the surface of the unit ball below which a point inside may turn out to be
-/// outside.
+/// Amount by which a squared radius in the unit-ball metric must be below 1 to be certainly inside.
 const HARDLY_INSIDE: f64 = 1e-6;
-/// Overlap up to the rounding error of a depth, relative to the largest length.
+/// Rounding error of a depth, relative to the largest length.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Contact of an ellipsoid with one convex piece of a body.
@@ -70,13 +70,12 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 pub struct PieceContact {
     /// Depth, normal, point and feature.
     pub interference: Interference,
-    /// True for a fallback: no feature of the piece holds a foot point, and this is the least overlap of an
-    /// active face, whose foot point lies outside the piece. It counts only if no other piece of the body has
-    /// a regular contact.
+    /// True for a fallback: no feature of the piece contains its own foot, and the contact is that of the
+    /// active face of least overlap. It counts only if no other piece of the body has a regular contact.
     pub stands_in: bool,
 }
 
-/// Tests an ellipsoid (A) against one convex solid (B); for a piece of a body, against its own features only.
+/// Tests an ellipsoid (A) against one convex solid (B), or against the active features of one piece alone.
 #[inline]
 pub fn ellipsoid_polyhedron(e: &Ellipsoid, p: &Polyhedron) -> Option<Interference> {
     ellipsoid_piece(e, p).filter(|contact| !contact.stands_in).map(|contact| contact.interference)
@@ -124,27 +123,27 @@ fn choose(
 struct Lead {
     face: usize,
     depth: f64,
-    /// The ellipsoid's deepest point below the face.
+    /// The ellipsoid's deepest point below the face, m.
     deepest: Vec3,
 }
 
-/// Faces other than the lead that the lead's deepest point is less deep below.
+/// Faces below which `Lead::deepest` is less deep than below the lead.
 struct Suspects {
     faces: [u32; Self::CAPACITY],
-    /// Number of suspects; above the capacity every face is a suspect.
+    /// Number of suspects; above the capacity, all features of the polyhedron are tested.
     count: usize,
-    /// True if the deepest point is inside the polyhedron, which proves the overlap.
+    /// True if `Lead::deepest` is inside the polyhedron, which proves the overlap.
     pierces: bool,
 }
 
 impl Lead {
-    /// Returns `None` if a face's plane separates the two, or no face is active.
+    /// Returns `None` if a face's plane separates ellipsoid and polyhedron, or if no face is active.
     #[inline(always)]
     fn find<S: Simd>(simd: S, e: &PreparedEllipsoid, p: &Polyhedron) -> Option<(Self, Suspects)> {
         let planes = p.planes();
         let highest = highest_of_many(simd, &e.center, planes, Whereabouts::Below(e.largest))?;
-        // Height threshold: half widths differ by at most `largest − smallest`, so a face that the centre is
-        // not higher above than this has no less overlap than the highest face.
+        // The ellipsoid's half widths along two normals differ by at most `largest − smallest`. So a face has
+        // at least the overlap of the highest face if the centre's height above it is at most `least_height`.
         let least_height = (e.smallest - e.largest) + highest.height - BOUND_SLACK * e.largest;
         let face = least_overlap(simd, e, planes, least_height)?;
         let lead = Self::at(e, p, face);
@@ -180,9 +179,9 @@ impl Lead {
     }
 }
 
-/// Active face of least overlap among the faces that the centre is more than `least_height` above (ties:
-/// lowest index). `None` if one of these faces, active or not, separates the two, or if there is no such
-/// face.
+/// Active face of least overlap (ties: lowest index). A face may be skipped if the height of the centre above
+/// it is at most `least_height` (m). `None` if another face, active or not, separates the bodies, or if no
+/// other face is active.
 #[inline(always)]
 fn least_overlap<S: Simd>(
     simd: S,
@@ -276,7 +275,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the least candidate, and `true` if it is only a fallback.
+    /// Returns the candidate of least depth, and `true` if it is a fallback; `None` without an overlap.
     fn least(mut self, suspects: &Suspects) -> Option<(Candidate, bool)> {
         let mut witness = None;
         if !suspects.pierces {
@@ -287,8 +286,8 @@ impl<'a> Search<'a> {
             witness = Some(found);
         }
         self.try_lead_face();
-        // Edges of an internal face may belong to faces of other pieces, which no suspect of this piece
-        // covers.
+        // With internal faces all features are tested: an edge may also belong to a face of another piece,
+        // which is not among the suspects.
         match suspects.listed().filter(|_| self.all_active) {
             Some(faces) => self.try_features_of(faces),
             None => self.try_all_features(),
@@ -299,12 +298,12 @@ impl<'a> Search<'a> {
         self.best.map(|best| (best, false)).or(Some((self.lead_face, true)))
     }
 
-    /// Point of the polyhedron inside the ellipsoid, relative to the centre, in the metric in which the
-    /// ellipsoid is the unit ball.
+    /// Point of the polyhedron inside the ellipsoid, if there is one. It is relative to the ellipsoid's
+    /// centre, in the metric in which the ellipsoid is the unit ball.
     ///
-    /// If the centre is outside, the polyhedron's nearest point in that metric lies on a face whose plane the
-    /// centre is in front of: at the projection on the plane, or on one of the edges that the projection is
-    /// beyond.
+    /// If the centre is inside the polyhedron, the point is the centre. Otherwise, the nearest point in this
+    /// metric lies on a face whose plane has the centre in front of it: at the centre's projection onto the
+    /// plane, or on one of the face's edges beyond which the projection lies.
     fn overlap_witness(&self) -> Option<Vec3> {
         let mut inside = true;
         let all = 0..self.polyhedron.faces.len();
@@ -338,14 +337,15 @@ impl<'a> Search<'a> {
         in_outline.then(|| widened * -share)
     }
 
-    /// Returns `true` if the overlap is only rounding, judged along the direction from a point barely inside.
+    /// Returns `true` if the overlap is only rounding: `witness` is barely inside the ellipsoid, and the
+    /// overlap along its normal is no more than a rounding error.
     fn only_touches(&self, witness: &Vec3) -> bool {
         witness.norm_squared() > 1.0 - HARDLY_INSIDE
             && self.whole_depth(&self.direction_from(witness)) <= ROUNDING * self.size
     }
 
-    /// Unit normal along which a point inside the ellipsoid is pushed out, from its position in the unit-ball
-    /// metric.
+    /// Unit normal along which the ellipsoid is pushed out by a point inside it, given in the unit-ball
+    /// metric. It is perpendicular to the concentric, similar ellipsoid through the point.
     fn direction_from(&self, witness: &Vec3) -> Vec3 {
         self.prepared.direction_of(&-witness).normalize()
     }
@@ -367,8 +367,7 @@ impl<'a> Search<'a> {
 
     fn try_features_of(&mut self, suspects: &[u32]) {
         let polyhedron = self.polyhedron;
-        // Skips repeated vertices: each is met once per suspect around it. Beyond the capacity they are
-        // tested again.
+        // Vertices already tested: each occurs once per suspect around it. Beyond the capacity, some repeat.
         let mut tried = [u32::MAX; Suspects::CAPACITY];
         let mut count = 0;
         for &face in suspects {
@@ -441,7 +440,7 @@ impl<'a> Search<'a> {
         let semi_axes = &self.ellipsoid.semi_axes;
         let radius_square = self.prepared.shrunk(&from_vertex).norm_squared();
         let limit = self.limit();
-        // A point at this radius of the unit ball is at least this deep.
+        // The depth of a point at this radius in the unit ball is at least `smallest·(1 − radius)`.
         let near = radius_square < 1.0 && self.prepared.smallest * (1.0 - radius_square.sqrt()) <= limit;
         let second = self.prepared.allows_second(limit);
         if near || second {
@@ -467,7 +466,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Fallback if every feature lost its foot point to rounding (see the module documentation).
+    /// Fallback if every feature lost its foot to rounding (see the module documentation).
     fn stand_in(&mut self, witness: Option<Vec3>) {
         self.offer(self.lead_face);
         if let Some(witness) = witness.filter(|w| *w != Vec3::zeros()) {
@@ -490,7 +489,7 @@ impl<'a> Search<'a> {
         self.best.map_or(self.bound, |best| best.depth.min(self.bound))
     }
 
-    /// `D(n)` with the support over all vertices.
+    /// `D(n)` with the support function of all vertices.
     fn whole_depth(&self, normal: &Vec3) -> f64 {
         let vertex = self.support_vertex(normal);
         let from_vertex = self.ellipsoid.center - self.polyhedron.vertices[vertex].position;

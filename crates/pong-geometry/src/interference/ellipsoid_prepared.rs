@@ -1,4 +1,4 @@
-//! Ellipsoid prepared for many directions and points, and its outline along a direction.
+//! Ellipsoid prepared for many directions and points, and its outline seen along a direction.
 
 use crate::Vec3;
 use crate::primitive::Ellipsoid;
@@ -30,13 +30,14 @@ impl PreparedEllipsoid {
         }
     }
 
-    /// Scaled normal; its length is the half width along `n`.
+    /// Scaled normal of `n`. Its length is the half width of the ellipsoid along `n`, m.
     #[inline]
     pub(crate) fn widened(&self, n: &Vec3) -> Vec3 {
         Vec3::new(self.widen[0].dot(n), self.widen[1].dot(n), self.widen[2].dot(n))
     }
 
-    /// Surface point for a scaled normal, relative to the centre, times the half width.
+    /// Farthest point along a normal, given the scaled normal. Relative to the centre and multiplied by the
+    /// half width, m².
     #[inline]
     pub(crate) fn reach(&self, widened: &Vec3) -> Vec3 {
         self.widen[0] * widened.x + self.widen[1] * widened.y + self.widen[2] * widened.z
@@ -48,7 +49,7 @@ impl PreparedEllipsoid {
         Vec3::new(self.shrink[0].dot(v), self.shrink[1].dot(v), self.shrink[2].dot(v))
     }
 
-    /// Direction whose scaled normal is parallel to `widened`, not of unit length.
+    /// Direction, not of unit length, whose scaled normal is parallel to `widened`.
     #[inline]
     pub(crate) fn direction_of(&self, widened: &Vec3) -> Vec3 {
         self.shrink[0] * widened.x + self.shrink[1] * widened.y + self.shrink[2] * widened.z
@@ -61,25 +62,27 @@ impl PreparedEllipsoid {
         self.center - self.reach(&widened) / widened.norm()
     }
 
-    /// Returns `true` if a second local minimum can be as small as `depth`: it lies beyond `t = −a_min²`, so
-    /// its depth `−t/h` is at least the smallest radius of curvature.
+    /// Returns `true` if a second local minimum ([`ellipsoid_math`](super::ellipsoid_math)) can have a depth
+    /// of at most `depth` (m). At such a minimum t < −a_min², and the depth is −t/h with the half width
+    /// h ≤ a_max: at least a_min²/a_max, the smallest radius of curvature.
     #[inline]
     pub(crate) fn allows_second(&self, depth: f64) -> bool {
         depth * self.largest >= self.smallest * self.smallest
     }
 
-    /// Lower bound of the overlap over the normals between two faces that the centre is `heights` above.
+    /// Lower bound of the overlap D over the normals between those of two faces. `heights` (m) are the
+    /// heights of the centre above the two faces.
     ///
-    /// `D` extended to all lengths of n is convex, so between the two normals it lies above its tangents at
-    /// the ends. Along the arc a tangent is a sine wave, concave where positive, so the larger of the two is
-    /// least at an end or at their crossing. The crossing is found on the chord and divided by its distance
-    /// from the origin.
+    /// Extended to vectors n of any length, D is convex. So between the two normals, D is no less than its
+    /// linearisations at the two normals. Along the arc a linearisation is a sine wave, concave where
+    /// positive. So the larger of the two is least at an end of the arc or where they are equal. That point
+    /// is found on the chord, and its value divided by its distance from the origin.
     pub(crate) fn arc_bound(&self, normals: &[Vec3; 2], heights: &[f64; 2]) -> f64 {
         let widened = normals.map(|n| self.widened(&n));
         let half_widths = widened.map(|w| w.norm());
         let product = widened[0].dot(&widened[1]);
         let depths = [half_widths[0] - heights[0], half_widths[1] - heights[1]];
-        // Tangent of one end, evaluated at the other.
+        // Linearisation at each normal, evaluated at the other normal.
         let across = [product / half_widths[0] - heights[1], product / half_widths[1] - heights[0]];
         let (fall_0, fall_1) = (depths[0] - across[1], depths[1] - across[0]);
         let sum = fall_0 + fall_1;
@@ -95,7 +98,7 @@ impl PreparedEllipsoid {
     }
 }
 
-/// Outline of an ellipsoid along a direction: an ellipse in the perpendicular plane.
+/// Outline of an ellipsoid seen along a direction: an ellipse in the perpendicular plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shadow {
     /// Principal axes, unit.
@@ -108,12 +111,12 @@ impl Shadow {
     /// Computes the outline in the plane spanned by the orthonormal vectors `u` and `v`.
     ///
     /// The half width along a direction of the plane is the length of its scaled normal. So the principal
-    /// axes are those whose scaled normals are orthogonal, found by one Jacobi rotation, which keeps the
-    /// small axis exact to the rounding of the large one.
+    /// axes are two perpendicular directions whose scaled normals are perpendicular too. One Jacobi rotation
+    /// finds them; the error of the small semi-axis is no more than the rounding of the large one.
     #[inline]
     pub(crate) fn new(e: &PreparedEllipsoid, u: &Vec3, v: &Vec3) -> Self {
         let (wide_u, wide_v) = (e.widened(u), e.widened(v));
-        /// 2⁵¹²: the square of a larger cotangent overflows, and the rotation would be zero within rounding.
+        /// Limit of `zeta`, 2⁵¹²: a larger square overflows, and the rotation would be zero within rounding.
         const LARGEST_COTANGENT: f64 = f64::from_bits((1023 + 512) << 52);
         let (uu, vv, uv) = (wide_u.norm_squared(), wide_v.norm_squared(), wide_u.dot(&wide_v));
         if 2.0 * uv.abs() * LARGEST_COTANGENT <= (vv - uu).abs() || uv == 0.0 {
@@ -127,8 +130,8 @@ impl Shadow {
         Self { axes: turned(u, v), semi_axes: turned(&wide_u, &wide_v).map(|w| w.norm()) }
     }
 
-    /// Returns `true` if a point at `components` may be inside and no deeper than `depth`. The depth is at
-    /// least the smaller semi-axis times the remaining fraction of the radius.
+    /// Returns `true` if a point at `components` (m) may be inside and no deeper than `depth` (m). The depth
+    /// is at least the smaller semi-axis times 1 − r, with the point's radius r in the unit-circle metric.
     #[inline]
     pub(crate) fn may_hold(&self, components: &[f64; 2], depth: f64) -> bool {
         let [x, y] = [components[0] / self.semi_axes[0], components[1] / self.semi_axes[1]];
@@ -149,7 +152,7 @@ impl Shadow {
         [self.axes[0].dot(v), self.axes[1].dot(v)]
     }
 
-    /// Vector of the plane from its components.
+    /// Vector in the plane, from its components along the principal axes.
     #[inline]
     pub(crate) fn vector(&self, components: &[f64; 2]) -> Vec3 {
         self.axes[0] * components[0] + self.axes[1] * components[1]

@@ -1,27 +1,27 @@
 //! Ellipsoid (A) – triangle (B), one-sided (docs/theory.md, 2.2).
 //!
-//! Each feature has the candidates of [`ellipsoid_polyhedron`](super::ellipsoid_polyhedron): a face its
-//! normal, an edge or a vertex the at most two local minima of the overlap of a line or a point with the
-//! ellipsoid. An ellipsoid has no single nearest point; the feature follows from where the deepest point's
-//! foot lies and between which normals a minimum lies. As long as the depth is less than the smallest radius
-//! of curvature, exactly one of the features that meet convexly claims a contact, as for a sphere. Deeper,
-//! several may; then only the least deep pushes, as in a polyhedron, and likewise with the centre behind.
-//! Load sharing decides which of them count, because it sees all of them and knows which push. Deciding here
-//! would lose contacts to a barred edge, or depend on the triangulation.
+//! The candidates of a feature are those of [`ellipsoid_polyhedron`](super::ellipsoid_polyhedron): for a face
+//! its normal; for an edge or a vertex at most two local minima of the overlap. A candidate is a contact if
+//! its foot (the deepest point after the ellipsoid is pushed out) lies in the feature and its normal between
+//! those of the faces there. If the depth is less than the smallest radius of curvature, exactly one of the
+//! features that meet convexly has a contact, as for a sphere. At larger depths several may have one; then
+//! only the least deep pushes, as in a polyhedron. Load sharing selects it, because it sees the contacts of
+//! all triangles and knows which of them push. A selection here would depend on the triangulation, and could
+//! prefer an edge that does not push.
 //!
-//! "In front" is measured at the centre: above the face, or above the plane through the edge or vertex
-//! perpendicular to the candidate's normal. Candidates that only rounding keeps from pushing are emitted as
-//! fallbacks (spare).
+//! The ellipsoid is in front of a face if its centre is above the face, and in front of an edge or vertex if
+//! the centre is above the plane through the feature perpendicular to the candidate's normal. Candidates that
+//! miss their feature only by rounding are emitted as fallbacks (`Standing::Spare`).
 //!
-//! An ellipsoid may sink so deep into a valley that the foot points on both faces lie beyond their concave
-//! edge, and neither face holds its foot. The feet are then no help: each lies in the plane of its own face,
-//! and neither is over the other face. The centre decides instead, by heights and distances that are zero
-//! only in a plane that bounds the regions. The face stands in, and counts only if nothing else is as deep:
-//! in front if the centre is not beyond the edge, behind if a ball there would be pushed.
+//! An ellipsoid may sink so deep into a valley that on each of its two faces the foot lies beyond the concave
+//! edge between them. Then neither face contains its foot, and the centre decides. A face with the centre in
+//! front of it gives a fallback if the centre is not beyond the edge; a face with the centre behind it, if it
+//! would push a ball at the centre. This fallback (`Standing::StandIn`) counts only if no other contact is as
+//! deep.
 //!
-//! Degenerate cases: a centre in the plane, on an edge or at a vertex counts as in front; the normal of the
-//! nearest surface point decides there. A centre on an edge that may push is displaced slightly along the
-//! mean of the normals there, because the side of the edge is then only rounding.
+//! Degenerate cases: a centre in the plane of a face, on an edge or at a vertex counts as in front of it. A
+//! centre on an edge that may push is displaced slightly along the mean of the normals there, because only
+//! rounding decides on which side of the edge it is.
 
 use super::behind_triangle::has_behind;
 use super::ellipsoid_math::{
@@ -36,20 +36,19 @@ use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Ellipsoid, TriangleSet};
 
-/// Distance by which a foot point may lie outside its feature, relative to the sizes involved, and still give
-/// a fallback.
+/// Distance, relative to the sizes, by which a foot may lie outside its feature and still give a fallback.
 const FOOT_SLACK: f64 = 1e-12;
-/// Sine by which a normal may lie outside those of its edge and still give a fallback.
+/// Sine of the angle by which a normal may lie outside those of its edge and still give a fallback.
 const CONE_SLACK: f64 = 1e-9;
 /// Relative difference up to which two depths count as equal.
 const DEPTH_SLACK: f64 = 1e-9;
-/// Relative margin, far above rounding, below the lower bound of the depth of a second minimum.
+/// Relative margin, far above rounding, on the depth up to which second minima are computed.
 const SECOND_SLACK: f64 = 1e-6;
 
 /// Tests an ellipsoid against one triangle and emits a contact for each of its features that pushes.
 ///
-/// `thickness` (m): distance up to which a centre behind the triangle is still pushed to the front. Edges and
-/// vertices are emitted only by their owner, so that each feature of a surface counts once.
+/// `thickness` (m): distance up to which a centre behind the triangle is still pushed to the front. An edge
+/// or vertex is emitted only by the triangle that owns it, so that each feature of a surface counts once.
 pub fn ellipsoid_triangle(
     ellipsoid: &Ellipsoid,
     set: &TriangleSet,
@@ -113,8 +112,7 @@ impl EllipsoidOnTriangles {
     }
 }
 
-/// Returns `true` if the ellipsoid lies entirely beyond the plane through an edge perpendicular to the
-/// triangle.
+/// Returns `true` if the ellipsoid lies beyond the plane through an edge perpendicular to the triangle.
 fn passes_beside(e: &PreparedEllipsoid, view: &TriangleView) -> bool {
     (0..3).any(|k| {
         let from = view.corners[k];
@@ -124,7 +122,7 @@ fn passes_beside(e: &PreparedEllipsoid, view: &TriangleView) -> bool {
     })
 }
 
-/// Returns `true` if the foot of the face's deepest point lies inside the outline.
+/// Returns `true` if the foot on the face lies inside the outline.
 fn holds_foot(edges: &TriangleEdges<'_>, foot: &Vec3) -> bool {
     !(0..3).any(|k| edges.is_beyond(k, foot))
 }
@@ -142,7 +140,7 @@ struct Tester<'a> {
     foot_slack: f64,
 }
 
-/// Local minimum over the normals between those of an edge's faces.
+/// Local minimum of the overlap over the normals between those of an edge's faces.
 #[derive(Clone, Copy)]
 struct EdgeMinimum {
     depth: f64,
@@ -173,8 +171,8 @@ impl Tester<'_> {
         self.push(depth, &self.view.normal, Feature::face(self.view.index as usize), standing, emit);
     }
 
-    /// Returns `true` if the foot point is outside only beyond concave edges, and there only by rounding: the
-    /// face still holds a foot point on the line of a valley.
+    /// Returns `true` if the foot lies outside the face only beyond concave edges, and only by rounding. A
+    /// foot on the bottom line of a valley is thus inside both faces.
     fn holds_in_a_crease(&self, foot: &Vec3) -> bool {
         (0..3).filter(|&k| self.edges.is_beyond(k, foot)).all(|k| {
             let is_concave = || match self.edges.class(k) {
@@ -192,9 +190,9 @@ impl Tester<'_> {
             && !matches!(self.edges.class(k), EdgeClass::Silent { .. })
     }
 
-    /// Returns `true` if the face is a fallback although it does not hold the foot point: the foot is beyond
-    /// an edge by rounding, or lost across concave and flat edges and the centre confirms the contact (see
-    /// the module documentation).
+    /// Returns `true` if the face gives a fallback although it does not contain its foot: rounding puts the
+    /// foot outside, or the foot lies beyond concave or flat edges and the centre decides (see the module
+    /// documentation).
     fn stands_in(&self, foot: &Vec3) -> bool {
         let lost = |k: &usize| self.is_lost(*k, foot);
         if !self.is_behind(self.height) {
@@ -206,23 +204,23 @@ impl Tester<'_> {
                 || has_behind(&self.edges, &self.ellipsoid.center, self.thickness, self.foot_slack))
     }
 
-    /// Returns `true` if the foot point lies beyond edge `k` by more than rounding.
+    /// Returns `true` if the foot lies beyond edge `k` by more than rounding.
     fn is_lost(&self, k: usize, foot: &Vec3) -> bool {
         self.edges.beyond(k, foot) > self.foot_slack
     }
 
-    /// Returns `true` if edge `k`, beyond which the foot point lies, is concave or flat, and the face across
-    /// it does not hold its own foot point either.
+    /// Returns `true` if edge `k` is concave or flat, and the foot on the face across it lies beyond the edge
+    /// as well.
     fn is_lost_beyond(&self, k: usize) -> bool {
         let EdgeClass::Silent { neighbor, outward } = self.edges.class(k) else { return false };
         self.is_lost_to(neighbor, &outward, &self.view.edge_ends(k)[0])
     }
 
-    /// Returns `true` if the foot point lies beyond concave edges, and no face across them holds its own foot
-    /// point. The triangulation does not matter: across flat edges the search continues in the next triangle.
+    /// Returns `true` if each edge beyond which the foot lies is concave, and the foot on the face across it
+    /// lies beyond the edge as well. Coplanar triangles count as one face: across a flat edge the search
+    /// continues in the next triangle, and the result is `false` if that triangle contains the foot.
     fn is_lost_in_folds(&self, foot: &Vec3) -> bool {
-        /// Maximum number of coplanar triangles between the centre and the foot point; beyond that the search
-        /// gives up.
+        /// Maximum number of coplanar triangles in the search; with more, the result is `false`.
         const TRIANGLES_MAX: usize = 32;
         let mut triangles = [self.view.index; TRIANGLES_MAX];
         let mut count = 1;
@@ -254,8 +252,8 @@ impl Tester<'_> {
         true
     }
 
-    /// Returns `true` if the foot point on a face across a concave edge lies beyond this edge as well.
-    /// `outward` points out of that face; `end` is an end of the edge.
+    /// Returns `true` if the foot on `face`, which lies across an edge, is beyond the edge as well, or if the
+    /// ellipsoid is entirely above `face`. `outward` points out of `face`; `end` is an end of the edge.
     fn is_lost_to(&self, face: u32, outward: &Vec3, end: &Vec3) -> bool {
         let other = TriangleView::new(self.set, face);
         let depth = self.prepared.widened(&other.normal).norm() - other.height(&self.ellipsoid.center);
@@ -267,13 +265,12 @@ impl Tester<'_> {
         self.edges.beyond(k, &self.ellipsoid.center) > self.foot_slack
     }
 
-    /// Returns `true` if a centre of this height is behind the face by more than rounding; in the plane it
-    /// counts as in front.
+    /// Returns `true` if a centre at `height` (m) above a plane is behind the plane by more than rounding.
     fn is_behind(&self, height: f64) -> bool {
         height < -self.foot_slack
     }
 
-    /// Position of the deepest point after the ellipsoid is pushed out.
+    /// Foot: the deepest point after the ellipsoid is pushed out by `depth` along `normal`.
     fn foot_on(&self, normal: &Vec3, depth: f64) -> Vec3 {
         self.prepared.deepest(normal) + normal * depth
     }
@@ -288,7 +285,7 @@ impl Tester<'_> {
         }
     }
 
-    /// Minima over the normals along which edge `k` may push.
+    /// Local minima of the overlap with edge `k`, at normals along which the edge may push.
     fn edge_minima(&self, k: usize) -> [Option<EdgeMinimum>; 2] {
         if self.misses_edge(k) {
             return [None, None];
@@ -318,7 +315,7 @@ impl Tester<'_> {
             if on_rim.is_some_and(|mean| mean.dot(&normal) <= 0.0) {
                 return None;
             }
-            // For nearly coplanar faces the tolerance would admit normals of the back side.
+            // Between nearly coplanar faces, `CONE_SLACK` would admit normals that point to the back.
             if neighbor.is_some_and(|(other, _)| (self.view.normal + other).dot(&normal) <= 0.0) {
                 return None;
             }
@@ -332,7 +329,7 @@ impl Tester<'_> {
         let own = self.half_width - self.height;
         let may_have_second = shadow.allows_second(own * (1.0 + SECOND_SLACK));
         let second = may_have_second.then(|| second_nearest_on_ellipse(shadow.semi_axes, y)).flatten();
-        // The first minimum is never deeper than the faces. The second may be; then a face pushes instead.
+        // The first minimum is never deeper than the edge's faces. If the second is, a face pushes instead.
         let limit = || {
             let other = |(n, _): (Vec3, Vec3)| self.prepared.widened(&n).norm() - n.dot(&from_edge);
             own.min(neighbor.map_or(f64::INFINITY, other)) * (1.0 + DEPTH_SLACK)
@@ -343,13 +340,13 @@ impl Tester<'_> {
         ]
     }
 
-    /// Returns `true` if edge `k` certainly has no minimum, because it does not reach into the ellipsoid.
+    /// Returns `true` if edge `k` certainly has no minimum: the edge is outside the ellipsoid, and the
+    /// overlap of the face is less than the smallest radius of curvature.
     ///
-    /// As long as the overlap is less than the smallest radius of curvature, the deepest point's foot on the
-    /// edge lies inside: it is in the ball of that radius that touches the ellipsoid from within at the
-    /// deepest point.
+    /// For such an overlap the foot of a minimum on the edge lies inside the ellipsoid: in the ball of that
+    /// radius that touches the ellipsoid from inside at the deepest point.
     fn misses_edge(&self, k: usize) -> bool {
-        /// Far above rounding, in the unit-ball metric.
+        /// Margin far above rounding, in the unit-ball metric.
         const SLACK: f64 = 1e-6;
         if self.allows_second() {
             return false;
@@ -362,13 +359,13 @@ impl Tester<'_> {
         (start + along * share).norm_squared() > 1.0 + SLACK + 10.0 * ends_slack
     }
 
-    /// Returns `true` if a second minimum, of an edge or a vertex, may be less deep than this face.
+    /// Returns `true` if a second minimum of an edge or a vertex may be less deep than this face.
     fn allows_second(&self) -> bool {
         self.prepared.allows_second((self.half_width - self.height) * (1.0 + SECOND_SLACK))
     }
 
-    /// Reports whether the deepest point's foot lies between the ends of edge `k`: `None` if not,
-    /// `Some(false)` if only within rounding.
+    /// Tests whether the foot lies between the ends of edge `k`: `Some(true)` if so, `Some(false)` if only
+    /// within rounding, else `None`.
     fn on_edge(&self, k: usize, normal: &Vec3) -> Option<bool> {
         let deepest = self.prepared.deepest(normal);
         let [first, second] = self.view.edge_ends(k);
@@ -387,7 +384,7 @@ impl Tester<'_> {
         if y.component_div(semi_axes).norm_squared() < 1.0 {
             self.try_vertex(corner, &nearest_on_ellipsoid(semi_axes, &y), emit);
         }
-        // The least depth among the faces around the vertex is at most that of this face.
+        // A second minimum counts only if no face around the vertex is less deep; this face is tested first.
         let second = self.allows_second().then(|| second_nearest_on_ellipsoid(semi_axes, &y)).flatten();
         if let Some(foot) = second.filter(|foot| self.no_deeper_than_the_fan(corner, foot.depth)) {
             self.try_vertex(corner, &foot, emit);
@@ -426,8 +423,8 @@ impl Tester<'_> {
         depth <= least * (1.0 + DEPTH_SLACK)
     }
 
-    /// Standing of a candidate; `None` if the centre is too far behind the plane through `p` perpendicular to
-    /// the normal.
+    /// Standing of a candidate, given the plane through `p` perpendicular to `normal`; `None` if the centre
+    /// is too far behind this plane. `strictly`: the candidate pushes without any tolerance.
     fn standing(&self, normal: &Vec3, p: &Vec3, strictly: bool) -> Option<Standing> {
         let height = normal.dot(&(self.ellipsoid.center - p));
         if self.is_behind(height) {

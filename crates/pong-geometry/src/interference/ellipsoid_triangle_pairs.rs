@@ -1,17 +1,17 @@
-//! Rejection of ellipsoid-triangle pairs, eight at a time.
+//! Rejection of pairs of an ellipsoid and a triangle, eight at a time.
 //!
-//! An ellipsoid near a surface overlaps the boxes of many triangles and touches few. Dot products and three
-//! roots reject most of the others: the ellipsoid is entirely beyond the plane of the face or a perpendicular
-//! plane through an edge, or no feature can push:
+//! An ellipsoid near a surface overlaps the boxes of many triangles and touches few. A pair is rejected if
+//! the ellipsoid lies entirely beyond the plane of the face, or beyond a plane through an edge perpendicular
+//! to the face, or if no feature of the triangle can push:
 //!
-//! * the face cannot if the foot of the deepest point and the centre, in front, both lie beyond the same
-//!   edge;
-//! * an edge or a vertex outside the ellipsoid cannot, as long as the overlap of the face is too small for a
-//!   second minimum.
+//! * the face cannot push if the centre is in front of it, and both the centre and the foot (the deepest
+//!   point after the ellipsoid is pushed out) lie beyond the same edge;
+//! * an edge or a vertex outside the ellipsoid cannot push if the face's overlap is too small for a second
+//!   minimum.
 //!
 //! The remaining pairs go through [`EllipsoidOnTriangles`](super::ellipsoid_triangle::EllipsoidOnTriangles)
-//! one by one. This filter changes no result: it makes the same comparisons with a larger margin, and NaN
-//! never rejects.
+//! one by one. This filter changes no result: it makes the comparisons of that test with a larger margin, and
+//! a NaN never rejects a pair.
 
 use super::triangle_lanes::{
     EightVectors, NOTHING, TriangleLanes, bit_of_each, fill_in, fill_vectors_in, put,
@@ -74,8 +74,8 @@ impl EllipsoidTrianglePairs {
         lane
     }
 
-    /// Sets the ellipsoid of the pairs that are pushed from here on; `thickness` as in [`add`](Self::add).
-    /// Faster than `add` if several consecutive pairs have the same ellipsoid.
+    /// Sets the ellipsoid of all pairs that are added by [`push`](Self::push) from here on; `thickness` as in
+    /// [`add`](Self::add). Faster than `add` if several consecutive pairs have the same ellipsoid.
     #[inline(always)]
     pub fn begin_in<S: Simd>(&mut self, simd: S, ellipsoid: &Ellipsoid, thickness: f64) {
         let (lane, semi_axes) = (self.count(), &ellipsoid.semi_axes);
@@ -95,7 +95,7 @@ impl EllipsoidTrianglePairs {
         self.lanes.push(triangle)
     }
 
-    /// Returns the pairs that may touch, a bit per lane, for triangles of `set`, and clears the batch.
+    /// Returns the pairs with triangles of `set` that may touch, one bit per lane, and clears the batch.
     #[inline]
     pub fn take(&mut self, set: &TriangleSet) -> LaneBits {
         if self.lanes.count == 0 {
@@ -108,8 +108,7 @@ impl EllipsoidTrianglePairs {
     }
 }
 
-/// Data of a principal axis: the axis times its semi-axis, m, and the reciprocal square of the semi-axis,
-/// 1/m².
+/// Principal axis times its semi-axis, m, and reciprocal square of the semi-axis, 1/m².
 #[inline(always)]
 fn along(ellipsoid: &Ellipsoid, axis: usize) -> (Vec3, f64) {
     let semi_axis = ellipsoid.semi_axes[axis];
@@ -120,25 +119,25 @@ fn may_touch(pairs: &EllipsoidTrianglePairs) -> LaneBits {
     run_at_level!(may_touch_in(pairs: EllipsoidTrianglePairs) -> LaneBits)
 }
 
-/// Distance that counts as beyond an edge, relative to the lengths involved: far above rounding and the foot
+/// Smallest distance beyond an edge that counts, relative to the lengths involved: far above the foot
 /// tolerance.
 const FAR_SLACK: f64 = 1e-9;
-/// Margin by which a squared distance must exceed 1 to count as outside the unit ball: ten times that of the
-/// single test.
+/// Amount by which a squared distance must exceed 1 to be outside the unit ball: ten times that of the single
+/// test, `misses_edge`.
 const OUTSIDE_SLACK: f64 = 1e-5;
-/// Same margin relative to the squared distances it is computed from: covers rounding at distant corners.
+/// Additional amount, relative to the squared lengths involved: covers rounding at distant corners.
 const OUTSIDE_SHARE: f64 = 1e-12;
 
 /// Ellipsoids, one per lane.
 struct Ellipsoids<S: Simd> {
     widen: [Vectors<S>; 3],
     shrink: Vectors<S>,
-    /// Squared largest semi-axes.
+    /// Squared largest semi-axes, m².
     largest_square: Numbers<S>,
 }
 
 impl<S: Simd> Ellipsoids<S> {
-    /// Scaled normals; their lengths are the half widths times the lengths of the normals.
+    /// Scaled normals: their lengths are the half widths times the lengths of the normals.
     #[inline(always)]
     fn widened(&self, normal: Vectors<S>) -> Vectors<S> {
         normal.dot_rows(self.widen)
@@ -151,7 +150,7 @@ impl<S: Simd> Ellipsoids<S> {
         Vectors { x: wide.x * shrink.x, y: wide.y * shrink.y, z: wide.z * shrink.z }
     }
 
-    /// Returns the lanes where the product of normal and arm certainly exceeds a reach in spite of rounding.
+    /// Returns the lanes where `product`² certainly exceeds `reach_square`. `product` is `normal·arm`.
     #[inline(always)]
     fn exceeds(
         &self,
@@ -160,8 +159,8 @@ impl<S: Simd> Ellipsoids<S> {
         normal: Vectors<S>,
         arm: Vectors<S>,
     ) -> S::Mask {
-        /// Margins far above rounding: relative to the reach, and to the largest product that the vectors
-        /// allow.
+        /// Margins far above rounding: `SLACK` relative to `reach_square`, `SMALL_SLACK` relative to the
+        /// largest square that the product can have.
         const SLACK: f64 = 1e-9;
         const SMALL_SLACK: f64 = 1e-18;
         let most = normal.norm_squared() * (arm.norm_squared() + self.largest_square);
@@ -196,7 +195,7 @@ fn may_touch_in<S: Simd>(simd: S, pairs: &EllipsoidTrianglePairs) -> LaneBits {
     let height = normal.dot(arms[0]);
     let zero = Numbers::splat(simd, 0.0);
 
-    // Behind the face, an ellipsoid is pushed to the front up to the thickness of the surface.
+    // A centre behind the face is pushed to the front as long as its distance is less than the thickness.
     let thickness = Numbers::load(simd, &lanes.thicknesses);
     let behind = Numbers::select(height.below(zero), thickness * thickness * normal_square, zero);
     let widened = ellipsoids.widened(normal);
@@ -208,8 +207,8 @@ fn may_touch_in<S: Simd>(simd: S, pairs: &EllipsoidTrianglePairs) -> LaneBits {
     let slack = size * size.all(FAR_SLACK);
     let (length, half_width) = (normal_square.sqrt(), widened_square.sqrt());
     let in_front = simd.bits((slack * length).below(height));
-    // Overlap of the face, and lower bound of the depth of a second minimum, both times the length of the
-    // normal.
+    // Upper bound of the overlap of the face, times the length of the normal. If the overlap is less than the
+    // smallest radius of curvature, `smallest²/largest`, edges and vertices have one local minimum only.
     let overlap = (half_width - height + slack * length) * size.all(1.0 + OUTSIDE_SLACK);
     let one_minimum = simd.bits((overlap * largest).below(smallest * smallest * length));
 
@@ -223,12 +222,13 @@ fn may_touch_in<S: Simd>(simd: S, pairs: &EllipsoidTrianglePairs) -> LaneBits {
         let wide = ellipsoids.widened(outward);
         let is_apart = simd.bits(ellipsoids.exceeds(beyond, wide.norm_squared(), outward, arm));
         apart |= simd.bits(zero.below(beyond)) & is_apart;
-        // Distances of the centre and of the foot point beyond the edge.
+        // `beyond` and `foot_beyond`: distances of centre and foot beyond the edge, times the length of
+        // `outward`, and for the foot also times `half_width`.
         let room = slack * taxicab(outward);
         let foot_beyond = beyond * half_width - wide.dot(widened);
         let lost = simd.bits((room * half_width).below(foot_beyond)) & simd.bits(room.below(beyond));
         face &= !(in_front & lost);
-        // Vector from the corner to the centre of the unit ball.
+        // In the unit-ball metric: vectors from the corner to the centre, and along the edge.
         let (start, along) = (starts[k], starts[k] - starts[(k + 1) % 3]);
         let share = start.dot(along).over(along.norm_squared()).larger(zero).smaller(zero.all(1.0));
         let start_square = start.norm_squared();

@@ -1,5 +1,5 @@
-//! Active face that a point is highest above, or least deep below, in one pass over the planes of a
-//! polyhedron.
+//! Active face above which a point is highest (for a point inside: below which it is least deep), found in
+//! one pass over the planes of a polyhedron.
 
 use crate::Vec3;
 use crate::primitive::{FacePlanes, PlaneBlock};
@@ -8,7 +8,7 @@ use crate::simd::{Finder, First, Found, LANES, LaneBits, Simd, Splat};
 /// Number of blocks whose heights are kept in registers at a time.
 const MANY: usize = 4;
 
-/// Active face that a point is highest above.
+/// Active face above which a point is highest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Highest {
     /// Face index; among faces of equal height the lowest.
@@ -17,16 +17,16 @@ pub(super) struct Highest {
     pub height: f64,
 }
 
-/// Condition on the point.
+/// Condition that the point must meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Whereabouts {
     Anywhere,
-    /// Less than this height above every plane, m.
+    /// The height above every plane is less than this, m.
     Below(f64),
 }
 
-/// Returns `None` if the point does not meet the condition, no face is active, or no height is a number above
-/// −∞.
+/// Active face above which `p` is highest. `None` if `p` does not meet the condition, if no face is active,
+/// or if no height is a number above −∞.
 #[inline(always)]
 pub(super) fn highest_of_many<S: Simd>(
     simd: S,
@@ -55,8 +55,8 @@ struct Search<'a, S: Simd> {
 }
 
 impl<S: Simd> Search<'_, S> {
-    /// Heights above the planes of `N` blocks, −∞ for inactive faces. Indices past the last block repeat it.
-    /// `None` if the point does not meet the condition.
+    /// Heights of the point above the planes of `N` blocks from `start` on, −∞ for inactive faces. The last
+    /// block is repeated beyond the end. `None` if the point does not meet the condition.
     #[inline(always)]
     fn heights<const N: usize>(&self, start: usize) -> Option<[S::Eight; N]> {
         let blocks = self.planes.blocks.as_slice();
@@ -95,7 +95,7 @@ impl<S: Simd> Search<'_, S> {
         top
     }
 
-    /// First face with the given height among `N` blocks.
+    /// First face with the given height among `N` blocks from `start` on.
     #[inline(always)]
     fn first_at<const N: usize>(
         &self,

@@ -2,25 +2,23 @@
 //!
 //! The part of the segment inside the solid has two ends. For each active face f, each end carries half a spring:
 //!
-//! * a *tip* of the segment, inside the solid or straight below the face: its depth is measured below f, and
-//!   it pushes along the face's normal;
+//! * a *tip*, an end point of the segment that is inside the solid or straight below the polygon of f: its
+//!   depth is measured below f, and it pushes along the normal of f;
 //! * a *crossing*, where the segment leaves the solid through another face h: its depth is the distance of
 //!   the segment's line below the line in which the planes of f and h intersect, and it pushes along the
 //!   common normal of both lines;
-//! * where the segment leaves through f itself, that end carries no force.
+//! * where the segment leaves through f itself, the end carries no force.
 //!
-//! The face that stores the least energy pushes. A segment that enters by f and leaves by h crosses their
-//! common edge once, for both faces: the end whose endpoint is farther out carries that crossing, whichever
-//! of the two faces is evaluated.
+//! The face that stores the least energy pushes. If the segment enters through f and leaves through h, both
+//! faces measure the same crossing of their common edge, at opposite ends. It is assigned to the end whose
+//! tip is farther out, whichever of the two faces is evaluated.
 //!
-//! An alternative rule tests where the segment leaves the *polygon* of f. On a box the two rules agree,
-//! except for a segment whose far endpoint has risen above the top: a side face then claims it with half the
-//! force, so that closed paths gain energy. Beside obtuse edges it also halves the force of a segment that
-//! lies flat (docs/decisions/0001).
+//! A simpler rule would test where the segment leaves the *polygon* of f. It gains energy on closed paths,
+//! and halves the force of a segment that lies flat beside an obtuse edge (docs/decisions/0001).
 //!
-//! Degenerate cases: a segment parallel to a face crosses at its depth; two parallel planes have no
-//! intersection, and that face takes no part; a segment that only touches has no contact; ties go to the
-//! lower face.
+//! Degenerate cases: a crossing below a face parallel to the segment has the segment's depth below that face;
+//! a face f parallel to the exit face h takes no part; a segment that only touches has no contact; of two
+//! faces with equal energy, the one with the lower index pushes.
 
 use super::Interference;
 use super::segment_at_walls::{end_that_crosses, inside_of_wide_walls, leaves_at_wall};
@@ -38,26 +36,26 @@ pub type PieceContacts = [Option<(Interference, AtWall)>; 2];
 /// Role of the neighbouring pieces in a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AtWall {
-    /// None, except for a tip exactly on an internal face.
+    /// None. Exception: for a tip on an internal face the caller tests [`Polyhedron::containment`].
     No,
-    /// Crossing of an edge at which an internal face ends: the piece behind that face may find it as well.
+    /// Crossing of an edge at which an internal face ends. The piece behind that face may report it as well.
     SharedEdge,
-    /// Fallback for a tip beyond an internal face by no more than rounding: counts if the tip is in no piece
-    /// at all.
+    /// Fallback for a tip that rounding puts beyond an internal face: counts if no piece contains the tip.
     StandsIn,
-    /// Exit through an active face where an internal face ends: the piece behind the internal face may have
+    /// Exit through an active face where an internal face ends. The piece behind the internal face may report
     /// this end as well.
     Exit,
-    /// Fallback exit, where only rounding names the internal face: counts if no other piece has the end or
-    /// holds the segment beyond it.
+    /// Fallback for an exit as in `Exit` that rounding puts on the internal face. It counts if no other piece
+    /// reports this end, and none contains the segment beyond the exit.
     ExitStandsIn,
 }
 
-/// Energies within this factor are a tie, so that rounding does not choose between equal faces.
+/// Energies within this factor count as equal, so that rounding does not choose between equal faces.
 const TIE: f64 = 1.0 - 1e-12;
 
-/// Tests a segment against one convex solid, or one piece alone: a crossing of an edge at which an internal
-/// face ends belongs to the lowest piece. Each contact carries half of the pair's stiffness and damping.
+/// Tests a segment against one convex solid, or one piece alone. A crossing of an edge at which an internal
+/// face ends is returned only for the first piece that has the edge. Each contact carries half of the pair's
+/// stiffness and damping.
 #[inline]
 pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
     let counts = |(contact, at_wall): &(Interference, AtWall)| match at_wall {
@@ -79,7 +77,7 @@ pub fn line_segment_piece(segment: &LineSegment, polyhedron: &Polyhedron) -> Pie
     }
 }
 
-/// Numbers of face blocks for which energy bounds are kept.
+/// Largest numbers of face blocks of the three variants of the test; above `MANY`, every face is evaluated.
 const FEW: usize = 2;
 const SOME: usize = FacePlanes::IN_REGISTERS;
 const MANY: usize = 16;
@@ -116,7 +114,7 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
     let exits = if polyhedron.planes().all_active {
         [AtWall::No; 2]
     } else {
-        told_by_faces(segment, polyhedron, &mut inside.ends)
+        assign_exits(segment, polyhedron, &mut inside.ends)
     };
     let mut search = Search { segment, polyhedron, inside: inside.ends, exits, best: None };
     let moderate =
@@ -125,7 +123,7 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
         search.visit_all();
         return search.contacts();
     }
-    // With many faces, a tip is near only a few of them.
+    // With many faces, the face nearest to a tip limits the energy, so that few faces remain.
     let nearest = if N > FacePlanes::IN_REGISTERS { planes.nearest_face::<N>(&inside) } else { None };
     let at_nearest = match &nearest {
         Some(nearest) => search.stored(nearest.face),
@@ -143,12 +141,12 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
     search.contacts()
 }
 
-/// Fallback for a segment along the line where internal faces meet. Rounding may leave it in none of the
-/// pieces there, so each piece reports its endpoints as if it held them; the body decides which one counts.
+/// Contacts of a segment along the line in which internal faces meet. Rounding may put the segment outside
+/// all pieces there, so each piece reports the tips as fallbacks, and load sharing decides which one counts.
 #[cold]
 fn along_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts {
     let Some(mut inside) = inside_of_wide_walls(segment, polyhedron) else { return [None, None] };
-    let exits = told_by_faces(segment, polyhedron, &mut inside);
+    let exits = assign_exits(segment, polyhedron, &mut inside);
     let mut search = Search { segment, polyhedron, inside, exits, best: None };
     search.visit_all();
     let contacts = search.contacts();
@@ -162,21 +160,21 @@ fn along_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts 
     })
 }
 
-/// Finds the ends that leave where an internal face ends, and lets them leave by the active face there even
-/// if rounding named the internal one.
-fn told_by_faces(segment: &LineSegment, polyhedron: &Polyhedron, inside: &mut [InsideEnd; 2]) -> [AtWall; 2] {
+/// Assigns exits at the boundary edge of an internal face to the active face at that edge, even if rounding
+/// named the internal face. Returns the role of the neighbouring pieces at each end.
+fn assign_exits(segment: &LineSegment, polyhedron: &Polyhedron, inside: &mut [InsideEnd; 2]) -> [AtWall; 2] {
     [0, 1].map(|end: usize| match leaves_at_wall(segment, polyhedron, &inside[end], end) {
         None => AtWall::No,
-        Some(told) => {
-            let is_told = told.leaves_by == inside[end].leaves_by;
-            inside[end] = told;
-            if is_told { AtWall::Exit } else { AtWall::ExitStandsIn }
+        Some(by_active) => {
+            let same_face = by_active.leaves_by == inside[end].leaves_by;
+            inside[end] = by_active;
+            if same_face { AtWall::Exit } else { AtWall::ExitStandsIn }
         }
     })
 }
 
-/// Factor above the stored energy of another face beyond which a bound excludes a face. Far above rounding of
-/// the bounds and any chain of ties.
+/// Factor by which the lower bound of a face must exceed the energy of another face to exclude the face: far
+/// above rounding of the bounds and any chain of ties.
 const BEYOND_ROUNDING: f64 = 1.0 + 1e-6;
 
 /// Search for the face that stores the least energy.
@@ -184,7 +182,7 @@ struct Search<'a> {
     segment: &'a LineSegment,
     polyhedron: &'a Polyhedron,
     inside: [InsideEnd; 2],
-    /// Role of the neighbouring pieces in each exit.
+    /// Role of the neighbouring pieces at each end.
     exits: [AtWall; 2],
     best: Option<Stored>,
 }
@@ -193,7 +191,7 @@ struct Search<'a> {
 #[derive(Clone, Copy)]
 struct Stored {
     face: usize,
-    /// Sum of the squared depths at its ends, m².
+    /// Sum of the squared depths at both ends, m².
     energy: f64,
     ends: [Measured; 2],
 }
@@ -207,8 +205,8 @@ impl Search<'_> {
         }
     }
 
-    /// Visits, in order, the faces whose bounds admit an energy as low as that of the likeliest face or of
-    /// the face nearest to a tip.
+    /// Evaluates, in face order, the faces whose lower bound is at most the least energy found so far. The
+    /// face of least bound and the face nearest to a tip (`at_nearest`) give the first limit.
     #[inline(always)]
     fn visit_likely<S: Simd, const N: usize>(&mut self, bounds: &Bounds<S, N>, at_nearest: Option<Stored>) {
         let likeliest = bounds.least();
@@ -234,7 +232,7 @@ impl Search<'_> {
     fn visit(&mut self, stored: Option<Stored>) {
         let Some(stored) = stored else { return };
         let least = self.best.map_or(f64::INFINITY, |best| best.energy);
-        // Zero energy wins too: the segment lies in the face or touches an edge of it.
+        // Zero energy wins too: the segment lies in the face or only touches it, and then no face pushes.
         if stored.energy < least * TIE {
             self.best = Some(stored);
         }
@@ -242,8 +240,8 @@ impl Search<'_> {
 
     /// Energy stored by a face; `None` if it takes no part.
     ///
-    /// An end at an internal face counts, though the piece behind that face carries it: otherwise the face
-    /// would not be found if its other end does not touch.
+    /// The depth at an end that leaves through an internal face is included, although the piece behind that
+    /// face carries this end. Without it, the energy of the face would be too low.
     fn stored(&self, face: usize) -> Option<Stored> {
         let ends = [self.at_end(face, 0).measured()?, self.at_end(face, 1).measured()?];
         let square = |end: usize| ends[end].depth() * ends[end].depth();
@@ -263,8 +261,8 @@ impl Search<'_> {
         let is_lone = at_ends[0].is_some() != at_ends[1].is_some();
         let mut contacts = [None, None];
         for (found_at, found) in at_ends.into_iter().enumerate() {
-            // An end that already has a contact keeps it; the piece behind the internal face finds the other
-            // one at that end.
+            // A contact that is assigned to the other end counts only if that end has none of its own.
+            // Otherwise the piece behind the internal face reports it.
             if let Some((found, end)) = found
                 && (is_lone || end == found_at)
             {
@@ -274,7 +272,7 @@ impl Search<'_> {
         contacts
     }
 
-    /// Contact where the segment leaves at `end`, and the end that carries it if there is no other contact.
+    /// Contact found at `end`, and the end to which it is assigned.
     #[inline(always)]
     fn carried(&self, best: &Stored, end: usize) -> Option<((Interference, AtWall), usize)> {
         let contact = self.at_end(best.face, end).contact(&best.ends[end]);
@@ -292,16 +290,17 @@ impl Search<'_> {
         Some(((contact, at_wall), end))
     }
 
-    /// Returns `true` if the segment enters by the best face and leaves by another at `end`, and both faces
-    /// measure the same crossing.
+    /// Returns `true` if the segment enters through the best face and leaves through `exit` at `end`, and
+    /// both faces measure the same crossing.
     #[inline(always)]
     fn is_claimed_by_both(&self, best: &Stored, end: usize, exit: usize) -> bool {
         let of_exit = || self.at_end(exit, 1 - end).measured();
         matches!(best.ends[1 - end], Measured::Leaves) && matches!(of_exit(), Some(Measured::Crossing(_)))
     }
 
-    /// Contact of an end that leaves through an internal face: the piece behind it carries the end, unless
-    /// the internal face ends in an edge that pushes or there is no such piece.
+    /// Contact at an end that leaves through an internal face. `None` because the piece behind that face
+    /// reports this end, except for a crossing of a convex edge in which the internal face ends, and for a
+    /// tip at internal faces.
     #[cold]
     fn carried_at_wall(
         &self,
@@ -315,8 +314,7 @@ impl Search<'_> {
         };
         match crossing.and_then(|crossing| Some((crossing, carrier(&crossing)?))) {
             Some((crossing, carrier)) => Some(((crossing, AtWall::SharedEdge), carrier)),
-            // A tip on internal faces within rounding is tested against all faces: inside or outside is
-            // undecidable there.
+            // A tip on internal faces within rounding is a fallback: inside or outside is undecidable.
             None if self.polyhedron.containment(&self.segment.ends[end]) != Containment::Outside => {
                 let stood_in = along_walls(self.segment, self.polyhedron)[end];
                 stood_in.filter(|(_, at_wall)| *at_wall == AtWall::StandsIn).map(|found| (found, end))
@@ -326,7 +324,7 @@ impl Search<'_> {
     }
 }
 
-/// Energy above which no face can decide, given the energy stored by one face.
+/// Energy above which a face cannot be the one of least energy, given that of another face.
 #[inline(always)]
 fn limit_of(stored: Option<&Stored>) -> f64 {
     match stored {
