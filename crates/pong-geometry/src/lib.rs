@@ -1,8 +1,8 @@
 //! Geometry of the contact engine: poses, twists and wrenches, primitives, bounding volumes and the
 //! interference test of every pair of primitives.
 //!
-//! Everything here is a pure function on values or borrowed slices. This crate never touches the heap in a
-//! test, never starts a thread and never does I/O.
+//! Everything here is a pure function on values or borrowed slices, except [`simd::set_level`]. Interference
+//! and overlap tests never allocate. This crate starts no threads and does no I/O.
 //!
 //! # Conventions
 //!

@@ -192,8 +192,8 @@ impl Pool {
         let mut left = 0;
         for thread in self.threads.drain(..) {
             if thread.is_finished() {
-                // A finished worker only returns to the system. It caught the panics of its blocks, so `join`
-                // has none to report.
+                // A finished thread has nothing left to run, so `join` returns at once. The worker caught the
+                // panics of its blocks, so `join` has none to report.
                 let _ = thread.join();
             } else {
                 left += 1;

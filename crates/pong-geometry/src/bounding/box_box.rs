@@ -30,7 +30,7 @@ pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) ->
     if apart(gaps_b.x, gaps_b.y, gaps_b.z) {
         return false;
     }
-    if share_a_place(half_a, half_b, m, t) {
+    if have_common_point(half_a, half_b, m, t) {
         return true;
     }
     let gaps_a = m.tr_mul(t).abs() - half_a - abs.tr_mul(half_b);
@@ -45,10 +45,10 @@ pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) ->
 }
 
 /// Returns `true` if the point of B nearest to A's centre lies in A: a quick proof that most overlapping
-/// boxes overlap. If the point lies in A only by rounding, every gap between the projections is below their
-/// margin.
+/// boxes overlap. If the point lies in A only by rounding, every gap between the projections is below the
+/// margin, so the full test reports an overlap too.
 #[inline(always)]
-fn share_a_place(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
+fn have_common_point(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
     let nearest = t.zip_map(half_b, |t, half| {
         if t > half {
             half

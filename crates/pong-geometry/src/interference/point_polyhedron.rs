@@ -100,8 +100,9 @@ pub struct Reached {
 }
 
 /// Moves the remembered face to its neighbour of least depth, again and again while that lowers the depth
-/// below the remembered face. It does not move across a sharp edge, nor if that would increase the depth
-/// below the pushing face (a sharp neighbour that pushed before may not be adjacent to the new face).
+/// below the remembered face. It does not move across a sharp edge. It does not move either if that would
+/// increase the depth below the face that pushes: a sharp neighbour that pushes now may not be adjacent to
+/// the new face.
 ///
 /// So the resulting depth is at most the depth without the move, and between two commits it grows by no more
 /// than the point has moved. The heights above the faces must be finite, as for [`shallowest_face`].
@@ -151,9 +152,9 @@ impl Reached {
 /// [`Reached::at`] if all faces are in one block.
 #[inline(always)]
 fn reached_in_block<S: Simd>(simd: S, p: &Vec3, block: &PlaneBlock, &face: &usize) -> Reached {
-    let asked: LaneBits = block.beside[face] | 1 << face;
+    let candidates: LaneBits = block.beside[face] | 1 << face;
     let heights = block.heights(simd, &Splat::new(simd, p));
-    let heights = simd.select(simd.mask(asked), heights, simd.splat(f64::NEG_INFINITY));
+    let heights = simd.select(simd.mask(candidates), heights, simd.splat(f64::NEG_INFINITY));
     let top = simd.largest(heights);
     let pushes = simd.bits(simd.equal(heights, simd.splat(top))).trailing_zeros() as usize;
     Reached { face, pushes, depth: -top }

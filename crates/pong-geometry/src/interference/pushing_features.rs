@@ -90,6 +90,6 @@ fn lean_of_vertex(set: &TriangleSet, view: &TriangleView, corner: usize) -> Opti
         }
         is_lowest
     })?;
-    let is_told = goes_round && !fan.open && square > HALF_ANGLE_COSINE_MIN * HALF_ANGLE_COSINE_MIN;
-    Some(if is_told { Lean::of_tangent(slope / square.sqrt()) } else { Lean::ANY })
+    let is_bounded = goes_round && !fan.open && square > HALF_ANGLE_COSINE_MIN * HALF_ANGLE_COSINE_MIN;
+    Some(if is_bounded { Lean::of_tangent(slope / square.sqrt()) } else { Lean::ANY })
 }

@@ -24,8 +24,8 @@ pub fn capsule_plane(capsule: &Capsule, plane: &Plane) -> [Option<Interference>;
 /// lowest.
 pub fn frustum_plane(frustum: &Frustum, plane: &Plane) -> RimContacts {
     let down = down_the_discs(frustum, plane);
-    let at = |disc: usize, way: f64| {
-        let position = frustum.ends[disc] + down * (way * frustum.radii[disc]);
+    let at = |disc: usize, sign: f64| {
+        let position = frustum.ends[disc] + down * (sign * frustum.radii[disc]);
         point_plane(&Point { position }, plane)
     };
     let highest = |disc: usize| at(disc, -1.0).filter(|_| frustum.radii[disc] > 0.0);

@@ -41,13 +41,14 @@ fn inside_of(segment: &LineSegment, polyhedron: &Polyhedron, room: f64) -> Optio
     (ends[0].at < ends[1].at).then_some(ends)
 }
 
-/// End to which the crossing of a convex edge is assigned if an internal face ends in the edge. There `face`
-/// meets a face of the piece behind the internal face. The crossing is assigned to `end` if the tip there is
-/// above that other face and the energy of `face` is not larger; to the opposite end if its tip is above
-/// `face` and the energy of the other face is not larger. `None` otherwise.
+/// Assigns the crossing of a convex edge, in which an internal face ends, to an end of the segment. At the edge
+/// `face` meets a face of the next piece.
 ///
-/// If both tips are below both faces, each piece has a contact at its own tip, and a crossing would be a
-/// third contact.
+/// * `end`, if the tip there is above the face of the next piece, and the energy of `face` is not the larger;
+/// * the opposite end, if its tip is above `face`, and the energy of the face of the next piece is not the larger;
+/// * if both apply, the end that extends farther out;
+/// * `None`, if neither applies. If both tips are below both faces, each piece has a contact at its own tip, and
+///   a crossing would be a third contact.
 pub(super) fn end_that_crosses(
     segment: &LineSegment,
     polyhedron: &Polyhedron,

@@ -66,12 +66,12 @@ fn emit_features(
         None => {}
     }
     // In front, a centre clearly beyond an edge belongs to another feature.
-    let nobodys = near.in_front && near.beyond.contains(&true);
+    let of_other_feature = near.in_front && near.beyond.contains(&true);
     let has_beyond = || match height > 0.0 {
         true => (0..3).all(|k| !beyond[k] || edges.has_on_seam(k, &sphere.center)),
         false => has_behind(&edges, &sphere.center, thickness, 0.0),
     };
-    if !nobodys && (!beyond.contains(&true) || has_beyond()) {
+    if !of_other_feature && (!beyond.contains(&true) || has_beyond()) {
         emit_face(sphere, view, height, thickness, &mut *emit);
     } else if height < 0.0 && !near.beyond.contains(&true) && hardly_beyond(sphere, &edges, beyond) {
         let spare = |contact| emit(TriangleContact { standing: Standing::SpareBehind, ..contact });
@@ -174,8 +174,8 @@ fn emit_on_rim(sphere: &Sphere, mean: &Vec3, feature: Feature, emit: &mut dyn Fn
 }
 
 /// Returns `true` if a centre behind a triangle is beyond some of its edges only by rounding, and these edges
-/// are silent. Behind a vertex of a flat surface, by rounding no triangle may have the centre over it. (In
-/// front, the vertex pushes.)
+/// are silent. Behind a vertex of a flat surface, rounding can put the centre beyond an edge of every
+/// triangle there. (In front, the vertex pushes.)
 fn hardly_beyond(sphere: &Sphere, edges: &TriangleEdges, beyond: [bool; 3]) -> bool {
     let slack = foot_slack(&sphere.center, edges);
     let is_silent = |k: usize| matches!(edges.class(k), EdgeClass::Silent { .. });

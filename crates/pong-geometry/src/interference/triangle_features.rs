@@ -1,7 +1,8 @@
 //! Features of a triangle surface and the normals along which they push: faces, edges, vertices
 //! (docs/theory.md, 2.2).
 //!
-//! A triangle surface is a set of one-sided facets joined at edges. For a support point *p*:
+//! A triangle surface is a set of one-sided facets joined at edges. For a support point *p* of a shape with a
+//! centre:
 //!
 //! * a face pushes along its normal if *p* lies over it;
 //! * a convex edge pushes only along normals strictly between those of its two faces;
@@ -12,8 +13,8 @@
 //! The regions of faces, edges and vertices partition the space in front. Each bounding plane is computed
 //! once, from the same numbers, for the features on both sides, so rounding opens no gap between them. A
 //! silent edge has no region of its own: a point that rounding puts outside both faces belongs to the face of
-//! lower index. If two faces meet concavely, the space behind them has a wedge that lies beyond their common
-//! edge for both; it belongs to both faces, as does the space in front of the edge.
+//! lower index. Behind two faces that meet concavely there is a wedge that lies beyond their common edge as
+//! seen from either face. It belongs to both faces, as does the space in front of the edge.
 
 use super::{Feature, FeatureKind, Interference};
 use crate::Vec3;

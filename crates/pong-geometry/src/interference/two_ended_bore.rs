@@ -90,8 +90,8 @@ struct AtWall {
 impl RodEnd<'_> {
     fn touched(&self) -> BallContacts {
         let is_out = |mouth: usize| {
-            let way_out = self.way_out(mouth);
-            way_out < 0.0 || (way_out == 0.0 && self.bore.mouths[mouth])
+            let distance = self.exit_distance(mouth);
+            distance < 0.0 || (distance == 0.0 && self.bore.mouths[mouth])
         };
         if self.rod.skin == 0.0 && (is_out(0) || is_out(1)) {
             return NOTHING;
@@ -105,9 +105,9 @@ impl RodEnd<'_> {
     }
 
     /// Combines the contacts at the wall and at the mouth. Inside the hole the end contacts the wall, past
-    /// the mouth the side contacts the circle of the mouth. Within a distance of the mouth equal to the
-    /// depth, both may apply, so that the energy is continuous: inside, if the rod leans outward, the less
-    /// deep one counts; past the mouth, if it does not, the deeper one.
+    /// the mouth the side contacts the circle of the mouth. Nearer to the mouth than the depth, the two are
+    /// combined so that the energy is continuous: inside, for a rod that leans outward, the less deep one
+    /// counts; past the mouth, for a rod that does not, the deeper one.
     fn with_corner(&self, wall: &AtWall) -> BallContacts {
         let [own, other] = wall.inside;
         if self.bore.is_past(1 - self.mouth, other) {
@@ -281,7 +281,7 @@ impl RodEnd<'_> {
     }
 
     /// Distance that the rod must move to leave the hole by a mouth, m.
-    fn way_out(&self, mouth: usize) -> f64 {
+    fn exit_distance(&self, mouth: usize) -> f64 {
         let outward = self.outward(mouth);
         let depth = |end: usize| {
             outward.dot(&(self.bore.hole.ends[mouth] - self.rod.circle(end).farthest(&-outward)))
@@ -300,7 +300,7 @@ impl RodEnd<'_> {
             return contacts;
         }
         let leaves = |mouth: usize| {
-            let depth = self.way_out(mouth);
+            let depth = self.exit_distance(mouth);
             let outward = self.outward(mouth);
             let places = [0, 1].map(|end| self.rod.circle(end).farthest(&-outward));
             let is_first = outward.dot(&places[0]) <= outward.dot(&places[1]);

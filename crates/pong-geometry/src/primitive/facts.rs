@@ -30,8 +30,7 @@ pub trait Primitive: Bounded {
         None
     }
 
-    /// Least length, m, that a path through the primitive has inside it; infinite if no path can pass
-    /// through.
+    /// Least thickness of the primitive, m, where a path can pass through it; infinite if no path can.
     fn least_width_m(&self) -> f64 {
         f64::INFINITY
     }
