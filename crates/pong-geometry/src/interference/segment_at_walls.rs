@@ -41,14 +41,15 @@ fn inside_of(segment: &LineSegment, polyhedron: &Polyhedron, room: f64) -> Optio
     (ends[0].at < ends[1].at).then_some(ends)
 }
 
-/// Assigns the crossing of a convex edge, in which an internal face ends, to an end of the segment. At the edge
-/// `face` meets a face of the next piece.
+/// Assigns the crossing of a convex edge, in which an internal face ends, to an end of the segment. At the
+/// edge `face` meets a face of the next piece.
 ///
 /// * `end`, if the tip there is above the face of the next piece, and the energy of `face` is not the larger;
-/// * the opposite end, if its tip is above `face`, and the energy of the face of the next piece is not the larger;
+/// * the opposite end, if its tip is above `face`, and the energy of the face of the next piece is not the
+///   larger;
 /// * if both apply, the end that extends farther out;
-/// * `None`, if neither applies. If both tips are below both faces, each piece has a contact at its own tip, and
-///   a crossing would be a third contact.
+/// * `None`, if neither applies. If both tips are below both faces, each piece has a contact at its own tip,
+///   and a crossing would be a third contact.
 pub(super) fn end_that_crosses(
     segment: &LineSegment,
     polyhedron: &Polyhedron,

@@ -73,14 +73,14 @@ pub enum EdgeClass {
         neighbor: u32,
         /// Unit normal of the neighbour.
         normal: Vec3,
-        /// Unit vector in the plane of the neighbour, perpendicular to the edge, pointing out of the neighbour.
+        /// Unit vector in the neighbour's plane, perpendicular to the edge, pointing out of the neighbour.
         outward: Vec3,
     },
     /// Edge of two faces that meet flat or concavely: it never pushes.
     Silent {
         /// Triangle on the other side.
         neighbor: u32,
-        /// Unit vector in the plane of the neighbour, perpendicular to the edge, pointing out of the neighbour.
+        /// Unit vector in the neighbour's plane, perpendicular to the edge, pointing out of the neighbour.
         outward: Vec3,
     },
 }
