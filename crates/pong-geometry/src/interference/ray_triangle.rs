@@ -1,7 +1,7 @@
 //! Ray (A) – triangle (B), from the front (docs/theory.md, 2.5).
 //!
 //! The inside test projects the corners along the ray. The two projected coordinates of a corner are
-//! bit-identical in all triangles that share it, and a comparison of two products tells on which side of an
+//! bit-identical in all triangles that share it, and a comparison of two products decides on which side of an
 //! edge the ray passes. Rounding is monotonic: it may make the products equal, but never reverses the
 //! comparison. Equal counts as inside, so a closed ring of triangles around the ray is always hit, at edges
 //! and vertices too (after Woop, Benthin and Wald 2013, Watertight ray/triangle intersection).
