@@ -55,11 +55,11 @@ impl Arena {
     ///
     /// # Errors
     /// [`Full`] if it does not fit.
-    // Inlined: a list returned through memory field by field and then moved as a whole stalls (store
-    // forwarding).
+    // Inlined: returning the list through memory causes a store-forwarding stall.
     #[inline(always)]
     pub fn list<T: Copy>(&self, capacity: usize) -> Result<List<'_, T>, Full> {
-        // A booked request always fits: bumpalo packs pieces of this grain without gaps.
+        // A request that `claim` accepts always fits: bumpalo packs pieces that are multiples of `GRAIN`
+        // without gaps.
         self.claim::<T>(capacity)?;
         let items = bumpalo::collections::Vec::with_capacity_in(capacity, &self.bump);
         Ok(List::new(&self.counts, items, capacity))
@@ -81,7 +81,7 @@ impl Arena {
         self.capacity
     }
 
-    /// Books a request if it fits.
+    /// Counts a request as granted if it fits, otherwise as refused.
     #[inline]
     fn claim<T>(&self, len: usize) -> Result<(), Full> {
         const { assert!(align_of::<T>() <= GRAIN, "the arena aligns to 16 bytes at most") };
@@ -112,7 +112,7 @@ mod tests {
             assert_eq!((arena.used(), arena.capacity()), (160, 160));
             let refused = arena.slice(1, 0_u8).unwrap_err();
             assert_eq!(refused, Full { asked: 1, free: 0, capacity: 160 });
-            // Nothing that was handed out has suffered.
+            // The slices handed out are unchanged.
             for (i, slice) in ten.iter().enumerate() {
                 assert_eq!(**slice, [i as f64; 2]);
             }

@@ -7,7 +7,7 @@ use std::cell::Cell;
 pub(crate) struct Counts {
     used: Cell<usize>,
     refused: Cell<usize>,
-    /// Maximum up to the last reset; later requests are included by a reset or by `peak()`.
+    /// Maximum up to the last reset; `peak()` also includes the requests since then.
     peak: Cell<usize>,
 }
 

@@ -17,7 +17,7 @@ pub(crate) const GRAIN: usize = 16;
 pub struct Demand(usize);
 
 impl Demand {
-    /// Adds a slice of `len` elements, or a list with room for so many.
+    /// Adds a slice of `len` elements, or a list with room for `len` elements.
     #[must_use]
     pub fn and<T>(self, len: usize) -> Self {
         Self(self.0.saturating_add(rounded::<T>(len)))

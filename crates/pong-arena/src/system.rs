@@ -1,8 +1,8 @@
 //! Memory of the system, checked before it is taken.
 //!
 //! Rust's collections abort the process where the system has no memory for them. A library that must return
-//! an error instead adds up what set-up will need and asks for it in one block first. Another thread may take
-//! the memory in between; that is not detected.
+//! an error instead adds up what its set-up will need and first requests it in one block. Another thread may
+//! take the memory in between; that is not detected.
 
 /// Refusal of memory by the system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -33,8 +33,8 @@ pub fn require_memory(what: &'static str, bytes: usize, cure: &'static str) -> R
     outcome.map_err(|_| OutOfMemory { what, bytes, cure })
 }
 
-/// Makes the allocator keep some free small blocks. Once threads run, their address-space reservations may
-/// have taken all that is left.
+/// Makes the allocator keep some free small blocks. The address space that threads reserve when they start
+/// may leave no room for new ones.
 pub fn keep_small_blocks_free() {
     const PIECES: usize = 64;
     const PIECE: usize = 1 << 10;

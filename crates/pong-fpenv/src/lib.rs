@@ -12,17 +12,18 @@
 //! The host's contact laws run in the engine's environment on every thread. In the host's environment they
 //! would give other bits on the calling thread than on a worker.
 //!
-//! x86-64 has two units. The engine uses only SSE; a law of the host may use x87 (`long double`), so both are
-//! saved and restored. On architectures other than x86-64 and AArch64 the environment is left as it is.
+//! x86-64 has two floating-point units, SSE and x87. The engine uses only SSE; a contact law of the host may
+//! use x87 (`long double`), so the state of both units is saved and restored. On architectures other than
+//! x86-64 and AArch64 the environment is left as it is.
 //!
 //! The module documentation of `crates/pong-engine/src/lib.rs` says which exceptions are faults of the
 //! engine.
 //!
 //! With `--cfg pong_traps`, on x86-64, an invalid operation or a division by zero in the engine ends the
 //! program: no code may rely on ∞ − ∞ or 0/0. With `--cfg pong_traps_overflow` an overflow ends it too.
-//! Overflow occurs only with input that the engine refuses: it detects a wrench out of range by its overflow.
-//! `ci/traps --long` runs C programs with both options, and a fuzzer's calls, which include such input, with
-//! the first. Laws of the host run untrapped.
+//! Overflow occurs only with input that the engine refuses: it recognises a wrench out of range by its
+//! overflow. `ci/traps --long` runs C programs with both options, and a fuzzer's calls, which include such
+//! input, with the first. Contact laws of the host run with all exceptions masked.
 
 #![deny(unsafe_op_in_unsafe_fn)]
 
@@ -45,8 +46,8 @@ pub fn lent<T>(function: impl FnOnce() -> T) -> T {
     result
 }
 
-/// Runs the call as a function of its own: the compiler, which does not model the environment, cannot move
-/// arithmetic across it.
+/// Runs `call` in a function that is never inlined, so that the compiler, which does not model the
+/// environment, cannot move arithmetic across a change of it.
 #[inline(never)]
 fn fenced<T>(call: impl FnOnce() -> T) -> T {
     call()
@@ -106,7 +107,8 @@ mod unit {
 
     pub fn end(of_host: Environment) {
         if (x87_status() ^ of_host.x87_flags) & X87_FLAGS != 0 {
-            // A law has raised x87 flags. Restored before traps are enabled again; slow, but rare.
+            // A law of the host has raised x87 flags. They are restored before traps are enabled again. Slow,
+            // but rare.
             set_x87_flags(of_host.x87_flags);
         }
         if x87_control() != of_host.x87_control {
@@ -141,8 +143,8 @@ mod unit {
     }
 
     fn set_x87_flags(flags: u16) {
-        // The status word is the second of seven. `fnstenv` masks all exceptions until the words are loaded
-        // again.
+        // The x87 environment has seven words; the status word is the second. `fnstenv` masks all exceptions
+        // until `fldenv` loads the words again.
         let mut words = [0u32; 7];
         // SAFETY: stores 28 bytes into the variable and loads them again with other flags.
         unsafe {

@@ -27,7 +27,7 @@ pub struct Extensions {
     primitives: BTreeMap<String, PrimitiveFactory>,
     volumes: BTreeMap<String, VolumeFitter>,
     volume_tests: BTreeMap<(String, String), VolumeTest>,
-    /// Keyed by the kind of A, then of B, so that a frame can look up by borrowed names.
+    /// By the kind of A, then of B: the lookup needs only borrowed names and does not allocate.
     contact_tests: BTreeMap<String, BTreeMap<String, ContactTest>>,
 }
 
@@ -59,8 +59,8 @@ impl Extensions {
         self.volumes.insert(kind.to_owned(), fitter);
     }
 
-    /// Adds the test of two kinds of volumes (built-in names: `Aabb`, `Sphere`, `Obb`). It serves both
-    /// orders.
+    /// Adds the test of two kinds of volumes (built-in names: `Aabb`, `Sphere`, `Obb`). It is used for both
+    /// orders of the kinds.
     pub fn add_volume_test(&mut self, kind_a: &str, kind_b: &str, test: VolumeTest) {
         self.volume_tests.insert((kind_a.to_owned(), kind_b.to_owned()), test);
     }
@@ -114,7 +114,7 @@ macro_rules! define_reference {
                 }
             }
 
-            /// Facts of the primitive by itself; `None` for a triangle, which is a part of its mesh, and for a
+            /// Properties of the primitive; `None` for a triangle, which is a part of its mesh, and for a
             /// custom primitive, which has only its support function.
             pub fn facts(&self) -> Option<&'a dyn Primitive> {
                 match *self {

@@ -4,7 +4,8 @@ use crate::primitive::{Polyhedron, PolyhedronFace};
 use crate::simd::{self, Kernel, LANES, LaneBits, Simd};
 use crate::{Transform, Vec3};
 
-/// Eight points as coordinate arrays, m. With fewer points the results of the unused lanes are ignored.
+/// Eight points as coordinate arrays, m. If there are fewer points, the results of the unused lanes are
+/// ignored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct Lanes {
@@ -96,11 +97,12 @@ impl Polyhedron {
     }
 
     /// Returns the lanes whose line segment (given by its two ends) is excluded by one of the 32 widest
-    /// faces: bit `i` is set exactly if both ends lie in or above the plane of such a face. An internal face
-    /// is raised by the wall tolerance.
+    /// faces: bit `i` is set exactly if, for one such face, both ends are at or above its plane. An internal
+    /// face is raised by `wall_slack` for this comparison.
     ///
-    /// An excluded segment has no contact with this piece; the others may have none either. Testing more
-    /// faces for all eight would cost more than testing the remaining segments one by one.
+    /// An excluded segment has no contact with this piece. A segment that is not excluded may have none
+    /// either: testing all faces for eight segments would cost more than testing the remaining segments one
+    /// by one.
     #[inline]
     pub fn lanes_kept_out(&self, ends: &[Lanes; 2]) -> LaneBits {
         simd::run(KeptOut { polyhedron: self, ends })
@@ -111,8 +113,8 @@ impl Polyhedron {
     pub fn lanes_kept_out_in<S: Simd>(&self, simd: S, ends: &[Lanes; 2]) -> LaneBits {
         const WIDEST: usize = 32;
         let ends = [Loaded::new(simd, &ends[0]), Loaded::new(simd, &ends[1])];
-        // Positive even without a tolerance: a segment in the plane of a closed face may belong to this
-        // piece.
+        // Positive even if the tolerance is zero: a piece contains the points of its closed faces, so it may
+        // contain a segment in the plane of one.
         let slack = self.planes().wall_slack.max(f64::MIN_POSITIVE);
         let mut kept_out = 0;
         for face in self.planes().widest_first.iter().take(WIDEST) {

@@ -1,17 +1,18 @@
 //! Geometry of the contact engine: poses, twists and wrenches, primitives, bounding volumes and the
 //! interference test of every pair of primitives.
 //!
-//! Everything here is a pure function on values or borrowed slices. This crate never touches the heap in a
-//! test, never starts a thread and never does I/O.
+//! Everything here is a pure function on values or borrowed slices, except [`simd::set_level`]. Interference
+//! and overlap tests never allocate. This crate starts no threads and does no I/O.
 //!
 //! # Conventions
 //!
 //! * SI units, `f64`. Frames are right-handed.
 //! * `x_wg` is the pose of frame *g* seen from frame *w*: it takes components in *g* to components in *w*.
 //!   `v_ab_w` is the velocity of *b* seen from *a*, expressed in *w*.
-//! * In an interference of A and B the normal is a unit vector from B to A (the way A is pushed) and the depth
-//!   is positive in overlap: the least translation of A along the normal that separates the two.
-//! * All tests work in the frame of B's movable group: A is carried there first.
+//! * In an interference of A and B the normal is a unit vector from B to A (the direction in which A is
+//!   pushed). The depth is positive in overlap: the least translation of A along the normal that separates A
+//!   from B.
+//! * All tests work in the frame of B's movable group; A is transformed to it first.
 
 #![forbid(unsafe_code)]
 
@@ -40,9 +41,9 @@ pub type Mat3 = nalgebra::Matrix3<f64>;
 /// Unit quaternion (w, x, y, z), Hamilton product.
 pub type Quat = nalgebra::UnitQuaternion<f64>;
 
-/// Returns the difference, or another number if it is zero, so that it can be a divisor in a branch that
-/// excludes zero. A compiler may divide before that branch, and 0/0 or x/0 raises a floating-point exception
-/// even if unused.
+/// Returns the difference, or 2 if it is zero, for use as a divisor in a branch that excludes zero. A
+/// compiler may divide before the branch, and 0/0 or x/0 raises a floating-point exception even if the
+/// quotient is not used.
 ///
 /// For a difference known to be non-negative, `x.max(f64::MIN_POSITIVE)` is shorter.
 #[inline(always)]

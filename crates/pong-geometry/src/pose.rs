@@ -13,7 +13,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The pose of a frame that coincides with its reference.
+    /// Pose of a frame that coincides with its reference frame.
     #[inline]
     pub fn identity() -> Self {
         Self { position: Vec3::zeros(), orientation: Quat::identity() }
@@ -22,8 +22,8 @@ impl Pose {
     /// Pose from a position (m) and a quaternion (w, x, y, z), which is normalised here.
     ///
     /// The quaternion must not be zero. A quaternion and its negative are the same orientation and give the
-    /// same bits: the first non-zero component is made positive, and zeros lose their sign, which products
-    /// would carry into results.
+    /// same bits: the first non-zero component is made positive, and −0 becomes +0, whose sign could
+    /// otherwise appear in results.
     #[inline]
     pub fn new(position: Vec3, wxyz: [f64; 4]) -> Self {
         let first = wxyz.into_iter().find(|part| *part != 0.0).unwrap_or(1.0);
@@ -51,8 +51,8 @@ impl Pose {
 
     /// `x_ba`, the pose of A seen from B, from the poses of both in one common frame.
     ///
-    /// The positions are subtracted before anything is rotated (docs/theory.md, 1), so the result
-    /// does not depend on where the common origin is beyond the rounding of the inputs.
+    /// The positions are subtracted before anything is rotated (docs/theory.md, 1), so moving the common
+    /// origin changes the result only by the rounding of the positions.
     #[inline]
     pub fn relative(x_wa: &Pose, x_wb: &Pose) -> Pose {
         let r_ba_w = x_wa.position - x_wb.position;
@@ -137,7 +137,7 @@ impl Twist {
 pub struct Wrench {
     /// Force, N.
     pub force: Vec3,
-    /// Moment about the point that the holder of the wrench states, N·m.
+    /// Moment, N·m, about the point that the owner of the wrench documents.
     pub moment: Vec3,
 }
 
@@ -175,8 +175,7 @@ pub fn rotation_vector(q: &Quat) -> Vec3 {
     const SQUARE_MAX: f64 = 0.039_566_129_896_580_15;
     const TERMS: usize = 13;
     /// Limit for eight terms: rotations up to 0.14 rad, as is usual between two frames. The truncation error
-    /// is below 5e-3⁸/17 = 3e-20 of the result, far below rounding. (Fewer terms are faster: each depends on
-    /// the previous one.)
+    /// is below 5e-3⁸/17 = 3e-20 of the result, far below rounding.
     const SMALL_SQUARE: f64 = 5e-3;
     const SMALL_TERMS: usize = 8;
     let mut factor = 2.0;
@@ -186,7 +185,7 @@ pub fn rotation_vector(q: &Quat) -> Vec3 {
         w = -w;
         v = -v;
     }
-    // (1 + w, v) points along the square root of the rotation.
+    // (1 + w, v) is a multiple of the quaternion of half the rotation.
     while v.norm_squared() > SQUARE_MAX * (w * w) {
         let half = 1.0 + w;
         let norm = (half * half + v.norm_squared()).sqrt();
@@ -218,7 +217,7 @@ fn arctangent_ratio<const TERMS: usize>(square: f64) -> f64 {
 /// Rotates `p`, a vector perpendicular to the unit normal `from`, by the smallest rotation that takes `from`
 /// to `to`.
 ///
-/// For opposite normals that rotation is not unique: the result is then zero.
+/// For opposite normals the smallest rotation is not unique, and the result is zero.
 #[inline]
 pub fn carry_by_smallest_rotation(p: &Vec3, from: &Vec3, to: &Vec3) -> Vec3 {
     let cosine = from.dot(to);
@@ -242,7 +241,7 @@ mod tests {
             let turn = Quat::from_axis_angle(&axis, angle);
             let vector = rotation_vector(&turn);
             assert!((vector - axis.into_inner() * angle).norm() <= 4e-15 * (1.0 + angle), "angle {angle}");
-            // A product of quaternions may give either of the two that represent this rotation.
+            // The negative quaternion is the same rotation.
             assert_eq!(rotation_vector(&Quat::new_unchecked(-turn.into_inner())), vector, "angle {angle}");
         }
     }

@@ -19,12 +19,12 @@ use crate::sync::{AtomicU64, Thread, current, mutant};
 use crate::word::Word;
 
 /// Progress of one worker, written after each claim. Only that worker writes it, so plain stores are enough.
-/// It carries the epoch of the blocks, so blocks of an abandoned phase count for no other phase.
+/// `word` contains the epoch of the blocks, so blocks of an abandoned phase are not counted in a later one.
 struct Tally {
     word: AtomicU64,
     /// Blocks finished since the start, in all phases.
     finished: AtomicU64,
-    /// Time spent in the blocks of the epoch of `word`, ns.
+    /// Time spent in the blocks of the epoch in `word`, ns.
     busy_ns: AtomicU64,
 }
 
@@ -72,8 +72,9 @@ impl Board {
     // ---- claim word
 
     /// Opens a phase to the first `workers` workers. A plain store is enough: the previous phase has no block
-    /// left, so no claim can succeed in between. The store publishes everything the caller wrote before; each
-    /// claim is a read-modify-write, so later claims acquire it too.
+    /// left, so no thread can change the word by a claim. The store publishes everything that the caller
+    /// wrote before. Claims are read-modify-writes and continue its release sequence, so later claims acquire
+    /// it too.
     pub fn open(&self, epoch: u64, workers: usize, blocks: u32) {
         debug_assert_eq!(Word(self.claim.load(Relaxed)).number(), 0);
         self.claim.store(Word::new(epoch, blocks, false).among(workers).0, Release);
@@ -87,8 +88,8 @@ impl Board {
     /// Claims some of the last blocks left in phase `epoch`; `None` if none is left or the phase is over.
     ///
     /// Compare-and-swap checks the epoch and takes the blocks in one step, so a thread that read the word
-    /// before the phase ended takes nothing. (`fetch_add` takes before it checks, and would take blocks of
-    /// the next phase.)
+    /// before the phase ended takes nothing. (`fetch_sub` without that check could take blocks of the next
+    /// phase.)
     pub fn claim(&self, epoch: u64) -> Option<Range<u32>> {
         let mut seen = Word(self.claim.load(Acquire));
         while seen.epoch() == epoch && seen.number() > 0 {
@@ -101,12 +102,13 @@ impl Board {
     }
 
     /// Number of blocks that one claim takes, by guided self-scheduling (C. D. Polychronopoulos and D. J.
-    /// Kuck, IEEE Trans. Comput. C-36 (1987) 1425): an equal share of the blocks left, or three quarters of
-    /// it once few are left (smaller than a share, as in factoring: S. F. Hummel, E. Schonberg, L. E. Flynn,
-    /// Commun. ACM 35 (1992) 90). Early claims are large, so a thread runs neighbouring blocks; late ones are
-    /// small, so all threads finish together.
+    /// Kuck, IEEE Trans. Comput. C-36 (1987) 1425): an equal share of the blocks left; once few are left,
+    /// three quarters of an equal share (as in factoring: S. F. Hummel, E. Schonberg, L. E. Flynn, Commun.
+    /// ACM 35 (1992) 90). Early claims are large, so a thread runs neighbouring blocks; late ones are small,
+    /// so all threads finish together.
     pub fn share_of(left: u32, workers: usize) -> u32 {
-        /// Blocks per thread that count as few: one of them may take as long as several others.
+        /// Blocks per thread up to which few blocks are left: one long block may then delay the end of the
+        /// phase.
         const FEW: u32 = 8;
         let threads = workers as u32 + 1;
         if left <= FEW * threads { (3 * left).div_ceil(4 * threads) } else { left.div_ceil(threads) }
@@ -147,8 +149,8 @@ impl Board {
 
     // ---- tallies
 
-    /// Stores the tally of worker number `thread` after a claim: its work so far in phase `epoch`, and its blocks
-    /// since the start. The release stores publish what the blocks wrote.
+    /// Stores the tally of worker number `thread` after a claim: its work so far in phase `epoch`, and the
+    /// number of blocks it has finished since the start. The release stores publish what the blocks wrote.
     pub fn record(&self, thread: usize, epoch: u64, done: Done, finished: u64) {
         let tally = &self.tallies[thread - 1];
         tally.busy_ns.store(done.busy_ns, Relaxed);
@@ -183,16 +185,16 @@ impl Board {
 
     // ---- sleep
 
-    /// Registers the calling thread as worker number `thread`, so that others can wake it. Must precede the first
-    /// [`Board::lie_down`].
+    /// Registers the calling thread as worker number `thread`, so that others can wake it. Must precede the
+    /// first [`Board::lie_down`].
     pub fn introduce(&self, thread: usize) {
         self.threads[thread - 1].set(current()).expect("one thread per thread");
     }
 
     /// Marks worker number `thread` as about to park. It must check for news once more before it parks.
     ///
-    /// This function and [`Board::asleep`] are read-modify-writes of the same word, so one of them comes
-    /// first. If this one does, the other thread sees the bit and wakes the worker; otherwise the worker's
+    /// This function and [`Board::asleep`] are read-modify-writes of the same word, so they are ordered. If
+    /// this function comes first, the other thread sees the bit and wakes the worker; otherwise the worker's
     /// last check sees what the other thread published.
     pub fn lie_down(&self, thread: usize) {
         self.asleep.fetch_or(1 << (thread - 1), AcqRel);
@@ -206,8 +208,8 @@ impl Board {
         }
     }
 
-    /// Number of sleeping workers among the first `workers`, read after something was published to them. It
-    /// writes the word for the reason given at [`Board::lie_down`].
+    /// Number of sleeping workers among the first `workers`, to be called after publishing something to them.
+    /// A read-modify-write, for the reason given at [`Board::lie_down`].
     pub fn asleep(&self, workers: usize) -> u32 {
         (self.asleep.fetch_or(0, AcqRel) & first(workers)).count_ones()
     }
@@ -240,8 +242,8 @@ impl Board {
         }
     }
 
-    /// Wakes two more workers while blocks are left or an alert holds. Called by each woken worker, so the
-    /// caller pays for one wake-up only.
+    /// Wakes up to two more workers if blocks are left or an alert holds. Each woken worker calls it, so the
+    /// caller makes only one wake-up call.
     pub fn wake_others(&self, alerted: bool) {
         let phase = self.phase();
         let (wanted, workers) =
@@ -289,7 +291,7 @@ mod tests {
             }
             assert_eq!(end, 0);
             assert!(sizes.is_sorted_by(|earlier, later| earlier >= later), "{sizes:?}");
-            // The first claim leaves each other thread its share.
+            // The first claim is an equal share.
             assert_eq!(sizes[0] as usize, (blocks as usize).div_ceil(workers + 1), "{sizes:?}");
             assert_eq!(sizes.last(), Some(&1));
             assert_eq!(board.claim(1), None);

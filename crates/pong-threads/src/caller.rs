@@ -21,7 +21,7 @@ pub struct Caller {
     workers: usize,
     /// Blocks that workers have claimed since the start.
     handed_out: u64,
-    /// An alert holds; the next phase ends it.
+    /// True while an alert holds; the next phase ends it.
     alert_stands: bool,
     /// Time at which all workers were last found asleep, ns since the start.
     found_asleep_ns: Option<u64>,
@@ -84,8 +84,8 @@ impl Caller {
     /// atomic operation.
     fn run_shared(&mut self, blocks: u32, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
         self.epoch = Word::next_epoch(self.epoch);
-        // Counted before the phase opens: afterwards a worker may finish a block that is not yet in
-        // `handed_out`.
+        // Blocks of abandoned phases that still run. Counted before this phase opens: afterwards a worker may
+        // finish a block that is not yet in `handed_out`.
         let stuck = self.stuck();
         let left = blocks - Board::share_of(blocks, self.workers);
         self.shared.board.open(self.epoch, self.workers, left);
@@ -150,8 +150,8 @@ impl Caller {
         }
     }
 
-    /// Payload of a worker's panic in this phase, if `panicked`. A payload left by an abandoned phase stays
-    /// in place until then.
+    /// Takes the payload of a worker's panic in this phase, if `panicked`. The payload of a panic in an
+    /// abandoned phase is kept until a later phase panics.
     fn take_panic(&self, panicked: bool) -> Option<Payload> {
         if !panicked {
             return None;
@@ -203,8 +203,8 @@ impl Caller {
         self.alert_stands = true;
     }
 
-    /// Ends the alert. Called after a phase opens: before, a worker that sees the alert end would park just
-    /// when it is needed.
+    /// Ends the alert. Called after a phase opens: earlier, a worker that finds the alert over would park
+    /// just before the phase needs it.
     fn end_alert(&mut self) {
         if self.alert_stands {
             self.shared.board.set_alert(CALM);
@@ -212,8 +212,8 @@ impl Caller {
         }
     }
 
-    /// Tells all workers to end and wakes every sleeper. The count of sleepers is no limit for the waking: a
-    /// worker may be about to park while they are counted.
+    /// Sets the end flag and wakes all sleeping workers. The number counted does not limit the wake-ups:
+    /// another worker may park after the count.
     pub fn end(&mut self) {
         self.shared.board.end();
         let workers = self.shared.board.workers();

@@ -3,8 +3,8 @@
 //!     RUSTFLAGS="--cfg loom" cargo test -p pong-threads --lib --release models
 //!
 //! Loom runs each model once per order of accesses and per value that a load may return. It fails on a data
-//! race, a failed assertion, or a deadlock. Each block is a cell watched by loom: running a block twice at
-//! once, or a caller that reads a cell too early, is a race.
+//! race, a failed assertion, or a deadlock. Each block is a cell whose accesses loom watches: a block that
+//! runs twice at once, or a caller that reads a cell too early, is a data race.
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex};
@@ -82,7 +82,7 @@ impl Model {
         Model { threads: (1..=workers).map(serve).collect(), caller: Caller::new(shared.clone()) }
     }
 
-    /// Ends the workers. If one of them misses this, all threads wait, and loom fails.
+    /// Ends the workers. If one of them misses the end flag, all threads wait, and loom reports a deadlock.
     fn end(mut self) {
         self.caller.end();
         self.threads.into_iter().for_each(|thread| thread.join().unwrap());
@@ -96,7 +96,7 @@ fn explore(preemptions: usize, model: impl Fn() + Sync + Send + 'static) {
     builder.check(model);
 }
 
-/// A worker that is late for a phase finds the next one open, with another number of blocks.
+/// A worker that is late for a phase finds the next phase open, with another number of blocks.
 #[test]
 fn a_late_worker_enters_no_closed_phase() {
     explore(3, || {
@@ -127,8 +127,8 @@ fn two_workers_and_the_caller_run_each_block_once() {
     explore(1, two_workers(&[3, 2]));
 }
 
-/// One phase for the first of two workers, then one for both. The worker that does not take part claims
-/// nothing and takes part in the next phase.
+/// One phase for the first of two workers, then one for both workers. The worker that does not take part
+/// claims nothing, and takes part in the next phase.
 #[test]
 fn a_phase_for_some_is_left_alone_by_the_others() {
     explore(1, || {
@@ -172,8 +172,8 @@ impl Job for NeedsWorker {
     }
 }
 
-/// Follows the engine: it repeats an abandoned phase in memory of the caller's own, and does not touch cells
-/// that a worker may still use until the pool is quiet.
+/// As in the engine, memory that the blocks of an abandoned phase may still use is not touched until the pool
+/// is quiet.
 #[test]
 fn an_abandoned_block_counts_for_no_later_phase() {
     explore(3, || {

@@ -23,19 +23,20 @@ pub struct Pool {
     caller: Caller,
     threads: Vec<JoinHandle<()>>,
     start_report: Vec<WorkerStart>,
-    /// Kept until the pool ends: otherwise the last worker to release it would free it during the first
-    /// phases.
+    /// Start barrier, kept until the pool ends: otherwise the last worker to drop its reference would free
+    /// the memory during the first phases.
     started: Arc<StartBarrier>,
     worker_timeout: Duration,
     /// Id of the process that started the workers; threads do not survive a `fork`.
     process: u32,
 }
 
-/// Time limit for the start of a pool. A new thread that has not run for so long is kept from its core by
-/// another thread.
+/// Time limit for the start of a pool. A new thread that has not run by then is kept off its core by another
+/// thread.
 pub const LONGEST_START: Duration = Duration::from_secs(10);
 
-/// Time that the end of a pool waits for a worker that is in no block and only needs to be scheduled.
+/// Time limit for the end of a pool in which no worker is inside a block: each worker then only needs to be
+/// scheduled.
 pub const LONGEST_FAREWELL: Duration = Duration::from_secs(1);
 
 /// A thread could not be created, or the system did not run it.
@@ -70,8 +71,8 @@ impl std::error::Error for StartError {
 
 impl Pool {
     /// Starts the workers and sleeps until each is bound and has reported, for [`LONGEST_START`] at most. It
-    /// must not spin: a new thread has the core and the priority of this one, and under SCHED_FIFO would
-    /// never run.
+    /// must not spin: a new thread may have the core and the priority of the calling thread, and under
+    /// SCHED_FIFO would then never run.
     ///
     /// # Errors
     /// [`StartError`] if a thread cannot be created or does not run within [`LONGEST_START`]; the workers
@@ -123,8 +124,9 @@ impl Pool {
     }
 
     /// Runs blocks 0 to `blocks` − 1 of the job, the last first, on the caller and on the workers that are
-    /// awake in time. The panic of a block continues here once the claimed blocks of other threads have ended
-    /// or the worker timeout has passed; blocks claimed together with the panicking one are skipped.
+    /// awake in time. The panic of a block is resumed on the calling thread once the claimed blocks of other
+    /// threads have ended or the worker timeout has passed; blocks claimed together with the panicking block
+    /// are skipped.
     ///
     /// # Panics
     ///
@@ -133,9 +135,10 @@ impl Pool {
         self.caller.run(blocks)
     }
 
-    /// Runs a phase like [`run`](Self::run), but with the first `workers` workers only: more would slow a
-    /// small phase down. The caller runs its claims by `run` instead of the job, so they can use memory that
-    /// no worker shares. `run` gets a range of neighbouring blocks, as in [`Job::run_neighbors`].
+    /// Runs a phase like [`run`](Self::run), but with the first `workers` workers only: more workers would
+    /// slow a small phase down. The caller runs the blocks it claims by `run` instead of the job, so `run`
+    /// can use memory that no worker shares. `run` gets a range of neighbouring blocks, as in
+    /// [`Job::run_neighbors`].
     ///
     /// # Panics
     ///
@@ -144,7 +147,8 @@ impl Pool {
         self.caller.run_beside(blocks, workers, run)
     }
 
-    /// Reports whether no block of an abandoned phase is still running. Then their output may be read.
+    /// Reports whether no block of an abandoned phase is still running. Only then may the output of such
+    /// blocks be read.
     pub fn is_quiet(&self) -> bool {
         self.caller.stuck() == 0 || self.is_forked()
     }
@@ -188,8 +192,8 @@ impl Pool {
         let mut left = 0;
         for thread in self.threads.drain(..) {
             if thread.is_finished() {
-                // A finished worker only returns to the system. It caught the panics of its blocks, so `join`
-                // has none to report.
+                // A finished thread has nothing left to run, so `join` returns at once. The worker caught the
+                // panics of its blocks, so `join` has none to report.
                 let _ = thread.join();
             } else {
                 left += 1;
@@ -297,7 +301,8 @@ mod tests {
         Pool::start(Arc::new(Idle), &settings).unwrap()
     }
 
-    /// Waits for a time that is enough on any machine and far below [`HOUR`].
+    /// Waits until `workers` workers sleep; fails after a time that is ample on any machine and far below
+    /// [`HOUR`].
     fn wait_until_asleep(pool: &Pool, workers: usize) {
         let started = Instant::now();
         while pool.caller.asleep() != workers {

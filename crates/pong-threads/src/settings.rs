@@ -5,13 +5,14 @@ use std::time::Duration;
 /// Number of workers, their cores and priority, and how long threads wait.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// Number of workers wanted beside the caller; 1 by default. Limited to the cores in the affinity mask of
-    /// the starting thread less the caller's, and to [`MAX_WORKERS`](crate::MAX_WORKERS).
+    /// Number of workers wanted beside the caller; 1 by default. Limited to
+    /// [`MAX_WORKERS`](crate::MAX_WORKERS), and to the number of cores in the affinity mask of the starting
+    /// thread less one core for the caller.
     pub workers: usize,
     /// Allows more workers than cores.
     pub oversubscribe: bool,
-    /// Time for which a worker spins for the next phase before it parks; 50 µs by default. The next phase
-    /// wakes a parked worker within tens of microseconds, at the cost of a system call by the caller.
+    /// Time for which a worker spins for the next phase before it parks; 50 µs by default. To wake a parked
+    /// worker takes tens of microseconds and a system call by the caller.
     pub spin: Duration,
     /// Time the caller waits for claimed blocks of workers, once it has no block to run itself; 1 ms by
     /// default. Then the phase is abandoned.
@@ -26,8 +27,8 @@ pub struct Settings {
     /// SCHED_FIFO priority requested for the workers. Without it they keep what the system gives a new
     /// thread: on Linux, the policy of the thread that starts the pool. None by default.
     pub fifo_priority: Option<u8>,
-    /// Clock in ns, to measure the time spent in blocks ([`ThreadWork`](crate::ThreadWork)). Read before and
-    /// after the blocks of each claim.
+    /// Clock, ns, that measures the time spent in blocks ([`ThreadWork`](crate::ThreadWork)). It is read
+    /// before and after the blocks of each claim.
     pub clock: Option<fn() -> u64>,
 }
 

@@ -1,8 +1,8 @@
-//! Threads of the library take none of the host's signals.
+//! Threads of the library handle no signals of the host.
 
-/// Runs `start` with signals blocked, so that threads it creates leave them to the host's threads. A thread
-/// inherits the mask, so there is no moment in which it could take a signal. The caller's mask is restored
-/// afterwards.
+/// Runs `start` with signals blocked, so that the threads it creates handle none: the host's threads do. A
+/// new thread inherits the signal mask, so no signal reaches it even at its start. The caller's mask is
+/// restored afterwards.
 ///
 /// Signals for a thread's own fault (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS) stay unblocked: no
 /// other thread could take them, and the host's handler should see a crash of the host's contact law on a

@@ -36,7 +36,7 @@ mod real {
     pub use loom::sync::atomic::AtomicU64;
     pub use loom::thread::{Thread, current, park, yield_now};
 
-    /// Yields: loom has to know that a thread that spins waits for another.
+    /// Yields, so that loom knows that a spinning thread waits for another thread.
     pub fn spin_loop() {
         yield_now();
     }

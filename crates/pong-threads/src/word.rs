@@ -1,5 +1,4 @@
-//! Number that belongs to a phase, packed in one atomic word: 40 bits epoch, 7 bits workers, 16 bits number,
-//! 1 bit flag.
+//! State of a phase, packed in one 64-bit word: 40 bits epoch, 7 bits workers, 16 bits number, 1 bit flag.
 
 use crate::{MAX_BLOCKS, MAX_WORKERS};
 
@@ -9,9 +8,9 @@ const WORKERS_MASK: u64 = (1 << (EPOCH_SHIFT - WORKERS_SHIFT)) - 1;
 const EPOCH_SHIFT: u32 = 24;
 const EPOCH_MASK: u64 = (1 << 40) - 1;
 
-/// Packed state of a phase. In the claim word the number is the blocks left, the workers are those that take
-/// part, and the flag tells them to end. In a tally the number is the blocks done, the workers are 0, and the
-/// flag says that a block panicked.
+/// Packed state of a phase. In the claim word the number counts the blocks left, `workers` is how many
+/// workers take part, and the flag ends all workers. In a tally the number counts the blocks done, `workers`
+/// is 0, and the flag means that a block panicked.
 ///
 /// The epoch wraps around after 2⁴⁰ phases: 35 years at one phase per millisecond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -24,8 +24,8 @@ pub struct Shared {
     /// Origin of the times of alerts.
     pub origin: Watch,
     /// First panic of the latest phase that had one, with its epoch, until the caller takes it. The caller
-    /// looks only if a tally of its phase reports a panic, so a panic of an abandoned phase is not reported
-    /// to it.
+    /// takes it only if a tally of the current phase reports a panic, so a panic of an abandoned phase alone
+    /// is never raised.
     pub panic: Mutex<Option<(u64, Payload)>>,
 }
 
@@ -61,9 +61,8 @@ fn keep_latest(kept: &mut Option<(u64, Payload)>, epoch: u64, payload: Payload) 
     }
 }
 
-/// Waiting time after which a thread, worker or caller, yields between looks. The thread it waits for, or a
-/// caller that has work, may need this core. If there are free cores, yielding costs a fraction of a
-/// microsecond.
+/// Waiting time, ns, after which a thread, worker or caller, yields between reads: a thread with work may
+/// need this core. If other cores are free, yielding costs a fraction of a microsecond.
 pub const YIELD_AFTER_NS: u64 = 5_000;
 
 pub struct Worker {
@@ -119,8 +118,8 @@ impl Worker {
         }
     }
 
-    /// Spins for news for as long as the worker stays awake. The clock is read only after the first looks
-    /// found none.
+    /// Spins until there is news, as long as the worker stays awake. The clock is first read after [`LOOKS`]
+    /// reads without news.
     fn spin(&self, seen: u64) -> Option<Word> {
         let mut idle = None;
         loop {
@@ -150,7 +149,7 @@ impl Worker {
         alert != CALM && alert != PARK && self.shared.origin.elapsed_ns() < alert
     }
 
-    /// Parks until woken, unless there is news already.
+    /// Parks until woken, unless a phase, the end flag or an alert has come.
     fn sleep(&self, seen: u64) {
         let board = &self.shared.board;
         board.lie_down(self.thread);

@@ -4,14 +4,14 @@
 use super::box_box::boxes_overlap;
 use crate::{Mat3, Vec3};
 
-/// A is axis-aligned; B is (centre, axes, half extents).
+/// A is axis-aligned (centre, half extents); B is oriented (centre, axes, half extents).
 #[inline]
 pub(super) fn aabb_obb(a: (&Vec3, &Vec3), b: (&Vec3, &Mat3, &Vec3), r_ba: &Mat3) -> bool {
     let m = b.1.tr_mul(r_ba);
     boxes_overlap(a.1, b.2, &m, &b.1.tr_mul(&(a.0 - b.0)))
 }
 
-/// A is (centre, axes in A's frame, half extents); B is axis-aligned.
+/// A is oriented (centre, axes in A's frame, half extents); B is axis-aligned (centre, half extents).
 #[inline]
 pub(super) fn obb_aabb(a: (&Vec3, &Mat3, &Vec3), b: (&Vec3, &Vec3), r_ba: &Mat3) -> bool {
     boxes_overlap(a.2, b.1, &(r_ba * a.1), &(a.0 - b.0))

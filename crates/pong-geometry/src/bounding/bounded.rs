@@ -10,8 +10,8 @@ pub struct PointCloud<'a>(pub &'a [Vec3]);
 
 /// Shape dilated by a ball: all points within `reach` metres of it.
 ///
-/// A triangle that pushes whatever is up to `thickness` behind it is bounded as dilated by that thickness.
-/// Its prism alone is too small: the origin of a grazing ray that still hits may lie beside the prism.
+/// A triangle is dilated by its thickness, the distance behind it within which it pushes. The prism of that
+/// thickness would be too small: the origin of a ray that grazes the triangle may lie beside the prism.
 #[derive(Clone, Copy)]
 pub struct Dilated<'a> {
     /// Shape that is dilated.
@@ -124,12 +124,12 @@ pub(crate) fn support_of_points(points: impl Iterator<Item = Vec3>, direction: &
     largest(points.map(|p| direction.dot(&p)))
 }
 
-/// Distance of the farthest of points, m.
+/// Distance from `from` to the farthest of points, m.
 pub(crate) fn farthest_of_points(points: impl Iterator<Item = Vec3>, from: &Vec3) -> f64 {
     largest(points.map(|p| (p - from).norm_squared())).sqrt()
 }
 
-/// Points of a sphere along the axes of the frame.
+/// Appends the points of a sphere in the directions of the frame's axes.
 pub(crate) fn ball_representatives(center: &Vec3, radius: f64, out: &mut Vec<Vec3>) {
     for axis in [Vec3::x(), Vec3::y(), Vec3::z()] {
         out.extend([center + axis * radius, center - axis * radius]);

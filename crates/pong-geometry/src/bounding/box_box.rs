@@ -19,7 +19,7 @@ use crate::{Mat3, Vec3};
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Returns `true` if two boxes may overlap. `half_a`, `half_b`: half extents; `m`: A's axes as columns in B's
-/// axes; `t`: A's centre from B's, in B's axes.
+/// axes; `t`: vector from B's centre to A's, in B's axes.
 #[inline]
 pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
     let abs = m.abs();
@@ -30,7 +30,7 @@ pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) ->
     if apart(gaps_b.x, gaps_b.y, gaps_b.z) {
         return false;
     }
-    if share_a_place(half_a, half_b, m, t) {
+    if have_common_point(half_a, half_b, m, t) {
         return true;
     }
     let gaps_a = m.tr_mul(t).abs() - half_a - abs.tr_mul(half_b);
@@ -45,9 +45,10 @@ pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) ->
 }
 
 /// Returns `true` if the point of B nearest to A's centre lies in A: a quick proof that most overlapping
-/// boxes overlap. A point that lies in A only by rounding is nearer than the margin of the projections.
+/// boxes overlap. If the point lies in A only by rounding, every gap between the projections is below the
+/// margin, so the full test reports an overlap too.
 #[inline(always)]
-fn share_a_place(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
+fn have_common_point(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
     let nearest = t.zip_map(half_b, |t, half| {
         if t > half {
             half
@@ -64,8 +65,8 @@ fn share_a_place(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
 
 /// Gap between the projections along `b_i × a_j` (not a unit vector).
 ///
-/// In B's axes that vector has the components −m(i+2, j) at i+1 and m(i+1, j) at i+2; along `a_(j+1)` it is
-/// `b_i·(a_j × a_(j+1)) = m(i, j+2)`.
+/// In B's axes `b_i × a_j` has the components −m(i+2, j) at i+1 and m(i+1, j) at i+2. Its component along
+/// `a_(j+1)` is `b_i·(a_j × a_(j+1)) = m(i, j+2)`.
 #[inline(always)]
 fn edge_gap(i: usize, j: usize, half_a: &Vec3, half_b: &Vec3, m: &Mat3, abs: &Mat3, t: &Vec3) -> f64 {
     let (i1, i2, j1, j2) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);

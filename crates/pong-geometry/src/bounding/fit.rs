@@ -9,12 +9,11 @@ use crate::extension::Extensions;
 /// Fits a volume of the given kind around shapes in the frame of one movable group, with margin
 /// ([`RELATIVE_MARGIN`](super::RELATIVE_MARGIN)).
 ///
-/// If any shape is infinite, the result is [`Volume::Unbounded`], whatever the kind. Refused are an empty
-/// list, shapes whose extent is NaN, and custom kinds that are not registered or whose fitter returns a
-/// volume of another kind.
+/// If any shape is infinite, the result is [`Volume::Unbounded`], whatever the kind.
 ///
 /// # Errors
-/// The reason as text, for the cases above or if the volume would not be finite.
+/// The reason as text: an empty list, shapes whose extent is NaN, a volume that would not be finite, or a
+/// custom kind that is not registered or whose fitter returns a volume of another kind.
 pub fn fit(kind: &BoundKind, things: &[&dyn Bounded], ext: &Extensions) -> Result<Volume, String> {
     let Some((min, max)) = bounds(things)? else { return Ok(Volume::Unbounded) };
     let volume = match kind {

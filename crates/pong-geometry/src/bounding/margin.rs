@@ -6,16 +6,17 @@ use crate::Vec3;
 /// Every fitted volume is grown by this fraction of (its extent + the distance of its centre from the frame's
 /// origin).
 ///
-/// This is why the pair tests need no margin of their own for position errors. Let the volumes have centres
-/// `c` and extents `e`, and let the frames be `r` apart. Transforming a centre, or in the contact test the
-/// shape itself, rounds by a few units of 1.1e-16 of `r + |c_A| + |c_B|`, and fitting by a few of `|c| + e`.
-/// If the two touch, `r ≤ |c_A| + e_A + |c_B| + e_B`. So the total rounding is below about ten units of
-/// 1.1e-16 of that sum, while the two volumes are grown by 1e-12 of it: a thousand times more.
+/// With this margin the pair tests need none for position errors. Let the volumes have the centres `c_A` and
+/// `c_B` in their frames and the extents `e_A` and `e_B`, and let the frames be `r` apart. Transforming a
+/// centre, or in the contact test the shape itself, rounds by a few units of 1.1e-16 of `r + |c_A| + |c_B|`,
+/// and fitting by a few such units of `|c| + e`. If the volumes touch, `r ≤ |c_A| + e_A + |c_B| + e_B`. So
+/// the total rounding is below about ten units of 1.1e-16 of `|c_A| + e_A + |c_B| + e_B`, while the volumes
+/// are grown by 1e-12 of it: a thousand times more.
 pub const RELATIVE_MARGIN: f64 = 1e-12;
 
 impl Volume {
-    /// Volume grown by [`RELATIVE_MARGIN`]. Fitted volumes already are; a volume written by hand should be
-    /// grown before it is tested. A custom volume has a margin of its own.
+    /// Volume grown by [`RELATIVE_MARGIN`]. [`fit`](super::fit()) has done so already; a volume built by hand
+    /// should be grown before it is tested. A custom volume is returned unchanged: its fitter adds a margin.
     pub fn inflated(self) -> Self {
         let margin = |extent: f64, center: &Vec3| RELATIVE_MARGIN * (extent + center.norm());
         match self {

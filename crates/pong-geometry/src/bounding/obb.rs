@@ -1,5 +1,5 @@
-//! Oriented box. For given axes it is exact, from the supports along them. The axes are the better of the
-//! frame's and the principal ones, refined by small rotations.
+//! Oriented box. For given axes it is exact, from the supports along the axes. The search for the axes starts
+//! from the better of the frame's axes and the principal axes, and continues by coarse, then fine rotations.
 
 use super::bounded::{representatives, support};
 use super::principal_axes::{orthonormal, plane_rotation, principal_axes};
@@ -45,7 +45,7 @@ impl Candidate {
         smaller
     }
 
-    /// Box axes rotated about one of them; the argument is the tangent of half the angle.
+    /// Axes of the box, rotated about one of its axes.
     fn turned(&self, axis: usize, half_angle_tangent: f64) -> Mat3 {
         let square = half_angle_tangent * half_angle_tangent;
         let (cosine, sine) = ((1.0 - square) / (1.0 + square), 2.0 * half_angle_tangent / (1.0 + square));
@@ -63,7 +63,8 @@ impl Candidate {
         }
     }
 
-    /// Rotates about the axes of the box by ever smaller angles while the box shrinks.
+    /// Rotates about the axes of the box by smaller and smaller angles. An angle is used up to `ROUNDS`
+    /// times, as long as the box shrinks.
     fn refine(&mut self, things: &[&dyn Bounded]) {
         const HALVINGS: usize = 20;
         const ROUNDS: usize = 4;

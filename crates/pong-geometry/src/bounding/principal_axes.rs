@@ -3,7 +3,7 @@
 
 use crate::{Mat3, Vec3};
 
-/// Axes of largest and least variance of the points, as orthonormal right-handed columns.
+/// Principal axes of the covariance of the points, as orthonormal right-handed columns.
 pub(super) fn principal_axes(points: &[Vec3]) -> Mat3 {
     let count = points.len() as f64;
     let mean = points.iter().sum::<Vec3>() / count;
@@ -14,7 +14,7 @@ pub(super) fn principal_axes(points: &[Vec3]) -> Mat3 {
 /// Rotation V with VᵀSV diagonal, for symmetric S.
 ///
 /// Each sweep rotates in the three coordinate planes by the angle that zeroes the off-diagonal entry.
-/// Convergence is quadratic: a 3 × 3 matrix needs four or five sweeps; further ones change nothing.
+/// Convergence is quadratic: a 3 × 3 matrix needs four or five sweeps, and further sweeps change nothing.
 fn diagonalising_rotation(mut s: Mat3) -> Mat3 {
     const SWEEPS: usize = 8;
     /// 2⁻⁵¹¹: below it the square of the cotangent overflows, and a rotation by so small an angle changes no

@@ -30,8 +30,8 @@ impl Ball {
         smaller
     }
 
-    /// Moves the centre along the axes by ever smaller steps while the radius shrinks. This evaluates the
-    /// shapes themselves: their representative points do not cover curved surfaces.
+    /// Moves the centre along the axes by smaller and smaller steps while the radius shrinks. The radius is
+    /// that around the shapes themselves: their representative points do not cover curved surfaces.
     fn refine(&mut self, radius_about: &impl Fn(&Vec3) -> f64) {
         const HALVINGS: usize = 12;
         let mut step = 0.125 * self.radius;

@@ -4,7 +4,7 @@
 use super::volume::FromAToB;
 use crate::Vec3;
 
-/// Both in B's frame.
+/// Sphere (centre, radius) and box (centre, half extents), both in B's frame.
 #[inline]
 pub(super) fn sphere_aabb(a: (&Vec3, f64), b: (&Vec3, &Vec3)) -> bool {
     ball_reaches_box(&(a.0 - b.0), a.1, b.1)

@@ -2,7 +2,7 @@
 
 use crate::Vec3;
 
-/// Both in B's frame.
+/// Spheres (centre, radius), both in B's frame.
 #[inline]
 pub(super) fn sphere_sphere(a: (&Vec3, f64), b: (&Vec3, f64)) -> bool {
     let reach = a.1 + b.1;

@@ -17,8 +17,7 @@ pub enum BoundKind {
 }
 
 impl BoundKind {
-    /// Name of the kind (a custom kind's own name), as [`Volume::kind_name`] returns it for a bounded volume
-    /// of this kind.
+    /// Name of the kind, as [`Volume::kind_name`] returns it; for a custom kind, its own name.
     pub fn name(&self) -> &str {
         match self {
             Self::Aabb => "Aabb",
@@ -80,8 +79,8 @@ pub trait CustomVolume: std::fmt::Debug + Send + Sync + std::any::Any {
     fn kind_name(&self) -> &str;
     /// The volume as `Any`, so that a pair test can get its own type back.
     fn as_any(&self) -> &dyn std::any::Any;
-    /// Support function, as [`Bounded::support`], used to fit a parent volume around this one. Without it
-    /// every parent is unbounded, which is correct but slow.
+    /// Support function, as [`Bounded::support`], used to fit a parent volume around this one. The default
+    /// makes every parent unbounded, which is correct but slow.
     fn support(&self, _direction: &Vec3) -> f64 {
         f64::INFINITY
     }

@@ -1,7 +1,7 @@
-//! Distance of two convex solids with the points where they are nearest (docs/theory.md, 2.10).
+//! Distance of two convex solids, and their nearest points (docs/theory.md, 2.10).
 //!
-//! The solids must be in one frame. A plane is a half space without a bound and has a closed form
-//! ([`Solid::to_plane`]); all others meet in [`Solid::to`], by the algorithm of Gilbert, Johnson and Keerthi.
+//! The solids must be in one frame. The distance from a plane has a closed form ([`Solid::to_plane`]). All
+//! other pairs use [`Solid::to`], the algorithm of Gilbert, Johnson and Keerthi.
 
 mod search;
 mod simplex;
@@ -15,7 +15,7 @@ use crate::primitive::Plane;
 impl Solid<'_> {
     /// Distance of this solid from another.
     pub fn to(&self, other: &Solid<'_>) -> Distance {
-        // No distance exceeds infinity.
+        // The search gives `None` only for a distance above the limit, which is infinite here.
         self.to_within(other, f64::INFINITY).unwrap_or(Distance {
             distance: f64::INFINITY,
             points_b: [self.member(), other.member()],
@@ -23,7 +23,7 @@ impl Solid<'_> {
         })
     }
 
-    /// As [`to`](Self::to); `None` as soon as the distance is seen to exceed `limit`, m.
+    /// As [`to`](Self::to); `None` as soon as a lower bound of the distance exceeds `limit`, m.
     pub fn to_within(&self, other: &Solid<'_>, limit: f64) -> Option<Distance> {
         search::search(self, other, limit)
     }

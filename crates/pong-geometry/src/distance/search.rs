@@ -7,29 +7,31 @@ use crate::Vec3;
 /// Distance of two solids.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distance {
-    /// Smallest distance of the two, m. Zero if they overlap, or touch to rounding.
+    /// Smallest distance of the two solids, m. Zero if they overlap, or touch within rounding.
     pub distance: f64,
-    /// Nearest points: of the first solid, then of the second, m, in the frame of both. Of solids that
-    /// overlap, some point of each.
+    /// Nearest points of the first and the second solid, m, in the frame of both solids. If the solids
+    /// overlap, an arbitrary point of each.
     pub points_b: [Vec3; 2],
-    /// Bound of the error of the distance, m: no plane was found that keeps the two farther apart than
-    /// `distance − gap`.
+    /// Upper bound of the error of the distance, m: the true distance is at least `distance − gap`.
     pub gap: f64,
 }
 
-/// Steps at most. Two polyhedra need as many as they have vertices near; smooth solids converge linearly.
+/// Maximum number of steps. Two polyhedra need about as many as they have vertices near each other; smooth
+/// solids converge linearly.
 const STEPS: usize = 200;
-/// Distance below which two cores overlap, relative to the coordinates: accumulated rounding.
+/// Distance of two cores up to which they count as overlapping, relative to the coordinates: accumulated
+/// rounding.
 const OVERLAP: f64 = 1e-14;
-/// Gap between the two bounds at which the search ends, relative to the coordinates: rounding of one product.
+/// Difference of the upper and lower bound of the distance at which the search ends, relative to the
+/// coordinates: rounding of one product.
 const CLOSED: f64 = 8.0 * f64::EPSILON;
-/// Steps in a row without a nearer point after which the search ends.
+/// Number of consecutive steps without a smaller distance after which the search ends.
 const IDLE: usize = 16;
 
 /// Distance of two solids; `None` if it exceeds `limit`, m.
 ///
-/// The distance of the cores is bounded from above by the nearest point of the simplex, from below by the
-/// support plane perpendicular to it. Both bounds are the best seen.
+/// The distance of the cores is at most that of the nearest point of the simplex, and at least that of the
+/// support plane perpendicular to the nearest point's direction. Each bound is the best over all steps.
 pub(super) fn search(a: &Solid<'_>, b: &Solid<'_>, limit: f64) -> Option<Distance> {
     let margin = a.margin() + b.margin();
     let corner = |towards_a: &Vec3| {
@@ -55,7 +57,7 @@ pub(super) fn search(a: &Solid<'_>, b: &Solid<'_>, limit: f64) -> Option<Distanc
         }
         let Some(found) = nearest.with(next) else { return Some(overlap(&best)) };
         idle = if found.distance < best.distance { 0 } else { idle + 1 };
-        // Of equal distances the later one counts: its direction is better.
+        // A later simplex of the same distance replaces the earlier one: its direction is more accurate.
         if found.distance <= best.distance + CLOSED * size {
             best = found;
         }
@@ -73,7 +75,7 @@ fn overlap(nearest: &Nearest) -> Distance {
     Distance { distance: 0.0, points_b: nearest.points(), gap: 0.0 }
 }
 
-/// Distance of two cores that are apart, less the margins.
+/// Distance of two solids whose cores do not overlap: that of the cores less the margins.
 fn apart(nearest: &Nearest, margins: [f64; 2], least: f64) -> Distance {
     let [p, q] = nearest.points();
     let towards_a = nearest.direction_b;

@@ -1,13 +1,14 @@
 //! Point of a simplex that is nearest to the origin.
 //!
-//! A candidate is the nearest point of every edge and of every face that has one inside; the nearest candidate
-//! counts. Its shares are never negative and add up to one, so it lies in the simplex whatever the rounding.
-//! Slender faces are no exception: their axes come from Gram and Schmidt, longest edge first, which places the
-//! point to rounding of the coordinates whatever the shape, and gives a normal that is as perpendicular.
+//! Candidates are the nearest point of each edge, and that of each face if it lies inside the face; the
+//! nearest candidate is the result. The weights of its corners are never negative and add up to one, so it
+//! lies in the simplex whatever the rounding. That includes slender faces: their axes come from Gram-Schmidt
+//! orthogonalisation, longest edge first, so the point is exact to the rounding of the coordinates and the
+//! normal is perpendicular to the face to rounding.
 
 use crate::Vec3;
 
-/// Difference of two support points, with the points.
+/// Support points of two cores, and their difference.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     /// Point of the first core less point of the second, m.
@@ -16,23 +17,23 @@ pub(super) struct Corner {
     pub points_b: [Vec3; 2],
 }
 
-/// Part of a simplex that holds its nearest point.
+/// Corner, edge or face of a simplex that contains the point nearest to the origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Nearest {
-    /// Its corners, the first `count` of them.
+    /// Corners; only the first `count` are used.
     pub corners: [Corner; 3],
     /// Number of corners.
     pub count: usize,
-    /// Shares of the corners in the nearest point.
+    /// Weights of the corners in the nearest point.
     shares: [f64; 3],
     /// Distance of the nearest point from the origin, m.
     pub distance: f64,
-    /// Unit vector from the origin to the nearest point, perpendicular to the part.
+    /// Unit vector from the origin to the nearest point, perpendicular to the edge or face.
     pub direction_b: Vec3,
 }
 
 impl Nearest {
-    /// One corner alone.
+    /// Simplex of one corner.
     pub fn corner(corner: Corner) -> Self {
         Self::new([corner; 3], 1, [1.0, 0.0, 0.0], |v| v)
     }
@@ -49,7 +50,7 @@ impl Nearest {
         nearest
     }
 
-    /// Sum of something of the corners by their shares.
+    /// Sum of the vectors `of` the corners, weighted by `shares`.
     fn mixed(&self, of: impl Fn(&Corner) -> Vec3) -> Vec3 {
         let parts = self.corners.iter().zip(&self.shares).take(self.count);
         parts.map(|(corner, share)| of(corner) * *share).sum()
@@ -60,10 +61,10 @@ impl Nearest {
         [0, 1].map(|side| self.mixed(|corner| corner.points_b[side]))
     }
 
-    /// Nearest point of this part with one more corner; `None` if the origin is inside.
+    /// Nearest point after adding a corner to the simplex; `None` if the new simplex contains the origin.
     ///
-    /// The corner must be nearer along the direction. The nearest point then lies on it, on an edge or on a face of it, even if
-    /// the distance becomes less by nothing but rounding.
+    /// The corner must be nearer to the origin along `direction_b`. The new nearest point then lies on that
+    /// corner, or on an edge or face that has it, even if the distance decreases only by rounding.
     pub fn with(&self, corner: Corner) -> Option<Self> {
         let mut all = [corner; 4];
         all[..self.count].copy_from_slice(&self.corners[..self.count]);
@@ -106,7 +107,7 @@ fn on_edge(ends: [Corner; 2]) -> Nearest {
     Nearest::new([a, b, b], 2, [1.0 - share, share, 0.0], |v| v - unit * unit.dot(&v))
 }
 
-/// Face with axes in its plane.
+/// Triangular face, with two axes in its plane.
 struct Face {
     /// Corners; the longest edge runs from the first to the second.
     corners: [Corner; 3],
@@ -139,7 +140,7 @@ impl Face {
             return None;
         }
         let across = across / height.max(f64::MIN_POSITIVE);
-        // A second time: of a slender face the first difference is mostly rounding.
+        // Orthogonalised once more: for a slender face, the first difference is mostly rounding.
         let across = across - along * along.dot(&across);
         let across = across / across.norm().max(f64::MIN_POSITIVE);
         Some(Self { corners, axes: [along, across], length, height })
@@ -150,7 +151,7 @@ impl Face {
         along.cross(across)
     }
 
-    /// Nearest point, if the origin is over the inside of the face.
+    /// Nearest point, if the origin projects into the face.
     fn nearest(&self) -> Option<Nearest> {
         let [a, _, c] = self.corners.map(|corner| corner.difference_b);
         let [along, across] = &self.axes;
@@ -160,7 +161,8 @@ impl Face {
         if !(first > 0.0 && second > 0.0 && third > 0.0) {
             return None;
         }
-        // The normal of a face is as exact as its height is long, the vector from the origin as it is itself.
+        // The normal has an error of rounding/`height`, the vector from the origin one of rounding/|v|: the
+        // more accurate of the two gives the direction.
         let upright = |v: Vec3| {
             let normal = self.normal();
             if v.norm() >= self.height {
@@ -172,8 +174,9 @@ impl Face {
         Some(Nearest::new(self.corners, 3, [first, second, third], upright))
     }
 
-    /// Returns `true` if the origin is between the plane of this face and the parallel plane through another
-    /// corner. Of a simplex that is flat to rounding, the second condition is the one that fails.
+    /// Returns `true` if the origin is between the plane of this face and the parallel plane through
+    /// `corner`, the fourth corner. In a tetrahedron that is flat to rounding, the parallel plane excludes
+    /// the origin.
     fn holds_origin_before(&self, corner: &Corner) -> bool {
         let normal = self.normal();
         let foot = self.corners[0].difference_b;

@@ -3,8 +3,8 @@
 use crate::primitive::{Capsule, Ellipsoid, Frustum, LineSegment, Point, Polyhedron, Ray, Sphere};
 use crate::{Transform, Vec3};
 
-/// Convex solid: all points within a margin of a core. A sphere is a point with a margin, a capsule a segment
-/// with one, so that their distances are exact.
+/// Convex solid: all points within a margin of a core. A sphere is a point with a margin, and a capsule is a
+/// segment with a margin, so their distances are exact.
 #[derive(Clone, Copy, Debug)]
 pub struct Solid<'a> {
     core: Core<'a>,
@@ -18,7 +18,7 @@ enum Core<'a> {
     Triangle([Vec3; 3]),
     Ellipsoid(Ellipsoid),
     Frustum(Frustum),
-    /// Polyhedron with the pose of its frame: the vertices stay where they are.
+    /// Polyhedron in its own frame, with the pose of that frame.
     Polyhedron(&'a Polyhedron, Transform),
 }
 
@@ -47,7 +47,7 @@ impl<'a> Solid<'a> {
         Self::new(Core::Triangle(corners), 0.0)
     }
 
-    /// Ball.
+    /// Sphere with its interior.
     pub fn sphere(sphere: &Sphere) -> Self {
         Self::new(Core::Point(sphere.center), sphere.radius)
     }
@@ -93,7 +93,7 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// Some point of the core, m: the one from which the search for the nearest begins.
+    /// Point of the core, m, from which the search starts.
     pub fn member(&self) -> Vec3 {
         match &self.core {
             Core::Point(point) => *point,
@@ -146,8 +146,9 @@ impl Frustum {
         let radial = direction - self.axis * direction.dot(&self.axis);
         let aside = radial.norm();
         let outward = radial / aside.max(f64::MIN_POSITIVE);
-        // A second time: of a direction near the axis, the first difference is mostly rounding. Of one along the
-        // axis it is nothing else, and the centre of the circle is as far.
+        // Orthogonalised once more: for a direction near the axis, the first difference is mostly rounding.
+        // For a direction along the axis it is all rounding; then the centre of the end circle is a support
+        // point.
         let outward = outward - self.axis * outward.dot(&self.axis);
         let length = outward.norm();
         let outward = if length > 0.5 { outward / length.max(0.5) } else { Vec3::zeros() };

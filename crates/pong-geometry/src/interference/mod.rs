@@ -119,11 +119,11 @@ impl Feature {
     }
 }
 
-/// Sphere against a point of B: the foot point on an edge, a vertex, or the centre of another sphere.
+/// Sphere against a point of B: a foot point on an edge, a vertex, or the centre of another sphere.
 ///
-/// `mean_normal` gives the direction if the centre coincides with the point up to rounding: the direction
-/// between them is then noise, and may point along an edge or into the solid. It may have any length but
-/// zero.
+/// `mean_normal` gives the direction of the normal if the centre coincides with the point up to rounding: the
+/// vector between them is then only rounding, and may point along an edge or into the solid. It need not be a
+/// unit vector, but not zero.
 #[inline]
 pub(crate) fn ball_over_point(
     sphere: &Sphere,
@@ -131,7 +131,7 @@ pub(crate) fn ball_over_point(
     feature: Feature,
     mean_normal: impl FnOnce() -> Vec3,
 ) -> Option<Interference> {
-    /// Relative to the coordinates: accumulated rounding of the two points.
+    /// Accumulated rounding of the two points, relative to their coordinates.
     const ROUNDING: f64 = 16.0 * f64::EPSILON;
     let arm = sphere.center - foot;
     let distance = arm.norm();

@@ -4,7 +4,7 @@ use super::triangle_features::{TriangleView, lexicographically_before, vertex_is
 use crate::Vec3;
 use crate::primitive::{NO_NEIGHBOR, TriangleSet};
 
-/// Part of a triangle that holds a point.
+/// Part of a triangle that contains a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// Inside the outline.
@@ -15,12 +15,12 @@ pub enum Place {
     Corner(usize),
 }
 
-/// Squared distance (m²) between a point and a triangle, and the part of the triangle that holds the nearest
-/// point.
+/// Squared distance (m²) between a point and a triangle, and the part of the triangle that contains the
+/// nearest point.
 ///
-/// A point beyond an edge, between its ends, is nearest to that edge. The ends of an edge are evaluated in
-/// the same direction by both of its triangles, so they always agree on whether a point belongs to the edge
-/// or to a corner.
+/// If a point lies outside an edge and projects onto it between its ends, that edge is nearest. Both
+/// triangles at an edge measure from the same end, so they agree on whether a point is nearest to the edge or
+/// to a corner.
 pub fn nearest_on_triangle(p: &Vec3, corners: &[Vec3; 3]) -> (f64, Place) {
     let edges = [0, 1, 2].map(|k| corners[(k + 1) % 3] - corners[k]);
     let arms = corners.map(|corner| p - corner);
@@ -64,10 +64,10 @@ pub fn nearest_in_plane(p: &Vec3, corners: &[Vec3; 3]) -> Vec3 {
 }
 
 /// Returns `true` if a point is in front of a surface, or on it, given the part `place` of a triangle that
-/// holds the nearest surface point.
+/// contains the nearest surface point.
 ///
-/// On an edge the sum of the adjacent normals decides; at a vertex the orientation of the surface around it,
-/// seen from the point; at a free edge the single face.
+/// On an edge, the side follows from the sum of the two face normals, or at a free edge from the only face
+/// normal; at a vertex, from the orientation of the surface around it as seen from the point.
 pub fn is_in_front_at(p: &Vec3, set: &TriangleSet, triangle: u32, place: Place) -> bool {
     let view = TriangleView::new(set, triangle);
     match place {

@@ -1,8 +1,7 @@
 //! Point (A) – polyhedron (B): the side of entry (docs/theory.md, 2.4).
 //!
 //! A point inside is pushed out through the face by which it entered, or through a neighbour of that face if
-//! the neighbour is nearer. The engine remembers the face of entry; this file has the queries it makes of one
-//! piece.
+//! the neighbour is nearer. The engine remembers the face of entry; this file has the queries on one piece.
 //!
 //! Degenerate cases: a point on an active face is outside; a point on an internal face belongs to the piece
 //! whose face is `closed`. Ties go to the lower index.
@@ -15,8 +14,8 @@ use crate::primitive::{PlaneBlock, Polyhedron};
 use crate::simd::{LaneBits, Simd, Splat, run_at_level};
 use crate::{Vec3, divisor};
 
-/// Cosine between two face normals above which the remembered face may move across their edge; it stays at
-/// sharper edges (docs/theory.md, 2.4).
+/// Least cosine between the normals of two adjacent faces at which the remembered face may move from one to
+/// the other; it does not move across sharper edges (docs/theory.md, 2.4).
 const FOLLOWED_COSINE_MIN: f64 = 0.3;
 
 /// Active face of least depth at a point; `None` if no face is active. The heights above the faces must be
@@ -31,13 +30,13 @@ fn shallowest_face_in<S: Simd>(simd: S, p: &Vec3, polyhedron: &Polyhedron) -> Op
     highest_of_many(simd, p, polyhedron.planes(), Whereabouts::Anywhere).map(|highest| highest.face)
 }
 
-/// Difference below which cosines count as equal to the largest: normals rounded to single precision differ
+/// Cosines up to this much below the largest count as equal to it: normals rounded to single precision differ
 /// by this much.
 const SAME_COSINE: f64 = 1e-6;
 
-/// Active face whose normal is nearest to a direction; among equals, the one below which the point is least
-/// deep. `None` if no face is active. (Equal faces occur when all are perpendicular to the direction, as the
-/// sides of a piece entered through its base.)
+/// Active face whose normal is nearest to a direction; of equally near ones, the face of least depth at the
+/// point. `None` if no face is active. (Several normals are equally near if they are all perpendicular to the
+/// direction, such as those of the sides of a piece that was entered through its base.)
 pub fn face_most_along(direction: &Vec3, p: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
     let active = || polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active);
     let most = active().map(|(_, face)| face.normal.dot(direction)).fold(f64::NEG_INFINITY, f64::max);
@@ -63,11 +62,11 @@ pub struct Entry {
 
 /// Face through which a straight line enters; `None` if it starts inside or misses.
 ///
-/// Internal faces are raised by their tolerance ([`FacePlanes::WALL_TOLERANCE`]): a line along an internal
-/// face enters by the active face, and a line between abutting pieces does not miss both.
+/// Internal faces are raised by their tolerance ([`FacePlanes::WALL_TOLERANCE`]). So a line along an internal
+/// face enters by the active face, and a line between two adjacent pieces enters at least one of them.
 pub fn entry_of_line(from: &Vec3, to: &Vec3, polyhedron: &Polyhedron) -> Option<Entry> {
-    // Not an `Option`: a compiler compares with its number before it asks whether there is one, and what memory holds
-    // there may raise a floating-point exception.
+    // Not an `Option`: a compiler may compare its number before its tag, and an uninitialised number may
+    // raise a floating-point exception.
     let mut entry = Entry { face: usize::MAX, at: f64::NEG_INFINITY };
     let mut leave = f64::INFINITY;
     let slack = polyhedron.planes().wall_slack;
@@ -96,21 +95,22 @@ pub struct Reached {
     pub face: usize,
     /// Face that pushes: the one of least depth among the remembered face and its active neighbours.
     pub pushes: usize,
-    /// Depth below that face, m.
+    /// Depth below the face `pushes`, m.
     pub depth: f64,
 }
 
-/// Moves the remembered face to the neighbour of least depth while that lowers the depth. It never moves
-/// across a sharp edge, nor to where the pushing face is deeper (the new face may lack a sharp neighbour that
-/// pushed before).
+/// Moves the remembered face to its neighbour of least depth, again and again while that lowers the depth
+/// below the remembered face. It does not move across a sharp edge. It does not move either if that would
+/// increase the depth below the face that pushes: a sharp neighbour that pushes now may not be adjacent to
+/// the new face.
 ///
 /// So the resulting depth is at most the depth without the move, and between two commits it grows by no more
 /// than the point has moved. The heights above the faces must be finite, as for [`shallowest_face`].
 #[inline]
 pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> Reached {
     let mut here = Reached::at(p, polyhedron, remembered);
-    // Every step lowers the depth below the remembered face, so the loop ends. If that face itself pushes, no
-    // neighbour is less deep; this is the usual case.
+    // Every step lowers the depth below the remembered face, so the loop ends. Usually the remembered face
+    // itself pushes; then no neighbour has less depth.
     while here.pushes != here.face
         && let Some(next) = less_deep_neighbor(p, polyhedron, here.face)
     {
@@ -152,16 +152,16 @@ impl Reached {
 /// [`Reached::at`] if all faces are in one block.
 #[inline(always)]
 fn reached_in_block<S: Simd>(simd: S, p: &Vec3, block: &PlaneBlock, &face: &usize) -> Reached {
-    let asked: LaneBits = block.beside[face] | 1 << face;
+    let candidates: LaneBits = block.beside[face] | 1 << face;
     let heights = block.heights(simd, &Splat::new(simd, p));
-    let heights = simd.select(simd.mask(asked), heights, simd.splat(f64::NEG_INFINITY));
+    let heights = simd.select(simd.mask(candidates), heights, simd.splat(f64::NEG_INFINITY));
     let top = simd.largest(heights);
     let pushes = simd.bits(simd.equal(heights, simd.splat(top))).trailing_zeros() as usize;
     Reached { face, pushes, depth: -top }
 }
 
-/// Active neighbour across a blunt edge below which the point is least deep, if less deep than below the
-/// face.
+/// Active neighbour of least depth across an edge that is not sharp; `None` if no such neighbour has less
+/// depth than the face.
 fn less_deep_neighbor(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> Option<usize> {
     let mut next = None;
     let mut depth = -polyhedron.height(face, p);

@@ -7,8 +7,8 @@ use super::ray_plane::RayHit;
 use crate::Vec3;
 use crate::primitive::{Bore, Curved, Ray};
 
-/// Hit of a ray on the wall from within the hole, if −reach < distance < length. Without its own reach the
-/// ray uses the thickness of the wall.
+/// Hit of a ray on the wall from within the hole, if −reach < distance < length. A ray without a `reach` uses
+/// the thickness of the wall.
 pub fn ray_bore(ray: &Ray, bore: &Bore) -> Option<RayHit> {
     let distance = way_out(&ray.origin, &ray.direction, bore)?;
     let reach = ray.reach.unwrap_or(bore.thickness);
@@ -28,8 +28,8 @@ pub fn ray_bore(ray: &Ray, bore: &Bore) -> Option<RayHit> {
     Some(RayHit { distance, normal_b: -outward.normalize(), feature: Feature::face(0) })
 }
 
-/// Exit of a line through the cone of the wall, in units of the direction: of the two intersections with the
-/// cone, the one where the distance from the axis grows past the cone's radius.
+/// Parameter of the point, in units of `direction`, at which a line leaves the cone of the wall: where its
+/// distance from the axis grows past the cone's radius.
 pub(crate) fn way_out(origin: &Vec3, direction: &Vec3, bore: &Bore) -> Option<f64> {
     let hole = &bore.hole;
     let widening = (hole.radii[1] - hole.radii[0]) / hole.length;
@@ -37,7 +37,8 @@ pub(crate) fn way_out(origin: &Vec3, direction: &Vec3, bore: &Bore) -> Option<f6
     let (along, rate) = (hole.axis.dot(&arm), hole.axis.dot(direction));
     let (across, turning) = (arm - hole.axis * along, direction - hole.axis * rate);
     let (radius, growth) = (hole.radii[0] + widening * along, widening * rate);
-    // |across|² − radius² along the line: square·t² + 2·half·t + start, zero with a positive slope.
+    // Along the line |across|² − radius² is square·t² + 2·half·t + start; the exit is its zero with a
+    // positive slope.
     let square = (turning.norm() - growth) * (turning.norm() + growth);
     let half = across.dot(&turning) - radius * growth;
     let start = (across.norm() - radius) * (across.norm() + radius);

@@ -1,24 +1,23 @@
 //! Ray (A) – polyhedron (B) (docs/theory.md, 2.5): the face through which the ray enters the solid.
 //!
-//! Degenerate cases: a ray along an active face is outside. A ray through an edge takes the lower of the two
-//! faces. At an internal face rounding may put the entry behind the face for this piece and before it for the
-//! next, and a ray along the line where several internal faces meet may enter none of the pieces. So internal
-//! faces are raised by their tolerance: no piece misses such a ray, and if several hit it the engine keeps
-//! the nearest hit.
+//! Degenerate cases: a ray along an active face is outside. A ray through an edge hits the face of lower
+//! index. A ray that enters near an internal face, or runs along the line where several internal faces meet,
+//! may by rounding miss all pieces. So internal faces are raised by their tolerance: at least one piece is
+//! hit, and if several are, the engine keeps the nearest hit.
 
 use super::Feature;
 use super::ray_plane::RayHit;
 use crate::primitive::{FacePlanes, PlaneBlock, Polyhedron, Ray};
 use crate::simd::{Finder, First, FirstOf, LaneBits, Simd, Splat, run_at_level};
 
-/// Numbers of face blocks whose distances are kept in registers.
+/// Numbers of face blocks for which the kernel is compiled; up to `SOME` it keeps the distances in registers.
 const FEW: usize = 2;
 const SOME: usize = FacePlanes::IN_REGISTERS;
 const MANY: usize = usize::MAX;
 
-/// Hit of a ray that enters a polyhedron through an active face. The origin may lie inside, up to the reach
-/// behind the face, but not beyond the far side. The heights above the faces must be finite, as for
-/// coordinates up to 1e100.
+/// Hit of a ray that enters a polyhedron through an active face. The origin may lie inside the solid, less
+/// than `reach` behind the entry, but not beyond the far side. The heights above the faces must be finite, as
+/// for coordinates up to 1e100.
 #[inline]
 pub fn ray_polyhedron(ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
     if polyhedron.planes().blocks.len() <= FEW {
@@ -61,9 +60,9 @@ fn hit<S: Simd, F: Finder<S>, const N: usize>(simd: S, ray: &Ray, polyhedron: &P
 /// Interval of a line inside the solid, as distances from the ray's origin.
 struct Passage<S: Simd, F: Finder<S>> {
     simd: S,
-    /// Face of the last entry.
+    /// Last face through which the line passes inwards: there it enters the solid.
     entry: F,
-    /// Minus the distance of the first exit, lane by lane.
+    /// Minus the distance of the first exit among the faces of each lane.
     leave: S::Eight,
     /// Tolerance by which internal faces are raised, m.
     wall_slack: f64,
@@ -76,7 +75,8 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
         Self { simd, entry: F::above(simd, nowhere), leave: simd.splat(nowhere), wall_slack }
     }
 
-    /// Returns `true` if the line leaves after `distance`, and in front of the origin.
+    /// Returns `true` if the line leaves the solid farther along than `distance`, and in front of the ray's
+    /// origin.
     #[inline(always)]
     fn leaves_after(&self, distance: f64) -> bool {
         let simd = self.simd;
@@ -85,7 +85,7 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
     }
 
     /// Clips the line to eight planes. `heights`: heights of the origin above the planes; `climbs`: their
-    /// rates along the line. Returns `false` if the line is parallel to one of them and outside.
+    /// rates along the line. Returns `false` if the line is parallel to one of the planes and outside it.
     #[inline(always)]
     fn clip(&mut self, index: usize, block: &PlaneBlock, heights: S::Eight, climbs: S::Eight) -> bool {
         let simd = self.simd;
@@ -116,7 +116,8 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
     }
 }
 
-/// Hit on the face by which the line enters the solid, if it leaves after that and within the ray's range.
+/// Hit on the face by which the line enters the solid: if the face is active, the line leaves the solid
+/// later, and the distance is within the ray's range.
 #[inline(always)]
 fn hit_at(
     ray: &Ray,

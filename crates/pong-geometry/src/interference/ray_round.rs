@@ -2,8 +2,8 @@
 //! (docs/theory.md, 2.5 and 2.8).
 //!
 //! Degenerate cases: a tangent line does not enter. A line through the rim of a cylinder or a cone enters by
-//! the lateral surface. As in a polyhedron the origin may lie inside, up to the reach behind the surface, but
-//! not beyond the far side.
+//! the lateral surface. The origin may lie inside the solid, less than `reach` behind the entry, but not
+//! beyond the far side.
 
 use super::Feature;
 use super::ray_plane::RayHit;
@@ -32,7 +32,7 @@ pub fn ray_ellipsoid(ray: &Ray, ellipsoid: &Ellipsoid) -> Option<RayHit> {
     line.hit(ray, &inside, normal, Feature::WHOLE)
 }
 
-/// Hit of a ray on a capsule: the first of its lateral surface and its two end spheres.
+/// Hit of a ray on a capsule: on its lateral surface or one of its two end spheres, whichever comes first.
 pub fn ray_capsule(ray: &Ray, capsule: &Capsule) -> Option<RayHit> {
     let [one, other] = capsule.ends;
     let line = Line::near(ray, &(0.5 * (one + other)));
@@ -93,8 +93,8 @@ impl Inside {
     }
 }
 
-/// Line of a ray, parametrised from its point nearest to the middle of a solid: at large distances squares
-/// would lose precision.
+/// Line of a ray, parametrised from the point of the line nearest to the middle of a solid: from a distant
+/// point, squares would lose precision.
 struct Line {
     start: Vec3,
     direction: Vec3,
@@ -141,8 +141,8 @@ impl Line {
         Inside { from: one.min(other), to: one.max(other) }
     }
 
-    /// Interval inside the lateral surface, extended beyond the ends up to the apex: where the squared
-    /// distance from the axis is less than the squared radius, a·t² + 2b·t + c < 0.
+    /// Interval inside the lateral surface, which is extended beyond the ends to the apex: where the squared
+    /// distance from the axis less the squared radius, a·t² + 2b·t + c, is negative.
     fn in_round(&self, frustum: &Frustum) -> Option<Inside> {
         let [first, last] = frustum.radii;
         let widening = (last - first) / frustum.length;
@@ -157,8 +157,8 @@ impl Line {
         if a > 0.0 {
             return if root > 0.0 { Some(roots(a, b, c, root)) } else { None };
         }
-        // Steeper than the lateral surface: once inside, the line stays inside, on the side to which the cone
-        // opens.
+        // The line is steeper than the lateral surface: once inside, it stays inside, on the side to which
+        // the cone opens.
         if opening == 0.0 {
             return (c < 0.0).then_some(Inside { from: f64::NEG_INFINITY, to: f64::INFINITY });
         }

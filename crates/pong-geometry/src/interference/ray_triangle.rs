@@ -1,13 +1,13 @@
 //! Ray (A) – triangle (B), from the front (docs/theory.md, 2.5).
 //!
-//! The inside test works in projection along the ray: every corner gets two coordinates perpendicular to the
-//! ray, bit-identical in all triangles that share it, and the side on which an edge passes the ray is a
-//! comparison of two products. Rounding is monotonic, so the comparison may become equal but never reversed.
-//! As "equal" counts as inside, a closed ring of triangles around the ray is always hit, at edges and
-//! vertices too (after Woop, Benthin and Wald 2013, Watertight ray/triangle intersection).
+//! The inside test projects the corners along the ray. The two projected coordinates of a corner are
+//! bit-identical in all triangles that share it, and a comparison of two products decides on which side of an
+//! edge the ray passes. Rounding is monotonic: it may make the products equal, but never reverses the
+//! comparison. Equal counts as inside, so a closed ring of triangles around the ray is always hit, at edges
+//! and vertices too (after Woop, Benthin and Wald 2013, Watertight ray/triangle intersection).
 //!
 //! Degenerate cases: a ray through a shared edge or vertex hits one or more triangles there (the engine keeps
-//! the lowest); a ray in the triangle's plane has no hit.
+//! that of lowest index); a ray in the triangle's plane has no hit.
 
 use super::Feature;
 use super::ray_plane::{RayHit, hit_plane};

@@ -1,4 +1,4 @@
-//! Gap between a point or the axis of a two-ended body and a round solid (docs/theory.md, 2.9).
+//! Gap between a round solid and a point, a segment or the axis of a round part (docs/theory.md, 2.9).
 
 use super::axis_approach::{Approach, RoundSolid};
 use super::round_surface::{Nearest, of_capsule, of_frustum};
@@ -33,8 +33,9 @@ fn of_axis(Approach { distance, normal_b, .. }: Approach) -> Gap {
     Gap { distance, normal_b }
 }
 
-/// Width of a frustum. The planes of least distance lie on an end face or along the lateral surface: between
-/// these directions the width is concave.
+/// Least distance, m, between two parallel planes that enclose a frustum. The planes lie on the end faces, or
+/// one lies along the lateral surface: for directions in between, the width is a concave function of the
+/// angle and has no minimum.
 fn width_of_frustum(frustum: &Frustum) -> f64 {
     let [along, aside] = frustum.wall;
     let normal = frustum.axis * along + crate::any_perpendicular(&frustum.axis) * aside;

@@ -18,21 +18,22 @@ pub fn capsule_plane(capsule: &Capsule, plane: &Plane) -> [Option<Interference>;
 /// Contacts of the lowest and highest point of each disc. A disc of radius 0, the apex of a cone, has one
 /// point.
 ///
-/// As long as both points of a disc push, their energy ¼k((h − Rs)² + (h + Rs)²) = ½k(h² + R²s²), where h is
-/// the depth of the centre and s the sine of the tilt, does not depend on the direction of the tilt. So for
-/// an upright cylinder the choice of the lowest point makes no difference.
+/// Let k be the stiffness, R the radius of a disc, h the depth of its centre and s the sine of its tilt.
+/// While both points of the disc push, their energy ¼k((h − Rs)² + (h + Rs)²) = ½k(h² + R²s²) does not depend
+/// on the direction of the tilt. So for an upright cylinder it makes no difference which point counts as the
+/// lowest.
 pub fn frustum_plane(frustum: &Frustum, plane: &Plane) -> RimContacts {
     let down = down_the_discs(frustum, plane);
-    let at = |disc: usize, way: f64| {
-        let position = frustum.ends[disc] + down * (way * frustum.radii[disc]);
+    let at = |disc: usize, sign: f64| {
+        let position = frustum.ends[disc] + down * (sign * frustum.radii[disc]);
         point_plane(&Point { position }, plane)
     };
     let highest = |disc: usize| at(disc, -1.0).filter(|_| frustum.radii[disc] > 0.0);
     [at(0, 1.0), at(1, 1.0), highest(0), highest(1)]
 }
 
-/// Unit vector of steepest descent in the planes of the discs. For an upright solid, a fixed vector
-/// perpendicular to the normal, because the direction would be only rounding.
+/// Unit vector of steepest descent in the planes of the discs. If the solid is upright, that direction is
+/// only rounding, and the result is a fixed vector perpendicular to the plane's normal.
 fn down_the_discs(frustum: &Frustum, plane: &Plane) -> Vec3 {
     /// Sine of a tilt caused by rounding of unit vectors.
     const UPRIGHT: f64 = 16.0 * f64::EPSILON;

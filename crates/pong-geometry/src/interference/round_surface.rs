@@ -9,18 +9,18 @@ use crate::{Vec3, any_perpendicular};
 pub(crate) struct Nearest {
     /// Distance of the point from the surface, m; negative inside.
     pub distance: f64,
-    /// Unit vector from the solid to the point; inside, the direction of the shortest way out.
+    /// Unit vector from the solid to the point; if the point is inside, from the point to the surface.
     pub normal_b: Vec3,
     /// Nearest feature of the solid. For a frustum, face 0 is the lateral surface, faces 1 and 2 are the
     /// ends, edges 0 and 1 the rims.
     pub feature: Feature,
 }
 
-/// Relative to the coordinates: accumulated rounding of two points.
+/// Accumulated rounding of two points, relative to their coordinates.
 pub(crate) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Nearest surface point of a capsule: that of a sphere around the nearest point of the axis. For a point on
-/// the axis, where all perpendicular directions are equivalent, the direction is fixed.
+/// Nearest surface point of a capsule: that of a sphere around the nearest point of the axis. At a point on
+/// the axis all perpendicular directions are equivalent, and the normal is a fixed one of them.
 pub(crate) fn of_capsule(place: &Vec3, capsule: &Capsule) -> Nearest {
     let foot = nearest_on_segment(place, &capsule.ends);
     let arm = place - foot;
@@ -68,8 +68,9 @@ impl Meridian {
     }
 }
 
-/// Nearest surface point of a frustum. In the half plane the solid is a trapezoid: outside, its nearest
-/// point; inside, the side of least depth.
+/// Nearest surface point of a frustum. In the half plane of [`Meridian`] the solid is a trapezoid. For a
+/// point outside, the result is the nearest point of the trapezoid; for a point inside, it lies on the side
+/// of least depth.
 pub(crate) fn of_frustum(place: &Vec3, frustum: &Frustum) -> Nearest {
     let at = Meridian::new(place, frustum);
     let [wall_along, wall_aside] = frustum.wall;
@@ -109,7 +110,7 @@ pub(crate) fn of_frustum(place: &Vec3, frustum: &Frustum) -> Nearest {
     Nearest { distance, normal_b: in_space(along, aside).normalize(), feature }
 }
 
-/// Nearest point of the generator of the lateral surface, in half-plane coordinates.
+/// Point of the generator of the lateral surface nearest to `at`, in half-plane coordinates.
 fn on_wall(at: &Meridian, frustum: &Frustum) -> (f64, f64) {
     let [first, last] = frustum.radii;
     let (length, widening) = (frustum.length, last - first);

@@ -1,12 +1,13 @@
 //! Ends of a line segment at an internal face of a piece (see
-//! [`line_segment_polyhedron`](super::line_segment_polyhedron)). The piece behind the internal face carries
-//! the end, with two exceptions: a convex edge of the body at which the internal face ends pushes, once for
-//! all pieces that have it; and a tip where several internal faces meet may lie in none of the pieces there.
+//! [`line_segment_polyhedron`](super::line_segment_polyhedron)). The contact of such an end belongs to the
+//! piece behind the internal face, with two exceptions. If the internal face ends in a convex edge of the
+//! body, the edge pushes, once for all pieces at it. A tip where several internal faces meet may, by
+//! rounding, lie in none of the pieces there.
 //!
-//! Where a segment leaves the body through the edge of an active face at which an internal face ends, only
-//! rounding decides by which of the two planes it leaves a piece, and whether the piece behind the internal
-//! face holds any of it. So each such piece lets it leave by its active face, and the body decides which
-//! piece carries the end ([`exit_at_wall`]).
+//! A segment may leave the body through the edge between an active face and an internal face. Rounding then
+//! decides by which of the two faces it leaves a piece, and whether the piece behind the internal face
+//! contains a part of it. So every such piece lets the segment leave by its active face, and load sharing
+//! chooses the piece whose contact counts ([`exit_at_wall`]).
 
 use super::Interference;
 use super::segment_ends::{InsideEnd, Wedge};
@@ -40,12 +41,15 @@ fn inside_of(segment: &LineSegment, polyhedron: &Polyhedron, room: f64) -> Optio
     (ends[0].at < ends[1].at).then_some(ends)
 }
 
-/// End that carries the crossing of a convex edge at which an internal face ends, in terms of the whole body:
-/// the end at which the segment leaves the body beyond that edge, if the face for which the crossing is
-/// measured stores less energy than the other. `None` if neither end does.
+/// Assigns the crossing of a convex edge, in which an internal face ends, to an end of the segment. At the
+/// edge `face` meets a face of the next piece.
 ///
-/// If both tips are below both faces, each piece carries its own tip, and a crossing would be a third
-/// contact.
+/// * `end`, if the tip there is above the face of the next piece, and the energy of `face` is not the larger;
+/// * the opposite end, if its tip is above `face`, and the energy of the face of the next piece is not the
+///   larger;
+/// * if both apply, the end that extends farther out;
+/// * `None`, if neither applies. If both tips are below both faces, each piece has a contact at its own tip,
+///   and a crossing would be a third contact.
 pub(super) fn end_that_crosses(
     segment: &LineSegment,
     polyhedron: &Polyhedron,
@@ -73,11 +77,11 @@ pub(super) fn end_that_crosses(
     }
 }
 
-/// Exit of a segment from the body through the edge of an active face at which an internal face ends, or a
-/// tip at an internal face.
+/// Exit of a segment from the body through the edge between an active face and an internal face, or a tip on
+/// an internal face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExitAtWall {
-    /// True if the segment ends there.
+    /// True for a tip, false for an exit.
     pub is_tip: bool,
     /// Interval of the segment inside the piece, as parameters along the segment (no unit).
     pub inside: [f64; 2],
@@ -85,8 +89,8 @@ pub struct ExitAtWall {
     pub slack: f64,
 }
 
-/// Exit of a segment from a piece at one of its ends, if an internal face ends there, or its tip, if that is
-/// at an internal face.
+/// Exit of a segment from a piece at `end`, if it lies on the edge between an active face and an internal
+/// face; or the tip, if it lies on an internal face.
 pub fn exit_at_wall(segment: &LineSegment, polyhedron: &Polyhedron, end: usize) -> Option<ExitAtWall> {
     let inside = inside_of(segment, polyhedron, 0.0).or_else(|| inside_of_wide_walls(segment, polyhedron))?;
     let is_tip = inside[end].leaves_by.is_none();
@@ -108,8 +112,8 @@ pub fn part_inside(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[f6
     inside_of(segment, polyhedron, 0.0).map(|ends| ends.map(|end| end.at))
 }
 
-/// End by the active face, if the segment leaves by an edge of an active face at which an internal face ends,
-/// whichever of the two planes rounding names.
+/// Exit by the active face, if the segment leaves through the edge between an active face and an internal
+/// face. By rounding `inside.leaves_by` may be either of the two faces.
 pub(super) fn leaves_at_wall(
     segment: &LineSegment,
     polyhedron: &Polyhedron,
@@ -122,8 +126,8 @@ pub(super) fn leaves_at_wall(
     if polyhedron.faces[leaves_by].active {
         return polyhedron.walls_at(&place).next().is_some().then_some(*inside);
     }
-    // If rounding names the internal face, the segment also leaves by the active face, within the tolerance
-    // along its path.
+    // If `leaves_by` is the internal face, the exit by an active face must be there too, within the tolerance
+    // along the segment.
     let (length, slack) = ((to - from).norm(), polyhedron.planes().wall_slack);
     let exit = |other: usize| {
         let [before, beyond] = [from, to].map(|tip| polyhedron.height(other, tip));
@@ -136,7 +140,7 @@ pub(super) fn leaves_at_wall(
         })
     };
     let nearer = |a: &InsideEnd, b: &InsideEnd| if end == 1 { a.at <= b.at } else { a.at >= b.at };
-    // All internal faces at the exit are searched: among coplanar ones rounding may name another.
+    // All internal faces at the exit are searched: of coplanar internal faces, `leaves_by` may be any.
     let rims = polyhedron.walls_at(&place).flat_map(|wall| polyhedron.rims_of(wall));
     let beside = rims.map(|rim| rim.neighbor as usize).filter(|&other| polyhedron.faces[other].active);
     beside.filter_map(exit).reduce(|a, b| if nearer(&a, &b) { a } else { b })

@@ -1,5 +1,6 @@
-//! Part of a line segment inside a polyhedron, and lower bounds of the energy that each face can store, eight
-//! faces at a time.
+//! Part of a line segment inside a polyhedron, and lower bounds of the energies of its faces, eight faces at
+//! a time. The energy of a face is the sum of the squared depths of the two ends of that part below the face,
+//! m²; the face of least energy pushes (docs/theory.md, 2.3).
 
 use super::segment_ends::InsideEnd;
 use crate::Vec3;
@@ -19,11 +20,11 @@ pub(super) struct SegmentPlanes<'a, S: Simd> {
 #[derive(Clone, Copy)]
 pub(super) struct InsidePart {
     pub ends: [InsideEnd; 2],
-    /// Height of each end of the segment above the plane it is highest above, m.
+    /// For each end of the segment, its greatest height above a plane, m.
     tops: [f64; 2],
 }
 
-/// Face nearest to a tip inside.
+/// Tip inside the polyhedron, and the active face nearest to it.
 #[derive(Clone, Copy)]
 pub(super) struct Nearest {
     /// End of the segment that is inside.
@@ -31,17 +32,17 @@ pub(super) struct Nearest {
     pub face: usize,
 }
 
-/// Blocks that may hold the deciding face.
+/// Blocks that may contain the face of least energy.
 #[derive(Clone, Copy)]
 pub(super) struct Likely {
-    /// Bit mask of these blocks.
+    /// Bit mask of the blocks.
     pub blocks: u64,
-    /// Number of candidate faces.
+    /// Number of faces that may have the least energy.
     pub faces: u32,
 }
 
 impl Likely {
-    /// All of the given number of blocks.
+    /// All faces of `blocks` blocks.
     pub fn anywhere(blocks: usize) -> Self {
         Self { blocks: u64::MAX >> (u64::BITS as usize - blocks), faces: u32::MAX }
     }
@@ -66,7 +67,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
     /// Clips the segment to the solid.
     ///
     /// # Errors
-    /// [`Missed`] if no point of it lies inside.
+    /// [`Missed`] if no point of the segment lies inside.
     #[inline(always)]
     pub fn inside_part<F: Finder<S>, const N: usize>(&self) -> Result<InsidePart, Missed> {
         let simd = self.simd;
@@ -87,7 +88,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
                 crossed |= u64::from(self.is_crossed(heights)) << index;
             }
         }
-        // Only blocks with a plane that an end is above need the division.
+        // Only blocks in which an end is above a plane need the division.
         while crossed != 0 {
             let index = crossed.trailing_zeros() as usize;
             let block = self.polyhedron.planes().block(index);
@@ -106,7 +107,8 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         }
     }
 
-    /// Active face below which a tip inside is least deep, unless an internal face is nearer.
+    /// Active face below which a tip inside has the least depth; `None` if no tip is inside, or if an
+    /// internal face is nearer to it.
     #[inline(always)]
     pub fn nearest_face<const N: usize>(&self, inside: &InsidePart) -> Option<Nearest> {
         let end = if inside.ends[0].leaves_by.is_none() { 0 } else { 1 };
@@ -124,7 +126,8 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         None
     }
 
-    /// Faces that may decide if one stores `limit`, m²: below all others the tip alone stores more.
+    /// Faces whose energy may be at most `limit`, m². For every other face the squared depth of the tip of
+    /// `nearest` alone exceeds `limit`.
     #[inline(always)]
     pub fn likely<const N: usize>(&self, nearest: &Nearest, limit: f64) -> Likely {
         let (simd, limit) = (self.simd, self.simd.splat(limit));
@@ -146,7 +149,8 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         simd.bits(simd.below(simd.splat(0.0), simd.larger(first, second))) != 0
     }
 
-    /// Planes that both ends are above, or that the segment lies in and that are not closed.
+    /// Planes that exclude the segment: neither end is below the plane. A closed face does not exclude a
+    /// segment that lies in its plane.
     #[inline(always)]
     fn outside(&self, block: &PlaneBlock, [first, second]: [S::Eight; 2]) -> LaneBits {
         let (simd, zero) = (self.simd, self.simd.splat(0.0));
@@ -158,8 +162,8 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         outside & !along_closed
     }
 
-    /// Reason for the miss, given the planes of a block that the segment is outside. Most misses are by far
-    /// and need no look at the tolerance of internal faces.
+    /// Reason for the miss; `outside`: the planes of the block that exclude the segment. The tolerance of
+    /// internal faces matters only if all of them are internal.
     #[inline(always)]
     fn missed_by(&self, block: &PlaneBlock, [first, second]: [S::Eight; 2], outside: LaneBits) -> Missed {
         if outside & block.active != 0 {
@@ -195,8 +199,8 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         simd.largest(entering) >= -simd.largest(leaving)
     }
 
-    /// Lower bounds of the stored energy per face, for at most `N` blocks; beyond the register budget only
-    /// for `blocks`.
+    /// Lower bounds of the energies of the faces, for at most `N` blocks. If these exceed the register
+    /// budget, only for the blocks of the bit mask `blocks`.
     #[inline(always)]
     pub fn bounds<const N: usize>(&self, inside: &InsidePart, mut blocks: u64) -> Bounds<S, N> {
         let simd = self.simd;
@@ -217,7 +221,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         bounds
     }
 
-    // A method, because a closure would not be compiled for the level.
+    // A method: a closure would not be compiled for the instruction-set level.
     #[allow(clippy::manual_map)]
     #[inline(always)]
     fn end(&self, inside: &InsidePart, end: usize) -> End<S> {
@@ -247,7 +251,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
 struct InsideEnds<S: Simd, F: Finder<S>> {
     simd: S,
     entering: F,
-    /// Searches minus the parameter, so that the smallest is found.
+    /// Search for the maximum of minus the parameter, that is, for the first exit.
     leaving: F,
 }
 
@@ -281,12 +285,11 @@ impl<S: Simd, F: Finder<S>> InsideEnds<S, F> {
     }
 }
 
-/// Lower bounds of the energy that faces store, as sums of the squared depths of the two ends, m². NaN for a
-/// face that takes no part or exceeds the limit.
+/// Lower bounds of the energies of faces, m². NaN for an inactive face, an unused lane or a block left out.
 pub(super) struct Bounds<S: Simd, const N: usize> {
     simd: S,
     of_block: [S::Eight; N],
-    /// Minus the minimum of each lane.
+    /// Minus the least bound in each lane.
     top: S::Eight,
 }
 
@@ -313,7 +316,7 @@ impl<S: Simd, const N: usize> Bounds<S, N> {
         None
     }
 
-    /// Faces of a block whose bound is at most `energy`.
+    /// Faces of a block whose bound is at most `energy`, m².
     #[inline(always)]
     pub fn up_to(&self, energy: f64, block: usize) -> LaneBits {
         let simd = self.simd;
@@ -321,7 +324,7 @@ impl<S: Simd, const N: usize> Bounds<S, N> {
     }
 }
 
-/// One end of the part inside.
+/// One end of the part of the segment inside.
 #[derive(Clone, Copy)]
 struct End<S: Simd> {
     simd: S,
@@ -337,19 +340,21 @@ struct Leaving<S: Simd> {
     along: Splat<S>,
     normal: Vec3,
     slope: f64,
-    /// Least height above a face at which the tip may be over its outline, m.
+    /// Least height of the tip above a face, m, at which the tip may project into the face.
     lowest: S::Eight,
 }
 
 impl<S: Simd> End<S> {
-    /// Lower bound of the squared depth of this end below each face, m²; NaN if the face takes no part.
+    /// Lower bound of the squared depth of this end below each face, m²; infinite if the face certainly takes
+    /// no part.
     #[inline(always)]
     fn least_square(&self, index: usize, block: &PlaneBlock) -> S::Eight {
         let (simd, zero) = (self.simd, self.simd.splat(0.0));
         let height = block.heights(simd, &self.tip);
         let Some(leaving) = &self.leaves else { return self.square_below(height) };
         let crossing = leaving.crossing_square(simd, block);
-        // Over the face the tip's depth counts; it is 0 if the tip is above the face.
+        // If the tip projects into the face, its depth counts (0 above the face), otherwise the crossing. The
+        // smaller one is a lower bound. A tip above the face by less than `lowest` does not project into it.
         let over = self.square_below(height);
         let least = simd.select(simd.below(crossing, over), crossing, over);
         let is_beside = simd.and(simd.at_least(height, zero), simd.below(height, leaving.lowest));
@@ -369,8 +374,8 @@ impl<S: Simd> End<S> {
 }
 
 impl<S: Simd> Leaving<S> {
-    /// Squared depth of the crossing with each face, m²; 0 if the exit point is above it, infinite if the two
-    /// planes do not intersect.
+    /// Squared depth of the crossing with each face, m²; 0 if the exit point is above the face, infinite if
+    /// the planes of the face and of the exit face do not intersect.
     #[inline(always)]
     fn crossing_square(&self, simd: S, block: &PlaneBlock) -> S::Eight {
         let zero = simd.splat(0.0);
@@ -385,8 +390,7 @@ impl<S: Simd> Leaving<S> {
         }
         let numerator = simd.mul(height, exit_slope);
         let square = simd.ratio(simd.mul(numerator, numerator), length_square);
-        // Applied by `larger`, not selected instead of the quotient: a compiler could then drop the guard
-        // against 0/0.
+        // Applied by `larger`: with a selection, a compiler could drop the guard against 0/0.
         let least = simd.select(simd.equal(length_square, zero), simd.splat(f64::INFINITY), zero);
         let square = simd.larger(square, least);
         simd.select(simd.below(zero, height), zero, square)

@@ -1,4 +1,4 @@
-//! Depth of one end of a line segment, partly inside a polyhedron, below one face (see
+//! Depth of one end of the part of a line segment inside a polyhedron, below one face (see
 //! [`line_segment_polyhedron`](super::line_segment_polyhedron)).
 
 use super::{Feature, Interference};
@@ -14,7 +14,7 @@ pub(super) struct InsideEnd {
     pub leaves_by: Option<usize>,
 }
 
-/// One end, evaluated for one face.
+/// One end of the part inside, evaluated for one face.
 pub(super) struct AtEnd<'a> {
     pub segment: &'a LineSegment,
     pub polyhedron: &'a Polyhedron,
@@ -26,31 +26,32 @@ pub(super) struct AtEnd<'a> {
 /// Depth measured at an end.
 #[derive(Clone, Copy)]
 pub(super) enum Measured {
-    /// None: the segment leaves through the face itself.
+    /// No depth: the segment leaves through the face itself.
     Leaves,
     /// Depth of the tip, inside or straight below the face (negative above it), m.
     Tip(f64),
-    /// Crossing: the segment leaves through another face.
+    /// Depth of a crossing: the segment leaves through another face.
     Crossing(Crossing),
 }
 
-/// Crossing of the segment's line and the intersection line of two face planes, where the segment leaves
-/// through the second face.
+/// Crossing of the segment's line and the intersection line of two face planes: of the face that pushes and
+/// of the face through which the segment leaves.
 ///
-/// Let s be the direction of the segment and q its exit point. The common normal of the two lines is u ∝
-/// n_f·(n_h·s) − n_h·(n_f·s). A vector from q to the edge has no component along n_h, so the distance is the
-/// depth of q below f times (n_h·s)/|…|.
+/// Let f be the face that pushes and h the face of the exit, n_f and n_h their normals, s the direction of
+/// the segment, and q its exit point, which lies in the plane of h. The common normal of the two lines is u =
+/// s × (n_f × n_h) = (n_h·s) n_f − (n_f·s) n_h. A vector from q to the intersection line has no component
+/// along n_h, so the distance of the lines is the depth of q below f times |n_h·s|/|u|.
 #[derive(Clone, Copy)]
 pub(super) struct Crossing {
     leaves_by: usize,
     /// Distance of the segment's line below the intersection line, m.
     depth: f64,
-    /// Common normal, not normalised, and its length.
+    /// Common normal u of the two lines, not normalised, towards the outside; `length` is |u|.
     across: Vec3,
     length: f64,
 }
 
-/// Two planes of a body that meet in an edge, beyond which a segment may extend on both sides.
+/// Planes of two faces of a body that meet in an edge, which a segment may cross.
 #[derive(Clone, Copy)]
 pub(super) struct Wedge {
     /// Outward unit normals and offsets, m: of the face that pushes, then of the other face.
@@ -67,8 +68,8 @@ impl Wedge {
         Self { planes: [face, other].map(|f| (polyhedron.faces[f].normal, polyhedron.faces[f].offset)) }
     }
 
-    /// Wedge of a face and the face behind an internal face that ends at the edge; `None` if the two do not
-    /// meet convexly.
+    /// Wedge of a face of a piece and the face of the next piece, if an internal face between the pieces ends
+    /// in the edge; `None` if the two faces do not meet convexly.
     pub fn of_edge(polyhedron: &Polyhedron, face: usize, edge: usize) -> Option<Self> {
         let edge = &polyhedron.edges[edge];
         let push = edge.convex.as_ref()?;
@@ -86,11 +87,11 @@ impl Wedge {
         normal.dot(p) - offset
     }
 
-    /// End that carries the crossing of the edge by a segment that enters below one plane and leaves above
-    /// the other: the end whose tip is farther out, or the first if both are equal. Returns `end` if the
-    /// segment does not enter and leave.
+    /// End to which the crossing of the edge is assigned if the segment enters through one plane and leaves
+    /// through the other: the end whose tip extends farther out, or the first if both extend equally far.
+    /// Otherwise returns `end`.
     ///
-    /// While a tip is inside, the crossing belongs to the other end, so nothing changes when a tip passes
+    /// While one tip is inside, the crossing belongs to the other end, so nothing changes when that tip comes
     /// out.
     pub fn farther_out(&self, segment: &LineSegment, end: usize) -> usize {
         let heights = |plane| (self.height(plane, &segment.ends[0]), self.height(plane, &segment.ends[1]));
@@ -99,8 +100,8 @@ impl Wedge {
             return end;
         }
         let at = first / divisor(first - second) + other_first / divisor(other_first - other_second);
-        // The parts of the segment before the first and behind the second parameter are equal if the
-        // parameters sum to 1.
+        // `at` is the sum of the parameters of the entry and the exit. It is 1 if the parts outside are
+        // equally long.
         usize::from(at < 1.0 - Self::TIE)
     }
 }
@@ -162,8 +163,8 @@ impl AtEnd<'_> {
         self.segment.ends[0] + self.along() * self.inside.at
     }
 
-    /// Edge of the outline at which the internal face ends that the segment leaves by. Among coplanar
-    /// internal faces rounding may name another.
+    /// Edge between this face and the internal face through which the segment leaves. Of coplanar internal
+    /// faces, `leaves_by` may be any, so the exit point decides.
     #[cold]
     fn rim_at_wall(&self) -> Option<&RimEdge> {
         let (place, slack) = (self.leaving(), self.polyhedron.planes().wall_slack);
@@ -174,7 +175,8 @@ impl AtEnd<'_> {
         self.polyhedron.rim(self.face).iter().find(is_there)
     }
 
-    /// Crossing with another face; `None` if the planes do not intersect.
+    /// Crossing, for an exit through the face `leaves_by`; `None` if its plane does not intersect that of
+    /// this face.
     #[inline(always)]
     fn crossing(&self, leaves_by: usize) -> Option<Crossing> {
         let (face, exit, along) = (self.face(), &self.polyhedron.faces[leaves_by], self.along());
@@ -190,8 +192,8 @@ impl AtEnd<'_> {
     fn contact_at(&self, crossing: &Crossing) -> Interference {
         let (exit, along) = (&self.polyhedron.faces[crossing.leaves_by], self.along());
         let normal = (crossing.across / crossing.length).normalize();
-        // The nearest point is where the point δ·u above it lies in the plane of the exit face, and so on the
-        // edge's line.
+        // Point of the segment's line nearest to the intersection line: moved by the depth along `normal`, it
+        // lies in the plane of the exit face.
         let back = crossing.depth * exit.normal.dot(&normal) / exit.normal.dot(&along);
         let nearest = self.leaving() - along * back;
         let rims = self.polyhedron.rim(self.face);

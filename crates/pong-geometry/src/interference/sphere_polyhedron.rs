@@ -1,8 +1,9 @@
 //! Sphere (A) – polyhedron (B): with the centre outside, the nearest surface point; with the centre inside, a
 //! point contact plus the radius (docs/theory.md, 2.2 and 2.4).
 //!
-//! Degenerate cases: a centre on a face counts as outside; on an edge or vertex the lowest active face there
-//! pushes. Straight above the line where two pieces abut both may push: they share one spring.
+//! Degenerate cases: a centre on a face counts as outside; on an edge or vertex the active face of lowest
+//! index there pushes. If the centre is straight above the seam of two pieces, both may push, and the two
+//! contacts share one spring.
 
 use super::point_polyhedron::{point_below_face, shallowest_face};
 use super::{Feature, Interference, ball_over_point};
@@ -10,8 +11,8 @@ use crate::Vec3;
 use crate::primitive::{EdgeBlock, Polyhedron, Sphere};
 use crate::simd::{LANES, LaneBits, Simd, Splat, run_at_level};
 
-/// Contact of a sphere without a remembered side: outside, with the nearest feature; inside, with the active
-/// face below which the centre is least deep.
+/// Contact of a sphere without a remembered face: with the nearest feature if the centre is outside, else
+/// with the active face of least depth.
 #[inline]
 pub fn sphere_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
     run_at_level!(sphere_polyhedron_in(sphere: Sphere, polyhedron: Polyhedron) -> Option<Interference>)
@@ -65,7 +66,7 @@ struct Near<'a, S: Simd> {
 /// Result of testing all planes, if none separates the sphere.
 struct Survey {
     is_inside: bool,
-    /// Height of the centre above the highest plane, m.
+    /// Greatest height of the centre above a plane, m.
     top: f64,
 }
 
@@ -105,7 +106,7 @@ impl<'a, S: Simd> Near<'a, S> {
         }
     }
 
-    /// Face that holds the centre's foot point.
+    /// Face that contains the centre's foot point, its projection onto the plane of the face.
     #[inline(always)]
     fn face_below(&self, survey: &Survey) -> Option<usize> {
         let (simd, planes) = (self.simd, self.polyhedron.planes());
@@ -120,8 +121,8 @@ impl<'a, S: Simd> Near<'a, S> {
             let mut faces = simd.bits(simd.at_least(heights, simd.splat(lowest))) & block.own;
             while faces != 0 {
                 let face = index * LANES + faces.trailing_zeros() as usize;
-                // Both an internal face and an active face may seem to hold the foot point: the active face
-                // wins.
+                // By rounding, both an internal face and an active face may contain the foot point: the
+                // active face counts.
                 let counts = match found {
                     None => true,
                     Some(best) => self.polyhedron.faces[face].active && !self.polyhedron.faces[best].active,
@@ -178,7 +179,7 @@ impl<'a, S: Simd> Near<'a, S> {
         best
     }
 
-    /// Distance beyond which no feature can be touched, m.
+    /// Distance from the centre within which a feature may be touched, m.
     #[inline(always)]
     fn reach(&self) -> f64 {
         /// Far above the rounding of a distance.
@@ -201,9 +202,9 @@ impl<'a, S: Simd> Near<'a, S> {
     }
 }
 
-/// Returns `true` if the foot point of `p` lies in a face. Where the face continues in the next piece its
-/// outline is widened by a tolerance: the two pieces compute it from their own normals, and both could miss a
-/// centre straight above the seam.
+/// Returns `true` if the foot point of `p` lies in a face. Where the face continues in the next piece, its
+/// outline is widened by a tolerance: each piece computes the seam from its own normals, and both could miss
+/// a centre straight above it.
 #[inline(always)]
 fn holds_foot(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bool {
     if !polyhedron.planes().all_active {
@@ -226,7 +227,7 @@ fn holds_foot_beside_walls(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bo
     })
 }
 
-/// Contact with an edge, for a centre between its ends and between its faces' outward planes.
+/// Contact with an edge, for a centre in the Voronoi region of the edge.
 fn edge_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Option<Interference> {
     let edge = &polyhedron.edges[index];
     let [first, second] = edge.vertices.map(|v| polyhedron.vertices[v as usize].position);
@@ -252,7 +253,7 @@ fn vertex_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Opt
     ball_over_point(sphere, &vertex.position, Feature::vertex(index), || -cone.iter().sum::<Vec3>())
 }
 
-/// Deeper of two contacts; at equal depth the lower feature.
+/// Deeper of two contacts; at equal depth, the contact of the lower feature.
 fn deeper(best: Option<Interference>, candidate: Option<Interference>) -> Option<Interference> {
     let (Some(a), Some(b)) = (best, candidate) else { return best.or(candidate) };
     let replaces = b.depth > a.depth || (b.depth == a.depth && b.feature < a.feature);

@@ -13,8 +13,8 @@ use super::{Feature, Interference, ball_over_point};
 use crate::Vec3;
 use crate::primitive::{Sphere, TriangleSet};
 
-/// Distance beyond an edge up to which a centre behind the face still gives a fallback contact (spare),
-/// relative to the coordinates: some thousand roundings.
+/// Distance beyond an edge, relative to the coordinates, up to which a centre behind the face still gives a
+/// fallback contact ([`Standing::SpareBehind`]): some thousand roundings.
 const FOOT_SLACK: f64 = 1e-12;
 
 /// Tests a sphere against one triangle and emits a contact for each of its features that pushes.
@@ -34,7 +34,7 @@ pub fn sphere_triangle(
     }
 }
 
-/// Contact of a sphere with a triangle of which only the face may push, with the centre in front.
+/// Contact of a sphere whose centre is in front, with a triangle of which only the face may push.
 #[inline]
 pub fn sphere_over_face(sphere: &Sphere, set: &TriangleSet, triangle: u32) -> Option<TriangleContact> {
     let view = TriangleView::new(set, triangle);
@@ -66,12 +66,12 @@ fn emit_features(
         None => {}
     }
     // In front, a centre clearly beyond an edge belongs to another feature.
-    let nobodys = near.in_front && near.beyond.contains(&true);
+    let of_other_feature = near.in_front && near.beyond.contains(&true);
     let has_beyond = || match height > 0.0 {
         true => (0..3).all(|k| !beyond[k] || edges.has_on_seam(k, &sphere.center)),
         false => has_behind(&edges, &sphere.center, thickness, 0.0),
     };
-    if !nobodys && (!beyond.contains(&true) || has_beyond()) {
+    if !of_other_feature && (!beyond.contains(&true) || has_beyond()) {
         emit_face(sphere, view, height, thickness, &mut *emit);
     } else if height < 0.0 && !near.beyond.contains(&true) && hardly_beyond(sphere, &edges, beyond) {
         let spare = |contact| emit(TriangleContact { standing: Standing::SpareBehind, ..contact });
@@ -96,8 +96,8 @@ enum Rim {
     Vertex(usize),
 }
 
-/// Convex edge or vertex of the triangle on which the centre lies, within rounding. Both faces there have the
-/// centre in their plane; only the edge or vertex pushes.
+/// Convex edge or vertex of the triangle on which the centre lies, within rounding. All faces there have the
+/// centre in their planes; only the edge or the vertex pushes.
 fn on_convex_rim(sphere: &Sphere, edges: &TriangleEdges, height: f64) -> Option<Rim> {
     let (center, corners) = (&sphere.center, &edges.view.corners);
     let slack = foot_slack(center, edges);
@@ -174,8 +174,8 @@ fn emit_on_rim(sphere: &Sphere, mean: &Vec3, feature: Feature, emit: &mut dyn Fn
 }
 
 /// Returns `true` if a centre behind a triangle is beyond some of its edges only by rounding, and these edges
-/// are silent: behind a vertex of a flat surface each triangle may assign the centre to another one. In front
-/// the vertex pushes there.
+/// are silent. Behind a vertex of a flat surface, rounding can put the centre beyond an edge of every
+/// triangle there. (In front, the vertex pushes.)
 fn hardly_beyond(sphere: &Sphere, edges: &TriangleEdges, beyond: [bool; 3]) -> bool {
     let slack = foot_slack(&sphere.center, edges);
     let is_silent = |k: usize| matches!(edges.class(k), EdgeClass::Silent { .. });

@@ -1,8 +1,8 @@
 //! Rejection of sphere-triangle pairs, eight at a time.
 //!
 //! A sphere near a surface overlaps the boxes of many triangles and touches few. Dot products alone classify
-//! most of them: too far from the plane, too far beyond an edge, near features of which none may push, or
-//! (most of the rest) only the face may push. The remaining pairs go through
+//! most pairs: the sphere is too far from the plane or too far beyond an edge, or no feature near it may
+//! push, or (most of the rest) only the face may push. The remaining pairs go through
 //! [`sphere_triangle`](super::sphere_triangle::sphere_triangle) one by one. This filter changes no result:
 //! every comparison has a margin for rounding or uses the same bits as the single test, and NaN never
 //! rejects.
@@ -12,8 +12,8 @@ use super::triangle_reach::{REACH_SLACK, SIDE_SLACK};
 use crate::primitive::{Lean, Sphere, TriangleSet};
 use crate::simd::{LANES, LaneBits, Simd, run_at_level};
 
-/// Amount, relative to the lengths, by which a product of two vectors must exceed zero to count as positive:
-/// twice the tolerance of the test of one pair, so that the rounding of the roots there does not matter.
+/// Fraction of the product of two lengths that a dot product must exceed to count as positive: far above the
+/// tolerance of the test of a single pair and its rounding.
 const ALONG_SLACK: f64 = 2e-9;
 
 /// Batch of up to eight pairs.
@@ -57,8 +57,8 @@ impl SphereTrianglePairs {
         lane
     }
 
-    /// Sets the sphere of the pairs that are pushed from here on; `thickness` as in [`add`](Self::add).
-    /// Faster than `add` if several consecutive pairs have the same sphere.
+    /// Sets the sphere of all pairs that [`push`](Self::push) adds from here on; `thickness` as in
+    /// [`add`](Self::add). Faster than `add` if several consecutive pairs have the same sphere.
     #[inline(always)]
     pub fn begin_in<S: Simd>(&mut self, simd: S, sphere: &Sphere, thickness: f64) {
         fill_in(simd, &mut self.radii, self.lanes.count, sphere.radius);
@@ -110,7 +110,7 @@ impl SphereTrianglePairs {
 pub struct PairsTold {
     /// Pairs that may touch.
     pub near: LaneBits,
-    /// Pairs of these in which only the face may push, to the front:
+    /// Pairs of `near` in which only the face may push, with the centre in front:
     /// [`sphere_over_face`](super::sphere_triangle::sphere_over_face) is enough.
     pub over_face: LaneBits,
 }
@@ -178,8 +178,8 @@ fn size<S: Simd>(simd: S, x: S::Eight) -> S::Eight {
     simd.larger(x, simd.sub(simd.splat(0.0), x))
 }
 
-/// Classifies the pairs. The comparisons, and the names, are those of
-/// [`InReach`](super::triangle_reach::InReach), followed by more.
+/// Classifies the pairs. The first comparisons, and the names, are those of
+/// [`InReach`](super::triangle_reach::InReach).
 #[inline(always)]
 fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
     let (edge_lean, vertex_lean) = (simd.load(&pairs.edge_leans), simd.load(&pairs.vertex_leans));
@@ -196,7 +196,7 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
     let arms = [center.less(&corners[0]), center.less(&corners[1]), center.less(&corners[2])];
     let normal = edges[0].cross(&corners[2].less(&corners[0]));
     let height = normal.dot(&arms[0]);
-    // Upper bound of all arms and edges.
+    // Upper bound of the lengths of all arms and edges.
     let span = simd.add(arms[0].taxicab(), simd.add(edges[0].taxicab(), edges[1].taxicab()));
     let normal_size = normal.taxicab();
     let room = simd.add(radius, simd.add(span, center.taxicab()));
@@ -219,8 +219,8 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
     let any_lean = simd.splat(Lean::ANY.tangent());
     let edges_lean_little = in_front & simd.bits(simd.below(edge_lean, any_lean));
     let vertices_lean_little = in_front & simd.bits(simd.below(vertex_lean, any_lean));
-    // Squared largest distances from an edge, and from a vertex, at which it can push the centre, times the
-    // squared length of the normal.
+    // Largest squared distances at which an edge (measured in the triangle's plane) and a vertex can push the
+    // centre, times `normal_square`.
     let edge_reach = simd.mul(height_square, simd.mul(edge_lean, edge_lean));
     let vertex_reach = simd.add(height_square, simd.mul(height_square, simd.mul(vertex_lean, vertex_lean)));
     for k in 0..3 {
@@ -233,10 +233,11 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
         far |= in_front & surely_beyond & simd.bits(simd.below(simd.mul(reach_square, edge_square), square));
         face &= !surely_beyond;
         within &= surely_within;
-        // The foot point on the edge's line lies before its start or after its end.
+        // True if the foot point on the edge's line lies before the edge's start or after its end.
         let (from_start, from_end) = (arm.dot(edge), next_arm.dot(edge));
         let beside = simd.bits(simd.below(from_start, zero)) | simd.bits(simd.below(zero, from_end));
-        // Beyond all normals along which the edge pushes: over the other face.
+        // True if the centre lies outside the range of normals along which the edge pushes, over the other
+        // face.
         let aside = simd.sub(beyond, side_slack);
         let leans_more = simd.below(simd.mul(edge_reach, edge_square), simd.mul(aside, aside));
         let over_other = edges_lean_little & surely_beyond & simd.bits(leans_more);

@@ -1,7 +1,8 @@
 //! Features of a triangle surface and the normals along which they push: faces, edges, vertices
 //! (docs/theory.md, 2.2).
 //!
-//! A triangle surface is a set of one-sided facets joined at edges. For a support point *p*:
+//! A triangle surface is a set of one-sided facets joined at edges. For a support point *p* of a shape with a
+//! centre:
 //!
 //! * a face pushes along its normal if *p* lies over it;
 //! * a convex edge pushes only along normals strictly between those of its two faces;
@@ -9,11 +10,11 @@
 //! * concave and flat edges are silent;
 //! * a free edge (one face only) pushes from the edge towards the centre, while the centre is in front.
 //!
-//! The regions of faces, edges and vertices partition the space in front. Each bounding plane is computed once,
-//! from the same numbers, for the features on both sides, so rounding opens no gap between them. A silent edge
-//! has no region of its own, and a point that rounding puts outside both faces belongs to the lower one. Behind
-//! two faces that meet concavely there is a wedge beyond both: it belongs to both, as does the space in front of
-//! their common edge.
+//! The regions of faces, edges and vertices partition the space in front. Each bounding plane is computed
+//! once, from the same numbers, for the features on both sides, so rounding opens no gap between them. A
+//! silent edge has no region of its own: a point that rounding puts outside both faces belongs to the face of
+//! lower index. Behind two faces that meet concavely there is a wedge that lies beyond their common edge as
+//! seen from either face. It belongs to both faces, as does the space in front of the edge.
 
 use super::{Feature, FeatureKind, Interference};
 use crate::Vec3;
@@ -24,17 +25,17 @@ use std::cell::OnceCell;
 /// from f64 vertices stays below it for every triangle that the loader accepts.
 const CONVEX_SINE_MIN: f64 = 1e-12;
 
-/// Standing of a contact of a triangle surface among its neighbours.
+/// Side of the triangle on which the centre lies, and whether the contact is only a fallback.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
-    /// Centre in front.
+    /// Centre in front of the face.
     Front,
     /// Centre behind the face, within its thickness.
     Behind,
-    /// Fallback: it pushes only within rounding. Another feature lies beside it, and rounding may assign the
-    /// centre to either or to neither. It counts if no other contact covers the centre.
+    /// Fallback: rounding may assign the centre to this feature, to a feature beside it, or to neither. It
+    /// counts if no other contact covers the centre.
     Spare,
-    /// Fallback face with the centre behind it.
+    /// Fallback as `Spare`, for a face with the centre behind it.
     SpareBehind,
     /// Fallback face whose foot point lies beyond a concave edge: counts if no other contact is as deep.
     StandIn,
@@ -45,11 +46,12 @@ pub enum Standing {
 pub struct TriangleContact {
     /// Depth, normal, point and feature.
     pub interference: Interference,
-    /// Standing among its neighbours.
+    /// Side of the centre, and whether the contact is a fallback.
     pub standing: Standing,
 }
 
-/// Triangle with its plane, from which the planes that bound its regions are derived.
+/// Triangle with its plane. The planes that bound the Voronoi regions of its face, edges and corners are
+/// derived from it.
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleView {
     /// Index in the set.
@@ -69,22 +71,22 @@ pub enum EdgeClass {
     Convex {
         /// Triangle on the other side.
         neighbor: u32,
-        /// Its unit normal.
+        /// Unit normal of the neighbour.
         normal: Vec3,
-        /// Unit vector in its plane, perpendicular to the edge, pointing out of it.
+        /// Unit vector in the neighbour's plane, perpendicular to the edge, pointing out of the neighbour.
         outward: Vec3,
     },
     /// Edge of two faces that meet flat or concavely: it never pushes.
     Silent {
         /// Triangle on the other side.
         neighbor: u32,
-        /// Unit vector in its plane, perpendicular to the edge, pointing out of it.
+        /// Unit vector in the neighbour's plane, perpendicular to the edge, pointing out of the neighbour.
         outward: Vec3,
     },
 }
 
-/// Sine of the angle between two faces above which they count as concave rather than flat: on a seam of a
-/// flat plate one face holds the foot point, and the other is a fallback.
+/// Sine of the angle between two faces above which they count as concave rather than flat. On a seam of a
+/// flat plate one face contains the foot point, and the other is a fallback.
 const CONCAVE_SINE_MIN: f64 = 1e-9;
 
 impl TriangleView {
@@ -144,15 +146,16 @@ impl TriangleView {
         set.triangles[self.index as usize].may_push.edge(k) && self.owns_edge(set, k)
     }
 
-    /// Returns `true` if the vertex may push and this triangle may be the lowest of its fan, judged by its
-    /// two neighbours there.
+    /// Returns `true` if the vertex may push and this triangle may own it: both neighbours at the vertex have
+    /// higher indices. The other triangles of the fan are not tested.
     #[inline]
     pub(super) fn may_own_vertex(&self, set: &TriangleSet, corner: usize) -> bool {
         let may_push = set.triangles[self.index as usize].may_push.vertex(corner);
         may_push && self.owns_edge(set, corner) && self.owns_edge(set, (corner + 2) % 3)
     }
 
-    /// Returns `true` if this triangle owns edge `k`: it is the lower of the two that share it.
+    /// Returns `true` if this triangle owns edge `k`: it has the lower index of the two triangles that share
+    /// the edge.
     #[inline]
     pub fn owns_edge(&self, set: &TriangleSet, k: usize) -> bool {
         let neighbor = set.triangles[self.index as usize].neighbors[k];
@@ -185,7 +188,7 @@ impl<'a> TriangleEdges<'a> {
         *self.classes[k].get_or_init(|| self.view.classify_edge(self.set, k))
     }
 
-    /// Signed distance of a point beyond edge `k`, along the plane, m.
+    /// Signed distance of a point from edge `k`, m, along the triangle's plane; positive outside.
     #[inline]
     pub fn beyond(&self, k: usize, p: &Vec3) -> f64 {
         self.outward(k).dot(&(p - self.view.edge_ends(k)[0]))
@@ -198,10 +201,10 @@ impl<'a> TriangleEdges<'a> {
         beyond > 0.0 || beyond.is_nan()
     }
 
-    /// Returns `true` if a point in front of the triangle and beyond edge `k` still belongs to it: on the
-    /// seam that rounding leaves at a silent edge, beyond both faces, the lower face has it. Faces folded to
-    /// less than a right angle are excluded: there such points are outside the fold, where neither face
-    /// pushes.
+    /// Returns `true` if a point in front of the triangle and beyond edge `k` still belongs to the triangle.
+    /// By rounding a point may be beyond a silent edge for both of its faces; then it belongs to the face of
+    /// lower index. This does not apply if the normals of the faces are a right angle or more apart: such a
+    /// point is outside the fold, where neither face pushes.
     pub fn has_on_seam(&self, k: usize, p: &Vec3) -> bool {
         let EdgeClass::Silent { neighbor, outward } = self.class(k) else { return false };
         outward.dot(&(p - self.view.edge_ends(k)[0])) > 0.0
@@ -213,7 +216,7 @@ impl<'a> TriangleEdges<'a> {
 /// Triangles around one vertex, reached from one of them across shared edges.
 #[derive(Clone, Copy, Debug)]
 pub struct Fan {
-    /// Lowest triangle of the fan, which owns the vertex.
+    /// Lowest index of the triangles of the fan; this triangle owns the vertex.
     pub lowest: u32,
     /// True if the fan ends at free edges, false if it closes.
     pub open: bool,
@@ -267,17 +270,17 @@ pub(super) fn walk_fan_while(
 }
 
 /// Tests whether a normal lies in the cone of a vertex: `Some(true)` if strictly, `Some(false)` if within
-/// rounding. `None` if it lies outside, if the vertex belongs to a lower triangle, if the centre is behind
-/// all faces of an open fan, or if a closed fan is seen from its back (the bottom of a pit, from within the
-/// solid).
+/// rounding. `None` if the normal lies outside, if a triangle of lower index owns the vertex, if the centre
+/// is behind all faces of an open fan, or if a closed fan is seen from its back (the bottom of a pit, from
+/// within the solid).
 ///
 /// `direction` points from the vertex to the centre (any length); `center_in_front` is called per triangle of
 /// the fan.
 ///
-/// If the normal is in the cone, all edges of the fan lie below the plane across `direction`. In perspective
-/// from the vertex they meet a plane below it in the corners of a simple polygon, which runs
-/// counter-clockwise if the front is seen and clockwise if the back is. The sum of its triangles with the
-/// vertex's projection gives the orientation.
+/// If the normal is in the cone, all edges of the fan descend from the vertex, seen along `direction`. Their
+/// lines meet a plane below the vertex, perpendicular to `direction`, in the corners of a simple polygon. The
+/// polygon runs counter-clockwise if the centre sees the front of the surface, clockwise if it sees the back.
+/// The sum of the signed areas of its triangles around the vertex's projection gives the orientation.
 pub fn vertex_pushes(
     set: &TriangleSet,
     triangle: u32,
@@ -320,8 +323,8 @@ pub fn vertex_pushes(
 /// point is the vertex; `direction` points from the vertex to the point (any length). A point at the vertex
 /// counts as in front.
 ///
-/// As in [`vertex_pushes`], the orientation of the polygon that the edges make in a plane across `direction`
-/// decides, for closed and open fans.
+/// As in [`vertex_pushes`], the orientation of the polygon in a plane perpendicular to `direction` decides,
+/// here for closed and open fans.
 pub fn vertex_is_seen_from_front(set: &TriangleSet, triangle: u32, corner: usize, direction: &Vec3) -> bool {
     /// Lower limit of the cosine: an edge perpendicular to the direction would meet that plane at infinity.
     const COSINE_MIN: f64 = 1e-12;

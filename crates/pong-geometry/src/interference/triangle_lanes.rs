@@ -37,7 +37,7 @@ pub(super) fn fill_vectors_in<S: Simd>(simd: S, vectors: &mut EightVectors, lane
 pub(super) struct TriangleLanes {
     pub corners: [EightVectors; 3],
     pub centers: EightVectors,
-    /// Distance behind a triangle up to which its centre is still pushed to the front, m.
+    /// Distance behind a triangle up to which the centre of its shape is still pushed to the front, m.
     pub thicknesses: [f64; LANES],
     pub may_push: [u8; LANES],
     pub triangles: [u32; LANES],
@@ -63,7 +63,7 @@ impl TriangleLanes {
         lane
     }
 
-    /// Sets the centre and thickness of the triangles that are pushed from here on.
+    /// Sets the centre and thickness of all triangles that [`push`](Self::push) adds from here on.
     #[inline(always)]
     pub fn begin_in<S: Simd>(&mut self, simd: S, center: &Vec3, thickness: f64) {
         fill_vectors_in(simd, &mut self.centers, self.count, center);

@@ -1,7 +1,8 @@
 //! Quick rejection of sphere-triangle pairs by a few products, without roots or divisions: most triangles
 //! near a sphere are rejected here.
 //!
-//! It has a single branch, at the end, because the positions of a sphere among triangles are unpredictable.
+//! The test has a single branch, at the end, because the positions of a sphere among triangles are
+//! unpredictable.
 
 use super::triangle_features::TriangleView;
 use crate::Vec3;
@@ -10,7 +11,7 @@ use crate::primitive::{Sphere, TriangleSet};
 /// Triangle that a sphere may touch.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct InReach {
-    /// The triangle; its normal is not normalised yet.
+    /// Triangle, with a normal that is not normalised yet.
     pub view: TriangleView,
     /// True if the sphere's centre is certainly in front.
     pub in_front: bool,
@@ -23,7 +24,7 @@ pub(super) struct InReach {
 /// Relative margin of the reach: far above the rounding of depths and heights.
 pub(super) const REACH_SLACK: f64 = 1e-9;
 /// Relative margin of the side of an edge: far above rounding, including that of an outward vector computed
-/// from the unit normal, and above the angle that counts as flat between two faces.
+/// from the unit normal, and above the sine at which two faces count as convex.
 pub(super) const SIDE_SLACK: f64 = 1e-10;
 
 impl InReach {

@@ -1,9 +1,9 @@
 //! Line segment, capsule and cylinder (A) – bore (B): half a spring at each end of the part in the hole
 //! (docs/theory.md, 2.8).
 //!
-//! At an end in the hole the tip or rim contacts the wall. At an end beyond a mouth the side contacts the
-//! circle of the mouth. All three shapes are treated as rods: a segment has radius 0, a capsule is a segment
-//! with a skin.
+//! At an end in the hole the tip or rim contacts the wall. At an end outside the hole the side of the shape
+//! contacts the circle of the mouth. All three shapes are treated as rods: a segment has radius 0, a capsule
+//! is a segment with a skin.
 
 use super::ball_bore::{BallContacts, ball_bore, ball_mouth};
 use super::circles::{Across, Circle, Reach, Wall, shares};
@@ -11,8 +11,9 @@ use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Bore, Capsule, Frustum, LineSegment, Sphere};
 
-/// Contacts of a rod in a hole at its end 0 and its end 1, each at the wall and opposite to it. The two
-/// contacts of an end share one spring if they push the same way; each end has half a spring.
+/// Contacts of a rod in a hole at end 0 and end 1 of the rod. Each end has half a spring and up to two
+/// contacts, the deepest and that on the opposite side. The two share the half spring if their normals are
+/// less than 90° apart.
 pub type EndsInBore = [BallContacts; 2];
 
 /// Tests a segment against a bore.
@@ -75,12 +76,12 @@ struct RodEnd<'a> {
     mouth: usize,
 }
 
-/// Point at which a tip or a rim extends farthest beyond the wall, which is extended past the mouths.
+/// Point at which a tip or a rim extends farthest beyond the wall; the wall is extended past the mouths.
 struct AtWall {
     contacts: BallContacts,
     /// Depth at that point without the skin, m; negative before contact.
     depth: f64,
-    /// Distance of that point from the own mouth and from the other mouth, m, positive in the hole.
+    /// Distances of that point from the mouth of this end and from the other mouth, m, positive in the hole.
     inside: [f64; 2],
     /// True if the rod approaches the wall, or goes deeper behind it, towards this end.
     outward: bool,
@@ -89,8 +90,8 @@ struct AtWall {
 impl RodEnd<'_> {
     fn touched(&self) -> BallContacts {
         let is_out = |mouth: usize| {
-            let way_out = self.way_out(mouth);
-            way_out < 0.0 || (way_out == 0.0 && self.bore.mouths[mouth])
+            let distance = self.exit_distance(mouth);
+            distance < 0.0 || (distance == 0.0 && self.bore.mouths[mouth])
         };
         if self.rod.skin == 0.0 && (is_out(0) || is_out(1)) {
             return NOTHING;
@@ -103,9 +104,10 @@ impl RodEnd<'_> {
         self.limited(self.with_corner(&wall))
     }
 
-    /// Combines the contacts at the wall and at the mouth. Past the mouth, the side contacts the circle of
-    /// the mouth. Before the mouth, within a distance equal to the depth, the end takes the contact that
-    /// stays continuous there: the less deep one if the rod leans outward, otherwise the deeper one.
+    /// Combines the contacts at the wall and at the mouth. Inside the hole the end contacts the wall, past
+    /// the mouth the side contacts the circle of the mouth. Nearer to the mouth than the depth, the two are
+    /// combined so that the energy is continuous: inside, for a rod that leans outward, the less deep one
+    /// counts; past the mouth, for a rod that does not, the deeper one.
     fn with_corner(&self, wall: &AtWall) -> BallContacts {
         let [own, other] = wall.inside;
         if self.bore.is_past(1 - self.mouth, other) {
@@ -152,11 +154,12 @@ impl RodEnd<'_> {
         }
     }
 
-    /// Sides of the wall that a tip or rim contacts: the deepest, and the opposite one if it is too large for
-    /// the hole.
+    /// Sides of the wall that a tip or rim contacts: the deepest, and the opposite side if the tip or rim is
+    /// too large for the hole. Otherwise the second is a second local maximum, if any.
     fn sides(&self, across: &Across, circle: &Circle, reach: impl Fn(&Vec3) -> Reach) -> [Option<Vec3>; 2] {
         let axis = self.bore.hole.axis;
-        // Point of the axis beside the circle, equally far from the wall on all sides.
+        // Projection of the circle's centre onto the axis of the hole: there the wall is equally far on all
+        // sides.
         let beside = self.bore.hole.ends[0] + axis * axis.dot(&(circle.center_b - self.bore.hole.ends[0]));
         let room = -self.wall.height(&across.first_b, &beside);
         let size = circle.radius + self.rod.skin;
@@ -196,7 +199,7 @@ impl RodEnd<'_> {
         tips.into_iter().fold(side, |one, other| self.deeper(one, other))
     }
 
-    /// Contacts of the line of the side with the mouth, extended past its own end by the thickness of the
+    /// Contacts of the rod's side with the mouth; the side is extended past this end by the thickness of the
     /// wall.
     fn line_at_mouth(&self) -> BallContacts {
         if !self.is_convex() {
@@ -211,8 +214,8 @@ impl RodEnd<'_> {
         self.bore.mouths[self.mouth] && self.bore.hole.radii[self.mouth] > 0.0
     }
 
-    /// Contacts of the side with the circle of the mouth. Seen along the rod the mouth is an ellipse and the
-    /// axis a point.
+    /// Contacts of the side with the circle of the mouth, at positions along the rod (m) that `counts`
+    /// accepts. Seen along the rod, the mouth is an ellipse and the axis a point.
     fn at_circle(&self, counts: impl Fn(f64) -> bool) -> BallContacts {
         let (rod, circle) = (self.rod, self.mouth_circle());
         let arm = rod.ends[0] - circle.center_b;
@@ -259,8 +262,9 @@ impl RodEnd<'_> {
         across.greatest(reach).map(touched)
     }
 
-    /// Returns `true` if the axis itself passes through the wall around the mouth. A crossing past an end of
-    /// the rod counts as long as that end is within the thickness of the wall from the mouth.
+    /// Returns `true` if the rod's axis crosses the plane of the mouth at a position that `counts` accepts,
+    /// and the point of the rod nearest to the crossing is less than the thickness of the wall from the disc
+    /// of the mouth.
     fn is_crossed_behind(&self, counts: impl Fn(f64) -> bool) -> bool {
         /// Cosine below which a rod counts as perpendicular to the hole and crosses no mouth.
         const SQUARE: f64 = 1e-9;
@@ -276,8 +280,8 @@ impl RodEnd<'_> {
         counts(along) && (above * above + off * off).sqrt() < self.bore.thickness
     }
 
-    /// Distance a rod must move to leave the hole by a mouth, m.
-    fn way_out(&self, mouth: usize) -> f64 {
+    /// Distance that the rod must move to leave the hole by a mouth, m.
+    fn exit_distance(&self, mouth: usize) -> f64 {
         let outward = self.outward(mouth);
         let depth = |end: usize| {
             outward.dot(&(self.bore.hole.ends[mouth] - self.rod.circle(end).farthest(&-outward)))
@@ -289,13 +293,14 @@ impl RodEnd<'_> {
         self.bore.hole.axis * if mouth == 0 { -1.0 } else { 1.0 }
     }
 
-    /// Limits the contacts of a rod that is barely in the hole: it may leave by the mouth.
+    /// Limits the contacts of a rod that is barely in the hole: if leaving by a mouth takes less energy, the
+    /// mouth pushes instead.
     fn limited(&self, contacts: BallContacts) -> BallContacts {
         if self.rod.skin > 0.0 || contacts == NOTHING {
             return contacts;
         }
         let leaves = |mouth: usize| {
-            let depth = self.way_out(mouth);
+            let depth = self.exit_distance(mouth);
             let outward = self.outward(mouth);
             let places = [0, 1].map(|end| self.rod.circle(end).farthest(&-outward));
             let is_first = outward.dot(&places[0]) <= outward.dot(&places[1]);
@@ -310,20 +315,20 @@ impl RodEnd<'_> {
         [0, 1].into_iter().filter_map(leaves).fold(contacts, |one, other| self.shallower(one, other))
     }
 
-    /// Deeper of two; the first, unless the second is deeper by more than rounding. For a rod along the wall
-    /// both are equal.
+    /// Contacts of greater energy; `one`, unless that of `other` is greater by more than rounding. (For a rod
+    /// along the wall both energies are equal.)
     fn deeper(&self, one: BallContacts, other: BallContacts) -> BallContacts {
         if energy(&other) > energy(&one) + self.rounding_of(&one) { other } else { one }
     }
 
-    /// Less deep of two, with the same tolerance.
+    /// Contacts of less energy, with the same tolerance.
     fn shallower(&self, one: BallContacts, other: BallContacts) -> BallContacts {
         if energy(&other) < energy(&one) - self.rounding_of(&one) { other } else { one }
     }
 
     /// Rounding error of an energy, m².
     fn rounding_of(&self, contacts: &BallContacts) -> f64 {
-        /// Error of a direction at which the slope steps.
+        /// Error of a direction, rad, at which the slope is discontinuous.
         const DIRECTION: f64 = 4e-12;
         let places = [&self.rod.ends, &self.bore.hole.ends].into_iter().flatten().map(|place| place.amax());
         let reach = places.fold(self.rod.length, f64::max);
@@ -332,7 +337,7 @@ impl RodEnd<'_> {
     }
 }
 
-/// Stored energy with a stiffness of 2 N/m.
+/// Stored energy divided by half the stiffness, m².
 fn energy(contacts: &BallContacts) -> f64 {
     let [one, two] = contacts;
     let depths = [one, two].map(|contact| contact.map_or(0.0, |contact| contact.depth));

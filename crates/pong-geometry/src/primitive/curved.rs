@@ -79,11 +79,11 @@ impl Ellipsoid {
     /// Distance from the centre within which a triangle may push the ellipsoid without overlapping it, m.
     ///
     /// A face pushes if it contains the foot point: the projection of the deepest point onto its plane. For a
-    /// slender, oblique ellipsoid most of that projection line is outside the ellipsoid. With the centre in
-    /// the plane, the foot point is as far from the centre as the deepest point is lateral, at most the
-    /// difference of the largest and smallest semi-axes. With the centre behind the plane, the thickness adds
-    /// to it. The default thickness is the smallest semi-axis; a larger one is covered by the volume of the
-    /// triangle.
+    /// slender, oblique ellipsoid most of that projection line is outside the ellipsoid. If the centre lies
+    /// in the plane, the foot point is at most the difference of the largest and the smallest semi-axis away
+    /// from it. If the centre lies behind the plane, its depth, at most the thickness, adds at a right angle.
+    /// The default thickness is the smallest semi-axis; the bounding volume of the triangle covers a larger
+    /// thickness.
     pub fn reach_of_feet(&self) -> f64 {
         let (smallest, largest) = (self.semi_axes.min(), self.semi_axes.max());
         ((largest - smallest) * (largest - smallest) + smallest * smallest).sqrt()
@@ -214,8 +214,8 @@ impl Primitive for Ellipsoid {
     }
 }
 
-/// The path is followed through the larger of two spheres: a sphere also passes through a smaller one beside
-/// its centre.
+/// The path of the other sphere's centre is tested against the larger of the two radii: a large sphere can
+/// pass through a small one that lies beside the path.
 impl Curved for Sphere {
     fn passed(&self, from: &Vec3, to: &Vec3, radius: f64) -> Option<Vec3> {
         let radius = self.radius.max(radius);

@@ -129,8 +129,8 @@ impl EdgeBlock {
         }
     }
 
-    /// Returns the edges for which a point lies between the two ends and between the outward planes of the
-    /// two faces.
+    /// Returns the edges whose Voronoi region contains a point: it lies between the planes through the two
+    /// ends, perpendicular to the edge, and on the outward side of both faces at the edge.
     #[inline(always)]
     pub fn between<S: Simd>(&self, simd: S, p: &Splat<S>) -> LaneBits {
         let zero = simd.splat(0.0);
@@ -164,7 +164,7 @@ impl EightBoxes {
         met
     }
 
-    /// Returns the boxes that may hold a point nearer to `p` than `reach` (m).
+    /// Returns the boxes that may contain a point nearer to `p` than `reach` (m).
     #[inline(always)]
     pub fn near<S: Simd>(&self, simd: S, p: &Splat<S>, reach: f64) -> LaneBits {
         let square = simd.splat(reach * reach);

@@ -9,21 +9,21 @@ use crate::simd::{LANES, LaneBits, MODERATE, Simd, Splat, is_moderate};
 pub struct FacePlanes {
     /// Blocks; the last one may have unused lanes.
     pub blocks: Vec<PlaneBlock>,
-    /// Faces by decreasing area (ties: lower index first). A point near a solid but outside is mostly above a
+    /// Faces by decreasing area (ties: lower index first). A point outside the solid is most often above a
     /// large face, so a test of one plane after another ends sooner in this order.
     pub widest_first: Vec<PolyhedronFace>,
     /// True if all numbers are moderate ([`is_moderate`]); heights of moderate points are then finite.
     pub moderate: bool,
     /// True if all faces are active.
     pub all_active: bool,
-    /// True if, in addition, no face is closed.
+    /// True if all faces are active and none is closed.
     pub simple: bool,
-    /// Distance within which a point counts as on an internal face, m.
+    /// Tolerance of internal faces, m: [`WALL_TOLERANCE`](Self::WALL_TOLERANCE) times the piece's diameter.
     pub wall_slack: f64,
 }
 
-/// Eight planes. Unused lanes repeat the last face: then results over all or any faces are unchanged, and
-/// among equals the lower lane wins.
+/// Eight planes. Unused lanes repeat the last face, so they change no result; of equal lanes the lowest
+/// counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct PlaneBlock {
@@ -62,16 +62,16 @@ impl PlaneBlock {
 }
 
 impl PlaneBlock {
-    /// Returns the planes for which a point at these heights is below, or on an internal face within
-    /// `wall_slack`.
+    /// Returns the planes that a point at these heights is below; for internal faces, below or less than
+    /// `wall_slack` above.
     #[inline(always)]
     pub fn held_or_at_wall<S: Simd>(&self, simd: S, heights: S::Eight, wall_slack: f64) -> LaneBits {
         let below = simd.bits(simd.below(heights, simd.splat(0.0)));
         below | simd.bits(simd.below(heights, simd.splat(wall_slack))) & !self.active
     }
 
-    /// Returns the internal faces (inactive) whose plane a point at these heights is on or beyond, within
-    /// `wall_slack`.
+    /// Returns the internal (inactive) faces that a point at these heights is above, or less than
+    /// `wall_slack` below.
     #[inline(always)]
     pub fn walls_reached<S: Simd>(&self, simd: S, heights: S::Eight, wall_slack: f64) -> LaneBits {
         simd.bits(simd.below(simd.splat(-wall_slack), heights)) & !self.active
@@ -79,16 +79,17 @@ impl PlaneBlock {
 }
 
 impl FacePlanes {
-    /// Tolerance of internal faces, relative to a piece's diameter: two opposite internal faces within it
-    /// count as one plane, and a point within it counts as on the face. Where several internal faces meet,
-    /// rounding leaves a point in no piece or in several.
+    /// Tolerance of internal faces, relative to a piece's diameter. Two opposite internal faces closer than
+    /// the tolerance count as one plane, and a point closer than the tolerance to an internal face counts as
+    /// on the face. Without it, a point where several internal faces meet could, by rounding, lie in no piece
+    /// or in several.
     pub const WALL_TOLERANCE: f64 = 1e-6;
 
     /// Maximum number of blocks that kernels keep in registers.
     pub const IN_REGISTERS: usize = 4;
 
-    /// Number of blocks that a kernel for `N` blocks processes: always `N` if it keeps them in registers,
-    /// else all.
+    /// Number of blocks that a kernel for `N` blocks processes: `N` if the kernel keeps them in registers,
+    /// else all blocks of the piece.
     #[inline(always)]
     pub(crate) fn count<const N: usize>(&self) -> usize {
         if N <= Self::IN_REGISTERS { N } else { self.blocks.len() }

@@ -1,4 +1,4 @@
-//! Facts of a primitive by itself: all that the engine and the viewers need of a kind, except its contact tests.
+//! Properties of one primitive: all that the engine and the viewers need of a kind, except its contact tests.
 
 use crate::bounding::Bounded;
 use crate::{Mat3, Vec3};
@@ -7,7 +7,7 @@ use std::borrow::Cow;
 /// Primitive in the frame of its movable group. Each kind implements this in its own file.
 pub trait Primitive: Bounded {
     /// Point of A whose displacement deflects the bristle of a contact, m: centre of a sphere or ellipsoid,
-    /// the point itself, end of a segment or of a round part's axis, tip of a ray. `end` is that of the
+    /// the point itself, end of a segment or of a round part's axis, tip of a ray. `end` is the end in the
     /// contact's key. Borrowed where possible.
     fn reference_point(&self, _end: u32) -> Cow<'_, Vec3> {
         Cow::Owned(Vec3::zeros())
@@ -24,23 +24,25 @@ pub trait Primitive: Bounded {
         None
     }
 
-    /// Least radius of a primitive that can touch triangles, m. A triangle without a thickness of its own
-    /// takes it.
+    /// Least radius of a primitive that can touch triangles, m. A triangle for which the model gives no
+    /// thickness uses this radius.
     fn smallest_radius_m(&self) -> Option<f64> {
         None
     }
 
-    /// Least extent through which a path can pass, m; infinite if nothing can pass.
+    /// Least thickness of the primitive, m, where a path can pass through it; infinite if no path can.
     fn least_width_m(&self) -> f64 {
         f64::INFINITY
     }
 
-    /// The primitive as a round solid, if the axis of a passing element is followed.
+    /// The primitive as a round solid, if tunnelling through it is detected by the axis of the passing
+    /// element.
     fn round(&self) -> Option<&dyn Round> {
         None
     }
 
-    /// The primitive as a curved surface, if single points of a passing element are followed.
+    /// The primitive as a curved surface, if tunnelling through it is detected by points of the passing
+    /// element.
     fn curved(&self) -> Option<&dyn Curved> {
         None
     }
@@ -75,8 +77,8 @@ pub trait Round {
 
 /// Curved surface that a point of another element may pass through (docs/theory.md, 2.9).
 pub trait Curved {
-    /// Unit normal of the side by which a straight path passes through the surface, if it does. `radius` is
-    /// that of the ball around the point that takes the path, m.
+    /// Unit normal of the surface where a straight path enters it, if the path passes through. `radius`, m,
+    /// is that of the sphere whose centre takes the path; 0 for a point.
     fn passed(&self, from: &Vec3, to: &Vec3, radius: f64) -> Option<Vec3>;
 }
 
@@ -111,8 +113,8 @@ pub enum Drawing {
         origin: Vec3,
         /// Unit vector along the axis.
         axis: Vec3,
-        /// Outline in a half plane through the axis. The surface faces away from the axis where the outline
-        /// runs along it, and towards the axis where it runs against it.
+        /// Outline in a half plane that the axis bounds. Where the outline runs in the direction of the axis,
+        /// the surface faces away from the axis; where it runs in the opposite direction, towards the axis.
         outline: Vec<Stroke>,
     },
 }
@@ -135,12 +137,12 @@ pub enum Stroke {
         aside: f64,
         /// Radius of the arc, m.
         radius: f64,
-        /// Ends of the arc in quarters of a turn from the direction away from the axis, positive along it.
+        /// Angles of the two ends of the arc in quarter turns: 0 points away from the axis, 1 along it.
         quarters: [i32; 2],
     },
 }
 
-/// End of an axis, or its middle for a contact between the ends.
+/// Point of an axis: end 0, end 1, or for any other `end` the middle.
 pub(super) fn on_axis([one, other]: &[Vec3; 2], end: u32) -> Cow<'_, Vec3> {
     match end {
         0 => Cow::Borrowed(one),
@@ -154,8 +156,8 @@ pub(super) fn ends_and_middle([one, other]: &[Vec3; 2]) -> [Option<Vec3>; 3] {
     [Some(*one), Some(*other), Some(0.5 * (one + other))]
 }
 
-/// Distance of two points by its largest component, which is smaller by √3 at most, m: squares might leave the
-/// range of numbers.
+/// Largest component of the vector between two points, m: at least 1/√3 of their distance, and free of
+/// squares that may overflow.
 pub(super) fn distance_m([one, other]: &[Vec3; 2]) -> f64 {
     (one - other).amax()
 }

@@ -27,10 +27,10 @@ pub use simple::{LineSegment, Plane, Point, Ray, RayResponse};
 pub use triangles::{Lean, MayPush, NO_NEIGHBOR, TriangleRecord, TriangleSet};
 
 /// Expands a macro for every kind whose elements a movable group keeps in one array: documentation, name,
-/// number, shape, array. Triangles, which are parts of a mesh, and custom primitives stand beside the list
-/// where it is expanded.
+/// number, shape, array. Triangles, which are parts of a mesh, and custom primitives are not in the list:
+/// each expansion adds them.
 ///
-/// A new kind is a row here, a shape with its [`Primitive`](crate::primitive::Primitive) in a file of this
+/// A new kind needs a row here, a shape with its [`Primitive`](crate::primitive::Primitive) in a file of this
 /// folder, an array in the movable group, its fields in the reader, and rows in the engine's table of pairs.
 #[macro_export]
 macro_rules! for_each_kind {
@@ -63,7 +63,8 @@ macro_rules! for_each_kind {
 }
 
 /// Expands a macro for every shape that can be A in the engine's tests: name, shape, array, kinds. Such a
-/// shape has a copy in another frame (`carried`) and a box around everything that it can touch (`region`).
+/// shape has the methods `carried` (its copy in another frame) and `region` (box around everything that it
+/// can touch).
 #[macro_export]
 macro_rules! for_each_moving_shape {
     ($then:ident) => {
@@ -81,8 +82,8 @@ macro_rules! for_each_moving_shape {
 
 macro_rules! define_kinds {
     ($($(#[$doc:meta])+ $kind:ident = $number:literal: $shape:ty, $array:ident;)*) => {
-        /// Kind of a primitive. Its number enters the hash of models and never changes. The table of pairs
-        /// says which kind of a pair is A.
+        /// Kind of a primitive. Its number enters the hash of models and never changes. The engine's table of
+        /// pairs defines which kind of a pair is A.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u8)]
         pub enum PrimitiveKind {

@@ -29,9 +29,11 @@ pub struct Polyhedron {
 pub enum Containment {
     /// Inside, not on an internal face.
     Inside,
-    /// Inside (by the tie rule of internal faces), and on an internal face.
+    /// Inside (by the tie rule of internal faces), and on an internal face within the tolerance
+    /// (`wall_slack`).
     AtWall,
-    /// On or beyond an internal face within tolerance, and outside for no other reason.
+    /// On or above internal faces by less than `wall_slack`, not inside by the tie rule, and below all active
+    /// faces.
     BeyondWall,
     /// Outside.
     Outside,
@@ -78,9 +80,8 @@ impl Polyhedron {
         &self.vertex_blocks
     }
 
-    /// Least height above a face's plane at which the point may lie over the face's outline, m. That face
-    /// then holds the point of the solid nearest to `p`, and no plane is farther below `p`. `top` is the
-    /// greatest height of `p` above a plane, m.
+    /// Least height of `p` above a face, m, at which the face may contain the point of the solid nearest to
+    /// `p`. Without rounding such a face has the greatest height of all, `top`, m.
     ///
     /// The slack is far above the convexity error of a loaded polyhedron and above the rounding of the
     /// narrowest outline.
@@ -98,15 +99,15 @@ impl Polyhedron {
         run_at_level!(planes_hold(p: Vec3, planes: FacePlanes) -> bool)
     }
 
-    /// Position of a point relative to this piece. Near internal faces the neighbouring pieces decide too:
-    /// see [`Containment`].
+    /// Position of a point relative to this piece. Near internal faces the result depends on the neighbouring
+    /// pieces too: see [`Containment`].
     #[inline]
     pub fn containment(&self, p: &Vec3) -> Containment {
         let planes = self.planes();
         run_at_level!(containment_in(p: Vec3, planes: FacePlanes) -> Containment)
     }
 
-    /// Internal faces whose plane the point is on, within tolerance, or beyond.
+    /// Internal faces that the point is above, or less than `wall_slack` below.
     pub fn walls_at<'a>(&'a self, p: &'a Vec3) -> impl Iterator<Item = &'a PolyhedronFace> {
         let slack = self.planes.wall_slack;
         self.faces.iter().filter(move |face| !face.active && face.height(p) > -slack)

@@ -14,7 +14,7 @@ pub struct PolyhedronParts {
     /// Vertices, each once.
     pub vertices: Vec<PolyhedronVertex>,
     /// Unit directions of the surface's edges away from a vertex, grouped by vertex. The normal cone of the
-    /// vertex consists of the normals that have a negative dot product with all of them.
+    /// vertex consists of the normals that have a negative dot product with all these directions.
     pub cone_edges: Vec<Vec3>,
     /// Largest distance between two vertices, m: the reference size of tolerances.
     pub diameter: f64,
@@ -65,8 +65,8 @@ pub struct PolyhedronEdge {
     /// Unit direction from the first to the second end.
     pub direction: Vec3,
     /// Normals along which the edge pushes; `None` if it cannot push. It pushes if two active faces of the
-    /// surface (possibly of two pieces) meet here convexly, and this piece has the lowest index of those with
-    /// the edge.
+    /// surface (possibly of two pieces) meet here convexly, and this piece has the lowest index of the pieces
+    /// with the edge.
     pub push: Option<EdgePush>,
     /// Same as `push`, but set in every piece that has the edge: used for shapes that cross the edge from one
     /// piece into another.
@@ -78,8 +78,8 @@ pub struct PolyhedronEdge {
 pub struct EdgePush {
     /// Outward unit normals of the two active faces that meet at the edge.
     pub normals: [Vec3; 2],
-    /// For each of them, the unit vector in the face's plane, perpendicular to the edge, pointing out of the
-    /// face.
+    /// For each of the two faces, the unit vector in the face's plane, perpendicular to the edge, pointing
+    /// out of the face.
     pub outwards: [Vec3; 2],
 }
 
@@ -89,7 +89,7 @@ pub struct PolyhedronVertex {
     /// Position in the group frame, m.
     pub position: Vec3,
     /// True if the vertex may push: active faces of the surface meet here, and this piece has the lowest
-    /// index of those with the vertex.
+    /// index of the pieces with the vertex.
     pub pushes: bool,
     /// First entry of its cone in [`PolyhedronParts::cone_edges`].
     pub first_cone: u32,

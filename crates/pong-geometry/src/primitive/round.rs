@@ -43,8 +43,9 @@ pub struct Bore {
 }
 
 impl Bore {
-    /// Returns `true` if a signed distance `inside` of one end (any unit) is past that end. At the seam of
-    /// two bores in line, a point exactly on the seam belongs to the second bore only.
+    /// Returns `true` if a point is past an end of the bore; `inside` is its signed distance from the end
+    /// (any unit), positive inside. A point exactly on the seam of two bores in line belongs only to the bore
+    /// whose end 0 lies there.
     #[inline]
     pub(crate) fn is_past(&self, end: usize, inside: f64) -> bool {
         inside < 0.0 || (inside == 0.0 && end == 1 && !self.mouths[end])
@@ -131,8 +132,7 @@ impl Bounded for Frustum {
         Frustum::support(self, direction)
     }
 
-    /// The farthest point lies on one of the end circles, diametrically opposite to `from` seen from the
-    /// axis.
+    /// The farthest point lies on one of the end circles, on the far side of the axis.
     fn farthest(&self, from: &Vec3) -> f64 {
         let of_circle = |end: usize| {
             let arm = from - self.ends[end];
@@ -153,9 +153,9 @@ impl Bounded for Frustum {
 }
 
 impl Bore {
-    /// Region in which a bore may push: the hole dilated by the thickness. The offset wall alone is too
-    /// small: the origin of a grazing ray that still hits may lie beside it, as may a shape that passes
-    /// through the wall near a mouth.
+    /// Region in which a bore may push: the hole dilated by the thickness. The layer of that thickness behind
+    /// the wall would be too small: the origin of a ray that grazes the wall may lie beside the layer, as may
+    /// a shape that passes through the wall near a mouth.
     fn pushed(&self) -> Dilated<'_> {
         Dilated { thing: &self.hole, reach: self.thickness }
     }
@@ -215,7 +215,8 @@ impl Primitive for Capsule {
 }
 
 impl Primitive for Frustum {
-    /// Each end disc has two contacts, with the ends 0 and 2, 1 and 3 in their keys.
+    /// The disc at end 0 has contacts with the ends 0 and 2 in their keys, the disc at end 1 contacts with 1
+    /// and 3.
     #[inline]
     fn reference_point(&self, end: u32) -> Cow<'_, Vec3> {
         Cow::Borrowed(&self.ends[usize::from(!end.is_multiple_of(2))])
@@ -233,7 +234,7 @@ impl Primitive for Frustum {
         Some(self)
     }
 
-    /// The radius of an apex is left out.
+    /// The zero radius of an apex is left out.
     fn sizes_m(&self) -> Vec<(&'static str, f64)> {
         let radii = self.radii.into_iter().filter(|radius| *radius > 0.0);
         radii.map(|radius| ("a radius", radius)).chain([("the length", distance_m(&self.ends))]).collect()

@@ -85,8 +85,8 @@ impl LineSegment {
 impl Ray {
     /// Ray from one point to another; `None` if they coincide or their distance is not finite.
     ///
-    /// The clamp of the length has no effect on the result: a compiler may move the division before the
-    /// branch, where the length may be zero.
+    /// The clamp of the length changes no result: it keeps the divisor from zero if a compiler moves the
+    /// division before the branch.
     #[inline]
     pub fn between(from: &Vec3, to: &Vec3) -> Option<Self> {
         let path = to - from;
@@ -111,7 +111,7 @@ impl Ray {
     }
 
     /// Least and greatest coordinates of the region of contact, m. A ray also hits surfaces up to its reach
-    /// behind its origin. A reach left to the triangle is part of the triangle's box.
+    /// behind its origin. If `reach` is `None`, the box of the triangle includes the default.
     #[inline]
     pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
         let start = self.origin - self.direction * self.reach.unwrap_or(0.0);
@@ -149,8 +149,8 @@ macro_rules! bounded_by_points {
 bounded_by_points! {
     Point: |point: &Point| [point.position];
     LineSegment: |segment: &LineSegment| segment.ends;
-    // A ray also hits surfaces up to `reach` behind its origin. If the triangle defines that distance, the
-    // triangle is dilated by it instead.
+    // A ray also hits surfaces up to `reach` behind its origin. If `reach` is `None`, the bounding volume of
+    // the triangle is dilated by the default instead.
     Ray: |ray: &Ray| [ray.origin - ray.direction * ray.reach.unwrap_or(0.0), ray.tip()];
 }
 
@@ -222,7 +222,7 @@ impl Primitive for Ray {
         Some(([self.origin; 2], 0.0))
     }
 
-    /// The reach of a ray may be zero.
+    /// A reach of zero is left out.
     fn sizes_m(&self) -> Vec<(&'static str, f64)> {
         let reach = self.reach.filter(|reach| *reach > 0.0).map(|reach| ("the reach", reach));
         [("the length", self.length)].into_iter().chain(reach).collect()

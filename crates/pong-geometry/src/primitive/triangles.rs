@@ -30,9 +30,9 @@ pub struct TriangleRecord {
     pub shell: u32,
     /// Edges and vertices that may push.
     pub may_push: MayPush,
-    /// Largest deviation of an edge's pushing normals from the face normal.
+    /// Bound of the angle between the face normal and the normals along which the edges push.
     pub edge_lean: Lean,
-    /// Largest deviation of a vertex's pushing normals from the face normal.
+    /// Bound of the angle between the face normal and the normals along which the vertices push.
     pub vertex_lean: Lean,
 }
 
@@ -100,8 +100,8 @@ impl TriangleSet {
 
     /// Unit normal towards the front.
     ///
-    /// It does not select the two edges at the largest angle: the loader refuses triangles so flat that this
-    /// would matter.
+    /// Computed from the two edges at the first vertex; the loader refuses triangles so flat that the choice
+    /// of the edges would matter.
     #[inline]
     pub fn normal(&self, triangle: u32) -> Vec3 {
         let [a, b, c] = self.corners(triangle);

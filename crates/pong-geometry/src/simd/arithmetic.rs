@@ -20,11 +20,11 @@ pub trait Simd: BoxSimd {
     fn sub(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn mul(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn div(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
-    /// `a / b`, and an arbitrary number where `b` is zero: an unused quotient must not raise a floating-point
+    /// `a / b`; an arbitrary number where `b` is zero, so that an unused quotient raises no floating-point
     /// exception.
     ///
-    /// The substitute divisor is 2, not 1: since a/1 = a, a compiler for AVX-512 would divide by `b` in every
-    /// lane and select afterwards.
+    /// Divides by 2 there, not by 1: since a/1 = a, a compiler for AVX-512 would divide by `b` before it
+    /// selects.
     #[inline(always)]
     fn ratio(self, a: Self::Eight, b: Self::Eight) -> Self::Eight {
         self.div(a, self.select(self.equal(b, self.splat(0.0)), self.splat(2.0), b))

@@ -11,8 +11,8 @@ pub trait BoxSimd: Copy {
     /// Comparisons with NaN never separate.
     fn boxes_met(self, boxes: &EightBoxes, low: &[f32; 3], high: &[f32; 3]) -> LaneBits;
 
-    /// Bit `i` is set unless the squared distance from a point to box `i` exceeds `square`; also set if it is
-    /// NaN.
+    /// Bit `i` is set unless the squared distance from a point to box `i` exceeds `square`. An axis with a
+    /// NaN coordinate adds nothing to the distance.
     fn boxes_near(self, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits;
 
     /// Moves the numbers whose bits are set to the front, in order. The remaining lanes have no meaning.

@@ -17,16 +17,16 @@ pub trait Finder<S: Simd>: Copy {
 /// Maximum and its position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
-    /// Block that holds it.
+    /// Block of the maximum.
     pub block: usize,
-    /// Lane in the block.
+    /// Lane of the maximum in its block.
     pub lane: usize,
     /// Value, in the unit of the searched numbers; the sign of a zero is arbitrary.
     pub number: f64,
 }
 
 impl Found {
-    /// Index over all blocks.
+    /// Index of the maximum over all blocks.
     #[inline(always)]
     pub fn place(&self) -> usize {
         self.block * LANES + self.lane
@@ -39,11 +39,12 @@ pub struct First<S: Simd> {
     simd: S,
     /// Largest number so far in each lane.
     largest: S::Eight,
-    /// Block of that number: an integer stored in the bits of an `f64`, moved but never used in arithmetic.
+    /// Block of the largest number in each lane: an integer stored in the bits of an `f64`, moved but never
+    /// used in arithmetic.
     block: S::Eight,
 }
 
-/// Marks that no block has been found.
+/// Value of `block` in a lane without a number above the floor.
 const NOWHERE: u64 = u64::MAX;
 
 impl<S: Simd> Finder<S> for First<S> {
@@ -82,7 +83,7 @@ impl<S: Simd> Finder<S> for First<S> {
     }
 }
 
-/// Search over at most `N` blocks (`N` ≤ 8), all of which it stores: faster if they fit into registers.
+/// Search over at most `N` blocks (`N` ≤ 8), which it keeps until the end: faster if they fit into registers.
 #[derive(Clone, Copy)]
 pub struct FirstOf<S: Simd, const N: usize> {
     simd: S,

@@ -8,7 +8,7 @@ use super::numbers::Numbers;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LN_2, LOG2_E};
 
 impl<S: Simd> Numbers<S> {
-    /// exp(−z) for z ≥ 0; beyond 700 the value at 700, about 10⁻³⁰⁴.
+    /// exp(−z) for z ≥ 0; for z > 700 the value at 700, about 10⁻³⁰⁴.
     ///
     /// Uses −z = n·ln 2 + r, |r| ≤ ½·ln 2, and the series of exp(r).
     #[inline(always)]
@@ -16,7 +16,7 @@ impl<S: Simd> Numbers<S> {
         const LARGEST: f64 = 700.0;
         /// Adding this rounds to an integer, which is then in the lowest bits.
         const ROUNDER: f64 = 1.5 * (1_u64 << 52) as f64;
-        /// Upper 32 bits of ln 2, so that products with n are exact; the rest follows.
+        /// Upper 32 bits of ln 2, so that products with n are exact; `LN_2_LOW` is the remainder.
         const LN_2_HIGH: f64 = f64::from_bits(LN_2.to_bits() & !0x1F_FFFF);
         const LN_2_LOW: f64 = 1.9082149292705877e-10;
         let minus = -self.smaller(self.all(LARGEST));
@@ -28,7 +28,7 @@ impl<S: Simd> Numbers<S> {
 
     /// Angle of the point (x, self) from the x axis, for x ≥ 0: −π/2 to π/2, and 0 for the origin.
     ///
-    /// Reduces the arctangent of a number up to 1 to that of one up to tan(π/8).
+    /// Reduces the arctangent of a slope up to 1 to that of a slope up to tan(π/8).
     #[inline(always)]
     pub fn angle_above(self, x: Self) -> Self {
         const TANGENT_OF_EIGHTH: f64 = 0.414_213_562_373_095_03;

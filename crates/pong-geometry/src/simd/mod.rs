@@ -1,9 +1,9 @@
 //! Arithmetic on eight numbers at a time, with the same bits on every machine.
 //!
-//! A kernel is written once, generic over a [`Simd`], and [`run`] calls it with the widest one the machine
-//! has. Every operation rounds each lane as the scalar `f64` operation does; nothing is fused and nothing is
-//! summed across lanes. So the level changes the time, never the result. (The payload of a NaN is not part of
-//! the result.)
+//! A kernel is written once, generic over a [`Simd`], and [`run`] calls it with the widest [`Simd`] that the
+//! machine has. Every operation rounds each lane as the scalar `f64` operation does; nothing is fused and
+//! nothing is summed across lanes. So the level changes the time, never the result. (The payload of a NaN is
+//! not part of the result.)
 
 mod arithmetic;
 mod boxes;
@@ -96,7 +96,7 @@ pub fn set_level(level: Level) -> Level {
     self::level()
 }
 
-/// Runs a function of a [`Simd`] and references at the level in use.
+/// Runs a function whose arguments are a [`Simd`] and references, at the level in use.
 macro_rules! run_at_level {
     ($function:ident($($argument:ident: $kind:ty),*) -> $output:ty) => {{
         struct Work<'a> {
@@ -136,7 +136,7 @@ pub fn run<K: Kernel>(kernel: K) -> K::Output {
     run_portable(kernel)
 }
 
-/// Out of line, so that callers of kernels stay small.
+/// Not inlined, so that callers of kernels stay small.
 #[cfg_attr(target_arch = "x86_64", inline(never))]
 fn run_portable<K: Kernel>(kernel: K) -> K::Output {
     kernel.run(Portable)

@@ -1,4 +1,4 @@
-//! Eight numbers, and eight vectors, with the operators of a single one.
+//! Eight numbers, and eight vectors, with the operators of a scalar.
 
 use super::arithmetic::Simd;
 use super::lanes::LANES;
@@ -31,7 +31,7 @@ impl<S: Simd> Numbers<S> {
         self.simd.store(self.eight)
     }
 
-    /// Raw register type.
+    /// Numbers as the type that [`Simd`] operates on.
     #[inline(always)]
     pub fn eight(self) -> S::Eight {
         self.eight
@@ -45,8 +45,8 @@ impl<S: Simd> Numbers<S> {
 
     /// `self / divisor` for non-negative divisors; a zero divisor is replaced by the smallest normal number.
     ///
-    /// The divisor is raised for all lanes, not selected: a compiler may divide in every lane and select
-    /// afterwards, and even an unused quotient by zero raises a floating-point exception.
+    /// Every divisor is raised, also in lanes whose quotient is not used: a division by zero would raise a
+    /// floating-point exception there too.
     #[inline(always)]
     pub fn over(self, divisor: Self) -> Self {
         let divisor = divisor.larger(self.all(f64::MIN_POSITIVE));
@@ -130,7 +130,7 @@ impl<S: Simd> Mul for Numbers<S> {
     }
 }
 
-/// Computes zero minus the number, so that −0 does not occur for zero.
+/// Computes zero minus the number, so that the negative of zero is +0.
 impl<S: Simd> Neg for Numbers<S> {
     type Output = Self;
 
@@ -177,7 +177,7 @@ impl<S: Simd> Vectors<S> {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
-    /// Dot products with three vectors each, as with the rows of matrices.
+    /// Products of matrices, each given by its three rows, with the vectors.
     #[inline(always)]
     pub fn dot_rows(self, [first, second, third]: [Self; 3]) -> Self {
         Self { x: first.dot(self), y: second.dot(self), z: third.dot(self) }
@@ -213,7 +213,7 @@ impl<S: Simd> Vectors<S> {
         Self::select(has_length, self.along(length), other)
     }
 
-    /// Unit vectors of vectors whose lengths are given; where one is too short to have a direction, the
+    /// Unit vectors, given the lengths of the vectors. If a vector is too short to have a direction, the
     /// result is shorter than 1.
     #[inline(always)]
     pub fn along(self, length: Numbers<S>) -> Self {

@@ -61,10 +61,10 @@ impl<S: Simd> Splat<S> {
     }
 }
 
-/// Bound below which sums of squares of products of two numbers are finite.
+/// Numbers below this bound are moderate: sums of squares of products of two such numbers are finite.
 pub const MODERATE: f64 = 1e60;
 
-/// Returns `true` if squares of products of the components with other such numbers are finite.
+/// Returns `true` if all components are moderate ([`MODERATE`]).
 #[inline(always)]
 pub fn is_moderate(v: &Vec3) -> bool {
     (v.x.abs() < MODERATE) & (v.y.abs() < MODERATE) & (v.z.abs() < MODERATE)

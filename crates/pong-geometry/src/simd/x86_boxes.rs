@@ -35,7 +35,7 @@ fn boxes_near(avx: Avx, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> La
     avx._mm256_movemask_ps(near) as LaneBits
 }
 
-/// For every lane mask, the numbers of its set lanes in increasing order, one byte each from the lowest on.
+/// For every lane mask, the numbers of its set lanes in increasing order, one byte each, lowest byte first.
 static NUMBERS: [u64; 1 << LANES] = {
     let mut numbers = [0; 1 << LANES];
     let mut bits = 0;
