@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 type SealedScene<'a> = (&'a Scene, &'a Sealed);
 
 /// Common Objects of two scenes, matched by name, with their movable groups and pairs. All lists except
-/// `group_pairs` are indexed by the second scene and hold indices of the first.
+/// `group_pairs` are indexed by the second scene and hold indices of the first scene.
 pub(crate) struct Shared {
     pub objects: Vec<Option<usize>>,
     pub bodies: Vec<Option<usize>>,
