@@ -1,7 +1,7 @@
 //! Builds polyhedra from checked pieces, with the edges and vertices of the surface that may push, and the
 //! normals along which they push.
 //!
-//! This is decided over the whole surface: pieces joined by internal faces count as one solid, and every
+//! Pushing is decided over the whole surface: pieces joined by internal faces count as one solid, and every
 //! feature belongs to the lowest piece that has it.
 
 use crate::hull::Hull;
@@ -232,7 +232,7 @@ impl VertexStar {
     /// to the edge remain, and rounding may put a centre between the two halves of the edge.)
     ///
     /// Where the surface is convex, the mean of its normals is such a normal. At the tip of a grooved spire
-    /// it need not be; then the normal is turned away from the worst edge until it satisfies all.
+    /// it may not be: the normal is then turned away from the worst edge until no product is positive.
     fn has_cone(&self) -> bool {
         if self.active_faces < 3 {
             return false;
