@@ -193,7 +193,7 @@ fn stars_of_surfaces(polyhedra: &[PolyhedronParts], surface_of: &[u32]) -> WordM
 /// Range of normals of a convex edge; `None` unless exactly two active faces meet, and convexly.
 fn push(faces: &[FaceAtEdge]) -> Option<EdgePush> {
     let [a, b] = faces else { return None };
-    // At a convex edge, each face rises to the edge from below the other's plane.
+    // At a convex edge, each face lies below the plane of the other face.
     let convex = a.normal.dot(&b.outward) > FLAT_SINE && b.normal.dot(&a.outward) > FLAT_SINE;
     convex.then_some(EdgePush { normals: [a.normal, b.normal], outwards: [a.outward, b.outward] })
 }

@@ -105,8 +105,8 @@ pub(crate) struct PairContext<'a> {
     pub memory: &'a ContactMemory,
     pub table: &'a SurfaceTable,
     pub volume_tests: &'a VolumeTests,
-    /// True if A's Object was named first when the pair was made. Two primitives of one kind are tested only
-    /// in this direction by registered tests.
+    /// True if A's Object was named first when the pair was made. Registered tests test two primitives of one
+    /// kind only in this direction.
     pub in_order: bool,
     /// True if B's model remembers the side of entry.
     pub remembers_entry: bool,

@@ -19,16 +19,16 @@
 //! | 1 | `keep_first_ray_hits` | rays | any | culled |
 //! | 2 | `keep_one_side_of_rims` | spheres, ellipsoids, capsules | contacts of backs at edges and vertices | culled |
 //! | 3 | `cull_opposite_at_points` | the same | opposite to a `BackFace` or `BackFaceFallback` face | culled |
-//! | 4 | `choose_piece_at_walls`, `choose_piece_of_end_at_walls` | points, spheres; segments | `AtWall`, `BeyondWall`; of segments also exits that are `StandIn`, and what has the same end point | culled |
+//! | 4 | `choose_piece_at_walls`, `choose_piece_of_end_at_walls` | points, spheres; segments | `AtWall`, `BeyondWall`; of segments also exits that are `StandIn`, and all contacts with the same deepest point | culled |
 //! | 5 | `resolve_fallbacks` | contacts that share a spring | `Fallback`, `BackFaceFallback` | regular or culled |
 //! | 6 | `drop_what_the_body_lacks`; `drop_second_of_edges`; `drop_deeper_faces` | ellipsoid and polyhedron; sphere and polyhedron; ellipsoid and triangle | any | culled; culled or tracked (the second with a face of entry, the third if `BackFace`) |
 //! | 7 | `drop_deeper_of_convex_faces`; `cull_idle_stand_ins` | the same | faces that are `BackFace`; `StandIn` | tracked; culled |
 //! | 8 | `couple` | capsules | contacts between the ends | culled |
 //! | 9 | `drop_idle` | the same | without weight | tracked with a face of entry or as `BackFace`, otherwise culled |
 //!
-//! A single candidate takes none of them, unless it lies between the ends of a capsule; if it is
-//! `BeyondWall`, it is culled. After the frame's contacts are in order, the first hit of a ray among several
-//! movable groups culls the others (`output/order.rs`). No pass makes a culled candidate count again.
+//! A single candidate skips all passes, unless it lies between the ends of a capsule; if it is `BeyondWall`,
+//! it is culled. After the frame's contacts are in order, the first hit of a ray among several movable groups
+//! culls the other hits (`output/order.rs`). No pass makes a culled candidate count again.
 
 /// Status of a candidate among those of the same surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -22,8 +22,8 @@ pub(crate) struct ChunkCandidates<'m> {
     pub list: &'m mut Table<ContactCandidate>,
     /// Number of candidates, including those dropped for lack of room.
     pub seen: u64,
-    /// True if there was not enough room. The deepest candidates have then been kept: at least half of the
-    /// capacity, which is the most that a frame keeps.
+    /// True if there was not enough room. The deepest candidates have then been kept, at least half of the
+    /// capacity; a frame keeps no more contacts than that.
     pub overflowed: bool,
     pub deferred: &'m mut DeferredPairs,
     pub sides: KnownSides,
@@ -287,7 +287,7 @@ pub(crate) fn status_of(containment: Containment) -> CandidateStatus {
     }
 }
 
-/// Panics because a tester was called with a primitive of a kind that its table row does not name.
+/// Panics: a tester was called with a kind of primitive that its table row does not name.
 #[cold]
 pub(crate) fn wrong_kind(a: &TransformedPrimitive) -> ! {
     unreachable!("the row of this test in the table of pairs names another kind than that of {a:?}")

@@ -8,8 +8,8 @@
 //! box of i = box around P and P′, grown by Rᵢ = (rᵢ + θ·sᵢ/4)/(1 − θ)
 //! ```
 //!
-//! If two boxes are disjoint, the balls are apart now, and every point of one group, seen from the other
-//! group, has passed that group's ball at a distance.
+//! If two boxes are disjoint, the balls are apart now, and the path of every point of one group, seen from
+//! the other group, has stayed outside that group's ball.
 
 use crate::scene::Scene;
 use crate::state::{CommittedPoses, Past};

@@ -172,8 +172,8 @@ impl Seen<'_> {
         let (body, shell, primitive_a) = (self.context.body_b, record.key.shell_b, record.key.primitive_a);
         if solids::holds(body, shell, &line.to_b) {
             // The point is still inside: it has passed if a contact at the same end of the segment now pushes
-            // the opposite way. Contacts elsewhere on the segment, such as with an edge that it crosses, do
-            // not show that.
+            // the opposite way, and none pushes the earlier way. Contacts elsewhere on the segment, such as
+            // with an edge that it crosses, do not show that.
             let mut pushing = self.pushing_at_end(record.key);
             return pushing.any(|normal| are_both_sides(normal, &record.normal_b))
                 && !self.pushes_to(&record.normal_b, primitive_a, shell);

@@ -10,8 +10,10 @@
 //!
 //! Here p is the deflection (carried p: rotated into the current contact plane), u the slip since the last
 //! commit, v_t the slip velocity, F_n the normal force, K the tangential stiffness and c the tangential
-//! damping. D. A. Haessig and B. Friedland, "On the modeling and simulation of friction", J. Dyn. Sys. Meas.
-//! Control 113 (1991), extended to the plane. `slip_path.rs` computes the point on the circle p_k.
+//! damping.
+//!
+//! D. A. Haessig and B. Friedland, "On the modeling and simulation of friction", J. Dyn. Sys. Meas. Control
+//! 113 (1991), extended to the plane. `slip_path.rs` computes the point on the circle p_k.
 //!
 //! Only the limits follow the load, never K: a bristle whose stiffness followed the load would create energy.
 //! Sticking and slipping use the same force law, and a contact that sticks again keeps the kinetic limit

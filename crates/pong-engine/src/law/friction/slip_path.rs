@@ -60,8 +60,8 @@ impl<S: Simd> SlipPath<S> {
         let along = self.slip.along(length);
         let way = Traversal::after_leaving(self.carried, along, length, self.left_at);
         let moves = zero.below(way.left);
-        // Limit of the ratio, far larger than any at which the first direction matters: the radius almost
-        // vanishes with the load.
+        // Limit of the ratio for a radius that vanishes with the load; far smaller ratios already make
+        // `decay` zero.
         const LARGEST_RATIO: f64 = 1e300;
         let ratio = way.left.over(self.radius.larger(way.left * zero.all(1.0 / LARGEST_RATIO)));
         let decay = ratio.exp_of_minus();

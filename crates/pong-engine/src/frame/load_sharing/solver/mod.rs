@@ -20,8 +20,8 @@
 //!
 //! *Rounding.* The normals of one plate cut into pieces differ by 1e-16 (rounding), 1e-7 (vertices in single
 //! precision) or the angle of a fold. 1 − n_i·n_j is then the small difference of two large numbers, and so
-//! is δ_i − (n_i·n_j)·δ_j. `Coupling` computes both from the differences n_i − n_j and δ_i − δ_j, which are
-//! exact.
+//! is δ_i − (n_i·n_j)·δ_j. `Coupling` computes both from n_i − n_j and δ_i − δ_j, which are exact for numbers
+//! that are nearly equal.
 
 mod deepest;
 mod nearest;
