@@ -20,10 +20,10 @@ pub(super) fn is_exit_that_stands_in(contact: &ContactCandidate) -> bool {
 /// segment with the pieces of one body.
 ///
 /// Where a segment leaves the body at the boundary edge of an internal face, rounding may report an exit from
-/// the pieces on both sides of that face, or from neither. The first exit counts whose piece contains a large
-/// part of the segment ([`SHARE_HELD`]); exits through active faces come before exits through internal faces.
-/// An exit through an internal face does not count if a piece contains the segment past the exit. A segment
-/// end at the same point counts as an exit.
+/// the pieces on both sides of that face, or from neither. Of the exits at one point, the first whose piece
+/// contains a large part of the segment ([`SHARE_HELD`]) counts; exits through active faces come before exits
+/// through internal faces. An exit through an internal face does not count if a piece contains the segment
+/// past the exit. A segment end at the same point counts as an exit.
 pub(super) fn keep_one_of_exits(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     let Some(first) = group.first() else { return };
     let local = &context.body_a.segments[first.element_a as usize];

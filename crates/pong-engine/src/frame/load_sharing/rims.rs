@@ -6,8 +6,7 @@ use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::state::ContactRole;
 use pong_geometry::primitive::PrimitiveKind;
 
-/// Culls the back's contact at a rim that a front and a back have in common if the front has the same
-/// contact.
+/// Culls an edge or vertex contact of a back if the front has the same contact on the rim of both.
 ///
 /// A centre in the plane of a two-sided triangle, outside its rim, is in front of both sides. A centre beyond
 /// a vertex of a folded rim may be in front of two faces on different sides. The front and the back then both
@@ -26,8 +25,8 @@ pub(super) fn keep_one_side_of_rims(found: &mut [ContactCandidate], context: &Pa
 /// Cosine below which two normals count as opposite; near the contact point, rounding turns the normal.
 const OPPOSITE_COSINE_MAX: f64 = -0.999;
 
-/// Culls contacts that push in the opposite direction to a face that has the centre behind it, at the same
-/// point. Where the face ends, its edge or vertex, or the other side of a two-sided triangle, pushes the
+/// Culls contacts that touch the same point as a face that has the centre behind it and push the opposite
+/// way. Where the face ends, its edge or vertex, or the other side of a two-sided triangle, pushes the
 /// opposite way; rounding may find both contacts.
 pub(super) fn cull_opposite_at_points(found: &mut [ContactCandidate]) {
     for index in 0..found.len() {

@@ -41,9 +41,9 @@ pub(crate) enum CandidateStatus {
     Fallback,
     /// Fallback with the centre behind the face.
     BackFaceFallback,
-    /// Fallback for a face whose foot point lies outside the face; used only if no regular contact is as
-    /// deep. For a segment: an exit at the boundary edge of an internal face that rounding has put on the
-    /// internal face.
+    /// Fallback for a face whose foot point lies outside the face: on triangles used only if no regular
+    /// contact is as deep, on a polyhedron only if there is no regular contact. For a segment: an exit at the
+    /// boundary edge of an internal face that rounding has put on the internal face.
     StandIn,
     /// Point or segment end in a piece, on an internal face or on the boundary edge of an internal face; used
     /// unless a piece of lower index has the same contact. Also an exit of a segment next to an internal

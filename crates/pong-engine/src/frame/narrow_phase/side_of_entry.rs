@@ -119,9 +119,9 @@ impl PolyhedronEntry<'_> {
         }
     }
 
-    /// Face of entry for a path that entered this piece through an internal face, at the parameter `at`. The
-    /// last active face counts through which the path entered another piece before; the result is the face of
-    /// this piece whose normal is nearest to it.
+    /// Face of entry for a path that entered this piece through an internal face, at the parameter `at`. It
+    /// follows from the last active face through which the path entered another piece before: the result is
+    /// the face of this piece whose normal is nearest to the normal of that face.
     fn entered_through_wall(&self, at: f64) -> Option<usize> {
         let earlier = self.earlier_b()?;
         let wall = earlier + (self.point_b - earlier) * at;

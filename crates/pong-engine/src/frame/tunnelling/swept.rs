@@ -58,8 +58,9 @@ impl Swept {
     }
 
     fn beside<'a>(&'a self, solid: &'a dyn Round) -> Beside<'a> {
-        // The axis of an element that is thinner than the solid must enter the solid. The middle of a thinner
-        // solid must enter the element, which moves the surface outward by `skin`.
+        // The axis of an element thinner than the solid must enter the solid. If the element is thicker, the
+        // middle of the solid must enter the element: its axis then enters a solid with its surface `skin`
+        // farther out.
         let skin = (self.radius - 0.5 * solid.width_m()).max(0.0);
         Beside { swept: self, solid, skin }
     }
