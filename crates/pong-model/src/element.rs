@@ -17,8 +17,8 @@ pub struct Element<'b> {
 struct ThickTriangle {
     corners: [Vec3; 3],
     normal: Vec3,
-    /// Explicit thickness, m. The default thickness needs no extra region, because the body that touches is
-    /// larger.
+    /// Explicit thickness, m. The default thickness needs no extra region: an element pushed within its own
+    /// smallest semi-axis still overlaps the triangle.
     thickness: f64,
 }
 

@@ -1,5 +1,5 @@
-//! Groups of a model file's text, and edits of their bounding volumes and leaf sizes. These change the speed,
-//! not the results.
+//! Groups in the text of a model file, and edits of their bounding volumes and leaf sizes. The edits change
+//! the speed, not the results.
 //!
 //! Only the necessary parts of a text change: comments, order and numbers stay, byte for byte. Names stay
 //! too, because a group without its own volume is still a group: paths of primitives do not change.

@@ -46,11 +46,11 @@ pub struct MovableGroup {
     pub path: String,
     /// Next movable group above (index into [`Model::bodies`]); `None` for the root.
     pub parent: Option<u32>,
-    /// Authored pose in the frame of the root group, at which a host may start it.
+    /// Authored pose in the frame of the root group, with which a host may start the movable group.
     pub initial_pose: Option<Pose>,
     /// All primitives in file order; a mesh is one primitive.
     pub primitives: Vec<PrimitiveInfo>,
-    /// Surface of every primitive, duplicated in a compact array: most accesses of a frame need only this.
+    /// Index into [`Model::surfaces`] of every primitive: a compact copy, because a frame rarely needs more.
     pub surfaces: Vec<u32>,
     /// All points.
     pub points: Vec<Point>,
@@ -99,7 +99,7 @@ pub struct PrimitiveInfo {
     /// Shell; for triangles see [`pong_geometry::primitive::TriangleRecord::shell`] instead.
     pub shell: u32,
     /// Thickness of triangles: distance behind the front up to which a centre is still pushed, m; `None`
-    /// takes the smallest semi-axis of the body that touches.
+    /// takes the smallest semi-axis of the sphere or ellipsoid that touches.
     pub thickness: Option<f64>,
     /// First mirror image of a two-sided mesh of triangles; the elements from here on are mirror images.
     /// Equals `elements.end` for a one-sided mesh.

@@ -3,7 +3,7 @@
 use crate::hull::{Hull, PLANE_TOLERANCE, area, overlap_area};
 use pong_geometry::Vec3;
 
-/// Fraction of the smaller one's area above which two internal faces overlap.
+/// Overlap above which two internal faces are matched, as a fraction of the smaller area.
 const OVERLAP_SHARE: f64 = 1e-6;
 
 /// Disjoint sets; the lowest member represents its set.
@@ -39,8 +39,8 @@ struct Wall {
     high: Vec3,
 }
 
-/// Joins pieces along their internal faces: assigns to each the lowest piece of its surface, makes the planes
-/// of opposite internal faces exact opposites, and lists the internal faces (piece, face) without a
+/// Joins pieces along their internal faces, and makes the planes of opposite internal faces exact opposites.
+/// Returns the lowest piece of each piece's surface, and the internal faces (piece, face) without a
 /// counterpart.
 pub(crate) fn join_walls(hulls: &mut [Hull]) -> (Vec<u32>, Vec<(u32, usize)>) {
     let walls = sorted_walls(hulls);

@@ -1,7 +1,7 @@
 //! Builds polyhedra from checked pieces, with the edges and vertices of the surface that may push, and the
 //! normals along which they push.
 //!
-//! This is decided over the whole surface: pieces joined by internal faces count as one solid, and every
+//! Pushing is decided over the whole surface: pieces joined by internal faces count as one solid, and every
 //! feature belongs to the lowest piece that has it.
 
 use crate::hull::Hull;
@@ -193,7 +193,7 @@ fn stars_of_surfaces(polyhedra: &[PolyhedronParts], surface_of: &[u32]) -> WordM
 /// Range of normals of a convex edge; `None` unless exactly two active faces meet, and convexly.
 fn push(faces: &[FaceAtEdge]) -> Option<EdgePush> {
     let [a, b] = faces else { return None };
-    // At a convex edge, each face rises to the edge from below the other's plane.
+    // At a convex edge, each face lies below the plane of the other face.
     let convex = a.normal.dot(&b.outward) > FLAT_SINE && b.normal.dot(&a.outward) > FLAT_SINE;
     convex.then_some(EdgePush { normals: [a.normal, b.normal], outwards: [a.outward, b.outward] })
 }
@@ -232,7 +232,7 @@ impl VertexStar {
     /// to the edge remain, and rounding may put a centre between the two halves of the edge.)
     ///
     /// Where the surface is convex, the mean of its normals is such a normal. At the tip of a grooved spire
-    /// it need not be; then the normal is turned away from the worst edge until it satisfies all.
+    /// it may not be: the normal is then turned away from the worst edge until no product is positive.
     fn has_cone(&self) -> bool {
         if self.active_faces < 3 {
             return false;

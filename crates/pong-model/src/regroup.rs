@@ -1,4 +1,4 @@
-//! Models with other bounding volumes or other leaves: other times, the same results.
+//! Models with other bounding volumes or leaves: other run times, the same results.
 
 use crate::draft::GroupDraft;
 use crate::extensions::Extensions;

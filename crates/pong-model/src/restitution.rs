@@ -1,4 +1,4 @@
-//! Damping from a desired restitution.
+//! Damping from a desired restitution e, the rebound speed divided by the impact speed.
 //!
 //! Linear law, F = max(0, k·δ + c·δ'), damping ratio ζ = c/(2·√(k·m)); the contact ends where the force would
 //! begin to pull:
@@ -9,13 +9,13 @@
 //! ζ > 1:  e = exp(−(ζ/q)·ln((ζ + q)/(ζ − q))),        q = √(ζ² − 1)
 //! ```
 //!
-//! Hunt-Crossley law, F = k·δ^e·(1 + χ·δ'), any exponent, impact speed v, rebound speed e·v:
+//! Hunt-Crossley law, F = k·δ^n·(1 + χ·δ') with any exponent n, impact speed v and rebound speed e·v:
 //!
 //! ```text
 //! ln((1 + χv)/(1 − χev)) = χv·(1 + e)
 //! ```
 //!
-//! Both are solved by bisection, which gives the same bits on every machine. The power law has no closed
+//! Both equations are solved by bisection, which gives the same bits on every machine. The power law has no closed
 //! form: see `power_law.rs`.
 
 mod power_law;

@@ -17,9 +17,9 @@ pub struct PolyhedronFault {
     pub cause: String,
     /// Cure.
     pub cure: &'static str,
-    /// Index of the face, if it concerns one.
+    /// Index of the face, if the fault concerns one.
     pub face: Option<usize>,
-    /// Vertices that it concerns.
+    /// Vertices that the fault concerns.
     pub places: Vec<Vec3>,
     /// Distance by which a vertex misses a plane or a line, m; 0 if not applicable.
     pub off: f64,

@@ -17,9 +17,9 @@ pub struct Surface {
 }
 
 impl PairOverride {
-    /// Number of the two names that include a model, if the entry applies to these two surfaces, given as
-    /// (model, surface); `None` if it does not apply. Of two entries that apply, the one with more has
-    /// priority.
+    /// Number of names in the entry that include a model, if the entry applies to two surfaces, each given as
+    /// (model, surface); `None` if it does not apply. Of two entries that apply, the one with the greater
+    /// number has priority.
     pub fn names_models(&self, a: (&str, &str), b: (&str, &str)) -> Option<usize> {
         let [one, other] = &self.surfaces;
         let in_order = |x, y| Some(names(one, x)? + names(other, y)?);
@@ -38,12 +38,13 @@ fn names(entry: &str, (model, surface): (&str, &str)) -> Option<usize> {
 }
 
 impl Surface {
-    /// Returns `true` if an entry of the pair table names this surface, of a model of that name.
+    /// Returns `true` if a name in a pair table, `entry`, means this surface of the model named `model`.
     pub fn is_called(&self, entry: &str, model: &str) -> bool {
         names(entry, (model, &self.name)).is_some()
     }
 
-    /// Returns `true` if it defines no normal or no friction law, and so takes that of the other surface.
+    /// Returns `true` if the surface defines no normal or no friction law, and so takes the law of the other
+    /// surface.
     pub fn inherits(&self) -> bool {
         self.normal == NormalLaw::Inherited || self.friction == FrictionLaw::Inherited
     }
@@ -63,7 +64,7 @@ impl Surface {
     /// coordinate exceeds 1e100 m, energy and moment of a spring without damping stay below 1e301, within the
     /// range of numbers, and so do sums of stiffnesses.
     pub const STIFFEST: f64 = LARGEST;
-    /// Smallest stiffness, N/m: its inverse and its share of the yield stay within the range of numbers.
+    /// Smallest stiffness, N/m: its inverse and its share of the depth stay within the range of numbers.
     pub const SOFTEST: f64 = 1e-100;
 
     /// Returns `true` if a spring that is not rigid may have this stiffness.
@@ -123,7 +124,8 @@ impl NormalLaw {
     /// have no such ratio; the result is then 0.
     pub fn bristle_damping(&self, k: f64, k_t: f64) -> f64 {
         match self {
-            // Finite on both sides: a compiler may divide before it asks for k, and ∞/∞ traps.
+            // Both operands finite: a compiler may divide before it tests `k`, and ∞/∞ is an invalid
+            // operation.
             Self::Linear { damping, .. } if k.is_finite() => {
                 damping * (k_t.min(f64::MAX) / k.min(f64::MAX)).sqrt()
             }

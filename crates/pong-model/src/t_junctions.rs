@@ -1,7 +1,7 @@
 //! T-junctions: vertices inside a free edge of another triangle, where the surface has a crack.
 //!
-//! Only ends of free edges can be such vertices. They go into a k-d tree, and every free edge searches only
-//! the boxes that it passes.
+//! Only end points of free edges can be such vertices. A k-d tree holds them, and every free edge searches
+//! only the boxes through which it passes.
 
 use pong_geometry::Vec3;
 

@@ -1,6 +1,7 @@
 //! Neighbours and shells of the triangles of one body, and warnings about them.
 //!
-//! Mirror images of two-sided meshes touch only mirror images. All searches sort; none is quadratic.
+//! Mirror images of two-sided meshes are neighbours only of mirror images. All searches sort, so that none
+//! takes quadratic time.
 
 use crate::model::MovableGroup;
 use crate::pieces::Sets;
@@ -16,7 +17,7 @@ const JUNCTIONS_TOLD: usize = 1000;
 pub(crate) enum MeshWarning {
     /// Edge shared by three or more triangles.
     CrowdedEdge { triangles: Vec<u32> },
-    /// Two triangles that run along their common edge in the same direction.
+    /// Two neighbours of opposite winding: both run along their common edge in the same direction.
     Winding { triangle: u32, other: u32 },
     /// Vertex inside another triangle's free edge.
     TJunction { triangle: u32, vertex: u32 },
@@ -32,8 +33,8 @@ pub(crate) struct TopologyReport {
     pub(crate) shell_leader: Vec<u32>,
 }
 
-/// Edge of a triangle: the ends in increasing order packed in one number, then triangle and edge in the
-/// other.
+/// Edge of a triangle: its two vertices in increasing order, packed into one number; then three times the
+/// triangle's index plus the edge's.
 type HalfEdge = (u64, u32);
 
 /// Sets the neighbours of all triangles, and the features that may push.
@@ -162,6 +163,5 @@ fn rotated(triangle: &TriangleRecord) -> [u32; 3] {
     }
 }
 
-/// Maximum number of triangles of one body: three times a triangle's index must fit the number of a half
-/// edge.
+/// Maximum number of triangles of one body: three times a triangle's index must fit into a [`HalfEdge`].
 pub(crate) const TRIANGLE_LIMIT: usize = u32::MAX as usize / 3;

@@ -9,7 +9,8 @@
 //! k_t, each μ by 2·μ_A·μ_B/(μ_A + μ_B). A bristle without given damping takes the damping ratio of the
 //! normal law, c·√(k_t/k) (docs/theory.md, 4).
 //!
-//! A rigid surface has no share; whatever it leaves out of a law is taken from the other surface.
+//! A rigid surface has no share of the depth; values that it leaves out of a law are taken from the other
+//! surface.
 
 use super::power_law::series_damping;
 use super::props::{CombineError, FrictionProps, NormalProps, PairProps};
@@ -56,9 +57,9 @@ pub fn combine(
     Ok(PairProps { share_a, stiffness, normal, friction })
 }
 
-/// Damping c_t of a bristle of stiffness `k_t` for an entry that gives none: `by_normal_law` if the entry
-/// names that law, otherwise from the damping ratio of the two surfaces' bristles in series, if both have
-/// one.
+/// Damping c_t, N·s/m, of a bristle of stiffness `k_t`, N/m, for an entry of the pair that gives no damping.
+/// It follows from the damping ratio of the two surfaces' bristles in series. If the entry names a normal
+/// law, or a surface has no bristle, it is `by_normal_law`.
 fn entry_damping(
     (a, b): (&Surface, &Surface),
     entry: &PairOverride,
@@ -96,14 +97,14 @@ fn completed<'s>(own: &'s Surface, other: &Surface) -> Result<Cow<'s, Surface>, 
     }
     if own.friction == FrictionLaw::Inherited {
         full.to_mut().friction = match other.friction.clone() {
-            // The rigid surface's bristle does not yield, so its stiffness is left out.
+            // The bristle of a rigid surface does not yield, so its stiffness is left out.
             FrictionLaw::Bristle { mu, static_excess, damping, .. } => {
                 FrictionLaw::Bristle { mu, static_excess, stiffness: None, damping }
             }
             law => law,
         };
     }
-    // The damping of a rigid surface has no share, so a ramp that it leaves out is the other's.
+    // A rigid surface has no share of the damping, so a ramp that it leaves out is that of the other surface.
     if own.stiffness.is_infinite()
         && let (NormalLaw::Linear { damping, ramp: 0.0 }, NormalLaw::Linear { ramp, .. }) =
             (&own.normal, &other.normal)
@@ -144,7 +145,8 @@ fn in_series(k_a: f64, k_b: f64, exponent: Exponent) -> (f64, f64) {
     }
 }
 
-/// Error for surfaces that differ without an entry; `of` returns a surface's side of the difference.
+/// Error for two surfaces that differ in a value without an entry for the pair; `of` returns the value of a
+/// surface, as text.
 fn needs_entry(a: &Surface, b: &Surface, what: &str, of: impl Fn(&Surface) -> String) -> CombineError {
     CombineError {
         cause: format!("they differ in {what}: {} and {}", of(a), of(b)),
@@ -525,7 +527,7 @@ mod tests {
         }
     }
 
-    /// A rigid surface that gives nothing, or only μ, leaves the other's damping unchanged.
+    /// A rigid surface that gives nothing, or only μ, leaves the damping of the other surface unchanged.
     #[test]
     fn a_rigid_surface_changes_no_damping_of_friction() {
         let soft = Surface { friction: bristle(0.3, None, None), ..surface(1e5, 60.0) };
@@ -651,7 +653,8 @@ mod tests {
         assert_eq!(damping_of(&props), 3.0);
     }
 
-    /// A rigid surface that names no law behaves like one with the other's law, exponent, ramp and friction.
+    /// A rigid surface that names no law behaves like a rigid surface with the law, exponent, ramp and
+    /// friction of the other surface.
     #[test]
     fn a_rigid_surface_takes_what_it_does_not_say_from_the_other() {
         let silent = Surface {
@@ -676,7 +679,8 @@ mod tests {
             for friction in &frictions {
                 let soft =
                     Surface { normal: normal.clone(), friction: friction.clone(), ..surface(1e5, 0.0) };
-                // The other's law; its numbers have no effect, because a rigid surface does not yield.
+                // The law of the other surface; its numbers have no effect, because a rigid surface does not
+                // yield.
                 let mut telling = Surface { stiffness: f64::INFINITY, ..soft.clone() };
                 if let FrictionLaw::Bristle { stiffness, .. } = &mut telling.friction {
                     *stiffness = None;
@@ -701,8 +705,8 @@ mod tests {
         }
     }
 
-    /// Values that a rigid surface does give are used: a different law needs an entry as usual; only a
-    /// missing ramp is taken over.
+    /// Values that a rigid surface does give are used: a different law needs an entry as usual. Only a
+    /// missing ramp is taken from the other surface.
     #[test]
     fn what_a_rigid_surface_says_holds() {
         let rigid = surface(f64::INFINITY, 0.0);

@@ -1,4 +1,4 @@
-//! F = k·δ^e·(1 + χ·δ'),  e = 1 or 3/2.
+//! F = k·δ^e·(1 + χ·δ'),  e = 1 or 3/2, with stiffness k and dissipation χ, s/m.
 //!
 //! K. H. Hunt and F. R. E. Crossley, "Coefficient of restitution interpreted as damping in vibroimpact", J.
 //! Appl. Mech. 42 (1975). The damping scales with the load, so the force is continuous at touch.

@@ -1,7 +1,8 @@
 //! F = k·δ + c·S(δ/ramp)·δ',  S(x) = 3x² − 2x³ on 0…1.
 //!
-//! Kelvin-Voigt element; the caller cuts the force at zero, so it never pulls. Without a ramp the damping
-//! force steps to c·δ' at touch; with one it grows over the given depth.
+//! Kelvin-Voigt element with stiffness k and damping c; the caller cuts the force at zero, so it never pulls.
+//! Without a ramp the damping force steps to c·δ' at touch. With a ramp it grows until the depth is `ramp`,
+//! m.
 
 pub(super) fn force(stiffness: f64, damping: f64, ramp: f64, depth: f64, rate: f64) -> f64 {
     stiffness * depth + damping * ramp_factor(depth, ramp) * rate

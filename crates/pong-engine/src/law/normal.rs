@@ -9,7 +9,7 @@ pub struct NormalInput<'a> {
     pub depth: f64,
     /// Depth rate δ', m/s, positive while closing.
     pub rate: f64,
-    /// Stiffness k of the pair: N/m.
+    /// Stiffness k of the pair, N/m.
     pub stiffness: f64,
     /// The law's parameters as the model gives them.
     pub parameters: &'a [f64],

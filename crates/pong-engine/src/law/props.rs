@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// Values of an ordered pair of surfaces.
 #[derive(Clone, Debug)]
 pub struct PairProps {
-    /// A's share s_A of the yield, 0…1.
+    /// A's share s_A of the depth, 0…1.
     pub share_a: f64,
     /// Stiffness k, N/m (N/m^1.5 with the exponent 3/2).
     pub stiffness: f64,

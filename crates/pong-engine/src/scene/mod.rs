@@ -19,12 +19,12 @@ pub(crate) use surfaces::Surfaces;
 /// Settings of a world.
 #[derive(Clone, Debug, Default)]
 pub struct Config {
-    /// Maximum contacts of a frame; `None` takes the worst case of the scene, at least 256 and at most
-    /// 65,536. If a frame has more, the deepest are kept and a status bit is set.
+    /// Maximum number of contacts of a frame. `None` takes the worst case of the scene, at least 256 and at
+    /// most 65,536. If a frame has more contacts, the deepest are kept and a status bit is set.
     pub contact_capacity: Option<usize>,
     /// True to keep the energy ledger (docs/theory.md, 6).
     pub ledger: bool,
-    /// Energy accounts of contacts and pairs, with the host's use of wrenches, on which their work depends;
+    /// Use of wrenches by the host, on which the work in the energy accounts of contacts and pairs depends;
     /// `None` for no accounts. Accounts include the ledger. See
     /// [`World::pair_accounts`](crate::World::pair_accounts).
     pub accounts: Option<WrenchCoupling>,
@@ -59,7 +59,7 @@ pub(crate) struct ObjectPair {
     pub b: usize,
 }
 
-/// Two groups that never touch, with everything below them; the Object of lower index first.
+/// Two groups that never touch, with everything below them; the group of the Object of lower index first.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct GroupFilter {
     pub objects: [usize; 2],
@@ -116,7 +116,7 @@ impl Scene {
         &self.models[self.bodies[instance].model]
     }
 
-    /// Indices of the model and of its body for a movable group; equal for all instances.
+    /// Indices of the model and of its body for a movable group; the same for all instances of the model.
     pub(crate) fn group_of_model(&self, instance: usize) -> (usize, usize) {
         let instance = &self.bodies[instance];
         (instance.model, instance.body)

@@ -228,7 +228,7 @@ impl Scene {
     }
 }
 
-/// Not inlined and created only when needed: an error value that is built in advance must be dropped on every
+/// Error for an unknown id. Made only when needed: an error made in advance would be dropped on every
 /// look-up.
 #[cold]
 fn unknown(what: &'static str) -> EngineError {

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 type SealedScene<'a> = (&'a Scene, &'a Sealed);
 
 /// Common Objects of two scenes, matched by name, with their movable groups and pairs. All lists except
-/// `group_pairs` are indexed by the second scene and hold indices of the first.
+/// `group_pairs` are indexed by the second scene and hold indices of the first scene.
 pub(crate) struct Shared {
     pub objects: Vec<Option<usize>>,
     pub bodies: Vec<Option<usize>>,
@@ -54,7 +54,7 @@ fn require_same_settings(from: &Scene, into: &Scene) -> Result<(), EngineError> 
     }
 }
 
-/// Indices in the first scene of the Objects of the second, by name.
+/// For each Object of the second scene, the index of the Object of the same name in the first scene.
 fn shared_objects(from: &Scene, into: &Scene) -> Result<Vec<Option<usize>>, EngineError> {
     let names = from.objects.iter().enumerate().map(|(index, object)| (object.name.as_str(), index));
     let by_name: BTreeMap<&str, usize> = names.collect();
@@ -89,7 +89,7 @@ fn shared_bodies(from: &Scene, into: &Scene, objects: &[Option<usize>]) -> Vec<O
     into.bodies.iter().map(earlier).collect()
 }
 
-/// Indices in the first scene of the pairs of Objects of the second.
+/// For each pair of Objects of the second scene, the index of the same pair in the first scene.
 fn shared_pairs(
     (from, sealed_from): SealedScene<'_>,
     (into, sealed_into): SealedScene<'_>,

@@ -24,8 +24,8 @@ impl States {
         self.poses.resize(bodies, Pose::identity());
     }
 
-    /// Sets the states of movable groups: all of them or, if any is refused, none. Returns true if any state
-    /// differs from the one set before.
+    /// Sets the states of movable groups: all of them or, if one is refused, none. Returns true if a state
+    /// differs from the state set before.
     #[inline]
     pub fn set(&mut self, scene: &Scene, states: &[(InterfaceId, State)]) -> Result<bool, EngineError> {
         for (interface, state) in states {
@@ -48,8 +48,8 @@ impl States {
         Ok(changed)
     }
 
-    /// Copies the states and switched pairs of another world; `bodies` and `pairs` hold the indices there.
-    /// States that were never set there are kept as they are here.
+    /// Copies the states and enabled pairs of another world; `bodies` and `pairs` hold the indices in the
+    /// other world. A state that was never set there is kept as it is here.
     pub fn take_over(&mut self, from: &Self, bodies: &[Option<usize>], pairs: &[Option<usize>]) {
         for (body, earlier) in bodies.iter().enumerate() {
             let set = earlier.filter(|&earlier| from.bodies[earlier].is_some());
@@ -72,7 +72,7 @@ impl States {
 /// Largest deviation of a quaternion's norm from 1.
 const NORM_ERROR_MAX: f64 = 1e-3;
 
-/// Range of the squared norm.
+/// Accepted range of the squared norm of a quaternion.
 const NORM_SQUARES: RangeInclusive<f64> = {
     let [least, largest] = [1.0 - NORM_ERROR_MAX, 1.0 + NORM_ERROR_MAX];
     least * least..=largest * largest
@@ -124,9 +124,8 @@ impl State {
 
     /// Returns true if a frame can be computed from the state; see [`why_refused`].
     fn is_acceptable(&self) -> bool {
-        // Branchless: checking all components is faster than stopping at the first. Compared as bits, which
-        // grow with the magnitude and are largest for NaN, because an ordered comparison with NaN is an
-        // invalid operation.
+        // Branchless: faster than stopping at the first component. Bits are compared, which grow with the
+        // magnitude and are largest for NaN: an ordered comparison with NaN is an invalid operation.
         const SIZE: u64 = u64::MAX >> 1;
         let is_small = |value: &f64| (value.to_bits() & SIZE) as i64 <= Self::LARGEST.to_bits() as i64;
         let small = |values: &[f64]| values.iter().fold(true, |all, value| all & is_small(value));

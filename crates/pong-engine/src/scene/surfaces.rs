@@ -47,7 +47,7 @@ impl Surfaces {
     }
 }
 
-/// Refuses a change of law, and values that no surface may have.
+/// Returns an error for a change of law, and for values that no surface may have.
 fn check_change(old: &Surface, new: &Surface) -> Result<(), EngineError> {
     let bad = |cause: &str| {
         Err(EngineError::BadValue { what: format!("surface `{}`", new.name), cause: cause.to_owned() })

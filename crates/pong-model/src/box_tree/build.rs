@@ -18,7 +18,7 @@ impl<T> Boxed<T> {
         self.low.iter().chain(self.high.iter()).all(|x| x.is_finite())
     }
 
-    /// Twice the centre; 0 if infinite on both sides.
+    /// Twice the centre; 0 if the box is infinite on either side.
     fn center(&self, axis: usize) -> f64 {
         let (low, high) = (self.low[axis], self.high[axis]);
         if low.is_finite() && high.is_finite() { low + high } else { 0.0 }
@@ -26,8 +26,8 @@ impl<T> Boxed<T> {
 }
 
 impl BoxTree {
-    /// Builds the tree of the elements and sorts them into its order. An unbounded element makes every box
-    /// above it unbounded, so keep unbounded elements in a tree of their own.
+    /// Builds the tree of the elements and sorts the elements into its order. An unbounded element makes
+    /// every box above it unbounded, so unbounded elements belong in a tree of their own.
     pub(crate) fn build<T: Copy + Ord>(elements: &mut [Boxed<T>]) -> Self {
         let mut tree = Self {
             origin: middle(elements),
@@ -89,7 +89,7 @@ fn levels_above(bottoms: usize) -> u32 {
     levels
 }
 
-/// Smallest number of boxes per node for which `levels` levels suffice.
+/// Smallest number of boxes per node for which `levels` levels suffice above `bottoms` bottom nodes.
 fn root_up(bottoms: usize, levels: u32) -> usize {
     (1..).find(|width: &usize| width.pow(levels) >= bottoms).expect("numbers do not end")
 }

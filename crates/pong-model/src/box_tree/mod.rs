@@ -99,7 +99,7 @@ impl NarrowBox {
         !(0..3).any(|k| self.low[k] > other.high[k] || self.high[k] < other.low[k])
     }
 
-    /// Smallest box around both.
+    /// Smallest box around both boxes.
     #[inline]
     pub fn join(&self, other: &Self) -> Self {
         Self {
@@ -113,7 +113,7 @@ impl NarrowBall {
     /// Sphere about a centre given relative to the tree's origin, enlarged for rounding.
     #[inline]
     fn outward(center: &Vec3, radius: f64) -> Self {
-        /// Coordinates beyond this count as near everything: their squares overflow.
+        /// Size of the coordinates above which a sphere counts as near everything: their squares overflow.
         const FAR: f64 = 1e18;
         /// Relative margin above the rounding of a coordinate, of a distance and of its square.
         const ROOM: f64 = 8.0 * f32::EPSILON as f64;
@@ -130,15 +130,16 @@ impl NarrowBall {
     }
 }
 
-/// Finite single-precision number that is not greater than `x`. Numbers below the range, and NaN, become the
-/// least number: every upper bound is at least as great, so such boxes are never taken for disjoint.
+/// Finite single-precision number that is not greater than `x`. A number below the range, or NaN, becomes the
+/// least finite number: no upper bound is less, so such a box is never taken for disjoint.
 #[inline(always)]
-#[allow(clippy::manual_clamp, reason = "of what is no number this makes the least")]
+#[allow(clippy::manual_clamp, reason = "NaN becomes the least finite number")]
 pub fn round_down(x: f64) -> f32 {
     const MOST: f64 = f32::MAX as f64;
     // Infinity minus infinity would be NaN.
     let x = if x > MOST { MOST } else { x };
-    // In double precision: more than one unit in the last place below `x`, even if the product underflows.
+    // Less than `x` by more than one single-precision unit in the last place; the constant term covers an
+    // underflow of the product.
     let below = x - (x.abs() * (1.01 * f64::from(f32::EPSILON)) + f64::from(f32::MIN_POSITIVE));
     below.max(-MOST).min(MOST) as f32
 }
@@ -192,7 +193,7 @@ impl NarrowBoxes {
         simd.boxes_near(&self.bounds, &ball.center, ball.square)
     }
 
-    /// Box around all of them.
+    /// Box around all eight boxes.
     #[inline(always)]
     pub fn around(&self) -> NarrowBox {
         let [low, high] = &self.bounds;
@@ -235,19 +236,20 @@ impl BoxNode {
         simd.packed(&self.children, boxes)
     }
 
-    /// Elements in the boxes whose bits are set, in the same form. Only for a bottom node.
+    /// Elements in the boxes whose bits are set, in order, moved to the front; the remaining lanes have no
+    /// meaning. Only for a bottom node.
     #[inline(always)]
     pub fn elements_in<S: Simd>(&self, simd: S, boxes: LaneBits) -> [u32; WIDTH] {
         simd.packed(&self.children, boxes).map(|child| child & !ELEMENT)
     }
 
-    /// Returns `true` for a bottom node, whose boxes hold all elements below, in order.
+    /// Returns `true` for a bottom node, whose boxes are around single elements.
     #[inline]
     pub fn is_bottom(&self) -> bool {
         self.children[0] & ELEMENT != 0
     }
 
-    /// Contents of all boxes.
+    /// Contents of all boxes that are not empty.
     pub fn children(&self) -> impl Iterator<Item = Child> + '_ {
         let [low, high] = &self.boxes.bounds;
         let used = move |&lane: &usize| low[0][lane] <= high[0][lane];
@@ -256,13 +258,13 @@ impl BoxNode {
 }
 
 impl BoxTree {
-    /// Box of the group frame, relative to the tree's origin in single precision.
+    /// Box given in the group frame, m, in single precision relative to the tree's origin.
     #[inline]
     pub fn narrowed(&self, low: &Vec3, high: &Vec3) -> NarrowBox {
         NarrowBox::outward(&(low - self.origin), &(high - self.origin))
     }
 
-    /// Sphere of the group frame, relative to the tree's origin in single precision.
+    /// Sphere given in the group frame, m, in single precision relative to the tree's origin.
     #[inline]
     pub fn narrowed_ball(&self, center: &Vec3, radius: f64) -> NarrowBall {
         NarrowBall::outward(&(center - self.origin), radius)
@@ -285,7 +287,7 @@ impl BoxTree {
         self.widened(&node.boxes.lane(lane))
     }
 
-    /// Box of this tree in the group frame, m.
+    /// Box of this tree, converted to the group frame, m; infinite where the tree's box is unbounded.
     pub fn widened(&self, narrow: &NarrowBox) -> (Vec3, Vec3) {
         let wide = |x: f32, beyond: f64| if x.abs() < f32::MAX { f64::from(x) } else { beyond };
         let low = Vec3::from(narrow.low.map(|x| wide(x, f64::NEG_INFINITY)));
@@ -302,8 +304,8 @@ impl BoxTree {
         query: &NarrowBox,
         mut visit: impl FnMut(&BoxNode, LaneBits),
     ) -> u32 {
-        /// Stack limit: a tree of 2³¹ elements has eleven levels, each of which leaves at most seven nodes
-        /// waiting.
+        /// Limit of the stack: a tree of 2³¹ elements has eleven levels, and each level adds at most seven
+        /// waiting nodes.
         const DEPTH_MAX: usize = 80;
         let mut stack = [0_u32; DEPTH_MAX];
         let mut waiting = usize::from(!self.nodes.is_empty());

@@ -333,9 +333,9 @@ fn drop_between(vertices: &[Vec3], chain: &[u32], tolerance: f64, dropped: &mut 
     }
 }
 
-/// Replaces the plane of a face that a vertex lies in front of, or that does not hold its own vertices, by
-/// the plane that comes nearest to supporting the solid and holding these vertices (the normal of a narrow
-/// face is dominated by rounding). Returns `true` if it does both.
+/// Replaces the plane of a face if a vertex of the solid lies in front of it, or if it does not hold the
+/// face's own vertices: by the plane that comes nearest to supporting the solid and holding these vertices.
+/// (Rounding dominates the normal of a narrow face.) Returns `true` if the new plane does both.
 pub(super) fn support(vertices: &[Vec3], merged: &mut Merged, tree: &Places, tolerance: f64) -> bool {
     let face = &mut merged.face;
     let held: Vec<Vec3> = merged.held.iter().map(|&v| vertices[v as usize]).collect();

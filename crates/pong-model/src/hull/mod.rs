@@ -35,7 +35,7 @@ pub(crate) fn check(vertices: &[Vec3], faces: &[&[u32]], active: &[bool]) -> Res
     let (vertices, faces, remarks) = welded(vertices, faces);
     let as_written = checks::edges(&vertices, &faces).and_then(|()| of_surface(&vertices, &faces, active));
     let hull = as_written.or_else(|problems| match slivers::collapsed(&faces) {
-        // If rounding has merged vertices, the solid may be valid without what lay between them.
+        // If rounding has merged vertices, the solid may be valid without the edges and faces between them.
         Some(faces) => of_surface(&vertices, &faces, active).map_err(|_| problems),
         None => Err(problems),
     })?;
@@ -99,8 +99,8 @@ struct Solid<'a> {
 }
 
 impl Solid<'_> {
-    /// Faces merged as far as the solid stays convex, or the problems that prevent it. Planes along the sides
-    /// of hulls are the last resort, because they differ from the edges that push.
+    /// Faces merged as far as the solid stays convex, or the problems that prevent it. [`Walls::Sides`] is
+    /// the last resort, because its planes differ from the edges that push.
     fn convex_faces(&self, faces: &[Vec<u32>]) -> Result<Vec<HullFace>, Vec<Problem>> {
         let Self { vertices, tree, diameter, active } = *self;
         let tolerance = PLANE_TOLERANCE * diameter;
@@ -137,7 +137,7 @@ impl Solid<'_> {
             self.has_walls(&mut merged.face, Walls::Sides);
         }
         checks::convex(vertices, &faces_alone(merged), tree, diameter)?;
-        // Faces that others have joined may have a vertex off their plane.
+        // A face that another face has joined may have a vertex off its plane.
         Err(checks::planar(vertices, faces, diameter).err().unwrap_or_else(|| vec![checks::too_few_faces()]))
     }
 

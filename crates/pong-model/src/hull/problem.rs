@@ -5,12 +5,12 @@ use pong_geometry::Vec3;
 /// Problem of a polyhedron.
 #[derive(Debug)]
 pub(crate) struct Problem {
-    /// Index of the authored face, if it concerns one.
+    /// Index of the authored face, if the problem concerns one.
     pub(crate) face: Option<usize>,
     pub(crate) rule: &'static str,
     pub(crate) cause: String,
     pub(crate) cure: &'static str,
-    /// Vertices that it concerns.
+    /// Vertices that the problem concerns.
     pub(crate) places: Vec<Vec3>,
     /// Distance by which a plane or a line is missed, m; 0 if not applicable.
     pub(crate) off: f64,

@@ -71,7 +71,8 @@ impl Program {
 
     /// Adds a cut. Returns `false` if no minimum is left, which means that the precision is exhausted.
     ///
-    /// If the cut excludes the previous minimum, the new one lies on it and on two of the others.
+    /// If the cut excludes the previous minimum, the new minimum lies on this cut and on two of the other
+    /// cuts.
     fn add(&mut self, cut: Cut) -> bool {
         if cut.missed(self.lowest) > ROUNDING {
             let mut lowest: Option<[f64; 3]> = None;
@@ -114,8 +115,8 @@ struct Tried {
     distance: f64,
 }
 
-/// Plane nearest to the vertices that a face must hold, among the planes that no vertex of the solid is
-/// farther in front of; and `true` if it is within the tolerance. The search starts at the normal `around`.
+/// Plane nearest to the vertices that a face must hold, among the planes with no vertex of the solid farther
+/// in front; and `true` if its distance is within the tolerance. The search starts at the normal `around`.
 pub(super) fn plane(
     held: &[Vec3],
     (vertices, tree): (&[Vec3], &Places),
@@ -174,7 +175,7 @@ impl Chart<'_> {
         best.unwrap_or_else(|| (self.tried(0.0, 0.0).0, 0.0))
     }
 
-    /// Plane of a tilt, and the bound it gives for the others.
+    /// Plane of a tilt, and the bound that it gives for all other tilts.
     fn tried(&self, x: f64, y: f64) -> (Tried, Cut) {
         let normal = self.center + self.axes[0] * x + self.axes[1] * y;
         let length = normal.norm();

@@ -32,7 +32,7 @@ pub(super) struct Bristle {
 }
 
 /// Up to eight contacts whose friction is pending.
-// Eight f64 fill one cache line; an unaligned array would need two loads.
+// Aligned: eight f64 fill one cache line, and an unaligned load of them touches two.
 #[derive(Debug)]
 #[repr(C, align(64))]
 pub(super) struct WaitingBristles {
@@ -93,24 +93,24 @@ impl WaitingBristles {
         self.stuck = self.stuck & !(1 << lane) | LaneBits::from(one.stuck) << lane;
     }
 
-    /// Computes all pending friction, which completes the contacts, and returns their indices.
+    /// Computes the friction of all pending contacts, which are then complete, and returns their indices.
     #[inline]
     pub fn flush(&mut self, contacts: &mut [FrameContact]) -> &[u32] {
         let count = std::mem::take(&mut self.count);
         if count > 0 {
-            simd::run(Settle { bristles: self, count, contacts });
+            simd::run(ComputeFriction { bristles: self, count, contacts });
         }
         &self.places[..count]
     }
 }
 
-struct Settle<'a> {
+struct ComputeFriction<'a> {
     bristles: &'a WaitingBristles,
     count: usize,
     contacts: &'a mut [FrameContact],
 }
 
-impl Kernel for Settle<'_> {
+impl Kernel for ComputeFriction<'_> {
     type Output = ();
 
     #[inline(always)]

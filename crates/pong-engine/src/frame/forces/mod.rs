@@ -53,7 +53,8 @@ pub(crate) fn compute_forces(
     }
 }
 
-/// Recomputes the forces after a limit has removed contacts: the remaining ones carry the whole bristle.
+/// Recomputes the forces after a limit has removed contacts: the remaining contacts share the whole
+/// tangential spring.
 pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationInput { sealed, memory, .. } = *given;
     let EvaluationBuffers { input, caller, order, near, poses, twists, .. } = frame;
@@ -80,7 +81,8 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
     out.flush();
 }
 
-/// Share h·w/Σw of the pair's bristle that a contact carries.
+/// Share h·w/Σw of the tangential spring that a contact has: w is its weight, h one half or one, and Σw runs
+/// over the contacts of the key with nearly the same normal.
 #[inline(always)]
 pub(crate) fn bristle_share<'f>(
     contact: &ContactCandidate,
@@ -131,7 +133,7 @@ struct Slipping<'f> {
     pressed: f64,
     /// Committed record that the contact continues, with its index.
     continues: Option<(usize, &'f ContactRecord)>,
-    /// Share of the pair's bristle that the contact carries.
+    /// Share of the tangential spring that the contact has.
     share: f64,
     /// Index in the buffer.
     place: usize,
@@ -146,10 +148,10 @@ impl PairContext<'_> {
         self.table.props(surface_a, surface_b)
     }
 
-    /// Computes a contact, except for bristle friction, which stays pending in the buffer. The state of its
-    /// registered law starts at zero.
+    /// Writes a contact with its forces, except for bristle friction, which stays pending in the buffer. The
+    /// state of a registered law starts at zero.
     ///
-    /// Each field is written once and not read back: a load right after its store would wait for it.
+    /// Each field is written once and not read back: avoids a store-forwarding stall.
     #[inline(always)]
     fn compute_force(
         &self,
@@ -255,23 +257,25 @@ impl PairContext<'_> {
 
     /// Rotation vector φ, computed once per pair.
     fn rotation(&self, since: &SinceCommit) -> &Vec3 {
-        // Set in place, because a copy of the closure's result would wait for its stores.
+        // Set in place: avoids a store-forwarding stall.
         if self.rotation_b.get().is_none() {
             _ = self.rotation_b.set(since.rotation());
         }
         self.rotation_b.get().expect("it was set")
     }
 
-    /// Slip u of A in the current contact plane since the last commit:
+    /// Slip u of A in the current contact plane since the last commit, m: the tangential part of
     ///
     /// ```text
     /// Δo + φ × ½[(c₀ − o₀) + (c₁ − o₁)]
     /// ```
     ///
-    /// The lever is the mean of the earlier and the current one: with the earlier lever alone, a ball that
-    /// rolls and spins would slip by its spin times the distance that the contact has moved. A new contact
-    /// has only the current lever, and only the part of the displacement since first touch counts, for a
-    /// uniform approach Δn.
+    /// where o is the reference point of A, c the contact point, φ the rotation vector of A, and the indices
+    /// 0 and 1 stand for the last commit and now.
+    ///
+    /// The lever c − o is the mean of its two values: with c₀ − o₀ alone, a ball that rolls and spins would
+    /// slip by its spin times the distance that the contact has moved. A new contact has only c₁ − o₁. Only
+    /// the part of its displacement since first touch counts, computed for a uniform approach.
     #[inline(always)]
     fn slip(&self, contact: &Slipping<'_>, earlier: Option<&ContactRecord>) -> Vec3 {
         let Some(since) = &self.motion.since_commit else { return Vec3::zeros() };

@@ -50,7 +50,7 @@ pub(crate) struct Block {
     pub leaf: u32,
     /// Batch of that leaf (index into the tree's batches).
     pub batch: u32,
-    /// First element, a multiple of eight. `end` is one past the last.
+    /// First element, a multiple of eight; `end` is one past the last element.
     pub first: u32,
     pub end: u32,
     /// True for the first block of its batch; tests done once per batch are counted there.
@@ -73,8 +73,7 @@ impl WorkerInput {
         self.clock = other.clock;
         self.motions.clear();
         self.motions.extend_from_slice(&other.motions);
-        // Cloning the `Arc` writes its reference count, on a cache line that other cores read; skip it if
-        // nothing changed.
+        // Only if changed: a clone writes the reference count, which other cores read.
         if !Arc::ptr_eq(&self.tables, &other.tables) {
             self.tables = Arc::clone(&other.tables);
         }
@@ -106,11 +105,12 @@ pub(crate) struct PairContext<'a> {
     pub memory: &'a ContactMemory,
     pub table: &'a SurfaceTable,
     pub volume_tests: &'a VolumeTests,
-    /// True if A's Object was named first; decides which of two primitives of one kind is A.
+    /// True if A's Object was named first when the pair was made. Registered tests test two primitives of one
+    /// kind only in this direction.
     pub in_order: bool,
     /// True if B's model remembers the side of entry.
     pub remembers_entry: bool,
-    /// Rotation vector φ since the last commit, rad; computed on first use.
+    /// Rotation vector φ of A relative to B since the last commit, rad; computed on first use.
     pub rotation_b: OnceCell<Vec3>,
 }
 

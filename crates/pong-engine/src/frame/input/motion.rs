@@ -45,7 +45,7 @@ pub(crate) struct PairMotions {
 }
 
 impl PairMotions {
-    /// Placeholder of no pair.
+    /// Placeholder that belongs to no pair.
     pub fn nobodys() -> Self {
         Self { group_pair: u32::MAX, frame: 0, directions: [Motion::none(); 2] }
     }
@@ -62,20 +62,21 @@ impl PairMotions {
 pub(crate) struct SinceCommit {
     /// Transform from A's group frame to B's at the last commit.
     pub x_ba: Transform,
-    /// Rotation of A since then.
+    /// Rotation of A since the last commit.
     pub rotation: Quat,
 }
 
 impl SinceCommit {
-    /// Rotation vector φ of A since the last commit, rad. The most expensive quantity here; only friction of
-    /// a continued contact and the ledger need it.
+    /// Rotation vector φ of A since the last commit, rad. Expensive; only the friction of a continued contact
+    /// and the ledger need it.
     pub fn rotation(&self) -> Vec3 {
         rotation_vector(&self.rotation)
     }
 }
 
 impl Motion {
-    /// Velocity of A's material point at `c` minus that of B's, m/s.
+    /// Velocity of the material point of A at the point `c` minus that of the material point of B there, in
+    /// B's frame, m/s.
     pub fn velocity_at(&self, c: &Vec3) -> Vec3 {
         self.linear_b + self.omega_a_b.cross(&(c - self.x_ba.translation)) - self.omega_b_b.cross(c)
     }

@@ -23,12 +23,11 @@ pub(crate) struct Motions<'a> {
 }
 
 impl Motions<'_> {
-    /// Computes the motions of some pairs for a frame, in the directions that have tests. If an entry already
-    /// holds the motion of the committed frame, its pose becomes the committed pose without a new
-    /// computation.
+    /// Computes the motions of some pairs for a frame, in the directions that have tests. If an entry has the
+    /// motion of the last committed frame, its pose is the pose at that commit, and is not computed again.
     pub fn relate(&self, pairs: &[u32], frame: u64, out: &mut Vec<PairMotions>) {
-        // Reuse the entries: most frames have as many pairs as the one before. Unused directions keep their
-        // old values.
+        // Entries are reused: most frames have as many pairs as the frame before. Directions without tests
+        // keep old values.
         if out.len() < pairs.len() {
             out.resize(pairs.len(), PairMotions::nobodys());
         }

@@ -5,10 +5,10 @@ use crate::scene::{Scene, States};
 use crate::sealed::Sealed;
 use pong_geometry::{Pose, Twist};
 
-/// Refuses a frame if a movable group of an enabled pair has no state.
+/// Returns an error if a movable group of an enabled pair has no state.
 #[inline]
 pub(crate) fn require_states(scene: &Scene, sealed: &Sealed, states: &States) -> Result<(), EngineError> {
-    // Fast path: usually all have a state, and there may be many more pairs than groups.
+    // Fast path: usually all groups have a state, and there may be many more pairs than groups.
     if sealed.paired_bodies.iter().all(|&body| states.bodies[body].is_some()) {
         return Ok(());
     }

@@ -1,16 +1,16 @@
-//! Couples the spheres at the ends of a capsule with the edge between them, against a polyhedron or
-//! triangles. Of the convex edges that the axis crosses, the deepest carries the load that the end spheres do
-//! not (docs/theory.md, 2.8).
+//! Load sharing of a capsule between its end spheres and the edge that its axis crosses, against a polyhedron
+//! or triangles. Of the convex edges that the axis crosses, only the deepest pushes: it takes the load that
+//! the end spheres do not (docs/theory.md, 2.8).
 
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use pong_geometry::Vec3;
 
-/// Assigns weights to the end contacts and to the deepest edge between them, if that is deeper than both
-/// spheres; drops all other edges.
+/// Assigns the weights of the end contacts and of the deepest edge contact, if that is deeper than both end
+/// spheres; culls all other edge contacts.
 ///
-/// With E the square of the edge's depth, and A and B the squares of the minimum translations of the two
-/// spheres, the stored energy is ¼k(E + A·B/E), and ¼k(A + B) without an edge. The weights are its
-/// derivatives.
+/// With E the square of the depth at the edge, and A and B the squares of the minimum translations of the two
+/// end spheres, the stored energy is ¼k(E + A·B/E), and ¼k(A + B) without an edge. The weights are the
+/// derivatives of the stored energy.
 pub(super) fn couple(ends: &mut [ContactCandidate], middle: &mut [ContactCandidate]) {
     let squares = [0, 1].map(|end| square_moved(ends, end));
     let deeper = |a: usize, b: usize| if middle[b].depth > middle[a].depth { b } else { a };

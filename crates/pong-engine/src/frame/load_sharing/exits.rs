@@ -1,28 +1,29 @@
-//! Selects the piece of a body that carries an end of a line segment which leaves the body at the boundary
-//! edge of an internal face.
+//! Line segment that leaves a body at an edge in which an internal face ends: selects the piece whose contact
+//! counts.
 
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use pong_geometry::interference::segment_at_walls::{ExitAtWall, exit_at_wall, part_inside};
 use pong_geometry::primitive::LineSegment;
 
-/// Among pieces that a segment leaves at one point, those holding less than this share of the longest part
-/// are only touched.
+/// Least part of the segment inside a piece, relative to the longest part among the pieces that the segment
+/// leaves at the same point. A piece with a shorter part is only touched.
 const SHARE_HELD: f64 = 0.5;
 
-/// Returns true for an exit through the boundary edge of an internal face that rounding has put on the
-/// internal face.
+/// Returns true for an exit at the boundary edge of an internal face if rounding has put it on the internal
+/// face instead of the active face.
 pub(super) fn is_exit_that_stands_in(contact: &ContactCandidate) -> bool {
     contact.half && contact.status == CandidateStatus::StandIn
 }
 
-/// Culls redundant exits of one end (`group`: contacts of the end with the pieces of one body).
+/// Keeps one of the exits that several pieces report at one point; `group` has the contacts of one end of a
+/// segment with the pieces of one body.
 ///
-/// A segment that leaves through the boundary edge of an internal face may, by rounding, leave the pieces on
-/// both sides of that face, or neither. Of the pieces that it leaves at one point, the first with a large
-/// part of the segment counts, and an exit through an active face takes precedence. An exit through the
-/// internal face counts only if no piece contains the segment beyond it. A segment end at that point is
-/// treated in the same way.
+/// Where a segment leaves the body at the boundary edge of an internal face, rounding may report an exit from
+/// the pieces on both sides of that face, or from neither. Of the exits at one point, the first whose piece
+/// contains a large part of the segment ([`SHARE_HELD`]) counts; exits through active faces come before exits
+/// through internal faces. An exit through an internal face does not count if a piece contains the segment
+/// past the exit. A segment end at the same point counts as an exit.
 pub(super) fn keep_one_of_exits(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     let Some(first) = group.first() else { return };
     let local = &context.body_a.segments[first.element_a as usize];
@@ -52,8 +53,8 @@ impl Exits<'_> {
         if may_leave { at(self.end).or_else(|| at(1 - self.end)) } else { None }
     }
 
-    /// Returns true if the segment really leaves some piece at the exit, instead of ending there in all of
-    /// them.
+    /// Returns true if the segment continues past the exit of at least one piece. Otherwise the segment ends
+    /// there in all pieces.
     fn leaves(&self, exit: &Exit, group: &[ContactCandidate]) -> bool {
         let mut others = group.iter().filter_map(|found| self.of(found));
         others.any(|other| !other.at_wall.is_tip && other.is_at_place_of(exit))
@@ -75,7 +76,8 @@ impl Exits<'_> {
             && !(is_exit_that_stands_in(&group[index]) && self.goes_on(exit))
     }
 
-    /// Returns true if another piece of the body contains the segment beyond an exit by more than rounding.
+    /// Returns true if a piece of the body contains the segment past an exit, for more than the rounding of
+    /// positions along the segment.
     fn goes_on(&self, exit: &Exit) -> bool {
         let (place, slack) = (exit.place(), exit.at_wall.slack);
         let mut parts =
@@ -94,7 +96,7 @@ struct Exit {
 }
 
 impl Exit {
-    /// Parameter along the segment.
+    /// Parameter along the segment, 0 to 1.
     fn place(&self) -> f64 {
         self.at_wall.inside[self.end]
     }

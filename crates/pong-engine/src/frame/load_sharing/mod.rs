@@ -24,18 +24,18 @@ use pong_geometry::interference::nearest_on_triangle::nearest_in_plane;
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::primitive::{Containment, Polyhedron, PolyhedronFace, PrimitiveKind, TriangleSet};
 use ray_hits::keep_first_ray_hits;
-use rims::{keep_one_side_of_rims, keep_one_way_at_places};
+use rims::{cull_opposite_at_points, keep_one_side_of_rims};
 use solver::{SharedContact, share_within};
 
 /// Relative difference below which two depths count as equal.
 const FALLBACK_DEPTH_SLACK: f64 = 1e-9;
 
 /// Sorts the candidates of a chunk into summation order, assigns their weights, and culls those that do not
-/// count. All elements of the chunk are of one kind, and all contacts of a key are in one chunk.
+/// count. All elements of the chunk are of one kind, and all candidates with one key are in one chunk.
 ///
 /// # Errors
-/// [`Full`] if the scratch memory was too small for one surface; then its deepest contacts have been shared
-/// exactly.
+/// [`Full`] if the scratch memory was too small for the contacts of one surface. As many of the deepest as
+/// fit have then been shared exactly; the others have weight zero.
 pub(crate) fn assign_weights(
     context: &PairContext<'_>,
     kind_a: PrimitiveKind,
@@ -46,7 +46,8 @@ pub(crate) fn assign_weights(
     if let [alone] = &mut found[..]
         && !is_under_capsule(alone)
     {
-        // A single contact keeps weight 1. If it lies beyond an internal face, no piece exists there.
+        // A single candidate keeps weight 1. If it is `BeyondWall`, the body has no piece on the other side
+        // of the internal face, so there is no contact.
         if alone.status == CandidateStatus::BeyondWall {
             alone.status = CandidateStatus::Culled;
         }
@@ -58,9 +59,10 @@ pub(crate) fn assign_weights(
         PrimitiveKind::Ray => keep_first_ray_hits(found, context),
         PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid => {
             keep_one_side_of_rims(found, context);
-            keep_one_way_at_places(found);
+            cull_opposite_at_points(found);
         }
-        // The front and the back are separate surfaces; resolve their common rim before each shares.
+        // The front and the back of a two-sided triangle are separate surfaces with one rim: only one of them
+        // keeps a contact at the rim.
         PrimitiveKind::Capsule => keep_one_side_of_rims(found, context),
         _ => {}
     }
@@ -68,7 +70,7 @@ pub(crate) fn assign_weights(
         return share_capsules(found, context, shared_contacts, scratch);
     }
     for group in found.chunk_by_mut(|a, b| a.key == b.key) {
-        settle_group(group, kind_a, context);
+        judge_before_sharing(group, kind_a, context);
         if group[0].shares && group.len() > 1 {
             outcome = outcome.and(find_shares(group, &context.body_b.triangles, shared_contacts, scratch));
             drop_idle(group);
@@ -77,8 +79,8 @@ pub(crate) fn assign_weights(
     outcome
 }
 
-/// Assigns the weights of contacts of capsules, in summation order. The end spheres share as spheres do, each
-/// with half a spring.
+/// Assigns the weights of contacts of capsules; `found` is in summation order. The contacts of one end sphere
+/// with one surface share half a spring.
 fn share_capsules(
     found: &mut [ContactCandidate],
     context: &PairContext<'_>,
@@ -95,8 +97,8 @@ fn share_capsules(
         }
         let (ends, middle) = body.split_at_mut(edges);
         for end in ends.chunk_by_mut(|a, b| a.key == b.key) {
-            keep_one_way_at_places(end);
-            settle_group(end, PrimitiveKind::Sphere, context);
+            cull_opposite_at_points(end);
+            judge_before_sharing(end, PrimitiveKind::Sphere, context);
             if end.len() > 1 {
                 outcome = outcome.and(find_shares(end, &context.body_b.triangles, shared_contacts, scratch));
             }
@@ -109,13 +111,13 @@ fn share_capsules(
     outcome
 }
 
-/// Returns true for the contact of a capsule's axis with an edge between its ends.
+/// Returns true for a contact of a capsule's axis with an edge, between the capsule's end spheres.
 fn is_under_capsule(contact: &ContactCandidate) -> bool {
     contact.shares && contact.half && contact.key.end == BETWEEN_ENDS
 }
 
-/// Resolves the contacts of one key with one body before load sharing.
-fn settle_group(group: &mut [ContactCandidate], kind_a: PrimitiveKind, context: &PairContext<'_>) {
+/// Runs passes 4 to 6 of `status.rs` on the contacts of one key.
+fn judge_before_sharing(group: &mut [ContactCandidate], kind_a: PrimitiveKind, context: &PairContext<'_>) {
     if group.iter().any(is_at_wall) {
         match group[0].half && !group[0].shares {
             true => choose_piece_of_end_at_walls(group, context),
@@ -125,7 +127,7 @@ fn settle_group(group: &mut [ContactCandidate], kind_a: PrimitiveKind, context: 
     if !group[0].shares || group.len() == 1 {
         return;
     }
-    settle_fallbacks(group, kind_a);
+    resolve_fallbacks(group, kind_a);
     match (kind_a, group[0].kind_b) {
         (PrimitiveKind::Ellipsoid, PrimitiveKind::Polyhedron) => {
             drop_what_the_body_lacks(group, &context.body_b.polyhedra);
@@ -139,7 +141,7 @@ fn settle_group(group: &mut [ContactCandidate], kind_a: PrimitiveKind, context: 
     }
 }
 
-/// Centre in A's frame and radius of the sphere, or of a capsule's end sphere, m.
+/// Centre, in A's frame, and radius of a contact's sphere or capsule end sphere, m.
 fn ball_of(contact: &ContactCandidate, context: &PairContext<'_>) -> (Vec3, f64) {
     let (body_a, element) = (context.body_a, contact.element_a as usize);
     if contact.half {
@@ -155,13 +157,13 @@ fn is_at_wall(contact: &ContactCandidate) -> bool {
         || is_exit_that_stands_in(contact)
 }
 
-/// Selects the piece for a point or sphere centre at internal faces of a body. Each piece decides for itself,
-/// with rounding, on which side of its internal faces the point lies, so several pieces may claim it, or
-/// none.
+/// Selects the piece that has the contact of a point, or of a sphere's centre, at internal faces of a body.
+/// Each piece computes by itself on which side of its internal faces the point lies, so rounding may put the
+/// point in several pieces or in none.
 ///
-/// The first piece that contains the point counts. If none does, rounding has opened a gap between pieces:
-/// the first piece whose neighbours are all present counts. Without these neighbours the point is outside the
-/// body, beside a convex edge at which an internal face ends.
+/// The first piece that contains the point counts. If no piece does, the first piece counts that has a
+/// neighbour behind each of its internal faces at the point. A piece without such a neighbour does not count:
+/// the point is then outside the body, beside a convex edge at which an internal face ends.
 fn choose_piece_at_walls(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     let in_piece = |contact: &ContactCandidate| {
         contact.entry_face != NO_FACE && contact.status != CandidateStatus::BeyondWall
@@ -182,8 +184,9 @@ fn choose_piece_at_walls(group: &mut [ContactCandidate], context: &PairContext<'
     }
 }
 
-/// Selects the piece for a segment's end at internal faces of a body, in the same way. Only contacts with
-/// exactly this end point are compared; where the segment crosses an edge, each piece finds another point.
+/// Selects the piece that has the contact of a segment's end at internal faces of a body, as
+/// [`choose_piece_at_walls`] does for a point. Only contacts with the same deepest point are compared: where
+/// the segment crosses an edge, each piece finds a different point.
 fn choose_piece_of_end_at_walls(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     keep_one_of_exits(group, context);
     keep_first_of_edges(group, &context.body_b.polyhedra);
@@ -206,8 +209,8 @@ fn choose_piece_of_end_at_walls(group: &mut [ContactCandidate], context: &PairCo
     }
 }
 
-/// Keeps the first of equal edge contacts: the pieces on both sides of an internal face both find the edge in
-/// which it ends.
+/// Culls all but the first contact at each edge in which an internal face ends: the pieces on both sides of
+/// the internal face have the edge.
 fn keep_first_of_edges(group: &mut [ContactCandidate], polyhedra: &[Polyhedron]) {
     let is_edge =
         |found: &ContactCandidate| found.status == CandidateStatus::AtWall && !found.feature.is_face();
@@ -223,21 +226,22 @@ fn keep_first_of_edges(group: &mut [ContactCandidate], polyhedra: &[Polyhedron])
     }
 }
 
-/// Returns true if another piece contains the point, or has it on its surface, at each of the piece's
-/// internal faces there.
+/// Returns true for a `BeyondWall` contact whose piece has a neighbour behind each of its internal faces at
+/// the point. The neighbour must contain the point, within the tolerance of internal faces.
 fn has_neighbors_at_walls(found: &ContactCandidate, place: &Vec3, context: &PairContext<'_>) -> bool {
     if found.status != CandidateStatus::BeyondWall {
         return false;
     }
     let body = context.body_b;
     let holds = |piece: &Polyhedron| piece.containment(place) != Containment::Outside;
-    // The two sides of an internal face have bit-identical planes.
-    let has_twin = |wall: &PolyhedronFace| {
-        let is_twin = |face: &PolyhedronFace| face.normal == -wall.normal && face.offset == -wall.offset;
-        let pieces = body.polyhedra.iter().filter(|piece| piece.faces.iter().any(is_twin));
+    // The two sides of an internal face have the same plane, bit for bit, with opposite signs.
+    let has_neighbor = |wall: &PolyhedronFace| {
+        let is_other_side =
+            |face: &PolyhedronFace| face.normal == -wall.normal && face.offset == -wall.offset;
+        let pieces = body.polyhedra.iter().filter(|piece| piece.faces.iter().any(is_other_side));
         pieces.into_iter().any(holds)
     };
-    body.polyhedra[found.element_b as usize].walls_at(place).all(has_twin)
+    body.polyhedra[found.element_b as usize].walls_at(place).all(has_neighbor)
 }
 
 /// Computes the weights of the contacts of one sphere or ellipsoid with one surface.
@@ -261,7 +265,8 @@ fn find_shares(
     outcome
 }
 
-/// Contacts without load become `Tracked` if they have to be remembered, and are culled otherwise.
+/// Makes contacts with zero weight `Tracked` if they have a face of entry or are `BackFace`, because the next
+/// frame needs them; culls the other contacts with zero weight.
 fn drop_idle(group: &mut [ContactCandidate]) {
     for contact in group.iter_mut().filter(|contact| contact.takes_part()) {
         if contact.weight > 0.0 {
@@ -275,12 +280,11 @@ fn drop_idle(group: &mut [ContactCandidate]) {
     }
 }
 
-/// Resolves fallback candidates: one becomes regular if no regular contact is at its point, because rounding
-/// then made the regular one miss.
+/// Makes a fallback candidate regular if no regular contact of at least the same depth touches the same
+/// point: rounding has then made the regular contact miss. Culls all other fallback candidates.
 ///
-/// A sphere's contact at another point does not replace it, at whatever depth. For an ellipsoid, a deeper
-/// contact at the same point is another minimum and does not replace it either.
-fn settle_fallbacks(group: &mut [ContactCandidate], kind_a: PrimitiveKind) {
+/// For an ellipsoid the depths must be equal, because a deeper contact at the same point is another minimum.
+fn resolve_fallbacks(group: &mut [ContactCandidate], kind_a: PrimitiveKind) {
     let is_fallback = |contact: &ContactCandidate| {
         matches!(contact.status, CandidateStatus::Fallback | CandidateStatus::BackFaceFallback)
     };
@@ -290,8 +294,8 @@ fn settle_fallbacks(group: &mut [ContactCandidate], kind_a: PrimitiveKind) {
     if !group.iter().any(is_fallback) {
         return;
     }
-    // Faces first: if rounding made both a face and its edge miss one point, only the face gives way to a
-    // less deep contact.
+    // Faces first: if both a face and its edge have a fallback at one point, the face becomes regular. Later
+    // passes can cull a face in favour of a less deep contact, but not an edge.
     let count = group.len();
     for (is_face, i) in [true, false].into_iter().flat_map(|is_face| (0..count).map(move |i| (is_face, i))) {
         let fallback = &group[i];
@@ -315,9 +319,10 @@ fn settle_fallbacks(group: &mut [ContactCandidate], kind_a: PrimitiveKind) {
     }
 }
 
-/// Drops the deeper of two convexly meeting features at which a deep ellipsoid has a minimum, if it is a
-/// face, or if the centre is behind it. The test uses positions, not mesh adjacency, because a cut face may
-/// have lost the edge that it shares with the other feature.
+/// Drops the deeper of two contacts of a deep ellipsoid whose features meet convexly. Only a face, or a
+/// feature with the centre behind it, is dropped. The contact points show whether two features meet convexly,
+/// not mesh adjacency: a face that is cut into triangles may have lost the edge that it shares with the other
+/// feature.
 fn drop_deeper_faces(group: &mut [ContactCandidate]) {
     let counts = |contact: &ContactCandidate| {
         contact.role == ContactRole::Active
@@ -343,9 +348,9 @@ fn drop_deeper_faces(group: &mut [ContactCandidate]) {
     }
 }
 
-/// With the centre behind it, a face yields to a less deep face that meets it convexly, as in a polyhedron,
-/// and to such an edge or vertex. A centre on the rim of a front face is behind the next face only by
-/// rounding.
+/// Makes a `BackFace` face `Tracked` if a less deep feature meets it convexly: like a convex polyhedron, the
+/// two then push only with the less deep one. That feature may be `Front`: a centre on the edge between two
+/// faces is behind one of them only by rounding.
 fn drop_deeper_of_convex_faces(group: &mut [ContactCandidate], triangles: &TriangleSet) {
     if !group.iter().any(|contact| contact.status == CandidateStatus::BackFace) {
         return;
@@ -386,15 +391,15 @@ fn meet_in_an_edge(contact: &ContactCandidate, other: &ContactCandidate, triangl
 }
 
 /// Returns true if two faces meet convexly, with any number of triangles between them: the contact point of
-/// each lies below the plane of the other. At a concave edge it lies above. In the wedge behind a concave
-/// edge both contact points are on the edge, or in coplanar pieces, and the faces do not count as convex.
+/// each face lies below the plane of the other. At a concave edge it lies above. Behind a concave edge each
+/// contact point may lie in both planes; the faces then do not count as convex.
 fn meet_below(contact: &ContactCandidate, other: &ContactCandidate, triangles: &TriangleSet) -> bool {
     let on = |of: &ContactCandidate| nearest_in_plane(&touched(of), &triangles.corners(of.element_b));
     let (places, normals) = ([&on(contact), &on(other)], [&contact.normal_b, &other.normal_b]);
     are_convex(places, normals) && !are_in_both_planes(places, normals)
 }
 
-/// Culls `StandIn` candidates unless no regular contact is as deep.
+/// Culls `StandIn` candidates that are no deeper than the deepest regular contact.
 fn cull_idle_stand_ins(group: &mut [ContactCandidate]) {
     let deepest = group
         .iter()

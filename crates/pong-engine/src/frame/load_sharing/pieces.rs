@@ -1,4 +1,5 @@
-//! Drops contacts of one ellipsoid or sphere with the pieces of a body that the uncut body would not have.
+//! Drops contacts of an ellipsoid or sphere with the pieces of a body that it would not have with the uncut
+//! body.
 
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::state::{ContactRole, NO_FACE};
@@ -6,24 +7,23 @@ use pong_geometry::Vec3;
 use pong_geometry::interference::FeatureKind;
 use pong_geometry::primitive::Polyhedron;
 
-/// Relative difference below which two depths count as equal, so that rounding does not select the feature.
+/// Relative difference up to which two depths count as equal, so that rounding does not select the feature.
 const DEPTH_SLACK: f64 = 1e-12;
-/// Distance in front of a plane up to which a point counts as in it, relative to the distance between the two
-/// points. Folds that single precision can represent are steeper.
+/// Height above a plane up to which a point counts as in the plane, relative to its distance from the point
+/// that defines the plane. Folds that single precision can represent are steeper.
 const PLANE_SLACK: f64 = 1e-9;
 /// Rounding error of a position, relative to the coordinates: some tens of units in the last place.
 const ROUNDING: f64 = 1e-14;
-/// Distance below which two points count as equal, where pieces of a flat face meet; relative to the
-/// coordinates.
+/// Distance up to which two points count as equal, relative to the coordinates; it covers the rounding where
+/// pieces of a flat face meet.
 const PLACE_SLACK: f64 = 1e-9;
 
-/// Culls contacts that an ellipsoid would not have on the uncut body (`group`: its contacts with the pieces
-/// of one body).
+/// Culls contacts that an ellipsoid would not have with the uncut body; `group` has its contacts with the
+/// pieces of one body.
 ///
 /// Each piece reports the minimum translation over its own features. Of two features of different pieces that
-/// meet convexly, only the less deep is the minimum translation of the body; features that meet concavely,
-/// such as two walls of a corner, each push on their own. `StandIn` candidates count only if there are no
-/// others.
+/// meet convexly, only the less deep is a minimum translation of the body. Features that meet concavely, such
+/// as two walls of a corner, each push. `StandIn` candidates count only if there are no others.
 pub(crate) fn drop_what_the_body_lacks(group: &mut [ContactCandidate], pieces: &[Polyhedron]) {
     let stands_in = |contact: &ContactCandidate| contact.status == CandidateStatus::StandIn;
     if !group.iter().all(stands_in) {
@@ -46,8 +46,8 @@ pub(crate) fn drop_what_the_body_lacks(group: &mut [ContactCandidate], pieces: &
     }
 }
 
-/// Index of the next contact after `last` by increasing depth, ties by index. In this order a contact is
-/// judged only after all contacts that may cull it, so that the result does not depend on model order.
+/// Index of the next contact after `last` by increasing depth, ties by index. In this order every contact is
+/// judged after all contacts that may cull it, so the result does not depend on the order of the model.
 pub(super) fn next_deeper(group: &[ContactCandidate], last: Option<usize>) -> Option<usize> {
     let place = |index: usize| (group[index].depth, index);
     let follows = |index: &usize| last.is_none_or(|last| place(*index) > place(last));
@@ -55,7 +55,7 @@ pub(super) fn next_deeper(group: &[ContactCandidate], last: Option<usize>) -> Op
     (0..group.len()).filter(follows).reduce(less)
 }
 
-/// Returns true if the first contact is less deep; ties by summation order.
+/// Returns true if `contact` is less deep than `other`; of equal depths, if it is earlier in summation order.
 pub(crate) fn pushes_before(contact: &ContactCandidate, other: &ContactCandidate) -> bool {
     let rounding = DEPTH_SLACK * other.depth;
     let difference = contact.depth - other.depth;
@@ -65,22 +65,24 @@ pub(crate) fn pushes_before(contact: &ContactCandidate, other: &ContactCandidate
 /// Returns true if the features of two contacts meet convexly.
 fn meet_convexly(contact: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhedron]) -> bool {
     if contact.status == CandidateStatus::StandIn && other.status == CandidateStatus::StandIn {
-        // Foot points beside the pieces are inconclusive; compare the faces themselves.
+        // The foot points of `StandIn` candidates lie outside their faces and show nothing: compare the faces
+        // themselves.
         return lies_below(contact, other, pieces) && lies_below(other, contact, pieces);
     }
     if contact.feature.is_face()
         && other.feature.is_face()
         && are_one_place(&touched(contact), &touched(other))
     {
-        // Where pieces meet, two faces share one contact point, which is inconclusive; compare the faces
-        // themselves.
+        // Equal contact points, where pieces meet, show nothing about the angle between two faces: compare
+        // the faces themselves.
         return lies_below(contact, other, pieces) && lies_below(other, contact, pieces);
     }
     is_part_of(contact, other, pieces) || is_part_of(other, contact, pieces) || touch_convexly(contact, other)
 }
 
-/// Returns true if the first contact is at an edge or vertex of the second's face or edge. Such features meet
-/// convexly; positions are less reliable, since corners in single precision may lie in front of the plane.
+/// Returns true if `contact` is at an edge or vertex that belongs to the face or edge of `other`. Two such
+/// features meet convexly. Vertices are compared instead of heights, because corners in single precision may
+/// lie above the plane of their face.
 fn is_part_of(contact: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhedron]) -> bool {
     let piece = &pieces[contact.element_b as usize];
     let is_corner = |vertex: u32| has_corner(other, &piece.vertices[vertex as usize].position, pieces);
@@ -91,7 +93,7 @@ fn is_part_of(contact: &ContactCandidate, other: &ContactCandidate, pieces: &[Po
     }
 }
 
-/// Returns true if a contact's face or edge has a corner at a position.
+/// Returns true if the face or edge of a contact has a vertex at a position.
 fn has_corner(contact: &ContactCandidate, place: &Vec3, pieces: &[Polyhedron]) -> bool {
     let (piece, index) = (&pieces[contact.element_b as usize], contact.feature.index());
     let is_there = |vertex: u32| piece.vertices[vertex as usize].position == *place;
@@ -104,8 +106,9 @@ fn has_corner(contact: &ContactCandidate, place: &Vec3, pieces: &[Polyhedron]) -
 
 /// Returns true if the features of two contacts meet convexly, judged by their contact points.
 ///
-/// Equal contact points are below each other's planes in either case: an edge or vertex that pushes is
-/// convex, but two faces may meet flat or concavely there.
+/// At equal contact points, two features meet convexly if one of them is an edge or a vertex: an edge or
+/// vertex that pushes is convex. Two faces with one contact point do not count, because they may meet flat or
+/// concavely.
 pub(super) fn touch_convexly(contact: &ContactCandidate, other: &ContactCandidate) -> bool {
     let (here, there) = (touched(contact), touched(other));
     if are_one_place(&here, &there) {
@@ -114,22 +117,23 @@ pub(super) fn touch_convexly(contact: &ContactCandidate, other: &ContactCandidat
     are_convex([&here, &there], [&contact.normal_b, &other.normal_b])
 }
 
-/// Returns true if each point lies in or below the plane through the other one normal to its contact normal;
-/// the points must differ. Pushing A out at either point then pushes it out at both.
+/// Returns true if two different contact points each lie in or below the plane through the other point and
+/// perpendicular to its normal: pushing A out at either point then pushes it out at the other too.
 pub(super) fn are_convex([here, there]: [&Vec3; 2], [normal, other_normal]: [&Vec3; 2]) -> bool {
     let apart = there - here;
     let slack = plane_slack(here, there);
     !are_one_place(here, there) && normal.dot(&apart) <= slack && other_normal.dot(&apart) >= -slack
 }
 
-/// Returns true if each point lies in the plane through the other one normal to its contact normal.
+/// Returns true if each point lies in the plane through the other point and perpendicular to the normal
+/// there.
 pub(super) fn are_in_both_planes([here, there]: [&Vec3; 2], normals: [&Vec3; 2]) -> bool {
     let apart = there - here;
     let slack = plane_slack(here, there);
     normals.iter().all(|normal| normal.dot(&apart).abs() <= slack)
 }
 
-/// Distance in front of a plane through one point up to which another counts as in it, m.
+/// Height above a plane through one point up to which the other point counts as in the plane, m.
 fn plane_slack(here: &Vec3, there: &Vec3) -> f64 {
     PLANE_SLACK * (there - here).norm() + ROUNDING * (here.amax() + there.amax())
 }
@@ -139,12 +143,12 @@ pub(super) fn are_one_place(here: &Vec3, there: &Vec3) -> bool {
     (there - here).norm() <= PLACE_SLACK * (here.amax() + there.amax())
 }
 
-/// Position of A's deepest point after the minimum translation.
+/// Position of A's deepest point after the minimum translation, m.
 pub(super) fn touched(contact: &ContactCandidate) -> Vec3 {
     contact.deepest_b + contact.normal_b * contact.depth
 }
 
-/// Returns true if the face of one contact lies in or below the plane of the other.
+/// Returns true if the face of `of` lies in or below the plane of the face of `other`.
 fn lies_below(of: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhedron]) -> bool {
     let piece = &pieces[of.element_b as usize];
     let plane = &pieces[other.element_b as usize].faces[other.feature.index()];
@@ -153,12 +157,12 @@ fn lies_below(of: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhed
         <= PLANE_SLACK * piece.diameter
 }
 
-/// Culls duplicate contacts of a sphere at a convex edge in which an internal face ends (`group`: its
-/// contacts with the pieces of one body).
+/// Drops the second contact of a sphere at a convex edge in which an internal face ends; `group` has its
+/// contacts with the pieces of one body.
 ///
-/// A centre on such an edge lies in the planes of both adjacent faces, which belong to different pieces. With
-/// corners rounded to single precision, the outlines of the two faces overlap. The uncut body has one contact
-/// there: the less deep one.
+/// A centre on such an edge lies in the planes of both faces at the edge, which belong to different pieces.
+/// Their outlines overlap by the rounding of corners to single precision, so both faces may push. The uncut
+/// body has one contact there: the less deep one.
 pub(super) fn drop_second_of_edges(group: &mut [ContactCandidate], radius: f64, pieces: &[Polyhedron]) {
     let is_on_surface = |contact: &ContactCandidate| {
         let slack = pieces[contact.element_b as usize].planes().wall_slack;
@@ -184,7 +188,7 @@ pub(super) fn drop_second_of_edges(group: &mut [ContactCandidate], radius: f64, 
     }
 }
 
-/// Returns true if the sphere's centre lies on one convex edge common to both contacts.
+/// Returns true if the sphere's centre lies on a convex edge that the features of both contacts have.
 fn share_an_edge(
     contact: &ContactCandidate,
     other: &ContactCandidate,
@@ -195,7 +199,7 @@ fn share_an_edge(
         .any(|ends| edges_under(other, radius, pieces).any(|other_ends| ends == other_ends))
 }
 
-/// End points of the convex edges of a contact's feature on which the sphere's centre lies.
+/// End points of those convex edges of a contact's feature on which the sphere's centre lies, m.
 fn edges_under<'p>(
     contact: &ContactCandidate,
     radius: f64,

@@ -5,12 +5,13 @@ use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 
-/// Rounding errors, in units of the hit position's rounding over the slope of the flatter face, up to which
-/// two distances count as equal.
+/// Difference up to which two ray distances count as equal, in units of the rounding error of the hit
+/// position divided by the slope of the flatter face.
 const ROUNDINGS: f64 = 64.0;
 
-/// Keeps one contact per ray: the first hit, ties in key order. Rays that also hit other movable groups of
-/// the same Object are resolved after all contacts are known.
+/// Keeps one contact per ray: the first hit; of hits at equal distance, the first in key order. A ray that
+/// also hits other movable groups of the Object of B is judged in `output/order.rs`, after all contacts are
+/// known.
 pub(super) fn keep_first_ray_hits(found: &mut [ContactCandidate], context: &PairContext<'_>) {
     for hits in found.chunk_by_mut(|a, b| a.key.primitive_a == b.key.primitive_a) {
         let mut first: Option<usize> = None;
@@ -30,10 +31,11 @@ pub(super) fn keep_first_ray_hits(found: &mut [ContactCandidate], context: &Pair
     }
 }
 
-/// Returns true if the ray hits this face before the other.
+/// Returns true if the ray hits the face of `hit` before the face of `other`.
 ///
-/// At a fold with both faces on one side of the ray, the distances are equal and rounding would decide. Then
-/// the face that hides the other from neighbouring rays counts.
+/// If the ray passes through the line where two faces of a mesh meet, and both faces lie on one side of the
+/// ray, the distances are equal up to rounding. Then the face that hides the other from neighbouring rays
+/// counts as hit first.
 fn is_first(hit: &ContactCandidate, other: &ContactCandidate, context: &PairContext<'_>) -> bool {
     let is_on_mesh = |hit: &ContactCandidate| hit.kind_b == PrimitiveKind::Triangle;
     if is_on_mesh(hit)
@@ -45,8 +47,9 @@ fn is_first(hit: &ContactCandidate, other: &ContactCandidate, context: &PairCont
     hit.ray_distance < other.ray_distance
 }
 
-/// Returns true if a face hides the other from rays next to one that passes through the line where their
-/// planes meet; `None` if the ray does not pass there, or if the faces lie on different sides of it.
+/// Returns true if the face of `hit` hides the face of `other` from neighbours of a ray that passes through
+/// the line where the planes of the two faces meet. `None` if the ray does not pass there, or if the faces
+/// lie on different sides of the ray.
 fn is_in_front_at_a_fold(
     hit: &ContactCandidate,
     other: &ContactCandidate,
@@ -63,7 +66,8 @@ fn is_in_front_at_a_fold(
     if apart * slopes[0].min(slopes[1]) > ROUNDINGS * f64::EPSILON * reached {
         return None;
     }
-    // Signed offset of each face from the ray, perpendicular to the ray and the fold.
+    // Signed offset of each face from the ray, in the direction perpendicular to the ray and to the line
+    // where the planes meet.
     let across = direction.cross(&normals[0].cross(&normals[1]));
     let sides = [hit, other].map(|hit| {
         let [a, b, c] = triangles.corners(hit.element_b);
@@ -72,7 +76,7 @@ fn is_in_front_at_a_fold(
     if sides[0] * sides[1] <= 0.0 {
         return None;
     }
-    // Increase of the hit distance for a ray shifted to that side.
+    // Increase of the hit distance of each face per unit by which the ray is shifted towards the faces.
     let across: Vec3 = across * sides[0].signum();
     let grows = |k: usize| normals[k].dot(&across) / slopes[k];
     Some(grows(0) < grows(1))

@@ -6,10 +6,11 @@ use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::state::ContactRole;
 use pong_geometry::primitive::PrimitiveKind;
 
-/// Keeps one of the two sides' contacts at a common rim. A centre in the plane of a two-sided triangle,
-/// beyond its rim, is in front of both sides; beyond a vertex of a folded rim it may be in front of two faces
-/// on different sides. Both sides then push with the same edge or vertex, and only the front's contact
-/// counts.
+/// Culls an edge or vertex contact of a back if the front has the same contact on the rim of both.
+///
+/// A centre in the plane of a two-sided triangle, outside its rim, is in front of both sides. A centre beyond
+/// a vertex of a folded rim may be in front of two faces on different sides. The front and the back then both
+/// push with the same edge or vertex.
 pub(super) fn keep_one_side_of_rims(found: &mut [ContactCandidate], context: &PairContext<'_>) {
     for index in 0..found.len() {
         if is_of_a_back(&found[index], context) {
@@ -21,13 +22,13 @@ pub(super) fn keep_one_side_of_rims(found: &mut [ContactCandidate], context: &Pa
     }
 }
 
-/// Cosine below which two normals count as opposite; near the contact point, rounding rotates the normal.
+/// Cosine below which two normals count as opposite; near the contact point, rounding turns the normal.
 const OPPOSITE_COSINE_MAX: f64 = -0.999;
 
-/// Culls contacts that push in the opposite direction at one point. At the end of a face that has the centre
-/// behind it, the edge or vertex, or the other side of a two-sided triangle, pushes the opposite way; on the
-/// border, rounding may find both. The face with the centre behind it counts.
-pub(super) fn keep_one_way_at_places(found: &mut [ContactCandidate]) {
+/// Culls contacts that touch the same point as a face that has the centre behind it and push the opposite
+/// way. Where the face ends, its edge or vertex, or the other side of a two-sided triangle, pushes the
+/// opposite way; rounding may find both contacts.
+pub(super) fn cull_opposite_at_points(found: &mut [ContactCandidate]) {
     for index in 0..found.len() {
         if !is_behind_a_face(&found[index]) {
             continue;
@@ -63,11 +64,11 @@ fn is_of_a_back(contact: &ContactCandidate, context: &PairContext<'_>) -> bool {
         && contact.element_b >= context.body_b.primitives[contact.primitive_b as usize].first_mirror
 }
 
-/// Relative rounding difference between the depths at one point as seen from both sides.
+/// Relative difference by which rounding may change the depth between the two sides of one edge or vertex.
 const SAME_DEPTH_SLACK: f64 = 1e-9;
 
-/// Returns true if the front has the same edge or vertex contact, up to rounding. The normals are not
-/// compared: for a centre on the rim itself, each side has its own.
+/// Returns true if `front` is the same edge or vertex contact as `back`, up to rounding. The normals are not
+/// compared: if the centre is on the rim, each side has its own normal.
 fn is_front_of(front: &ContactCandidate, back: &ContactCandidate) -> bool {
     (front.key.primitive_a, front.key.end) == (back.key.primitive_a, back.key.end)
         && front.primitive_b == back.primitive_b

@@ -7,7 +7,7 @@ use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::Item;
 
-/// Summation order: by key, then by feature of B.
+/// Summation order: by key, then by primitive, element and feature of B.
 pub(crate) type ContactOrder = (ContactKey, u32, u32, Feature);
 
 /// Contact candidate of a contact tester. Vectors are in the frame of B's movable group.
@@ -18,16 +18,16 @@ pub(crate) struct ContactCandidate {
     pub element_a: u32,
     pub element_b: u32,
     pub feature: Feature,
-    /// Current face of entry in the polyhedron of B.
+    /// Current face of entry in the polyhedron of B; [`NO_FACE`] if there is none.
     pub entry_face: u32,
-    /// Committed records of its key, if the tester has looked them up.
+    /// Committed records of the key, if the tester has looked them up.
     pub remembered: Option<RecordRange>,
     pub kind_b: PrimitiveKind,
     /// Index of A's element in its chunk.
     pub lane: u8,
-    /// True for half a spring (one end of a segment).
+    /// True for half a spring, as at each end of a segment or capsule.
     pub half: bool,
-    /// True if the contacts of its key share one spring.
+    /// True if the contacts of the key share one spring.
     pub shares: bool,
     pub status: CandidateStatus,
     pub role: ContactRole,
@@ -37,7 +37,7 @@ pub(crate) struct ContactCandidate {
     pub normal_b: Vec3,
     /// Deepest point of A, m.
     pub deepest_b: Vec3,
-    /// Distance along a ray, m; infinite for other kinds.
+    /// Distance from the origin of a ray to the hit, m; infinite for other kinds.
     pub ray_distance: f64,
     /// Weight w of docs/theory.md, 2.2; 1 for a single contact.
     pub weight: f64,
@@ -66,7 +66,7 @@ impl ContactCandidate {
         weight: 1.0,
     };
 
-    /// Candidate of an element of A and one of B, with a whole spring.
+    /// Candidate of an element of A and an element of B, with a whole spring.
     #[inline(always)]
     pub fn new(
         key: ContactKey,
@@ -89,7 +89,7 @@ impl ContactCandidate {
         }
     }
 
-    /// Marks it as sharing a spring with the others of its key; `half` at the end of an axis.
+    /// Marks the candidate as one that shares a spring with the others of its key; `half` for half a spring.
     pub fn share(&mut self, half: bool) {
         (self.shares, self.half) = (true, half);
     }
@@ -99,12 +99,12 @@ impl ContactCandidate {
         (self.key, self.primitive_b, self.element_b, self.feature)
     }
 
-    /// Returns true if it takes part in load sharing.
+    /// Returns true if the candidate takes part in load sharing.
     pub fn takes_part(&self) -> bool {
         self.status != CandidateStatus::Culled && self.role == ContactRole::Active
     }
 
-    /// Factor h: one half at the end of a segment, otherwise one.
+    /// Factor h: one half for half a spring, otherwise one.
     pub fn half_or_whole(&self) -> f64 {
         if self.half { 0.5 } else { 1.0 }
     }

@@ -1,4 +1,4 @@
-//! One element of A against one element of B, and the candidates of a chunk of A.
+//! Pair of an element of A and an element of B; candidates of a chunk of A.
 
 use super::candidate::{CandidateStatus, ContactCandidate};
 use super::nearest_side::KnownSides;
@@ -22,20 +22,20 @@ pub(crate) struct ChunkCandidates<'m> {
     pub list: &'m mut Table<ContactCandidate>,
     /// Number of candidates, including those dropped for lack of room.
     pub seen: u64,
-    /// True if there was not enough room. Then at least the deeper half of the capacity is kept, which is no
-    /// less than a frame may keep.
+    /// True if there was not enough room. The deepest candidates have then been kept, at least half of the
+    /// capacity; a frame keeps no more contacts than that.
     pub overflowed: bool,
     pub deferred: &'m mut DeferredPairs,
     pub sides: KnownSides,
 }
 
-/// Pairs of spheres or ellipsoids with triangles. Their tests are deferred until there are eight or the batch
-/// of B ends. A chunk has elements of one kind.
+/// Pairs of a sphere or ellipsoid and a triangle whose tests are deferred until there are eight pairs, or
+/// until the batch of B ends. The pairs are all of one kind, that of the chunk.
 #[derive(Debug)]
 pub(crate) struct DeferredPairs {
     pub spheres: SphereTrianglePairs,
     pub ellipsoids: EllipsoidTrianglePairs,
-    /// Lane of A and triangle of each pair.
+    /// Lane of A's element and triangle of B, by pair.
     pub from: [(u8, Item); LANES],
 }
 
@@ -57,7 +57,8 @@ impl DeferredPairs {
         self.spheres.count() + self.ellipsoids.count()
     }
 
-    /// Adds a pair of an element and a triangle with this thickness for it, m; returns the pair's index.
+    /// Adds a pair of an element and a triangle with its thickness for the element, m; returns the index of
+    /// the pair.
     #[inline(always)]
     pub fn add(&mut self, element: &Ellipsoidal<'_>, triangle: u32, thickness: f64) -> usize {
         match element {
@@ -66,7 +67,7 @@ impl DeferredPairs {
         }
     }
 
-    /// Sets the element of the pairs pushed next, and the thickness for it, m.
+    /// Sets the element of the pairs that `push` adds, and the thickness of the triangles for it, m.
     #[inline(always)]
     pub fn begin<S: Simd>(&mut self, simd: S, element: &Ellipsoidal<'_>, thickness: f64) {
         match element {
@@ -75,7 +76,7 @@ impl DeferredPairs {
         }
     }
 
-    /// Adds a pair of the element set by `begin`; returns its index.
+    /// Adds a pair of the element set by `begin` and a triangle; returns the index of the pair.
     #[inline(always)]
     pub fn push(&mut self, element: &Ellipsoidal<'_>, triangle: u32) -> usize {
         match element {
@@ -84,8 +85,7 @@ impl DeferredPairs {
         }
     }
 
-    /// Filters the pairs eight at a time against their set of triangles, and removes them; the result marks
-    /// those that may touch.
+    /// Removes all pairs; the result marks the pairs that may touch. `set` has their triangles.
     #[inline(always)]
     pub fn tell(&mut self, set: &TriangleSet) -> PairsTold {
         if self.ellipsoids.count() > 0 {
@@ -102,7 +102,7 @@ impl DeferredPairs {
 
 impl<'m> ChunkCandidates<'m> {
     pub fn new(list: &'m mut Table<ContactCandidate>, deferred: &'m mut DeferredPairs) -> Self {
-        // A panic may have left candidates behind.
+        // A panic in an earlier frame may have left candidates behind.
         list.clear();
         deferred.clear();
         Self { list, seen: 0, overflowed: false, deferred, sides: KnownSides::default() }
@@ -113,13 +113,13 @@ impl<'m> ChunkCandidates<'m> {
         (self.seen, self.overflowed) = (0, false);
     }
 
-    /// Returns true if there are deferred tests.
+    /// Returns true if tests are deferred.
     #[inline]
     pub fn has_deferred(&self) -> bool {
         self.deferred.count() > 0
     }
 
-    /// Slot for one more candidate; the caller writes all of it.
+    /// Memory of one more candidate; the caller writes all fields.
     pub fn slot(&mut self) -> &mut ContactCandidate {
         self.seen += 1;
         if self.list.len() == self.list.capacity() {
@@ -135,12 +135,12 @@ impl<'m> ChunkCandidates<'m> {
     }
 }
 
-/// Value of `end` for a contact of a capsule between its ends.
+/// Value of [`ContactKey::end`] for a contact of a capsule between its ends.
 pub(crate) const BETWEEN_ENDS: u32 = 2;
 
 /// A sphere, or the end sphere of a capsule.
 pub(crate) struct Ball<'s> {
-    /// The sphere in B's frame. Borrowed, because copying values just written would stall.
+    /// Sphere in B's frame; borrowed, because a copy would stall on store forwarding.
     pub sphere: &'s Sphere,
     /// End index, for a capsule.
     pub end: Option<u32>,
@@ -190,8 +190,8 @@ impl<'a> ElementPair<'a> {
         &self.body_b().primitives[self.item_b.primitive as usize]
     }
 
-    /// Current face of entry, and pushing face, for a point inside B's polyhedron, given in A's frame
-    /// (`local`) and B's (`p`).
+    /// Current face of entry and pushing face, for a point inside B's polyhedron: `local` in A's frame, `p`
+    /// in B's frame.
     #[inline]
     pub fn entry_face(&self, remembered: &RecordsOfKey<'_>, local: &Vec3, p: &Vec3) -> Option<EntryFace> {
         PolyhedronEntry {
@@ -227,7 +227,7 @@ impl<'a> ElementPair<'a> {
         ContactKey { end, ..self.key() }
     }
 
-    /// Centre of a sphere of A in A's frame, m. Rarely needed.
+    /// Centre of a sphere or capsule end sphere of A, in A's frame, m.
     pub fn center_a(&self, ball: &Ball<'_>) -> &'a Vec3 {
         let element = self.item_a.element as usize;
         match ball.end {
@@ -242,7 +242,8 @@ impl<'a> ElementPair<'a> {
         }
     }
 
-    /// Adds a sphere's contact, which shares its spring with the others of the same surface.
+    /// Adds the contact of a sphere, which shares its spring with the other contacts of the sphere with the
+    /// same surface.
     pub fn sharing(&self, ball: &Ball<'_>, contact: &Interference, found: &mut ChunkCandidates<'_>) {
         let key = self.key_at(ball.end.unwrap_or(0));
         self.emit_under(key, contact, found, |out| out.share(ball.end.is_some()));
@@ -286,7 +287,7 @@ pub(crate) fn status_of(containment: Containment) -> CandidateStatus {
     }
 }
 
-/// Reports a tester that was called with a primitive of a kind other than its table row's.
+/// Panics: a tester was called with a kind of primitive that its table row does not name.
 #[cold]
 pub(crate) fn wrong_kind(a: &TransformedPrimitive) -> ! {
     unreachable!("the row of this test in the table of pairs names another kind than that of {a:?}")

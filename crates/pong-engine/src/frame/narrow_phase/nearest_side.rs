@@ -1,5 +1,5 @@
-//! Side of a triangle surface on which a centre lies, from the nearest point of the surface; for a centre
-//! without an earlier position.
+//! Side of a triangle surface on which a centre lies, if the centre has no earlier position: decided at the
+//! nearest point of the surface.
 
 use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
@@ -10,7 +10,7 @@ use pong_geometry::simd::{LANES, Portable};
 use pong_model::box_tree::{Child, lanes};
 use pong_model::{Item, MovableGroup};
 
-/// Relative widening of the box that is searched for triangles at a given distance.
+/// Relative widening of the search box around the centre, so that rounding excludes no triangle.
 const REACH_SLACK: f64 = 1e-6;
 
 /// Distance from a plane, relative to the lengths involved, below which a centre counts as in it.
@@ -27,7 +27,8 @@ pub(crate) struct Nearby<'a> {
 /// A sphere or an ellipsoid (end 0), or one end of a capsule.
 type End = (Item, u32);
 
-/// Cache of the sides determined in a block, one entry per element end and surface.
+/// Cache of the sides found in a block: an end of an element of A, a shell of B, and true if the centre is in
+/// front of the shell. A new entry replaces the oldest.
 #[derive(Default)]
 pub(crate) struct KnownSides {
     of: [Option<(End, u32, bool)>; LANES],
@@ -54,8 +55,9 @@ impl Nearby<'_> {
         self.item.element >= self.body.primitives[self.item.primitive as usize].first_mirror
     }
 
-    /// Returns true if the centre is behind a contact with the triangle: behind all faces that meet at the
-    /// contact feature. A centre in the plane of a two-sided triangle is on its front, hence behind its back.
+    /// Returns true if the centre is behind the contact point along the normal, and behind all faces that
+    /// meet at the contact's feature. A centre in the plane of a two-sided triangle is on its front side,
+    /// hence behind its back.
     pub fn is_behind(&self, contact: &TriangleContact) -> bool {
         let Interference { depth, normal_b, deepest_b, feature } = &contact.interference;
         let arm = self.center_b - deepest_b;
@@ -65,8 +67,8 @@ impl Nearby<'_> {
         height <= -rounding && !is_in_front_of_a_face(&self.center_b, set, triangle, *feature, rounding)
     }
 
-    /// Returns true if a point is in front of the triangle's plane, or within rounding of it. Within rounding
-    /// of a two-sided triangle, it is on the front, hence behind the back.
+    /// Returns true if a point is in front of the triangle's plane, or within rounding of it. A point within
+    /// rounding of a two-sided triangle is on its front side.
     pub fn is_in_front_of_triangle(&self, p: &Vec3) -> bool {
         let view = TriangleView::new(&self.body.triangles, self.item.element);
         let rounding = ROUNDING * ((p - view.corners[0]).amax() + p.amax());
@@ -81,8 +83,8 @@ impl Nearby<'_> {
     /// Returns true if the centre is in front of the surface at the surface point nearest to it; always true
     /// for two-sided triangles.
     ///
-    /// The nearest triangle of the whole surface decides, ties by model order. The result therefore does not
-    /// depend on bounding volumes, leaves or blocks.
+    /// The nearest triangle of the whole surface decides, ties by model order, so the result does not depend
+    /// on bounding volumes, leaves or blocks.
     pub fn is_in_front(&self) -> bool {
         let set = &self.body.triangles;
         let (front, shell) = (self.front(), self.surface());

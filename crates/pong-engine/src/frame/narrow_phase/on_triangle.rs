@@ -1,4 +1,5 @@
-//! Common part of the sphere and ellipsoid tests against a triangle: side of origin, and thickness.
+//! Common part of the sphere and ellipsoid tests against a triangle: side from which the centre came, and
+//! thickness.
 
 use super::candidate::CandidateStatus;
 use super::element_pair::{ChunkCandidates, ElementPair};
@@ -25,7 +26,8 @@ pub(crate) struct Centre {
     pub end: Option<u32>,
 }
 
-/// Adds the contact of one centre with one triangle, unless the centre came from behind.
+/// Adds a contact of one centre with one triangle, with its role. Adds nothing if the contact would push from
+/// behind a centre that did not come from the front.
 pub(crate) fn on_triangle(
     pair: &ElementPair<'_>,
     center: &Centre,
@@ -62,8 +64,8 @@ pub(crate) fn on_triangle(
     });
 }
 
-/// Returns true if the sphere or ellipsoid was behind a feature of the triangle, and over it, at the last
-/// commit.
+/// Returns true if A touched the feature of the triangle at the last commit with the centre behind the
+/// feature, whether the contact pushed or not.
 fn touched_triangle_behind(pair: &ElementPair<'_>, end: Option<u32>, feature: Feature) -> bool {
     let Some(since) = pair.motion().since_commit else { return false };
     let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
@@ -103,8 +105,8 @@ pub(crate) fn thickness_for_ellipsoid(
     given.unwrap_or(ellipsoid.smallest_semi_axis())
 }
 
-/// Returns true if a contact would push from behind a centre that has no earlier position and that is in
-/// front of the surface at its nearest point.
+/// Returns true if the centre is behind the contact's feature but in front of the surface at its nearest
+/// point; for a centre without an earlier position. Such a contact does not count.
 fn is_set_down_in_front(
     pair: &ElementPair<'_>,
     center: &Centre,

@@ -1,5 +1,5 @@
-//! Side of entry: polyhedra push an element back to the side it came from; triangles do not push one that
-//! came from behind (docs/theory.md, 2.2 and 2.4).
+//! Side of entry: a polyhedron pushes an element back to the side from which it came; a triangle does not
+//! push an element that came from behind (docs/theory.md, 2.2 and 2.4).
 
 use crate::frame::input::motion::SinceCommit;
 use crate::frame::narrow_phase::nearest_side::{Nearby, ROUNDING, visit_triangles};
@@ -17,11 +17,11 @@ use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray};
 use pong_model::{Item, MovableGroup};
 use std::num::NonZeroU32;
 
-/// Current face of entry of a polyhedron, and the face that pushes. Packed, so that the `Option` is returned
-/// in one register.
+/// Current face of entry of a polyhedron, and the face that pushes. Packed: the `Option` is returned in one
+/// register.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EntryFace {
-    /// Index of the current face plus one.
+    /// Index of the current face of entry plus one.
     reached: NonZeroU32,
     pushes: u32,
 }
@@ -50,7 +50,7 @@ pub(crate) struct PolyhedronEntry<'a> {
     pub shell: u32,
     /// Index of the polyhedron in the body.
     pub piece: u32,
-    /// The point in A's frame. Its earlier position in B's frame is computed on demand, which is rare.
+    /// The point in A's frame. Its earlier position in B's frame is computed only if needed.
     pub point_a: &'a Vec3,
     pub since: Option<&'a SinceCommit>,
     /// The point in B's frame.
@@ -84,8 +84,9 @@ impl PolyhedronEntry<'_> {
         &self.body.polyhedra[self.piece as usize]
     }
 
-    /// Remembered face of entry. If it belongs to another piece of the same surface, it is transferred if the
-    /// straight path since the last commit came from there through an internal face.
+    /// Remembered face of entry. If the remembered face belongs to another piece of the surface, the result
+    /// is the face of this piece whose normal is nearest to it. If the straight path since the last commit
+    /// entered this piece through an active face, that face is the result.
     fn remembered(&self) -> Option<usize> {
         let with_face = || self.records.iter().filter(|record| record.entry_face != NO_FACE);
         let record =
@@ -98,14 +99,14 @@ impl PolyhedronEntry<'_> {
         let polyhedron = self.polyhedron();
         let entry = self.earlier_b().and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
         match entry {
-            // The path left the old piece and entered again; leaving cleared the memory.
+            // The path left the body and entered it again: the remembered face no longer counts.
             Some(entry) if polyhedron.faces[entry.face].active => Some(entry.face),
             _ => face_most_along(&old.normal, &self.point_b, polyhedron),
         }
     }
 
-    /// Face through which the straight path since the last commit entered; the least deep one if there is no
-    /// path.
+    /// Face through which the straight path since the last commit entered the surface; the face of least
+    /// depth if there is no path.
     fn entered_by(&self) -> Option<usize> {
         let polyhedron = self.polyhedron();
         let entry = self.earlier_b().and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
@@ -118,8 +119,9 @@ impl PolyhedronEntry<'_> {
         }
     }
 
-    /// Face of entry for a path that came through an internal face at `at`: the last active face before it by
-    /// which the path entered the surface, transferred to this piece.
+    /// Face of entry for a path that entered this piece through an internal face, at the parameter `at`. It
+    /// follows from the last active face through which the path entered another piece before: the result is
+    /// the face of this piece whose normal is nearest to the normal of that face.
     fn entered_through_wall(&self, at: f64) -> Option<usize> {
         let earlier = self.earlier_b()?;
         let wall = earlier + (self.point_b - earlier) * at;
@@ -153,13 +155,13 @@ pub(crate) struct TriangleEntry<'a> {
     pub center_b: Vec3,
     /// Centre at the last commit, in B's frame.
     pub earlier_b: Option<Vec3>,
-    /// Returns true if A touched a feature of the triangle from behind at the last commit, whether it was
-    /// pushed or not.
+    /// Returns true if A touched a feature of the triangle at the last commit with the centre behind it,
+    /// whether the contact pushed or not.
     pub touched_behind: &'a dyn Fn(Feature) -> bool,
 }
 
 impl TriangleEntry<'_> {
-    /// Role of a contact: pushes, or is on the wrong side; `None` if there is no contact.
+    /// Role of a contact: `Active` or `WrongSide`; `None` if the contact does not count.
     pub fn role(&self, contact: &TriangleContact) -> Option<ContactRole> {
         let nearby = self.nearby();
         let may_be_behind = contact.standing != Standing::Front || nearby.is_mirror();
@@ -178,15 +180,16 @@ impl TriangleEntry<'_> {
         Some(if barred { ContactRole::WrongSide } else { ContactRole::Active })
     }
 
-    /// Returns true if a feature that has the centre behind it pushes it back to the front, because the
-    /// centre came from there. That is so
-    /// - if at the last commit it was behind a feature that pushed the same way;
-    /// - if it was in front of a face of this feature, and has not merely passed beside it; or
-    /// - if its path since then came through the surface from the front, and the crossing is no nearer than
-    ///   its depth below this feature.
+    /// Returns true if a feature that has the centre behind it pushes the centre back to the front, because
+    /// the centre came from there. One of these conditions must hold:
+    /// - at the last commit, a contact with nearly the same normal held the centre from behind;
+    /// - at the last commit, the centre was in front of a face at this feature, and it has not passed the
+    ///   face's plane beside the face;
+    /// - since the last commit, the path of the centre crossed the surface from the front, and the centre
+    ///   lies below this feature by no more than its distance from the crossing.
     ///
-    /// Otherwise the feature belongs to a farther sheet of the surface, behind which the centre has been all
-    /// the time.
+    /// Otherwise the feature belongs to a farther sheet of the surface, and the centre has been behind that
+    /// sheet all the time.
     fn pushes_from_behind(&self, contact: &TriangleContact) -> bool {
         let Some(earlier) = self.earlier_b else { return true };
         let Interference { depth, normal_b, deepest_b, feature } = &contact.interference;
@@ -204,7 +207,7 @@ impl TriangleEntry<'_> {
         let is_or_was_in_plane =
             || in_plane(self.height_of(&earlier), &earlier) || in_plane(-below, &self.center_b);
         if self.nearby().is_mirror() && is_or_was_in_plane() {
-            // In the plane, which counts as the front: no crossing.
+            // A centre in the plane counts as on the front side: no crossing.
             return false;
         }
         if below > (self.center_b - earlier).norm() {
@@ -214,12 +217,12 @@ impl TriangleEntry<'_> {
         crossed.from_front < crossed.from_behind && below <= crossed.from_front * (1.0 + ROUNDING)
     }
 
-    /// Returns true if a centre that was in front of a feature's plane at the last commit, and is behind it
-    /// now, came through the surface or belongs to its back.
+    /// Returns true if the feature pushes a centre that was in front of the feature's plane at the last
+    /// commit and is behind the plane now.
     ///
-    /// A plane extends beyond its face. If the path since then does not cross the surface, and the centre is
-    /// in front of it now, it has passed the plane beside the face. It is then treated as placed there,
-    /// unless the contact held it already.
+    /// The plane extends past its face. The centre has passed the plane beside the face if its path did not
+    /// cross the surface and it is in front of the surface at its nearest point. The feature does not push
+    /// such a centre, unless a record shows that the contact held it before.
     fn came_through_or_under(&self, contact: &TriangleContact, earlier: &Vec3) -> bool {
         let normal_b = &contact.interference.normal_b;
         let held = |role| self.remembered.matching(normal_b, role).is_some();
@@ -229,8 +232,9 @@ impl TriangleEntry<'_> {
             || !self.nearby().is_in_front()
     }
 
-    /// Returns true if the centre was in front of any triangle that meets at the feature at the last commit.
-    /// A centre in a triangle's plane is in front of it; for a two-sided triangle, on its front.
+    /// Returns true if, at the last commit, the centre was in front of a triangle at the feature. A centre in
+    /// the plane of a triangle counts as in front of it; a centre in the plane of a two-sided triangle, as on
+    /// its front side.
     fn was_in_front(&self, earlier: &Vec3, feature: Feature) -> bool {
         let rounding = ROUNDING * earlier.amax() * if self.nearby().is_mirror() { -1.0 } else { 1.0 };
         is_in_front_of_a_face(earlier, &self.body.triangles, self.triangle.element, feature, rounding)
@@ -240,9 +244,10 @@ impl TriangleEntry<'_> {
         TriangleView::new(&self.body.triangles, self.triangle.element).height(p)
     }
 
-    /// Returns true if a remembered contact with nearly this normal held the centre from behind, or in its
-    /// plane. A contact of another feature counts only if the centre has moved over the present feature
-    /// since: one that it was over before, and that did not push, does not push now.
+    /// Returns true if a remembered contact with nearly the same normal held a centre that was behind its
+    /// feature or in its plane. A record of another feature counts only if A did not touch the present
+    /// feature from behind at the last commit: a feature that was touched then and did not push does not push
+    /// now.
     fn was_held_behind(&self, present: &Interference, earlier: &Vec3) -> bool {
         let records = self.remembered.records;
         let Interference { normal_b, feature, .. } = present;
@@ -268,31 +273,32 @@ impl TriangleEntry<'_> {
 
     /// Last crossings of the surface by the straight path since the last commit.
     ///
-    /// Both directions are evaluated on one line, so that the two sides of a two-sided triangle agree. A path
-    /// that starts or ends within rounding of the surface does so in front of it (on the front, for a
-    /// two-sided triangle). Entering and leaving at one point, as through a vertex from outside, is no
-    /// crossing.
+    /// One line serves both directions, so that the two sides of a two-sided triangle agree. A path that
+    /// starts or ends within rounding of the surface does so in front of it; for a two-sided triangle, on its
+    /// front side. A path that enters and leaves at one point, as through a vertex from outside, does not
+    /// cross.
     fn last_crossings(&self, earlier: &Vec3, shell: u32) -> LastCrossings {
         let length = (self.center_b - earlier).norm();
         let rounding = ROUNDING * (length + earlier.amax() + self.center_b.amax());
-        let mut since = 0.0;
+        let mut skipped = 0.0;
         loop {
-            let last = self.last_crossings_before(earlier, shell, since);
+            let last = self.last_crossings_before(earlier, shell, skipped);
             let LastCrossings { from_behind, from_front } = last;
             // `are_any` excludes two infinities, whose difference would be NaN.
             if !last.are_any() || from_behind.max(from_front) > from_behind.min(from_front) + rounding {
                 return last;
             }
-            since = from_behind.max(from_front) + rounding;
+            skipped = from_behind.max(from_front) + rounding;
         }
     }
 
-    /// Last crossings that lie more than `since` (m) before the end of the path.
-    fn last_crossings_before(&self, earlier: &Vec3, shell: u32, since: f64) -> LastCrossings {
+    /// Last crossings that lie more than `skipped` (m) before the end of the path.
+    fn last_crossings_before(&self, earlier: &Vec3, shell: u32, skipped: f64) -> LastCrossings {
         let mut last = LastCrossings { from_behind: f64::INFINITY, from_front: f64::INFINITY };
         let Some(line) = Ray::between(earlier, &self.center_b) else { return last };
         let length = line.length;
-        // The ends of the path are judged by heights: a grazing line meets a face at an undefined parameter.
+        // Heights decide on which side the ends of the path are, and the ray is unbounded: the hit distance
+        // of a grazing ray is undefined.
         let ray = Ray { length: f64::MAX, ..line };
         visit_triangles(self.body, &earlier.inf(&self.center_b), &earlier.sup(&self.center_b), &mut |item| {
             let (set, triangle) = (&self.body.triangles, item.element);
@@ -303,7 +309,7 @@ impl TriangleEntry<'_> {
             let back = || ray_back_of_triangle(&ray, set, triangle, f64::MAX);
             let Some(hit) = front.or_else(back) else { return };
             let ago = (length - hit.distance).clamp(0.0, length);
-            if since > 0.0 && ago <= since {
+            if skipped > 0.0 && ago <= skipped {
                 return;
             }
             let nearby = Nearby { item, ..self.nearby() };
@@ -321,7 +327,8 @@ impl TriangleEntry<'_> {
     }
 }
 
-/// Distance before the end of a path of its last crossing from either side, m; infinite without a crossing.
+/// Distances from the last crossings of a surface to the end of a path, m, by the side from which the path
+/// came; infinite without a crossing.
 struct LastCrossings {
     from_behind: f64,
     from_front: f64,

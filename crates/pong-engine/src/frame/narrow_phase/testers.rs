@@ -1,5 +1,5 @@
-//! Dispatches the elements of A that may touch an element of B to their contact tester, eight at a time where
-//! that is faster.
+//! Dispatches elements of A to the contact tester for an element of B that they may touch; eight elements at
+//! a time where that is faster.
 
 use super::element_pair::{Ball, ChunkCandidates, ElementPair};
 use super::on_triangle::thickness_for;
@@ -15,7 +15,7 @@ use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::Item;
 use pong_model::box_tree::lanes;
 
-/// Line segments near a polyhedron from which the eight-wide test is faster.
+/// Least number of line segments near a polyhedron for which the eight-wide test is faster.
 const WORTH_EIGHT: u32 = 2;
 
 /// One element of B, to be tested against a chunk of A.
@@ -26,7 +26,7 @@ pub(crate) struct Target<'a> {
 }
 
 impl<'a> Target<'a> {
-    /// Tests the elements of A in the lanes `near`, whose boxes overlap the element's.
+    /// Tests the elements of A in the lanes `near`, whose boxes overlap the box of the element of B.
     #[inline(always)]
     pub fn test_lanes<S: Simd>(
         &self,
@@ -52,8 +52,8 @@ impl<'a> Target<'a> {
         counts.note_testers(chunk.kind, self.kind_b, tested, (found.seen - before) as u32);
     }
 
-    /// Removes elements that the plane of one face of the polyhedron separates: most points, spheres and line
-    /// segments.
+    /// Removes the lanes whose element is separated from the polyhedron by the plane of a face, as are most
+    /// points, spheres and line segments.
     #[inline(always)]
     fn not_separated<S: Simd>(&self, simd: S, chunk: &Chunk<'_>, near: LaneBits) -> LaneBits {
         if self.kind_b != Polyhedron {
@@ -85,21 +85,21 @@ impl<'a> Target<'a> {
                 of_lane = one;
                 &of_lane
             }
-            // Kinds that are never A in the table have no transformed copy: a registered test takes the model's.
+            // Kinds without a transformed copy are tested only by registered tests, which read the model.
             None => chunk.carried(lane).unwrap_or(&TransformedPrimitive::NOTHING),
         };
         test(&pair, a, found);
     }
 }
 
-/// Returns true if pairs of these kinds are deferred until there are eight.
+/// Returns true if tests of these kinds are deferred until there are eight pairs.
 #[inline(always)]
 pub(super) fn is_deferred(kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
     kind_b == Triangle && matches!(kind_a, PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid)
 }
 
-/// Defers the tests of spheres or ellipsoids of a chunk, by lane, against a triangle until there are eight
-/// pairs.
+/// Adds pairs of a triangle and the spheres or ellipsoids in the lanes `near` to the deferred tests, and runs
+/// the tests whenever there are eight pairs.
 #[inline(always)]
 fn defer(
     context: &PairContext<'_>,
@@ -119,8 +119,8 @@ fn defer(
     }
 }
 
-/// Runs the deferred tests of a chunk in their order. Takes the chunk by value: passing a reference would
-/// force it to memory for every chunk.
+/// Runs the deferred tests of a chunk in the order in which they were added. Takes the chunk by value: a
+/// reference would force every chunk to memory.
 #[inline(never)]
 pub(crate) fn test_deferred(
     context: &PairContext<'_>,

@@ -1,13 +1,13 @@
 //! Pairs of movable groups that may have contacts in a frame: the broad phase over groups.
 //!
 //! If groups have few pairs each, every enabled pair is visited. If they have many, a pair is visited only if
-//! the bounds that the two have swept since the last commit overlap ([`SweptBounds`]; docs/theory.md, 2.7): a
-//! visit of any other pair would find neither a contact nor tunnelling. Records of ended contacts are handled
-//! without a visit.
+//! the bounds that its two groups have swept since the last commit overlap ([`SweptBounds`]; docs/theory.md,
+//! 2.7): a visit of any other pair would find neither a contact nor tunnelling. Records of ended contacts are
+//! checked without a visit.
 //!
 //! Overlaps are found with a tree of widened bounds ([`BoundsTree`]); its result stays valid until a group
-//! leaves its widened bounds. The pairs visited are those whose exact bounds overlap, so they do not depend
-//! on results kept from earlier frames.
+//! leaves its widened bounds. A pair is visited if the exact bounds of its groups overlap, so the pairs
+//! visited do not depend on results kept from earlier frames.
 
 mod swept;
 #[cfg(test)]
@@ -21,12 +21,11 @@ use pong_geometry::Pose;
 use swept::{Bounds, SweptBounds};
 use tree::BoundsTree;
 
-/// Number of pairs whose motions are computed at once. Crowded or spinning worlds have more pairs; their
-/// frames run in several rounds.
+/// Number of pairs whose motions are computed at once. A frame that visits more pairs runs in several rounds.
 pub(crate) const MOTIONS_AT_ONCE: usize = 4096;
 
-/// Average number of pairs per movable group above which groups are bounded first; visiting so many pairs
-/// takes about ten times as long.
+/// Average number of pairs per movable group above which groups are bounded first. With so many pairs,
+/// visiting all of them takes about ten times as long.
 const MET_MIN: usize = 32;
 
 /// Pairs of movable groups that a frame visits, in order.
@@ -101,7 +100,8 @@ struct ManyPairs {
     /// Pairs whose widened bounds overlap, in order.
     candidates: Vec<u32>,
     tree: BoundsTree,
-    /// Per movable group, the index of its first pair as `first`; one more entry marks the end.
+    /// Index of the first pair that has a movable group as `first`, by movable group; one more entry marks
+    /// the end.
     first_pair: Vec<usize>,
 }
 
@@ -138,7 +138,7 @@ impl ManyPairs {
         }));
     }
 
-    /// Widens the current bounds, and lists the pairs that overlap.
+    /// Widens the current bounds, and lists the pairs whose widened bounds overlap.
     fn widen(&mut self, sealed: &Sealed) {
         for &body in &*sealed.paired_bodies {
             self.widened[body] = self.swept.widened(body);
@@ -155,8 +155,8 @@ impl ManyPairs {
     }
 }
 
-/// Index of the pair with `second` among the pairs of one movable group. If all groups are paired with each
-/// other, it follows from the group indices.
+/// Index of the pair with `second` among the pairs of one movable group. If that group is paired with every
+/// group after it, the index follows from the group indices.
 fn place_of(second: usize, of_first: &[GroupPair]) -> Option<usize> {
     let guess = second.checked_sub(of_first.first()?.second)?;
     if of_first.get(guess).is_some_and(|pair| pair.second == second) {

@@ -1,15 +1,15 @@
 //! Bounds of the volume that movable groups may have swept since the last commit (docs/theory.md, 2.7).
 //!
-//! Movable group *i* lies in a ball of radius rᵢ. P and P′ are its centre now and then, in common axes about
-//! a reference point that moves with all groups; sᵢ = |P − P′|. With θ the largest chord 2·sin(φ/2) of the
-//! rotations φ since then,
+//! Movable group *i* lies in a ball of radius rᵢ. P and P′ are the centre of the ball now and at the last
+//! commit, along the common axes and relative to the mean of all centres; sᵢ = |P − P′|. With θ the largest
+//! chord 2·sin(φ/2) of the rotations φ of the groups since the last commit,
 //!
 //! ```text
 //! box of i = box around P and P′, grown by Rᵢ = (rᵢ + θ·sᵢ/4)/(1 − θ)
 //! ```
 //!
-//! If two boxes are disjoint, the balls are apart now, and the path of any point of one group relative to the
-//! other misses the other's ball.
+//! If two boxes are disjoint, the balls are apart now, and the path of every point of one group, seen from
+//! the other group, has stayed outside that group's ball.
 
 use crate::scene::Scene;
 use crate::state::{CommittedPoses, Past};
@@ -18,18 +18,20 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Pose, Vec3};
 use pong_model::{MovableGroup, PrimitiveInfo};
 
-/// Largest bounded chord (a quarter: 14°). The paths of a group that has turned further, seen from itself,
-/// sweep past everything in that direction, so it gets no bounds.
+/// Largest chord for which a group gets bounds (14°). Seen from a group that has turned further, even distant
+/// groups move past it, so all its pairs are visited.
 const CHORD_MAX: f64 = 0.25;
 
 /// Relative margin of the boxes: ten thousand times the rounding error here and in the pair tests.
 const RELATIVE_MARGIN: f64 = 1e-12;
 
-/// Widening in units of the motion since the last commit, so that the box stays valid for that many frames.
+/// Widening, in units of the motion since the last commit: at constant speed the box stays valid for that
+/// many frames.
 const FRAMES_AHEAD: f64 = 8.0;
 
-/// Least and greatest widening, as shares of the ball's radius; a larger share applies if the motion since
-/// the last commit is larger. Too little is soon left, too much makes candidates of pairs that are not near.
+/// Least and greatest widening, in units of the radius of the ball; the greatest is at least the motion since
+/// the last commit. A group soon leaves a box that is too small, and a box that is too large overlaps boxes
+/// of groups that are not near.
 const WIDENED_BY: [f64; 2] = [0.125, 1.0];
 
 /// A box in common axes, m.
@@ -71,7 +73,7 @@ impl Bounds {
         inside(0) && inside(1) && inside(2) && (self.low_w[0].is_finite() || !other.low_w[0].is_finite())
     }
 
-    /// Smallest box that contains both.
+    /// Smallest box that contains both boxes.
     pub fn merge(&self, other: &Self) -> Self {
         Self { low_w: self.low_w.inf(&other.low_w), high_w: self.high_w.sup(&other.high_w) }
     }
@@ -98,7 +100,7 @@ impl Ball {
             Volume::Sphere { center, radius } => (*center, *radius),
             Volume::Custom(_) | Volume::Unbounded => (Vec3::zeros(), f64::INFINITY),
         };
-        // The corners of a box around a sphere lie outside the sphere.
+        // The corners of a box around spheres lie outside of them: measure the spheres instead.
         let plain = |info: &PrimitiveInfo| {
             matches!(info.kind, PrimitiveKind::Point | PrimitiveKind::LineSegment | PrimitiveKind::Sphere)
         };
@@ -113,12 +115,12 @@ impl Ball {
     }
 
     fn center_in(&self, pose: &Pose, origin: &Vec3) -> Vec3 {
-        // Subtract positions first, so that no precision is lost to a far origin.
+        // Difference of positions first: a far origin costs no precision.
         (pose.position - origin) + pose.orientation * self.center
     }
 }
 
-/// Motion of a movable group since the last commit.
+/// Motion of the centre of a movable group's ball since the last commit, m.
 #[derive(Clone, Copy, Debug)]
 struct Sweep {
     now: Vec3,
@@ -154,8 +156,8 @@ impl SweptBounds {
         }
     }
 
-    /// Bounds the volumes that these groups have swept since the last commit (one epoch), or their current
-    /// volumes without history.
+    /// Bounds the volumes that these groups have swept since the last commit, which was in one epoch for all
+    /// of them; without a commit, their current volumes.
     pub fn sweep(&mut self, bodies: &[usize], poses: &[Pose], committed: &CommittedPoses) {
         let Some(&first) = bodies.first() else { return };
         let pose_before = |body: usize| match committed.past() {
@@ -205,7 +207,8 @@ impl SweptBounds {
     }
 }
 
-/// Chord 2·sin(φ/2) of a rotation, at most 2·|q − q′|; of q and −q, the nearer one counts.
+/// Upper bound 2·|q − q′| of the chord 2·sin(φ/2) of the rotation between two poses. q and −q are one
+/// orientation; the nearer of them counts.
 fn chord(pose: &Pose, before: &Pose) -> f64 {
     let (q, p) = (&pose.orientation.coords, &before.orientation.coords);
     2.0 * (q - p).norm_squared().min((q + p).norm_squared()).sqrt()

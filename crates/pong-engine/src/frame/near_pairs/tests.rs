@@ -1,6 +1,6 @@
-//! Frames that visit only near pairs against frames that visit all pairs: bit-identical results in worlds of
-//! many groups that rest, fly, spin, are far away or drift together, with pairs switched off, cleared and
-//! saved meanwhile.
+//! Frames that visit only near pairs give bit-identical results to frames that visit all pairs: worlds of
+//! many groups that rest, fly, spin, are far from the origin or drift together, while pairs are switched off,
+//! contact histories cleared and contact states saved.
 
 use super::swept::Bounds;
 use super::tree::BoundsTree;
@@ -154,8 +154,8 @@ impl Flock {
     }
 }
 
-/// Runs both worlds through the same frames. Returns the number of pairs that the first visited, of all
-/// pairs, and of contacts and passages.
+/// Runs two equal worlds through the same frames; one visits only near pairs. Returns the number of pairs
+/// that this world visited, of all pairs, of contacts, and of tunnelling events.
 fn compare(seed: u64, config: &Config, plane: bool, regime: &Regime) -> [usize; 4] {
     let mut near = Flock::new(config.clone(), plane, regime, &mut Random(seed));
     let mut all = Flock::new(config.clone(), plane, regime, &mut Random(seed));
@@ -194,7 +194,7 @@ fn compare(seed: u64, config: &Config, plane: bool, regime: &Regime) -> [usize; 
         seen[0] += near.world.runtime_mut().frame.near.list().len();
         seen[1] += all.world.runtime_mut().frame.near.list().len();
         if frame % 8 == 7 {
-            // The same pairs must be found without data of earlier frames.
+            // A clone has no data of earlier frames, and must find the same pairs.
             let mut fresh = near.world.try_clone().unwrap();
             assert_eq!(near.world.evaluate().unwrap(), fresh.evaluate().unwrap());
             assert_eq!(
@@ -249,8 +249,8 @@ fn a_far_origin_and_a_common_drift_change_nothing() {
     assert!(2 * near < all, "{near} of {all}: a drift of all is no motion");
 }
 
-/// For one frame no pair is visited, because all but two balls are far apart. When the two meet again, their
-/// motion counts from that frame's commit, not from the last frame that visited them.
+/// For one frame no pair is visited, because all but two balls are far apart. When the two balls meet again,
+/// their motion counts from the commit of that frame, not from the last frame that visited them.
 #[test]
 fn after_a_frame_without_any_pair_the_way_counts_from_there() {
     /// Index of the second ball; group 0 is the first.

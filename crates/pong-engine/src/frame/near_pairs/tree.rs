@@ -1,4 +1,5 @@
-//! Tree that finds overlapping boxes; each node halves its boxes along the axis of largest spread.
+//! Tree that finds overlapping boxes; a node splits its boxes into two halves along the axis on which their
+//! centres spread most.
 
 use super::swept::Bounds;
 
@@ -28,8 +29,8 @@ pub(super) struct BoundsTree {
 /// Callback for the indices of two overlapping boxes.
 type Found<'f> = dyn FnMut(usize, usize) + 'f;
 
-/// Reports which of some boxes overlap one.
-fn tell<'o>(one: u32, others: impl IntoIterator<Item = &'o u32>, boxes: &[Bounds], found: &mut Found<'_>) {
+/// Reports the boxes of `others` that overlap the box `one`.
+fn report<'o>(one: u32, others: impl IntoIterator<Item = &'o u32>, boxes: &[Bounds], found: &mut Found<'_>) {
     for &other in others {
         if boxes[one as usize].overlap(&boxes[other as usize]) {
             found(one as usize, other as usize);
@@ -45,13 +46,13 @@ impl BoundsTree {
     pub fn with_capacity(boxes: usize) -> Self {
         Self {
             order: Vec::with_capacity(boxes),
-            // Only nodes with more than LEAF boxes are halved, so a leaf has at least LEAF/2.
+            // Only nodes with more than `LEAF` boxes are split, so a leaf has at least `LEAF`/2 boxes.
             nodes: Vec::with_capacity(boxes + 1),
             unbounded: Vec::with_capacity(boxes),
         }
     }
 
-    /// Reports every pair of boxes that is not certainly disjoint, once each and unordered.
+    /// Reports every pair of boxes that is not certainly disjoint, once each and in no order.
     pub fn overlaps(&mut self, numbers: &[usize], boxes: &[Bounds], found: &mut Found<'_>) {
         self.order.clear();
         self.nodes.clear();
@@ -61,7 +62,7 @@ impl BoundsTree {
             list.push(number as u32);
         }
         for (place, &one) in self.unbounded.iter().enumerate() {
-            tell(one, self.order.iter().chain(&self.unbounded[place + 1..]), boxes, found);
+            report(one, self.order.iter().chain(&self.unbounded[place + 1..]), boxes, found);
         }
         if !self.order.is_empty() {
             self.build(0, self.order.len(), boxes);
@@ -111,7 +112,7 @@ impl BoundsTree {
         }
         let own = self.places(node);
         for (place, &one) in own.iter().enumerate() {
-            tell(one, &own[place + 1..], boxes, found);
+            report(one, &own[place + 1..], boxes, found);
         }
     }
 
@@ -124,7 +125,7 @@ impl BoundsTree {
         if node_a.second == 0 && node_b.second == 0 {
             let reaches_b = |one: &&u32| boxes[**one as usize].overlap(&node_b.bounds);
             for &one in self.places(node_a).iter().filter(reaches_b) {
-                tell(one, self.places(node_b), boxes, found);
+                report(one, self.places(node_b), boxes, found);
             }
             return;
         }

@@ -1,5 +1,6 @@
-//! Tunnelling of ended contacts: an element that was pushed to one side is now on the other. Slow motion
-//! through a shell that is too soft ends in the same way; the length of the path cannot reveal it.
+//! Tunnelling found from ended contacts: a contact pushed an element to one side, and the element is now on
+//! the other side. Slow motion through a surface that is too soft ends in this way, on paths too short to
+//! show it.
 
 use super::events::TunnellingEvents;
 use super::followed::{SAME_SIDE_COSINE_MIN, Seen, pushing};
@@ -21,11 +22,11 @@ use pong_model::Item;
 use pong_model::box_tree::{Child, lanes};
 use std::borrow::Cow;
 
-/// Two faces are opposite sides of a wall if the cosine between their normals is less than this (150°). At a
-/// smaller angle they form a wedge, and an element pressed on one face may slide round its edge to the other.
+/// Cosine between the normals of two faces below which the faces are opposite sides of a wall (150°). At a
+/// smaller angle they form a wedge, and an element pressed on one face may slide round the edge to the other.
 const BOTH_SIDES_COSINE_MAX: f64 = -0.866;
 
-/// Number of contacts from which prefetching pays.
+/// Number of ended contacts from which prefetching pays.
 const WORTH_FETCHING: usize = 4;
 
 /// Checks every committed contact that no current contact continues.
@@ -41,8 +42,8 @@ pub(super) fn look_at_ended(
     }
 }
 
-/// Checks these records, in key order. Separate from the caller, so that frames without such contacts do not
-/// pay for it.
+/// Checks the records of ended contacts, given in key order. A separate function, so that frames without
+/// ended contacts do not pay for it.
 #[inline(never)]
 fn look_at(
     ended: &[u32],
@@ -59,7 +60,7 @@ fn look_at(
         if !given.states.enabled[pair.pair] {
             continue;
         }
-        // The pair may be far apart by now, and not among the visited pairs.
+        // The two groups may be far apart by now, and their pair not among the visited pairs.
         let motion =
             frame.motions(given.sealed, &given.memory.poses).known(&frame.near, &frame.input, direction);
         let seen = Seen::new(given, direction, &motion, frame);
@@ -83,7 +84,7 @@ fn look_at(
     }
 }
 
-/// Committed contacts with `Active` role that no current contact continues, in key order.
+/// Indices of the records with the role `Active` that no current contact continues, in key order.
 #[inline]
 fn ended<'a>(given: &EvaluationInput<'_>, frame: &'a EvaluationBuffers) -> List<'a, u32> {
     let (records, scratch, room) =
@@ -96,8 +97,8 @@ fn ended<'a>(given: &EvaluationInput<'_>, frame: &'a EvaluationBuffers) -> List<
     if left == 0 {
         return ended;
     }
-    // Records that continue are not read; most were written by another core. Of the others only the role is
-    // read, so that the cache misses overlap.
+    // Records that a contact continues are not read; most were written by another core. Of the other records
+    // only the role is read, so that the cache misses overlap.
     for index in (0..records.len()).filter(|&index| !continued[index]) {
         if records[index].role == ContactRole::Active {
             ended.push(index as u32).expect(room);
@@ -115,8 +116,8 @@ fn are_both_sides(one: &Vec3, other: &Vec3) -> bool {
 }
 
 impl Seen<'_> {
-    /// Loads the start points of these contacts' paths into the cache, with overlapping misses: data of ended
-    /// contacts is rarely cached.
+    /// Loads the start points of the paths of ended contacts into the cache, with overlapping misses: their
+    /// data is rarely cached.
     fn fetch<'r>(&self, records: impl Iterator<Item = &'r ContactRecord> + Clone) {
         let body_a = self.context.body_a;
         let info = |record: &ContactRecord| &body_a.primitives[record.key.primitive_a as usize];
@@ -133,8 +134,8 @@ impl Seen<'_> {
         is_followed.then(|| reference_point((body_a, info.kind), &record.key, info.elements.start))
     }
 
-    /// Returns true if an element that a contact pushed to one side is now on the other, or is pushed there.
-    /// An element that moved on in the direction of the push did not pass.
+    /// Returns true if an element that a contact pushed to one side is now on the other side, or is pushed to
+    /// it. An element that has moved in the direction of the push did not pass through.
     fn came_out_behind(&self, record: &ContactRecord) -> bool {
         let (body, key) = (self.context.body_b, &record.key);
         let Some(line) = self.place_of(record).and_then(|place| self.line(&place)) else { return false };
@@ -170,8 +171,9 @@ impl Seen<'_> {
     fn came_out_of_solid(&self, record: &ContactRecord, line: &Line) -> bool {
         let (body, shell, primitive_a) = (self.context.body_b, record.key.shell_b, record.key.primitive_a);
         if solids::holds(body, shell, &line.to_b) {
-            // A contact at the other end of a segment, such as an edge that it crosses, is no evidence for
-            // this end.
+            // The point is still inside: it has passed if a contact at the same end of the segment now pushes
+            // the opposite way, and none pushes the earlier way. Contacts elsewhere on the segment, such as
+            // with an edge that it crosses, do not show that.
             let mut pushing = self.pushing_at_end(record.key);
             return pushing.any(|normal| are_both_sides(normal, &record.normal_b))
                 && !self.pushes_to(&record.normal_b, primitive_a, shell);
@@ -189,8 +191,8 @@ impl Seen<'_> {
         out.is_some_and(|out| are_both_sides(&out, &record.normal_b))
     }
 
-    /// Returns true if the element was behind its triangle and is now farther behind, too deep to be pushed,
-    /// with the sheet still between; false if it went round the rim.
+    /// Returns true if the element was behind its triangle and is now farther behind, and did not go round
+    /// the rim: where it passed the thickness, at which the push ends, the sheet was in front of it.
     fn came_out_of_sheet(&self, record: &ContactRecord, line: &Line) -> bool {
         let body = self.context.body_b;
         let view = TriangleView::new(&body.triangles, record.element_b);
@@ -207,7 +209,7 @@ impl Seen<'_> {
         self.sheet_between(&above, &place, record.key.shell_b)
     }
 
-    /// Smallest semi-axis of the element that carries a contact, m; 0 for kinds without thickness.
+    /// Smallest semi-axis of the element of a contact, m; 0 for kinds without a radius.
     fn smallest_of(&self, record: &ContactRecord) -> f64 {
         let body = self.context.body_a;
         let info = &body.primitives[record.key.primitive_a as usize];

@@ -3,7 +3,8 @@
 /// Tunnelling events of a frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TunnellingEvents {
-    /// Number of events; at most one per followed point of an element of A and shell of B.
+    /// Number of events; at most one per followed point of an element of A and batch of B, and one per ended
+    /// contact.
     pub count: u32,
     /// First event, in the order of pairs and directions.
     pub first: Option<TunnellingEvent>,

@@ -17,7 +17,7 @@ use pong_geometry::simd::Portable;
 use pong_model::box_tree::{Child, lanes};
 use pong_model::{Batch, Item};
 
-/// A contact pushes to a side if the cosine between its normal and the side's exceeds this (60°).
+/// Cosine between the normals of a contact and of a side above which the contact pushes to that side (60°).
 pub(super) const SAME_SIDE_COSINE_MIN: f64 = 0.5;
 
 /// One direction of a pair of movable groups, with the contacts of the frame.
@@ -72,10 +72,11 @@ impl<'a> Seen<'a> {
         Some(Line { from_b: since.x_ba.point(place), to_b: motion.x_ba.point(place) })
     }
 
-    /// Follows one point through one batch of B; a shell that it passes counts once.
+    /// Follows one point of an element of A through one batch of B; adds at most one event.
     fn follow(&self, item_a: Item, place: &Vec3, batch: &Batch, events: &mut TunnellingEvents) {
         let Some(line) = self.line(place) else { return };
-        // A sphere also passes through a smaller sphere beside its centre.
+        // The box includes the radius of the element: a sphere may pass through a smaller sphere beside its
+        // centre.
         let beside = if batch.kind == PrimitiveKind::Sphere { self.radius(item_a) } else { 0.0 };
         let (low, high) = (line.from_b.inf(&line.to_b), line.from_b.sup(&line.to_b));
         let bounds = (low.add_scalar(-beside), high.add_scalar(beside));
@@ -112,7 +113,7 @@ impl<'a> Seen<'a> {
         Some(Swept { from_b, to_b, radius })
     }
 
-    /// Radius of a ball whose centre is followed, m; 0 for other elements.
+    /// Radius of an element whose centre is followed, m; 0 for other elements.
     fn radius(&self, item_a: Item) -> f64 {
         let body = self.context.body_a;
         let kind = body.primitives[item_a.primitive as usize].kind;
@@ -152,9 +153,9 @@ impl<'a> Seen<'a> {
         went && !self.comes_back(&side, item_a.primitive, shell, item_b)
     }
 
-    /// Returns true if the primitive was on the wrong side of this element of B and has been pushed back: it
-    /// then enters from the far side and leaves on the correct one. The two sides of a sheet are two shells
-    /// of one primitive.
+    /// Returns true if a committed contact pushed the primitive the opposite way, out of this element of B:
+    /// the path then enters from the far side and ends on the side to which the contact pushed. The front and
+    /// the back of a two-sided mesh are two shells of one primitive.
     fn comes_back(&self, side: &Vec3, primitive_a: u32, shell_b: u32, item_b: Item) -> bool {
         let (records, info) =
             (&self.context.memory.records, self.context.body_b.primitives.get(item_b.primitive as usize));
@@ -180,24 +181,24 @@ impl<'a> Seen<'a> {
         ContactKey { group_pair, flipped, primitive_a, shell_b, end: 0 }
     }
 
-    /// Returns true if a contact of the primitive with the shell pushes to this side.
+    /// Returns true if a contact of the primitive with the shell pushes to `side`.
     pub fn pushes_to(&self, side: &Vec3, primitive_a: u32, shell_b: u32) -> bool {
         self.pushing(primitive_a, shell_b).any(|normal| normal.dot(side) > SAME_SIDE_COSINE_MIN)
     }
 
-    /// Returns true if contacts push to the opposite side, and none to this one.
+    /// Returns true if a contact pushes to the side opposite to `side`, and none pushes to `side`.
     fn pushes_away_from(&self, side: &Vec3, primitive_a: u32, shell_b: u32) -> bool {
         self.pushing(primitive_a, shell_b).any(|normal| normal.dot(side) < -SAME_SIDE_COSINE_MIN)
             && !self.pushes_to(side, primitive_a, shell_b)
     }
 
-    /// Normals of the contacts of a primitive of A with a shell of B.
+    /// Normals of the contacts that push a primitive of A away from a shell of B.
     pub fn pushing(&self, primitive_a: u32, shell_b: u32) -> impl Iterator<Item = &'a Vec3> + use<'a> {
         let key = self.key(primitive_a, shell_b);
         pushing(self.frame, same_head(self.frame, key), key)
     }
 
-    /// Normals of the contacts of one end of a segment with a shell of B.
+    /// Normals of the contacts that push one end of a segment away from a shell of B.
     pub fn pushing_at_end(&self, key: ContactKey) -> impl Iterator<Item = &'a Vec3> + use<'a> {
         let same_head = same_head(self.frame, key);
         let at_end = found(self.frame, same_head, key).filter(move |found| found.key.end == key.end);
@@ -232,8 +233,8 @@ fn same_head(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item =
     frame.order[first..].iter().take_while(move |place| place.head == head)
 }
 
-/// Normals of the contacts of a primitive of A with a shell of B, at any end of a segment, among those with
-/// the key's high word.
+/// Normals of the contacts that push a primitive of A away from a shell of B, at any end of a segment, among
+/// the contacts with the key's high word.
 pub(super) fn pushing<'a>(
     frame: &'a EvaluationBuffers,
     same_head: impl Iterator<Item = &'a ContactRef>,
@@ -242,7 +243,7 @@ pub(super) fn pushing<'a>(
     found(frame, same_head, key).map(|found| &found.normal_b)
 }
 
-/// Contacts that push for a primitive of A and a shell of B, among those with the key's high word.
+/// Contacts that push a primitive of A away from a shell of B, among the contacts with the key's high word.
 fn found<'a>(
     frame: &'a EvaluationBuffers,
     same_head: impl Iterator<Item = &'a ContactRef>,

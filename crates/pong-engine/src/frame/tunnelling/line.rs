@@ -8,10 +8,10 @@ pub(super) struct Line {
     pub to_b: Vec3,
 }
 
-/// Outcome of a path for one shell of B, with the normal of the side of entry.
+/// Outcome of a path for one shell of B, with the normal of the side through which the path enters.
 pub(super) enum Met {
-    /// It enters and leaves the solid, or passes through the sheet.
+    /// The path enters and leaves the solid, or passes through the sheet.
     Through(Vec3),
-    /// It enters the solid and ends there.
+    /// The path enters the solid and ends there.
     Into(Vec3),
 }

@@ -9,7 +9,8 @@
 //!
 //! * its path or axis enters a solid of B and leaves it again, or passes a sheet from the front, and no
 //!   contact pushes the element back to the side that it came from;
-//! * a contact that pushed it to one side has ended with the point on the other side, or pushes it there now.
+//! * a contact that pushed it to one side has ended, and its point is now on the other side or is pushed to
+//!   it.
 //!
 //! Paths are followed only if the body may have moved farther than half of the thinnest element of B
 //! ([`travel::least_travel_m`]). A shorter path may cut an edge or a corner, but passes through no wall. In

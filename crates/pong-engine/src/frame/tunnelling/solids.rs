@@ -6,8 +6,8 @@ use pong_geometry::interference::point_polyhedron::entry_of_line;
 use pong_geometry::primitive::{Polyhedron, PrimitiveKind};
 use pong_model::MovableGroup;
 
-/// Outcome of a path that enters a piece by an active face: it leaves the whole solid again, or ends in it.
-/// Paths that start in the solid are left to the ended contacts.
+/// Outcome of a path that enters a piece through an active (not internal) face: it leaves the whole solid
+/// again, or ends in it. `None` for a path that starts in the solid: `ended.rs` checks its contacts.
 pub(super) fn meet(body: &MovableGroup, shell: u32, piece: u32, line: &Line) -> Option<Met> {
     let polyhedron = &body.polyhedra[piece as usize];
     let entry = entry_of_line(&line.from_b, &line.to_b, polyhedron)?;
@@ -24,7 +24,7 @@ pub(super) fn holds(body: &MovableGroup, shell: u32, place: &Vec3) -> bool {
     pieces(body, shell).any(|polyhedron| polyhedron.contains(place))
 }
 
-/// Normal of the face by which a path that started inside finally leaves the solid.
+/// Normal of the last face through which a path that starts inside the solid leaves it.
 pub(super) fn way_out(body: &MovableGroup, shell: u32, line: &Line) -> Option<Vec3> {
     let backwards = pieces(body, shell).filter_map(|polyhedron| {
         let entry = entry_of_line(&line.to_b, &line.from_b, polyhedron)?;

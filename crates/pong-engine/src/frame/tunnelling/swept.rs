@@ -5,7 +5,7 @@ use pong_geometry::Vec3;
 use pong_geometry::primitive::{Gap, PrimitiveKind, Round};
 use pong_model::MovableGroup;
 
-/// Evenly spaced samples of the gap before the search between them.
+/// Number of equal time intervals at whose ends the gap is sampled, before the search within an interval.
 const TIMES: usize = 16;
 
 /// Axis of an element of A, at the last commit and now, in B's frame, m. For point-like elements both ends
@@ -23,7 +23,7 @@ pub(super) fn round(body: &MovableGroup, kind: PrimitiveKind, element: u32) -> O
 }
 
 impl Swept {
-    /// Box around the element's sweep.
+    /// Box around the element at the last commit and now, m.
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let all = [self.from_b, self.to_b].concat();
         let low = all.iter().fold(all[0], |low, place| low.inf(place));
@@ -31,8 +31,8 @@ impl Swept {
         (low.add_scalar(-self.radius), high.add_scalar(self.radius))
     }
 
-    /// Outcome `Through` if the element was outside a solid at both times, and in between was deeper in it
-    /// than half of the thinner of the two.
+    /// Outcome `Through` if the element is outside the solid at the last commit and now, and in between the
+    /// middle of the thinner of the two was inside the other.
     pub fn meet(&self, solid: &dyn Round) -> Option<Met> {
         let beside = self.beside(solid);
         let (first, last) = (beside.gap(0.0), beside.gap(1.0));
@@ -44,7 +44,7 @@ impl Swept {
         Some(Met::Through(beside.crossing(0.0, inside).normal_b))
     }
 
-    /// Exit direction of an element that was in the solid at the last commit and has left it.
+    /// Normal at the exit of an element that was in the solid at the last commit and has left it.
     pub fn way_out(&self, solid: &dyn Round) -> Option<Vec3> {
         let beside = self.beside(solid);
         let left = beside.gap(0.0).distance < 0.0 && beside.gap(1.0).distance >= 0.0;
@@ -58,13 +58,15 @@ impl Swept {
     }
 
     fn beside<'a>(&'a self, solid: &'a dyn Round) -> Beside<'a> {
-        // A sphere passes a smaller solid when that crosses its centre.
+        // The axis of an element thinner than the solid must enter the solid. If the element is thicker, the
+        // middle of the solid must enter the element: its axis then enters a solid with its surface `skin`
+        // farther out.
         let skin = (self.radius - 0.5 * solid.width_m()).max(0.0);
         Beside { swept: self, solid, skin }
     }
 }
 
-/// A swept axis and one solid whose surface is offset outward by `skin`.
+/// A swept axis and a solid whose surface is moved outward by `skin`, m.
 struct Beside<'a> {
     swept: &'a Swept,
     solid: &'a dyn Round,

@@ -1,4 +1,5 @@
-//! Tunnelling test by distance: the travel of a body since the last commit against the thinnest element.
+//! Rejection of tunnelling by distance: compares the travel of a body since the last commit with the thinnest
+//! element.
 
 use crate::frame::input::motion::Motion;
 use crate::sealed::Plan;
@@ -6,8 +7,8 @@ use pong_geometry::primitive::{Primitive, PrimitiveKind};
 use pong_geometry::{Transform, Vec3};
 use pong_model::{Batch, MovableGroup, PrimitiveInfo};
 
-/// Half the thickness of the thinnest of the given primitives of B that A can pass through, m; a shorter path
-/// passes no wall. Infinite if there is no such primitive.
+/// Half the thickness of the thinnest of the given primitives of B that A can pass through, m. A path shorter
+/// than that passes through none of them. Infinite if there is no such primitive.
 pub(crate) fn least_travel_m(
     a: (&MovableGroup, &[&PrimitiveInfo]),
     b: (&MovableGroup, &[&PrimitiveInfo]),
@@ -38,11 +39,12 @@ fn facts<'a>(
     elements.filter_map(|(kind, element)| body.element(kind, element).facts())
 }
 
-/// Returns true if a point of A's body may have moved farther than that.
+/// Returns true if a point of A, seen from B, may have moved farther than `least_travel_m` since the last
+/// commit.
 #[inline]
 pub(super) fn may_go_through(plan: &Plan, motion: &Motion) -> bool {
     let Some(since) = &motion.since_commit else { return false };
-    // Nothing that can be passed.
+    // B has nothing that A can pass through.
     if plan.least_travel_m == f64::INFINITY {
         return false;
     }

@@ -8,6 +8,10 @@
 //! F_t = −cut(K·p + c·v_t), its length cut to μ_s·F_n while sticking, to μ_k·F_n in every other step
 //! ```
 //!
+//! Here p is the deflection (carried p: rotated into the current contact plane), u the slip since the last
+//! commit, v_t the slip velocity, F_n the normal force, K the tangential stiffness and c the tangential
+//! damping.
+//!
 //! D. A. Haessig and B. Friedland, "On the modeling and simulation of friction", J. Dyn. Sys. Meas. Control
 //! 113 (1991), extended to the plane. `slip_path.rs` computes the point on the circle p_k.
 //!
@@ -80,8 +84,8 @@ impl<S: Simd> Bristles<S> {
         let limit = Numbers::select(is_held, static_limit, kinetic_limit);
         let pushed = bristle * stiffness + slip_velocity * self.damping;
         let length = pushed.norm();
-        // A slipping contact sticks again if its motion has reversed or the deflection is inside the circle,
-        // and if the static limit would not change its force.
+        // A slipping contact sticks again on two conditions: its motion has reversed or its deflection is
+        // inside the circle, and the static limit would not change its force.
         let turned_back = simd.bits(trial.dot(slip_velocity).below(Numbers::splat(simd, 0.0)));
         let within = simd.bits(pull.below(kinetic_limit * Numbers::splat(simd, 1.0 - LIMIT_ROUNDING)));
         let again = (turned_back | within) & simd.bits((kinetic_limit * slack).at_least(length));
@@ -93,7 +97,7 @@ impl<S: Simd> Bristles<S> {
         }
     }
 
-    /// Paths of the bristles that exceeded their limits; harmless values in the other lanes.
+    /// Paths of the bristles that exceeded their limits; the values of the other lanes are not used.
     #[inline(always)]
     fn path(&self, simd: S) -> SlipPath<S> {
         let left_at = Numbers::select(simd.mask(self.stuck), self.static_limit, self.kinetic_limit);
@@ -110,7 +114,7 @@ impl<S: Simd> Bristles<S> {
     /// Deflection at which the bristle has this force, m.
     #[inline(always)]
     fn deflection_at(&self, pull: Numbers<S>) -> Numbers<S> {
-        /// Far beyond any deflection at a limit, with a finite square.
+        /// Largest result: larger than any deflection at a limit, with a finite square.
         const FARTHEST_M: f64 = 1e120;
         pull.over(self.stiffness.larger(pull * pull.all(1.0 / FARTHEST_M)))
     }
@@ -118,8 +122,8 @@ impl<S: Simd> Bristles<S> {
 
 /// Vector of the given length, shortened to at most `limit`.
 ///
-/// The quotient is exactly 1 if nothing is cut, and is always computed: a compiler may hoist a division out
-/// of a branch, and 0/0 is an invalid operation.
+/// The quotient is exactly 1 if nothing is cut. Branchless: a compiler may hoist a division out of a branch,
+/// and 0/0 is an invalid operation.
 #[inline(always)]
 pub(crate) fn shortened(vector: Vec3, length: f64, limit: f64) -> Vec3 {
     let longer = if length > limit { length } else { limit };

@@ -16,7 +16,7 @@ pub struct FrictionInput<'a> {
     pub slip_b: Vec3,
     /// Tangential velocity of A relative to B, m/s.
     pub slip_velocity_b: Vec3,
-    /// Share h·w/Σw of the pair's bristle stiffness and damping that this contact carries.
+    /// Share h·w/Σw of the pair's bristle stiffness and damping that this contact has.
     pub share: f64,
     /// Bristle stiffness k_t of the whole pair, N/m.
     pub stiffness: f64,
@@ -48,8 +48,8 @@ pub trait FrictionForce: Debug + Send + Sync {
     fn state_len(&self) -> usize;
 
     /// Force from the current motion. `state` holds the committed values (zero for a new contact) and
-    /// receives the new ones, which are kept only if the host commits. The law itself has to rotate vectors
-    /// in it; they are in the frame of B's movable group.
+    /// receives the new values, which are kept only if the host commits. Vectors in `state` are in the frame
+    /// of B's movable group; the law itself has to rotate them into the current contact plane.
     fn evaluate(&self, input: &FrictionInput<'_>, state: &mut [f64]) -> FrictionOutput;
 }
 

@@ -1,13 +1,14 @@
 //! Positions of slipping bristles on the circles of their limits after a displacement, eight at a time.
 //!
-//! The tip drags a slipping bristle at a constant length p_k, and its direction turns towards that of the
-//! motion. With ψ the angle between p and a straight displacement u,
+//! The motion of A drags a slipping bristle of constant length p_k, and the direction of its deflection p
+//! turns towards the direction of the motion. With ψ the angle between p and a straight displacement u, and s
+//! the distance along it,
 //!
 //! ```text
 //! dψ/ds = −sin ψ/p_k      hence      tan(ψ/2) = tan(ψ₀/2)·exp(−z),      z = |u|/p_k
 //! ```
 //!
-//! For a curved path, u is the chord, and the direction of motion turns from −γ to γ relative to it, with γ
+//! For a curved path, u is the chord, and the direction of motion turns from −γ to γ relative to u, with γ
 //! the angle from u to v_t. The linear part of the lag behind that turn is
 //!
 //! ```text
@@ -19,11 +20,11 @@
 
 use pong_geometry::simd::{Numbers, Simd, Vectors};
 
-/// Value of z below which the lag is summed as a series; the closed form cancels and loses 2·10⁻¹⁶/z of a
-/// radian.
+/// Value of z below which the lag is summed as a series: the closed form loses 2·10⁻¹⁶/z rad by cancellation.
 const SERIES_MAX: f64 = 0.25;
 
-/// Displacements that took eight bristles over a circle. Vectors are in one frame, in the contact planes.
+/// Displacements that took eight bristles out of their circles. Vectors are in one frame, in the contact
+/// planes.
 pub(super) struct SlipPath<S: Simd> {
     /// Unit normals of the contacts.
     pub normal: Vectors<S>,
@@ -33,23 +34,25 @@ pub(super) struct SlipPath<S: Simd> {
     pub slip: Vectors<S>,
     /// Slip velocity v_t, m/s.
     pub slip_velocity: Vectors<S>,
-    /// Radius of the circle that they left, m; larger than `radius` for a bristle that stuck until then.
+    /// Radius of the circle that the bristle left, m; larger than `radius` for a bristle that stuck until
+    /// then.
     pub left_at: Numbers<S>,
-    /// Radius p_k of the circle that they move on, m.
+    /// Radius p_k of the circle on which the bristle moves then, m.
     pub radius: Numbers<S>,
 }
 
 /// Points where straight paths leave the circles.
 struct Traversal<S: Simd> {
-    /// Unit directions of the bristles there. They point along the path or across it, never backwards, if any
-    /// of the path is left.
+    /// Unit directions of the bristles at these points. If any of the path is left, they point along the path
+    /// or across it, never backwards.
     direction: Vectors<S>,
     /// Remaining length of the path, m.
     left: Numbers<S>,
 }
 
 impl<S: Simd> SlipPath<S> {
-    /// Bristles on the circles of `radius`, m. A bristle without displacement stays on its circle.
+    /// Deflections at the end, on the circles of `radius`, m. A bristle with no path left keeps its
+    /// direction.
     #[inline(always)]
     pub fn end(&self, simd: S) -> Vectors<S> {
         let zero = Numbers::splat(simd, 0.0);
@@ -57,14 +60,14 @@ impl<S: Simd> SlipPath<S> {
         let along = self.slip.along(length);
         let way = Traversal::after_leaving(self.carried, along, length, self.left_at);
         let moves = zero.below(way.left);
-        // Far beyond the ratio at which the first direction is forgotten. A nearly vanished load leaves a
-        // nearly vanished radius.
+        // Limit of the ratio for a radius that vanishes with the load; far smaller ratios already make
+        // `decay` zero.
         const LARGEST_RATIO: f64 = 1e300;
         let ratio = way.left.over(self.radius.larger(way.left * zero.all(1.0 / LARGEST_RATIO)));
         let decay = ratio.exp_of_minus();
         let turned = turned_towards(way.direction, along, decay);
-        // A velocity that points back along the path does not end a smooth path. Mirrored, the angle is
-        // continuous there.
+        // A smooth path does not end with a velocity that points backwards. Such a velocity is mirrored, so
+        // that the angle stays continuous.
         let velocity = self.slip_velocity;
         let angle = self.normal.dot(along.cross(velocity)).angle_above(along.dot(velocity).abs());
         let turned = turned_by(turned, self.normal, angle * lag_of_turn(ratio, decay));
@@ -77,8 +80,9 @@ impl<S: Simd> Traversal<S> {
     /// point where it leaves the circle for the last time, or comes nearest to it. If the load has fallen,
     /// the whole path may lie outside.
     ///
-    /// The point is constructed from the point of the line nearest to the centre. Summed from the start, it
-    /// would be pure rounding for a circle far smaller than the bristle was, under a nearly vanished load.
+    /// The point is computed from the point of the line nearest to the centre. Computed from the start, it
+    /// would be pure rounding if the circle is far smaller than the deflection was, under a nearly vanished
+    /// load.
     #[inline(always)]
     fn after_leaving(start: Vectors<S>, along: Vectors<S>, length: Numbers<S>, circle: Numbers<S>) -> Self {
         let zero = length.all(0.0);

@@ -1,5 +1,5 @@
 //! Fallback if the scratch memory is too small: as many of the deepest contacts as fit are shared exactly,
-//! the others get zero. The result depends only on the contacts and the memory size.
+//! the others get λ = 0. The result depends only on the contacts and the memory size.
 
 use super::shared_contact::{SharedContact, deepest_of};
 use super::solve::solve;
@@ -42,7 +42,7 @@ fn share_some(contacts: &mut [SharedContact], count: usize, scratch: &Arena) -> 
     Ok(())
 }
 
-/// Deepest of the contacts after `last`, by decreasing depth, ties by index.
+/// Next contact after `last` by decreasing depth, ties by index.
 fn next_deepest(contacts: &[SharedContact], last: Option<usize>) -> Option<usize> {
     let comes_after = |i: usize, j: usize| {
         contacts[i].depth < contacts[j].depth || (contacts[i].depth == contacts[j].depth && i > j)

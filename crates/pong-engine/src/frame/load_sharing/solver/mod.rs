@@ -13,15 +13,15 @@
 //! t = argmin |t|  such that  n_i·t ≥ δ_i for all i,      t = Σ λ_i·n_i,  λ ≥ 0,
 //! ```
 //!
-//! whose solution t is unique and determined by at most three contacts. Two contacts are solved in closed
-//! form below, more by `nearest.rs`; if more contacts carry t than determine it, `spread.rs` takes the λ of
-//! least norm |λ|. The other case is solved in `uncoupled.rs`, which needs scratch memory; `deepest.rs` is
-//! the fallback if that is too small.
+//! whose solution t is unique and determined by at most three contacts. `solve.rs` has two contacts in closed
+//! form, `nearest.rs` more. If more contacts touch t (n_i·t = δ_i) than determine it, `spread.rs` takes the λ
+//! of least norm |λ|. If some normals are more than 90° apart, `uncoupled.rs` solves the first form; it needs
+//! scratch memory, and `deepest.rs` is the fallback if that is too small.
 //!
 //! *Rounding.* The normals of one plate cut into pieces differ by 1e-16 (rounding), 1e-7 (vertices in single
 //! precision) or the angle of a fold. 1 − n_i·n_j is then the small difference of two large numbers, and so
-//! is δ_i − (n_i·n_j)·δ_j. `Coupling` computes both from the differences n_i − n_j and δ_i − δ_j, which are
-//! exact.
+//! is δ_i − (n_i·n_j)·δ_j. `Coupling` computes both from n_i − n_j and δ_i − δ_j, which are exact for numbers
+//! that are nearly equal.
 
 mod deepest;
 mod nearest;
@@ -44,7 +44,8 @@ pub fn scratch_bytes(contacts: usize) -> usize {
 /// Computes λ of every contact of one sphere or ellipsoid with one surface. The order of the contacts only
 /// breaks ties.
 ///
-/// Everything in `scratch` is discarded. It is needed only for three or more contacts that do not all couple.
+/// Everything in `scratch` is discarded. Scratch memory is needed only for three or more contacts of which
+/// some normals are more than 90° apart.
 ///
 /// # Errors
 /// [`Full`] if the scratch memory was too small (its peak gives the required size). The deepest contacts that

@@ -1,4 +1,5 @@
-//! Shortest vector that clears contacts which all couple, from the nearest point of a convex hull.
+//! Shortest vector t that clears all contacts, if all couple (no two normals are more than 90° apart), from
+//! the nearest point of a convex hull.
 //!
 //! With q_i = n_i/δ_i the conditions n_i·t ≥ δ_i read q_i·t ≥ 1, and the shortest t is p/|p|², where p is the
 //! point of the convex hull of the q_i nearest to the origin: p = Σ μ_i·q_i, μ ≥ 0, Σ μ = 1, and q_i·p ≥ |p|²
@@ -6,19 +7,20 @@
 //! the weights sum to one for *any* μ_i. So the μ_i of equal normals, which rounding leaves undetermined, do
 //! not affect the force.
 //!
-//! In three dimensions at most three points carry p. The deepest contact is the first. While some contact is
-//! violated, the points that carry p and the most violated one are solved by trying the at most seven subsets
-//! with the new point. |t| grows with every exchange, so no subset repeats.
+//! In three dimensions p is a combination of at most three q_i. The search begins with the q of the deepest
+//! contact. While a contact is violated (n_i·t < δ_i), the q of the most violated contact enters: p is
+//! computed for each of the at most seven subsets of the old points and the new point that contain the new
+//! point, until one p clears them all. |t| grows with every exchange, so no subset repeats.
 //!
-//! All quantities are relative to the deepest contact and in units of its depth: for nearly parallel normals,
-//! differences are exact where products are not.
+//! All points are stored as differences from the q of the deepest contact, times its depth: for nearly
+//! parallel normals these differences are exact and products are not.
 
 use super::shared_contact::{Coupling, SharedContact, deepest_of};
 use pong_geometry::Vec3;
 
 /// Allowed violation of a contact relative to the largest depth; depths are not known more accurately.
 const VIOLATION_MAX: f64 = 1e-15;
-/// Allowed increase of |p|² in an exchange: a few roundings of 1.
+/// Allowed increase of |p|²·δ_d², which is about 1, in an exchange: a few roundings.
 const GAIN_SLACK: f64 = 1e-15;
 
 /// Shortest vector that clears all contacts, and the at most three contacts that determine it.
@@ -37,10 +39,11 @@ pub(super) struct Shortest {
 }
 
 impl Shortest {
-    /// Shortest vector for a non-empty set of contacts that all couple.
+    /// Shortest vector for one or more contacts that all couple.
     pub fn new(contacts: &[SharedContact]) -> Self {
         let deepest = deepest_of(contacts);
-        let mut best = Self::at(contacts, deepest, HullPoint::of_one(Place::new(contacts, deepest, deepest)));
+        let mut best =
+            Self::at(contacts, deepest, HullPoint::of_one(QPoint::new(contacts, deepest, deepest)));
         let allowed = VIOLATION_MAX * contacts[deepest].depth;
         // Iteration limit against endless exchange of contacts that differ by rounding.
         for _ in 0..8 * contacts.len() {
@@ -59,11 +62,11 @@ impl Shortest {
         let base = &contacts[deepest];
         let scale = base.depth / (1.0 + hull_point.gain());
         let lambda = |k: usize| {
-            let place = &hull_point.places[k];
-            scale * hull_point.parts[k] * (base.depth / contacts[place.contact].depth)
+            let point = &hull_point.points[k];
+            scale * hull_point.parts[k] * (base.depth / contacts[point.contact].depth)
         };
         Self {
-            members: hull_point.places.map(|place| place.contact),
+            members: hull_point.points.map(|point| point.contact),
             lambdas: std::array::from_fn(lambda),
             count: hull_point.count,
             t_b: (base.normal_b + hull_point.offset) * scale,
@@ -79,7 +82,8 @@ impl Shortest {
         if !coupling.is_near {
             return contact.normal_b.dot(&self.t_b) - contact.depth;
         }
-        // n·t − δ with n = n_d + m and t = (n_d + a)·s, where δ_d = s·(1 + 2·n_d·a + |a|²).
+        // With d the deepest contact, a the offset of the hull point and s = `scale`: t = (n_d + a)·s and δ_d
+        // = s·(1 + 2·n_d·a + |a|²).
         let HullPoint { offset, rise, .. } = &self.hull_point;
         let scale = base.depth / (1.0 + self.hull_point.gain());
         let turned = (contact.normal_b - base.normal_b).dot(offset) - coupling.gap;
@@ -97,25 +101,26 @@ impl Shortest {
         worst
     }
 
-    /// Solution for the members and one more contact: the first subset with that contact that clears them
-    /// all, or the one with the least violation.
+    /// Solution for the members and the entering contact, from a subset that contains the entering contact:
+    /// the first subset whose solution clears all of these contacts, otherwise the one with the least
+    /// violation.
     fn exchange(&self, contacts: &[SharedContact], entering: usize, allowed: f64) -> Option<Self> {
-        let entering = Place::new(contacts, self.deepest, entering);
+        let entering = QPoint::new(contacts, self.deepest, entering);
         let mut best: Option<(f64, Self)> = None;
         // Bit k of the subset is member k.
         for subset in 0..1_usize << self.count {
             if subset.count_ones() > 2 {
                 continue;
             }
-            let mut places = [entering; 3];
+            let mut points = [entering; 3];
             let mut count = 1;
-            for (k, &place) in self.hull_point.places[..self.count].iter().enumerate() {
+            for (k, &point) in self.hull_point.points[..self.count].iter().enumerate() {
                 if subset >> k & 1 == 1 {
-                    places[count] = place;
+                    points[count] = point;
                     count += 1;
                 }
             }
-            let Some(hull_point) = HullPoint::nearest(places, count) else { continue };
+            let Some(hull_point) = HullPoint::nearest(points, count) else { continue };
             let candidate = Self::at(contacts, self.deepest, hull_point);
             let pool = self.members[..self.count].iter().chain([&entering.contact]);
             let missed = pool.map(|&i| -candidate.slack(contacts, i)).fold(0.0, f64::max);
@@ -130,17 +135,17 @@ impl Shortest {
     }
 }
 
-/// Position of a contact's q relative to that of the deepest contact d.
+/// Point q = n/δ of a contact relative to that of the deepest contact, q_d = n_d/δ_d.
 #[derive(Clone, Copy)]
-struct Place {
+struct QPoint {
     contact: usize,
     /// Offset a = (q − q_d)·δ_d.
     offset: Vec3,
-    /// Component along n_d: a·n_d = g·δ_d/δ − 1.
+    /// Component along n_d: a·n_d = g·δ_d/δ − 1, with the coupling g = n·n_d.
     rise: f64,
 }
 
-impl Place {
+impl QPoint {
     fn new(contacts: &[SharedContact], deepest: usize, contact: usize) -> Self {
         let (base, own) = (&contacts[deepest], &contacts[contact]);
         let turned = (own.normal_b - base.normal_b) * base.depth + base.normal_b * (base.depth - own.depth);
@@ -149,40 +154,43 @@ impl Place {
     }
 }
 
-/// Point of the convex hull of at most three positions, relative to the deepest contact's.
+/// Point p of the convex hull of at most three points q.
 #[derive(Clone, Copy)]
 struct HullPoint {
-    places: [Place; 3],
+    points: [QPoint; 3],
     /// Convex coefficients μ, positive, with sum one.
     parts: [f64; 3],
     count: usize,
+    /// Offset a = (p − q_d)·δ_d.
     offset: Vec3,
+    /// Component of the offset along n_d.
     rise: f64,
 }
 
 impl HullPoint {
-    fn of_one(place: Place) -> Self {
-        Self { places: [place; 3], parts: [1.0, 0.0, 0.0], count: 1, offset: place.offset, rise: place.rise }
+    fn of_one(point: QPoint) -> Self {
+        Self { points: [point; 3], parts: [1.0, 0.0, 0.0], count: 1, offset: point.offset, rise: point.rise }
     }
 
-    /// |p|² minus that of the deepest contact alone.
+    /// Increase of |p|²·δ_d² from 1, its value for the deepest contact alone.
     fn gain(&self) -> f64 {
         2.0 * self.rise + self.offset.norm_squared()
     }
 
-    /// Point nearest to the origin on the line or plane through some positions; `None` if it is not between
-    /// them.
-    fn nearest(places: [Place; 3], count: usize) -> Option<Self> {
-        let first = &places[0];
-        let edge = |k: usize| places[k].offset - first.offset;
-        // Decrease of the distance to the origin along an edge: −q·e with q the first position.
-        let gained = |k: usize, edge: &Vec3| first.rise - places[k].rise - first.offset.dot(edge);
+    /// Point nearest to the origin on the line through two points or on the plane through three; `None` if it
+    /// does not lie between them.
+    fn nearest(points: [QPoint; 3], count: usize) -> Option<Self> {
+        let first = &points[0];
+        let edge = |k: usize| points[k].offset - first.offset;
+        // −q·e for the first point q and an edge e: decrease of half the squared distance to the origin along
+        // e.
+        let gained = |k: usize, edge: &Vec3| first.rise - points[k].rise - first.offset.dot(edge);
         let parts = match count {
             1 => return Some(Self::of_one(*first)),
             2 => {
                 let edge = edge(1);
                 let square = edge.norm_squared();
-                // Equal positions determine no line.
+                // Equal points determine no line.
                 if square <= 0.0 {
                     return None;
                 }
@@ -206,11 +214,11 @@ impl HullPoint {
         if !parts[..count].iter().all(|part| *part > 0.0) {
             return None;
         }
-        let mut point = Self { places, parts, count, offset: Vec3::zeros(), rise: 0.0 };
-        for (place, part) in places[..count].iter().zip(parts) {
-            point.offset += place.offset * part;
-            point.rise += place.rise * part;
+        let mut hull_point = Self { points, parts, count, offset: Vec3::zeros(), rise: 0.0 };
+        for (point, part) in points[..count].iter().zip(parts) {
+            hull_point.offset += point.offset * part;
+            hull_point.rise += point.rise * part;
         }
-        Some(point)
+        Some(hull_point)
     }
 }

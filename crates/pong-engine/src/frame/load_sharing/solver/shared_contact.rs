@@ -3,7 +3,7 @@
 use pong_geometry::Vec3;
 
 /// Cosine below which two normals count as more than 90° apart. It allows for rounding: in a square corner
-/// the products of the normals have either sign, and whether such a pair couples changes λ by at most this
+/// the product of the normals has either sign, and whether the pair couples changes λ by at most this
 /// fraction.
 const APART_COSINE: f64 = -1e-14;
 
@@ -52,13 +52,13 @@ pub(super) struct Coupling {
     pub cosine: f64,
     /// Gap 1 − g, dimensionless.
     pub gap: f64,
-    /// True if the normals are close enough for exact differences.
+    /// True if the normals are less than 60° apart: `beyond` then uses differences.
     pub is_near: bool,
 }
 
 impl Coupling {
-    /// Cosine of 60°: components of nearer normals are within a factor of two, so their differences are
-    /// exact.
+    /// Cosine of 60°. If two contacts with nearer normals both have load, their depths are within a factor of
+    /// two, so the difference of the depths is exact.
     const NEAR_COSINE: f64 = 0.5;
 
     pub fn new(a: &SharedContact, b: &SharedContact) -> Self {
@@ -72,7 +72,7 @@ impl Coupling {
         Self { cosine, gap: 1.0 - cosine, is_near: false }
     }
 
-    /// Remaining depth δ − g·δ' after the other contact has been cleared.
+    /// Remaining depth δ − g·δ′ after the other contact, of depth δ′, has been cleared, m.
     pub fn beyond(&self, depth: f64, other_depth: f64) -> f64 {
         if self.is_near {
             (depth - other_depth) + self.gap * other_depth

@@ -17,8 +17,8 @@ pub(super) fn solve(contacts: &mut [SharedContact], scratch: &Arena) -> Result<(
     Ok(())
 }
 
-/// Two contacts, in closed form: λ₁ = (δ₁ − g·δ₂)/(1 − g²), or only the deeper one if nothing remains for the
-/// other.
+/// Computes λ of two contacts in closed form: λ₁ = (δ₁ − g·δ₂)/(1 − g²), and λ₂ likewise; if one numerator is
+/// not positive, the deeper contact has all the load.
 fn share_two(first: &mut SharedContact, second: &mut SharedContact) {
     let coupling = Coupling::new(first, second);
     let beyond_first = coupling.beyond(second.depth, first.depth);
@@ -33,7 +33,7 @@ fn share_two(first: &mut SharedContact, second: &mut SharedContact) {
     };
 }
 
-/// Three or more contacts that all couple.
+/// Computes λ of three or more contacts that all couple.
 fn share_coupled(contacts: &mut [SharedContact]) {
     let shortest = Shortest::new(contacts);
     if spread::share(contacts, &shortest) {

@@ -1,9 +1,9 @@
-//! Least-norm λ if more contacts touch the shortest vector t than determine it.
+//! Least-norm λ if more contacts touch the shortest vector t (n_i·t = δ_i) than determine it.
 //!
 //! Among all λ ≥ 0 with Σ λ_i·n_i = t, the one of least |λ| is λ_i = max(0, n_i·μ). The vector μ is found by
-//! repeatedly solving for the contacts that carry load until that set no longer changes. The condition is
-//! invariant to a linear stretch of space, and so is λ: with a stretch across t, normals that differ only by
-//! single-precision rounding are as far apart as any others.
+//! repeatedly solving for the contacts with load until that set no longer changes. The condition Σ λ_i·n_i =
+//! t, and with it λ, does not change if space is stretched across t. In the stretched space, normals that
+//! differ only by single-precision rounding are as far apart as any others.
 
 use super::nearest::Shortest;
 use super::shared_contact::SharedContact;
@@ -52,7 +52,7 @@ fn across(normal: &Vec3, along: &Vec3) -> Vec3 {
     normal - along * normal.dot(along)
 }
 
-/// The vector μ of the touching contacts.
+/// Vector μ with Σ max(0, n_i·μ)·n_i = t, summed over the contacts that touch t.
 fn least(contacts: &[SharedContact], t: &Vec3, stretched: impl Fn(&Vec3) -> Vec3) -> Vec3 {
     let mut mu = *t;
     for _ in 0..CHOICES_MAX {

@@ -8,9 +8,8 @@
 //!
 //! For two normals at a small angle θ, as in a plate cut into pieces, the method divides by 1 − g² = θ². The
 //! tableau therefore uses double-double numbers ([`Twofold`]), in which the square of 1e-15, the rounding of
-//! the normals, is still significant. For n contacts it stores n·(n + 2) of them: only the columns of the
-//! nonbasic variables, since those of the basic ones are unit vectors. They come from an arena that was sized
-//! beforehand.
+//! the normals, is still significant. For n contacts it has n·(n + 2) of them: it omits the columns of the
+//! basic variables, which are unit vectors. An arena of known size holds the tableau.
 
 use super::shared_contact::{Coupling, SharedContact, deepest_of};
 use super::twofold::Twofold;
@@ -114,10 +113,10 @@ impl<'a> Tableau<'a> {
         }
     }
 
-    /// Row that limits the entering variable of a column. z₀ leaves as soon as it can; other ties go to the
+    /// Row whose basic variable limits the entering variable of a column. In a tie z₀ is taken, otherwise the
     /// lower row.
     fn ratio_test(&self, entering: usize) -> Option<usize> {
-        /// Square of the angle by which rounding may rotate equal normals.
+        /// Least pivot: square of the angle by which rounding may rotate equal normals.
         const PIVOT_MIN: f64 = 1e-29;
         let right = self.n + 1;
         let artificial = 2 * self.n as u32;

@@ -28,7 +28,7 @@ pub(super) fn capsule_polyhedron(
     at_piece.each_crossing(|crossing| pair.between_ends(crossing, found));
 }
 
-/// A capsule on a triangle: the end spheres, and the convex or free edges that the axis crosses.
+/// A capsule on a triangle: the end spheres, and the convex and free edges that the axis crosses.
 pub(super) fn capsule_triangle(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -114,7 +114,7 @@ pub(super) fn axis_in_bore(
     }
 }
 
-/// Adds the contacts at the ends of an axis or at points of the end discs, each with half a spring.
+/// Adds the contacts at the ends of an axis, or at points of its end discs, each with half a spring.
 pub(super) fn emit_halves<A>(
     pair: &ElementPair<'_>,
     _: &A,
@@ -130,8 +130,8 @@ pub(super) fn emit_halves<A>(
     }
 }
 
-/// Adds the contacts on a round solid: half a spring at each end of the overlap, and one at the deepest point
-/// for the remainder.
+/// Adds the contacts with a round solid: half a spring at each end of the overlap, and half a spring at the
+/// deepest point, each with its share as weight.
 pub(super) fn emit_shares<A>(
     pair: &ElementPair<'_>,
     _: &A,

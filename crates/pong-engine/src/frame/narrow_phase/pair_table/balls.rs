@@ -19,7 +19,7 @@ use pong_geometry::interference::sphere_polyhedron::{sphere_inside_polyhedron, s
 use pong_geometry::interference::sphere_triangle::{sphere_over_face, sphere_triangle};
 use pong_geometry::primitive::{Containment, Point, Ray, Sphere};
 
-/// A point in a polyhedron; only points inside or on an internal face get here.
+/// A point in a polyhedron; the caller has removed points that are neither inside nor on an internal face.
 pub(super) fn point_polyhedron(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -89,7 +89,7 @@ pub(super) fn sphere_on_triangle(
     ball_on_triangle(pair, &Ball::of(sphere), false, found);
 }
 
-/// A sphere, or the end of a capsule, on a triangle; with `over_face`, only the face can push.
+/// A sphere, or the end of a capsule, on a triangle; `over_face` if only the face can push.
 pub(crate) fn ball_on_triangle(
     pair: &ElementPair<'_>,
     ball: &Ball<'_>,
@@ -134,7 +134,7 @@ pub(super) fn ellipsoid_triangle(
     ellipsoid_on_triangle(pair, &EllipsoidOnTriangles::new(ellipsoid), found);
 }
 
-/// A precomputed ellipsoid on a triangle.
+/// An ellipsoid on a triangle, with the precomputed values of the ellipsoid.
 pub(crate) fn ellipsoid_on_triangle(
     pair: &ElementPair<'_>,
     ready: &EllipsoidOnTriangles,
@@ -148,8 +148,8 @@ pub(crate) fn ellipsoid_on_triangle(
     ready.test(&pair.body_b().triangles, pair.item_b.element, thickness, &mut emit);
 }
 
-/// A point or a sphere in a bore: a contact at the nearest wall and, if it is too large for the hole, one
-/// opposite. The two share one spring.
+/// A point or a sphere in a bore: a contact at the nearest point of the wall and, for a sphere that is too
+/// large for the hole, a contact on the opposite side. Both contacts share one spring.
 pub(super) fn ball_in_bore(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -170,8 +170,8 @@ pub(super) fn ball_of(point: &Point) -> Sphere {
     Sphere { center: point.position, radius: 0.0 }
 }
 
-/// Adds the contacts of a point of A, given in A's frame, with the walls of a bore; `end` if it is the end of
-/// an axis.
+/// Adds the contacts of a point of A, given in A's frame (`local`), with the walls of a bore; `end` if the
+/// point is the end of an axis.
 pub(super) fn emit_in_bore(
     pair: &ElementPair<'_>,
     contacts: &BallContacts,
@@ -201,7 +201,7 @@ pub(super) fn ray_on_triangle(
     emit_hit(pair, ray, hit, found);
 }
 
-/// Adds the contact of a ray.
+/// Adds the contact of a ray hit.
 pub(super) fn emit_hit(
     pair: &ElementPair<'_>,
     ray: &Ray,

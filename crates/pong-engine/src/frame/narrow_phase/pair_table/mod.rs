@@ -1,6 +1,6 @@
-//! Table of tested kind pairs: kind of A, kind of B, contact tester and cost. Used by dispatch, block layout,
-//! default capacity and seal. A new pair needs a row here; a tester that does more than its interference
-//! test is in `balls` or `axes`. Blank pairs are ignored, since the author may intend them.
+//! Table of tested kind pairs: kind of A, kind of B, contact tester and cost. Dispatch, block layout, default
+//! capacity and seal use it. A new pair needs a row here; a tester that does more than its interference test
+//! is in `balls` or `axes`. Blank pairs are not tested, without an error, since the author may intend them.
 //!
 //! ```text
 //!  A \ B         Sphere  Ellipsoid  Triangle  Polyhedron  Plane  Capsule  Cylinder  Cone  Bore
@@ -55,10 +55,10 @@ pub(crate) struct KindPair {
     pub a: PrimitiveKind,
     pub b: PrimitiveKind,
     pub test: Test,
-    /// Rough time for an element of A against a body with elements of B, ns. Used only to split the work into
-    /// blocks, and to choose between workers and the calling thread.
+    /// Rough time to test an element of A against a body with elements of B, ns. Used only to split the work
+    /// into blocks, and to choose between workers and the calling thread.
     pub cost_ns: u32,
-    /// Default capacity in contacts, per primitive of A and shell of B.
+    /// Number of contacts per primitive of A and shell of B in the default capacity.
     pub contacts: usize,
 }
 
@@ -132,7 +132,7 @@ const ROWS: &[KindPair] = &[
 const KINDS: usize = PrimitiveKind::ALL.len();
 const NO_ROW: u8 = u8::MAX;
 
-/// Row index of each pair, by kind numbers. No pair has two rows.
+/// Row index of each pair of kinds; no pair has two rows.
 const PLACES: [[u8; KINDS]; KINDS] = {
     let mut places = [[NO_ROW; KINDS]; KINDS];
     let mut row = 0;
@@ -145,14 +145,14 @@ const PLACES: [[u8; KINDS]; KINDS] = {
     places
 };
 
-/// Row of a pair, if it is tested.
+/// Row of a pair of kinds, if the pair is tested.
 #[inline]
 pub(crate) fn kind_pair(a: PrimitiveKind, b: PrimitiveKind) -> Option<&'static KindPair> {
     ROWS.get(PLACES[a as usize][b as usize] as usize)
 }
 
-/// Testers of all pairs by kind numbers; a frame looks here for every two elements that may touch. Pairs
-/// without a row go to the test that the host has registered, if any.
+/// Contact testers of all pairs of kinds. Pairs without a row have the test that the host has registered, if
+/// any.
 const TESTS: [[Test; KINDS]; KINDS] = {
     let mut tests = [[registered::test as Test; KINDS]; KINDS];
     let mut row = 0;
@@ -163,7 +163,7 @@ const TESTS: [[Test; KINDS]; KINDS] = {
     tests
 };
 
-/// Contact tester of a pair.
+/// Contact tester of a pair of kinds.
 #[inline]
 pub(crate) fn test_of(a: PrimitiveKind, b: PrimitiveKind) -> Test {
     TESTS[a as usize][b as usize]

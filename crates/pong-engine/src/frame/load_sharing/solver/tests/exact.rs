@@ -94,7 +94,7 @@ impl Whole {
         order.then_with(|| self.digits.iter().rev().cmp(other.digits.iter().rev())) == Ordering::Greater
     }
 
-    /// Leading 53 bits and the power of 2^32 that scales them.
+    /// Leading 53 bits, and the exponent of 2^32 by which they are scaled.
     fn leading(&self) -> (f64, i32) {
         let top = self.digits.len().saturating_sub(4);
         let value = self.digits[top..]

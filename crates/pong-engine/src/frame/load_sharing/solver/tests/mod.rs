@@ -8,7 +8,7 @@ use super::*;
 use pong_geometry::Vec3;
 use pong_testkit::Random;
 
-/// Shares with enough scratch memory.
+/// Computes λ with enough scratch memory.
 fn share(contacts: &mut [SharedContact]) {
     let mut scratch = Arena::with_capacity(scratch_bytes(contacts.len()));
     share_within(contacts, &mut scratch).unwrap();
@@ -116,9 +116,9 @@ fn folded_set(random: &mut Random, count: usize, fold: f64, walls: usize) -> Vec
 
 /// Independent method: exact arithmetic over all sets of at most three contacts.
 ///
-/// Depths and normals have 16 digits themselves. Between normals at an angle θ they determine the force
-/// direction to 1e-16/θ (worse for three nearly coplanar normals), and never better than θ. They always
-/// determine its magnitude and the sum of the weights.
+/// Depths and normals have 16 digits. Between normals at an angle θ they determine the force direction to
+/// 1e-16/θ (worse for three nearly coplanar normals), and never worse than θ. They always determine the
+/// magnitude of the force and the sum of the weights.
 #[test]
 fn folds_of_any_angle_agree_with_exact_arithmetic() {
     let mut random = Random(31);
@@ -147,7 +147,7 @@ fn folds_of_any_angle_agree_with_exact_arithmetic() {
     }
 }
 
-/// As above, with one or two walls across the folded plate.
+/// Independent method: exact arithmetic, with one or two walls across the folded plate.
 #[test]
 fn folds_beside_walls_agree_with_exact_arithmetic() {
     let mut random = Random(77);
@@ -204,7 +204,7 @@ fn plates_in_pieces_share_alike_where_some_normals_do_not_couple() {
 }
 
 /// Two equally deep pieces of a plate, tilted by so little that the squared angle is far below the rounding
-/// of the normals. By symmetry each carries half, also beside contacts that do not couple.
+/// of the normals. By symmetry each has half of the weight, also beside contacts that do not couple.
 #[test]
 fn pieces_that_lean_a_little_carry_half_each_beside_what_does_not_couple() {
     let turn = pong_geometry::Quat::from_scaled_axis(Vec3::new(0.3, -1.1, 0.7));
@@ -277,7 +277,7 @@ fn lambda_bits(shared_contacts: &[SharedContact]) -> impl Iterator<Item = u64> {
     shared_contacts.iter().map(|shared_contact| shared_contact.lambda.to_bits())
 }
 
-/// Recorded from the double-double implementation.
+/// Bits recorded from the double-double implementation.
 #[test]
 fn the_pivots_are_the_recorded_ones_to_the_last_bit() {
     let recorded = |set: fn(&mut Random, usize) -> Vec<SharedContact>| {
@@ -366,7 +366,7 @@ fn the_peak_of_the_scratch_memory_is_the_size_to_give() {
         let full = share_within(&mut set, &mut scratch).unwrap_err();
         assert!(full.asked > full.free);
         assert_eq!(scratch.peak(), scratch_bytes(25));
-        // A refused call must not affect the next one.
+        // A call that ran out of memory must not affect the next one.
         let mut two = [SharedContact::new(Vec3::x(), 1.0), SharedContact::new(-Vec3::x(), 2.0)];
         assert!(share_within(&mut two, &mut scratch).is_ok());
         let mut enough = Arena::with_capacity(scratch.peak());
