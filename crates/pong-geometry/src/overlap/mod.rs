@@ -8,16 +8,17 @@
 mod clip;
 mod moments;
 
+use clip::Cutter;
 pub use clip::Surface;
 pub use moments::Moments;
 
 use crate::{Vec3, Wrench};
 
-/// Half space: `normal · x ≤ offset`.
+/// Half space: `normal_b · x ≤ offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace {
     /// Unit outward normal.
-    pub normal: Vec3,
+    pub normal_b: Vec3,
     /// Distance of the plane from the frame's origin along the normal, m.
     pub offset: f64,
 }
@@ -26,7 +27,7 @@ impl HalfSpace {
     /// Depth of a point below the plane (negative outside), m.
     #[inline]
     pub fn depth(&self, x: &Vec3) -> f64 {
-        self.offset - self.normal.dot(x)
+        self.offset - self.normal_b.dot(x)
     }
 }
 
@@ -44,7 +45,7 @@ pub struct Field<'a> {
 pub struct Cell {
     /// Index into [`Field::faces`].
     pub face: usize,
-    /// Moments about [`Overlap::reference`].
+    /// Moments about [`Overlap::reference_b`].
     pub moments: Moments,
 }
 
@@ -53,30 +54,32 @@ pub struct Cell {
 pub struct Overlap {
     shared: Surface,
     cell: Surface,
-    spare: Surface,
+    cutter: Cutter,
     /// Faces that may be the nearest somewhere in the shared volume.
     nearest: Vec<usize>,
+    /// Faces of `nearest` in the order in which they cut a cell.
+    cutting: Vec<usize>,
     cells: Vec<Cell>,
-    reference: Vec3,
+    reference_b: Vec3,
 }
 
 impl Overlap {
     /// Makes a workspace for solids of `facets` planar facets in all, of A and B together.
     pub fn with_capacity(facets: usize) -> Self {
-        let surface = || Surface::with_capacity(facets);
         Self {
-            shared: surface(),
-            cell: surface(),
-            spare: surface(),
+            shared: Surface::with_capacity(facets),
+            cell: Surface::with_capacity(facets),
+            cutter: Cutter::with_capacity(facets),
             nearest: Vec::with_capacity(facets),
+            cutting: Vec::with_capacity(facets),
             cells: Vec::with_capacity(facets),
-            reference: Vec3::zeros(),
+            reference_b: Vec3::zeros(),
         }
     }
 
     /// Point about which the moments of the last result are taken, m: a vertex of the shared volume.
-    pub fn reference(&self) -> Vec3 {
-        self.reference
+    pub fn reference_b(&self) -> Vec3 {
+        self.reference_b
     }
 
     /// Cells of the volume that a closed surface and a convex body share, by increasing face index; empty if
@@ -85,12 +88,12 @@ impl Overlap {
         self.cells.clear();
         self.shared.copy_from(a);
         for half_space in b.faces.iter().chain(b.walls) {
-            if !self.shared.clip(|x| half_space.depth(x), &mut self.spare) {
+            if !self.cutter.cut(&mut self.shared, |x| half_space.depth(x)) {
                 return &self.cells;
             }
         }
-        let Some(reference) = self.shared.vertices().next() else { return &self.cells };
-        self.reference = *reference;
+        let Some(reference_b) = self.shared.vertices().first() else { return &self.cells };
+        self.reference_b = *reference_b;
         self.find_nearest(b.faces);
         for at in 0..self.nearest.len() {
             self.push_cell(b.faces, self.nearest[at]);
@@ -101,11 +104,12 @@ impl Overlap {
     /// Lists the faces that may be the nearest of some point of the shared volume. The depth of the nearest
     /// face is nowhere more than the greatest depth below any one face.
     fn find_nearest(&mut self, faces: &[HalfSpace]) {
-        let greatest = |face: &HalfSpace| self.shared.vertices().map(|x| face.depth(x)).fold(0.0, f64::max);
+        let greatest =
+            |face: &HalfSpace| self.shared.vertices().iter().map(|x| face.depth(x)).fold(0.0, f64::max);
         let bound = faces.iter().map(greatest).fold(f64::INFINITY, f64::min);
         self.nearest.clear();
         for (index, face) in faces.iter().enumerate() {
-            if self.shared.vertices().any(|x| face.depth(x) <= bound) {
+            if self.shared.vertices().iter().any(|x| face.depth(x) <= bound) {
                 self.nearest.push(index);
             }
         }
@@ -114,19 +118,25 @@ impl Overlap {
     /// Cuts the cell of a face out of the shared volume by the planes in which another face is as near.
     fn push_cell(&mut self, faces: &[HalfSpace], face: usize) {
         self.cell.copy_from(&self.shared);
-        for &other in self.nearest.iter().filter(|other| **other != face) {
-            let normal = faces[other].normal - faces[face].normal;
+        // Faces of similar normals first: they cut most, and most of the others then pass the cell by.
+        let Self { nearest, cutting, .. } = self;
+        cutting.clear();
+        cutting.extend(nearest.iter().filter(|other| **other != face));
+        let toward = |other: &usize| faces[*other].normal_b.dot(&faces[face].normal_b);
+        cutting.sort_unstable_by(|a, b| toward(b).total_cmp(&toward(a)).then(a.cmp(b)));
+        for &other in &self.cutting {
+            let normal_b = faces[other].normal_b - faces[face].normal_b;
             let offset = faces[other].offset - faces[face].offset;
-            let farther = HalfSpace { normal, offset };
+            let farther = HalfSpace { normal_b, offset };
             // Of two faces in one plane the one of lower index has the cell.
-            if normal == Vec3::zeros() && offset == 0.0 && other < face {
+            if normal_b == Vec3::zeros() && offset == 0.0 && other < face {
                 return;
             }
-            if !self.cell.clip(|x| farther.depth(x), &mut self.spare) {
+            if !self.cutter.cut(&mut self.cell, |x| farther.depth(x)) {
                 return;
             }
         }
-        let moments = self.cell.moments(&self.reference);
+        let moments = self.cell.moments(&self.reference_b);
         if moments.volume > 0.0 {
             self.cells.push(Cell { face, moments });
         }
@@ -136,14 +146,14 @@ impl Overlap {
 /// Energy and wrench of cells for a foundation modulus of 1 N/m³: `∫ depth dV` in m⁴, and its gradient.
 ///
 /// The wrench acts on A, about the origin of the frame (N and N·m per N/m³). B gets the opposite one.
-pub fn energy_and_wrench(cells: &[Cell], reference: &Vec3, faces: &[HalfSpace]) -> (f64, Wrench) {
+pub fn energy_and_wrench(cells: &[Cell], reference_b: &Vec3, faces: &[HalfSpace]) -> (f64, Wrench) {
     let mut energy = 0.0;
     let mut wrench = Wrench::zero();
     for Cell { face, moments } in cells {
         let face = &faces[*face];
-        energy += face.depth(reference) * moments.volume - face.normal.dot(&moments.first);
-        wrench.force += face.normal * moments.volume;
-        wrench.moment += (moments.first + reference * moments.volume).cross(&face.normal);
+        energy += face.depth(reference_b) * moments.volume - face.normal_b.dot(&moments.first_b);
+        wrench.force += face.normal_b * moments.volume;
+        wrench.moment += (moments.first_b + reference_b * moments.volume).cross(&face.normal_b);
     }
     (energy, wrench)
 }

@@ -2,13 +2,13 @@
 
 use crate::{Mat3, Vec3};
 
-/// Moments of a volume about a reference point.
+/// Moments of a volume about a reference point, along the axes of B's frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moments {
     /// Volume ∫ dV, m³.
     pub volume: f64,
     /// First moment ∫ y dV, m⁴; y is the position from the reference point.
-    pub first: Vec3,
+    pub first_b: Vec3,
     /// Second moment ∫ y yᵀ dV, m⁵.
     pub second: Mat3,
 }
@@ -21,13 +21,13 @@ impl Moments {
         let volume = a.dot(&b.cross(&c)) / 6.0;
         let sum = a + b + c;
         self.volume += volume;
-        self.first += sum * (volume / 4.0);
+        self.first_b += sum * (volume / 4.0);
         let squares = a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose();
         self.second += squares * (volume / 20.0);
     }
 
     /// Centroid from the reference point, m.
     pub fn centroid(&self) -> Vec3 {
-        self.first / self.volume
+        self.first_b / self.volume
     }
 }

@@ -9,9 +9,9 @@ use pong_testkit::{assert_near, samples};
 /// Surface of a polyhedron, moved.
 fn surface(polyhedron: &Polyhedron, x: &Transform) -> Surface {
     let mut surface = Surface::with_capacity(64);
+    surface.add_vertices(polyhedron.vertices.iter().map(|vertex| x.point(&vertex.position)));
     for face in 0..polyhedron.faces.len() {
-        let corner = |start: u32| x.point(&polyhedron.vertices[start as usize].position);
-        surface.push(polyhedron.rim(face).iter().map(|rim| corner(rim.start)));
+        surface.add_facet(polyhedron.rim(face).iter().map(|rim| rim.start));
     }
     surface
 }
@@ -19,7 +19,7 @@ fn surface(polyhedron: &Polyhedron, x: &Transform) -> Surface {
 /// Half spaces of a polyhedron.
 fn half_spaces(polyhedron: &Polyhedron) -> Vec<HalfSpace> {
     let half_space = |face: &pong_geometry::primitive::PolyhedronFace| HalfSpace {
-        normal: face.normal,
+        normal_b: face.normal,
         offset: face.offset,
     };
     polyhedron.faces.iter().map(half_space).collect()
@@ -27,8 +27,8 @@ fn half_spaces(polyhedron: &Polyhedron) -> Vec<HalfSpace> {
 
 fn moved(half_spaces: &[HalfSpace], x: &Transform) -> Vec<HalfSpace> {
     let moved = |half_space: &HalfSpace| {
-        let normal = x.rotation * half_space.normal;
-        HalfSpace { normal, offset: half_space.offset + normal.dot(&x.translation) }
+        let normal = x.rotation * half_space.normal_b;
+        HalfSpace { normal_b: normal, offset: half_space.offset + normal.dot(&x.translation) }
     };
     half_spaces.iter().map(moved).collect()
 }
@@ -37,15 +37,15 @@ fn moved(half_spaces: &[HalfSpace], x: &Transform) -> Vec<HalfSpace> {
 fn evaluate(a: &Surface, faces: &[HalfSpace], walls: &[HalfSpace]) -> (f64, Wrench, Moments) {
     let mut overlap = Overlap::with_capacity(64);
     let cells = overlap.cells(a, &Field { faces, walls }).to_vec();
-    let reference = overlap.reference();
+    let reference = overlap.reference_b();
     let (energy, wrench) = energy_and_wrench(&cells, &reference, faces);
     let mut all = Moments::default();
     for moments in cells.iter().map(|cell| cell.moments) {
         all.volume += moments.volume;
-        all.first += moments.first + reference * moments.volume;
+        all.first_b += moments.first_b + reference * moments.volume;
         all.second += moments.second
-            + reference * moments.first.transpose()
-            + moments.first * reference.transpose()
+            + reference * moments.first_b.transpose()
+            + moments.first_b * reference.transpose()
             + reference * reference.transpose() * moments.volume;
     }
     (energy, wrench, all)
@@ -87,7 +87,7 @@ fn unmoved() -> Transform {
 #[test]
 fn a_box_below_a_plane_has_the_moments_of_a_box() {
     let (low, high) = (Vec3::new(-0.3, -0.2, -0.01), Vec3::new(0.1, 0.4, 0.5));
-    let ground = [HalfSpace { normal: Vec3::z(), offset: 0.0 }];
+    let ground = [HalfSpace { normal_b: Vec3::z(), offset: 0.0 }];
     let (energy, wrench, all) = evaluate(&surface(&cuboid(low, high), &unmoved()), &ground, &[]);
     let (area, depth) = (0.4 * 0.6, 0.01);
     assert_near(all.volume, area * depth, 1e-13);
@@ -130,7 +130,7 @@ fn both_fields_divide_the_same_volume() {
         let in_b = evaluate(&surface(&a, &x), &half_spaces(&b), &[]).2;
         let in_a = evaluate(&surface(&b, &unmoved()), &moved(&half_spaces(&a), &x), &[]).2;
         assert!((in_a.volume - in_b.volume).abs() < 1e-13, "seed {index}: {} {}", in_a.volume, in_b.volume);
-        assert!((in_a.first - in_b.first).norm() < 1e-13, "seed {index}");
+        assert!((in_a.first_b - in_b.first_b).norm() < 1e-13, "seed {index}");
         assert!((in_a.second - in_b.second).norm() < 1e-13, "seed {index}");
     }
 }
@@ -201,8 +201,8 @@ fn pieces_with_walls_have_the_field_of_the_whole_body() {
         let b = cuboid(Vec3::repeat(-0.7), Vec3::repeat(0.7));
         let faces = half_spaces(&b);
         let normal = random.direction();
-        let wall = HalfSpace { normal, offset: random.between(-0.5, 0.5) };
-        let other = HalfSpace { normal: -normal, offset: -wall.offset };
+        let wall = HalfSpace { normal_b: normal, offset: random.between(-0.5, 0.5) };
+        let other = HalfSpace { normal_b: -normal, offset: -wall.offset };
         let a = surface(&a, &x);
         let whole = evaluate(&a, &faces, &[]);
         let pieces = [evaluate(&a, &faces, &[wall]), evaluate(&a, &faces, &[other])];
@@ -226,12 +226,14 @@ fn channel(depth_z: f64) -> Surface {
     ]
     .map(|(x, y)| Vec3::new(x, y, 0.0));
     let lift = Vec3::z() * depth_z;
+    let count = outline.len() as u32;
     let mut surface = Surface::with_capacity(64);
-    surface.push(outline.iter().map(|corner| corner + lift));
-    surface.push(outline.iter().rev().copied());
-    for k in 0..outline.len() {
-        let (start, end) = (outline[k], outline[(k + 1) % outline.len()]);
-        surface.push([start, end, end + lift, start + lift].into_iter());
+    surface.add_vertices(outline.iter().copied().chain(outline.iter().map(|corner| corner + lift)));
+    surface.add_facet(count..2 * count);
+    surface.add_facet((0..count).rev());
+    for start in 0..count {
+        let end = (start + 1) % count;
+        surface.add_facet([start, end, end + count, start + count].into_iter());
     }
     surface
 }
@@ -305,4 +307,83 @@ fn solids_that_do_not_overlap_have_no_cells() {
         assert!(cells.is_empty(), "{step}: {cells:?}");
     }
     assert!(overlap.cells(&Surface::default(), &Field { faces: &faces, walls: &[] }).is_empty());
+}
+
+/// Case of the file of known answers.
+#[derive(Default)]
+struct Known {
+    name: String,
+    vertices: Vec<Vec3>,
+    surface: Surface,
+    faces: Vec<HalfSpace>,
+    walls: Vec<HalfSpace>,
+    /// Face, volume, first and second moment (xx yy zz xy xz yz) of each cell.
+    cells: Vec<[f64; 11]>,
+    /// Energy, force and moment.
+    answer: Vec<f64>,
+    /// Relative change of the answer by the rounding of the input.
+    rounding: f64,
+}
+
+fn known_answers() -> Vec<Known> {
+    let mut cases: Vec<Known> = Vec::new();
+    for line in include_str!("overlap_cases.txt").lines().filter(|line| !line.starts_with('#')) {
+        let (tag, rest) = line.split_once(' ').expect("a tag and values");
+        if tag == "case" {
+            cases.push(Known { name: rest.to_owned(), ..Known::default() });
+            continue;
+        }
+        let values: Vec<f64> = rest.split(' ').map(|value| value.parse().expect("a number")).collect();
+        let half_space = || HalfSpace { normal_b: Vec3::from_column_slice(&values[..3]), offset: values[3] };
+        let case = cases.last_mut().expect("a case");
+        match tag {
+            "v" => case.vertices.push(Vec3::from_column_slice(&values)),
+            "f" => case.surface.add_facet(values.iter().map(|index| *index as u32)),
+            "p" => case.faces.push(half_space()),
+            "w" => case.walls.push(half_space()),
+            "c" => case.cells.push(values.try_into().expect("a cell")),
+            "u" => case.answer = values,
+            _ => case.rounding = values[0],
+        }
+    }
+    for case in &mut cases {
+        case.surface.add_vertices(case.vertices.iter().copied());
+    }
+    cases
+}
+
+/// `overlap_cases.txt` was computed by another method, exactly.
+#[test]
+fn known_answers_agree() {
+    for case in known_answers() {
+        let mut overlap = Overlap::with_capacity(64);
+        let cells = overlap.cells(&case.surface, &Field { faces: &case.faces, walls: &case.walls }).to_vec();
+        let at = overlap.reference_b();
+        let volume: f64 = case.cells.iter().map(|cell| cell[1]).sum();
+        let far = case.vertices.iter().map(Vec3::norm).fold(0.0, f64::max);
+        let bound = volume * (10.0 * case.rounding).max(1e-12);
+        let close = |got: f64, expected: f64, unit: f64, of: &str| {
+            assert!((got - expected).abs() <= bound * unit, "{}, {of}: {got} for {expected}", case.name);
+        };
+        for cell in &cells {
+            let face = cell.face as f64;
+            let expected = case.cells.iter().find(|known| known[0] == face).map_or([0.0; 11], |known| *known);
+            let Moments { volume, first_b: m, second } = cell.moments;
+            close(volume, expected[1], 1.0, "volume");
+            let first = m + at * volume;
+            (0..3).for_each(|axis| close(first[axis], expected[2 + axis], far, "first moment"));
+            let about = second + at * m.transpose() + m * at.transpose() + at * at.transpose() * volume;
+            let axes = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+            for (axes, expected) in axes.iter().zip(&expected[5..]) {
+                close(about[*axes], *expected, far * far, "second moment");
+            }
+        }
+        let found = |face: f64| cells.iter().any(|cell| cell.face as f64 == face);
+        let missed = case.cells.iter().filter(|known| !found(known[0])).map(|known| known[1]);
+        close(missed.sum(), 0.0, 1.0, "cells that were not found");
+        let (energy, wrench) = energy_and_wrench(&cells, &at, &case.faces);
+        close(energy, case.answer[0], far, "energy");
+        (0..3).for_each(|axis| close(wrench.force[axis], case.answer[1 + axis], 1.0, "force"));
+        (0..3).for_each(|axis| close(wrench.moment[axis], case.answer[4 + axis], far, "moment"));
+    }
 }
