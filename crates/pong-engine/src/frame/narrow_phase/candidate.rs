@@ -66,7 +66,8 @@ impl ContactCandidate {
         weight: 1.0,
     };
 
-    /// Candidate of an element of A and an element of B, with a whole spring.
+    /// Candidate with a whole spring for the interference `found` between an element of A and an element of
+    /// B.
     #[inline(always)]
     pub fn new(
         key: ContactKey,
