@@ -1,4 +1,4 @@
-//! Tree that finds overlapping boxes; a node splits its boxes into two halves along the axis on which their
+//! Tree that finds overlapping boxes. A node splits its boxes into two halves along the axis on which their
 //! centres spread most.
 
 use super::swept::Bounds;
@@ -52,7 +52,8 @@ impl BoundsTree {
         }
     }
 
-    /// Reports every pair of boxes that is not certainly disjoint, once each and in no order.
+    /// Calls `found` once for each two boxes that are not certainly disjoint, in no particular order. Only
+    /// the boxes with the indices `numbers` take part.
     pub fn overlaps(&mut self, numbers: &[usize], boxes: &[Bounds], found: &mut Found<'_>) {
         self.order.clear();
         self.nodes.clear();

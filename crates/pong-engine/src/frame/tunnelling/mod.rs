@@ -46,7 +46,7 @@ pub(crate) fn watch(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) 
     }
 }
 
-/// Follows the paths of all near pairs.
+/// Follows the paths of all near pairs whose groups may have moved far enough, and returns the events.
 #[inline]
 fn follow(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) -> TunnellingEvents {
     let mut events = TunnellingEvents::default();
