@@ -508,7 +508,8 @@ mod tests {
         FrictionLaw::Bristle { mu, static_excess: 0.0, stiffness, damping }
     }
 
-    /// Normal dampings in proportion to √k: in series, both springs have the same damping ratio.
+    /// Whatever the normal dampings are, the bristle of two surfaces in series has the damping ratio of their
+    /// normal spring.
     #[test]
     fn bristles_in_series_keep_the_damping_ratio_of_the_normal_law() {
         let rough = |k: f64, c: f64| Surface { friction: bristle(0.3, None, None), ..surface(k, c) };

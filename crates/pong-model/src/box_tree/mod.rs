@@ -272,7 +272,7 @@ impl BoxTree {
         NarrowBall::outward(&(center - self.origin), radius)
     }
 
-    /// Box of an element in the group frame, m; infinite in directions in which the element is unbounded.
+    /// Box of an element in the group frame, m; infinite where the element's box is unbounded.
     pub fn bounds(&self, element: u32) -> (Vec3, Vec3) {
         let (mut node, mut lane) = (&self.nodes[0], 0);
         loop {

@@ -24,7 +24,7 @@ pub(crate) struct EvaluationInput<'a> {
     pub clock: Clock,
 }
 
-/// Input of one phase for the workers, besides the contact state.
+/// Input of one parallel phase for the workers, apart from the contact state.
 #[derive(Clone)]
 pub(crate) struct WorkerInput {
     /// Phase number; contents of a context with another number are stale.

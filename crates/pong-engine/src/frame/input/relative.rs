@@ -23,9 +23,9 @@ pub(crate) struct Motions<'a> {
 }
 
 impl Motions<'_> {
-    /// Computes the motions of the given pairs for a frame, in the directions that have tests. If an entry of
-    /// `out` still holds the pair's motion of the last committed frame, its pose is the pose at the last
-    /// commit, and is not computed again.
+    /// Computes the motions of the given pairs for a frame, in the directions that have tests. An entry of
+    /// `out` may still hold the pair's motion of the last committed frame. Its relative pose is then the pose
+    /// at the last commit, and is not computed again.
     pub fn relate(&self, pairs: &[u32], frame: u64, out: &mut Vec<PairMotions>) {
         // Entries are reused: most frames have as many pairs as the frame before. Directions without tests
         // keep old values.

@@ -320,8 +320,9 @@ fn resolve_fallbacks(group: &mut [ContactCandidate], kind_a: PrimitiveKind) {
     }
 }
 
-/// Drops the deeper of two contacts of a deep ellipsoid with triangles if their features meet convexly. Only
-/// a face, or a feature with the centre behind it, is dropped.
+/// Drops the deeper of two contacts of an ellipsoid with triangles if their features meet convexly; a deep
+/// ellipsoid may have both (docs/theory.md, 2.2). Only a face, or a feature with the centre of A behind it, is
+/// dropped.
 ///
 /// The contact points show whether two features meet convexly. Mesh adjacency would not: a face that is cut
 /// into triangles may no longer share an edge with the other feature.
@@ -393,8 +394,8 @@ fn meet_in_an_edge(contact: &ContactCandidate, other: &ContactCandidate, triangl
 }
 
 /// Returns true if two faces meet convexly, with any number of triangles between them: the contact point of
-/// each face lies below the plane of the other. At a concave edge the contact points lie above. Behind a
-/// concave edge each contact point may lie in both planes; then the answer is false.
+/// each face lies below the plane of the other face. At a concave edge the contact points lie above these
+/// planes. Behind a concave edge each contact point may lie in both planes; then the answer is false.
 fn meet_below(contact: &ContactCandidate, other: &ContactCandidate, triangles: &TriangleSet) -> bool {
     let on = |of: &ContactCandidate| nearest_in_plane(&touched(of), &triangles.corners(of.element_b));
     let (places, normals) = ([&on(contact), &on(other)], [&contact.normal_b, &other.normal_b]);

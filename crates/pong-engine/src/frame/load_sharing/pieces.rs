@@ -1,4 +1,4 @@
-//! Drops those contacts of an ellipsoid or sphere with the pieces of a body that it would not have with the
+//! Drops contacts that an ellipsoid or sphere has with the pieces of a body, but would not have with the
 //! uncut body.
 
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
@@ -18,8 +18,8 @@ const ROUNDING: f64 = 1e-14;
 /// pieces of a flat face meet.
 const PLACE_SLACK: f64 = 1e-9;
 
-/// Culls contacts that an ellipsoid would not have with the uncut body. `group` has its contacts with the
-/// pieces of one body.
+/// Culls contacts that an ellipsoid would not have with the uncut body. `group` has the ellipsoid's contacts
+/// with the pieces of one body.
 ///
 /// Each piece reports the minimum translation over its own features. If two features of different pieces meet
 /// convexly, only the less deep one is a minimum translation of the whole body. Features that meet concavely,
@@ -56,7 +56,7 @@ pub(super) fn next_deeper(group: &[ContactCandidate], last: Option<usize>) -> Op
     (0..group.len()).filter(follows).reduce(less)
 }
 
-/// Returns true if `contact` is less deep than `other`; of equal depths, if it is earlier in summation order.
+/// Returns true if `contact` is less deep than `other` or, at equal depths, comes first in summation order.
 pub(crate) fn pushes_before(contact: &ContactCandidate, other: &ContactCandidate) -> bool {
     let rounding = DEPTH_SLACK * other.depth;
     let difference = contact.depth - other.depth;
@@ -145,7 +145,8 @@ pub(super) fn are_one_place(here: &Vec3, there: &Vec3) -> bool {
     (there - here).norm() <= PLACE_SLACK * (here.amax() + there.amax())
 }
 
-/// Contact point on the feature of B, m: the deepest point of A, moved out along the normal by the depth.
+/// Contact point on the feature of B (the foot), m: the deepest point of A, moved out along the normal by the
+/// depth.
 pub(super) fn touched(contact: &ContactCandidate) -> Vec3 {
     contact.deepest_b + contact.normal_b * contact.depth
 }

@@ -57,8 +57,8 @@ impl DeferredPairs {
         self.spheres.count() + self.ellipsoids.count()
     }
 
-    /// Adds a pair of an element and a triangle with its thickness for the element, m; returns the index of
-    /// the pair.
+    /// Adds a pair of an element and a triangle, and returns the index of the pair. `thickness`, m, is that
+    /// of the triangle for this element.
     #[inline(always)]
     pub fn add(&mut self, element: &Ellipsoidal<'_>, triangle: u32, thickness: f64) -> usize {
         match element {

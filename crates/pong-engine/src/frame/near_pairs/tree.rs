@@ -6,7 +6,8 @@ use super::swept::Bounds;
 /// Maximum boxes per leaf.
 const LEAF: usize = 8;
 
-/// A node; its first child is the next node.
+/// Node of the tree. Its first child follows it in the list of nodes; `second` is the index of the other
+/// child.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     bounds: Bounds,

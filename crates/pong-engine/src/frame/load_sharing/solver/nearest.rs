@@ -21,7 +21,8 @@ use pong_geometry::Vec3;
 
 /// Allowed violation of a contact relative to the largest depth; depths are not known more accurately.
 const VIOLATION_MAX: f64 = 1e-15;
-/// Allowed increase of |p|²·δ_d², which is about 1, in an exchange: a few roundings.
+/// Allowed increase of |p|²·δ_d² in an exchange: a few roundings of this number, which is about 1. δ_d is the
+/// depth of the deepest contact.
 const GAIN_SLACK: f64 = 1e-15;
 
 /// Shortest vector that clears all contacts, and the at most three contacts that determine it.

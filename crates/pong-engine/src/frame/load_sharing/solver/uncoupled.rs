@@ -44,8 +44,8 @@ pub(super) fn share(contacts: &mut [SharedContact], scratch: &Arena) -> Result<(
 }
 
 /// Lemke's tableau of w − G·λ − 1·z₀ = −δ, with the slack variables w and the artificial variable z₀. Each
-/// row is solved for one basic variable; the nonbasic variables are zero. Variable indices: w (n), λ (n), z₀.
-/// Columns: the nonbasic variables, then the right-hand side.
+/// row is solved for one basic variable; the nonbasic variables are zero. The variables are numbered in the
+/// order w_1…w_n, λ_1…λ_n, z₀. The columns are those of the nonbasic variables, then the right-hand side.
 struct Tableau<'a> {
     n: usize,
     /// Cells in row-major order.
@@ -164,7 +164,7 @@ impl<'a> Tableau<'a> {
     }
 }
 
-/// Coupling of two contacts in double-double precision.
+/// Coupling max(0, n₁·n₂) of two contacts, in double-double precision.
 fn cosine(a: &SharedContact, b: &SharedContact) -> Twofold {
     let coupling = Coupling::new(a, b);
     if coupling.is_near { Twofold::sum(1.0, -coupling.gap) } else { Twofold::from(coupling.cosine) }
