@@ -321,8 +321,8 @@ fn resolve_fallbacks(group: &mut [ContactCandidate], kind_a: PrimitiveKind) {
 }
 
 /// Drops the deeper of two contacts of an ellipsoid with triangles if their features meet convexly; a deep
-/// ellipsoid may have both (docs/theory.md, 2.2). Only a face, or a feature with the centre of A behind it, is
-/// dropped.
+/// ellipsoid may have both (docs/theory.md, 2.2). Only a face, or a feature with the centre of A behind it,
+/// is dropped.
 ///
 /// The contact points show whether two features meet convexly. Mesh adjacency would not: a face that is cut
 /// into triangles may no longer share an edge with the other feature.
