@@ -96,7 +96,8 @@ pub(crate) fn cut(
     }
 }
 
-/// Adds bounded items to a group, or splits them between two groups below it.
+/// Adds bounded items to a group. If there are more than `most`, splits them into halves, for two groups
+/// below it.
 fn halve(body: &MovableGroup, mut items: Vec<Item>, most: usize, into: usize, groups: &mut Vec<GroupDraft>) {
     if items.len() <= most {
         groups[into].items = items;

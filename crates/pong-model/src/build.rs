@@ -29,7 +29,8 @@ pub(crate) fn finish(reader: &mut Reader<'_>, draft: ModelDraft) -> Option<Model
     Some(model)
 }
 
-/// Builds the tree last, and only without faults so far, because it relies on every element being valid.
+/// Finishes one body: neighbours, pieces, shells and tree. The tree is built last, and only if there is no
+/// fault so far, because it relies on valid elements.
 fn finish_body(reader: &mut Reader<'_>, draft: &mut BodyDraft) {
     draft.welder = Welder::default();
     let findings = connect_triangles(reader, draft);
@@ -110,7 +111,7 @@ fn place(p: &Vec3) -> String {
     format!("({}, {}, {})", p.x, p.y, p.z)
 }
 
-/// Builds the polyhedra; returns the lowest piece of each polyhedron's surface.
+/// Builds the polyhedra; returns, for each of them, the lowest piece of its surface.
 fn join_pieces(reader: &mut Reader<'_>, draft: &mut BodyDraft) -> Vec<u32> {
     let mut hulls = std::mem::take(&mut draft.hulls);
     let (surface_of, lonely) = join_walls(&mut hulls);

@@ -31,7 +31,8 @@ impl<'b> Element<'b> {
         Self { body, item }
     }
 
-    /// Minimum and maximum coordinates, m; infinite if unbounded.
+    /// Minimum and maximum coordinates in the group frame, m; infinite in directions in which the element is
+    /// unbounded.
     pub fn extent(&self) -> (Vec3, Vec3) {
         let body = self.body;
         let points = match self.kind() {
@@ -109,8 +110,8 @@ impl Bounded for Element<'_> {
 }
 
 impl Bounded for ThickTriangle {
-    /// The region behind is bounded by a half ball, larger than the prism: a ray that still hits may start
-    /// beside the prism.
+    /// Support of the triangle and the region behind it. The region is bounded by a half ball, which is
+    /// larger than the prism behind the triangle: a ray that still hits may start beside the prism.
     fn support(&self, direction: &Vec3) -> f64 {
         let forward = direction.dot(&self.normal);
         let widest = if forward <= 0.0 { 1.0 } else { (1.0 - forward * forward).max(0.0).sqrt() };

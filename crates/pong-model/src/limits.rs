@@ -14,13 +14,13 @@ pub const SMALLEST_SIZE: f64 = 1e-30;
 /// Fault of a number: rule, cause and cure.
 pub(crate) type NumberFault = (&'static str, String, &'static str);
 
-/// Fault of a number that must be finite.
+/// Fault of a number that must be finite; `None` if it is.
 pub(crate) fn not_finite(value: f64) -> Option<NumberFault> {
     let told = || ("not-finite", format!("{value} is no finite number"), "give a finite number");
     (!value.is_finite()).then(told)
 }
 
-/// Fault of a number that must be finite and within ±[`LARGEST`].
+/// Fault of a number that must be finite and within ±[`LARGEST`]; `None` if it is.
 pub(crate) fn out_of_range(value: f64) -> Option<NumberFault> {
     let beyond = || format!("{value:e} is beyond ±{LARGEST:e}");
     let too_large = || ("too-large", beyond(), "give a smaller number; check its unit");

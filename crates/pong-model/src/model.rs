@@ -106,7 +106,8 @@ pub struct PrimitiveInfo {
     pub first_mirror: u32,
 }
 
-/// Tree of bounding volumes of any arity in one array: the authored groups.
+/// Tree of the authored groups with their bounding volumes, in one array. A node may have any number of
+/// children.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
     /// Nodes; node 0 is the root, and the children of a node are contiguous.
@@ -162,7 +163,7 @@ pub struct ChunkBoxes {
 }
 
 impl ChunkBoxes {
-    /// Boxes around the elements of every bottom node of a tree.
+    /// Boxes around the elements of each bottom node of a tree; an empty list if a node is unbounded.
     pub(crate) fn of(boxes: &BoxTree) -> Vec<Self> {
         let around = |node: &BoxNode| boxes.widened(&node.boxes.around());
         let mut bottoms: Vec<_> = boxes.nodes.iter().filter(|node| node.is_bottom()).collect();
@@ -195,7 +196,7 @@ pub struct SphereLanes {
 }
 
 impl SphereLanes {
-    /// Packs elements eight by eight; empty for kinds other than points and spheres.
+    /// Packs points or spheres eight by eight; returns an empty list for other kinds.
     pub(crate) fn of(body: &MovableGroup, kind: PrimitiveKind, items: &[Item]) -> Vec<Self> {
         let ball = |item: &Item| match kind {
             PrimitiveKind::Point => Some((body.points[item.element as usize].position, 0.0)),
@@ -224,7 +225,7 @@ pub struct SegmentLanes {
 }
 
 impl SegmentLanes {
-    /// Packs elements eight by eight; empty for kinds other than line segments and capsules.
+    /// Packs line segments or capsules eight by eight; returns an empty list for other kinds.
     pub(crate) fn of(body: &MovableGroup, kind: PrimitiveKind, items: &[Item]) -> Vec<Self> {
         let rod = |item: &Item| match kind {
             PrimitiveKind::LineSegment => Some((&body.segments[item.element as usize].ends, 0.0)),

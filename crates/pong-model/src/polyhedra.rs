@@ -39,7 +39,8 @@ struct VertexStar {
 
 /// Builds the polyhedra of a body; `surface_of` gives each piece the lowest piece of its surface.
 ///
-/// Also returns, by piece, the points where more than two active faces meet at one edge.
+/// Also returns an end point of each edge at which more than two active faces meet, with the index of a
+/// piece.
 pub(crate) fn build(hulls: &[Hull], surface_of: &[u32]) -> (Vec<Polyhedron>, Vec<(usize, Vec3)>) {
     let mut polyhedra: Vec<PolyhedronParts> = hulls.iter().map(piece).collect();
     let edges = edges_of_surfaces(&polyhedra, surface_of);
@@ -100,7 +101,8 @@ fn piece(hull: &Hull) -> PolyhedronParts {
     polyhedron
 }
 
-/// Edge as one face sees it; adds the edge when its first face is processed.
+/// Edge of a face's outline from the vertex `start` to `end`. Adds the edge to the polyhedron when the first
+/// of its two faces is processed.
 fn rim(
     polyhedron: &mut PolyhedronParts,
     numbers: &mut WordMap<(u32, u32), u32>,
@@ -213,7 +215,8 @@ fn note_edge(
     }
 }
 
-/// Gives the vertices their normal cones; the first piece with a vertex takes its cone.
+/// Sets the normal cones of the vertices. A vertex common to several pieces has its cone only in the first of
+/// them.
 fn set_cones(polyhedron: &mut PolyhedronParts, surface: u32, stars: &mut WordMap<VertexKey, VertexStar>) {
     for vertex in &mut polyhedron.vertices {
         let Some(star) = stars.remove(&(surface, position_key(&vertex.position))) else { continue };

@@ -17,9 +17,9 @@ pub struct Surface {
 }
 
 impl PairOverride {
-    /// Number of names in the entry that include a model, if the entry applies to two surfaces, each given as
-    /// (model, surface); `None` if it does not apply. Of two entries that apply, the one with the greater
-    /// number has priority.
+    /// Priority of the entry for two surfaces, each given as (model, surface): the number of names in the
+    /// entry that include a model. `None` if the entry does not apply to them. Of two entries that apply, the
+    /// one with the greater number counts.
     pub fn names_models(&self, a: (&str, &str), b: (&str, &str)) -> Option<usize> {
         let [one, other] = &self.surfaces;
         let in_order = |x, y| Some(names(one, x)? + names(other, y)?);
@@ -38,7 +38,7 @@ fn names(entry: &str, (model, surface): (&str, &str)) -> Option<usize> {
 }
 
 impl Surface {
-    /// Returns `true` if a name in a pair table, `entry`, means this surface of the model named `model`.
+    /// Returns `true` if `entry`, a name in a pair table, means this surface of the model named `model`.
     pub fn is_called(&self, entry: &str, model: &str) -> bool {
         names(entry, (model, &self.name)).is_some()
     }
@@ -120,8 +120,8 @@ impl NormalLaw {
     }
 
     /// Default damping c_t (N·s/m) of a bristle of stiffness `k_t` beside a normal spring of stiffness `k`:
-    /// c·√(k_t/k), the damping ratio of the linear law for every mass. A rigid surface and the other laws
-    /// have no such ratio; the result is then 0.
+    /// c·√(k_t/k). For every mass, the bristle then has the damping ratio of the linear law. A rigid surface
+    /// and the other laws have no such ratio; the result is then 0.
     pub fn bristle_damping(&self, k: f64, k_t: f64) -> f64 {
         match self {
             // Both operands finite: a compiler may divide before it tests `k`, and ∞/∞ is an invalid

@@ -34,7 +34,7 @@ struct Builder<'b> {
     faults: Vec<FitFault>,
 }
 
-/// Builds the tree of a body whose elements are complete.
+/// Builds the tree of a body whose elements are complete. Returns the faults if a volume cannot be fitted.
 pub(crate) fn build(
     body: &MovableGroup,
     groups: &[GroupDraft],
@@ -101,7 +101,8 @@ impl Builder<'_> {
         fit(kind, &things, self.ext)
     }
 
-    /// Fitted volume. With many shapes, only the outermost determine its position, and all of them its size.
+    /// Volume fitted around the items. If there are many, only the outermost determine its position, but all
+    /// of them determine its size.
     fn fitted_around_many(&self, kind: &BoundKind, items: &[Item]) -> Result<Volume, String> {
         if items.len() <= MANY || matches!(kind, BoundKind::Custom(_)) {
             return self.fitted(kind, items);
@@ -134,8 +135,8 @@ fn boxed(body: &MovableGroup, item: Item) -> Boxed<Item> {
     Boxed { item, low, high }
 }
 
-/// Elements of a leaf by kind, with unbounded ones in separate batches, each batch in the order of its box
-/// tree.
+/// Adds the batches of a leaf to the tree: its elements by kind, unbounded ones in batches of their own. Each
+/// batch is in the order of its box tree.
 fn batches(body: &MovableGroup, items: &[Item], tree: &mut Tree) {
     let mut by_kind: BTreeMap<(PrimitiveKind, bool), Vec<Boxed<Item>>> = BTreeMap::new();
     for &item in items {
@@ -157,7 +158,7 @@ fn batches(body: &MovableGroup, items: &[Item], tree: &mut Tree) {
     }
 }
 
-/// Box with the margin of a fitted volume.
+/// Adds the margin of a fitted volume to a box; an unbounded box becomes infinite in all directions.
 fn with_margin(boxed: Boxed<Item>) -> Boxed<Item> {
     // Tested first, because an infinite box has no centre.
     if boxed.is_bounded()

@@ -1,7 +1,7 @@
 //! Neighbours and shells of the triangles of one body, and warnings about them.
 //!
-//! Mirror images of two-sided meshes are neighbours only of mirror images. All searches sort, so that none
-//! takes quadratic time.
+//! Mirror images of two-sided meshes are neighbours only of mirror images. All searches work on sorted lists,
+//! so that none takes quadratic time.
 
 use crate::model::MovableGroup;
 use crate::pieces::Sets;
@@ -34,10 +34,11 @@ pub(crate) struct TopologyReport {
 }
 
 /// Edge of a triangle: its two vertices in increasing order, packed into one number; then three times the
-/// triangle's index plus the edge's.
+/// index of the triangle plus the index of the edge in it.
 type HalfEdge = (u64, u32);
 
-/// Sets the neighbours of all triangles, and the features that may push.
+/// Sets the neighbours of all triangles and the features that may push. Returns warnings, duplicates and
+/// shells.
 pub(crate) fn build_adjacency(body: &mut MovableGroup) -> TopologyReport {
     let mut findings =
         TopologyReport { shell_leader: vec![0; body.triangles.triangles.len()], ..TopologyReport::default() };
@@ -61,7 +62,7 @@ pub(crate) fn build_adjacency(body: &mut MovableGroup) -> TopologyReport {
     findings
 }
 
-/// Front triangles, or mirror images, in order.
+/// Front triangles of a body or, if `mirrors` is true, the mirror images of two-sided meshes; in order.
 fn triangles_of(body: &MovableGroup, mirrors: bool) -> Vec<u32> {
     let meshes = body.primitives.iter().filter(|info| info.kind == PrimitiveKind::Triangle);
     meshes
@@ -129,7 +130,8 @@ fn set_neighbor(set: &mut TriangleSet, half: &HalfEdge, neighbor: u32) {
     set.triangles[(half.1 / 3) as usize].neighbors[(half.1 % 3) as usize] = neighbor;
 }
 
-/// Joins triangles that share a vertex into one shell.
+/// Finds the shells of the triangles in `part`, and sets the lowest triangle of the shell of each. Triangles
+/// that share a vertex belong to one shell.
 fn lead_shells(set: &TriangleSet, part: &[u32], leader: &mut [u32]) {
     let mut vertices = Sets::new(set.vertices.len());
     for &triangle in part {

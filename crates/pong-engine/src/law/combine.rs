@@ -4,10 +4,10 @@
 //! s_A = k_B/(k_A + k_B)     k = k_A·s_A     c = c_A·s_A² + c_B·s_B²     χ = χ_A·s_A + χ_B·s_B
 //! ```
 //!
-//! The power law's c is c_A·s_A^(2+q) + c_B·s_B^(2+q). With the exponent 3/2 the shares are those of κ_i =
-//! k_i^(2/3), and k = (κ_A·κ_B/(κ_A + κ_B))^(3/2). Friction: k_t by the series rule, c_t by squared shares of
-//! k_t, each μ by 2·μ_A·μ_B/(μ_A + μ_B). A bristle without given damping takes the damping ratio of the
-//! normal law, c·√(k_t/k) (docs/theory.md, 4).
+//! The power law's c is c_A·s_A^(2+q) + c_B·s_B^(2+q). With the exponent 3/2, κ_i = k_i^(2/3) replaces k_i in
+//! s_A, and k = (κ_A·κ_B/(κ_A + κ_B))^(3/2). Friction: k_t follows from the series rule, c_t from the squared
+//! shares of k_t, and each μ from 2·μ_A·μ_B/(μ_A + μ_B). A bristle without given damping takes the damping
+//! ratio of the normal law, c·√(k_t/k) (docs/theory.md, 4).
 //!
 //! A rigid surface has no share of the depth; values that it leaves out of a law are taken from the other
 //! surface.
@@ -57,9 +57,9 @@ pub fn combine(
     Ok(PairProps { share_a, stiffness, normal, friction })
 }
 
-/// Damping c_t, N·s/m, of a bristle of stiffness `k_t`, N/m, for an entry of the pair that gives no damping.
-/// It follows from the damping ratio of the two surfaces' bristles in series. If the entry names a normal
-/// law, or a surface has no bristle, it is `by_normal_law`.
+/// Damping c_t, N·s/m, of a bristle of stiffness `k_t`, N/m, if the entry of the pair gives none. It keeps
+/// the damping ratio that the two surfaces' bristles have in series. If the entry names a normal law, or a
+/// surface has no bristle, it is `by_normal_law`.
 fn entry_damping(
     (a, b): (&Surface, &Surface),
     entry: &PairOverride,
@@ -123,7 +123,7 @@ fn pair_exponent(a: &Surface, b: &Surface, table: Option<&PairOverride>) -> Expo
     }
 }
 
-/// A's share, and the stiffness of two springs in series.
+/// A's share of the depth, and the stiffness of the two springs in series.
 fn in_series(k_a: f64, k_b: f64, exponent: Exponent) -> (f64, f64) {
     if k_a.is_infinite() {
         return (0.0, k_b);
@@ -468,7 +468,7 @@ mod tests {
         assert!((damping - 4.0 * (0.75 * 0.75 + 0.25 * 0.25)).abs() < 1e-12);
     }
 
-    /// k_t = ⅔·k, for surfaces in series and for an entry of the pair.
+    /// Without a given bristle stiffness, k_t = ⅔·k, for surfaces in series and for an entry of the pair.
     #[test]
     fn what_is_not_said_of_friction_follows_the_normal_spring() {
         let friction =
@@ -508,7 +508,8 @@ mod tests {
         FrictionLaw::Bristle { mu, static_excess: 0.0, stiffness, damping }
     }
 
-    /// Normal dampings in proportion to √k: in series, both springs have the same damping ratio.
+    /// Whatever the normal dampings are, the bristle of two surfaces in series has the damping ratio of their
+    /// normal spring.
     #[test]
     fn bristles_in_series_keep_the_damping_ratio_of_the_normal_law() {
         let rough = |k: f64, c: f64| Surface { friction: bristle(0.3, None, None), ..surface(k, c) };

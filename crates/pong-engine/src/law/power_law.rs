@@ -38,8 +38,8 @@ pub(super) fn tangent(
     (elastic::slope(stiffness, exponent, depth) + rise * rate, damping)
 }
 
-/// Damping of two surfaces in series, with A's share `share_a` of depth and depth rate: the dissipated powers
-/// add.
+/// Damping of two surfaces in series, N·s/m^(1+q), with A's share `share_a` of depth and depth rate: the
+/// powers that the two dampers dissipate add.
 pub(super) fn series_damping(c_a: f64, c_b: f64, share_a: f64, exponent: f64) -> f64 {
     let share_b = 1.0 - share_a;
     c_a * share_a * share_a * power(share_a, exponent) + c_b * share_b * share_b * power(share_b, exponent)

@@ -32,7 +32,8 @@ impl Laws {
         self.friction.get(name).cloned().ok_or_else(|| missing("friction law", name))
     }
 
-    /// First friction law for which another registry has a law of equal name with another number of state values.
+    /// Name of the first friction law that `others` has under the same name with a different number of state
+    /// values; `None` if there is none.
     pub(crate) fn first_of_other_state(&self, others: &Self) -> Option<&str> {
         let differs = |name: &String, law: &Arc<dyn FrictionForce>| {
             others.friction.get(name).is_some_and(|other| other.state_len() != law.state_len())

@@ -1,4 +1,4 @@
-//! Common Objects of two sealed scenes, and the check that their contacts can continue in the other scene.
+//! Common Objects of two sealed scenes, and the check that contacts of the first can continue in the second.
 
 use super::{GroupInstance, Scene};
 use crate::error::EngineError;
@@ -19,7 +19,7 @@ pub(crate) struct Shared {
 }
 
 impl Shared {
-    /// Matches a second scene with a first one.
+    /// Matches the Objects, movable groups and pairs of the scene `into` with those of the scene `from`.
     ///
     /// # Errors
     /// [`EngineError::BadValue`] with thing, cause and cure if contacts of common Objects would not continue
@@ -34,7 +34,7 @@ impl Shared {
     }
 }
 
-/// Error for `thing`.
+/// Returns the error that the object or setting `thing` prevents a continuation from another world.
 pub(crate) fn refused<T>(thing: &str, cause: String) -> Result<T, EngineError> {
     Err(EngineError::BadValue { what: format!("continue from another world: {thing}"), cause })
 }
@@ -89,7 +89,8 @@ fn shared_bodies(from: &Scene, into: &Scene, objects: &[Option<usize>]) -> Vec<O
     into.bodies.iter().map(earlier).collect()
 }
 
-/// For each pair of Objects of the second scene, the index of the same pair in the first scene.
+/// For each pair of Objects of the second scene, the index of the same pair in the first scene. Returns an
+/// error if a pair of common Objects is missing, or differs in order or filters.
 fn shared_pairs(
     (from, sealed_from): SealedScene<'_>,
     (into, sealed_into): SealedScene<'_>,

@@ -94,8 +94,8 @@ fn root_up(bottoms: usize, levels: u32) -> usize {
     (1..).find(|width: &usize| width.pow(levels) >= bottoms).expect("numbers do not end")
 }
 
-/// Splits elements into `parts` parts with nearly equal numbers of bottom nodes, at most `most`, by repeated
-/// halving across the longest side. Passes each part, with its start, to `take`.
+/// Splits elements into `parts` parts of at most `most` bottom nodes each, and nearly equally many, by
+/// repeated halving across the longest side. Calls `take` with each part and the index of its first element.
 fn deal<T: Copy + Ord>(
     elements: &mut [Boxed<T>],
     (parts, most): (usize, usize),
@@ -146,7 +146,7 @@ fn longest_axis<T>(elements: &[Boxed<T>]) -> usize {
     (high - low).imax()
 }
 
-/// Centre of the box around all finite boxes, m.
+/// Centre of the box around all finite boxes, m; the origin if there are none.
 fn middle<T>(elements: &[Boxed<T>]) -> Vec3 {
     let mut bounded = elements.iter().filter(|element| element.is_bounded()).map(|e| (e.low, e.high));
     let Some(first) = bounded.next() else { return Vec3::zeros() };

@@ -1,4 +1,4 @@
-//! Tree of boxes around the elements of a leaf, eight to a node, which finds the elements that a given box
+//! Tree of boxes around the elements of a leaf, eight boxes to a node. It finds the elements that a given box
 //! may touch.
 //!
 //! Boxes are stored in single precision relative to the tree's origin, rounded outward. A larger box may cost
@@ -27,7 +27,7 @@ pub struct NarrowBox {
     pub high: [f32; 3],
 }
 
-/// Sphere in single precision.
+/// Sphere in single precision, relative to the tree's origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NarrowBall {
     center: [f32; 3],
@@ -54,7 +54,7 @@ pub struct BoxNode {
     pub elements: Range<u32>,
 }
 
-/// Contents of a box.
+/// Contents of one box of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Child {
     /// Child node, by index.
@@ -123,7 +123,7 @@ impl NarrowBall {
         Self { center: [center.x as f32, center.y as f32, center.z as f32], square: square as f32 }
     }
 
-    /// Returns `true` if the sphere excludes anything.
+    /// Returns `true` if the sphere can exclude a box.
     #[inline]
     pub fn is_bounded(&self) -> bool {
         self.square < f32::INFINITY
@@ -222,7 +222,7 @@ impl NarrowBoxes {
 }
 
 impl BoxNode {
-    /// Contents of a box.
+    /// Contents of the box in a lane.
     #[inline]
     pub fn child(&self, lane: usize) -> Child {
         let child = self.children[lane];
@@ -230,7 +230,7 @@ impl BoxNode {
     }
 
     /// Child nodes in the boxes whose bits are set, in order, moved to the front; the remaining lanes have no
-    /// meaning. Not for a bottom node.
+    /// meaning. Not for a bottom node, whose boxes contain elements.
     #[inline(always)]
     pub fn nodes_in<S: Simd>(&self, simd: S, boxes: LaneBits) -> [u32; WIDTH] {
         simd.packed(&self.children, boxes)
@@ -258,19 +258,21 @@ impl BoxNode {
 }
 
 impl BoxTree {
-    /// Box given in the group frame, m, in single precision relative to the tree's origin.
+    /// Converts a box given in the group frame, m, to single precision relative to the tree's origin, rounded
+    /// outward.
     #[inline]
     pub fn narrowed(&self, low: &Vec3, high: &Vec3) -> NarrowBox {
         NarrowBox::outward(&(low - self.origin), &(high - self.origin))
     }
 
-    /// Sphere given in the group frame, m, in single precision relative to the tree's origin.
+    /// Converts a sphere given in the group frame, m, to single precision relative to the tree's origin,
+    /// enlarged for rounding.
     #[inline]
     pub fn narrowed_ball(&self, center: &Vec3, radius: f64) -> NarrowBall {
         NarrowBall::outward(&(center - self.origin), radius)
     }
 
-    /// Box of an element in the group frame, m; infinite in directions in which the element is unbounded.
+    /// Box of an element in the group frame, m; infinite where the element's box is unbounded.
     pub fn bounds(&self, element: u32) -> (Vec3, Vec3) {
         let (mut node, mut lane) = (&self.nodes[0], 0);
         loop {
@@ -287,7 +289,7 @@ impl BoxTree {
         self.widened(&node.boxes.lane(lane))
     }
 
-    /// Box of this tree, converted to the group frame, m; infinite where the tree's box is unbounded.
+    /// Converts a box of this tree to the group frame, m; infinite where the tree's box is unbounded.
     pub fn widened(&self, narrow: &NarrowBox) -> (Vec3, Vec3) {
         let wide = |x: f32, beyond: f64| if x.abs() < f32::MAX { f64::from(x) } else { beyond };
         let low = Vec3::from(narrow.low.map(|x| wide(x, f64::NEG_INFINITY)));
@@ -295,8 +297,8 @@ impl BoxTree {
         (self.origin + low, self.origin + high)
     }
 
-    /// Calls `visit` with every bottom node that has boxes overlapping the query; returns the number of nodes
-    /// visited.
+    /// Calls `visit` with every bottom node that has boxes overlapping the query, and with the bits of these
+    /// boxes. Returns the number of nodes compared with the query.
     #[inline(always)]
     pub fn visit<S: Simd>(
         &self,

@@ -100,7 +100,7 @@ pub(crate) fn bristle_share<'f>(
     if whole > contact.weight { half * contact.weight / whole } else { half }
 }
 
-/// The elements of A of the current chunk.
+/// Elements of A of the current chunk.
 #[derive(Clone, Copy)]
 pub(crate) struct ElementsOfA<'c> {
     kind: PrimitiveKind,
@@ -255,7 +255,7 @@ impl PairContext<'_> {
         out.add_friction_alone(contact.place, &props.friction, &input);
     }
 
-    /// Rotation vector φ, computed once per pair.
+    /// Rotation vector φ of A relative to B since the last commit, rad; computed once per pair.
     fn rotation(&self, since: &SinceCommit) -> &Vec3 {
         // Set in place: avoids a store-forwarding stall.
         if self.rotation_b.get().is_none() {

@@ -24,7 +24,7 @@ pub(crate) struct EvaluationInput<'a> {
     pub clock: Clock,
 }
 
-/// Input of one phase for the workers, besides the contact state.
+/// Input of one parallel phase for the workers, apart from the contact state.
 #[derive(Clone)]
 pub(crate) struct WorkerInput {
     /// Phase number; contents of a context with another number are stale.
@@ -82,7 +82,7 @@ impl WorkerInput {
     }
 }
 
-/// Input of the blocks of a round.
+/// Input of the blocks of one round. A frame with very many pairs runs in several rounds.
 #[derive(Clone, Copy)]
 pub(crate) struct Round<'a> {
     pub scene: &'a Scene,
@@ -105,8 +105,8 @@ pub(crate) struct PairContext<'a> {
     pub memory: &'a ContactMemory,
     pub table: &'a SurfaceTable,
     pub volume_tests: &'a VolumeTests,
-    /// True if A's Object was named first when the pair was made. Registered tests test two primitives of one
-    /// kind only in this direction.
+    /// True if A's Object was named first when the pair was made. A contact test that the host has registered
+    /// for two primitives of the same kind runs only in this direction, so that no contact is reported twice.
     pub in_order: bool,
     /// True if B's model remembers the side of entry.
     pub remembers_entry: bool,

@@ -11,7 +11,7 @@ use crate::state::CommittedPoses;
 use pong_geometry::{Pose, Quat, Transform, Twist};
 use std::borrow::Cow;
 
-/// Input of the relative motion of any pair.
+/// Data from which the relative motion of any pair is computed.
 #[derive(Clone, Copy)]
 pub(crate) struct Motions<'a> {
     pub sealed: &'a Sealed,
@@ -23,8 +23,9 @@ pub(crate) struct Motions<'a> {
 }
 
 impl Motions<'_> {
-    /// Computes the motions of some pairs for a frame, in the directions that have tests. If an entry has the
-    /// motion of the last committed frame, its pose is the pose at that commit, and is not computed again.
+    /// Computes the motions of the given pairs for a frame, in the directions that have tests. An entry of
+    /// `out` may still hold the pair's motion of the last committed frame. Its relative pose is then the pose
+    /// at the last commit, and is not computed again.
     pub fn relate(&self, pairs: &[u32], frame: u64, out: &mut Vec<PairMotions>) {
         // Entries are reused: most frames have as many pairs as the frame before. Directions without tests
         // keep old values.
@@ -44,13 +45,13 @@ impl Motions<'_> {
         }
     }
 
-    /// Motion of A relative to B.
+    /// Motion of A relative to B now and since the last commit.
     pub fn of(&self, direction: Direction) -> Motion {
         self.since(direction, self.earlier(direction))
     }
 
     /// Pose of A relative to B at the last commit: the transform from A's group frame to B's, and its
-    /// rotation.
+    /// rotation. `None` without an earlier pose.
     #[inline(always)]
     fn earlier(&self, direction: Direction) -> Option<(Transform, Quat)> {
         let (body_a, body_b) = self.sealed.bodies_of(direction);
@@ -58,7 +59,7 @@ impl Motions<'_> {
         self.committed.relative(pair, body_a, body_b).map(|pose| (pose.transform(), pose.orientation))
     }
 
-    /// Motion of A relative to B since an earlier relative pose.
+    /// Motion of A relative to B now, and since `earlier`, the relative pose at the last commit.
     #[inline(always)]
     fn since(&self, direction: Direction, earlier: Option<(Transform, Quat)>) -> Motion {
         let (body_a, body_b) = self.sealed.bodies_of(direction);
@@ -79,7 +80,8 @@ impl Motions<'_> {
         }
     }
 
-    /// Motion in a direction that has a contact: from the frame's input, or recomputed.
+    /// Motion in a direction that has a contact: from the frame's input if it is stored there, otherwise
+    /// recomputed.
     pub fn known<'i>(
         &self,
         near: &NearPairs,

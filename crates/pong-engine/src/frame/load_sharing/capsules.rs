@@ -1,16 +1,17 @@
-//! Load sharing of a capsule between its end spheres and the edge that its axis crosses, against a polyhedron
-//! or triangles. Of the convex edges that the axis crosses, only the deepest pushes: it takes the load that
-//! the end spheres do not (docs/theory.md, 2.8).
+//! Load sharing between the end spheres of a capsule and the edges that its axis crosses, on a polyhedron or
+//! triangles. Of the convex edges that the axis crosses, only the deepest pushes: it takes the load that the
+//! end spheres do not (docs/theory.md, 2.8).
 
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use pong_geometry::Vec3;
 
-/// Assigns the weights of the end contacts and of the deepest edge contact, if that is deeper than both end
-/// spheres; culls all other edge contacts.
+/// Assigns the weights of the contacts of a capsule's end spheres (`ends`) and of its axis with edges
+/// (`middle`). Only the deepest edge contact counts, and only if it is deeper than both end spheres; all
+/// other edge contacts are culled.
 ///
-/// With E the square of the depth at the edge, and A and B the squares of the minimum translations of the two
-/// end spheres, the stored energy is ¼k(E + A·B/E), and ¼k(A + B) without an edge. The weights are the
-/// derivatives of the stored energy.
+/// Let E be the square of the depth at the edge, and A and B the squares of the minimum translations of the
+/// two end spheres. With stiffness k, the stored energy is ¼k(E + A·B/E), or ¼k(A + B) if no edge counts. The
+/// weights are the derivatives of the stored energy.
 pub(super) fn couple(ends: &mut [ContactCandidate], middle: &mut [ContactCandidate]) {
     let squares = [0, 1].map(|end| square_moved(ends, end));
     let deeper = |a: usize, b: usize| if middle[b].depth > middle[a].depth { b } else { a };
@@ -29,7 +30,7 @@ pub(super) fn couple(ends: &mut [ContactCandidate], middle: &mut [ContactCandida
     }
 }
 
-/// Square of the minimum translation of the sphere at an end, m².
+/// Square of the minimum translation of the sphere at one end of the capsule, m².
 fn square_moved(ends: &[ContactCandidate], end: u32) -> f64 {
     let of_end = ends.iter().filter(|contact| contact.key.end == end && contact.takes_part());
     let moved = of_end.map(|contact| contact.normal_b * (contact.weight * contact.depth));

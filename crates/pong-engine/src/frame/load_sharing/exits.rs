@@ -1,5 +1,5 @@
-//! Line segment that leaves a body at an edge in which an internal face ends: selects the piece whose contact
-//! counts.
+//! Selects the piece whose contact counts if a line segment leaves a body at an edge in which an internal
+//! face ends.
 
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
@@ -16,14 +16,14 @@ pub(super) fn is_exit_that_stands_in(contact: &ContactCandidate) -> bool {
     contact.half && contact.status == CandidateStatus::StandIn
 }
 
-/// Keeps one of the exits that several pieces report at one point; `group` has the contacts of one end of a
-/// segment with the pieces of one body.
+/// Keeps one of the exits that several pieces report at one point, and culls the others. `group` has the
+/// contacts of one end of a segment with the pieces of one body.
 ///
-/// Where a segment leaves the body at the boundary edge of an internal face, rounding may report an exit from
-/// the pieces on both sides of that face, or from neither. Of the exits at one point, the first whose piece
-/// contains a large part of the segment ([`SHARE_HELD`]) counts; exits through active faces come before exits
-/// through internal faces. An exit through an internal face does not count if a piece contains the segment
-/// past the exit. A segment end at the same point counts as an exit.
+/// Where a segment leaves the body at the boundary edge of an internal face, rounding may make both pieces at
+/// that face report an exit, or neither. Of the exits at one point, the first counts whose piece contains a
+/// large part of the segment ([`SHARE_HELD`]); exits through active faces come before exits through internal
+/// faces. An exit through an internal face is culled if a piece contains the segment past the exit. A segment
+/// end at the same point counts as an exit.
 pub(super) fn keep_one_of_exits(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     let Some(first) = group.first() else { return };
     let local = &context.body_a.segments[first.element_a as usize];
@@ -44,7 +44,8 @@ struct Exits<'a> {
 }
 
 impl Exits<'_> {
-    /// Exit of the segment from a contact's piece, if it is at the boundary edge of an internal face.
+    /// Exit of the segment from a contact's piece; `None` if it is not at the boundary edge of an internal
+    /// face.
     fn of(&self, found: &ContactCandidate) -> Option<Exit> {
         let may_leave = found.status == CandidateStatus::AtWall || is_exit_that_stands_in(found);
         let piece = &self.context.body_b.polyhedra[found.element_b as usize];

@@ -34,8 +34,8 @@ const FALLBACK_DEPTH_SLACK: f64 = 1e-9;
 /// count. All elements of the chunk are of one kind, and all candidates with one key are in one chunk.
 ///
 /// # Errors
-/// [`Full`] if the scratch memory was too small for the contacts of one surface. As many of the deepest as
-/// fit have then been shared exactly; the others have weight zero.
+/// [`Full`] if the scratch memory was too small for the contacts of one surface. Then only as many of them as
+/// fit have been shared exactly, the deepest first; the others have weight zero.
 pub(crate) fn assign_weights(
     context: &PairContext<'_>,
     kind_a: PrimitiveKind,
@@ -79,8 +79,8 @@ pub(crate) fn assign_weights(
     outcome
 }
 
-/// Assigns the weights of contacts of capsules; `found` is in summation order. The contacts of one end sphere
-/// with one surface share half a spring.
+/// Assigns the weights of the contacts of capsules. `found` must be in summation order. The contacts of one
+/// end sphere with one surface share half a spring.
 fn share_capsules(
     found: &mut [ContactCandidate],
     context: &PairContext<'_>,
@@ -116,7 +116,7 @@ fn is_under_capsule(contact: &ContactCandidate) -> bool {
     contact.shares && contact.half && contact.key.end == BETWEEN_ENDS
 }
 
-/// Runs passes 4 to 6 of `status.rs` on the contacts of one key.
+/// Runs passes 4 to 6 of the table in `status.rs` on the contacts of one key.
 fn judge_before_sharing(group: &mut [ContactCandidate], kind_a: PrimitiveKind, context: &PairContext<'_>) {
     if group.iter().any(is_at_wall) {
         match group[0].half && !group[0].shares {
@@ -157,13 +157,13 @@ fn is_at_wall(contact: &ContactCandidate) -> bool {
         || is_exit_that_stands_in(contact)
 }
 
-/// Selects the piece that has the contact of a point, or of a sphere's centre, at internal faces of a body.
-/// Each piece computes by itself on which side of its internal faces the point lies, so rounding may put the
-/// point in several pieces or in none.
+/// Keeps at most one of the contacts that a point, or a sphere's centre, has at internal faces with the
+/// pieces of a body; culls the others. Each piece computes by itself on which side of its internal faces the
+/// point lies, so rounding may put the point in several pieces or in none.
 ///
-/// The first piece that contains the point counts. If no piece does, the first piece counts that has a
-/// neighbour behind each of its internal faces at the point. A piece without such a neighbour does not count:
-/// the point is then outside the body, beside a convex edge at which an internal face ends.
+/// The first piece that contains the point counts. If no piece contains it, the first piece counts that has a
+/// neighbour behind each of its internal faces at the point. If there is none, no contact counts: the point
+/// is outside the body, beside a convex edge at which an internal face ends.
 fn choose_piece_at_walls(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     let in_piece = |contact: &ContactCandidate| {
         contact.entry_face != NO_FACE && contact.status != CandidateStatus::BeyondWall
@@ -184,9 +184,9 @@ fn choose_piece_at_walls(group: &mut [ContactCandidate], context: &PairContext<'
     }
 }
 
-/// Selects the piece that has the contact of a segment's end at internal faces of a body, as
-/// [`choose_piece_at_walls`] does for a point. Only contacts with the same deepest point are compared: where
-/// the segment crosses an edge, each piece finds a different point.
+/// Keeps at most one of the contacts that one end of a segment has at internal faces with the pieces of a
+/// body, by the rules of [`choose_piece_at_walls`]. Only contacts with the same deepest point are compared:
+/// where the segment crosses an edge, each piece finds a different point.
 fn choose_piece_of_end_at_walls(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     keep_one_of_exits(group, context);
     keep_first_of_edges(group, &context.body_b.polyhedra);
@@ -209,8 +209,8 @@ fn choose_piece_of_end_at_walls(group: &mut [ContactCandidate], context: &PairCo
     }
 }
 
-/// Culls all but the first contact at each edge in which an internal face ends: the pieces on both sides of
-/// the internal face have the edge.
+/// Culls all but the first contact at each edge in which an internal face ends. The pieces on both sides of
+/// the internal face have this edge, and each reports a contact there.
 fn keep_first_of_edges(group: &mut [ContactCandidate], polyhedra: &[Polyhedron]) {
     let is_edge =
         |found: &ContactCandidate| found.status == CandidateStatus::AtWall && !found.feature.is_face();
@@ -226,8 +226,8 @@ fn keep_first_of_edges(group: &mut [ContactCandidate], polyhedra: &[Polyhedron])
     }
 }
 
-/// Returns true for a `BeyondWall` contact whose piece has a neighbour behind each of its internal faces at
-/// the point. The neighbour must contain the point, within the tolerance of internal faces.
+/// Returns true for a `BeyondWall` contact if, behind each of its piece's internal faces at `place`, the body
+/// has another piece that contains `place` within the tolerance of internal faces.
 fn has_neighbors_at_walls(found: &ContactCandidate, place: &Vec3, context: &PairContext<'_>) -> bool {
     if found.status != CandidateStatus::BeyondWall {
         return false;
@@ -283,7 +283,8 @@ fn drop_idle(group: &mut [ContactCandidate]) {
 /// Makes a fallback candidate regular if no regular contact of at least the same depth touches the same
 /// point: rounding has then made the regular contact miss. Culls all other fallback candidates.
 ///
-/// For an ellipsoid the depths must be equal, because a deeper contact at the same point is another minimum.
+/// For an ellipsoid the depths must be equal, because a deeper contact at the same point is another local
+/// minimum of the depth.
 fn resolve_fallbacks(group: &mut [ContactCandidate], kind_a: PrimitiveKind) {
     let is_fallback = |contact: &ContactCandidate| {
         matches!(contact.status, CandidateStatus::Fallback | CandidateStatus::BackFaceFallback)
@@ -319,10 +320,12 @@ fn resolve_fallbacks(group: &mut [ContactCandidate], kind_a: PrimitiveKind) {
     }
 }
 
-/// Drops the deeper of two contacts of a deep ellipsoid whose features meet convexly. Only a face, or a
-/// feature with the centre behind it, is dropped. The contact points show whether two features meet convexly,
-/// not mesh adjacency: a face that is cut into triangles may have lost the edge that it shares with the other
-/// feature.
+/// Drops the deeper of two contacts of an ellipsoid with triangles if their features meet convexly; a deep
+/// ellipsoid may have both (docs/theory.md, 2.2). Only a face, or a feature with the centre of A behind it,
+/// is dropped.
+///
+/// The contact points show whether two features meet convexly. Mesh adjacency would not: a face that is cut
+/// into triangles may no longer share an edge with the other feature.
 fn drop_deeper_faces(group: &mut [ContactCandidate]) {
     let counts = |contact: &ContactCandidate| {
         contact.role == ContactRole::Active
@@ -348,9 +351,9 @@ fn drop_deeper_faces(group: &mut [ContactCandidate]) {
     }
 }
 
-/// Makes a `BackFace` face `Tracked` if a less deep feature meets it convexly: like a convex polyhedron, the
-/// two then push only with the less deep one. That feature may be `Front`: a centre on the edge between two
-/// faces is behind one of them only by rounding.
+/// Makes a `BackFace` face `Tracked` if a less deep feature meets it convexly: as on a convex polyhedron,
+/// only the less deep of the two pushes. The less deep feature may be `Front`, because a centre on the edge
+/// between two faces is behind one of them only by rounding.
 fn drop_deeper_of_convex_faces(group: &mut [ContactCandidate], triangles: &TriangleSet) {
     if !group.iter().any(|contact| contact.status == CandidateStatus::BackFace) {
         return;
@@ -391,8 +394,8 @@ fn meet_in_an_edge(contact: &ContactCandidate, other: &ContactCandidate, triangl
 }
 
 /// Returns true if two faces meet convexly, with any number of triangles between them: the contact point of
-/// each face lies below the plane of the other. At a concave edge it lies above. Behind a concave edge each
-/// contact point may lie in both planes; the faces then do not count as convex.
+/// each face lies below the plane of the other face. At a concave edge the contact points lie above these
+/// planes. Behind a concave edge each contact point may lie in both planes; then the answer is false.
 fn meet_below(contact: &ContactCandidate, other: &ContactCandidate, triangles: &TriangleSet) -> bool {
     let on = |of: &ContactCandidate| nearest_in_plane(&touched(of), &triangles.corners(of.element_b));
     let (places, normals) = ([&on(contact), &on(other)], [&contact.normal_b, &other.normal_b]);

@@ -1,5 +1,5 @@
-//! Drops contacts of an ellipsoid or sphere with the pieces of a body that it would not have with the uncut
-//! body.
+//! Drops contacts that an ellipsoid or sphere has with the pieces of a body, but would not have with the
+//! uncut body.
 
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::state::{ContactRole, NO_FACE};
@@ -18,12 +18,12 @@ const ROUNDING: f64 = 1e-14;
 /// pieces of a flat face meet.
 const PLACE_SLACK: f64 = 1e-9;
 
-/// Culls contacts that an ellipsoid would not have with the uncut body; `group` has its contacts with the
-/// pieces of one body.
+/// Culls contacts that an ellipsoid would not have with the uncut body. `group` has the ellipsoid's contacts
+/// with the pieces of one body.
 ///
-/// Each piece reports the minimum translation over its own features. Of two features of different pieces that
-/// meet convexly, only the less deep is a minimum translation of the body. Features that meet concavely, such
-/// as two walls of a corner, each push. `StandIn` candidates count only if there are no others.
+/// Each piece reports the minimum translation over its own features. If two features of different pieces meet
+/// convexly, only the less deep one is a minimum translation of the whole body. Features that meet concavely,
+/// such as two walls of a corner, each push. `StandIn` candidates count only if there are no others.
 pub(crate) fn drop_what_the_body_lacks(group: &mut [ContactCandidate], pieces: &[Polyhedron]) {
     let stands_in = |contact: &ContactCandidate| contact.status == CandidateStatus::StandIn;
     if !group.iter().all(stands_in) {
@@ -46,8 +46,9 @@ pub(crate) fn drop_what_the_body_lacks(group: &mut [ContactCandidate], pieces: &
     }
 }
 
-/// Index of the next contact after `last` by increasing depth, ties by index. In this order every contact is
-/// judged after all contacts that may cull it, so the result does not depend on the order of the model.
+/// Index of the next contact after `last`, by increasing depth and then by index; `None` after the last
+/// contact. In this order every contact is judged after all contacts that may cull it, so the result does not
+/// depend on the order of the model.
 pub(super) fn next_deeper(group: &[ContactCandidate], last: Option<usize>) -> Option<usize> {
     let place = |index: usize| (group[index].depth, index);
     let follows = |index: &usize| last.is_none_or(|last| place(*index) > place(last));
@@ -55,7 +56,7 @@ pub(super) fn next_deeper(group: &[ContactCandidate], last: Option<usize>) -> Op
     (0..group.len()).filter(follows).reduce(less)
 }
 
-/// Returns true if `contact` is less deep than `other`; of equal depths, if it is earlier in summation order.
+/// Returns true if `contact` is less deep than `other` or, at equal depths, comes first in summation order.
 pub(crate) fn pushes_before(contact: &ContactCandidate, other: &ContactCandidate) -> bool {
     let rounding = DEPTH_SLACK * other.depth;
     let difference = contact.depth - other.depth;
@@ -106,8 +107,8 @@ fn has_corner(contact: &ContactCandidate, place: &Vec3, pieces: &[Polyhedron]) -
 
 /// Returns true if the features of two contacts meet convexly, judged by their contact points.
 ///
-/// At equal contact points, two features meet convexly if one of them is an edge or a vertex: an edge or
-/// vertex that pushes is convex. Two faces with one contact point do not count, because they may meet flat or
+/// If both contacts have the same contact point, the answer is true if one feature is an edge or a vertex,
+/// because an edge or vertex that pushes is convex. It is false for two faces, which may meet flat or
 /// concavely.
 pub(super) fn touch_convexly(contact: &ContactCandidate, other: &ContactCandidate) -> bool {
     let (here, there) = (touched(contact), touched(other));
@@ -118,7 +119,8 @@ pub(super) fn touch_convexly(contact: &ContactCandidate, other: &ContactCandidat
 }
 
 /// Returns true if two different contact points each lie in or below the plane through the other point and
-/// perpendicular to its normal: pushing A out at either point then pushes it out at the other too.
+/// perpendicular to the normal there. Pushing a convex A out at one point then pushes it out at the other
+/// too.
 pub(super) fn are_convex([here, there]: [&Vec3; 2], [normal, other_normal]: [&Vec3; 2]) -> bool {
     let apart = there - here;
     let slack = plane_slack(here, there);
@@ -143,7 +145,8 @@ pub(super) fn are_one_place(here: &Vec3, there: &Vec3) -> bool {
     (there - here).norm() <= PLACE_SLACK * (here.amax() + there.amax())
 }
 
-/// Position of A's deepest point after the minimum translation, m.
+/// Contact point on the feature of B (the foot), m: the deepest point of A, moved out along the normal by the
+/// depth.
 pub(super) fn touched(contact: &ContactCandidate) -> Vec3 {
     contact.deepest_b + contact.normal_b * contact.depth
 }
@@ -157,12 +160,12 @@ fn lies_below(of: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhed
         <= PLANE_SLACK * piece.diameter
 }
 
-/// Drops the second contact of a sphere at a convex edge in which an internal face ends; `group` has its
-/// contacts with the pieces of one body.
+/// Drops the deeper of two contacts of a sphere whose centre lies on a convex edge in which an internal face
+/// ends. `group` has the sphere's contacts with the pieces of one body.
 ///
-/// A centre on such an edge lies in the planes of both faces at the edge, which belong to different pieces.
-/// Their outlines overlap by the rounding of corners to single precision, so both faces may push. The uncut
-/// body has one contact there: the less deep one.
+/// The two faces at this edge belong to different pieces, and the centre lies in both of their planes.
+/// Corners are rounded to single precision, so the outlines of the faces may overlap, and both faces push.
+/// The uncut body has one contact there: the less deep one.
 pub(super) fn drop_second_of_edges(group: &mut [ContactCandidate], radius: f64, pieces: &[Polyhedron]) {
     let is_on_surface = |contact: &ContactCandidate| {
         let slack = pieces[contact.element_b as usize].planes().wall_slack;
@@ -188,7 +191,8 @@ pub(super) fn drop_second_of_edges(group: &mut [ContactCandidate], radius: f64, 
     }
 }
 
-/// Returns true if the sphere's centre lies on a convex edge that the features of both contacts have.
+/// Returns true if the sphere's centre lies on a convex edge common to the features of both contacts. Edges
+/// of two pieces are the same if their end points are equal.
 fn share_an_edge(
     contact: &ContactCandidate,
     other: &ContactCandidate,
@@ -199,7 +203,8 @@ fn share_an_edge(
         .any(|ends| edges_under(other, radius, pieces).any(|other_ends| ends == other_ends))
 }
 
-/// End points of those convex edges of a contact's feature on which the sphere's centre lies, m.
+/// End points, m, of the convex edges of a contact's feature on which the sphere's centre lies. A face counts
+/// with all its edges, an edge as itself.
 fn edges_under<'p>(
     contact: &ContactCandidate,
     radius: f64,

@@ -1,4 +1,4 @@
-//! First hit of a ray (docs/theory.md, 2.5).
+//! Keeps only the first hit of each ray (docs/theory.md, 2.5).
 
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
@@ -9,9 +9,9 @@ use pong_geometry::primitive::PrimitiveKind;
 /// position divided by the slope of the flatter face.
 const ROUNDINGS: f64 = 64.0;
 
-/// Keeps one contact per ray: the first hit; of hits at equal distance, the first in key order. A ray that
-/// also hits other movable groups of the Object of B is judged in `output/order.rs`, after all contacts are
-/// known.
+/// Keeps the first hit of each ray and culls the others; of hits at equal distance, it keeps the first in key
+/// order. Hits on other movable groups of the Object of B are compared in `output/order.rs`, after all
+/// contacts are known.
 pub(super) fn keep_first_ray_hits(found: &mut [ContactCandidate], context: &PairContext<'_>) {
     for hits in found.chunk_by_mut(|a, b| a.key.primitive_a == b.key.primitive_a) {
         let mut first: Option<usize> = None;
@@ -48,8 +48,8 @@ fn is_first(hit: &ContactCandidate, other: &ContactCandidate, context: &PairCont
 }
 
 /// Returns true if the face of `hit` hides the face of `other` from neighbours of a ray that passes through
-/// the line where the planes of the two faces meet. `None` if the ray does not pass there, or if the faces
-/// lie on different sides of the ray.
+/// the line where the planes of the two faces meet. `None` if the ray does not pass through this line, or if
+/// the faces lie on different sides of the ray.
 fn is_in_front_at_a_fold(
     hit: &ContactCandidate,
     other: &ContactCandidate,

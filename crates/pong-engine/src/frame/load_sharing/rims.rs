@@ -1,4 +1,5 @@
-//! Rim of a two-sided surface, shared by its front and its back (docs/theory.md, 2.2).
+//! Culls contacts that a two-sided surface would report twice at its rim, which its front and its back share
+//! (docs/theory.md, 2.2).
 
 use super::pieces::{are_one_place, touched};
 use crate::frame::input::PairContext;
@@ -6,11 +7,11 @@ use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::state::ContactRole;
 use pong_geometry::primitive::PrimitiveKind;
 
-/// Culls an edge or vertex contact of a back if the front has the same contact on the rim of both.
+/// Culls a contact of a back with an edge or vertex of the rim if the front has the same contact.
 ///
-/// A centre in the plane of a two-sided triangle, outside its rim, is in front of both sides. A centre beyond
-/// a vertex of a folded rim may be in front of two faces on different sides. The front and the back then both
-/// push with the same edge or vertex.
+/// Two cases make both sides push with the same edge or vertex. A centre in the plane of a two-sided
+/// triangle, outside its rim, is in front of both sides. A centre beyond a vertex of a folded rim may be in
+/// front of the front of one face and of the back of another.
 pub(super) fn keep_one_side_of_rims(found: &mut [ContactCandidate], context: &PairContext<'_>) {
     for index in 0..found.len() {
         if is_of_a_back(&found[index], context) {
@@ -25,9 +26,9 @@ pub(super) fn keep_one_side_of_rims(found: &mut [ContactCandidate], context: &Pa
 /// Cosine below which two normals count as opposite; near the contact point, rounding turns the normal.
 const OPPOSITE_COSINE_MAX: f64 = -0.999;
 
-/// Culls contacts that touch the same point as a face that has the centre behind it and push the opposite
-/// way. Where the face ends, its edge or vertex, or the other side of a two-sided triangle, pushes the
-/// opposite way; rounding may find both contacts.
+/// Culls contacts opposite to a face that has the centre behind it: those that touch the same point and push
+/// the opposite way. Where such a face ends, its edge or vertex, or the other side of a two-sided triangle,
+/// pushes the opposite way, and rounding may find both contacts.
 pub(super) fn cull_opposite_at_points(found: &mut [ContactCandidate]) {
     for index in 0..found.len() {
         if !is_behind_a_face(&found[index]) {
@@ -47,7 +48,7 @@ pub(super) fn cull_opposite_at_points(found: &mut [ContactCandidate]) {
     }
 }
 
-/// Returns true if the contact is a face that has the centre behind it.
+/// Returns true if the contact is at a triangle's face and the centre is behind this face.
 fn is_behind_a_face(contact: &ContactCandidate) -> bool {
     contact.kind_b == PrimitiveKind::Triangle
         && contact.shares

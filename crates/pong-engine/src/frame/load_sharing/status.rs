@@ -11,8 +11,8 @@
 //!
 //! The passes of load sharing follow, in this order. A pass has one of three effects: it drops a candidate
 //! (*culled*), makes it one that is remembered and does not push (*tracked*: its role, not its status), or
-//! makes a fallback regular (*regular*: `Front`, or `BackFace` after `BackFaceFallback`). The ends of a
-//! capsule are spheres here; passes 8 and 9 follow the others for both of them.
+//! makes a fallback regular (*regular*: `Front`, or `BackFace` after `BackFaceFallback`). The end spheres of
+//! a capsule count as spheres in this table; passes 8 and 9 run after the other passes have run on both ends.
 //!
 //! | # | pass | applies to | judges | effect |
 //! |---|---|---|---|---|
@@ -30,7 +30,7 @@
 //! it is culled. After the frame's contacts are in order, the first hit of a ray among several movable groups
 //! culls the other hits (`output/order.rs`). No pass makes a culled candidate count again.
 
-/// Status of a candidate among those of the same surface.
+/// Status of a contact candidate among all candidates of the same surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum CandidateStatus {
     /// Regular contact, with the centre in front.

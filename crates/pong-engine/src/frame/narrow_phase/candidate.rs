@@ -10,7 +10,7 @@ use pong_model::Item;
 /// Summation order: by key, then by primitive, element and feature of B.
 pub(crate) type ContactOrder = (ContactKey, u32, u32, Feature);
 
-/// Contact candidate of a contact tester. Vectors are in the frame of B's movable group.
+/// Contact candidate that a contact tester has found. Vectors are in the frame of B's movable group.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContactCandidate {
     pub key: ContactKey,
@@ -66,7 +66,8 @@ impl ContactCandidate {
         weight: 1.0,
     };
 
-    /// Candidate of an element of A and an element of B, with a whole spring.
+    /// Candidate with a whole spring for the interference `found` between an element of A and an element of
+    /// B.
     #[inline(always)]
     pub fn new(
         key: ContactKey,

@@ -57,8 +57,8 @@ impl DeferredPairs {
         self.spheres.count() + self.ellipsoids.count()
     }
 
-    /// Adds a pair of an element and a triangle with its thickness for the element, m; returns the index of
-    /// the pair.
+    /// Adds a pair of an element and a triangle, and returns the index of the pair. `thickness`, m, is that
+    /// of the triangle for this element.
     #[inline(always)]
     pub fn add(&mut self, element: &Ellipsoidal<'_>, triangle: u32, thickness: f64) -> usize {
         match element {
@@ -85,7 +85,7 @@ impl DeferredPairs {
         }
     }
 
-    /// Removes all pairs; the result marks the pairs that may touch. `set` has their triangles.
+    /// Removes all pairs and returns which of them may touch. `set` contains the triangles of the pairs.
     #[inline(always)]
     pub fn tell(&mut self, set: &TriangleSet) -> PairsTold {
         if self.ellipsoids.count() > 0 {
@@ -119,7 +119,8 @@ impl<'m> ChunkCandidates<'m> {
         self.deferred.count() > 0
     }
 
-    /// Memory of one more candidate; the caller writes all fields.
+    /// Returns the memory of one more candidate; the caller writes all fields. If the list is full, its less
+    /// deep half is dropped first.
     pub fn slot(&mut self) -> &mut ContactCandidate {
         self.seen += 1;
         if self.list.len() == self.list.capacity() {
@@ -190,8 +191,8 @@ impl<'a> ElementPair<'a> {
         &self.body_b().primitives[self.item_b.primitive as usize]
     }
 
-    /// Current face of entry and pushing face, for a point inside B's polyhedron: `local` in A's frame, `p`
-    /// in B's frame.
+    /// Current face of entry and pushing face for a point inside B's polyhedron; `None` if the polyhedron has
+    /// no active face. The point is `local` in A's frame and `p` in B's frame.
     #[inline]
     pub fn entry_face(&self, remembered: &RecordsOfKey<'_>, local: &Vec3, p: &Vec3) -> Option<EntryFace> {
         PolyhedronEntry {
@@ -263,7 +264,8 @@ impl<'a> ElementPair<'a> {
         self.emit_under(self.key(), contact, found, adjust);
     }
 
-    /// Adds a candidate under a key computed earlier.
+    /// Adds a candidate under a key that the caller has computed; `adjust` sets the fields that depend on the
+    /// tester.
     #[inline]
     pub fn emit_under(
         &self,
@@ -278,7 +280,7 @@ impl<'a> ElementPair<'a> {
     }
 }
 
-/// Candidate status of a point in a piece of a body.
+/// Candidate status of a point in a piece of a body, by its containment in the piece.
 pub(crate) fn status_of(containment: Containment) -> CandidateStatus {
     match containment {
         Containment::AtWall => CandidateStatus::AtWall,

@@ -13,7 +13,7 @@ use pong_model::{Item, MovableGroup};
 /// Relative widening of the search box around the centre, so that rounding excludes no triangle.
 const REACH_SLACK: f64 = 1e-6;
 
-/// Distance from a plane, relative to the lengths involved, below which a centre counts as in it.
+/// Distance from a plane, relative to the lengths involved, below which a centre counts as in the plane.
 pub(crate) const ROUNDING: f64 = 1e-12;
 
 /// A triangle of a body, and the centre of a sphere or ellipsoid.

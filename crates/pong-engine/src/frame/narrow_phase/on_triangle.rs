@@ -26,8 +26,8 @@ pub(crate) struct Centre {
     pub end: Option<u32>,
 }
 
-/// Adds a contact of one centre with one triangle, with its role. Adds nothing if the contact would push from
-/// behind a centre that did not come from the front.
+/// Adds a contact of a sphere or ellipsoid with one triangle, with its role. Adds nothing if the centre is
+/// behind the feature and did not come from the front.
 pub(crate) fn on_triangle(
     pair: &ElementPair<'_>,
     center: &Centre,
@@ -64,8 +64,8 @@ pub(crate) fn on_triangle(
     });
 }
 
-/// Returns true if A touched the feature of the triangle at the last commit with the centre behind the
-/// feature, whether the contact pushed or not.
+/// Returns true if A touched this feature of the triangle at the last commit while the centre was behind the
+/// feature. It does not matter whether that contact pushed.
 fn touched_triangle_behind(pair: &ElementPair<'_>, end: Option<u32>, feature: Feature) -> bool {
     let Some(since) = pair.motion().since_commit else { return false };
     let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
@@ -95,7 +95,8 @@ fn touched_triangle_behind(pair: &ElementPair<'_>, end: Option<u32>, feature: Fe
     touched
 }
 
-/// Distance behind a triangle up to which an ellipsoid's centre is pushed to the front, m.
+/// Distance behind a triangle up to which an ellipsoid's centre is pushed to the front, m: the `thickness` of
+/// the model, otherwise the smallest semi-axis.
 pub(crate) fn thickness_for_ellipsoid(
     context: &PairContext<'_>,
     triangle: Item,
@@ -105,8 +106,8 @@ pub(crate) fn thickness_for_ellipsoid(
     given.unwrap_or(ellipsoid.smallest_semi_axis())
 }
 
-/// Returns true if the centre is behind the contact's feature but in front of the surface at its nearest
-/// point; for a centre without an earlier position. Such a contact does not count.
+/// Returns true if a centre without an earlier position is behind the contact's feature, but in front of the
+/// surface at the surface point nearest to it. Such a contact does not count.
 fn is_set_down_in_front(
     pair: &ElementPair<'_>,
     center: &Centre,
@@ -118,7 +119,8 @@ fn is_set_down_in_front(
     nearby.is_behind(contact) && sides.in_front((pair.item_a, end), nearby.surface(), || nearby.is_in_front())
 }
 
-/// Distance behind a triangle up to which a sphere's centre is pushed to the front, m.
+/// Distance behind a triangle up to which a sphere's centre is pushed to the front, m: the `thickness` of the
+/// model, otherwise the radius.
 #[inline]
 pub(crate) fn thickness_for_sphere(context: &PairContext<'_>, triangle: Item, sphere: &Sphere) -> f64 {
     context.body_b.primitives[triangle.primitive as usize].thickness.unwrap_or(sphere.radius)

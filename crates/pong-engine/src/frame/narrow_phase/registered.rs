@@ -5,8 +5,8 @@ use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use pong_geometry::extension::PrimitiveRef;
 use pong_model::{Item, MovableGroup};
 
-/// Runs the contact test that the host has registered for a pair of kinds, if any. Two primitives of one kind
-/// are tested in one direction only.
+/// Runs the contact test that the host has registered for the kinds of the two elements, if any. Two elements
+/// of the same kind are tested in one direction only, so that no contact is reported twice.
 pub(super) fn test(pair: &ElementPair<'_>, _: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
     let (a, b) = (element(pair.body_a(), pair.item_a), element(pair.body_b(), pair.item_b));
     let extensions = &pair.context.scene.extensions;

@@ -6,9 +6,9 @@ use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::ball_bore::is_behind_wall;
 
-/// Role of a contact with the wall at a point of A, given in A's frame (`local`). A point that was behind the
-/// wall at the last commit, and not pushed there, came through the wall from behind: it is `WrongSide` until
-/// the overlap with the wall ends.
+/// Role of the contact between the wall of a bore and a point of A, given in A's frame (`local`). A point
+/// that was behind the wall at the last commit, and was not pushed there, came through the wall from behind.
+/// Its contact is `WrongSide` until the overlap with the wall ends.
 pub(crate) fn role_in_bore(
     pair: &ElementPair<'_>,
     remembered: &RecordsOfKey<'_>,

@@ -17,8 +17,8 @@ use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray};
 use pong_model::{Item, MovableGroup};
 use std::num::NonZeroU32;
 
-/// Current face of entry of a polyhedron, and the face that pushes. Packed: the `Option` is returned in one
-/// register.
+/// Current face of entry of a polyhedron, and the face that pushes. It is packed so that an `Option` of it
+/// fits into one register.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EntryFace {
     /// Index of the current face of entry plus one.
@@ -60,7 +60,7 @@ pub(crate) struct PolyhedronEntry<'a> {
 }
 
 impl PolyhedronEntry<'_> {
-    /// Faces for a point inside the piece; `None` if the piece has no active face.
+    /// Current face of entry and pushing face for the point; `None` if the piece has no active face.
     pub fn face(&self) -> Option<EntryFace> {
         let polyhedron = self.polyhedron();
         if !self.remembers {
@@ -84,9 +84,11 @@ impl PolyhedronEntry<'_> {
         &self.body.polyhedra[self.piece as usize]
     }
 
-    /// Remembered face of entry. If the remembered face belongs to another piece of the surface, the result
-    /// is the face of this piece whose normal is nearest to it. If the straight path since the last commit
-    /// entered this piece through an active face, that face is the result.
+    /// Face of entry in this piece by the records; `None` without a usable record.
+    ///
+    /// If the remembered face belongs to another piece of the surface, the result is the active face through
+    /// which the straight path since the last commit entered this piece. If there is no such face, it is the
+    /// face of this piece whose normal is nearest to that of the remembered face.
     fn remembered(&self) -> Option<usize> {
         let with_face = || self.records.iter().filter(|record| record.entry_face != NO_FACE);
         let record =
@@ -105,8 +107,9 @@ impl PolyhedronEntry<'_> {
         }
     }
 
-    /// Face through which the straight path since the last commit entered the surface; the face of least
-    /// depth if there is no path.
+    /// Face of entry in this piece by the straight path since the last commit. If the path did not enter
+    /// through an active face of the surface, it is the face of least depth; `None` if the piece has no
+    /// active face.
     fn entered_by(&self) -> Option<usize> {
         let polyhedron = self.polyhedron();
         let entry = self.earlier_b().and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
@@ -119,9 +122,9 @@ impl PolyhedronEntry<'_> {
         }
     }
 
-    /// Face of entry for a path that entered this piece through an internal face, at the parameter `at`. It
-    /// follows from the last active face through which the path entered another piece before: the result is
-    /// the face of this piece whose normal is nearest to the normal of that face.
+    /// Face of entry in this piece for a path that entered it through an internal face, at the parameter
+    /// `at`. It is the face whose normal is nearest to that of the last active face through which the path
+    /// entered another piece before; `None` if there was none.
     fn entered_through_wall(&self, at: f64) -> Option<usize> {
         let earlier = self.earlier_b()?;
         let wall = earlier + (self.point_b - earlier) * at;
@@ -233,8 +236,8 @@ impl TriangleEntry<'_> {
     }
 
     /// Returns true if, at the last commit, the centre was in front of a triangle at the feature. A centre in
-    /// the plane of a triangle counts as in front of it; a centre in the plane of a two-sided triangle, as on
-    /// its front side.
+    /// the plane of a one-sided triangle counts as in front; in the plane of a two-sided triangle, it is in
+    /// front of the front only.
     fn was_in_front(&self, earlier: &Vec3, feature: Feature) -> bool {
         let rounding = ROUNDING * earlier.amax() * if self.nearby().is_mirror() { -1.0 } else { 1.0 };
         is_in_front_of_a_face(earlier, &self.body.triangles, self.triangle.element, feature, rounding)
@@ -273,10 +276,10 @@ impl TriangleEntry<'_> {
 
     /// Last crossings of the surface by the straight path since the last commit.
     ///
-    /// One line serves both directions, so that the two sides of a two-sided triangle agree. A path that
-    /// starts or ends within rounding of the surface does so in front of it; for a two-sided triangle, on its
-    /// front side. A path that enters and leaves at one point, as through a vertex from outside, does not
-    /// cross.
+    /// The crossings in both directions are found on the same line, so that the two sides of a two-sided
+    /// triangle agree. A path that starts or ends within rounding of the surface does so in front of it; for
+    /// a two-sided triangle, on its front side. A path that enters and leaves at one point, as through a
+    /// vertex from outside, does not cross.
     fn last_crossings(&self, earlier: &Vec3, shell: u32) -> LastCrossings {
         let length = (self.center_b - earlier).norm();
         let rounding = ROUNDING * (length + earlier.amax() + self.center_b.amax());
@@ -297,8 +300,8 @@ impl TriangleEntry<'_> {
         let mut last = LastCrossings { from_behind: f64::INFINITY, from_front: f64::INFINITY };
         let Some(line) = Ray::between(earlier, &self.center_b) else { return last };
         let length = line.length;
-        // Heights decide on which side the ends of the path are, and the ray is unbounded: the hit distance
-        // of a grazing ray is undefined.
+        // The hit distance of a grazing ray is undefined. So the ray is unbounded, and the heights of the
+        // path's ends above the plane show on which side they are.
         let ray = Ray { length: f64::MAX, ..line };
         visit_triangles(self.body, &earlier.inf(&self.center_b), &earlier.sup(&self.center_b), &mut |item| {
             let (set, triangle) = (&self.body.triangles, item.element);

@@ -56,7 +56,8 @@ impl NearPairs {
         &self.list
     }
 
-    /// Index of a pair's motions, if the motions of all visited pairs are stored.
+    /// Index of a pair's motions in the list of motions of this frame. `None` if the pair is not visited, or
+    /// if the frame visits too many pairs to store all motions at once.
     #[inline]
     pub fn slot(&self, group_pair: u32) -> Option<usize> {
         if self.list.len() > MOTIONS_AT_ONCE {
@@ -65,7 +66,7 @@ impl NearPairs {
         self.list.binary_search(&group_pair).ok()
     }
 
-    /// Finds the pairs that a frame visits.
+    /// Finds the pairs that a frame must visit; [`list`](Self::list) returns them.
     #[inline]
     pub fn find(&mut self, sealed: &Sealed, enabled: &[bool], poses: &[Pose], committed: &CommittedPoses) {
         self.list.clear();
@@ -155,8 +156,8 @@ impl ManyPairs {
     }
 }
 
-/// Index of the pair with `second` among the pairs of one movable group. If that group is paired with every
-/// group after it, the index follows from the group indices.
+/// Index of the pair with `second` among the pairs of one movable group; `None` if there is no such pair. If
+/// that group is paired with every group after it, the index follows from the group indices.
 fn place_of(second: usize, of_first: &[GroupPair]) -> Option<usize> {
     let guess = second.checked_sub(of_first.first()?.second)?;
     if of_first.get(guess).is_some_and(|pair| pair.second == second) {

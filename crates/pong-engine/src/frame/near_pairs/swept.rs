@@ -1,8 +1,8 @@
 //! Bounds of the volume that movable groups may have swept since the last commit (docs/theory.md, 2.7).
 //!
-//! Movable group *i* lies in a ball of radius rᵢ. P and P′ are the centre of the ball now and at the last
-//! commit, along the common axes and relative to the mean of all centres; sᵢ = |P − P′|. With θ the largest
-//! chord 2·sin(φ/2) of the rotations φ of the groups since the last commit,
+//! Movable group *i* lies in a ball of radius rᵢ. P and P′ are the positions of the ball's centre now and at
+//! the last commit, along the common axes and relative to the mean of all centres; sᵢ = |P − P′|. θ is the
+//! largest chord 2·sin(φ/2) of the rotations φ of the groups since the last commit. Then
 //!
 //! ```text
 //! box of i = box around P and P′, grown by Rᵢ = (rᵢ + θ·sᵢ/4)/(1 − θ)
@@ -65,7 +65,7 @@ impl Bounds {
         !(apart(0) || apart(1) || apart(2))
     }
 
-    /// Returns true if the other box lies inside. An unbounded box contains only unbounded boxes.
+    /// Returns true if the other box lies inside this one. An unbounded box contains only unbounded boxes.
     #[inline]
     pub fn hold(&self, other: &Self) -> bool {
         let inside =
@@ -92,8 +92,8 @@ struct Ball {
 }
 
 impl Ball {
-    /// Bounding ball of a movable group: around its root volume, or a smaller one about the same centre if
-    /// the primitives give one.
+    /// Bounding ball of a movable group: the ball around its root volume, or a smaller ball about the same
+    /// centre that contains all its primitives.
     fn around(body: &MovableGroup) -> Self {
         let (center, radius) = match &body.tree.nodes[0].volume {
             Volume::Aabb { center, half } | Volume::Obb { center, half, .. } => (*center, half.norm()),
@@ -156,8 +156,8 @@ impl SweptBounds {
         }
     }
 
-    /// Bounds the volumes that these groups have swept since the last commit, which was in one epoch for all
-    /// of them; without a commit, their current volumes.
+    /// Bounds the volumes that these groups have swept since the last commit, which must be the same commit
+    /// for all of them. Without a commit, bounds their current volumes.
     pub fn sweep(&mut self, bodies: &[usize], poses: &[Pose], committed: &CommittedPoses) {
         let Some(&first) = bodies.first() else { return };
         let pose_before = |body: usize| match committed.past() {

@@ -154,8 +154,9 @@ impl Flock {
     }
 }
 
-/// Runs two equal worlds through the same frames; one visits only near pairs. Returns the number of pairs
-/// that this world visited, of all pairs, of contacts, and of tunnelling events.
+/// Runs two equal worlds through the same frames, of which one visits only near pairs, and compares their
+/// results. Returns the numbers of pairs that this world visited, of all pairs, of contacts, and of
+/// tunnelling events.
 fn compare(seed: u64, config: &Config, plane: bool, regime: &Regime) -> [usize; 4] {
     let mut near = Flock::new(config.clone(), plane, regime, &mut Random(seed));
     let mut all = Flock::new(config.clone(), plane, regime, &mut Random(seed));
@@ -249,8 +250,9 @@ fn a_far_origin_and_a_common_drift_change_nothing() {
     assert!(2 * near < all, "{near} of {all}: a drift of all is no motion");
 }
 
-/// For one frame no pair is visited, because all but two balls are far apart. When the two balls meet again,
-/// their motion counts from the commit of that frame, not from the last frame that visited them.
+/// In one frame no pair is visited: the second ball has moved away from the first, and all other bodies are
+/// far apart. When the two balls meet again, their motion counts from the commit of that frame, not from the
+/// last frame that visited them.
 #[test]
 fn after_a_frame_without_any_pair_the_way_counts_from_there() {
     /// Index of the second ball; group 0 is the first.

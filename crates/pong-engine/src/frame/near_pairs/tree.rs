@@ -1,4 +1,4 @@
-//! Tree that finds overlapping boxes; a node splits its boxes into two halves along the axis on which their
+//! Tree that finds overlapping boxes. A node splits its boxes into two halves along the axis on which their
 //! centres spread most.
 
 use super::swept::Bounds;
@@ -6,7 +6,8 @@ use super::swept::Bounds;
 /// Maximum boxes per leaf.
 const LEAF: usize = 8;
 
-/// A node; its first child is the next node.
+/// Node of the tree. Its first child follows it in the list of nodes; `second` is the index of the other
+/// child.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     bounds: Bounds,
@@ -52,7 +53,8 @@ impl BoundsTree {
         }
     }
 
-    /// Reports every pair of boxes that is not certainly disjoint, once each and in no order.
+    /// Calls `found` once for each two boxes that are not certainly disjoint, in no particular order. Only
+    /// the boxes with the indices `numbers` take part.
     pub fn overlaps(&mut self, numbers: &[usize], boxes: &[Bounds], found: &mut Found<'_>) {
         self.order.clear();
         self.nodes.clear();

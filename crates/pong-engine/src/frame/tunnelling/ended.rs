@@ -1,6 +1,6 @@
 //! Tunnelling found from ended contacts: a contact pushed an element to one side, and the element is now on
-//! the other side. Slow motion through a surface that is too soft ends in this way, on paths too short to
-//! show it.
+//! the other side. This finds slow motion through a surface that is too soft: in each frame the path is too
+//! short to show it.
 
 use super::events::TunnellingEvents;
 use super::followed::{SAME_SIDE_COSINE_MIN, Seen, pushing};
@@ -29,7 +29,7 @@ const BOTH_SIDES_COSINE_MAX: f64 = -0.866;
 /// Number of ended contacts from which prefetching pays.
 const WORTH_FETCHING: usize = 4;
 
-/// Checks every committed contact that no current contact continues.
+/// Checks every committed contact that no current contact continues, and records tunnelling events.
 #[inline]
 pub(super) fn look_at_ended(
     given: &EvaluationInput<'_>,
@@ -134,8 +134,8 @@ impl Seen<'_> {
         is_followed.then(|| reference_point((body_a, info.kind), &record.key, info.elements.start))
     }
 
-    /// Returns true if an element that a contact pushed to one side is now on the other side, or is pushed to
-    /// it. An element that has moved in the direction of the push did not pass through.
+    /// Returns true if the element of an ended contact, which pushed it to one side, is now on the other side
+    /// or is pushed to it. An element that has moved in the direction of the push did not pass through.
     fn came_out_behind(&self, record: &ContactRecord) -> bool {
         let (body, key) = (self.context.body_b, &record.key);
         let Some(line) = self.place_of(record).and_then(|place| self.line(&place)) else { return false };
@@ -191,8 +191,9 @@ impl Seen<'_> {
         out.is_some_and(|out| are_both_sides(&out, &record.normal_b))
     }
 
-    /// Returns true if the element was behind its triangle and is now farther behind, and did not go round
-    /// the rim: where it passed the thickness, at which the push ends, the sheet was in front of it.
+    /// Returns true if the element was behind its triangle, is now farther behind, and did not go round the
+    /// rim. The push ends where the element is as far behind as the thickness; if the sheet lies in front of
+    /// the element at this point, it did not go round the rim.
     fn came_out_of_sheet(&self, record: &ContactRecord, line: &Line) -> bool {
         let body = self.context.body_b;
         let view = TriangleView::new(&body.triangles, record.element_b);

@@ -39,7 +39,8 @@ impl<'a> Seen<'a> {
         Self { context, bodies, frame }
     }
 
-    /// Follows every point of every element of A that can touch something of B.
+    /// Follows the points and axes of all elements of A through the batches of B that they can touch, and
+    /// records tunnelling events.
     pub fn follow_lines(&self, plan: &Plan, events: &mut TunnellingEvents) {
         let (body_a, body_b) = (self.context.body_a, self.context.body_b);
         let batches_a = body_a.tree.batches.iter().enumerate();
@@ -65,7 +66,7 @@ impl<'a> Seen<'a> {
         }
     }
 
-    /// Path of a point given in A's frame.
+    /// Path of a point, given in A's frame, since the last commit; `None` without an earlier pose.
     pub fn line(&self, place: &Vec3) -> Option<Line> {
         let motion = self.context.motion;
         let since = motion.since_commit.as_ref()?;
@@ -103,7 +104,8 @@ impl<'a> Seen<'a> {
         }
     }
 
-    /// Axis of an element of A at the last commit and now.
+    /// Axis of an element of A at the last commit and now; `None` for kinds without an axis, and without an
+    /// earlier pose.
     pub fn swept(&self, item_a: Item) -> Option<Swept> {
         let (body, motion) = (self.context.body_a, self.context.motion);
         let kind = body.primitives[item_a.primitive as usize].kind;
@@ -121,8 +123,8 @@ impl<'a> Seen<'a> {
         core.filter(|(ends, _)| ends[0] == ends[1]).map_or(0.0, |(_, radius)| radius)
     }
 
-    /// Outcome of a path against an element of B. Planes are half-spaces and cannot be passed; custom kinds are
-    /// not checked.
+    /// Outcome of a path against an element of B; `None` if the path does not pass or enter it. Planes are
+    /// half-spaces and cannot be passed; custom kinds are not checked.
     fn met(&self, item_a: Item, line: &Line, kind_b: PrimitiveKind, item_b: Item) -> Option<Met> {
         let body = self.context.body_b;
         match kind_b {
@@ -153,9 +155,10 @@ impl<'a> Seen<'a> {
         went && !self.comes_back(&side, item_a.primitive, shell, item_b)
     }
 
-    /// Returns true if a committed contact pushed the primitive the opposite way, out of this element of B:
-    /// the path then enters from the far side and ends on the side to which the contact pushed. The front and
-    /// the back of a two-sided mesh are two shells of one primitive.
+    /// Returns true if a committed contact with this element of B pushed the primitive opposite to `side`.
+    /// The path then enters from the far side and ends on the side to which the contact pushed: no
+    /// tunnelling. The front and the back of a two-sided mesh are two shells of one primitive, so a contact
+    /// with either counts.
     fn comes_back(&self, side: &Vec3, primitive_a: u32, shell_b: u32, item_b: Item) -> bool {
         let (records, info) =
             (&self.context.memory.records, self.context.body_b.primitives.get(item_b.primitive as usize));
@@ -181,7 +184,7 @@ impl<'a> Seen<'a> {
         ContactKey { group_pair, flipped, primitive_a, shell_b, end: 0 }
     }
 
-    /// Returns true if a contact of the primitive with the shell pushes to `side`.
+    /// Returns true if a contact of the primitive with the shell now pushes to `side`.
     pub fn pushes_to(&self, side: &Vec3, primitive_a: u32, shell_b: u32) -> bool {
         self.pushing(primitive_a, shell_b).any(|normal| normal.dot(side) > SAME_SIDE_COSINE_MIN)
     }
@@ -211,7 +214,8 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// Returns true if `holds` is true for any element of a batch whose box overlaps the given box.
+/// Returns true if `holds` is true for any element of `batch` whose box overlaps the box from `low` to
+/// `high`.
 fn any_met(batch: &Batch, (low, high): &(Vec3, Vec3), holds: impl Fn(u32) -> bool) -> bool {
     let query = batch.boxes.narrowed(low, high);
     let mut any = false;
@@ -226,7 +230,8 @@ fn any_met(batch: &Batch, (low, high): &(Vec3, Vec3), holds: impl Fn(u32) -> boo
     any
 }
 
-/// References to the contacts whose keys have the same high word.
+/// References to the contacts of the frame whose keys have the same high word as `key`
+/// ([`ContactKey::head`]).
 fn same_head(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item = &ContactRef> + use<'_> {
     let head = key.head();
     let first = frame.order.partition_point(|place| place.head < head);

@@ -7,7 +7,8 @@ use pong_geometry::primitive::{Polyhedron, PrimitiveKind};
 use pong_model::MovableGroup;
 
 /// Outcome of a path that enters a piece through an active (not internal) face: it leaves the whole solid
-/// again, or ends in it. `None` for a path that starts in the solid: `ended.rs` checks its contacts.
+/// again, or ends in it. `None` if the path does not enter in this way, or if it starts in the solid:
+/// `ended.rs` checks its contacts.
 pub(super) fn meet(body: &MovableGroup, shell: u32, piece: u32, line: &Line) -> Option<Met> {
     let polyhedron = &body.polyhedra[piece as usize];
     let entry = entry_of_line(&line.from_b, &line.to_b, polyhedron)?;
@@ -19,12 +20,13 @@ pub(super) fn meet(body: &MovableGroup, shell: u32, piece: u32, line: &Line) -> 
     Some(if inside { Met::Into(face.normal) } else { Met::Through(face.normal) })
 }
 
-/// Returns true if a point is inside a solid.
+/// Returns true if a point is inside the solid that the pieces of a shell form.
 pub(super) fn holds(body: &MovableGroup, shell: u32, place: &Vec3) -> bool {
     pieces(body, shell).any(|polyhedron| polyhedron.contains(place))
 }
 
-/// Normal of the last face through which a path that starts inside the solid leaves it.
+/// Normal of the last active face through which a path that starts inside the solid leaves it; `None` if it
+/// does not leave.
 pub(super) fn way_out(body: &MovableGroup, shell: u32, line: &Line) -> Option<Vec3> {
     let backwards = pieces(body, shell).filter_map(|polyhedron| {
         let entry = entry_of_line(&line.to_b, &line.from_b, polyhedron)?;

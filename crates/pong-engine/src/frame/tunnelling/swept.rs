@@ -31,8 +31,8 @@ impl Swept {
         (low.add_scalar(-self.radius), high.add_scalar(self.radius))
     }
 
-    /// Outcome `Through` if the element is outside the solid at the last commit and now, and in between the
-    /// middle of the thinner of the two was inside the other.
+    /// Returns `Through` if the element was outside the solid at the last commit, is outside now, and in
+    /// between the middle of the thinner of the two was inside the other. Otherwise `None`.
     pub fn meet(&self, solid: &dyn Round) -> Option<Met> {
         let beside = self.beside(solid);
         let (first, last) = (beside.gap(0.0), beside.gap(1.0));
@@ -44,7 +44,8 @@ impl Swept {
         Some(Met::Through(beside.crossing(0.0, inside).normal_b))
     }
 
-    /// Normal at the exit of an element that was in the solid at the last commit and has left it.
+    /// Normal at the exit if the element was in the solid at the last commit and has left it, otherwise
+    /// `None`.
     pub fn way_out(&self, solid: &dyn Round) -> Option<Vec3> {
         let beside = self.beside(solid);
         let left = beside.gap(0.0).distance < 0.0 && beside.gap(1.0).distance >= 0.0;
@@ -81,8 +82,8 @@ impl Beside<'_> {
         Gap { distance: gap.distance - self.skin, ..gap }
     }
 
-    /// Time at which the axis is inside, if any. Without rotation the gap is convex in time, with one
-    /// minimum.
+    /// A time at which the axis is inside the solid; `None` if there is none. Without rotation the gap is
+    /// convex in time, with one minimum.
     fn inside(&self) -> Option<f64> {
         let time = |index: usize| index as f64 / TIMES as f64;
         let gaps: [f64; TIMES + 1] = std::array::from_fn(|index| self.gap(time(index)).distance);
@@ -94,7 +95,8 @@ impl Beside<'_> {
         least.map(|index| [time(index - 1), time(index + 1)]).find_map(|between| self.least(between))
     }
 
-    /// Time in an interval at which the axis is inside, by golden-section search for the least gap.
+    /// A time in the interval at which the axis is inside the solid, by golden-section search for the least
+    /// gap; `None` if the least gap is not negative.
     fn least(&self, [mut low, mut high]: [f64; 2]) -> Option<f64> {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         const STEPS: usize = 40;

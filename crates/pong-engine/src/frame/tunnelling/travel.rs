@@ -1,5 +1,5 @@
-//! Rejection of tunnelling by distance: compares the travel of a body since the last commit with the thinnest
-//! element.
+//! Rejects tunnelling by distance: a body that has moved by less than half the thickness of the thinnest
+//! element has passed through nothing.
 
 use crate::frame::input::motion::Motion;
 use crate::sealed::Plan;
@@ -7,8 +7,11 @@ use pong_geometry::primitive::{Primitive, PrimitiveKind};
 use pong_geometry::{Transform, Vec3};
 use pong_model::{Batch, MovableGroup, PrimitiveInfo};
 
-/// Half the thickness of the thinnest of the given primitives of B that A can pass through, m. A path shorter
-/// than that passes through none of them. Infinite if there is no such primitive.
+/// Least distance that A must move to pass through one of the given primitives of B, m: half the thickness of
+/// the thinnest one. Infinite if A can pass through none of them.
+///
+/// A triangle counts with the thickness up to which it pushes the smallest element of A. A ray against
+/// triangles counts with its length, if that is less.
 pub(crate) fn least_travel_m(
     a: (&MovableGroup, &[&PrimitiveInfo]),
     b: (&MovableGroup, &[&PrimitiveInfo]),
@@ -31,7 +34,7 @@ pub(crate) fn least_travel_m(
     0.5 * thinnest
 }
 
-/// Facts of the elements of primitives; triangles and custom primitives have none.
+/// Elements of the given primitives as [`Primitive`]; triangles and custom primitives are left out.
 fn facts<'a>(
     (body, infos): (&'a MovableGroup, impl Iterator<Item = &'a PrimitiveInfo>),
 ) -> impl Iterator<Item = &'a dyn Primitive> {

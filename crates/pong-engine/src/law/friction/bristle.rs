@@ -120,9 +120,9 @@ impl<S: Simd> Bristles<S> {
     }
 }
 
-/// Vector of the given length, shortened to at most `limit`.
+/// Shortens a vector, whose length is `length`, to at most `limit`.
 ///
-/// The quotient is exactly 1 if nothing is cut. Branchless: a compiler may hoist a division out of a branch,
+/// If nothing is cut, the factor is exactly 1. Branchless: a compiler may hoist a division out of a branch,
 /// and 0/0 is an invalid operation.
 #[inline(always)]
 pub(crate) fn shortened(vector: Vec3, length: f64, limit: f64) -> Vec3 {
@@ -130,7 +130,7 @@ pub(crate) fn shortened(vector: Vec3, length: f64, limit: f64) -> Vec3 {
     vector * (limit / longer.max(f64::MIN_POSITIVE))
 }
 
-/// Shortens eight vectors.
+/// Shortens eight vectors, whose lengths are `length`, to at most `limit`.
 #[inline(always)]
 fn shortened_each<S: Simd>(vectors: Vectors<S>, length: Numbers<S>, limit: Numbers<S>) -> Vectors<S> {
     vectors * limit.over(length.larger(limit))

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! For a curved path, u is the chord, and the direction of motion turns from −γ to γ relative to u, with γ
-//! the angle from u to v_t. The linear part of the lag behind that turn is
+//! the angle from u to v_t. To first order in γ, p lags behind that turn by
 //!
 //! ```text
 //! 2γz·∫₀¹ (s − ½)·exp(−z(1 − s)) ds = γ·(1 − 2(1 − exp(−z))/z + exp(−z))
@@ -76,13 +76,13 @@ impl<S: Simd> SlipPath<S> {
 }
 
 impl<S: Simd> Traversal<S> {
-    /// Traverses a path from `start` along a unit vector to an end outside the circle of radius `circle`: the
-    /// point where it leaves the circle for the last time, or comes nearest to it. If the load has fallen,
-    /// the whole path may lie outside.
+    /// Follows a straight path from `start` along the unit vector `along` to an end outside the circle of
+    /// radius `circle`. Returns where the path leaves the circle for the last time. If the load has fallen,
+    /// the whole path may lie outside; then it returns where the path is nearest to the circle.
     ///
-    /// The point is computed from the point of the line nearest to the centre. Computed from the start, it
-    /// would be pure rounding if the circle is far smaller than the deflection was, under a nearly vanished
-    /// load.
+    /// The result is computed from the point of the line nearest to the centre. Under a nearly vanished load
+    /// the circle may be far smaller than the deflection, and a result computed from `start` would be pure
+    /// rounding.
     #[inline(always)]
     fn after_leaving(start: Vectors<S>, along: Vectors<S>, length: Numbers<S>, circle: Numbers<S>) -> Self {
         let zero = length.all(0.0);
@@ -99,8 +99,8 @@ impl<S: Simd> Traversal<S> {
     }
 }
 
-/// `direction` after its angle ψ to `along`, at most 90°, has become 2·atan(tan(ψ/2)·decay); all unit
-/// vectors.
+/// Turns `direction` towards `along`: the angle ψ between them, at most 90°, becomes 2·atan(tan(ψ/2)·decay).
+/// All are unit vectors.
 #[inline(always)]
 fn turned_towards<S: Simd>(direction: Vectors<S>, along: Vectors<S>, decay: Numbers<S>) -> Vectors<S> {
     let (one, two) = (decay.all(1.0), decay.all(2.0));
@@ -112,14 +112,15 @@ fn turned_towards<S: Simd>(direction: Vectors<S>, along: Vectors<S>, decay: Numb
     (along * (one - tangent_squared) + across * (two * factor)) * one.over(one + tangent_squared)
 }
 
-/// Vectors in the plane normal to `normal`, rotated about it by angles, rad.
+/// Rotates vectors, which lie in the plane normal to `normal`, about it by angles, rad.
 #[inline(always)]
 fn turned_by<S: Simd>(vectors: Vectors<S>, normal: Vectors<S>, angle: Numbers<S>) -> Vectors<S> {
     let (sine, cosine) = angle.sin_cos();
     vectors * cosine + normal.cross(vectors) * sine
 }
 
-/// 1 − 2(1 − e⁻ᶻ)/z + e⁻ᶻ, equal to Σ (k − 1)·(−z)ᵏ/(k + 1)! over k from 2.
+/// Lag of a bristle behind a turn of its path, relative to γ: 1 − 2(1 − e⁻ᶻ)/z + e⁻ᶻ, equal to Σ (k −
+/// 1)·(−z)ᵏ/(k + 1)! over k from 2.
 #[inline(always)]
 fn lag_of_turn<S: Simd>(z: Numbers<S>, decay: Numbers<S>) -> Numbers<S> {
     let (one, two) = (z.all(1.0), z.all(2.0));

@@ -1,12 +1,12 @@
-//! Fallback if the scratch memory is too small: as many of the deepest contacts as fit are shared exactly,
-//! the others get λ = 0. The result depends only on the contacts and the memory size.
+//! Load sharing with too little scratch memory: as many of the deepest contacts as fit are shared exactly,
+//! and all others get the load λ = 0. The result depends only on the contacts and the memory size.
 
 use super::shared_contact::{SharedContact, deepest_of};
 use super::solve::solve;
 use super::uncoupled;
 use pong_arena::{Arena, Full};
 
-/// Computes λ of every contact; contacts left out get 0.
+/// Computes the load λ of the deepest contacts that fit into `scratch`, at least of one; all others get 0.
 pub(super) fn share(contacts: &mut [SharedContact], scratch: &mut Arena) {
     scratch.reset();
     contacts.iter_mut().for_each(|contact| contact.lambda = 0.0);
@@ -22,7 +22,7 @@ fn bytes(count: usize) -> usize {
     uncoupled::tableau(count).and::<u32>(count).and::<SharedContact>(count).bytes()
 }
 
-/// Shares the `count` deepest contacts, in their original order.
+/// Shares the `count` deepest contacts, in the order in which they were given.
 fn share_some(contacts: &mut [SharedContact], count: usize, scratch: &Arena) -> Result<(), Full> {
     let mut chosen = scratch.list::<u32>(count)?;
     let mut last = None;
@@ -42,7 +42,8 @@ fn share_some(contacts: &mut [SharedContact], count: usize, scratch: &Arena) -> 
     Ok(())
 }
 
-/// Next contact after `last` by decreasing depth, ties by index.
+/// Index of the next contact after `last`, by decreasing depth and then by index; `None` after the last
+/// contact.
 fn next_deepest(contacts: &[SharedContact], last: Option<usize>) -> Option<usize> {
     let comes_after = |i: usize, j: usize| {
         contacts[i].depth < contacts[j].depth || (contacts[i].depth == contacts[j].depth && i > j)

@@ -1,5 +1,5 @@
-//! Shortest vector t that clears all contacts, if all couple (no two normals are more than 90° apart), from
-//! the nearest point of a convex hull.
+//! Shortest vector t that clears all contacts (n_i·t ≥ δ_i) if no two normals are more than 90° apart. It
+//! follows from the nearest point of a convex hull. Symbols as in the parent module.
 //!
 //! With q_i = n_i/δ_i the conditions n_i·t ≥ δ_i read q_i·t ≥ 1, and the shortest t is p/|p|², where p is the
 //! point of the convex hull of the q_i nearest to the origin: p = Σ μ_i·q_i, μ ≥ 0, Σ μ = 1, and q_i·p ≥ |p|²
@@ -8,19 +8,21 @@
 //! not affect the force.
 //!
 //! In three dimensions p is a combination of at most three q_i. The search begins with the q of the deepest
-//! contact. While a contact is violated (n_i·t < δ_i), the q of the most violated contact enters: p is
-//! computed for each of the at most seven subsets of the old points and the new point that contain the new
-//! point, until one p clears them all. |t| grows with every exchange, so no subset repeats.
+//! contact. While a contact is violated (n_i·t < δ_i), the q of the most violated contact enters. Of the old
+//! points and the new one there are at most seven subsets of at most three points that contain the new point.
+//! The p of each is computed until one clears all these contacts. |t| grows with every exchange, so no subset
+//! repeats.
 //!
-//! All points are stored as differences from the q of the deepest contact, times its depth: for nearly
-//! parallel normals these differences are exact and products are not.
+//! All points q are stored as differences from the q of the deepest contact, multiplied by its depth. For
+//! nearly parallel normals these differences are exact, and products are not.
 
 use super::shared_contact::{Coupling, SharedContact, deepest_of};
 use pong_geometry::Vec3;
 
 /// Allowed violation of a contact relative to the largest depth; depths are not known more accurately.
 const VIOLATION_MAX: f64 = 1e-15;
-/// Allowed increase of |p|²·δ_d², which is about 1, in an exchange: a few roundings.
+/// Allowed increase of |p|²·δ_d² in an exchange: a few roundings of this number, which is about 1. δ_d is the
+/// depth of the deepest contact.
 const GAIN_SLACK: f64 = 1e-15;
 
 /// Shortest vector that clears all contacts, and the at most three contacts that determine it.
@@ -39,7 +41,7 @@ pub(super) struct Shortest {
 }
 
 impl Shortest {
-    /// Shortest vector for one or more contacts that all couple.
+    /// Computes the shortest vector for one or more contacts of which no two normals are more than 90° apart.
     pub fn new(contacts: &[SharedContact]) -> Self {
         let deepest = deepest_of(contacts);
         let mut best =
@@ -101,9 +103,9 @@ impl Shortest {
         worst
     }
 
-    /// Solution for the members and the entering contact, from a subset that contains the entering contact:
-    /// the first subset whose solution clears all of these contacts, otherwise the one with the least
-    /// violation.
+    /// Shortest vector for the current members and the entering contact. Of the subsets that contain the
+    /// entering contact, it takes the first whose vector clears all of these contacts, otherwise the one with
+    /// the least violation; `None` if no subset has a vector.
     fn exchange(&self, contacts: &[SharedContact], entering: usize, allowed: f64) -> Option<Self> {
         let entering = QPoint::new(contacts, self.deepest, entering);
         let mut best: Option<(f64, Self)> = None;
@@ -154,7 +156,7 @@ impl QPoint {
     }
 }
 
-/// Point p of the convex hull of at most three points q.
+/// Point p of the convex hull of at most three points q, nearest to the origin.
 #[derive(Clone, Copy)]
 struct HullPoint {
     points: [QPoint; 3],
@@ -177,13 +179,13 @@ impl HullPoint {
         2.0 * self.rise + self.offset.norm_squared()
     }
 
-    /// Point nearest to the origin on the line through two points or on the plane through three; `None` if it
-    /// does not lie between them.
+    /// Point nearest to the origin on the line through two points or on the plane through three. `None` if it
+    /// does not lie between them, or if equal points determine no line or plane.
     fn nearest(points: [QPoint; 3], count: usize) -> Option<Self> {
         let first = &points[0];
         let edge = |k: usize| points[k].offset - first.offset;
-        // −q·e for the first point q and an edge e: decrease of half the squared distance to the origin along
-        // e.
+        // −q·e for the first point q and an edge e: rate at which half the squared distance to the origin
+        // decreases along e.
         let gained = |k: usize, edge: &Vec3| first.rise - points[k].rise - first.offset.dot(edge);
         let parts = match count {
             1 => return Some(Self::of_one(*first)),

@@ -72,7 +72,7 @@ impl Coupling {
         Self { cosine, gap: 1.0 - cosine, is_near: false }
     }
 
-    /// Remaining depth δ − g·δ′ after the other contact, of depth δ′, has been cleared, m.
+    /// Depth δ − g·δ′ that remains, m, once the other contact, of depth δ′, has been cleared.
     pub fn beyond(&self, depth: f64, other_depth: f64) -> f64 {
         if self.is_near {
             (depth - other_depth) + self.gap * other_depth

@@ -5,7 +5,7 @@ use super::shared_contact::{Coupling, SharedContact, all_couple};
 use super::{spread, uncoupled};
 use pong_arena::{Arena, Full};
 
-/// Computes every λ, or none if the scratch memory is too small.
+/// Computes the load λ of every contact. If the scratch memory is too small, no λ is written.
 pub(super) fn solve(contacts: &mut [SharedContact], scratch: &Arena) -> Result<(), Full> {
     match contacts {
         [] => {}
@@ -17,8 +17,8 @@ pub(super) fn solve(contacts: &mut [SharedContact], scratch: &Arena) -> Result<(
     Ok(())
 }
 
-/// Computes λ of two contacts in closed form: λ₁ = (δ₁ − g·δ₂)/(1 − g²), and λ₂ likewise; if one numerator is
-/// not positive, the deeper contact has all the load.
+/// Computes the load λ of two contacts in closed form: λ₁ = (δ₁ − g·δ₂)/(1 − g²) with the coupling g, and λ₂
+/// likewise. If one numerator is not positive, the deeper contact has all the load.
 fn share_two(first: &mut SharedContact, second: &mut SharedContact) {
     let coupling = Coupling::new(first, second);
     let beyond_first = coupling.beyond(second.depth, first.depth);
@@ -33,7 +33,7 @@ fn share_two(first: &mut SharedContact, second: &mut SharedContact) {
     };
 }
 
-/// Computes λ of three or more contacts that all couple.
+/// Computes the load λ of three or more contacts of which no two normals are more than 90° apart.
 fn share_coupled(contacts: &mut [SharedContact]) {
     let shortest = Shortest::new(contacts);
     if spread::share(contacts, &shortest) {

@@ -1,9 +1,10 @@
-//! Least-norm λ if more contacts touch the shortest vector t (n_i·t = δ_i) than determine it.
+//! Loads λ of least norm if more contacts touch the shortest vector t (n_i·t = δ_i) than determine it.
+//! Symbols as in the parent module.
 //!
 //! Among all λ ≥ 0 with Σ λ_i·n_i = t, the one of least |λ| is λ_i = max(0, n_i·μ). The vector μ is found by
-//! repeatedly solving for the contacts with load until that set no longer changes. The condition Σ λ_i·n_i =
-//! t, and with it λ, does not change if space is stretched across t. In the stretched space, normals that
-//! differ only by single-precision rounding are as far apart as any others.
+//! repeatedly solving for the contacts that have load, until the set of these contacts no longer changes.
+//! Stretching space across t changes neither the condition Σ λ_i·n_i = t nor λ. In the stretched space,
+//! normals that differ only by single-precision rounding are as far apart as any others.
 
 use super::nearest::Shortest;
 use super::shared_contact::SharedContact;
@@ -18,8 +19,8 @@ const ROUNDING_MAX: f64 = 1e-13;
 /// Limit on the number of active-set iterations.
 const CHOICES_MAX: usize = 50;
 
-/// Computes every λ. Returns false if no more contacts touch t than determine it, or if rounding keeps Σ
-/// λ_i·n_i from reaching t.
+/// Computes the load λ of every contact. Returns false, with λ unusable, if no more contacts touch t than
+/// determine it, or if rounding keeps Σ λ_i·n_i from reaching t.
 pub(super) fn share(contacts: &mut [SharedContact], shortest: &Shortest) -> bool {
     let length = shortest.t_b.norm();
     let along = shortest.t_b / length;
@@ -52,7 +53,8 @@ fn across(normal: &Vec3, along: &Vec3) -> Vec3 {
     normal - along * normal.dot(along)
 }
 
-/// Vector μ with Σ max(0, n_i·μ)·n_i = t, summed over the contacts that touch t.
+/// Vector μ with Σ max(0, n_i·μ)·n_i = t, summed over the contacts that touch t; n_i are the stretched
+/// normals.
 fn least(contacts: &[SharedContact], t: &Vec3, stretched: impl Fn(&Vec3) -> Vec3) -> Vec3 {
     let mut mu = *t;
     for _ in 0..CHOICES_MAX {

@@ -1,8 +1,9 @@
 //! Double-double numbers: the unevaluated sum of two `f64`, the second at most half a unit in the last place
 //! of the first.
 //!
-//! Error-free sums and products of Knuth, Dekker and Veltkamp (T. J. Dekker, "A floating-point technique for
-//! extending the available precision", 1971), from plain operations only: the same bits on every machine.
+//! Sums and products of two `f64` are error-free (Knuth, Dekker, Veltkamp; T. J. Dekker, "A floating-point
+//! technique for extending the available precision", 1971). Only plain operations are used, so the bits are
+//! the same on every machine.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

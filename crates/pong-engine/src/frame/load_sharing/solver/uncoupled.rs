@@ -1,15 +1,21 @@
-//! Load sharing if some normals are more than 90° apart; such pairs do not couple.
+//! Load sharing if some normals are more than 90° apart; such pairs of contacts do not couple. Symbols as in
+//! the parent module: depth δ_i, normal n_i, load λ_i.
 //!
 //! λ ≥ 0,  G·λ − δ ≥ 0,  λ·(G·λ − δ) = 0  with G_ij = max(0, n_i·n_j), G_ii = 1: a linear complementarity
 //! problem. G has no negative entry and a positive diagonal, so xᵀGx > 0 for every x ≥ 0, x ≠ 0 (strictly
 //! copositive), and Lemke's method ends with a solution (R. W. Cottle, J.-S. Pang, R. E. Stone, "The Linear
-//! Complementarity Problem", theorem 4.4.9). The deepest contact enters first. There need not be a potential,
-//! continuity or a unique solution; the pivot order decides, always in the same way.
+//! Complementarity Problem", theorem 4.4.9).
 //!
-//! For two normals at a small angle θ, as in a plate cut into pieces, the method divides by 1 − g² = θ². The
-//! tableau therefore uses double-double numbers ([`Twofold`]), in which the square of 1e-15, the rounding of
-//! the normals, is still significant. For n contacts it has n·(n + 2) of them: it omits the columns of the
-//! basic variables, which are unit vectors. An arena of known size holds the tableau.
+//! The solution need not be unique, need not change continuously with the depths, and need not follow from a
+//! potential. If there are several solutions, the order of the pivots selects one. This order is fixed: the
+//! deepest contact enters first.
+//!
+//! *Rounding.* For two normals at a small angle θ, as in a plate cut into pieces, the method divides by 1 −
+//! (n_1·n_2)² ≈ θ². The normals are rounded to 1e-15, and the square of this must still be significant, so
+//! the tableau uses double-double numbers ([`Twofold`]).
+//!
+//! *Memory.* For n contacts the tableau has n·(n + 2) numbers, in an arena of known size. The columns of the
+//! basic variables are unit vectors and are omitted.
 
 use super::shared_contact::{Coupling, SharedContact, deepest_of};
 use super::twofold::Twofold;
@@ -22,7 +28,7 @@ pub(super) fn tableau(contacts: usize) -> Demand {
     Demand::default().and::<u32>(contacts).and::<u32>(contacts.saturating_add(1)).and::<Twofold>(cells)
 }
 
-/// Computes λ of every contact.
+/// Computes the load λ of every contact.
 ///
 /// # Errors
 /// [`Full`] if the tableau does not fit into the scratch memory; then no λ is written.
@@ -37,8 +43,9 @@ pub(super) fn share(contacts: &mut [SharedContact], scratch: &Arena) -> Result<(
     Ok(())
 }
 
-/// Lemke's tableau of w − G·λ − 1·z₀ = −δ: each row is solved for one basic variable, the nonbasic ones are
-/// zero. Variable indices: w (n), λ (n), z₀. Columns: the nonbasic variables, then the right-hand side.
+/// Lemke's tableau of w − G·λ − 1·z₀ = −δ, with the slack variables w and the artificial variable z₀. Each
+/// row is solved for one basic variable; the nonbasic variables are zero. The variables are numbered in the
+/// order w_1…w_n, λ_1…λ_n, z₀. The columns are those of the nonbasic variables, then the right-hand side.
 struct Tableau<'a> {
     n: usize,
     /// Cells in row-major order.
@@ -113,8 +120,8 @@ impl<'a> Tableau<'a> {
         }
     }
 
-    /// Row whose basic variable limits the entering variable of a column. In a tie z₀ is taken, otherwise the
-    /// lower row.
+    /// Row whose basic variable is the first to reach zero when the variable of column `entering` grows;
+    /// `None` if none does. Of several such rows, that of z₀ is taken, otherwise the lowest.
     fn ratio_test(&self, entering: usize) -> Option<usize> {
         /// Least pivot: square of the angle by which rounding may rotate equal normals.
         const PIVOT_MIN: f64 = 1e-29;
@@ -157,7 +164,7 @@ impl<'a> Tableau<'a> {
     }
 }
 
-/// Coupling of two contacts in double-double precision.
+/// Coupling max(0, n₁·n₂) of two contacts, in double-double precision.
 fn cosine(a: &SharedContact, b: &SharedContact) -> Twofold {
     let coupling = Coupling::new(a, b);
     if coupling.is_near { Twofold::sum(1.0, -coupling.gap) } else { Twofold::from(coupling.cosine) }

@@ -13,7 +13,8 @@ use pong_geometry::interference::two_ended_round::EndContacts;
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::{Containment, Polyhedron};
 
-/// A capsule on a piece of a body: the end spheres, and the convex edges that the axis crosses between them.
+/// Adds the contacts of a capsule with a piece of a body: those of the end spheres, and those of the convex
+/// edges that the axis crosses between them.
 pub(super) fn capsule_polyhedron(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -28,7 +29,8 @@ pub(super) fn capsule_polyhedron(
     at_piece.each_crossing(|crossing| pair.between_ends(crossing, found));
 }
 
-/// A capsule on a triangle: the end spheres, and the convex and free edges that the axis crosses.
+/// Adds the contacts of a capsule with a triangle: those of the end spheres, and those of the convex and free
+/// edges that the axis crosses.
 pub(super) fn capsule_triangle(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -56,7 +58,7 @@ pub(super) fn capsule_triangle(
     }
 }
 
-/// A line segment in a piece of a body: each end carries half of the spring.
+/// Adds the contacts of a line segment with a piece of a body. Each end has half of the spring.
 pub(super) fn line_segment_polyhedron(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -75,7 +77,7 @@ pub(super) fn line_segment_polyhedron(
     }
 }
 
-/// Candidate status of a segment's end in a piece of a body.
+/// Candidate status of the contact at one end of a segment, with a piece of a body.
 fn status_of_end(contact: &Interference, at_wall: AtWall, piece: &Polyhedron) -> CandidateStatus {
     match at_wall {
         AtWall::SharedEdge | AtWall::Exit => CandidateStatus::AtWall,
@@ -89,7 +91,8 @@ fn status_of_end(contact: &Interference, at_wall: AtWall, piece: &Polyhedron) ->
     }
 }
 
-/// A line segment, a capsule or a cylinder in a bore: half a spring at each end of the part in the hole.
+/// Adds the contacts of a line segment, a capsule or a cylinder with a bore. Each end of the part that lies
+/// in the hole has half a spring.
 pub(super) fn axis_in_bore(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -114,7 +117,7 @@ pub(super) fn axis_in_bore(
     }
 }
 
-/// Adds the contacts at the ends of an axis, or at points of its end discs, each with half a spring.
+/// Adds the contacts at the ends of an axis, or at points of its end discs. Each contact has half a spring.
 pub(super) fn emit_halves<A>(
     pair: &ElementPair<'_>,
     _: &A,
@@ -130,8 +133,8 @@ pub(super) fn emit_halves<A>(
     }
 }
 
-/// Adds the contacts with a round solid: half a spring at each end of the overlap, and half a spring at the
-/// deepest point, each with its share as weight.
+/// Adds the contacts of a segment or capsule with a round solid: at each end of the overlap and at the
+/// deepest point. Each contact has half a spring, and its share as weight.
 pub(super) fn emit_shares<A>(
     pair: &ElementPair<'_>,
     _: &A,

@@ -19,7 +19,8 @@ use pong_geometry::interference::sphere_polyhedron::{sphere_inside_polyhedron, s
 use pong_geometry::interference::sphere_triangle::{sphere_over_face, sphere_triangle};
 use pong_geometry::primitive::{Containment, Point, Ray, Sphere};
 
-/// A point in a polyhedron; the caller has removed points that are neither inside nor on an internal face.
+/// Adds the contact of a point with a polyhedron. The caller has removed points that are neither inside nor
+/// on an internal face.
 pub(super) fn point_polyhedron(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -44,7 +45,7 @@ pub(super) fn point_polyhedron(
     }
 }
 
-/// A sphere on or in a piece of a body.
+/// Adds the contacts of a sphere with a piece of a body.
 pub(super) fn sphere_polyhedron(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -54,7 +55,8 @@ pub(super) fn sphere_polyhedron(
     ball_on_piece(pair, &Ball::of(sphere), found);
 }
 
-/// A sphere, or the end of a capsule, on or in a piece of a body.
+/// Adds the contacts of a sphere, or of an end sphere of a capsule, with a piece of a body. The centre may be
+/// inside or outside.
 pub(super) fn ball_on_piece(pair: &ElementPair<'_>, ball: &Ball<'_>, found: &mut ChunkCandidates<'_>) {
     let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
     let sphere = ball.sphere;
@@ -79,7 +81,7 @@ pub(super) fn ball_on_piece(pair: &ElementPair<'_>, ball: &Ball<'_>, found: &mut
     });
 }
 
-/// A sphere on a triangle.
+/// Adds the contacts of a sphere with a triangle.
 pub(super) fn sphere_on_triangle(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -89,7 +91,8 @@ pub(super) fn sphere_on_triangle(
     ball_on_triangle(pair, &Ball::of(sphere), false, found);
 }
 
-/// A sphere, or the end of a capsule, on a triangle; `over_face` if only the face can push.
+/// Adds the contacts of a sphere, or of an end sphere of a capsule, with a triangle. `over_face` means that
+/// only the face can push.
 pub(crate) fn ball_on_triangle(
     pair: &ElementPair<'_>,
     ball: &Ball<'_>,
@@ -107,7 +110,7 @@ pub(crate) fn ball_on_triangle(
     }
 }
 
-/// An ellipsoid on a piece of a body.
+/// Adds the contact of an ellipsoid with a piece of a body.
 pub(super) fn ellipsoid_polyhedron(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -124,7 +127,7 @@ pub(super) fn ellipsoid_polyhedron(
     });
 }
 
-/// An ellipsoid on a triangle.
+/// Adds the contacts of an ellipsoid with a triangle.
 pub(super) fn ellipsoid_triangle(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -134,7 +137,7 @@ pub(super) fn ellipsoid_triangle(
     ellipsoid_on_triangle(pair, &EllipsoidOnTriangles::new(ellipsoid), found);
 }
 
-/// An ellipsoid on a triangle, with the precomputed values of the ellipsoid.
+/// Adds the contacts of an ellipsoid with a triangle; `ready` has the precomputed values of the ellipsoid.
 pub(crate) fn ellipsoid_on_triangle(
     pair: &ElementPair<'_>,
     ready: &EllipsoidOnTriangles,
@@ -148,8 +151,8 @@ pub(crate) fn ellipsoid_on_triangle(
     ready.test(&pair.body_b().triangles, pair.item_b.element, thickness, &mut emit);
 }
 
-/// A point or a sphere in a bore: a contact at the nearest point of the wall and, for a sphere that is too
-/// large for the hole, a contact on the opposite side. Both contacts share one spring.
+/// Adds the contacts of a point or a sphere with a bore: one at the nearest point of the wall and, for a
+/// sphere that is too large for the hole, one on the opposite side. Both contacts share one spring.
 pub(super) fn ball_in_bore(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -170,8 +173,8 @@ pub(super) fn ball_of(point: &Point) -> Sphere {
     Sphere { center: point.position, radius: 0.0 }
 }
 
-/// Adds the contacts of a point of A, given in A's frame (`local`), with the walls of a bore; `end` if the
-/// point is the end of an axis.
+/// Adds the contacts of a point of A, given in A's frame (`local`), with the wall of a bore. `end` is set if
+/// the point is an end of an axis.
 pub(super) fn emit_in_bore(
     pair: &ElementPair<'_>,
     contacts: &BallContacts,
@@ -189,7 +192,7 @@ pub(super) fn emit_in_bore(
     }
 }
 
-/// A ray through a triangle.
+/// Adds the contact of a ray with a triangle.
 pub(super) fn ray_on_triangle(
     pair: &ElementPair<'_>,
     a: &TransformedPrimitive,
@@ -201,7 +204,7 @@ pub(super) fn ray_on_triangle(
     emit_hit(pair, ray, hit, found);
 }
 
-/// Adds the contact of a ray hit.
+/// Adds the contact of a ray at its hit, if any.
 pub(super) fn emit_hit(
     pair: &ElementPair<'_>,
     ray: &Ray,
@@ -213,7 +216,7 @@ pub(super) fn emit_hit(
     }
 }
 
-/// Adds the only contact of a pair.
+/// Adds the contact of a pair of kinds that has at most one.
 pub(super) fn emit_whole<A>(
     pair: &ElementPair<'_>,
     _: &A,

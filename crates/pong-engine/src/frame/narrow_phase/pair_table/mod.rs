@@ -1,6 +1,7 @@
-//! Table of tested kind pairs: kind of A, kind of B, contact tester and cost. Dispatch, block layout, default
-//! capacity and seal use it. A new pair needs a row here; a tester that does more than its interference test
-//! is in `balls` or `axes`. Blank pairs are not tested, without an error, since the author may intend them.
+//! Table of the pairs of kinds that are tested: kind of A, kind of B, contact tester and cost. Dispatch,
+//! block layout, default capacity and seal use it. A new pair needs a row here; a tester that does more than
+//! its interference test is in `balls` or `axes`. A blank pair is not tested. It is no error, because a model
+//! author may intend it.
 //!
 //! ```text
 //!  A \ B         Sphere  Ellipsoid  Triangle  Polyhedron  Plane  Capsule  Cylinder  Cone  Bore
@@ -65,7 +66,8 @@ pub(crate) struct KindPair {
 /// Assumed cost, ns, and number of contacts of a registered test.
 pub(crate) const REGISTERED: (u32, usize) = (200, 1);
 
-/// Tester made of an interference test: shape of A, array of B, test, and the function that adds its contacts.
+/// Makes a tester from an interference test. Arguments: shape of A, array of B, test, and the function that
+/// adds the contacts.
 macro_rules! by {
     ($a:ident, $b:ident, $test:expr, $emit:path) => {{
         fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
@@ -169,7 +171,7 @@ pub(crate) fn test_of(a: PrimitiveKind, b: PrimitiveKind) -> Test {
     TESTS[a as usize][b as usize]
 }
 
-/// Maximum contacts of one primitive of kind `a`, as A, with one shell.
+/// Maximum number of contacts of one primitive of kind `a`, as A, with one shell.
 pub(crate) fn most_contacts(a: PrimitiveKind) -> usize {
     let registered = if a == Custom { REGISTERED.1 } else { 0 };
     ROWS.iter().filter(|row| row.a == a).map(|row| row.contacts).fold(registered, usize::max)

@@ -94,7 +94,7 @@ impl Whole {
         order.then_with(|| self.digits.iter().rev().cmp(other.digits.iter().rev())) == Ordering::Greater
     }
 
-    /// Leading 53 bits, and the exponent of 2^32 by which they are scaled.
+    /// Value of the four leading digits, and the number of digits below them.
     fn leading(&self) -> (f64, i32) {
         let top = self.digits.len().saturating_sub(4);
         let value = self.digits[top..]
@@ -133,7 +133,7 @@ fn determinant(rows: &[Vec<Whole>]) -> Whole {
     }
 }
 
-/// Shortest t with n·t ≥ δ for all contacts, rounded at the end; the bit set of contacts that determine it;
+/// Shortest t with n·t ≥ δ for all contacts, rounded at the end, the number of contacts that determine it,
 /// and their Σ λ/δ.
 pub(super) fn shortest(contacts: &[SharedContact]) -> (Vec3, usize, f64) {
     let normals: Vec<[Whole; 3]> =

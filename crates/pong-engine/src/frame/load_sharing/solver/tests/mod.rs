@@ -49,8 +49,8 @@ fn rounding_in_the_normals_of_a_plate_does_not_show() {
     assert!((t - Vec3::z() * 1e-3).norm() < 1e-3 * 5e-8);
 }
 
-/// Known answer: the shortest vector that clears three walls leads to the corner point, where all three are
-/// tight.
+/// Known answer: the shortest vector that clears three walls leads to the corner point, where it touches all
+/// three.
 #[test]
 fn three_walls_meet_in_their_corner() {
     let walls =
@@ -171,8 +171,8 @@ fn folds_beside_walls_agree_with_exact_arithmetic() {
     }
 }
 
-/// Two plates in pieces that do not couple with each other, and a third that couples with both: total weight
-/// of each plate.
+/// Cutting plates into pieces does not change the total load of a plate. The normals of two plates are more
+/// than 90° apart; the normal of a third is within 90° of both.
 #[test]
 fn plates_in_pieces_share_alike_where_some_normals_do_not_couple() {
     let mut random = Random(13);
@@ -246,7 +246,7 @@ fn opposed_normals_satisfy_the_definition() {
     }
 }
 
-/// Awkward sets: normals all around, some opposed or equal, some depths equal.
+/// Difficult sets: normals in all directions, some opposed or equal, and some equal depths.
 fn awkward_set(random: &mut Random, count: usize) -> Vec<SharedContact> {
     let mut set: Vec<SharedContact> = Vec::new();
     for i in 0..count {
@@ -263,7 +263,7 @@ fn awkward_set(random: &mut Random, count: usize) -> Vec<SharedContact> {
     set
 }
 
-/// Sets full of ties: few directions, few different depths.
+/// Sets with many equal depths and normals: few directions, few different depths.
 fn set_full_of_ties(random: &mut Random, count: usize) -> Vec<SharedContact> {
     let directions = [Vec3::x(), Vec3::y(), -Vec3::x(), Vec3::new(0.6, 0.8, 0.0), Vec3::new(-0.6, 0.8, 0.0)];
     let shared_contact = |_| {
@@ -319,7 +319,7 @@ fn with_too_little_memory_the_deepest_are_shared_exactly_and_the_rest_get_nothin
         if share_within(&mut shared, &mut scratch).is_ok() {
             continue;
         }
-        // Some count of deepest contacts must explain every λ.
+        // For some count, sharing only the deepest contacts must give every λ.
         let explained = (1..set.len()).find(|&count| {
             let chosen = deepest_first(&set, count);
             let mut alone: Vec<SharedContact> = chosen.iter().map(|&i| set[i]).collect();
