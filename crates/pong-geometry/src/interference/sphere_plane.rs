@@ -3,7 +3,7 @@
 use super::{Feature, Interference};
 use crate::primitive::{Plane, Sphere};
 
-/// Contact of a sphere that reaches below a plane.
+/// Returns the contact of a sphere that extends below a plane; `None` for a sphere above it.
 pub fn sphere_plane(sphere: &Sphere, plane: &Plane) -> Option<Interference> {
     let depth = sphere.radius - plane.height(&sphere.center);
     (depth > 0.0).then(|| Interference {
