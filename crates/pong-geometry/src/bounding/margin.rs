@@ -1,10 +1,10 @@
-//! Margin of every fitted volume.
+//! Margin by which every fitted volume is grown.
 
 use super::volume::Volume;
 use crate::Vec3;
 
-/// Every fitted volume is grown by this fraction of (its extent + the distance of its centre from the frame's
-/// origin).
+/// Fraction of (the volume's extent + the distance of its centre from the frame's origin) by which every
+/// fitted volume is grown.
 ///
 /// With this margin the pair tests need none for position errors. Let the volumes have the centres `c_A` and
 /// `c_B` in their frames and the extents `e_A` and `e_B`, and let the frames be `r` apart. Transforming a
@@ -15,8 +15,9 @@ use crate::Vec3;
 pub const RELATIVE_MARGIN: f64 = 1e-12;
 
 impl Volume {
-    /// Volume grown by [`RELATIVE_MARGIN`]. [`fit`](super::fit()) has done so already; a volume built by hand
-    /// should be grown before it is tested. A custom volume is returned unchanged: its fitter adds a margin.
+    /// Returns the volume grown by [`RELATIVE_MARGIN`]. The result of [`fit`](super::fit()) has been grown
+    /// already; a volume built by hand should be grown before it is tested. A custom volume is returned
+    /// unchanged, because its fitter adds a margin.
     pub fn inflated(self) -> Self {
         let margin = |extent: f64, center: &Vec3| RELATIVE_MARGIN * (extent + center.norm());
         match self {
