@@ -1,11 +1,11 @@
 //! Capsule (A) – one piece of a body (B): contacts with convex edges that the capsule's axis crosses between
 //! its ends (docs/theory.md, 2.8). Contacts of the end spheres are found by the sphere test.
 //!
-//! An edge that the axis is outside of pushes if its distance from the axis is less than the radius. If the
-//! axis has sunk below an edge, the edge pushes only if the translation over it is the shortest out of the
-//! piece, compared with all faces and all other edges. So an edge cannot push if its distance from the axis
-//! exceeds both the radius and the depth of the axis below the nearest face. Such edges are rejected eight at
-//! a time; the others are tested one by one.
+//! As long as the axis is above an edge, the edge pushes if its distance from the axis is less than the
+//! radius. If the axis has sunk below an edge, the edge pushes only if the translation over it is the
+//! shortest out of the piece, compared with all faces and all other edges. So an edge cannot push if its
+//! distance from the axis exceeds both the radius and the depth of the axis below the nearest face. Such
+//! edges are rejected eight at a time; the others are tested one by one.
 
 use super::capsule_edge::{ConvexEdge, capsule_edge};
 use super::round_surface::ROUNDING;
@@ -14,7 +14,7 @@ use crate::Vec3;
 use crate::primitive::{Capsule, EdgeBlock, FacePlanes, Polyhedron};
 use crate::simd::{LANES, LaneBits, Numbers, Simd, Splat, Vectors, run_at_level};
 
-/// Capsule and piece that no face plane of the piece separates.
+/// Capsule and piece that are not separated by the plane of any face of the piece.
 #[derive(Clone, Copy, Debug)]
 pub struct CapsuleAtPiece<'a> {
     capsule: &'a Capsule,

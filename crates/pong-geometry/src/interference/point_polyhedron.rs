@@ -102,9 +102,9 @@ pub struct Reached {
     pub depth: f64,
 }
 
-/// Returns the face to remember next for a point inside, starting from the face remembered so far, and the
-/// face that pushes. The remembered face changes to its neighbour of least depth, again and again, while that
-/// lowers the depth below the remembered face.
+/// Returns the face to remember next, and the face that pushes, for a point inside. `remembered` is the face
+/// remembered so far. It changes to its neighbour of least depth, again and again, while that lowers the
+/// depth below the remembered face.
 ///
 /// It does not change across a sharp edge. It does not change either if that would increase the depth below
 /// the face that pushes, which may be a sharp neighbour of the present face but not of the next. So the depth

@@ -8,8 +8,9 @@ use super::ray_plane::RayHit;
 use crate::Vec3;
 use crate::primitive::{Bore, Curved, Ray};
 
-/// Returns the hit of a ray on the wall from within the hole. `None` unless −reach < distance < length. A ray
-/// without a `reach` uses the thickness of the wall.
+/// Returns the hit of a ray on the wall from within the hole. `None` unless the ray leaves the hole between
+/// the ends of the wall, and −reach < distance < length. A ray without a `reach` uses the thickness of the
+/// wall.
 pub fn ray_bore(ray: &Ray, bore: &Bore) -> Option<RayHit> {
     let distance = way_out(&ray.origin, &ray.direction, bore)?;
     let reach = ray.reach.unwrap_or(bore.thickness);

@@ -78,7 +78,7 @@ impl<'a, S: Simd> Near<'a, S> {
         Self { simd, sphere, polyhedron, center: Splat::new(simd, &sphere.center) }
     }
 
-    /// Tests all planes. `None` if one of them separates the sphere from the polyhedron.
+    /// Returns the position of the centre relative to all planes; `None` if one of them separates the sphere.
     #[inline(always)]
     fn survey(&self) -> Option<Survey> {
         let simd = self.simd;
