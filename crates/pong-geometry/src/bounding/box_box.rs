@@ -1,6 +1,6 @@
 //! Box-box test by separating axes. Two boxes are disjoint if and only if their projections are disjoint
-//! along one of 15 directions L. These are the face normals `b_i` and `a_j`, and the cross products `b_i ×
-//! a_j` of edges. Along L the boxes are disjoint if
+//! along one of 15 directions L. These are the face normals `b_i` and `a_j`, and the cross products
+//! `b_i × a_j` of edges. Along L the boxes are disjoint if
 //!
 //! ```text
 //!     |L·t| > Σ hb_k |L·b_k| + Σ ha_k |L·a_k|

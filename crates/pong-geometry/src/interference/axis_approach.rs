@@ -375,7 +375,7 @@ impl<'a> TranslationSearch<'a> {
     /// extend equally far along them. `None` if there are none.
     fn lateral_normals(&self, along: &Vec3) -> Option<[Vec3; 2]> {
         let across = self.frustum.axis - along * along.dot(&self.frustum.axis);
-        // Clamped because a compiler may divide, or take the root, before the checks.
+        // Clamped, so that the divisor is not zero even if a compiler divides before the check.
         let length = across.norm().max(ROUNDING);
         // If the axis is parallel to the segment, the end circles extend equally far in all directions or in
         // none.

@@ -9,8 +9,8 @@ use crate::primitive::{Bore, Frustum, Sphere};
 /// Contacts of a sphere with the wall of a bore: on the side of its centre, and on the opposite side.
 pub type BallContacts = [Option<Interference>; 2];
 
-/// Tests a sphere, or with radius 0 a point, against a bore. Two contacts share one spring (docs/theory.md,
-/// 2.2).
+/// Tests a sphere, or with radius 0 a point, against a bore. If there are two contacts, they share one spring
+/// (docs/theory.md, 2.2).
 pub fn ball_bore(ball: &Sphere, bore: &Bore) -> BallContacts {
     let at = Meridian::new(&ball.center, &bore.hole);
     let beside = Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b };

@@ -45,7 +45,7 @@ impl Circle {
     fn rim_toward(&self, direction: &Vec3, least: f64) -> Option<Vec3> {
         let across = direction - self.axis_b * self.axis_b.dot(direction);
         let length = across.norm();
-        // Clamped because a compiler may divide before it compares.
+        // Clamped, so that the divisor is not zero even if a compiler divides before it compares.
         (length > least).then(|| self.center_b + across * (self.radius / length.max(least)))
     }
 }

@@ -219,7 +219,7 @@ impl<const N: usize> Secular<N> {
     #[inline]
     fn reciprocal(&self, sigma: f64, i: usize) -> f64 {
         let sum = sigma + self.d[i];
-        // Clamped because a compiler may divide before the branch: the quotient must not be infinite.
+        // Clamped, so that the quotient is finite even if a compiler divides before the branch.
         if sum > 0.0 { 1.0 / sum.max(f64::MIN_POSITIVE) } else { 0.0 }
     }
 }

@@ -367,7 +367,7 @@ impl Tester<'_> {
         (start + along * share).norm_squared() > 1.0 + SLACK + 10.0 * ends_slack
     }
 
-    /// Returns `true` if a second minimum of an edge or a vertex may be less deep than this face.
+    /// Returns `true` if a second local minimum of an edge or a vertex may be less deep than this face.
     fn allows_second(&self) -> bool {
         self.prepared.allows_second((self.half_width - self.height) * (1.0 + SECOND_SLACK))
     }

@@ -78,7 +78,8 @@ pub fn line_segment_piece(segment: &LineSegment, polyhedron: &Polyhedron) -> Pie
     }
 }
 
-/// Largest numbers of face blocks of the three variants of the test; above `MANY`, every face is evaluated.
+/// Largest numbers of face blocks for which the three variants of the test are compiled. Above `MANY` blocks,
+/// every face is evaluated.
 const FEW: usize = 2;
 const SOME: usize = FacePlanes::IN_REGISTERS;
 const MANY: usize = 16;

@@ -143,7 +143,7 @@ pub(crate) fn ball_over_point(
     }
     let has_direction = distance > ROUNDING * sphere.center.amax();
     let normal = if has_direction {
-        // Clamped because a compiler may divide before the branch.
+        // Clamped, so that the divisor is not zero even if a compiler divides before the branch.
         (arm / distance.max(f64::MIN_POSITIVE)).normalize()
     } else {
         mean_normal().normalize()

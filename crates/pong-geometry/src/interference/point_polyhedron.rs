@@ -113,8 +113,8 @@ pub struct Reached {
 #[inline]
 pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> Reached {
     let mut here = Reached::at(p, polyhedron, remembered);
-    // Every step lowers the depth below the remembered face, so the loop ends. Usually the remembered face
-    // itself pushes; then no neighbour has less depth.
+    // The loop ends, because every step lowers the depth below the remembered face. Usually the remembered
+    // face itself pushes; then no neighbour has less depth.
     while here.pushes != here.face
         && let Some(next) = less_deep_neighbor(p, polyhedron, here.face)
     {

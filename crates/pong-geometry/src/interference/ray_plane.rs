@@ -7,7 +7,7 @@ use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Plane, Ray, RayResponse};
 
-/// Hit of a ray on the front of a surface.
+/// Hit of a ray on the front of a surface: distance, normal and feature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
     /// Distance from the ray's origin along its direction, m; negative behind the origin.
@@ -31,7 +31,7 @@ pub(super) fn hit_plane(ray: &Ray, normal: &Vec3, rise: f64, reach: f64, feature
     if closing >= 0.0 {
         return None;
     }
-    // Clamped because a compiler may divide before the branch.
+    // Clamped, so that the divisor is not zero even if a compiler divides before the branch.
     let distance = rise / closing.min(-f64::MIN_POSITIVE);
     (-reach < distance && distance < ray.length).then_some(RayHit { distance, normal_b: *normal, feature })
 }

@@ -12,7 +12,8 @@ use super::ray_plane::RayHit;
 use crate::primitive::{FacePlanes, PlaneBlock, Polyhedron, Ray};
 use crate::simd::{Finder, First, FirstOf, LaneBits, Simd, Splat, run_at_level};
 
-/// Numbers of face blocks for which the kernel is compiled; up to `SOME` it keeps the distances in registers.
+/// Largest numbers of face blocks for which the three variants of the kernel are compiled. Up to `SOME`, the
+/// kernel keeps the distances in registers.
 const FEW: usize = 2;
 const SOME: usize = FacePlanes::IN_REGISTERS;
 const MANY: usize = usize::MAX;

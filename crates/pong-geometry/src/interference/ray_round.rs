@@ -178,7 +178,7 @@ impl Line {
 /// Returns the roots of a·t² + 2b·t + c without cancellation. `square` is b² − a·c.
 fn roots(a: f64, b: f64, c: f64, square: f64) -> Inside {
     let sum = -(b + square.sqrt().copysign(b));
-    // Clamped because a compiler may divide before the branch.
+    // Clamped, so that the divisor is not zero even if a compiler divides before the branch.
     let divisor = sum.abs().max(f64::MIN_POSITIVE).copysign(sum);
     let (one, other) = (sum / a, if sum == 0.0 { 0.0 } else { c / divisor });
     Inside { from: one.min(other), to: one.max(other) }

@@ -20,7 +20,7 @@ pub(super) struct SegmentPlanes<'a, S: Simd> {
 #[derive(Clone, Copy)]
 pub(super) struct InsidePart {
     pub ends: [InsideEnd; 2],
-    /// For each end of the segment, its greatest height above a plane, m.
+    /// For each end of the segment, its greatest height above any plane, m; negative if the end is inside.
     tops: [f64; 2],
 }
 
@@ -88,7 +88,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
                 crossed |= u64::from(self.is_crossed(heights)) << index;
             }
         }
-        // Only blocks in which an end is above a plane need the division.
+        // Only blocks in which an end of the segment is above a plane need the division.
         while crossed != 0 {
             let index = crossed.trailing_zeros() as usize;
             let block = self.polyhedron.planes().block(index);

@@ -1,4 +1,4 @@
-//! Sphere (A) – plane (B): the support point of the sphere against the half space.
+//! Sphere (A) – plane (B): the depth is the radius less the height of the centre above the plane.
 
 use super::{Feature, Interference};
 use crate::primitive::{Plane, Sphere};

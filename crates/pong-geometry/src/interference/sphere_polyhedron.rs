@@ -114,7 +114,7 @@ impl<'a, S: Simd> Near<'a, S> {
     #[inline(always)]
     fn face_below(&self, survey: &Survey) -> Option<usize> {
         let (simd, planes) = (self.simd, self.polyhedron.planes());
-        // At internal faces the outlines are widened, so the bound does not apply.
+        // Outlines are widened at internal faces, so the bound does not apply there.
         let lowest = match planes.simple {
             true => self.polyhedron.least_height_over_face(&self.sphere.center, survey.top).max(0.0),
             false => 0.0,

@@ -335,7 +335,7 @@ impl RodEnd<'_> {
 
     /// Returns the rounding error of the energy of these contacts, m².
     fn rounding_of(&self, contacts: &BallContacts) -> f64 {
-        /// Error of a direction, rad, at which the slope is discontinuous.
+        /// Error, rad, of a direction that was found where the slope is discontinuous.
         const DIRECTION: f64 = 4e-12;
         let places = [&self.rod.ends, &self.bore.hole.ends].into_iter().flatten().map(|place| place.amax());
         let reach = places.fold(self.rod.length, f64::max);

@@ -119,9 +119,9 @@ impl Bounded for Ellipsoid {
 
     /// Returns an upper bound of the distance from `from` to the farthest point of the ellipsoid, m.
     ///
-    /// In the principal frame let q be the given point and y a point with `Σ(yᵢ/aᵢ)² ≤ 1`. By duality `|y −
-    /// q|² ≤ λ + Σ qᵢ²·λ/(λ − aᵢ²)` for every λ ≥ max aᵢ², with equality at the minimum over λ. The bound is
-    /// therefore valid at whichever λ the search stops.
+    /// In the principal frame let q be the given point and y a point with `Σ(yᵢ/aᵢ)² ≤ 1`. By duality
+    /// `|y − q|² ≤ λ + Σ qᵢ²·λ/(λ − aᵢ²)` for every λ ≥ max aᵢ², with equality at the minimum over λ. The
+    /// bound is therefore valid at whichever λ the search stops.
     fn farthest(&self, from: &Vec3) -> f64 {
         const BISECTIONS: usize = 40;
         let q = self.axes.tr_mul(&(from - self.center));

@@ -29,8 +29,8 @@ pub struct EdgeBlock {
     pub second: EightVectors,
     /// Vectors from the first to the second ends, m.
     pub along: EightVectors,
-    /// For each of the two adjacent faces, the unit vector in the face's plane, perpendicular to the edge,
-    /// pointing out of the face.
+    /// For each of the two adjacent faces, the unit vector that lies in the face's plane, is perpendicular to
+    /// the edge and points out of the face.
     pub outwards: [EightVectors; 2],
     /// Indices into [`PolyhedronParts::edges`].
     pub index: [u32; LANES],

@@ -4,7 +4,8 @@ use crate::bounding::Bounded;
 use crate::{Mat3, Vec3};
 use std::borrow::Cow;
 
-/// Primitive in the frame of its movable group. Each kind implements this in its own file.
+/// Properties of a primitive, given in the frame of its movable group. Each kind implements this trait in its
+/// own file.
 pub trait Primitive: Bounded {
     /// Returns the point of A whose displacement deflects the bristle of a contact, m. It is the centre of a
     /// sphere or an ellipsoid, the point itself, an end of a segment or of a round part's axis, or the tip of

@@ -1,4 +1,4 @@
-//! Primitives of a model, and their storage in flat arrays.
+//! Kinds of primitives, and the flat arrays in which a model stores them.
 //!
 //! All geometry of one movable group is expressed in the frame of that group.
 

@@ -51,7 +51,7 @@ pub struct RimEdge {
     /// End of the edge from which distances are measured, m: the first in (x, y, z) order, so that every face
     /// and piece measures from the same point.
     pub anchor: Vec3,
-    /// Unit vector in the face's plane, perpendicular to the edge, pointing out of the face.
+    /// Unit vector that lies in the face's plane, is perpendicular to the edge and points out of the face.
     pub outward: Vec3,
 }
 
@@ -78,8 +78,8 @@ pub struct PolyhedronEdge {
 pub struct EdgePush {
     /// Outward unit normals of the two active faces that meet at the edge.
     pub normals: [Vec3; 2],
-    /// For each of the two faces, the unit vector in the face's plane, perpendicular to the edge, pointing
-    /// out of the face.
+    /// For each of the two faces, the unit vector that lies in the face's plane, is perpendicular to the edge
+    /// and points out of the face.
     pub outwards: [Vec3; 2],
 }
 
