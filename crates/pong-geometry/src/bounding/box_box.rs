@@ -13,10 +13,10 @@ use crate::{Mat3, Vec3};
 
 /// Gap between projections above which the boxes count as separate, as a fraction of the sizes.
 ///
-/// For boxes in contact, each product in the sums is at most the sum of the sizes, and no more than ten are
-/// added, so each side is accurate to about ten units of 1.1e-16 of that sum. The margin of the volumes does
-/// not cover this error: for nearly parallel edges `b_i × a_j` is short, which scales the margin down but not
-/// the rounding of `m`.
+/// For boxes in contact, each product in the sums is at most the sum of the sizes, and no more than ten
+/// products are added. So each side is accurate to about ten units of 1.1e-16 of the sum of the sizes. The
+/// margin of the volumes does not cover this error: for nearly parallel edges `b_i × a_j` is short, which
+/// scales the margin down but not the rounding of `m`.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// Returns `true` if two boxes may overlap. `half_a` and `half_b` are the half extents, `m` has A's axes as

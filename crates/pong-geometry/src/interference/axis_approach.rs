@@ -237,10 +237,10 @@ fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
 /// Search for the minimum translation of a segment out of a frustum.
 ///
 /// Let h be the support function of the frustum and n a unit vector. When the segment is translated along n,
-/// its end p leaves the frustum after the length h(n) − n·p, and the whole segment after the larger of the
-/// two lengths of its ends. At the minimum over n there are two cases. Either one end leaves last, through an
-/// end face or through the nearest generator of the lateral surface; or both ends leave together, and then n
-/// is perpendicular to the segment.
+/// an end p of it leaves the frustum after the length h(n) − n·p. The whole segment leaves after the larger
+/// of these lengths of its two ends. At the minimum over n there are two cases. Either one end leaves last,
+/// through an end face or through the nearest generator of the lateral surface; or both ends leave together,
+/// and then n is perpendicular to the segment.
 struct TranslationSearch<'a> {
     segment: &'a [Vec3; 2],
     frustum: &'a Frustum,

@@ -2,10 +2,10 @@
 //! its ends (docs/theory.md, 2.8). Contacts of the end spheres are found by the sphere test.
 //!
 //! As long as the axis is above an edge, the edge pushes if its distance from the axis is less than the
-//! radius. If the axis has sunk below an edge, the edge pushes only if the translation over it is the
-//! shortest out of the piece, compared with all faces and all other edges. So an edge cannot push if its
-//! distance from the axis exceeds both the radius and the depth of the axis below the nearest face. Such
-//! edges are rejected eight at a time; the others are tested one by one.
+//! radius. If the axis has sunk below an edge, the edge pushes only if it gives the minimum translation: no
+//! face and no other edge gives a shorter one. So an edge cannot push if its distance from the axis exceeds
+//! both the radius and the depth of the axis below the nearest face. Such edges are rejected eight at a time;
+//! the others are tested one by one.
 
 use super::capsule_edge::{ConvexEdge, capsule_edge};
 use super::round_surface::ROUNDING;

@@ -1,47 +1,52 @@
 //! Ellipsoid (A) – polyhedron (B): the exact minimum translation, found among the features of the polyhedron.
 //!
-//! Along a unit normal n the overlap is `D(n) = h_E(n) − n·c + h_P(n)`, with the support functions h_E of the
-//! ellipsoid about its centre c and h_P of the polyhedron. The depth is the minimum of D. Let the foot be the
-//! ellipsoid's deepest point after the ellipsoid is pushed out. At the minimum, one feature of the polyhedron
-//! is farthest along n:
+//! Along a unit normal n the overlap is `D(n) = h_E(n) − n·c + h_P(n)`. Here h_E is the support function of
+//! the ellipsoid about its centre c, and h_P that of the polyhedron. The depth is the minimum of D. Let the
+//! foot be the ellipsoid's deepest point after the ellipsoid is pushed out. At the minimum, one feature of
+//! the polyhedron is farthest along n:
 //!
 //! * a face: n is its normal, and the foot lies in its outline;
 //! * an edge: n lies between the normals of its two faces, and the foot between its ends; n is a local
 //!   minimum of the overlap with the edge's line (seen along the edge: of an ellipse with a point);
 //! * a vertex: n lies in its normal cone, and is a local minimum of the overlap with the vertex.
 //!
-//! A point has at most two local minima ([`ellipsoid_math`](super::ellipsoid_math)), so there are few
-//! candidates, and the true minimum is one of them. The contact is the candidate of least depth; of equally
-//! deep ones, that of the lower feature.
+//! The overlap of an ellipse or an ellipsoid with a point has at most two local minima
+//! ([`ellipsoid_math`](super::ellipsoid_math)), so there are few candidates, and the true minimum is one of
+//! them. The contact is the candidate of least depth; of equally deep ones, that of the lower feature.
 //!
 //! # Rejecting most candidates
 //!
 //! The search starts with the *lead*, the active face of least overlap δ. The ellipsoid's deepest point `a`
-//! lies δ below it. For every n, `D(n)` is at least the depth of `a` along n. The normal of an edge or vertex
-//! is a sum of its faces' normals, with non-negative coefficients whose sum is at least 1: if `a` lies at
-//! least δ below each of these faces, then `D(n) ≥ δ`. So a smaller minimum can only belong to an edge or
-//! vertex of a *suspect*, a face that `a` lies less than δ below. Without suspects the lead is the contact.
-//! The lead is computed for eight faces at a time; faces that the centre is far below are skipped.
+//! lies δ below the lead. For every n, `D(n)` is at least the depth of `a` along n.
+//!
+//! The normal of an edge or a vertex is a sum of the normals of its faces, with coefficients that are not
+//! negative and whose sum is at least 1. So if `a` lies at least δ below each of these faces, then
+//! `D(n) ≥ δ`. A smaller minimum can therefore only belong to an edge or a vertex of a *suspect*, a face that
+//! `a` lies less than δ below. Without suspects the lead is the contact. The lead is computed for eight faces
+//! at a time; faces that the centre is far below are skipped.
 //!
 //! # Rounding
 //!
 //! A foot may lie outside its face or edge, and a normal outside its cone, within a tolerance for rounding.
 //! `D(n)` of a face or an edge does not depend on the position of the foot; for a normal outside its cone,
 //! `D(n)` is computed with all vertices. So no candidate is below the minimum, and a minimum on the boundary
-//! of two features is found for at least one of them. If no candidate is found although every face is active,
-//! two fallbacks are compared, each with its `D(n)`: the lead, and the direction from the polyhedron's
-//! nearest point to the centre (nearest in the metric in which the ellipsoid is a ball). So an overlapping
-//! body never loses its contact.
+//! of two features is found for at least one of them.
+//!
+//! If no candidate is found although every face is active, two fallbacks are compared, each with its `D(n)`.
+//! One is the lead. The other is the direction from the polyhedron's nearest point to the centre, nearest in
+//! the metric in which the ellipsoid is a ball. So an overlapping body never loses its contact.
 //!
 //! # Internal faces
 //!
 //! Only active features push. A piece finds the minimum among its own active features, without knowing its
 //! neighbours. Each feature of the body belongs to one piece, so the piece that has the minimising feature
 //! finds the body's minimum. Other pieces find other local minima, which are not less deep. Load sharing,
-//! which sees the contacts of all pieces, decides which count. A piece applies two rules. It drops minima
-//! deeper than the least overlap of its active faces, since the body's minimum is not deeper. If no feature
-//! of the piece contains its own foot, the piece returns its active face of least overlap as a
-//! [fallback](PieceContact::stands_in), which counts only if no piece of the body finds anything else.
+//! which sees the contacts of all pieces, decides which contacts count.
+//!
+//! A piece applies two rules. It drops minima deeper than the least overlap of its active faces, because the
+//! body's minimum is not deeper. If no feature of the piece contains its own foot, the piece returns its
+//! active face of least overlap as a [fallback](PieceContact::stands_in). The fallback counts only if no
+//! piece of the body finds anything else.
 
 use super::ellipsoid_math::{
     NormalFoot, nearest_on_ellipse, nearest_on_ellipsoid, second_nearest_on_ellipse,

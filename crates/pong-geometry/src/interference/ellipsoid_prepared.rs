@@ -30,7 +30,8 @@ impl PreparedEllipsoid {
         }
     }
 
-    /// Returns the scaled normal of `n`. Its length is the half width of the ellipsoid along `n`, m.
+    /// Returns the scaled normal of `n`: its components along the principal axes, times the semi-axes. The
+    /// length of the scaled normal is the half width of the ellipsoid along `n`, m.
     #[inline]
     pub(crate) fn widened(&self, n: &Vec3) -> Vec3 {
         Vec3::new(self.widen[0].dot(n), self.widen[1].dot(n), self.widen[2].dot(n))

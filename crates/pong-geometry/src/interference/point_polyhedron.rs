@@ -107,9 +107,9 @@ pub struct Reached {
 /// depth below the remembered face.
 ///
 /// It does not change across a sharp edge. It does not change either if that would increase the depth below
-/// the face that pushes, which may be a sharp neighbour of the present face but not of the next. So the depth
-/// is at most that without a change, and between two commits it grows by no more than the point has moved.
-/// The heights above the faces must be finite, as for [`shallowest_face`].
+/// the face that pushes: this face may be a sharp neighbour of the present face but not of the next. So the
+/// depth is at most that without a change, and between two commits it grows by no more than the point has
+/// moved. The heights above the faces must be finite, as for [`shallowest_face`].
 #[inline]
 pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> Reached {
     let mut here = Reached::at(p, polyhedron, remembered);

@@ -378,9 +378,9 @@ impl<S: Simd> End<S> {
 }
 
 impl<S: Simd> Leaving<S> {
-    /// Returns the squared depth of the crossing (docs/theory.md, 2.3) with each face, m². It is 0 if the
-    /// exit point is above the face, and infinite if the planes of the face and of the exit face are
-    /// parallel.
+    /// Returns the squared depth of the crossing (see
+    /// [`line_segment_polyhedron`](super::line_segment_polyhedron)) with each face, m². It is 0 if the exit
+    /// point is above the face, and infinite if the planes of the face and of the exit face are parallel.
     #[inline(always)]
     fn crossing_square(&self, simd: S, block: &PlaneBlock) -> S::Eight {
         let zero = simd.splat(0.0);

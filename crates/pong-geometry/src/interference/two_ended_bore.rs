@@ -269,8 +269,8 @@ impl RodEnd<'_> {
     }
 
     /// Returns `true` if the rod's axis crosses the plane of the mouth near the mouth. Two conditions must
-    /// hold: `counts` accepts the position of the crossing along the rod, and the point of the rod nearest to
-    /// the crossing is less than the thickness of the wall from the disc of the mouth.
+    /// hold. First, `counts` accepts the position of the crossing along the rod. Second, the point of the rod
+    /// nearest to the crossing is less than the thickness of the wall from the disc of the mouth.
     fn is_crossed_behind(&self, counts: impl Fn(f64) -> bool) -> bool {
         /// Cosine below which a rod counts as perpendicular to the hole and crosses no mouth.
         const SQUARE: f64 = 1e-9;

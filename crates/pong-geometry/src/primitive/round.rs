@@ -46,8 +46,8 @@ pub struct Bore {
 
 impl Bore {
     /// Returns `true` if a point is past an end of the bore. `inside` is its signed distance from the end
-    /// (any unit), positive inside. A point exactly on the seam of two bores in line is past end 1 of the
-    /// one, but not past end 0 of the other, so it belongs to one bore only.
+    /// (any unit), positive inside. A point exactly on the seam of two bores in line must belong to one of
+    /// them only: it is past end 1 of a bore, but not past end 0.
     #[inline]
     pub(crate) fn is_past(&self, end: usize, inside: f64) -> bool {
         inside < 0.0 || (inside == 0.0 && end == 1 && !self.mouths[end])
