@@ -1,4 +1,4 @@
-//! Convex solids for the distance search, which asks them only for support points.
+//! Convex solids for the distance search. The search needs only their support points.
 
 use crate::primitive::{Capsule, Ellipsoid, Frustum, LineSegment, Point, Polyhedron, Ray, Sphere};
 use crate::{Transform, Vec3};

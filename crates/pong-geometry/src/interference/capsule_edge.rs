@@ -1,5 +1,6 @@
-//! Capsule (A) – convex or free edge of a polyhedron or triangle surface (B), crossed between the capsule's
-//! ends (docs/theory.md, 2.8). Contacts of the end spheres are not tested here.
+//! Capsule (A) – convex or free edge of a polyhedron or a triangle surface (B): contact with an edge that the
+//! capsule's axis crosses between its ends (docs/theory.md, 2.8). Contacts of the end spheres are not tested
+//! here.
 //!
 //! Degenerate case: an axis parallel to the edge does not cross it, because an end of the axis or of the edge
 //! is among the nearest points.

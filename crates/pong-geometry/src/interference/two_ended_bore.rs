@@ -109,10 +109,11 @@ impl RodEnd<'_> {
     /// is continuous. The depth and the position are those of the point farthest beyond the wall:
     ///
     /// * past the mouth of the other end: no contact;
-    /// * in the hole: the contacts at the wall. But if the rod leans outward and the point is nearer to the
-    ///   mouth than its depth, the less deep of wall and mouth counts;
-    /// * past the mouth of this end: the contacts at the mouth. But if the rod does not lean outward and the
-    ///   point is no farther from the mouth than its depth, the deeper of wall and mouth counts.
+    /// * in the hole: the contacts at the wall. But if the rod leans outward, the point is nearer to the
+    ///   mouth than its depth, and the mouth has a contact, then the less deep of wall and mouth counts;
+    /// * past the mouth of this end: the contacts at the mouth. But if the rod does not lean outward, the
+    ///   point is no farther from the mouth than its depth, and the mouth has a contact, then the deeper of
+    ///   wall and mouth counts.
     fn with_corner(&self, wall: &AtWall) -> BallContacts {
         let [own, other] = wall.inside;
         if self.bore.is_past(1 - self.mouth, other) {
