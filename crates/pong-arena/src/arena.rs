@@ -1,4 +1,4 @@
-//! Memory block handed out piece by piece and released as a whole.
+//! Block of memory that is handed out piece by piece and released as a whole.
 
 use crate::counts::Counts;
 use crate::demand::{GRAIN, rounded};
@@ -6,10 +6,11 @@ use crate::full::Full;
 use crate::list::List;
 use bumpalo::Bump;
 
-/// Memory of one frame, handed out as slices and lists that all end with the next [`reset`](Self::reset).
+/// Memory of one frame, handed out as slices and lists. All of these end with the next
+/// [`reset`](Self::reset).
 ///
-/// The block is allocated with the arena and each of its pages is written, so no page fault comes later. It
-/// never grows.
+/// The block is allocated with the arena and never grows. Each of its pages is written at once, so no page
+/// fault comes later.
 #[derive(Debug)]
 pub struct Arena {
     bump: Bump,
@@ -39,11 +40,11 @@ impl Arena {
         self.counts.reset();
     }
 
-    /// Hands out a slice of `len` elements, each a copy of `fill`.
+    /// Returns a slice of `len` elements, each a copy of `fill`.
     ///
     /// # Errors
-    /// [`Full`] if it does not fit; nothing is taken then.
-    // `&mut` from `&self` is sound: no two calls hand out the same memory.
+    /// [`Full`] if the slice does not fit; nothing is taken then.
+    // `&mut` from `&self` is sound, because no two calls hand out the same memory.
     #[allow(clippy::mut_from_ref)]
     #[inline]
     pub fn slice<T: Copy>(&self, len: usize, fill: T) -> Result<&mut [T], Full> {
@@ -51,37 +52,37 @@ impl Arena {
         self.bump.try_alloc_slice_fill_copy(len, fill).map_err(|_| self.full(len * size_of::<T>()))
     }
 
-    /// Hands out an empty list with room for `capacity` elements.
+    /// Returns an empty list with room for `capacity` elements.
     ///
     /// # Errors
-    /// [`Full`] if it does not fit.
-    // Inlined: returning the list through memory causes a store-forwarding stall.
+    /// [`Full`] if the list does not fit.
+    // Inlined, because returning the list through memory causes a store-forwarding stall.
     #[inline(always)]
     pub fn list<T: Copy>(&self, capacity: usize) -> Result<List<'_, T>, Full> {
-        // A request that `claim` accepts always fits: bumpalo packs pieces that are multiples of `GRAIN`
-        // without gaps.
+        // A request that `claim` accepts always fits, because bumpalo packs pieces that are multiples of
+        // `GRAIN` without gaps.
         self.claim::<T>(capacity)?;
         let items = bumpalo::collections::Vec::with_capacity_in(capacity, &self.bump);
         Ok(List::new(&self.counts, items, capacity))
     }
 
-    /// Bytes handed out since the last reset.
+    /// Returns the number of bytes handed out since the last reset.
     pub fn used(&self) -> usize {
         self.counts.used()
     }
 
-    /// Most bytes requested between two resets since the arena was made, refused requests included: the
-    /// capacity that would have been enough.
+    /// Returns the most bytes requested between two resets since the arena was made, refused requests
+    /// included. An arena of this capacity would have been enough.
     pub fn peak(&self) -> usize {
         self.counts.peak()
     }
 
-    /// Size of the arena, bytes.
+    /// Returns the size of the arena, bytes.
     pub fn capacity(&self) -> usize {
         self.capacity
     }
 
-    /// Counts a request as granted if it fits, otherwise as refused.
+    /// Counts a request as granted if it fits. Otherwise counts it as refused and returns the error.
     #[inline]
     fn claim<T>(&self, len: usize) -> Result<(), Full> {
         const { assert!(align_of::<T>() <= GRAIN, "the arena aligns to 16 bytes at most") };

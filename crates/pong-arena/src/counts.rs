@@ -1,13 +1,14 @@
-//! Bytes requested from an arena since its last reset, and the maximum between two resets.
+//! Counters of the bytes requested from an arena since its last reset, and of the maximum between two resets.
 
 use std::cell::Cell;
 
-/// Bytes handed out and bytes refused.
+/// Bytes handed out and bytes refused since the last reset, and their maximum.
 #[derive(Debug, Default)]
 pub(crate) struct Counts {
     used: Cell<usize>,
     refused: Cell<usize>,
-    /// Maximum up to the last reset; `peak()` also includes the requests since then.
+    /// Maximum of `used` + `refused` up to the last reset. The method `peak` also includes the requests since
+    /// then.
     peak: Cell<usize>,
 }
 
@@ -20,25 +21,25 @@ impl Counts {
         self.refused.set(0);
     }
 
-    /// Bytes handed out since the last reset.
+    /// Returns the number of bytes handed out since the last reset.
     #[inline]
     pub(crate) fn used(&self) -> usize {
         self.used.get()
     }
 
-    /// Most bytes handed out and refused between two resets.
+    /// Returns the most bytes handed out and refused between two resets.
     #[inline]
     pub(crate) fn peak(&self) -> usize {
         self.peak.get().max(self.used.get().saturating_add(self.refused.get()))
     }
 
-    /// Adds a granted request.
+    /// Counts a granted request.
     #[inline]
     pub(crate) fn take(&self, bytes: usize) {
         self.used.set(self.used.get() + bytes);
     }
 
-    /// Adds a refused request, which counts for the peak only.
+    /// Counts a refused request, which matters for the peak only.
     pub(crate) fn refuse(&self, bytes: usize) {
         self.refused.set(self.refused.get().saturating_add(bytes));
     }

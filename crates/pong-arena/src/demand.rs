@@ -1,10 +1,10 @@
-//! Size that an arena must have.
+//! Size that an arena must have for given requests.
 
-/// Every request is rounded up to a multiple of this many bytes, so the padding for alignment does not depend
-/// on addresses. No element may need a larger alignment.
+/// Number of bytes to a multiple of which every request is rounded up, so that the padding for alignment does
+/// not depend on addresses. No element may need a larger alignment.
 pub(crate) const GRAIN: usize = 16;
 
-/// Sum of the requests to an [`Arena`](crate::Arena), to give it the right size.
+/// Sum of the requests to an [`Arena`](crate::Arena), from which its capacity follows.
 ///
 /// ```
 /// use pong_arena::{Arena, Demand};
@@ -23,13 +23,13 @@ impl Demand {
         Self(self.0.saturating_add(rounded::<T>(len)))
     }
 
-    /// The sum, bytes.
+    /// Returns the sum of the requests, bytes.
     pub fn bytes(self) -> usize {
         self.0
     }
 }
 
-/// Size of a request for `len` elements, bytes.
+/// Returns the size of a request for `len` elements, rounded up, bytes.
 pub(crate) fn rounded<T>(len: usize) -> usize {
     let bytes = len.saturating_mul(size_of::<T>());
     bytes.checked_next_multiple_of(GRAIN).unwrap_or(usize::MAX)

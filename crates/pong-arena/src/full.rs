@@ -1,6 +1,6 @@
-//! Error of a request that does not fit.
+//! Error of a request that does not fit into its memory.
 
-/// Refusal of a request that does not fit; everything handed out before is untouched.
+/// Error of a request that does not fit. Everything handed out before is untouched.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("asked for {asked} bytes where {free} of {capacity} are left; give it more when setting up")]
 pub struct Full {

@@ -1,4 +1,4 @@
-//! List in an arena.
+//! List of fixed capacity in an arena.
 
 use crate::counts::Counts;
 use crate::full::Full;
@@ -20,7 +20,7 @@ impl<'a, T: Copy> List<'a, T> {
     /// Appends an element.
     ///
     /// # Errors
-    /// [`Full`] if the list is at its capacity; the refused element then counts towards the arena's peak.
+    /// [`Full`] if the list is at its capacity. The refused element then counts towards the arena's peak.
     #[inline]
     pub fn push(&mut self, value: T) -> Result<(), Full> {
         if self.items.len() == self.capacity {
@@ -37,7 +37,7 @@ impl<'a, T: Copy> List<'a, T> {
         Full { asked: size, free: 0, capacity: self.capacity * size }
     }
 
-    /// Number of elements that fit.
+    /// Returns the number of elements that fit.
     pub fn capacity(&self) -> usize {
         self.capacity
     }
@@ -47,7 +47,7 @@ impl<'a, T: Copy> List<'a, T> {
         self.items.clear();
     }
 
-    /// Keeps the first `len` elements.
+    /// Removes all elements after the first `len`.
     pub fn truncate(&mut self, len: usize) {
         self.items.truncate(len);
     }

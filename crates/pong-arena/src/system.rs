@@ -1,10 +1,10 @@
-//! Memory of the system, checked before it is taken.
+//! Check that the system has enough memory, before memory is taken.
 //!
-//! Rust's collections abort the process where the system has no memory for them. A library that must return
-//! an error instead adds up what its set-up will need and first requests it in one block. Another thread may
-//! take the memory in between; that is not detected.
+//! Rust's collections abort the process if the system has no memory for them. A library that must return an
+//! error instead adds up the memory that its set-up will need, and first requests all of it in one block. If
+//! another thread takes the memory in between, this is not detected.
 
-/// Refusal of memory by the system.
+/// Error: the system refused to give memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{what}: the system does not give {bytes} bytes of memory; {cure}")]
 pub struct OutOfMemory {
@@ -16,7 +16,7 @@ pub struct OutOfMemory {
     pub cure: &'static str,
 }
 
-/// Requests this many bytes in one block and frees them.
+/// Tests whether the system gives this many bytes: requests them in one block and frees them.
 ///
 /// ```
 /// let refused = pong_arena::require_memory("table", usize::MAX / 2, "give it fewer rows").unwrap_err();
@@ -33,8 +33,8 @@ pub fn require_memory(what: &'static str, bytes: usize, cure: &'static str) -> R
     outcome.map_err(|_| OutOfMemory { what, bytes, cure })
 }
 
-/// Makes the allocator keep some free small blocks. The address space that threads reserve when they start
-/// may leave no room for new ones.
+/// Makes the allocator keep some small blocks free. This is needed because the address space that threads
+/// reserve when they start may leave no room for new blocks.
 pub fn keep_small_blocks_free() {
     const PIECES: usize = 64;
     const PIECE: usize = 1 << 10;

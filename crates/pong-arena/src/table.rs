@@ -1,14 +1,15 @@
-//! Table that lives longer than a frame.
+//! Table of fixed capacity that lives longer than a frame.
 
 use crate::full::Full;
 use std::ops::{Deref, DerefMut};
 
 /// Table of fixed capacity, used as a slice.
 ///
-/// The memory is allocated, and each of its pages written, when the table is made; it never grows or shrinks.
+/// The memory is allocated when the table is made, and never grows or shrinks. Each of its pages is written
+/// at once, so no page fault comes later.
 #[derive(Debug)]
 pub struct Table<T: Copy> {
-    /// Storage of the full capacity; elements from `len` on are stale.
+    /// Storage of the full capacity. Elements from `len` on do not belong to the table.
     items: Box<[T]>,
     /// Number of elements, at most the length of `items`.
     len: usize,
@@ -36,7 +37,7 @@ impl<T: Copy> Table<T> {
     }
 
     /// Appends an element with whatever value its memory holds, and returns it. The caller must set it
-    /// wholly; for a large element, setting it in place is faster than a copy.
+    /// wholly. For a large element, setting it in place is faster than a copy.
     ///
     /// # Errors
     /// [`Full`] if there is no room; the table is unchanged.
@@ -50,10 +51,10 @@ impl<T: Copy> Table<T> {
         Ok(slot)
     }
 
-    /// Appends all of `values`, or none.
+    /// Appends all of `values`, or none of them.
     ///
     /// # Errors
-    /// [`Full`] if there is no room for all; the table is unchanged.
+    /// [`Full`] if there is no room for all of them; the table is unchanged.
     #[inline]
     pub fn extend_from_slice(&mut self, values: &[T]) -> Result<(), Full> {
         let Some(room) = self.items[self.len..].get_mut(..values.len()) else {
@@ -70,13 +71,13 @@ impl<T: Copy> Table<T> {
         self.len = 0;
     }
 
-    /// Keeps the first `len` elements.
+    /// Removes all elements after the first `len`.
     #[inline]
     pub fn truncate(&mut self, len: usize) {
         self.len = self.len.min(len);
     }
 
-    /// Keeps the elements for which `keep` returns true, in order.
+    /// Keeps the elements for which `keep` returns `true`, in order, and removes the others.
     pub fn retain(&mut self, mut keep: impl FnMut(&T) -> bool) {
         let mut kept = 0;
         for index in 0..self.len {
@@ -88,9 +89,9 @@ impl<T: Copy> Table<T> {
         self.len = kept;
     }
 
-    /// Slice of the elements.
-    // Unchecked, because every access to a table goes through this function: a check of `len` costs 2 to 3 %
-    // of a frame's instructions.
+    /// Returns the elements as a slice.
+    // Unchecked, because every access to a table goes through this function, and a check of `len` costs 2 to
+    // 3 % of a frame's instructions.
     #[inline]
     #[allow(unsafe_code, reason = "len is private, and whatever sets it keeps it within items")]
     pub fn as_slice(&self) -> &[T] {
@@ -99,7 +100,7 @@ impl<T: Copy> Table<T> {
         unsafe { self.items.get_unchecked(..self.len) }
     }
 
-    /// Mutable slice of the elements.
+    /// Returns the elements as a mutable slice.
     #[inline]
     #[allow(unsafe_code, reason = "as for as_slice")]
     pub fn as_mut_slice(&mut self) -> &mut [T] {
@@ -108,7 +109,7 @@ impl<T: Copy> Table<T> {
         unsafe { self.items.get_unchecked_mut(..self.len) }
     }
 
-    /// Number of elements that fit.
+    /// Returns the number of elements that fit.
     pub fn capacity(&self) -> usize {
         self.items.len()
     }

@@ -1,10 +1,10 @@
-//! Eight points at a time.
+//! Tests of eight points at a time against a polyhedron.
 
 use crate::primitive::{Polyhedron, PolyhedronFace};
 use crate::simd::{self, Kernel, LANES, LaneBits, Simd};
 use crate::{Transform, Vec3};
 
-/// Eight points as coordinate arrays, m. If there are fewer points, the results of the unused lanes are
+/// Eight points as coordinate arrays, m. If there are fewer points, the results of the unused lanes must be
 /// ignored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
@@ -18,10 +18,10 @@ pub struct Lanes {
 }
 
 impl Lanes {
-    /// Eight times the origin.
+    /// All eight points at the origin.
     pub const ORIGIN: Self = Self { x: [0.0; LANES], y: [0.0; LANES], z: [0.0; LANES] };
 
-    /// The point in a lane, m.
+    /// Returns the point in a lane, m.
     #[inline(always)]
     pub fn get(&self, lane: usize) -> Vec3 {
         Vec3::new(self.x[lane], self.y[lane], self.z[lane])
@@ -33,13 +33,13 @@ impl Lanes {
         (self.x[lane], self.y[lane], self.z[lane]) = (p.x, p.y, p.z);
     }
 
-    /// Points transformed to another frame, bit-identical to [`Transform::point`].
+    /// Returns the points transformed to another frame, bit-identical to [`Transform::point`].
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         simd::run(Carry { points: self, x })
     }
 
-    /// [`carried`](Self::carried) within a kernel.
+    /// Same as [`carried`](Self::carried), for a caller that already runs at the SIMD level `S`.
     #[inline(always)]
     pub fn carried_in<S: Simd>(&self, simd: S, x: &Transform) -> Self {
         let mut out = Self::ORIGIN;
@@ -47,7 +47,7 @@ impl Lanes {
         out
     }
 
-    /// [`carried_in`](Self::carried_in) with the result written to `out`.
+    /// Same as [`carried_in`](Self::carried_in), with the result written to `out`.
     #[inline(always)]
     pub fn carry_in<S: Simd>(&self, simd: S, x: &Transform, out: &mut Self) {
         let points = Loaded::new(simd, self);
@@ -72,7 +72,7 @@ impl Kernel for Carry<'_> {
 }
 
 impl Polyhedron {
-    /// Returns the lanes whose point lies at least `reach` (m, one per lane) above some face: bit `i` is set
+    /// Returns the lanes whose point lies at least `reach` (m, one per lane) above some face. Bit `i` is set
     /// exactly if `face.height(&points[i]) >= reach[i]` for a face.
     ///
     /// A sphere of radius `reach[i]` about such a point has no contact.
@@ -81,7 +81,7 @@ impl Polyhedron {
         simd::run(Outside { polyhedron: self, points, reach })
     }
 
-    /// [`lanes_outside`](Self::lanes_outside) within a kernel.
+    /// Same as [`lanes_outside`](Self::lanes_outside), for a caller that already runs at the SIMD level `S`.
     #[inline(always)]
     pub fn lanes_outside_in<S: Simd>(&self, simd: S, points: &Lanes, reach: &[f64; LANES]) -> LaneBits {
         let reach = simd.load(reach);
@@ -96,25 +96,26 @@ impl Polyhedron {
         outside
     }
 
-    /// Returns the lanes whose line segment (given by its two ends) is excluded by one of the 32 widest
-    /// faces: bit `i` is set exactly if, for one such face, both ends are at or above its plane. An internal
+    /// Returns the lanes whose line segment, given by its two ends, is excluded by one of the 32 largest
+    /// faces. Bit `i` is set exactly if, for one such face, both ends are on or above its plane. An internal
     /// face is raised by `wall_slack` for this comparison.
     ///
     /// An excluded segment has no contact with this piece. A segment that is not excluded may have none
-    /// either: testing all faces for eight segments would cost more than testing the remaining segments one
+    /// either: to test all faces for eight segments would cost more than to test the remaining segments one
     /// by one.
     #[inline]
     pub fn lanes_kept_out(&self, ends: &[Lanes; 2]) -> LaneBits {
         simd::run(KeptOut { polyhedron: self, ends })
     }
 
-    /// [`lanes_kept_out`](Self::lanes_kept_out) within a kernel.
+    /// Same as [`lanes_kept_out`](Self::lanes_kept_out), for a caller that already runs at the SIMD level
+    /// `S`.
     #[inline(always)]
     pub fn lanes_kept_out_in<S: Simd>(&self, simd: S, ends: &[Lanes; 2]) -> LaneBits {
         const WIDEST: usize = 32;
         let ends = [Loaded::new(simd, &ends[0]), Loaded::new(simd, &ends[1])];
-        // Positive even if the tolerance is zero: a piece contains the points of its closed faces, so it may
-        // contain a segment in the plane of one.
+        // Positive even if the tolerance is zero, because a piece contains the points of its closed faces. So
+        // it may contain a segment in the plane of a closed face.
         let slack = self.planes().wall_slack.max(f64::MIN_POSITIVE);
         let mut kept_out = 0;
         for face in self.planes().widest_first.iter().take(WIDEST) {
@@ -129,14 +130,14 @@ impl Polyhedron {
         kept_out
     }
 
-    /// Returns the lanes whose point lies inside this piece, as decided by
+    /// Returns the lanes whose point lies inside this piece, with the same result as
     /// [`contains`](Polyhedron::contains).
     #[inline]
     pub fn lanes_contain(&self, points: &Lanes) -> LaneBits {
         simd::run(Contain { polyhedron: self, points })
     }
 
-    /// [`lanes_contain`](Self::lanes_contain) within a kernel.
+    /// Same as [`lanes_contain`](Self::lanes_contain), for a caller that already runs at the SIMD level `S`.
     #[inline(always)]
     pub fn lanes_contain_in<S: Simd>(&self, simd: S, points: &Lanes) -> LaneBits {
         let zero = simd.splat(0.0);
@@ -188,7 +189,7 @@ impl<S: Simd> Loaded<S> {
         Self { simd, x: simd.load(&points.x), y: simd.load(&points.y), z: simd.load(&points.z) }
     }
 
-    /// Computes one coordinate of the transformed points.
+    /// Returns one coordinate of the transformed points.
     #[inline(always)]
     fn coordinate(&self, x: &Transform, row: usize) -> [f64; LANES] {
         let simd = self.simd;
@@ -198,7 +199,7 @@ impl<S: Simd> Loaded<S> {
         simd.store(simd.add(turned, simd.splat(x.translation[row])))
     }
 
-    /// Heights above a face's plane, bit-identical to [`PolyhedronFace::height`].
+    /// Returns the heights of the points above a face's plane, bit-identical to [`PolyhedronFace::height`].
     #[inline(always)]
     fn heights_above(&self, face: &PolyhedronFace) -> S::Eight {
         let (simd, normal) = (self.simd, &face.normal);

@@ -9,9 +9,9 @@
 //! * SI units, `f64`. Frames are right-handed.
 //! * `x_wg` is the pose of frame *g* seen from frame *w*: it takes components in *g* to components in *w*.
 //!   `v_ab_w` is the velocity of *b* seen from *a*, expressed in *w*.
-//! * In an interference of A and B the normal is a unit vector from B to A (the direction in which A is
-//!   pushed). The depth is positive in overlap: the least translation of A along the normal that separates A
-//!   from B.
+//! * In an interference of A and B the normal is a unit vector from B to A, the direction in which A is
+//!   pushed. The depth is the least translation of A along the normal that separates A from B; it is positive
+//!   in overlap.
 //! * All tests work in the frame of B's movable group; A is transformed to it first.
 
 #![forbid(unsafe_code)]
@@ -45,7 +45,7 @@ pub type Quat = nalgebra::UnitQuaternion<f64>;
 /// compiler may divide before the branch, and 0/0 or x/0 raises a floating-point exception even if the
 /// quotient is not used.
 ///
-/// For a difference known to be non-negative, `x.max(f64::MIN_POSITIVE)` is shorter.
+/// For a difference that is known not to be negative, `x.max(f64::MIN_POSITIVE)` is shorter.
 #[inline(always)]
 pub fn divisor(difference: f64) -> f64 {
     if difference == 0.0 { 2.0 } else { difference }

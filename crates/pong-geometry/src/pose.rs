@@ -3,7 +3,8 @@
 use crate::{Mat3, Quat, Vec3};
 use nalgebra::Quaternion;
 
-/// Position and orientation of a frame *g* seen from a frame *w*: half of the state that a host sets.
+/// Position and orientation of a frame *g* seen from a frame *w*: half of the state that a host sets for a
+/// movable group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// Origin of *g* in *w*, metres.
@@ -13,17 +14,17 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// Pose of a frame that coincides with its reference frame.
+    /// Returns the pose of a frame that coincides with its reference frame.
     #[inline]
     pub fn identity() -> Self {
         Self { position: Vec3::zeros(), orientation: Quat::identity() }
     }
 
-    /// Pose from a position (m) and a quaternion (w, x, y, z), which is normalised here.
+    /// Creates a pose from a position (m) and a quaternion (w, x, y, z), which is normalised here.
     ///
     /// The quaternion must not be zero. A quaternion and its negative are the same orientation and give the
-    /// same bits: the first non-zero component is made positive, and −0 becomes +0, whose sign could
-    /// otherwise appear in results.
+    /// same bits: the first non-zero component is made positive, and −0 becomes +0, because the sign of a
+    /// zero could otherwise appear in results.
     #[inline]
     pub fn new(position: Vec3, wxyz: [f64; 4]) -> Self {
         let first = wxyz.into_iter().find(|part| *part != 0.0).unwrap_or(1.0);
@@ -33,7 +34,7 @@ impl Pose {
         Self { position, orientation: Quat::new_normalize(quaternion) }
     }
 
-    /// `x_wg · x_gh = x_wh`.
+    /// Returns `x_wg · x_gh = x_wh`, the pose of a frame *h* seen from *w*.
     #[inline]
     pub fn compose(&self, x_gh: &Pose) -> Pose {
         Pose {
@@ -42,16 +43,16 @@ impl Pose {
         }
     }
 
-    /// `x_gw` from `x_wg`.
+    /// Returns `x_gw`, the pose of *w* seen from *g*.
     #[inline]
     pub fn inverse(&self) -> Pose {
         let inverse = self.orientation.inverse();
         Pose { position: inverse * (-self.position), orientation: inverse }
     }
 
-    /// `x_ba`, the pose of A seen from B, from the poses of both in one common frame.
+    /// Returns `x_ba`, the pose of A seen from B, from the poses of both in one common frame.
     ///
-    /// The positions are subtracted before anything is rotated (docs/theory.md, 1), so moving the common
+    /// The positions are subtracted before anything is rotated (docs/theory.md, 1). So moving the common
     /// origin changes the result only by the rounding of the positions.
     #[inline]
     pub fn relative(x_wa: &Pose, x_wb: &Pose) -> Pose {
@@ -60,14 +61,14 @@ impl Pose {
         Pose { position: b_from_w * r_ba_w, orientation: b_from_w * x_wa.orientation }
     }
 
-    /// Pose with its rotation as a matrix, for transforming many points.
+    /// Returns the same transform with its rotation as a matrix, which is faster for many points.
     #[inline]
     pub fn transform(&self) -> Transform {
         Transform { translation: self.position, rotation: self.orientation.to_rotation_matrix().into_inner() }
     }
 }
 
-/// Rigid transform with the rotation as a matrix: a [`Pose`] prepared for many points.
+/// Rigid transform with the rotation as a matrix: a [`Pose`] in the form for transforming many points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
     /// Origin of the source frame in the target frame, metres.
@@ -77,7 +78,7 @@ pub struct Transform {
 }
 
 impl Transform {
-    /// Identity transform.
+    /// Returns the identity transform.
     #[inline]
     pub fn identity() -> Self {
         Self { translation: Vec3::zeros(), rotation: Mat3::identity() }
@@ -95,13 +96,13 @@ impl Transform {
         self.rotation * v
     }
 
-    /// `x_ab · x_bc = x_ac`.
+    /// Returns `x_ab · x_bc = x_ac`.
     #[inline]
     pub fn compose(&self, other: &Transform) -> Transform {
         Transform { translation: self.point(&other.translation), rotation: self.rotation * other.rotation }
     }
 
-    /// Inverse transform.
+    /// Returns the inverse transform.
     #[inline]
     pub fn inverse(&self) -> Transform {
         let rotation = self.rotation.transpose();
@@ -109,7 +110,7 @@ impl Transform {
     }
 }
 
-/// Linear and angular velocity of a frame: of its origin (m/s) and of the frame (rad/s).
+/// Motion of a frame: linear velocity of its origin (m/s) and angular velocity (rad/s).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist {
     /// Velocity of the frame's origin, m/s.
@@ -119,20 +120,20 @@ pub struct Twist {
 }
 
 impl Twist {
-    /// Twist of a frame at rest.
+    /// Returns the twist of a frame at rest.
     #[inline]
     pub fn zero() -> Self {
         Self { linear: Vec3::zeros(), angular: Vec3::zeros() }
     }
 
-    /// Velocity of the material point at `arm` from the frame's origin.
+    /// Returns the velocity of the material point at `arm` from the frame's origin, m/s.
     #[inline]
     pub fn at(&self, arm: &Vec3) -> Vec3 {
         self.linear + self.angular.cross(arm)
     }
 }
 
-/// Force (N) and moment (N·m) about a stated point.
+/// Force (N) and moment (N·m). The owner of the wrench documents the point about which the moment is given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {
     /// Force, N.
@@ -142,13 +143,13 @@ pub struct Wrench {
 }
 
 impl Wrench {
-    /// Zero wrench.
+    /// Returns the zero wrench.
     #[inline]
     pub fn zero() -> Self {
         Self { force: Vec3::zeros(), moment: Vec3::zeros() }
     }
 
-    /// Wrench, about the origin, of a force that acts at `arm`.
+    /// Returns the wrench about the origin of a force that acts at `arm`.
     #[inline]
     pub fn of_force_at(force: Vec3, arm: &Vec3) -> Self {
         Self { force, moment: arm.cross(&force) }
@@ -163,19 +164,19 @@ impl std::ops::AddAssign for Wrench {
     }
 }
 
-/// Rotation vector (axis times angle in rad, angle in 0…π) of a rotation.
+/// Returns the rotation vector (axis times angle in rad, angle in 0…π) of a rotation.
 ///
-/// Uses only +, −, ×, ÷ and √, so every machine gives the same bits. The half angle is halved (at most three
-/// times) by the half-angle identity until its tangent is small enough that the series of the arctangent
-/// converges to rounding in thirteen terms, or in eight for small rotations. The rotation within one frame
-/// usually needs no halving.
+/// Only +, −, ×, ÷ and √ are used, so every machine gives the same bits. The half angle is halved by the
+/// half-angle identity, at most three times, until its tangent is small enough for the series of the
+/// arctangent. That series converges to rounding in thirteen terms, or in eight for small rotations. The
+/// rotation within one frame usually needs no halving.
 #[inline]
 pub fn rotation_vector(q: &Quat) -> Vec3 {
     /// Square of tan(π/16).
     const SQUARE_MAX: f64 = 0.039_566_129_896_580_15;
     const TERMS: usize = 13;
-    /// Limit for eight terms: rotations up to 0.14 rad, as is usual between two frames. The truncation error
-    /// is below 5e-3⁸/17 = 3e-20 of the result, far below rounding.
+    /// Limit for eight terms: rotations up to 0.14 rad, as is usual within one frame. The truncation error is
+    /// below 5e-3⁸/17 = 3e-20 of the result, far below rounding.
     const SMALL_SQUARE: f64 = 5e-3;
     const SMALL_TERMS: usize = 8;
     let mut factor = 2.0;
@@ -204,7 +205,7 @@ pub fn rotation_vector(q: &Quat) -> Vec3 {
     tangent * (ratio * factor)
 }
 
-/// Series of arctan(t)/t for small t, as a function of t².
+/// Returns the series of arctan(t)/t for small t, as a function of t².
 #[inline(always)]
 fn arctangent_ratio<const TERMS: usize>(square: f64) -> f64 {
     let mut ratio = 0.0;

@@ -7,7 +7,7 @@
 //! | `asleep` | all threads | one bit per worker that is parked or about to park |
 //! | `alert` | caller | time until which workers stay awake |
 //!
-//! Each memory ordering is justified where it is used. README.md explains the whole protocol.
+//! A comment at each access justifies its memory ordering. README.md explains the whole protocol.
 
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -28,7 +28,7 @@ struct Tally {
     busy_ns: AtomicU64,
 }
 
-/// Work of one worker, or of the caller, in one phase.
+/// Work that one worker, or the caller, has done in one phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Done {
     pub blocks: u32,
@@ -71,23 +71,24 @@ impl Board {
 
     // ---- claim word
 
-    /// Opens a phase to the first `workers` workers. A plain store is enough: the previous phase has no block
-    /// left, so no thread can change the word by a claim. The store publishes everything that the caller
-    /// wrote before. Claims are read-modify-writes and continue its release sequence, so later claims acquire
-    /// it too.
+    /// Opens a phase to the first `workers` workers.
+    ///
+    /// A store without compare-and-swap is enough: the previous phase has no block left, so no thread can
+    /// change the word by a claim. The store publishes everything that the caller wrote before. Claims are
+    /// read-modify-writes and continue its release sequence, so later claims acquire it too.
     pub fn open(&self, epoch: u64, workers: usize, blocks: u32) {
         debug_assert_eq!(Word(self.claim.load(Relaxed)).number(), 0);
         self.claim.store(Word::new(epoch, blocks, false).among(workers).0, Release);
     }
 
-    /// Takes all unclaimed blocks out of the phase and returns their number.
+    /// Takes all unclaimed blocks out of the phase, so that no thread claims them, and returns their number.
     pub fn close(&self, epoch: u64) -> u32 {
         Word(self.claim.swap(Word::new(epoch, 0, false).0, AcqRel)).number()
     }
 
     /// Claims some of the last blocks left in phase `epoch`; `None` if none is left or the phase is over.
     ///
-    /// Compare-and-swap checks the epoch and takes the blocks in one step, so a thread that read the word
+    /// Compare-and-swap checks the epoch and takes the blocks in one step. So a thread that read the word
     /// before the phase ended takes nothing. (`fetch_sub` without that check could take blocks of the next
     /// phase.)
     pub fn claim(&self, epoch: u64) -> Option<Range<u32>> {
@@ -101,13 +102,15 @@ impl Board {
         None
     }
 
-    /// Number of blocks that one claim takes, by guided self-scheduling (C. D. Polychronopoulos and D. J.
-    /// Kuck, IEEE Trans. Comput. C-36 (1987) 1425): an equal share of the blocks left; once few are left,
-    /// three quarters of an equal share (as in factoring: S. F. Hummel, E. Schonberg, L. E. Flynn, Commun.
-    /// ACM 35 (1992) 90). Early claims are large, so a thread runs neighbouring blocks; late ones are small,
-    /// so all threads finish together.
+    /// Returns the number of blocks that one claim takes, by guided self-scheduling (C. D. Polychronopoulos
+    /// and D. J. Kuck, IEEE Trans. Comput. C-36 (1987) 1425).
+    ///
+    /// A claim takes an equal share of the blocks left. Once few are left, it takes three quarters of that
+    /// share (as in factoring: S. F. Hummel, E. Schonberg, L. E. Flynn, Commun. ACM 35 (1992) 90). Early
+    /// claims are large, so that a thread runs neighbouring blocks. Late claims are small, so that all
+    /// threads finish together.
     pub fn share_of(left: u32, workers: usize) -> u32 {
-        /// Blocks per thread up to which few blocks are left: one long block may then delay the end of the
+        /// Blocks left per thread up to which few are left: one long block may then delay the end of the
         /// phase.
         const FEW: u32 = 8;
         let threads = workers as u32 + 1;
@@ -124,14 +127,14 @@ impl Board {
         }
     }
 
-    /// Seeded fault for the models: claims by `fetch_sub`, without checking the epoch.
+    /// Claims by `fetch_sub`, without checking the epoch: a fault that the models must find.
     fn take_unseen(&self, blocks: u32) -> Result<Range<u32>, Word> {
         let taken = Word::new(0, blocks, false).0;
         let before = Word(self.claim.fetch_sub(taken, AcqRel));
         if before.number() >= blocks { Ok(before.number() - blocks..before.number()) } else { Err(before) }
     }
 
-    /// Claim word, if its epoch differs from `seen` or its end flag is set.
+    /// Returns the claim word if its epoch differs from `seen` or its end flag is set; otherwise `None`.
     pub fn news(&self, seen: u64) -> Option<Word> {
         let word = Word(self.claim.load(Acquire));
         (word.epoch() != seen || word.flag()).then_some(word)
@@ -142,7 +145,7 @@ impl Board {
         self.claim.fetch_or(Word::FLAG, AcqRel);
     }
 
-    /// Claim word of the current or last phase.
+    /// Returns the claim word of the current or the last phase.
     fn phase(&self) -> Word {
         Word(self.claim.load(Relaxed))
     }
@@ -150,7 +153,8 @@ impl Board {
     // ---- tallies
 
     /// Stores the tally of worker number `thread` after a claim: its work so far in phase `epoch`, and the
-    /// number of blocks it has finished since the start. The release stores publish what the blocks wrote.
+    /// number of blocks that it has finished since the start. The release stores publish what the blocks
+    /// wrote.
     pub fn record(&self, thread: usize, epoch: u64, done: Done, finished: u64) {
         let tally = &self.tallies[thread - 1];
         tally.busy_ns.store(done.busy_ns, Relaxed);
@@ -158,7 +162,7 @@ impl Board {
         tally.word.store(Word::new(epoch, done.blocks, done.panicked).0, Release);
     }
 
-    /// Work of worker number `thread` in phase `epoch`.
+    /// Returns the work of worker number `thread` in phase `epoch`.
     pub fn done(&self, thread: usize, epoch: u64) -> Done {
         let tally = &self.tallies[thread - 1];
         let word = Word(tally.word.load(Acquire));
@@ -168,7 +172,8 @@ impl Board {
         Done { blocks: word.number(), busy_ns: tally.busy_ns.load(Relaxed), panicked: word.flag() }
     }
 
-    /// Blocks that the first `workers` workers have done in phase `epoch`, and whether any of them panicked.
+    /// Returns the number of blocks that the first `workers` workers have done in phase `epoch`, and `true`
+    /// if any of them panicked.
     pub fn done_by(&self, workers: usize, epoch: u64) -> (u32, bool) {
         let mut sum = (0, false);
         for thread in 1..=workers {
@@ -178,24 +183,25 @@ impl Board {
         sum
     }
 
-    /// Blocks finished by all workers since the start.
+    /// Returns the number of blocks that all workers have finished since the start.
     pub fn finished_by_all(&self) -> u64 {
         self.tallies.iter().map(|tally| tally.finished.load(Acquire)).sum()
     }
 
     // ---- sleep
 
-    /// Registers the calling thread as worker number `thread`, so that others can wake it. Must precede the
-    /// first [`Board::lie_down`].
+    /// Registers the calling thread as worker number `thread`, so that others can wake it. This must precede
+    /// the first [`Board::lie_down`].
     pub fn introduce(&self, thread: usize) {
         self.threads[thread - 1].set(current()).expect("one thread per thread");
     }
 
-    /// Marks worker number `thread` as about to park. It must check for news once more before it parks.
+    /// Marks worker number `thread` as about to park. Before it parks, the worker must check once more
+    /// whether a phase, the end flag or an alert has come.
     ///
-    /// This function and [`Board::asleep`] are read-modify-writes of the same word, so they are ordered. If
-    /// this function comes first, the other thread sees the bit and wakes the worker; otherwise the worker's
-    /// last check sees what the other thread published.
+    /// This function and [`Board::asleep`] are read-modify-writes of the same word, so one of them comes
+    /// first. If it is this function, the thread that calls `asleep` sees the bit and wakes the worker.
+    /// Otherwise the worker's last check sees what that thread published.
     pub fn lie_down(&self, thread: usize) {
         self.asleep.fetch_or(1 << (thread - 1), AcqRel);
     }
@@ -208,20 +214,20 @@ impl Board {
         }
     }
 
-    /// Number of sleeping workers among the first `workers`, to be called after publishing something to them.
-    /// A read-modify-write, for the reason given at [`Board::lie_down`].
+    /// Returns the number of sleeping workers among the first `workers`. It must be called after something
+    /// was published to them. It is a read-modify-write for the reason given at [`Board::lie_down`].
     pub fn asleep(&self, workers: usize) -> u32 {
         (self.asleep.fetch_or(0, AcqRel) & first(workers)).count_ones()
     }
 
-    /// Reports whether some worker was awake a moment ago. A hint for speed only: correctness does not depend
-    /// on it.
+    /// Returns `true` if some worker was awake a moment ago. This is a hint for speed only; correctness does
+    /// not depend on it.
     pub fn seems_awake(&self) -> bool {
         (self.asleep.load(Relaxed).count_ones() as usize) < self.workers()
     }
 
-    /// Wakes up to `at_most` sleepers among the first `workers` workers. The thread that clears a worker's
-    /// bit wakes it, so no worker is woken twice.
+    /// Wakes up to `at_most` sleeping workers among the first `workers`. The thread that clears a worker's
+    /// bit wakes this worker, so no worker is woken twice.
     pub fn wake(&self, at_most: u32, workers: usize) {
         let mut left = at_most;
         let mut asleep = self.asleep.load(Relaxed) & first(workers);
@@ -242,8 +248,8 @@ impl Board {
         }
     }
 
-    /// Wakes up to two more workers if blocks are left or an alert holds. Each woken worker calls it, so the
-    /// caller makes only one wake-up call.
+    /// Wakes up to two more workers if blocks are left or an alert holds. Each woken worker calls this
+    /// function, so the caller makes only one wake-up call.
     pub fn wake_others(&self, alerted: bool) {
         let phase = self.phase();
         let (wanted, workers) =
@@ -263,7 +269,7 @@ impl Board {
     }
 }
 
-/// Bit mask of the first `workers` workers.
+/// Returns the bit mask of the first `workers` workers.
 fn first(workers: usize) -> u64 {
     u64::MAX.checked_shr(u64::BITS - workers as u32).unwrap_or(0)
 }

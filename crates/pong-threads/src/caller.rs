@@ -1,5 +1,5 @@
-//! Caller's side of the protocol: opens a phase, runs blocks too, and waits only for blocks that workers have
-//! claimed.
+//! Caller's side of the protocol. The caller opens a phase, runs blocks too, and waits only for blocks that
+//! workers have claimed.
 
 use std::ops::Range;
 use std::panic::resume_unwind;
@@ -55,17 +55,18 @@ impl Caller {
         }
         let now_ns = self.shared.origin.elapsed_ns();
         let earlier_ns = self.found_asleep_ns.replace(now_ns);
-        // Phases closer together than the spin time keep a woken worker awake.
+        // If phases are closer together than the spin time, a woken worker stays awake between them.
         earlier_ns.is_some_and(|earlier_ns| now_ns - earlier_ns < self.shared.spin_ns)
     }
 
-    /// Runs all blocks of the job, with all workers.
+    /// Runs all blocks of the job, on the caller and all workers.
     pub fn run(&mut self, blocks: u32) -> Outcome {
         let job = Arc::clone(&self.shared.job);
         self.run_beside(blocks, usize::MAX, &mut |blocks| job.run_neighbors(blocks, 0))
     }
 
-    /// Runs all blocks with the first `workers` workers. The caller runs its own claims by `run`.
+    /// Runs all blocks, on the caller and the first `workers` workers. The blocks that the caller claims are
+    /// passed to `run`.
     pub fn run_beside(&mut self, blocks: u32, workers: usize, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
         assert!(blocks <= MAX_BLOCKS, "a phase of {blocks} blocks: at most {MAX_BLOCKS}");
         self.own = Done::default();
@@ -80,12 +81,12 @@ impl Caller {
         Outcome::Complete
     }
 
-    /// Runs a phase with workers. The caller's first claim is taken before the phase opens and needs no
-    /// atomic operation.
+    /// Runs a phase with workers. The caller takes its first blocks before the phase opens, so that they need
+    /// no atomic operation.
     fn run_shared(&mut self, blocks: u32, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
         self.epoch = Word::next_epoch(self.epoch);
-        // Blocks of abandoned phases that still run. Counted before this phase opens: afterwards a worker may
-        // finish a block that is not yet in `handed_out`.
+        // Blocks of abandoned phases that still run. They are counted before this phase opens, because
+        // afterwards a worker may finish a block that is not yet in `handed_out`.
         let stuck = self.stuck();
         let left = blocks - Board::share_of(blocks, self.workers);
         self.shared.board.open(self.epoch, self.workers, left);
@@ -102,8 +103,8 @@ impl Caller {
         outcome
     }
 
-    /// Wakes one sleeping worker of the open phase if fewer are awake than the phase can use. That worker
-    /// wakes others.
+    /// Wakes one sleeping worker of the open phase, if fewer workers are awake than the phase can use. The
+    /// woken worker wakes others.
     fn call_workers(&mut self, blocks: u32, stuck: u64) {
         self.end_alert();
         let asleep = u64::from(self.shared.board.asleep(self.workers));
@@ -116,7 +117,8 @@ impl Caller {
         }
     }
 
-    /// Runs the blocks `first`, and then claims and runs blocks until none is left.
+    /// Runs the blocks `first`, then claims and runs blocks until none is left. Returns the payload if a
+    /// block panics.
     fn drain(&mut self, first: Range<u32>, run: &mut dyn FnMut(Range<u32>)) -> Result<(), Payload> {
         let mut blocks = Some(first);
         while let Some(claimed) = blocks {
@@ -126,8 +128,8 @@ impl Caller {
         Ok(())
     }
 
-    /// Waits until workers have done `claimed` blocks or the worker timeout passes. Also returns whether one
-    /// panicked.
+    /// Waits until workers have done `claimed` blocks, or the worker timeout has passed. The second result is
+    /// `true` if a worker panicked.
     fn wait(&self, claimed: u32) -> (Outcome, bool) {
         let mut waited = None;
         loop {
@@ -150,13 +152,13 @@ impl Caller {
         }
     }
 
-    /// Takes the payload of a worker's panic in this phase, if `panicked`. The payload of a panic in an
-    /// abandoned phase is kept until a later phase panics.
+    /// Returns the payload of a worker's panic in this phase; `None` unless `panicked`. The payload of a
+    /// panic in an abandoned phase is kept until a later phase panics.
     fn take_panic(&self, panicked: bool) -> Option<Payload> {
         if !panicked {
             return None;
         }
-        // Does not block: another panicking worker may hold the lock and not be scheduled.
+        // Does not block, because another panicking worker may hold the lock and not be scheduled.
         match self.shared.panic.try_lock() {
             Ok(mut kept) => kept.take(),
             Err(TryLockError::Poisoned(kept)) => kept.into_inner().take(),
@@ -167,13 +169,13 @@ impl Caller {
         .map(|(_, payload)| payload)
     }
 
-    /// Blocks that workers have claimed and not finished; between phases, blocks of abandoned phases that
-    /// still run.
+    /// Returns the number of blocks that workers have claimed and not finished. Between phases these are
+    /// blocks of abandoned phases that still run.
     pub fn stuck(&self) -> u64 {
         self.handed_out - self.shared.board.finished_by_all()
     }
 
-    /// Number of workers that are parked or about to park.
+    /// Returns the number of workers that are parked or about to park.
     #[cfg(test)]
     pub fn asleep(&self) -> usize {
         self.shared.board.asleep(self.shared.board.workers()) as usize
@@ -203,8 +205,8 @@ impl Caller {
         self.alert_stands = true;
     }
 
-    /// Ends the alert. Called after a phase opens: earlier, a worker that finds the alert over would park
-    /// just before the phase needs it.
+    /// Ends the alert. This is called after a phase opens; if it were called earlier, a worker that finds the
+    /// alert over would park just before the phase needs it.
     fn end_alert(&mut self) {
         if self.alert_stands {
             self.shared.board.set_alert(CALM);
@@ -212,8 +214,8 @@ impl Caller {
         }
     }
 
-    /// Sets the end flag and wakes all sleeping workers. The number counted does not limit the wake-ups:
-    /// another worker may park after the count.
+    /// Sets the end flag and wakes all sleeping workers. The wake-ups are not limited to the number of
+    /// sleepers counted, because another worker may park after the count.
     pub fn end(&mut self) {
         self.shared.board.end();
         let workers = self.shared.board.workers();

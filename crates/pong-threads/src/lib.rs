@@ -1,7 +1,7 @@
 //! Worker threads that share the blocks of one phase with the calling thread.
 //!
 //! The workers of a [`Pool`] wait by spinning, so that it is worth sharing a phase of a few microseconds. The
-//! caller claims and runs blocks like a worker, and waits, for a bounded time, only for blocks that a worker
+//! caller claims and runs blocks like a worker. It waits, for a bounded time, only for blocks that a worker
 //! has claimed. A worker that sleeps, starves, hangs or no longer exists costs the caller time, but never
 //! changes a result.
 //!
@@ -64,16 +64,17 @@ pub const MAX_WORKERS: usize = 64;
 /// Work of a phase, split into blocks.
 ///
 /// A job belongs to its pool for the pool's life. The caller stores the input of a phase in the job before
-/// [`Pool::run`] and reads the output there afterwards. Each block sees everything the caller wrote before
-/// the phase; the caller sees everything the blocks wrote once the phase is [`Outcome::Complete`].
+/// [`Pool::run`] and reads the output from it afterwards. Each block sees everything that the caller wrote
+/// before the phase. The caller sees everything that the blocks wrote once the phase is
+/// [`Outcome::Complete`].
 pub trait Job: Send + Sync + 'static {
-    /// Runs one block on thread number `thread`: 0 is the caller, 1… are the workers. A thread runs one block at a
-    /// time, so it may own scratch memory. This holds after an abandoned phase too: a thread whose block
-    /// still runs takes no other block.
+    /// Runs one block on thread number `thread`: 0 is the caller, 1… are the workers. A thread runs one block
+    /// at a time, so the job may keep scratch memory for each thread. This holds after an abandoned phase
+    /// too: a thread whose block still runs takes no other block.
     fn run(&self, block: u32, thread: usize);
 
-    /// Runs neighbouring blocks that thread number `thread` claimed together. By default one by one, the last first; a
-    /// job overrides this if neighbours are cheaper together.
+    /// Runs neighbouring blocks that thread number `thread` claimed together. The default runs them one by
+    /// one, the last first. A job overrides this if neighbours are cheaper together.
     fn run_neighbors(&self, blocks: Range<u32>, thread: usize) {
         blocks.rev().for_each(|block| self.run(block, thread));
     }
@@ -85,13 +86,13 @@ pub trait Job: Send + Sync + 'static {
 pub enum Outcome {
     /// Every block has run exactly once.
     Complete,
-    /// A worker took longer than [`Settings::worker_timeout`](Settings) for its blocks. They may still be
-    /// running until [`Pool::is_quiet`]: their output must not be used, and their input must not change or
-    /// must be safe to read while it changes.
+    /// A worker took longer than [`Settings::worker_timeout`](Settings) for its blocks. Its blocks may still
+    /// be running until [`Pool::is_quiet`]. Until then their output must not be used, and their input must
+    /// not change, or must be safe to read while it changes.
     Abandoned,
 }
 
-/// Work of one thread, the caller or a worker, in one phase.
+/// Work that one thread, the caller or a worker, has done in one phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ThreadWork {
     /// Number of blocks it ran.

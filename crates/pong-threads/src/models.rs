@@ -1,10 +1,11 @@
-//! Models for loom: the protocol's own code under every interleaving of its threads, at small sizes.
+//! Models for loom, which runs the protocol's own code under every interleaving of its threads, at small
+//! sizes.
 //!
 //!     RUSTFLAGS="--cfg loom" cargo test -p pong-threads --lib --release models
 //!
 //! Loom runs each model once per order of accesses and per value that a load may return. It fails on a data
-//! race, a failed assertion, or a deadlock. Each block is a cell whose accesses loom watches: a block that
-//! runs twice at once, or a caller that reads a cell too early, is a data race.
+//! race, a failed assertion, or a deadlock. Each block is a cell whose accesses loom watches. So a block that
+//! runs twice at once, or a caller that reads a cell too early, is reported as a data race.
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex};
@@ -56,7 +57,7 @@ impl Job for Cells {
     }
 }
 
-/// Worker timeout that never passes: loom's clock ticks once per read.
+/// Worker timeout that never passes, because loom's clock ticks once per read.
 const PATIENT: u64 = u64::MAX;
 
 struct Model {
@@ -127,8 +128,8 @@ fn two_workers_and_the_caller_run_each_block_once() {
     explore(1, two_workers(&[3, 2]));
 }
 
-/// One phase for the first of two workers, then one for both workers. The worker that does not take part
-/// claims nothing, and takes part in the next phase.
+/// Runs one phase with the first of two workers, then one with both workers. The worker that does not take
+/// part in the first phase claims nothing in it, and takes part in the second.
 #[test]
 fn a_phase_for_some_is_left_alone_by_the_others() {
     explore(1, || {
@@ -172,8 +173,8 @@ impl Job for NeedsWorker {
     }
 }
 
-/// As in the engine, memory that the blocks of an abandoned phase may still use is not touched until the pool
-/// is quiet.
+/// Memory that the blocks of an abandoned phase may still use is not touched until the pool is quiet, as in
+/// the engine.
 #[test]
 fn an_abandoned_block_counts_for_no_later_phase() {
     explore(3, || {

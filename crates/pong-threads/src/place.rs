@@ -1,4 +1,4 @@
-//! Core and priority of a worker. Each worker requests its own; a refusal is reported and is no error.
+//! Core and priority of a worker. Each worker requests its own. A refusal is reported, but is no error.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use core_affinity::CoreId;
 
 use crate::{MAX_WORKERS, Settings};
 
-/// Response of the system to a request in the settings.
+/// Answer of the system to a request in the settings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Grant<T> {
     /// Not requested by the settings.
@@ -22,7 +22,7 @@ pub enum Grant<T> {
     },
 }
 
-/// Start report of one worker.
+/// Start report of one worker: the core and the priority that it got.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WorkerStart {
     /// Index of the worker, from 1.
@@ -50,13 +50,15 @@ impl fmt::Display for WorkerStart {
 }
 
 impl Settings {
-    /// Number of workers that a pool with these settings would have if started from the calling thread.
+    /// Returns the number of workers that a pool with these settings would have if started from the calling
+    /// thread.
     pub fn workers_granted(&self) -> usize {
         cores_of_workers(self).len()
     }
 }
 
-/// One entry per worker to start: the core to bind it to, if any.
+/// Returns one entry per worker to start: the core to which it is to be bound; `None` if it is not to be
+/// bound.
 pub fn cores_of_workers(settings: &Settings) -> Vec<Option<usize>> {
     let (cores, room) = room_for_workers(settings);
     let asked = settings.workers.min(MAX_WORKERS);
@@ -64,7 +66,8 @@ pub fn cores_of_workers(settings: &Settings) -> Vec<Option<usize>> {
     (0..workers).map(|worker| settings.pin.then(|| cores[worker % cores.len()])).collect()
 }
 
-/// Cores in order of use, and the number of workers that fit beside the caller.
+/// Returns the cores in the order in which workers use them, and the number of workers that fit beside the
+/// caller.
 fn room_for_workers(settings: &Settings) -> (Vec<usize>, usize) {
     if settings.pin && !settings.cores.is_empty() {
         return (settings.cores.clone(), settings.cores.len());
@@ -76,7 +79,7 @@ fn room_for_workers(settings: &Settings) -> (Vec<usize>, usize) {
     (cores, room)
 }
 
-/// Cores of the affinity mask; at least one, even if the system reports none.
+/// Returns the cores of the affinity mask: at least one, even if the system reports none.
 fn cores_of_mask() -> Vec<usize> {
     let listed = core_affinity::get_core_ids().unwrap_or_default();
     if !listed.is_empty() {
@@ -85,7 +88,8 @@ fn cores_of_mask() -> Vec<usize> {
     (0..std::thread::available_parallelism().map_or(1, usize::from)).collect()
 }
 
-/// Binds the calling thread to `core` and sets its priority, where requested.
+/// Binds the calling thread to `core` and sets its priority, each if requested. Returns what the system
+/// granted.
 pub fn settle(thread: usize, core: Option<usize>, fifo_priority: Option<u8>) -> WorkerStart {
     WorkerStart {
         thread,

@@ -1,4 +1,4 @@
-//! Pool of workers: starts them, holds the caller's side of the protocol, ends them.
+//! Pool of workers: starts the workers, runs the caller's side of the protocol, and ends the workers.
 
 use std::fmt;
 use std::ops::Range;
@@ -17,13 +17,13 @@ use crate::{Job, Outcome, Settings, ThreadWork, WorkerStart};
 
 /// Workers that share phases with one calling thread.
 ///
-/// Dropping the pool ends the workers, as [`end`](Self::end) does. They take no signals
+/// Dropping the pool ends the workers, as [`end`](Self::end) does. Workers handle no signals
 /// ([`without_signals`]).
 pub struct Pool {
     caller: Caller,
     threads: Vec<JoinHandle<()>>,
     start_report: Vec<WorkerStart>,
-    /// Start barrier, kept until the pool ends: otherwise the last worker to drop its reference would free
+    /// Start barrier, kept until the pool ends. Otherwise the last worker to drop its reference would free
     /// the memory during the first phases.
     started: Arc<StartBarrier>,
     worker_timeout: Duration,
@@ -31,18 +31,18 @@ pub struct Pool {
     process: u32,
 }
 
-/// Time limit for the start of a pool. A new thread that has not run by then is kept off its core by another
-/// thread.
+/// Time limit for the start of a pool. If a new thread has not run by then, another thread keeps it off its
+/// core.
 pub const LONGEST_START: Duration = Duration::from_secs(10);
 
-/// Time limit for the end of a pool in which no worker is inside a block: each worker then only needs to be
+/// Time limit for the end of a pool in which no worker is inside a block. Each worker then only needs to be
 /// scheduled.
 pub const LONGEST_FAREWELL: Duration = Duration::from_secs(1);
 
-/// A thread could not be created, or the system did not run it.
+/// Error of a pool's start: a thread could not be created, or the system did not run it.
 #[derive(Debug)]
 pub struct StartError {
-    /// Index of the worker it was meant for, from 1.
+    /// Index of the worker for which the thread was meant, from 1.
     pub thread: usize,
     /// Error reported by the system.
     pub source: std::io::Error,
@@ -70,13 +70,13 @@ impl std::error::Error for StartError {
 }
 
 impl Pool {
-    /// Starts the workers and sleeps until each is bound and has reported, for [`LONGEST_START`] at most. It
-    /// must not spin: a new thread may have the core and the priority of the calling thread, and under
-    /// SCHED_FIFO would then never run.
+    /// Starts the workers and returns the pool once each worker is bound and has reported, after
+    /// [`LONGEST_START`] at most. The caller sleeps meanwhile and must not spin: a new thread may have the
+    /// core and the priority of the calling thread, and under SCHED_FIFO would then never run.
     ///
     /// # Errors
-    /// [`StartError`] if a thread cannot be created or does not run within [`LONGEST_START`]; the workers
-    /// started before it have been ended.
+    /// [`StartError`] if a thread cannot be created or does not run within [`LONGEST_START`]. The workers
+    /// started before it have then been ended.
     pub fn start(job: Arc<dyn Job>, settings: &Settings) -> Result<Pool, StartError> {
         let cores = cores_of_workers(settings);
         let shared = Arc::new(Shared {
@@ -105,28 +105,32 @@ impl Pool {
         Ok(pool)
     }
 
-    /// Number of workers, without the caller.
+    /// Returns the number of workers, without the caller.
     pub fn workers(&self) -> usize {
         self.threads.len()
     }
 
-    /// Reports whether it is worth sharing a short phase: a worker is awake, or the previous call was so
-    /// recent (within [`Settings::spin`]) that a woken worker would stay awake between phases. Otherwise
-    /// waking a worker costs each phase more than it saves. Call it before each phase that is short compared
-    /// with a wake-up; if false, do the work on the calling thread.
+    /// Returns `true` if it is worth sharing a short phase. That is so if a worker is awake, or if the
+    /// previous call was so recent (within [`Settings::spin`]) that a woken worker would stay awake between
+    /// phases. Otherwise waking a worker costs each phase more than it saves.
+    ///
+    /// Call this before each phase that is short compared with a wake-up. If it returns `false`, do the work
+    /// on the calling thread.
     pub fn has_workers_at_hand(&mut self) -> bool {
         self.caller.has_workers_at_hand()
     }
 
-    /// Reports whether some worker was awake a moment ago. A hint for speed only.
+    /// Returns `true` if some worker was awake a moment ago. This is a hint for speed only.
     pub fn has_awake_workers(&self) -> bool {
         self.caller.has_awake_workers()
     }
 
     /// Runs blocks 0 to `blocks` − 1 of the job, the last first, on the caller and on the workers that are
-    /// awake in time. The panic of a block is resumed on the calling thread once the claimed blocks of other
-    /// threads have ended or the worker timeout has passed; blocks claimed together with the panicking block
-    /// are skipped.
+    /// awake in time.
+    ///
+    /// If a block panics, its panic is resumed on the calling thread, once the claimed blocks of other
+    /// threads have ended or the worker timeout has passed. Blocks that were claimed together with the
+    /// panicking block are skipped.
     ///
     /// # Panics
     ///
@@ -135,41 +139,41 @@ impl Pool {
         self.caller.run(blocks)
     }
 
-    /// Runs a phase like [`run`](Self::run), but with the first `workers` workers only: more workers would
-    /// slow a small phase down. The caller runs the blocks it claims by `run` instead of the job, so `run`
-    /// can use memory that no worker shares. `run` gets a range of neighbouring blocks, as in
+    /// Runs a phase like [`run`](Self::run), but with the first `workers` workers only, because more workers
+    /// would slow a small phase down. The blocks that the caller claims are passed to `run` instead of the
+    /// job, so `run` can use memory that no worker shares. `run` gets a range of neighbouring blocks, as in
     /// [`Job::run_neighbors`].
     ///
     /// # Panics
     ///
-    /// As [`run`](Self::run), or if the function `run` panics.
+    /// As for [`run`](Self::run), or if the function `run` panics.
     pub fn run_beside(&mut self, blocks: u32, workers: usize, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
         self.caller.run_beside(blocks, workers, run)
     }
 
-    /// Reports whether no block of an abandoned phase is still running. Only then may the output of such
+    /// Returns `true` if no block of an abandoned phase is still running. Only then may the output of such
     /// blocks be read.
     pub fn is_quiet(&self) -> bool {
         self.caller.stuck() == 0 || self.is_forked()
     }
 
-    /// Wakes the workers, which then look for a phase until one opens or `at_most` has passed. Call it about
+    /// Wakes the workers, which then stay awake until a phase opens or `at_most` has passed. Call this about
     /// 100 µs before a frame that follows the previous one by more than [`Settings::spin`].
     pub fn prewake(&mut self, at_most: Duration) {
         self.caller.prewake(in_ns(at_most));
     }
 
-    /// Lets the workers park at once, for instance when the simulation is paused. The next phase wakes them.
+    /// Lets the workers park at once, for example when the simulation is paused. The next phase wakes them.
     pub fn quiesce(&mut self) {
         self.caller.quiesce();
     }
 
-    /// Start report of each worker: core and priority, or why they were refused.
+    /// Returns the start report of each worker: core and priority, or why they were refused.
     pub fn start_report(&self) -> &[WorkerStart] {
         &self.start_report
     }
 
-    /// Work of each thread in the last phase, the caller first.
+    /// Returns the work of each thread in the last phase, the caller first.
     pub fn work(&self) -> impl Iterator<Item = ThreadWork> + '_ {
         self.caller.work()
     }
@@ -178,12 +182,13 @@ impl Pool {
         self.process != std::process::id()
     }
 
-    /// Ends the workers and returns how many had not ended in time. The wait is [`Settings::worker_timeout`]
-    /// if a worker is inside a block of an abandoned phase, else [`LONGEST_FAREWELL`]. A worker left behind
-    /// ends when the system runs it, and keeps the job alive until then.
+    /// Ends the workers and returns how many had not ended in time. The time limit is
+    /// [`Settings::worker_timeout`] if a worker is inside a block of an abandoned phase, otherwise
+    /// [`LONGEST_FAREWELL`]. A worker that has not ended in time ends when the system runs it, and keeps the
+    /// job alive until then.
     pub fn end(&mut self) -> usize {
         if self.is_forked() {
-            // The threads belong to the parent process: waiting for them would never end.
+            // The threads belong to the parent process, so waiting for them would never end.
             self.threads.drain(..).for_each(std::mem::forget);
             return 0;
         }

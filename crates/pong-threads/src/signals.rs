@@ -1,12 +1,12 @@
-//! Threads of the library handle no signals of the host.
+//! Blocking of signals, so that threads of the library handle no signals of the host.
 
-/// Runs `start` with signals blocked, so that the threads it creates handle none: the host's threads do. A
+/// Runs `start` with signals blocked, so that the threads it creates handle none; the host's threads do. A
 /// new thread inherits the signal mask, so no signal reaches it even at its start. The caller's mask is
 /// restored afterwards.
 ///
-/// Signals for a thread's own fault (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS) stay unblocked: no
-/// other thread could take them, and the host's handler should see a crash of the host's contact law on a
-/// worker.
+/// Signals for a thread's own fault (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS) stay unblocked. No
+/// other thread could take them. If the host's contact law crashes on a worker, the host's handler should see
+/// it.
 pub fn without_signals<T>(start: impl FnOnce() -> T) -> T {
     let _blocked = Blocked::all();
     start()

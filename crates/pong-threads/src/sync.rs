@@ -1,4 +1,4 @@
-//! Atomics, parking and time, from the system or, in the models, from loom.
+//! Atomics, parking and time: from the standard library or, in the models, from loom.
 //!
 //! The models (`models.rs`) run the protocol's own code on loom's atomics, under every interleaving of its
 //! threads. Time does not pass there: a [`Watch`] counts how often it is read.
@@ -9,15 +9,16 @@ mod real {
     pub use std::sync::atomic::AtomicU64;
     pub use std::thread::{Thread, current, park, yield_now};
 
-    /// Reads of a shared word between two reads of the clock. One read with its pause takes 20 to 60 ns.
+    /// Number of reads of a shared word between two reads of the clock. One read with its pause takes 20 to
+    /// 60 ns.
     pub const LOOKS: u32 = 64;
 
-    /// Seeded faults exist in models only.
+    /// Returns `false`, because seeded faults exist in models only.
     pub const fn mutant(_name: &str) -> bool {
         false
     }
 
-    /// Time elapsed since the start of the watch.
+    /// Stopwatch that starts when it is created.
     pub struct Watch(std::time::Instant);
 
     impl Watch {
@@ -43,14 +44,14 @@ mod real {
 
     pub const LOOKS: u32 = 1;
 
-    /// Reports whether the environment selects the seeded fault `name`, which the models must find.
+    /// Returns `true` if the environment selects the seeded fault `name`, which the models must find.
     pub fn mutant(name: &str) -> bool {
         static CHOSEN: std::sync::LazyLock<Option<String>> =
             std::sync::LazyLock::new(|| std::env::var("PONG_THREADS_MUTANT").ok());
         CHOSEN.as_deref() == Some(name)
     }
 
-    /// Watch that advances by one nanosecond per read.
+    /// Stopwatch that advances by one nanosecond per read.
     pub struct Watch(std::sync::atomic::AtomicU64);
 
     impl Watch {

@@ -8,9 +8,9 @@ const WORKERS_MASK: u64 = (1 << (EPOCH_SHIFT - WORKERS_SHIFT)) - 1;
 const EPOCH_SHIFT: u32 = 24;
 const EPOCH_MASK: u64 = (1 << 40) - 1;
 
-/// Packed state of a phase. In the claim word the number counts the blocks left, `workers` is how many
-/// workers take part, and the flag ends all workers. In a tally the number counts the blocks done, `workers`
-/// is 0, and the flag means that a block panicked.
+/// Packed state of a phase: epoch, `workers`, number and flag. In the claim word the number counts the blocks
+/// left, `workers` is the number of workers that take part, and the flag ends all workers. In a tally the
+/// number counts the blocks done, `workers` is 0, and the flag means that a block panicked.
 ///
 /// The epoch wraps around after 2⁴⁰ phases: 35 years at one phase per millisecond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +22,7 @@ impl Word {
         Word((epoch & EPOCH_MASK) << EPOCH_SHIFT | u64::from(number) << NUMBER_SHIFT | u64::from(flag))
     }
 
-    /// Same word with the number of workers that take part.
+    /// Returns the same word with the number of workers that take part.
     pub fn among(self, workers: usize) -> Word {
         debug_assert!(workers <= MAX_WORKERS && self.workers() == 0);
         Word(self.0 | (workers as u64) << WORKERS_SHIFT)
@@ -44,13 +44,13 @@ impl Word {
         self.0 & Self::FLAG != 0
     }
 
-    /// Same word with its number reduced by `fewer`, which must not exceed it.
+    /// Returns the same word with its number reduced by `fewer`, which must not exceed the number.
     pub fn less(self, fewer: u32) -> Word {
         debug_assert!(fewer <= self.number());
         Word(self.0 - (u64::from(fewer) << NUMBER_SHIFT))
     }
 
-    /// Epoch after `epoch`, with wrap-around.
+    /// Returns the epoch after `epoch`, with wrap-around.
     pub fn next_epoch(epoch: u64) -> u64 {
         (epoch + 1) & EPOCH_MASK
     }

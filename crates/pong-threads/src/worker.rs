@@ -1,4 +1,4 @@
-//! Worker: waits for a phase, claims blocks until none is left, waits again.
+//! Worker thread: waits for a phase, claims and runs blocks until none is left, and waits again.
 
 use std::any::Any;
 use std::ops::Range;
@@ -23,14 +23,15 @@ pub struct Shared {
     pub clock: Option<fn() -> u64>,
     /// Origin of the times of alerts.
     pub origin: Watch,
-    /// First panic of the latest phase that had one, with its epoch, until the caller takes it. The caller
-    /// takes it only if a tally of the current phase reports a panic, so a panic of an abandoned phase alone
-    /// is never raised.
+    /// First panic of the latest phase in which a worker panicked, with the epoch of that phase, until the
+    /// caller takes it. The caller takes it only if a tally of the current phase reports a panic. So the
+    /// panic of an abandoned phase alone is never raised.
     pub panic: Mutex<Option<(u64, Payload)>>,
 }
 
 impl Shared {
-    /// Runs `blocks` by `run` and adds them to `done`. A panic is caught; the blocks it skips count as done.
+    /// Passes `blocks` to `run` and adds them to `done`. If a block panics, the panic is caught and its
+    /// payload returned; the blocks that it skips count as done.
     pub fn run_blocks(
         &self,
         blocks: Range<u32>,
@@ -54,15 +55,15 @@ impl Shared {
     }
 }
 
-/// Keeps the first panic of the latest phase: a late panic of an earlier phase must not replace it.
+/// Keeps the first panic of the latest phase, because a late panic of an earlier phase must not replace it.
 fn keep_latest(kept: &mut Option<(u64, Payload)>, epoch: u64, payload: Payload) {
     if kept.as_ref().is_none_or(|(kept_epoch, _)| *kept_epoch < epoch) {
         *kept = Some((epoch, payload));
     }
 }
 
-/// Waiting time, ns, after which a thread, worker or caller, yields between reads: a thread with work may
-/// need this core. If other cores are free, yielding costs a fraction of a microsecond.
+/// Waiting time, ns, after which a thread, worker or caller, yields its core between two reads, because a
+/// thread with work may need the core. If other cores are free, yielding costs a fraction of a microsecond.
 pub const YIELD_AFTER_NS: u64 = 5_000;
 
 pub struct Worker {
@@ -108,7 +109,7 @@ impl Worker {
         }
     }
 
-    /// Waits for a phase other than `seen`, or for the end flag.
+    /// Waits for a phase other than `seen`, or for the end flag, and returns the claim word.
     fn wait(&self, seen: u64) -> Word {
         loop {
             if let Some(word) = self.spin(seen) {
@@ -118,8 +119,8 @@ impl Worker {
         }
     }
 
-    /// Spins until there is news, as long as the worker stays awake. The clock is first read after [`LOOKS`]
-    /// reads without news.
+    /// Spins until there is a new phase or the end flag, and returns the claim word; `None` once the worker
+    /// should park. The clock is first read after [`LOOKS`] reads without news.
     fn spin(&self, seen: u64) -> Option<Word> {
         let mut idle = None;
         loop {
@@ -149,7 +150,7 @@ impl Worker {
         alert != CALM && alert != PARK && self.shared.origin.elapsed_ns() < alert
     }
 
-    /// Parks until woken, unless a phase, the end flag or an alert has come.
+    /// Parks until woken. Does not park if a phase, the end flag or an alert has come meanwhile.
     fn sleep(&self, seen: u64) {
         let board = &self.shared.board;
         board.lie_down(self.thread);

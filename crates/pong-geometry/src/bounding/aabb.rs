@@ -1,9 +1,10 @@
-//! Axis-aligned box in the group frame: exact, from the minimum and maximum coordinates.
+//! Axis-aligned bounding box in the group frame. It is exact: it follows from the minimum and maximum
+//! coordinates.
 
 use super::volume::Volume;
 use crate::Vec3;
 
-/// Box around points, with margin; `None` without points.
+/// Returns the box around points, with margin; `None` if there are no points.
 pub fn aabb_of_points(points: impl IntoIterator<Item = Vec3>) -> Option<Volume> {
     points
         .into_iter()
@@ -12,7 +13,7 @@ pub fn aabb_of_points(points: impl IntoIterator<Item = Vec3>) -> Option<Volume> 
         .map(|(min, max)| fit_aabb_bounds(min, max))
 }
 
-/// Box between minimum and maximum coordinates (m), grown by [`super::RELATIVE_MARGIN`].
+/// Returns the box between minimum and maximum coordinates (m), grown by [`super::RELATIVE_MARGIN`].
 pub fn fit_aabb_bounds(min: Vec3, max: Vec3) -> Volume {
     Volume::Aabb { center: (min + max) * 0.5, half: (max - min) * 0.5 }.inflated()
 }

@@ -1,4 +1,5 @@
-//! Shape queries for fitting bounding volumes: primitives, point clouds and other volumes.
+//! Queries on shapes that the fitting of bounding volumes needs: for point clouds, dilated shapes, custom
+//! primitives and other volumes.
 
 use super::volume::{Bounded, Volume};
 use crate::Vec3;
@@ -11,7 +12,8 @@ pub struct PointCloud<'a>(pub &'a [Vec3]);
 /// Shape dilated by a ball: all points within `reach` metres of it.
 ///
 /// A triangle is dilated by its thickness, the distance behind it within which it pushes. The prism of that
-/// thickness would be too small: the origin of a ray that grazes the triangle may lie beside the prism.
+/// thickness would be too small, because the origin of a ray that grazes the triangle may lie beside the
+/// prism.
 #[derive(Clone, Copy)]
 pub struct Dilated<'a> {
     /// Shape that is dilated.
@@ -20,7 +22,7 @@ pub struct Dilated<'a> {
     pub reach: f64,
 }
 
-/// User-defined primitive, bounded by its support function alone.
+/// User-defined primitive, whose support function alone is used to bound it.
 #[derive(Clone, Copy, Debug)]
 pub struct CustomBounds<'a>(pub &'a dyn CustomPrimitive);
 
@@ -102,7 +104,7 @@ impl Bounded for Volume {
     }
 }
 
-/// Corners of a box of half extents 1.
+/// Signs of the corners of a box, seen from its centre.
 const SIGNS: [Vec3; 8] = [
     Vec3::new(-1.0, -1.0, -1.0),
     Vec3::new(1.0, -1.0, -1.0),
@@ -114,41 +116,42 @@ const SIGNS: [Vec3; 8] = [
     Vec3::new(1.0, 1.0, 1.0),
 ];
 
-/// Maximum of numbers; NaN if one of them is NaN, so that an invalid shape is noticed.
+/// Returns the maximum of numbers; NaN if one of them is NaN, so that an invalid shape is noticed.
 pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(f64::NEG_INFINITY, |most, value| if value <= most || most.is_nan() { most } else { value })
 }
 
-/// Support function of points.
+/// Returns the maximum of `direction · x` over points, m.
 pub(crate) fn support_of_points(points: impl Iterator<Item = Vec3>, direction: &Vec3) -> f64 {
     largest(points.map(|p| direction.dot(&p)))
 }
 
-/// Distance from `from` to the farthest of points, m.
+/// Returns the distance from `from` to the farthest of the points, m.
 pub(crate) fn farthest_of_points(points: impl Iterator<Item = Vec3>, from: &Vec3) -> f64 {
     largest(points.map(|p| (p - from).norm_squared())).sqrt()
 }
 
-/// Appends the points of a sphere in the directions of the frame's axes.
+/// Appends the points of a sphere that are farthest along the axes of the frame, in both directions.
 pub(crate) fn ball_representatives(center: &Vec3, radius: f64, out: &mut Vec<Vec3>) {
     for axis in [Vec3::x(), Vec3::y(), Vec3::z()] {
         out.extend([center + axis * radius, center - axis * radius]);
     }
 }
 
-/// Supports along the positive and along the negative axes of the frame.
+/// Returns the supports along the positive axes of the frame, and along the negative axes.
 fn supports_along_axes(support: impl Fn(&Vec3) -> f64) -> (Vec3, Vec3) {
     let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
     (Vec3::from(axes.map(|e| support(&e))), Vec3::from(axes.map(|e| support(&-e))))
 }
 
-/// Distance to the farthest corner of the box given by the support function.
+/// Returns the distance from `from` to the farthest corner of the axis-aligned box around a shape, given the
+/// shape's support function.
 fn farthest_by_support(support: impl Fn(&Vec3) -> f64, from: &Vec3) -> f64 {
     let (along, against) = supports_along_axes(support);
     (along - from).sup(&(against + from)).norm()
 }
 
-/// Corners of the box given by the support function.
+/// Appends the corners of the axis-aligned box around a shape, given the shape's support function.
 fn corners_by_support(support: impl Fn(&Vec3) -> f64, out: &mut Vec<Vec3>) {
     let (along, against) = supports_along_axes(support);
     let corners =
@@ -156,12 +159,12 @@ fn corners_by_support(support: impl Fn(&Vec3) -> f64, out: &mut Vec<Vec3>) {
     out.extend(corners);
 }
 
-/// Support of the union of all shapes.
+/// Returns the maximum of `direction · x` over all shapes, m.
 pub(super) fn support(things: &[&dyn Bounded], direction: &Vec3) -> f64 {
     largest(things.iter().map(|thing| thing.support(direction)))
 }
 
-/// Representative points of all shapes.
+/// Returns the representative points of all shapes.
 pub(super) fn representatives(things: &[&dyn Bounded]) -> Vec<Vec3> {
     let mut points = Vec::new();
     for thing in things {

@@ -1,25 +1,26 @@
-//! Box-box test by separating axes: two boxes are disjoint if and only if their projections are disjoint
-//! along one of 15 directions L: the face normals `b_i` and `a_j`, and the cross products of edges `b_i ×
-//! a_j`,
+//! Box-box test by separating axes. Two boxes are disjoint if and only if their projections are disjoint
+//! along one of 15 directions L. These are the face normals `b_i` and `a_j`, and the cross products
+//! `b_i × a_j` of edges. Along L the boxes are disjoint if
 //!
 //! ```text
 //!     |L·t| > Σ hb_k |L·b_k| + Σ ha_k |L·a_k|
 //! ```
 //!
-//! with t from B's centre to A's. Everything is in B's axes, where `m_ij = b_i·a_j` gives all projections.
+//! Here t is the vector from B's centre to A's, and `hb` and `ha` are the half extents. Everything is in B's
+//! axes, where `m_ij = b_i·a_j` gives all projections.
 
 use crate::{Mat3, Vec3};
 
-/// Gap between projections that counts as separation, as a fraction of the sizes.
+/// Gap between projections above which the boxes count as separate, as a fraction of the sizes.
 ///
-/// For boxes in contact, each product in the sums is at most the sum of the sizes, and no more than ten are
-/// added, so each side is accurate to about ten units of 1.1e-16 of that sum. The margin of the volumes does
-/// not cover this error: for nearly parallel edges `b_i × a_j` is short, which scales the margin down but not
-/// the rounding of `m`.
+/// For boxes in contact, each product in the sums is at most the sum of the sizes, and no more than ten
+/// products are added. So each side is accurate to about ten units of 1.1e-16 of the sum of the sizes. The
+/// margin of the volumes does not cover this error: for nearly parallel edges `b_i × a_j` is short, which
+/// scales the margin down but not the rounding of `m`.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// Returns `true` if two boxes may overlap. `half_a`, `half_b`: half extents; `m`: A's axes as columns in B's
-/// axes; `t`: vector from B's centre to A's, in B's axes.
+/// Returns `true` if two boxes may overlap. `half_a` and `half_b` are the half extents, `m` has A's axes as
+/// columns in B's axes, and `t` is the vector from B's centre to A's, in B's axes.
 #[inline]
 pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
     let abs = m.abs();
@@ -44,9 +45,9 @@ pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) ->
     !(edges(0) | edges(1) | edges(2))
 }
 
-/// Returns `true` if the point of B nearest to A's centre lies in A: a quick proof that most overlapping
-/// boxes overlap. If the point lies in A only by rounding, every gap between the projections is below the
-/// margin, so the full test reports an overlap too.
+/// Returns `true` if the point of B nearest to A's centre lies in A. This proves quickly that most
+/// overlapping boxes overlap. If the point lies in A only by rounding, every gap between the projections is
+/// below the margin, so the full test reports an overlap too.
 #[inline(always)]
 fn have_common_point(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
     let nearest = t.zip_map(half_b, |t, half| {
@@ -63,7 +64,8 @@ fn have_common_point(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
     (place_a.x <= half_a.x) & (place_a.y <= half_a.y) & (place_a.z <= half_a.z)
 }
 
-/// Gap between the projections along `b_i × a_j` (not a unit vector).
+/// Returns the gap between the projections along `b_i × a_j` (not a unit vector); positive if they are
+/// disjoint.
 ///
 /// In B's axes `b_i × a_j` has the components −m(i+2, j) at i+1 and m(i+1, j) at i+2. Its component along
 /// `a_(j+1)` is `b_i·(a_j × a_(j+1)) = m(i, j+2)`.

@@ -1,4 +1,4 @@
-//! Fitting of a volume of a given kind around shapes.
+//! Fitting of a bounding volume of a given kind around shapes.
 
 use super::bounded::support;
 use super::volume::{BoundKind, Bounded, Volume};
@@ -6,14 +6,14 @@ use super::{aabb, obb, sphere};
 use crate::Vec3;
 use crate::extension::Extensions;
 
-/// Fits a volume of the given kind around shapes in the frame of one movable group, with margin
+/// Returns a volume of the given kind around shapes in the frame of one movable group, with margin
 /// ([`RELATIVE_MARGIN`](super::RELATIVE_MARGIN)).
 ///
 /// If any shape is infinite, the result is [`Volume::Unbounded`], whatever the kind.
 ///
 /// # Errors
-/// The reason as text: an empty list, shapes whose extent is NaN, a volume that would not be finite, or a
-/// custom kind that is not registered or whose fitter returns a volume of another kind.
+/// The reason as text. Possible reasons are an empty list, shapes whose extent is NaN, a volume that would
+/// not be finite, a custom kind that is not registered, and a fitter that returns a volume of another kind.
 pub fn fit(kind: &BoundKind, things: &[&dyn Bounded], ext: &Extensions) -> Result<Volume, String> {
     let Some((min, max)) = bounds(things)? else { return Ok(Volume::Unbounded) };
     let volume = match kind {
@@ -38,10 +38,10 @@ fn fit_custom(name: &str, things: &[&dyn Bounded], ext: &Extensions) -> Result<V
     Ok(Volume::Custom(volume))
 }
 
-/// Minimum and maximum coordinates of all shapes; `None` if one is infinite.
+/// Returns the minimum and maximum coordinates of all shapes; `None` if one is infinite.
 ///
-/// An unbounded convex set extends to infinity in some direction, and therefore along an axis not
-/// perpendicular to it: the six supports find every unbounded shape.
+/// The six supports along the axes find every unbounded shape: an unbounded convex set extends to infinity in
+/// some direction, and therefore along an axis that is not perpendicular to this direction.
 fn bounds(things: &[&dyn Bounded]) -> Result<Option<(Vec3, Vec3)>, String> {
     if things.is_empty() {
         return Err("there is nothing to bound".to_owned());

@@ -1,22 +1,23 @@
-//! Margin of every fitted volume.
+//! Margin by which every fitted volume is grown.
 
 use super::volume::Volume;
 use crate::Vec3;
 
-/// Every fitted volume is grown by this fraction of (its extent + the distance of its centre from the frame's
-/// origin).
+/// Fraction of (the volume's extent + the distance of its centre from the frame's origin) by which every
+/// fitted volume is grown.
 ///
 /// With this margin the pair tests need none for position errors. Let the volumes have the centres `c_A` and
-/// `c_B` in their frames and the extents `e_A` and `e_B`, and let the frames be `r` apart. Transforming a
-/// centre, or in the contact test the shape itself, rounds by a few units of 1.1e-16 of `r + |c_A| + |c_B|`,
-/// and fitting by a few such units of `|c| + e`. If the volumes touch, `r ≤ |c_A| + e_A + |c_B| + e_B`. So
-/// the total rounding is below about ten units of 1.1e-16 of `|c_A| + e_A + |c_B| + e_B`, while the volumes
-/// are grown by 1e-12 of it: a thousand times more.
+/// `c_B` in their frames and the extents `e_A` and `e_B`, and let the frames be `r` apart. The error of
+/// transforming a centre, or in the contact test the shape itself, is a few units of 1.1e-16 of
+/// `r + |c_A| + |c_B|`. The error of fitting is a few such units of `|c| + e`. If the volumes touch,
+/// `r ≤ |c_A| + e_A + |c_B| + e_B`. So the total error is below about ten units of 1.1e-16 of
+/// `|c_A| + e_A + |c_B| + e_B`, while the volumes are grown by 1e-12 of this sum: a thousand times more.
 pub const RELATIVE_MARGIN: f64 = 1e-12;
 
 impl Volume {
-    /// Volume grown by [`RELATIVE_MARGIN`]. [`fit`](super::fit()) has done so already; a volume built by hand
-    /// should be grown before it is tested. A custom volume is returned unchanged: its fitter adds a margin.
+    /// Returns the volume grown by [`RELATIVE_MARGIN`]. The result of [`fit`](super::fit()) has been grown
+    /// already; a volume built by hand should be grown before it is tested. A custom volume is returned
+    /// unchanged, because its fitter adds a margin.
     pub fn inflated(self) -> Self {
         let margin = |extent: f64, center: &Vec3| RELATIVE_MARGIN * (extent + center.norm());
         match self {

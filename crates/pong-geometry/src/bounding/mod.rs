@@ -1,11 +1,10 @@
-//! Bounding volumes: fitting, and the overlap test of every pair.
+//! Bounding volumes: fitting, and the overlap tests.
 //!
-//! A test returns `true` unless the two volumes are certainly disjoint. Rounding may cause a false overlap,
-//! never a missed one.
+//! An overlap test returns `true` unless the two volumes are certainly disjoint. Rounding may cause a false
+//! overlap, never a missed one; [`RELATIVE_MARGIN`] explains why.
 //!
 //! One file fits each kind of volume (`aabb`, `sphere`, `obb`), one file tests each pair of kinds
 //! (`sphere_sphere`, `sphere_aabb` …), and [`VolumeTests`] selects the test.
-//! [`RELATIVE_MARGIN`] explains why rounding cannot hide an overlap.
 
 mod aabb;
 mod aabb_aabb;

@@ -1,12 +1,13 @@
-//! Oriented box. For given axes it is exact, from the supports along the axes. The search for the axes starts
-//! from the better of the frame's axes and the principal axes, and continues by coarse, then fine rotations.
+//! Oriented bounding box. For given axes it is exact: it follows from the supports along the axes. The search
+//! for the axes starts from the better of the frame's axes and the principal axes, and continues by coarse,
+//! then fine rotations.
 
 use super::bounded::{representatives, support};
 use super::principal_axes::{orthonormal, plane_rotation, principal_axes};
 use super::volume::{Bounded, Volume};
 use crate::{Mat3, Vec3};
 
-/// Smallest box found around the shapes, without margin.
+/// Returns the smallest box found around the shapes, without margin.
 pub(super) fn fit_obb(things: &[&dyn Bounded]) -> Volume {
     let mut best = Candidate::along(Mat3::identity(), things);
     let points = representatives(things);
@@ -45,14 +46,15 @@ impl Candidate {
         smaller
     }
 
-    /// Axes of the box, rotated about one of its axes.
+    /// Returns the axes of the box, rotated about one of them.
     fn turned(&self, axis: usize, half_angle_tangent: f64) -> Mat3 {
         let square = half_angle_tangent * half_angle_tangent;
         let (cosine, sine) = ((1.0 - square) / (1.0 + square), 2.0 * half_angle_tangent / (1.0 + square));
         orthonormal(&(self.axes * plane_rotation((axis + 1) % 3, (axis + 2) % 3, cosine, sine)))
     }
 
-    /// Tries large rotations first: a cube or a cylinder has no preferred principal axes.
+    /// Tries large rotations about each axis of the box, because a cube or a cylinder has no preferred
+    /// principal axes.
     fn turn_by_coarse_steps(&mut self, things: &[&dyn Bounded]) {
         // Tangents of half of 22.5° and 45°.
         const HALF_ANGLE_TANGENTS: [f64; 4] = [0.199, -0.199, 0.414, -0.414];
@@ -63,8 +65,8 @@ impl Candidate {
         }
     }
 
-    /// Rotates about the axes of the box by smaller and smaller angles. An angle is used up to `ROUNDS`
-    /// times, as long as the box shrinks.
+    /// Rotates about the axes of the box by smaller and smaller angles, as long as the box shrinks. Each
+    /// angle is tried up to `ROUNDS` times.
     fn refine(&mut self, things: &[&dyn Bounded]) {
         const HALVINGS: usize = 20;
         const ROUNDS: usize = 4;
@@ -86,8 +88,8 @@ impl Candidate {
     }
 }
 
-/// Volume of the box thickened by a thousandth of its size, so that for flat and thin shapes, whose boxes
-/// have zero volume, the box of least area or length wins.
+/// Returns the volume of the box after it is thickened by a thousandth of its size. Flat and thin shapes have
+/// boxes of zero volume; with the thickening the box of least area or length wins.
 fn score(half: &Vec3) -> f64 {
     let thickening = 1e-3 * half.norm();
     half.add_scalar(thickening).product()

@@ -1,5 +1,5 @@
-//! Two oriented boxes (centre, axes, half extents). Centres in B's frame, axes in each box's own frame;
-//! `r_ba` rotates from A's frame to B's.
+//! Overlap test of two oriented boxes (centre, axes, half extents). Centres are in B's frame, axes in each
+//! box's own frame; `r_ba` rotates from A's frame to B's.
 
 use super::box_box::boxes_overlap;
 use crate::{Mat3, Vec3};

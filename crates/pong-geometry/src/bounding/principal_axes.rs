@@ -1,9 +1,9 @@
-//! Principal axes of points by Jacobi rotations, with only +, −, ×, ÷ and √, so every machine finds the same
-//! bits.
+//! Principal axes of points by Jacobi rotations. Only +, −, ×, ÷ and √ are used, so that every machine
+//! computes the same bits.
 
 use crate::{Mat3, Vec3};
 
-/// Principal axes of the covariance of the points, as orthonormal right-handed columns.
+/// Returns the principal axes of the covariance of the points, as orthonormal right-handed columns.
 pub(super) fn principal_axes(points: &[Vec3]) -> Mat3 {
     let count = points.len() as f64;
     let mean = points.iter().sum::<Vec3>() / count;
@@ -11,7 +11,7 @@ pub(super) fn principal_axes(points: &[Vec3]) -> Mat3 {
     orthonormal(&diagonalising_rotation(spread))
 }
 
-/// Rotation V with VᵀSV diagonal, for symmetric S.
+/// Returns the rotation V for which VᵀSV is diagonal, for a symmetric matrix S.
 ///
 /// Each sweep rotates in the three coordinate planes by the angle that zeroes the off-diagonal entry.
 /// Convergence is quadratic: a 3 × 3 matrix needs four or five sweeps, and further sweeps change nothing.
@@ -40,7 +40,7 @@ fn diagonalising_rotation(mut s: Mat3) -> Mat3 {
     rotation
 }
 
-/// Rotation in the plane of axes `p` and `q` that takes `p` towards −`q`.
+/// Returns the rotation in the plane of axes `p` and `q` that takes `p` towards −`q`.
 pub(super) fn plane_rotation(p: usize, q: usize, cosine: f64, sine: f64) -> Mat3 {
     let mut turn = Mat3::identity();
     turn[(p, p)] = cosine;
@@ -50,8 +50,8 @@ pub(super) fn plane_rotation(p: usize, q: usize, cosine: f64, sine: f64) -> Mat3
     turn
 }
 
-/// Orthonormal right-handed axes from axes distorted by rounding; keeps the first axis and the plane of the
-/// first two.
+/// Returns orthonormal right-handed axes for axes distorted by rounding. The first axis and the plane of the
+/// first two are kept.
 pub(super) fn orthonormal(axes: &Mat3) -> Mat3 {
     let x = axes.column(0).normalize();
     let y = axes.column(1) - x * x.dot(&axes.column(1));

@@ -1,11 +1,12 @@
-//! Bounding sphere: its radius is exact for its centre, `max over shapes of farthest(centre)`; the centre is
-//! close to that of the minimum sphere.
+//! Bounding sphere. Its radius is exact for its centre: the distance of the farthest point of all shapes. The
+//! centre is close to that of the minimum sphere.
 
 use super::bounded::{largest, representatives};
 use super::volume::{Bounded, Volume};
 use crate::Vec3;
 
-/// Smallest sphere found around the shapes, without margin; `box_center` is the centre of their box.
+/// Returns the smallest sphere found around the shapes, without margin. `box_center` is the centre of the
+/// shapes' axis-aligned box.
 pub(super) fn fit_sphere(things: &[&dyn Bounded], box_center: &Vec3) -> Volume {
     let points = representatives(things);
     let radius_about = |center: &Vec3| largest(things.iter().map(|thing| thing.farthest(center)));
@@ -31,7 +32,8 @@ impl Ball {
     }
 
     /// Moves the centre along the axes by smaller and smaller steps while the radius shrinks. The radius is
-    /// that around the shapes themselves: their representative points do not cover curved surfaces.
+    /// measured around the shapes themselves, because their representative points do not cover curved
+    /// surfaces.
     fn refine(&mut self, radius_about: &impl Fn(&Vec3) -> f64) {
         const HALVINGS: usize = 12;
         let mut step = 0.125 * self.radius;
@@ -51,8 +53,9 @@ fn farthest_point<'a>(points: &'a [Vec3], from: &Vec3) -> Option<&'a Vec3> {
     points.iter().reduce(|far, p| if distance(p) > distance(far) { p } else { far })
 }
 
-/// Approximate centre of the minimum sphere around points, by steps of 1/(k+1) towards the farthest point
-/// (Bădoiu and Clarkson 2003). The first steps are skipped because the start is close already.
+/// Returns the approximate centre of the minimum sphere around points. In step k the centre moves by 1/(k+1)
+/// of the way to the farthest point (Bădoiu and Clarkson 2003). The first steps are skipped because the start
+/// is close already.
 fn drawn_to_farthest(points: &[Vec3], start: Vec3) -> Vec3 {
     (10..150).fold(start, |center, k| match farthest_point(points, &center) {
         Some(far) => center + (far - center) / f64::from(k + 1),

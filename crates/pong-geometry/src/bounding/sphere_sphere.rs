@@ -1,8 +1,8 @@
-//! Sphere against sphere: disjoint if `|c_A − c_B| > r_A + r_B`.
+//! Overlap test of two spheres: they are disjoint if `|c_A − c_B| > r_A + r_B`.
 
 use crate::Vec3;
 
-/// Spheres (centre, radius), both in B's frame.
+/// Returns `true` if two spheres (centre, radius), both in B's frame, may overlap.
 #[inline]
 pub(super) fn sphere_sphere(a: (&Vec3, f64), b: (&Vec3, f64)) -> bool {
     let reach = a.1 + b.1;

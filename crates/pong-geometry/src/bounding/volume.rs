@@ -1,4 +1,4 @@
-//! Bounding volumes, and the interface of shapes that can be bounded.
+//! Bounding volumes, and the trait of shapes around which they can be fitted.
 
 use crate::{Mat3, Transform, Vec3};
 use std::sync::Arc;
@@ -17,7 +17,7 @@ pub enum BoundKind {
 }
 
 impl BoundKind {
-    /// Name of the kind, as [`Volume::kind_name`] returns it; for a custom kind, its own name.
+    /// Returns the name of the kind, as in [`Volume::kind_name`]; for a custom kind, its own name.
     pub fn name(&self) -> &str {
         match self {
             Self::Aabb => "Aabb",
@@ -61,7 +61,7 @@ pub enum Volume {
 }
 
 impl Volume {
-    /// Name of the kind; for a custom kind, its own name.
+    /// Returns the name of the kind; for a custom kind, its own name.
     pub fn kind_name(&self) -> &str {
         match self {
             Self::Unbounded => "Unbounded",
@@ -75,11 +75,11 @@ impl Volume {
 
 /// Bounding volume defined by a Rust user.
 pub trait CustomVolume: std::fmt::Debug + Send + Sync + std::any::Any {
-    /// The kind's name, as in the model file and in the registration of its pair tests.
+    /// Returns the kind's name, as in the model file and in the registration of its pair tests.
     fn kind_name(&self) -> &str;
-    /// The volume as `Any`, so that a pair test can get its own type back.
+    /// Returns the volume as `Any`, so that a pair test can get its own type back.
     fn as_any(&self) -> &dyn std::any::Any;
-    /// Support function, as [`Bounded::support`], used to fit a parent volume around this one. The default
+    /// Returns the support as [`Bounded::support`] does, to fit a parent volume around this one. The default
     /// makes every parent unbounded, which is correct but slow.
     fn support(&self, _direction: &Vec3) -> f64 {
         f64::INFINITY
@@ -88,12 +88,13 @@ pub trait CustomVolume: std::fmt::Debug + Send + Sync + std::any::Any {
 
 /// Shape around which a bounding volume can be fitted.
 pub trait Bounded {
-    /// Support function: maximum of `direction · x` over the shape for a unit direction, m; infinite if
-    /// unbounded.
+    /// Returns the maximum of `direction · x` over the shape for a unit direction, m (support function). It
+    /// is infinite if the shape is unbounded.
     fn support(&self, direction: &Vec3) -> f64;
-    /// Upper bound of the distance from `from` to the farthest point of the shape, m.
+    /// Returns an upper bound of the distance from `from` to the farthest point of the shape, m.
     fn farthest(&self, from: &Vec3) -> f64;
-    /// Appends representative points, used to choose axes and centres (they need not bound the shape).
+    /// Appends representative points of the shape, from which axes and centres are chosen. They need not
+    /// bound the shape.
     fn representatives(&self, out: &mut Vec<Vec3>);
 }
 

@@ -1,4 +1,4 @@
-//! Table of the pair tests of bounding volumes.
+//! Selection of the overlap test for a pair of bounding volumes.
 
 use super::aabb_aabb::aabb_aabb;
 use super::aabb_obb::{aabb_obb, obb_aabb};
@@ -20,7 +20,7 @@ pub struct CarriedVolume<'a> {
 }
 
 impl<'a> CarriedVolume<'a> {
-    /// Prepares a volume in A's frame; `x_ba` transforms from A's frame to B's.
+    /// Transforms the centre of a volume in A's frame. `x_ba` transforms from A's frame to B's.
     #[inline]
     pub fn new(volume: &'a Volume, x_ba: &'a FromAToB) -> Self {
         let center_b = match volume {
@@ -33,7 +33,7 @@ impl<'a> CarriedVolume<'a> {
     }
 }
 
-/// Built-in pair tests and those registered by a user.
+/// Overlap tests of bounding volumes: the built-in ones and those registered by a user.
 #[derive(Clone, Default)]
 pub struct VolumeTests {
     custom: Vec<CustomTest>,
@@ -47,7 +47,8 @@ struct CustomTest {
 }
 
 impl VolumeTests {
-    /// Built-in tests and those registered in `ext`. A test registered for two built-in kinds is never used.
+    /// Creates the set of built-in tests and those registered in `ext`. A test registered for two built-in
+    /// kinds is never used.
     pub fn new(ext: &Extensions) -> Self {
         let custom = ext.volume_tests().map(|(kind_a, kind_b, test)| CustomTest {
             kind_a: kind_a.to_owned(),
@@ -57,15 +58,15 @@ impl VolumeTests {
         Self { custom: custom.collect() }
     }
 
-    /// Returns `true` if two volumes, each in its own frame, may overlap; `x_ba` transforms from A's frame to
-    /// B's. `false` means certainly disjoint. A pair without a test counts as overlapping ([`Self::supports`]
-    /// finds such pairs). Does not allocate.
+    /// Returns `true` if two volumes, each in its own frame, may overlap; `false` means certainly disjoint.
+    /// `x_ba` transforms from A's frame to B's. A pair without a test counts as overlapping
+    /// ([`Self::supports`] finds such pairs). This function does not allocate.
     #[inline]
     pub fn overlap(&self, a: &Volume, b: &Volume, x_ba: &FromAToB) -> bool {
         self.overlap_carried(&CarriedVolume::new(a, x_ba), b)
     }
 
-    /// [`overlap`](Self::overlap) for a volume that is tested against several volumes of B.
+    /// Same as [`overlap`](Self::overlap), for a volume that is tested against several volumes of B.
     #[inline]
     pub fn overlap_carried(&self, a: &CarriedVolume<'_>, b: &Volume) -> bool {
         use Volume::{Aabb, Obb, Sphere, Unbounded};

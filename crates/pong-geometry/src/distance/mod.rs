@@ -1,7 +1,7 @@
 //! Distance of two convex solids, and their nearest points (docs/theory.md, 2.10).
 //!
-//! The solids must be in one frame. The distance from a plane has a closed form ([`Solid::to_plane`]). All
-//! other pairs use [`Solid::to`], the algorithm of Gilbert, Johnson and Keerthi.
+//! Both solids must be given in one frame. The distance from a plane has a closed form ([`Solid::to_plane`]).
+//! All other pairs use [`Solid::to`], the algorithm of Gilbert, Johnson and Keerthi.
 
 mod search;
 mod simplex;
@@ -13,7 +13,7 @@ pub use solid::Solid;
 use crate::primitive::Plane;
 
 impl Solid<'_> {
-    /// Distance of this solid from another.
+    /// Returns the distance of this solid from another.
     pub fn to(&self, other: &Solid<'_>) -> Distance {
         // The search gives `None` only for a distance above the limit, which is infinite here.
         self.to_within(other, f64::INFINITY).unwrap_or(Distance {
@@ -23,12 +23,14 @@ impl Solid<'_> {
         })
     }
 
-    /// As [`to`](Self::to); `None` as soon as a lower bound of the distance exceeds `limit`, m.
+    /// Returns the same as [`to`](Self::to), but `None` as soon as a lower bound of the distance exceeds
+    /// `limit`, m.
     pub fn to_within(&self, other: &Solid<'_>, limit: f64) -> Option<Distance> {
         search::search(self, other, limit)
     }
 
-    /// Distance of this solid from the half space of a plane: the height of its lowest point.
+    /// Returns the distance of this solid from the half space of a plane: the height of the solid's lowest
+    /// point, or 0 if that is negative.
     pub fn to_plane(&self, plane: &Plane) -> Distance {
         let core = self.core_support(&-plane.normal);
         let height = plane.height(&core);

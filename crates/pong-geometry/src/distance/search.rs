@@ -1,4 +1,4 @@
-//! Search for the nearest points of two cores, after Gilbert, Johnson and Keerthi (1988).
+//! Search for the nearest points of the cores of two solids, after Gilbert, Johnson and Keerthi (1988).
 
 use super::simplex::{Corner, Nearest};
 use super::solid::Solid;
@@ -19,19 +19,20 @@ pub struct Distance {
 /// Maximum number of steps. Two polyhedra need about as many as they have vertices near each other; smooth
 /// solids converge linearly.
 const STEPS: usize = 200;
-/// Distance of two cores up to which they count as overlapping, relative to the coordinates: accumulated
-/// rounding.
+/// Distance of two cores up to which they count as overlapping, relative to the coordinates. It is
+/// accumulated rounding.
 const OVERLAP: f64 = 1e-14;
 /// Difference of the upper and lower bound of the distance at which the search ends, relative to the
-/// coordinates: rounding of one product.
+/// coordinates. It is the rounding of one product.
 const CLOSED: f64 = 8.0 * f64::EPSILON;
 /// Number of consecutive steps without a smaller distance after which the search ends.
 const IDLE: usize = 16;
 
-/// Distance of two solids; `None` if it exceeds `limit`, m.
+/// Returns the distance of two solids; `None` if it exceeds `limit`, m.
 ///
-/// The distance of the cores is at most that of the nearest point of the simplex, and at least that of the
-/// support plane perpendicular to the nearest point's direction. Each bound is the best over all steps.
+/// In every step, the nearest point of the simplex gives an upper bound of the distance of the cores. The
+/// support plane perpendicular to that point's direction gives a lower bound. The best bounds over all steps
+/// count.
 pub(super) fn search(a: &Solid<'_>, b: &Solid<'_>, limit: f64) -> Option<Distance> {
     let margin = a.margin() + b.margin();
     let corner = |towards_a: &Vec3| {
@@ -57,7 +58,8 @@ pub(super) fn search(a: &Solid<'_>, b: &Solid<'_>, limit: f64) -> Option<Distanc
         }
         let Some(found) = nearest.with(next) else { return Some(overlap(&best)) };
         idle = if found.distance < best.distance { 0 } else { idle + 1 };
-        // A later simplex of the same distance replaces the earlier one: its direction is more accurate.
+        // A later simplex of the same distance replaces the earlier one, because its direction is more
+        // accurate.
         if found.distance <= best.distance + CLOSED * size {
             best = found;
         }
@@ -66,7 +68,7 @@ pub(super) fn search(a: &Solid<'_>, b: &Solid<'_>, limit: f64) -> Option<Distanc
     Some(apart(&best, [a.margin(), b.margin()], least))
 }
 
-/// Largest coordinate of the points of a corner, m.
+/// Returns the largest coordinate of the points of a corner, m.
 fn coordinates(corner: &Corner) -> f64 {
     corner.points_b[0].amax().max(corner.points_b[1].amax())
 }
@@ -75,7 +77,7 @@ fn overlap(nearest: &Nearest) -> Distance {
     Distance { distance: 0.0, points_b: nearest.points(), gap: 0.0 }
 }
 
-/// Distance of two solids whose cores do not overlap: that of the cores less the margins.
+/// Returns the distance of two solids whose cores do not overlap: the distance of the cores less the margins.
 fn apart(nearest: &Nearest, margins: [f64; 2], least: f64) -> Distance {
     let [p, q] = nearest.points();
     let towards_a = nearest.direction_b;

@@ -1,14 +1,16 @@
 //! Point of a simplex that is nearest to the origin.
 //!
-//! Candidates are the nearest point of each edge, and that of each face if it lies inside the face; the
-//! nearest candidate is the result. The weights of its corners are never negative and add up to one, so it
-//! lies in the simplex whatever the rounding. That includes slender faces: their axes come from Gram-Schmidt
-//! orthogonalisation, longest edge first, so the point is exact to the rounding of the coordinates and the
-//! normal is perpendicular to the face to rounding.
+//! Candidates are the nearest point of each edge, and the nearest point of each face if it lies inside the
+//! face. The nearest candidate is the result. The weights of its corners are never negative and add up to
+//! one, so the result lies in the simplex whatever the rounding.
+//!
+//! This holds for slender faces too. Their axes come from Gram-Schmidt orthogonalisation, longest edge first,
+//! so the point is exact to the rounding of the coordinates, and the normal is perpendicular to the face to
+//! rounding.
 
 use crate::Vec3;
 
-/// Support points of two cores, and their difference.
+/// Corner of the simplex: support points of two cores, and their difference.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     /// Point of the first core less point of the second, m.
@@ -17,7 +19,7 @@ pub(super) struct Corner {
     pub points_b: [Vec3; 2],
 }
 
-/// Corner, edge or face of a simplex that contains the point nearest to the origin.
+/// Corner, edge or face of a simplex that contains the simplex's point nearest to the origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Nearest {
     /// Corners; only the first `count` are used.
@@ -28,12 +30,12 @@ pub(super) struct Nearest {
     shares: [f64; 3],
     /// Distance of the nearest point from the origin, m.
     pub distance: f64,
-    /// Unit vector from the origin to the nearest point, perpendicular to the edge or face.
+    /// Unit vector from the origin to the nearest point, made perpendicular to the edge or face.
     pub direction_b: Vec3,
 }
 
 impl Nearest {
-    /// Simplex of one corner.
+    /// Creates the simplex of one corner.
     pub fn corner(corner: Corner) -> Self {
         Self::new([corner; 3], 1, [1.0, 0.0, 0.0], |v| v)
     }
@@ -50,21 +52,23 @@ impl Nearest {
         nearest
     }
 
-    /// Sum of the vectors `of` the corners, weighted by `shares`.
+    /// Returns the sum of the vectors `of` the corners, weighted by `shares`.
     fn mixed(&self, of: impl Fn(&Corner) -> Vec3) -> Vec3 {
         let parts = self.corners.iter().zip(&self.shares).take(self.count);
         parts.map(|(corner, share)| of(corner) * *share).sum()
     }
 
-    /// Nearest points of the two cores, m.
+    /// Returns the nearest points of the two cores, m.
     pub fn points(&self) -> [Vec3; 2] {
         [0, 1].map(|side| self.mixed(|corner| corner.points_b[side]))
     }
 
-    /// Nearest point after adding a corner to the simplex; `None` if the new simplex contains the origin.
+    /// Returns the nearest point after a corner is added to the simplex; `None` if the new simplex contains
+    /// the origin.
     ///
-    /// The corner must be nearer to the origin along `direction_b`. The new nearest point then lies on that
-    /// corner, or on an edge or face that has it, even if the distance decreases only by rounding.
+    /// The corner must be nearer to the origin along `direction_b` than the nearest point. The new nearest
+    /// point then is that corner, or lies on an edge or face that has it, even if the distance decreases only
+    /// by rounding.
     pub fn with(&self, corner: Corner) -> Option<Self> {
         let mut all = [corner; 4];
         all[..self.count].copy_from_slice(&self.corners[..self.count]);
@@ -83,7 +87,7 @@ impl Nearest {
     }
 }
 
-/// Returns `true` if the origin is in a tetrahedron.
+/// Returns `true` if the origin lies in the tetrahedron of four corners.
 fn holds_origin(corners: &[Corner]) -> bool {
     (0..4).all(|top| {
         let face = [1, 2, 3].map(|k| corners[(top + k) % 4]);
@@ -91,7 +95,7 @@ fn holds_origin(corners: &[Corner]) -> bool {
     })
 }
 
-/// Nearest point of an edge.
+/// Returns the point of an edge nearest to the origin.
 fn on_edge(ends: [Corner; 2]) -> Nearest {
     let [a, b] = ends;
     let along = b.difference_b - a.difference_b;
@@ -107,7 +111,7 @@ fn on_edge(ends: [Corner; 2]) -> Nearest {
     Nearest::new([a, b, b], 2, [1.0 - share, share, 0.0], |v| v - unit * unit.dot(&v))
 }
 
-/// Triangular face, with two axes in its plane.
+/// Triangular face of a simplex, with two axes in its plane.
 struct Face {
     /// Corners; the longest edge runs from the first to the second.
     corners: [Corner; 3],
@@ -120,7 +124,7 @@ struct Face {
 }
 
 impl Face {
-    /// Face of three corners; `None` if they are in line.
+    /// Creates the face of three corners; `None` if they are in line.
     fn new(corners: [Corner; 3]) -> Option<Self> {
         let square = |i: usize| (corners[(i + 1) % 3].difference_b - corners[i].difference_b).norm_squared();
         let first = if square(0) >= square(1) && square(0) >= square(2) {
@@ -140,7 +144,7 @@ impl Face {
             return None;
         }
         let across = across / height.max(f64::MIN_POSITIVE);
-        // Orthogonalised once more: for a slender face, the first difference is mostly rounding.
+        // Orthogonalised once more, because for a slender face the first difference is mostly rounding.
         let across = across - along * along.dot(&across);
         let across = across / across.norm().max(f64::MIN_POSITIVE);
         Some(Self { corners, axes: [along, across], length, height })
@@ -151,7 +155,7 @@ impl Face {
         along.cross(across)
     }
 
-    /// Nearest point, if the origin projects into the face.
+    /// Returns the point of the face nearest to the origin; `None` unless the origin projects into the face.
     fn nearest(&self) -> Option<Nearest> {
         let [a, _, c] = self.corners.map(|corner| corner.difference_b);
         let [along, across] = &self.axes;
@@ -161,8 +165,8 @@ impl Face {
         if !(first > 0.0 && second > 0.0 && third > 0.0) {
             return None;
         }
-        // The normal has an error of rounding/`height`, the vector from the origin one of rounding/|v|: the
-        // more accurate of the two gives the direction.
+        // The error of the normal is rounding/`height`, that of the vector from the origin is rounding/|v|.
+        // The more accurate of the two gives the direction.
         let upright = |v: Vec3| {
             let normal = self.normal();
             if v.norm() >= self.height {

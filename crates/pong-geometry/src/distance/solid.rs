@@ -1,4 +1,4 @@
-//! Convex solids by their support points: a core, and a margin around it.
+//! Convex solids for the distance search. The search needs only their support points.
 
 use crate::primitive::{Capsule, Ellipsoid, Frustum, LineSegment, Point, Polyhedron, Ray, Sphere};
 use crate::{Transform, Vec3};
@@ -27,57 +27,58 @@ impl<'a> Solid<'a> {
         Self { core, margin }
     }
 
-    /// Point as a solid without extent.
+    /// Creates a solid without extent from a point.
     pub fn point(point: &Point) -> Self {
         Self::new(Core::Point(point.position), 0.0)
     }
 
-    /// Line segment as a solid without thickness.
+    /// Creates a solid without thickness from a line segment.
     pub fn segment(segment: &LineSegment) -> Self {
         Self::new(Core::Segment(segment.ends), 0.0)
     }
 
-    /// Ray as the segment of its free length.
+    /// Creates a solid without thickness from a ray: the segment of the ray's free length.
     pub fn ray(ray: &Ray) -> Self {
         Self::new(Core::Segment([ray.origin, ray.tip()]), 0.0)
     }
 
-    /// Triangle as a solid without thickness, from its corners, m.
+    /// Creates a solid without thickness from a triangle's corners, m.
     pub fn triangle(corners: [Vec3; 3]) -> Self {
         Self::new(Core::Triangle(corners), 0.0)
     }
 
-    /// Sphere with its interior.
+    /// Creates the solid of a sphere.
     pub fn sphere(sphere: &Sphere) -> Self {
         Self::new(Core::Point(sphere.center), sphere.radius)
     }
 
-    /// Capsule.
+    /// Creates the solid of a capsule.
     pub fn capsule(capsule: &Capsule) -> Self {
         Self::new(Core::Segment(capsule.ends), capsule.radius)
     }
 
-    /// Ellipsoid.
+    /// Creates the solid of an ellipsoid.
     pub fn ellipsoid(ellipsoid: &Ellipsoid) -> Self {
         Self::new(Core::Ellipsoid(*ellipsoid), 0.0)
     }
 
-    /// Cylinder or cone.
+    /// Creates the solid of a cylinder or a cone.
     pub fn frustum(frustum: &Frustum) -> Self {
         Self::new(Core::Frustum(*frustum), 0.0)
     }
 
-    /// Polyhedron whose frame has this pose: the hull of its vertices.
+    /// Creates the solid of a polyhedron, the hull of its vertices. `x` transforms from the polyhedron's
+    /// frame.
     pub fn polyhedron(polyhedron: &'a Polyhedron, x: &Transform) -> Self {
         Self::new(Core::Polyhedron(polyhedron, *x), 0.0)
     }
 
-    /// Distance around the core that still belongs to the solid, m.
+    /// Returns the distance around the core that still belongs to the solid, m.
     pub fn margin(&self) -> f64 {
         self.margin
     }
 
-    /// Point of the core that is farthest along a unit direction, m.
+    /// Returns the point of the core that is farthest along a unit direction, m.
     pub fn core_support(&self, direction: &Vec3) -> Vec3 {
         match &self.core {
             Core::Point(point) => *point,
@@ -93,7 +94,7 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// Point of the core, m, from which the search starts.
+    /// Returns the point of the core, m, from which the search starts.
     pub fn member(&self) -> Vec3 {
         match &self.core {
             Core::Point(point) => *point,
@@ -106,7 +107,7 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// Centre and radius of a ball around the solid, m; not the smallest one.
+    /// Returns centre and radius of a ball around the solid, m. It is not the smallest one.
     pub fn ball(&self) -> (Vec3, f64) {
         let around = |points: &[Vec3]| {
             let center = points.iter().sum::<Vec3>() / points.len() as f64;
@@ -128,7 +129,7 @@ impl<'a> Solid<'a> {
     }
 }
 
-/// Point farthest along a direction; the first of several.
+/// Returns the point that is farthest along a direction; the first of several.
 fn farthest(points: impl Iterator<Item = Vec3>, direction: &Vec3) -> Vec3 {
     let mut best = (f64::NEG_INFINITY, Vec3::zeros());
     for point in points {
@@ -141,14 +142,14 @@ fn farthest(points: impl Iterator<Item = Vec3>, direction: &Vec3) -> Vec3 {
 }
 
 impl Frustum {
-    /// Point of the solid farthest along a unit direction, m.
+    /// Returns the point of the solid that is farthest along a unit direction, m.
     pub fn support_point(&self, direction: &Vec3) -> Vec3 {
         let radial = direction - self.axis * direction.dot(&self.axis);
         let aside = radial.norm();
         let outward = radial / aside.max(f64::MIN_POSITIVE);
-        // Orthogonalised once more: for a direction near the axis, the first difference is mostly rounding.
-        // For a direction along the axis it is all rounding; then the centre of the end circle is a support
-        // point.
+        // Orthogonalised once more, because for a direction near the axis the first difference is mostly
+        // rounding. For a direction along the axis it is rounding alone; then the centre of the end circle is
+        // a support point.
         let outward = outward - self.axis * outward.dot(&self.axis);
         let length = outward.norm();
         let outward = if length > 0.5 { outward / length.max(0.5) } else { Vec3::zeros() };

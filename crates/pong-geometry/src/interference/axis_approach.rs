@@ -1,5 +1,6 @@
 //! Distance between a segment (a line segment, or the axis of a round part) and a round solid (capsule,
-//! cylinder or cone); if they overlap, the minimum translation that separates them (docs/theory.md, 2.8).
+//! cylinder or cone). If they overlap, it is the minimum translation that separates them (docs/theory.md,
+//! 2.8).
 
 use super::Feature;
 use super::circles::Circle;
@@ -7,7 +8,7 @@ use super::round_surface::{Nearest, ROUNDING, nearest_on_segment, of_capsule, of
 use crate::primitive::{Capsule, Frustum};
 use crate::{Vec3, any_perpendicular, divisor};
 
-/// Separation of a segment and a round solid: distance, or in overlap the minimum translation.
+/// Distance of a segment from a round solid; if they overlap, the minimum translation that separates them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Approach {
     /// Distance from the solid's surface, m; in overlap, minus the length of the minimum translation.
@@ -22,17 +23,18 @@ pub(crate) struct Approach {
 
 /// Round convex solid (B), tested against a segment (A) or the axis of a round part (A).
 pub(crate) trait RoundSolid {
-    /// Point of the solid's surface nearest to the segment's end `end`.
+    /// Returns the point of the solid's surface nearest to the segment's end `end`.
     fn nearest(&self, end: usize, segment: &[Vec3; 2]) -> Nearest;
 
-    /// Separation of a segment and the solid.
+    /// Returns the distance or the minimum translation between a segment and the solid.
     fn approach(&self, segment: &[Vec3; 2]) -> Approach;
 
-    /// Separation of a segment and the solid's end `end`: the ball of a capsule, or the disc of a cylinder or
-    /// cone. `None` if their distance certainly exceeds `reach` (m).
+    /// Returns the distance or the minimum translation between a segment and the solid's end `end`: the ball
+    /// of a capsule, or the disc of a cylinder or cone. `None` if their distance certainly exceeds `reach`
+    /// (m).
     fn approach_end(&self, end: usize, segment: &[Vec3; 2], reach: f64) -> Option<Approach>;
 
-    /// Vector from the solid's end 0 to its end 1, of any length.
+    /// Returns the vector from the solid's end 0 to its end 1, of any length.
     fn axis(&self) -> Vec3;
 }
 
@@ -71,8 +73,8 @@ impl RoundSolid for Capsule {
 }
 
 impl Capsule {
-    /// Point of the capsule's surface nearest to the point `place` of a segment. If `place` lies on the
-    /// capsule's axis, the normal is perpendicular to the axis and to the segment.
+    /// Returns the point of the capsule's surface nearest to the point `place` of a segment. If `place` lies
+    /// on the capsule's axis, the normal is perpendicular to both the axis and the segment.
     fn nearest_of(&self, place: &Vec3, segment: &[Vec3; 2]) -> Nearest {
         let nearest = of_capsule(place, self);
         let crosses = self.is_in_axis(nearest.distance + self.radius, place);
@@ -81,12 +83,13 @@ impl Capsule {
     }
 
     /// Returns `true` if a point at `distance` (m) from the axis lies on the axis up to rounding. The
-    /// direction from the axis to the point is then noise.
+    /// direction from the axis to the point is then only rounding.
     fn is_in_axis(&self, distance: f64, place: &Vec3) -> bool {
         distance <= 64.0 * f64::EPSILON * place.amax().max(self.ends[0].amax()).max(self.ends[1].amax())
     }
 
-    /// Unit vector perpendicular to the segment and to the capsule's axis; `None` if these are parallel.
+    /// Returns the unit vector perpendicular to the segment and to the capsule's axis; `None` if the two are
+    /// parallel.
     fn across(&self, segment: &[Vec3; 2]) -> Option<Vec3> {
         let along = [segment[1] - segment[0], self.axis()];
         let across = along[0].cross(&along[1]);
@@ -95,7 +98,8 @@ impl Capsule {
     }
 }
 
-/// Point of a segment nearest to another segment. For parallel segments, any of the nearest points.
+/// Returns the point of a segment nearest to another segment. For parallel segments, it is any of the nearest
+/// points.
 fn nearest_to_segment(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Vec3 {
     let mut best = (f64::INFINITY, segment[0]);
     let mut offer = |place: Vec3, on_other: &Vec3| {
@@ -112,8 +116,8 @@ fn nearest_to_segment(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Vec3 {
     best.1
 }
 
-/// End points of the common perpendicular of two segments, the first on `segment`. `None` if the segments are
-/// parallel, or if an end point lies outside its segment.
+/// Returns the end points of the common perpendicular of two segments, the first on `segment`. `None` if the
+/// segments are parallel, or if an end point lies outside its segment.
 fn common_perpendicular(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Option<(Vec3, Vec3)> {
     let (u, v, between) = (segment[1] - segment[0], other[1] - other[0], other[0] - segment[0]);
     let across = u.cross(&v);
@@ -169,8 +173,9 @@ impl RoundSolid for Frustum {
     }
 }
 
-/// Point of a segment nearest to a convex solid. The distance along the segment is convex and has the
-/// derivative `normal_b·along`. The search stops at the first point whose distance is at most `enough` (m).
+/// Returns the point of a segment nearest to a convex solid. The distance along the segment is convex and has
+/// the derivative `normal_b·along`. The search stops at the first point whose distance is at most `enough`
+/// (m).
 fn least_on_segment(segment: &[Vec3; 2], enough: f64, nearest: impl Fn(&Vec3) -> Nearest) -> (Vec3, Nearest) {
     /// Largest slope that counts as zero, relative to the length of the segment.
     const FLAT: f64 = 4.0 * f64::EPSILON;
@@ -196,9 +201,9 @@ fn least_on_segment(segment: &[Vec3; 2], enough: f64, nearest: impl Fn(&Vec3) ->
     }))
 }
 
-/// Zero of a function between 0, where its value `first` is negative, and 1, where its value `last` is
-/// positive. Secant method with the Illinois rule: if the same end of the interval is kept twice in a row,
-/// the value at that end is halved.
+/// Returns the zero of a function between 0, where its value `first` is negative, and 1, where its value
+/// `last` is positive. It is found by the secant method with the Illinois rule: if the same end of the
+/// interval is kept twice in a row, the value at that end is halved.
 fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
     // Three steps per bit of precision.
     const STEPS: usize = 160;
@@ -209,7 +214,7 @@ fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
         if width <= 2.0 * f64::EPSILON {
             break;
         }
-        // Bisects if two steps have not halved the interval, as where the function bends sharply.
+        // Bisects if two steps have not halved the interval, for example where the function bends sharply.
         let crawls = width > 0.5 * std::mem::replace(&mut widths[step % 2], width);
         let secant = if crawls { 0.5 } else { -from.1 / divisor(to.1 - from.1) };
         let share = (from.0 + width * secant).clamp(from.0 + f64::EPSILON, to.0 - f64::EPSILON);
@@ -231,10 +236,11 @@ fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
 
 /// Search for the minimum translation of a segment out of a frustum.
 ///
-/// Let h be the support function of the frustum and n a unit vector. Translated along n, the end p of the
-/// segment leaves the frustum after the length h(n) − n·p, and the segment after the larger length of its two
-/// ends. At the minimum over n, either one end of the segment leaves last, through an end face or the nearest
-/// generator of the lateral surface, or both leave together, and then n is perpendicular to the segment.
+/// Let h be the support function of the frustum and n a unit vector. When the segment is translated along n,
+/// an end p of it leaves the frustum after the length h(n) − n·p. The whole segment leaves after the larger
+/// of these lengths of its two ends. At the minimum over n there are two cases. Either one end leaves last,
+/// through an end face or through the nearest generator of the lateral surface; or both ends leave together,
+/// and then n is perpendicular to the segment.
 struct TranslationSearch<'a> {
     segment: &'a [Vec3; 2],
     frustum: &'a Frustum,
@@ -259,7 +265,7 @@ impl<'a> TranslationSearch<'a> {
         for end in self.segment {
             let arm = end - self.frustum.ends[0];
             let across = arm - axis * axis.dot(&arm);
-            // Orthogonalised twice: for a short vector, the rounding error is relatively large.
+            // Orthogonalised twice, because the rounding error of a short vector is relatively large.
             let across = across - axis * axis.dot(&across);
             let aside = across.norm();
             // From a point on the axis all directions through the lateral surface are equivalent.
@@ -303,15 +309,15 @@ impl<'a> TranslationSearch<'a> {
         }
     }
 
-    /// Direction that minimises the translation out of the ellipse of end `end`: perpendicular to the
-    /// segment, and within 90° of `toward`, a direction of the ellipse's short axis. `None` if there is no
-    /// minimum.
+    /// Returns the direction that minimises the translation out of the ellipse of end `end`, among the
+    /// directions perpendicular to the segment and within 90° of `toward`. `toward` is a direction of the
+    /// ellipse's short axis. `None` if there is no minimum.
     ///
     /// Let t be the tangent of the angle from `toward`, p and ρ the short and the long semi-axis, and (x, y)
-    /// the ellipse's centre relative to the segment, x along `toward`. The derivative of the translation has
-    /// the sign of y + g(t) with g(t) = (ρ² − p²)·t/√(p² + ρ²t²) − x·t. g is odd, and concave for t > 0, so
-    /// Newton's method for g(t) = |y|, started at 0, never passes the first root. The minimum is there, on
-    /// the side opposite to y.
+    /// the ellipse's centre relative to the segment, with x along `toward`. The derivative of the translation
+    /// has the sign of y + g(t) with g(t) = (ρ² − p²)·t/√(p² + ρ²t²) − x·t. The function g is odd, and
+    /// concave for t > 0. So Newton's method for g(t) = |y|, started at 0, never passes the first root. The
+    /// minimum is at this root, on the side opposite to y.
     fn least_of_end(&self, end: usize, along: &Vec3, toward: &Vec3) -> Option<Vec3> {
         const STEPS: usize = 60;
         /// Tangent of a right angle, within rounding.
@@ -348,15 +354,16 @@ impl<'a> TranslationSearch<'a> {
         Some(unit(toward - sideways * (tangent * y.signum())))
     }
 
-    /// Reference direction for angles, perpendicular to the segment: the short axis of the ellipses. For
-    /// circles, the direction from frustum to segment, so that rotating both together changes no result.
+    /// Returns the direction, perpendicular to the segment, from which angles are measured: the short axis of
+    /// the ellipses. If the ellipses are circles, it is the direction from the frustum to the segment, so
+    /// that rotating both together changes no result.
     fn first_across(&self, along: &Vec3) -> Vec3 {
         let across = |v: &Vec3| v - along * along.dot(v);
         let arm = self.segment[0] - self.frustum.ends[0];
         for (v, least) in [(self.frustum.axis, 1e-9), (arm, 1e-9 * arm.norm())] {
             let part = across(&v);
             if part.norm() > least {
-                // Orthogonalised twice: for a short vector, the rounding error along the segment is
+                // Orthogonalised twice, because the rounding error of a short vector along the segment is
                 // relatively large.
                 return unit(across(&unit(part)));
             }
@@ -364,18 +371,19 @@ impl<'a> TranslationSearch<'a> {
         any_perpendicular(along)
     }
 
-    /// Normals of the lateral surface perpendicular to the segment: along them both end circles extend
-    /// equally far.
+    /// Returns the two normals of the lateral surface that are perpendicular to the segment; both end circles
+    /// extend equally far along them. `None` if there are none.
     fn lateral_normals(&self, along: &Vec3) -> Option<[Vec3; 2]> {
         let across = self.frustum.axis - along * along.dot(&self.frustum.axis);
-        // Clamped because a compiler may divide, or take the root, before the checks.
+        // Clamped, so that the divisor is not zero even if a compiler divides before the check.
         let length = across.norm().max(ROUNDING);
-        // With the axis parallel to the segment, the end circles extend equally far in all directions or in
+        // If the axis is parallel to the segment, the end circles extend equally far in all directions or in
         // none.
         if length <= ROUNDING {
             return None;
         }
-        // Orthogonalised twice: for a short vector, the rounding error along the segment is relatively large.
+        // Orthogonalised twice, because the rounding error of a short vector along the segment is relatively
+        // large.
         let toward = across / length;
         let toward = unit(toward - along * along.dot(&toward));
         let share = self.frustum.wall[0] / length;
@@ -387,7 +395,7 @@ impl<'a> TranslationSearch<'a> {
         Some([1.0, -1.0].map(|sign| unit(toward * share + sideways * sign)))
     }
 
-    /// Point of each end circle that is farthest along a unit vector.
+    /// Returns the point of each end circle that is farthest along a unit vector.
     fn farthest(&self, normal: &Vec3) -> [Vec3; 2] {
         let across = normal - self.frustum.axis * self.frustum.axis.dot(normal);
         let aside = across.norm();
@@ -395,11 +403,13 @@ impl<'a> TranslationSearch<'a> {
         [0, 1].map(|end| self.frustum.ends[end] + way * self.frustum.radii[end])
     }
 
-    /// Distance along the segment, m, of the point that touches the frustum after the translation along
-    /// `normal`. The point lies at the end circle that extends farther along `normal`. If both circles extend
-    /// equally far, the point lies where the line of the lateral surface between them crosses the plane of
-    /// the segment and `normal`. For a segment along the lateral surface or an end face, it is the middle of
-    /// their overlap.
+    /// Returns the point of the segment that touches the frustum after the translation along `normal`, as its
+    /// distance from the segment's start, m.
+    ///
+    /// The point lies at the end circle that extends farther along `normal`. If both circles extend equally
+    /// far, it lies where the line of the lateral surface between them crosses the plane of the segment and
+    /// `normal`. For a segment along the lateral surface or an end face, it is the middle of the part that
+    /// overlaps the surface or face.
     fn travelled(&self, along: &Vec3, normal: &Vec3, rounding: f64) -> f64 {
         if let Some(middle) = self.middle_over_face(along, normal) {
             return middle;
@@ -420,8 +430,8 @@ impl<'a> TranslationSearch<'a> {
         (at + (other - at) * share).clamp(0.0, length)
     }
 
-    /// Distance along the segment, m, to the middle of its part over an end face. `None` unless `normal` is
-    /// perpendicular to that face: then all points of the face extend equally far.
+    /// Returns the distance from the segment's start to the middle of its part over an end face, m. `None`
+    /// unless `normal` is perpendicular to that face, so that all points of the face extend equally far.
     fn middle_over_face(&self, along: &Vec3, normal: &Vec3) -> Option<f64> {
         let [one, other] = self.segment;
         let end = usize::from(self.frustum.axis.dot(normal) > 0.0);
@@ -448,8 +458,8 @@ impl<'a> TranslationSearch<'a> {
             4.0 * ROUNDING * (one.amax().max(other.amax()).max(self.frustum.ends[0].amax()) + lengths);
         if distance > self.best.distance - rounding {
             let place = one + along * self.travelled(along, normal, rounding);
-            // If the segment lies along the lateral surface, its `lateral_normals` equal the best direction
-            // up to rounding: the best direction is kept.
+            // If the segment lies along the lateral surface, `normal` may equal the best direction up to
+            // rounding. The best direction is then kept.
             let is_known =
                 normal.dot(&self.best.normal_b) > 1.0 - SAME && distance <= self.best.distance + rounding;
             let normal_b = if is_known { self.best.normal_b } else { *normal };
@@ -458,7 +468,8 @@ impl<'a> TranslationSearch<'a> {
     }
 }
 
-/// Normalises a non-zero vector. Clamped because a compiler may divide before the caller's check for zero.
+/// Normalises a non-zero vector. The length is clamped because a compiler may divide before the caller's
+/// check for zero.
 fn unit(v: Vec3) -> Vec3 {
     v / v.norm().max(f64::MIN_POSITIVE)
 }

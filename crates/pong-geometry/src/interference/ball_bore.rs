@@ -1,5 +1,5 @@
-//! Point and sphere (A) – bore (B): contact with the wall on the side of the centre and, for a sphere too
-//! large for the hole, with the opposite wall as well (docs/theory.md, 2.8).
+//! Point and sphere (A) – bore (B) (docs/theory.md, 2.8): contact with the wall on the side of the centre. A
+//! sphere too large for the hole touches the opposite wall as well.
 
 use super::round_surface::{Meridian, ROUNDING};
 use super::{Feature, Interference};
@@ -9,8 +9,8 @@ use crate::primitive::{Bore, Frustum, Sphere};
 /// Contacts of a sphere with the wall of a bore: on the side of its centre, and on the opposite side.
 pub type BallContacts = [Option<Interference>; 2];
 
-/// Tests a sphere, or with radius 0 a point, against a bore. Two contacts share one spring (docs/theory.md,
-/// 2.2).
+/// Tests a sphere, or with radius 0 a point, against a bore. If there are two contacts, they share one spring
+/// (docs/theory.md, 2.2).
 pub fn ball_bore(ball: &Sphere, bore: &Bore) -> BallContacts {
     let at = Meridian::new(&ball.center, &bore.hole);
     let beside = Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b };
@@ -24,16 +24,16 @@ pub(super) fn ball_mouth(ball: &Sphere, bore: &Bore, mouth: usize) -> Option<Int
     Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b }.touched_at_mouth(ball, mouth)
 }
 
-/// Returns `true` if a point (m) is behind the wall of a bore and its foot point lies between the ends of the
-/// wall. A shape that comes from such a point is not pushed into the hole.
+/// Returns `true` if a point (m) is behind the wall of a bore, and its foot point on the wall lies between
+/// the ends of the wall. A shape that comes from such a point is not pushed into the hole.
 pub fn is_behind_wall(place: &Vec3, bore: &Bore) -> bool {
     let at = Meridian::new(place, &bore.hole);
     let beside = Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b };
     beside.height() > ROUNDING * place.amax().max(bore.hole.ends[0].amax()) && beside.past_end().is_none()
 }
 
-/// Sphere's centre in the coordinates of a half plane bounded by the bore's axis: the half plane that
-/// contains the centre, or the opposite one.
+/// Sphere's centre in the coordinates of a half plane that the bore's axis bounds. The half plane is the one
+/// that contains the centre, or the opposite one.
 #[derive(Clone, Copy)]
 struct Beside<'a> {
     bore: &'a Bore,
@@ -50,13 +50,14 @@ impl Beside<'_> {
         &self.bore.hole
     }
 
-    /// Distance of the centre behind the wall, m; negative in the hole.
+    /// Returns the distance of the centre behind the wall, m; negative in the hole.
     fn height(&self) -> f64 {
         let [wall_along, wall_aside] = self.hole().wall;
         self.along * wall_along + (self.aside - self.hole().radii[0]) * wall_aside
     }
 
-    /// End of the wall beyond which the centre's foot point lies, if any.
+    /// Returns the end of the wall beyond which the centre's foot point lies; `None` if it lies between the
+    /// ends.
     fn past_end(&self) -> Option<usize> {
         let [first, last] = self.hole().radii;
         let (length, widening) = (self.hole().length, last - first);
@@ -81,8 +82,9 @@ impl Beside<'_> {
             .flatten()
     }
 
-    /// Contact with the circular edge of a mouth. `None` if the mouth is not convex, or if the centre is
-    /// farther from the axis than the edge: there the sphere is in contact with the face around the hole.
+    /// Returns the contact with the circular edge of a mouth. `None` if there is no overlap, if the mouth is
+    /// not convex, or if the centre is farther from the axis than the edge: then the sphere touches the face
+    /// around the hole instead.
     fn touched_at_mouth(&self, ball: &Sphere, end: usize) -> Option<Interference> {
         let radius = self.hole().radii[end];
         let mouth_along = if end == 0 { 0.0 } else { self.hole().length };

@@ -1,5 +1,5 @@
-//! Point and sphere (A) – capsule, cylinder and cone (B): contact at the surface point nearest to the centre;
-//! for a centre inside, at the side of least depth (docs/theory.md, 2.8).
+//! Point and sphere (A) – capsule, cylinder and cone (B) (docs/theory.md, 2.8): contact at the surface point
+//! nearest to the sphere's centre. For a centre inside, the contact is on the side of least depth.
 
 use super::Interference;
 use super::round_surface::{Nearest, of_capsule, of_frustum};
@@ -16,7 +16,8 @@ pub fn ball_frustum(ball: &Sphere, frustum: &Frustum) -> Option<Interference> {
     pressed(&ball.center, ball.radius, &of_frustum(&ball.center, frustum))
 }
 
-/// Contact of a sphere, given the solid's surface point nearest to its centre.
+/// Returns the contact of a sphere, given the solid's surface point nearest to the sphere's centre; `None` if
+/// the sphere does not reach the surface.
 pub(crate) fn pressed(center: &Vec3, radius: f64, nearest: &Nearest) -> Option<Interference> {
     let depth = radius - nearest.distance;
     (depth > 0.0).then(|| Interference {

@@ -1,25 +1,29 @@
-//! Assignment of points behind a surface to its triangles, where the prisms that extend behind the faces
-//! leave gaps (docs/theory.md, 2.2).
+//! Rule by which points behind a triangle surface are assigned to its triangles, where the prisms behind the
+//! faces leave gaps between them (docs/theory.md, 2.2).
 
 use super::nearest_on_triangle::{Place, nearest_on_triangle};
 use super::triangle_features::{EdgeClass, TriangleEdges, TriangleView, walk_fan_while};
 use crate::Vec3;
 
 /// Returns `true` if a point `p` that is behind the triangle and beyond some of its edges still belongs to
-/// it. The part of the triangle that is nearest to `p` decides:
+/// the triangle. The part of the triangle nearest to `p` decides:
 ///
-/// * a concave or flat edge, with `p` behind and beyond both of its faces: `p` belongs to both, so that the
-///   direction of the push does not depend on the order of the triangles;
-/// * such an edge, with `p` not behind the face across it: `has_on_seam` decides, as for a point in front;
+/// * a concave or flat edge, with `p` behind the face across the edge and beyond the edge as seen from that
+///   face too: `p` belongs to both faces, so that the direction of the push does not depend on the order of
+///   the triangles;
+/// * a concave or flat edge, with `p` not behind the face across it: `p` belongs to the triangle if
+///   [`TriangleEdges::has_on_seam`] is true, as for a point in front;
 /// * a vertex: `p` belongs to the triangle if it is behind all faces around the vertex, and the vertex is the
-///   nearest point of each of these faces.
+///   nearest point of each of these faces;
+/// * anything else: `p` does not belong to the triangle.
 ///
-/// In the first and the last case, `p` must also be within `thickness` (m) of the nearest point. How a flat
-/// face is cut into triangles does not matter, because `p` belongs to the triangle that contains the nearest
-/// point. Within `slack` (m) of an edge or a face, `p` does not count as beyond the edge or behind the face.
+/// In the first and the third case, `p` must also be within `thickness` (m) of its nearest point. Up to
+/// `slack` (m) from an edge or a face, `p` does not count as beyond the edge or behind the face. The result
+/// does not depend on how a flat face is cut into triangles, because `p` belongs to the triangle that
+/// contains the nearest point.
 pub(super) fn has_behind(edges: &TriangleEdges<'_>, p: &Vec3, thickness: f64, slack: f64) -> bool {
     /// Largest cosine, between an edge and the direction from its vertex to `p`, at which the vertex counts
-    /// as nearest. Not zero: where only rounding decides between vertex and edge, `p` belongs to both.
+    /// as nearest. It is not zero: if only rounding decides between vertex and edge, `p` belongs to both.
     const ALONG_COSINE: f64 = 1e-12;
     let (set, view) = (edges.set, edges.view);
     let (square, place) = nearest_on_triangle(p, &view.corners);

@@ -1,5 +1,6 @@
-//! Capsule (A) – convex or free edge of a polyhedron or triangle surface (B), crossed between the capsule's
-//! ends (docs/theory.md, 2.8). Contacts of the end spheres are not tested here.
+//! Capsule (A) – convex or free edge of a polyhedron or a triangle surface (B): contact with an edge that the
+//! capsule's axis crosses between its ends (docs/theory.md, 2.8). Contacts of the end spheres are not tested
+//! here.
 //!
 //! Degenerate case: an axis parallel to the edge does not cross it, because an end of the axis or of the edge
 //! is among the nearest points.
@@ -27,18 +28,19 @@ pub struct ConvexEdge {
     pub feature: Feature,
 }
 
-/// Tests a capsule against an edge. `None` if the point of the axis nearest to the edge is an end of the
-/// axis. The normal points from the edge to the axis. If the axis has sunk below the edge, the normal points
-/// out of the solid and the depth exceeds the radius; there is a contact only if the normal lies between the
-/// normals of the two faces.
+/// Tests a capsule against an edge. `None` if they do not overlap, or if the point of the axis nearest to the
+/// edge is an end of the axis. The normal points from the edge to the axis.
+///
+/// If the axis has sunk below the edge, the normal points out of the solid and the depth exceeds the radius.
+/// There is then a contact only if the normal lies between the normals of the two faces.
 pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference> {
     let axis = Segment::new(&capsule.ends);
     let of_edge = Segment::new(&edge.ends_b);
     if let Some((at, on_edge)) = axis.crossing(&of_edge) {
         return over(capsule, edge, &axis, &of_edge, at, on_edge);
     }
-    // Without a crossing, an end of the axis or of the edge is nearest. The ends of the axis are not tested
-    // here.
+    // Without a crossing, an end of the axis or an end of the edge is nearest. Only the ends of the edge are
+    // tested here.
     let tips =
         capsule.ends.map(|tip| (tip - of_edge.at(of_edge.nearest(&tip).clamp(0.0, 1.0))).norm_squared());
     let [one, other] = edge.ends_b.map(|corner| {
@@ -52,8 +54,8 @@ pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference
     let distance = square.sqrt();
     let is_in_axis = distance <= rounding(&axis, &of_edge);
     if is_between && is_in_axis && axis.across(&of_edge).is_some() {
-        // The axis intersects the end of the edge up to rounding. The direction from edge to axis is noise,
-        // so the common perpendicular is used.
+        // Up to rounding, the axis intersects the end of the edge. The direction from edge to axis is then
+        // only rounding, so the common perpendicular is used.
         return over(capsule, edge, &axis, &of_edge, at, if corner == edge.ends_b[0] { 0.0 } else { 1.0 });
     }
     if !(is_between && is_outside && distance < capsule.radius) {
@@ -62,7 +64,8 @@ pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference
     Some(touched(capsule, edge, (arm / distance).normalize(), distance, &axis.at(at)))
 }
 
-/// Contact at a crossing: parameters `at` of the axis and `on_edge` of the edge.
+/// Returns the contact at a crossing, which lies at the fraction `at` of the axis and `on_edge` of the edge.
+/// `None` if the capsule does not reach the edge, or has passed it and must not be pushed by it.
 fn over(
     capsule: &Capsule,
     edge: &ConvexEdge,
@@ -75,7 +78,8 @@ fn over(
     let outside = outside(edge, &across);
     let normal = if outside < 0.0 { -across } else { across };
     let height = normal.dot(&(axis.at(at) - of_edge.at(on_edge)));
-    // Tolerance for an axis along a face, where rounding puts the normal on either side of the face's normal.
+    // The tolerance is for an axis along a face: rounding puts the normal on either side of the face's
+    // normal.
     let is_between = |outward: &Vec3| outward.dot(&normal) > -ROUNDING;
     let leaves_there = || edge.outwards_b.is_some_and(|outwards| outwards.iter().all(is_between));
     // Without `outwards_b`, an axis that has passed the edge by more than rounding is not pushed.
@@ -86,21 +90,22 @@ fn over(
     Some(touched(capsule, edge, normal, height, &axis.at(at)))
 }
 
-/// Outward component of a unit vector perpendicular to the edge. Of two opposite vectors, the one with the
-/// positive component is the contact normal.
+/// Returns the component of `across`, a unit vector perpendicular to the edge, that points out of the solid.
+/// Of two opposite vectors, the one with the positive component is the contact normal.
 fn outside(edge: &ConvexEdge, across: &Vec3) -> f64 {
     let in_front = edge.normals_b.iter().sum::<Vec3>().dot(across);
     // For an axis perpendicular to the face of a free edge, only rounding decides the sign of `in_front`.
     edge.free_outward_b.filter(|_| in_front.abs() <= ROUNDING).map_or(in_front, |outward| outward.dot(across))
 }
 
-/// Rounding error of a distance between the axis and the edge, m.
+/// Returns the rounding error of a distance between the axis and the edge, m.
 fn rounding(axis: &Segment, of_edge: &Segment) -> f64 {
     let reach = |segment: &Segment| segment.start.amax() + segment.along.amax();
     ROUNDING * reach(axis).max(reach(of_edge))
 }
 
-/// Contact with an edge that lies `height` (m) below the point `place` of the axis, along the normal.
+/// Returns the contact with an edge that lies `height` (m) below the point `place` of the axis, along the
+/// normal.
 fn touched(capsule: &Capsule, edge: &ConvexEdge, normal: Vec3, height: f64, place: &Vec3) -> Interference {
     Interference {
         depth: capsule.radius - height,
@@ -124,20 +129,21 @@ impl Segment {
         self.start + self.along * share
     }
 
-    /// Parameter of a point's projection onto the segment's line.
+    /// Returns the position of a point's projection onto the segment's line, as a fraction of the segment.
     fn nearest(&self, place: &Vec3) -> f64 {
         (place - self.start).dot(&self.along) / self.along.norm_squared()
     }
 
-    /// Vector perpendicular to both segments, of any length; `None` if they are parallel.
+    /// Returns a vector perpendicular to both segments, of any length; `None` if they are parallel.
     fn across(&self, other: &Self) -> Option<Vec3> {
         let across = self.along.cross(&other.along);
         let least = f64::EPSILON * f64::EPSILON * self.along.norm_squared() * other.along.norm_squared();
         (across.norm_squared() > least).then_some(across)
     }
 
-    /// Parameters of the end points of the common perpendicular, on `self` and on `other`. `None` if the
-    /// segments are parallel, or if an end point is not strictly between the ends of its segment.
+    /// Returns the positions of the end points of the common perpendicular, as fractions of `self` and of
+    /// `other`. `None` if the segments are parallel, or if an end point is not strictly between the ends of
+    /// its segment.
     fn crossing(&self, other: &Self) -> Option<(f64, f64)> {
         let (u, v, between) = (self.along, other.along, other.start - self.start);
         let across = self.across(other)?;

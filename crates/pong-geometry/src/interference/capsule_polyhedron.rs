@@ -1,10 +1,11 @@
-//! Capsule (A) – a piece of a body (B): contacts with convex edges that the axis crosses between the
-//! capsule's ends (docs/theory.md, 2.8). Contacts of the end spheres are tested as spheres.
+//! Capsule (A) – one piece of a body (B): contacts with convex edges that the capsule's axis crosses between
+//! its ends (docs/theory.md, 2.8). Contacts of the end spheres are found by the sphere test.
 //!
-//! An edge below the axis pushes if its distance from the axis is less than the radius. An edge that the axis
-//! has sunk below pushes if it gives the minimum translation: every face and every other edge is a longer way
-//! out. So an edge cannot push if its distance from the axis exceeds both the radius and the depth of the
-//! axis below the nearest face. Such edges are rejected eight at a time; the others are tested one by one.
+//! As long as the axis is above an edge, the edge pushes if its distance from the axis is less than the
+//! radius. If the axis has sunk below an edge, the edge pushes only if it gives the minimum translation: no
+//! face and no other edge gives a shorter one. So an edge cannot push if its distance from the axis exceeds
+//! both the radius and the depth of the axis below the nearest face. Such edges are rejected eight at a time;
+//! the others are tested one by one.
 
 use super::capsule_edge::{ConvexEdge, capsule_edge};
 use super::round_surface::ROUNDING;
@@ -13,18 +14,19 @@ use crate::Vec3;
 use crate::primitive::{Capsule, EdgeBlock, FacePlanes, Polyhedron};
 use crate::simd::{LANES, LaneBits, Numbers, Simd, Splat, Vectors, run_at_level};
 
-/// Capsule that no face separates from a piece.
+/// Capsule and piece that are not separated by the plane of any face of the piece.
 #[derive(Clone, Copy, Debug)]
 pub struct CapsuleAtPiece<'a> {
     capsule: &'a Capsule,
     polyhedron: &'a Polyhedron,
-    /// Largest height of the axis above a face's plane, m, over all faces. The height of the axis is that of
-    /// its lower end above this plane, negative below the plane.
+    /// Height of the axis above a face's plane, m, greatest over all faces. For each face, the lower end of
+    /// the axis counts; below the plane its height is negative.
     top: f64,
 }
 
 impl<'a> CapsuleAtPiece<'a> {
-    /// Returns `None` if a face separates the capsule from the piece, or if the capsule only touches a face.
+    /// Returns `None` if the plane of a face separates the capsule from the piece, or if the capsule only
+    /// touches a face.
     #[inline]
     pub fn new(capsule: &'a Capsule, polyhedron: &'a Polyhedron) -> Option<Self> {
         let top = run_at_level!(highest_of_lower_end(capsule: Capsule, polyhedron: Polyhedron) -> f64);
@@ -47,7 +49,8 @@ impl<'a> CapsuleAtPiece<'a> {
         ROUNDING * self.capsule.ends[0].amax().max(self.capsule.ends[1].amax())
     }
 
-    /// Length of the minimum translation of the capsule out of the piece, past a face or over an edge, m.
+    /// Returns the length of the shortest translation that moves the capsule out of the piece, past a face or
+    /// over an edge, m.
     #[cold]
     fn shortest_way_out(&self) -> f64 {
         let mut shortest = self.capsule.radius - self.top;
@@ -59,9 +62,10 @@ impl<'a> CapsuleAtPiece<'a> {
         shortest
     }
 
-    /// Returns `true` if an edge that the axis has sunk below pushes: the point of the crossing is inside the
-    /// piece, and the depth is at most `shortest` (m). The tolerance covers an axis along a face: the face
-    /// and its edges are then equally near.
+    /// Returns `true` if an edge below which the axis has sunk pushes. This holds if the point where the axis
+    /// crosses the edge is inside the piece and the depth is at most `shortest` (m), both within rounding.
+    /// Without the tolerance, no edge would push an axis along a face, where the face and its edges are
+    /// equally near.
     fn leaves_by(&self, crossing: &Interference, shortest: f64) -> bool {
         let place = crossing.deepest_b + crossing.normal_b * self.capsule.radius;
         let rounding = self.rounding();
@@ -80,7 +84,7 @@ impl<'a> CapsuleAtPiece<'a> {
         }
     }
 
-    /// Contact with an edge; `None` if there is none or the index is out of range.
+    /// Returns the contact with an edge; `None` if there is none or the index is out of range.
     fn crossing(&self, index: usize) -> Option<Interference> {
         let edge = self.polyhedron.edges.get(index)?;
         let push = edge.push.as_ref()?;
@@ -119,8 +123,8 @@ impl SomeEdges {
     const WORDS: usize = 8;
     const COUNT: usize = Self::WORDS * u64::BITS as usize;
 
-    /// Selects, among `COUNT` edges from `first` on, all that are near enough to push, and perhaps some
-    /// others.
+    /// Returns all edges that are near enough to push, and perhaps some others, among the `COUNT` edges from
+    /// `first` on.
     fn near(at: &CapsuleAtPiece<'_>, first: usize) -> Self {
         let (query, polyhedron, first) = (&Query::new(at), at.polyhedron, &first);
         run_at_level!(near_in(query: Query, polyhedron: Polyhedron, first: usize) -> SomeEdges)
@@ -134,7 +138,7 @@ impl SomeEdges {
         }
     }
 
-    /// Visits the selected edges in order.
+    /// Calls `visit` with the index of each selected edge, in order.
     fn each(self, mut visit: impl FnMut(usize)) {
         for (word, mut bits) in self.bits.into_iter().enumerate() {
             while bits != 0 {
@@ -145,7 +149,7 @@ impl SomeEdges {
     }
 }
 
-/// Distances for the selection of near edges.
+/// Axis and distances for the selection of near edges.
 struct Query {
     /// Ends of the axis, m.
     ends: [Vec3; 2],
@@ -168,7 +172,8 @@ impl Query {
     }
 }
 
-/// Kernel of `SomeEdges::near`: tests the edges in boxes that overlap the axis's box, widened by `reach`.
+/// Kernel of `SomeEdges::near`. It tests only the edges in boxes that overlap the axis's box, enlarged by
+/// `reach`.
 #[inline(always)]
 fn near_in<S: Simd>(simd: S, query: &Query, polyhedron: &Polyhedron, first: &usize) -> SomeEdges {
     let mut near = SomeEdges { first: *first, bits: [0; SomeEdges::WORDS] };
@@ -180,8 +185,8 @@ fn near_in<S: Simd>(simd: S, query: &Query, polyhedron: &Polyhedron, first: &usi
     for (boxes, blocks) in edges.boxes.iter().zip(edges.blocks.chunks(LANES)) {
         let mut met = boxes.meet(simd, &around);
         while met != 0 {
-            // Unused lanes repeat the last box (no block is left for it) or the last edge (it is marked
-            // twice).
+            // Unused lanes repeat the last box, for which no block is left, or the last edge, which is then
+            // marked twice.
             let Some(block) = blocks.get(met.trailing_zeros() as usize) else { break };
             let mut marked = axis.near(block);
             while marked != 0 {
@@ -227,19 +232,21 @@ impl<S: Simd> Axis<S> {
         self.crosses(block) | self.passes_beside(&block.first) | self.passes_beside(&block.second)
     }
 
-    /// Returns the lanes whose parameter is strictly between 0 and 1.
+    /// Returns the lanes in which `share`, a position along a segment as a fraction of its length, is
+    /// strictly between 0 and 1.
     #[inline(always)]
     fn is_inside(&self, share: Numbers<S>) -> S::Mask {
         self.simd.and(share.all(0.0).below(share), share.below(share.all(1.0)))
     }
 
-    /// Returns the edges that the axis crosses within `Query::reach`, between the ends of axis and edge.
-    /// Computed as in [`capsule_edge`], so that both functions find the same crossings even where these are
-    /// noise, for nearly parallel edges.
+    /// Returns the edges that the axis crosses within `Query::reach`, between the ends of both the axis and
+    /// the edge. The crossings are computed as in [`capsule_edge`], so that both functions find the same ones
+    /// even for nearly parallel edges, where they are mostly rounding.
     #[inline(always)]
     fn crosses(&self, block: &EdgeBlock) -> LaneBits {
-        /// Margins far above rounding: `NOISE` relative to the squared distance between the nearest points,
-        /// `WIDER` a factor on the squared reach that also covers the mixed term of (reach + noise)².
+        /// Margins far above rounding: `NOISE` is relative to the squared distance between the nearest
+        /// points. `WIDER` is a factor on the squared reach that also covers the mixed term of (reach +
+        /// noise)².
         const NOISE: f64 = 1e-18;
         const WIDER: f64 = 1.0 + 1e-6;
         let simd = self.simd;
@@ -253,7 +260,7 @@ impl<S: Simd> Axis<S> {
         let height = across.dot(apart);
         let reach = self.reach_square * square.all(WIDER) + apart.norm_squared() * square.all(NOISE);
         let inside = simd.and(self.is_inside(at), self.is_inside(on_edge));
-        // Cross products so short that the quotients are invalid: the edge counts as near.
+        // If the cross product is so short that the quotients are invalid, the edge counts as near.
         let least = square.all(f64::MIN_POSITIVE);
         let is_too_short = simd.and(square.all(0.0).below(square), square.below(least));
         simd.bits(simd.and(inside, (reach * square).at_least(height * height))) | simd.bits(is_too_short)

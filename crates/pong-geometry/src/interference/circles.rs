@@ -1,5 +1,6 @@
-//! Directions perpendicular to an axis in which the rim of a rod (segment, capsule or pin) extends farthest
-//! beyond the wall of a bore, or the side of the rod beyond the circle of a mouth (docs/theory.md, 2.8).
+//! Search for the directions, perpendicular to an axis, along which two round shapes overlap most
+//! (docs/theory.md, 2.8). The shapes are the rim of a rod (segment, capsule or pin) and the wall of a bore,
+//! or the side of the rod and the circle of a mouth.
 
 use super::{Feature, Interference};
 use crate::Vec3;
@@ -17,17 +18,18 @@ pub(super) struct Circle {
 }
 
 impl Circle {
-    /// Point of the disc that is farthest along a unit vector: the centre if the vector is parallel to the
-    /// disc's axis, where all points are equally far.
+    /// Returns the point of the disc that is farthest along `direction`, a unit vector. If `direction` is
+    /// parallel to the disc's axis, all points are equally far, and the result is the centre.
     pub fn farthest(&self, direction: &Vec3) -> Vec3 {
         /// Length up to which the component of `direction` perpendicular to the axis is rounding.
         const LEAST: f64 = 1e-12;
         self.rim_toward(direction, LEAST).unwrap_or(self.center_b)
     }
 
-    /// Ends of the chord that the disc cuts from a line parallel to its plane. `line` is the unit vector
-    /// along the line, `beside` the vector from the disc's centre to the nearest point of the line. `None`
-    /// unless all points of the disc are equally far along `direction`.
+    /// Returns the ends of the chord in which a line, projected onto the disc's plane, crosses the disc.
+    /// `None` unless all points of the disc are equally far along `direction`. `line` is the unit vector
+    /// along the line, parallel to the disc's plane; `beside` is the vector from the disc's centre to the
+    /// nearest point of the line.
     pub fn chord(&self, direction: &Vec3, line: &Vec3, beside: &Vec3) -> Option<[Vec3; 2]> {
         /// Length up to which the component of `direction` perpendicular to the axis counts as zero: more
         /// than the tolerance of the searches that find `direction`.
@@ -43,24 +45,24 @@ impl Circle {
     fn rim_toward(&self, direction: &Vec3, least: f64) -> Option<Vec3> {
         let across = direction - self.axis_b * self.axis_b.dot(direction);
         let length = across.norm();
-        // Clamped because a compiler may divide before it compares.
+        // Clamped, so that the divisor is not zero even if a compiler divides before it compares.
         (length > least).then(|| self.center_b + across * (self.radius / length.max(least)))
     }
 }
 
-/// Distance by which a shape extends beyond another in a direction, m, and its derivative with the angle,
-/// m/rad.
+/// Distance `depth`, m, by which one shape extends beyond another in a direction. `slope` is its derivative
+/// when the direction turns about the axis of the search, m/rad.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     pub depth: f64,
     pub slope: f64,
 }
 
-/// Search over the directions perpendicular to the unit vector `about_b`.
+/// Search over all directions perpendicular to the unit vector `about_b`.
 pub(super) struct Across {
     pub about_b: Vec3,
-    /// Direction from which the search starts. It is fixed to the bodies, so that rotating them together
-    /// changes no result.
+    /// First of the directions that the search samples. It is fixed to the bodies, so that rotating both
+    /// bodies together changes no result.
     pub first_b: Vec3,
 }
 
@@ -72,7 +74,9 @@ const QUARTER: [(f64, f64); 4] = [(1.0, 0.0), (C, E), (D, D), (E, C)];
 const COUNT: usize = 16;
 
 impl Across {
-    /// Starts the search at the first of the preferred vectors that is not parallel to `about`.
+    /// Creates a search that starts in the direction of the first of the `preferred` vectors that is not
+    /// parallel to `about`, less its component along `about`. If all are parallel, it starts in an arbitrary
+    /// fixed direction.
     pub fn new(about: &Vec3, preferred: &[Vec3]) -> Self {
         /// Length of a perpendicular component, relative to the whole vector, up to which it is rounding.
         const LEAST: f64 = 1e-9;
@@ -95,7 +99,9 @@ impl Across {
         self.first_b * x + second * y
     }
 
-    /// Directions of local maxima of the depth, the deepest first: at most two, which is enough for circles.
+    /// Returns the directions in which the depth has its two greatest local maxima, the deepest first. Two
+    /// are enough for circles. If there is no maximum, all directions are equivalent, and the result is the
+    /// first direction alone.
     pub fn greatest(&self, reach: impl Fn(&Vec3) -> Reach) -> [Option<Vec3>; 2] {
         let directions: [Vec3; COUNT] = std::array::from_fn(|index| self.direction(index));
         let depths = directions.map(|direction| reach(&direction).depth);
@@ -119,8 +125,9 @@ impl Across {
         [ways[0].or(Some(self.first_b)), ways[1]]
     }
 
-    /// Direction that maximises λ·p + λ′·p′ (docs/theory.md, 2.8), with the depths p in this direction and p′
-    /// in the opposite one. `cosine`: of the angle between the normals of the two contacts.
+    /// Returns the direction that maximises λ·p + λ′·p′ (docs/theory.md, 2.8). p and λ are the depth and the
+    /// load-sharing result ([`shares`]) in this direction, p′ and λ′ those in the opposite direction.
+    /// `cosine` is that of the angle between the normals of the two contacts.
     pub fn most_pinched(&self, cosine: f64, reach: impl Fn(&Vec3) -> Reach) -> Vec3 {
         let pinched = |direction: &Vec3| {
             let (one, two) = (reach(direction), reach(&-direction));
@@ -136,8 +143,8 @@ impl Across {
     }
 }
 
-/// Shares λ (m) of two contacts that act on one spring (docs/theory.md, 2.2), for their depths (m) and the
-/// cosine of the angle between their normals.
+/// Returns λ, weight times depth (m), of two contacts that act on one spring (docs/theory.md, 2.2). `depths`
+/// are in m; `cosine` is that of the angle between the two normals.
 pub(super) fn shares(depths: [f64; 2], cosine: f64) -> [f64; 2] {
     let [one, two] = depths.map(|depth| depth.max(0.0));
     let g = cosine.max(0.0);
@@ -151,7 +158,8 @@ pub(super) fn shares(depths: [f64; 2], cosine: f64) -> [f64; 2] {
     }
 }
 
-/// Direction of zero slope near `middle`, where the depth is no less than at `before` and at `after`.
+/// Returns the direction of zero slope, between `before` and `after`, at which the depth is greatest. The
+/// depth at `middle` must be no less than at `before` and `after`.
 fn turned(reach: &impl Fn(&Vec3) -> Reach, [before, middle, after]: [Vec3; 3]) -> Vec3 {
     /// Enough for double precision: two steps at least halve the remaining interval.
     const STEPS: usize = 110;
@@ -168,7 +176,8 @@ fn turned(reach: &impl Fn(&Vec3) -> Reach, [before, middle, after]: [Vec3; 3]) -
         if !(rises > 0.0 && falls < 0.0) || is_wide <= f64::EPSILON * f64::EPSILON {
             break;
         }
-        // Bisects if the last secant has not halved the interval, as where the slope has a step.
+        // Bisects if the last secant step has not halved the interval, for example where the slope has a
+        // step.
         let crawls = is_wide > 0.25 * was_wide;
         was_wide = if crawls { f64::INFINITY } else { is_wide };
         let share = if crawls { 0.5 } else { (rises / (rises - falls)).clamp(1e-3, 1.0 - 1e-3) };
@@ -179,7 +188,7 @@ fn turned(reach: &impl Fn(&Vec3) -> Reach, [before, middle, after]: [Vec3; 3]) -
     if low.1.abs() <= high.1.abs() { low.0 } else { high.0 }
 }
 
-/// Wall of a bore, continued past its mouths.
+/// Wall of a bore, extended past its mouths.
 pub(super) struct Wall<'a>(pub &'a Bore);
 
 impl Wall<'_> {
@@ -187,25 +196,27 @@ impl Wall<'_> {
         &self.0.hole
     }
 
-    /// Unit normal of the wall, out of the hole. `side`: unit vector perpendicular to the axis.
+    /// Returns the unit normal of the wall that points out of the hole, on the side to which `side` points.
+    /// `side` is a unit vector perpendicular to the axis.
     pub fn outward(&self, side: &Vec3) -> Vec3 {
         let [along, aside] = self.hole().wall;
         self.hole().axis * along + side * aside
     }
 
-    /// Cosine of the angle between the normals of opposite sides.
+    /// Returns the cosine of the angle between the wall's normals on two opposite sides.
     pub fn cosine_opposite(&self) -> f64 {
         let [along, aside] = self.hole().wall;
         (along - aside) * (along + aside)
     }
 
-    /// Distance of a point behind the wall on one side, m; negative in the hole.
+    /// Returns the distance of the point `place` behind the wall on the given side, m; negative in the hole.
     pub fn height(&self, side: &Vec3, place: &Vec3) -> f64 {
         let [_, aside] = self.hole().wall;
         self.outward(side).dot(&(place - self.hole().ends[0])) - self.hole().radii[0] * aside
     }
 
-    /// Distance of a point's projection onto the wall from end `end`, m; positive towards the other end.
+    /// Returns the distance of a point's projection onto the wall from end `end` of the wall, m; positive
+    /// towards the other end.
     pub fn inside(&self, side: &Vec3, place: &Vec3, end: usize) -> f64 {
         let [along, aside] = self.hole().wall;
         // Unit vector along the wall from end 0 to end 1.
@@ -215,7 +226,7 @@ impl Wall<'_> {
         if end == 0 { travelled } else { -travelled }
     }
 
-    /// Distance by which a circle extends behind the wall on one side, with its derivative.
+    /// Returns the distance by which a circle extends behind the wall on the given side, with its derivative.
     pub fn reach(&self, circle: &Circle, side: &Vec3) -> Reach {
         let [_, aside] = self.hole().wall;
         let place = circle.farthest(&self.outward(side));
@@ -223,8 +234,8 @@ impl Wall<'_> {
         Reach { depth: self.height(side, &place), slope: turning.dot(&(place - self.hole().ends[0])) }
     }
 
-    /// Contact of a point that has a skin of thickness `skin` (m). `None` if the skin does not reach the
-    /// wall, or if the point is behind the wall by at least the bore's thickness.
+    /// Returns the contact of the wall with a point that has a skin of thickness `skin` (m). `None` if the
+    /// skin does not reach the wall, or if the point is behind the wall by at least the bore's thickness.
     pub fn pushed(&self, side: &Vec3, place: &Vec3, skin: f64) -> Option<Interference> {
         let height = self.height(side, place);
         let outward = self.outward(side).normalize();

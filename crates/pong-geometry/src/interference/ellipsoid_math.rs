@@ -1,9 +1,9 @@
-//! Nearest points of an ellipse and an ellipsoid.
+//! Points of an ellipse or an ellipsoid that are nearest to a given point.
 //!
 //! # The equation
 //!
-//! In the principal frame let `aᵢ` be the semi-axes, `A = diag(aᵢ)` and `y` the given point. The foot `x` of
-//! a normal through `y` has the components `xᵢ = aᵢ²·yᵢ/(aᵢ² + t)` with a parameter `t`. It lies on the
+//! Consider a point `y` in the principal frame, with the semi-axes `aᵢ` and `A = diag(aᵢ)`. The foot `x` of a
+//! normal through `y` has the components `xᵢ = aᵢ²·yᵢ/(aᵢ² + t)` with a parameter `t`. The foot lies on the
 //! surface if the secular equation holds:
 //!
 //! ```text
@@ -40,8 +40,8 @@
 
 use crate::{Vec3, divisor};
 
-/// Maximum number of iterations. A point within rounding of the focal curve needs most, about 50: σ grows by
-/// half per iteration, from 1e-8 to 1, before the convergence is quadratic.
+/// Maximum number of iterations. A point within rounding of the focal curve needs most, about 50: there σ
+/// grows by half per iteration, from 1e-8 to 1, before the convergence becomes quadratic.
 const MOST_ITERATIONS: usize = 100;
 
 /// Foot point of a normal from a point to an ellipse (`N` = 2) or ellipsoid (`N` = 3), in its principal
@@ -57,25 +57,26 @@ pub struct NormalFoot<const N: usize> {
     pub depth: f64,
 }
 
-/// Surface point nearest to `y`, inside or outside, in the principal frame.
+/// Returns the surface point nearest to `y`, which may be inside or outside, in the principal frame.
 ///
-/// If several points are nearest: the one towards positive coordinates along the (first) shortest axis.
+/// If several points are nearest, the result is the one with the positive coordinate along the shortest axis,
+/// the first if several axes are shortest.
 pub fn nearest_on_ellipsoid(semi_axes: &Vec3, y: &Vec3) -> NormalFoot<3> {
     nearest([semi_axes.x, semi_axes.y, semi_axes.z], [y.x, y.y, y.z])
 }
 
-/// Second local minimum of the distance from `y` to the surface, if there is one. It is on the other side of
-/// the plane through the centre perpendicular to the shortest axis.
+/// Returns the second local minimum of the distance from `y` to the surface; `None` if there is none. It is
+/// on the other side of the plane through the centre perpendicular to the shortest axis.
 pub fn second_nearest_on_ellipsoid(semi_axes: &Vec3, y: &Vec3) -> Option<NormalFoot<3>> {
     second_nearest([semi_axes.x, semi_axes.y, semi_axes.z], [y.x, y.y, y.z])
 }
 
-/// [`nearest_on_ellipsoid`] for an ellipse.
+/// Same as [`nearest_on_ellipsoid`], for an ellipse.
 pub fn nearest_on_ellipse(semi_axes: [f64; 2], y: [f64; 2]) -> NormalFoot<2> {
     nearest(semi_axes, y)
 }
 
-/// [`second_nearest_on_ellipsoid`] for an ellipse.
+/// Same as [`second_nearest_on_ellipsoid`], for an ellipse.
 pub fn second_nearest_on_ellipse(semi_axes: [f64; 2], y: [f64; 2]) -> Option<NormalFoot<2>> {
     second_nearest(semi_axes, y)
 }
@@ -121,7 +122,7 @@ impl<const N: usize> Secular<N> {
         secular
     }
 
-    /// Vector `q` of the nearest point, not normalised.
+    /// Returns the vector `q` of the nearest point, not normalised.
     #[inline]
     fn main_root(&self) -> [f64; N] {
         let mut sigma = 0.0_f64;
@@ -129,7 +130,7 @@ impl<const N: usize> Secular<N> {
             sigma = sigma.max(self.w[i].abs() - self.d[i]);
         }
         if sigma == 0.0 {
-            // The point lies in the plane through the centre perpendicular to the shortest axis: the terms
+            // The point lies in the plane through the centre perpendicular to the shortest axis, so the terms
             // with a pole at σ = 0 vanish.
             if let Some(q) = self.on_medial_plane(1.0) {
                 return q;
@@ -152,7 +153,8 @@ impl<const N: usize> Secular<N> {
         std::array::from_fn(|i| self.w[i] * self.reciprocal(sigma, i))
     }
 
-    /// Vector `q` of the second local minimum, not normalised.
+    /// Returns the vector `q` of the second local minimum, not normalised; `None` if there is no second
+    /// minimum.
     #[inline]
     fn second_root(&self) -> Option<[f64; N]> {
         let lifted = self.on_medial_plane(-1.0)?;
@@ -185,9 +187,9 @@ impl<const N: usize> Secular<N> {
         Some(std::array::from_fn(|i| self.w[i] / (self.d[i] - tau)))
     }
 
-    /// Vector `q` at `t = −a_min²`. Its component along the shortest axis has the given sign and makes `q` a
-    /// unit vector. `None` if the other components alone are longer than 1, or if the point has a component
-    /// along a second axis that is equally short.
+    /// Returns the vector `q` at `t = −a_min²`. Its component along the shortest axis has the given sign and
+    /// makes `q` a unit vector. `None` if the other components alone are longer than 1, or if the point has a
+    /// component along a second axis that is equally short.
     #[inline]
     fn on_medial_plane(&self, sign: f64) -> Option<[f64; N]> {
         let mut q = [0.0; N];
@@ -213,11 +215,11 @@ impl<const N: usize> Secular<N> {
         (0..N).all(|i| i == self.shortest || self.d[i] > 0.0)
     }
 
-    /// `1/(σ + dᵢ)`; 0 at the pole, where `wᵢ` is 0.
+    /// Returns `1/(σ + dᵢ)`; 0 at the pole, where `wᵢ` is 0.
     #[inline]
     fn reciprocal(&self, sigma: f64, i: usize) -> f64 {
         let sum = sigma + self.d[i];
-        // Clamped because a compiler may divide before the branch: the quotient must not be infinite.
+        // Clamped, so that the quotient is finite even if a compiler divides before the branch.
         if sum > 0.0 { 1.0 / sum.max(f64::MIN_POSITIVE) } else { 0.0 }
     }
 }
@@ -231,9 +233,9 @@ fn normalize<const N: usize>(v: &mut [f64; N]) -> f64 {
     length
 }
 
-/// Foot point of the vector `q`. The depth is computed as `h(n) − n·y` with the normal n and the support
-/// function h: an error of the root then has a second-order effect, and only rounding can take the depth
-/// below the true minimum.
+/// Returns the foot point that belongs to the vector `q`. The depth is computed as `h(n) − n·y` with the
+/// normal n and the support function h. An error of the root then has only a second-order effect, and only
+/// rounding can take the depth below the true minimum.
 #[inline]
 fn foot<const N: usize>(a: &[f64; N], y: &[f64; N], q: [f64; N]) -> NormalFoot<N> {
     let mut normal: [f64; N] = std::array::from_fn(|i| q[i] / a[i]);

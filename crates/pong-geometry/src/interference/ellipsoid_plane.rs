@@ -3,7 +3,7 @@
 use super::{Feature, Interference};
 use crate::primitive::{Ellipsoid, Plane};
 
-/// Tests an ellipsoid (A) against a half space (B); `None` unless the ellipsoid reaches below the plane.
+/// Tests an ellipsoid (A) against a half space (B). `None` unless the ellipsoid extends below the plane.
 pub fn ellipsoid_plane(e: &Ellipsoid, plane: &Plane) -> Option<Interference> {
     let depth = e.half_width(&plane.normal) - plane.height(&e.center);
     (depth > 0.0).then(|| Interference {

@@ -1,47 +1,52 @@
-//! Ellipsoid (A) – polyhedron (B): the minimum translation, exact, feature by feature.
+//! Ellipsoid (A) – polyhedron (B): the exact minimum translation, found among the features of the polyhedron.
 //!
-//! Along a unit normal n the overlap is `D(n) = h_E(n) − n·c + h_P(n)`, with the support functions h_E of the
-//! ellipsoid about its centre c and h_P of the polyhedron. The depth is the minimum of D. Let the foot be the
-//! ellipsoid's deepest point after the ellipsoid is pushed out. At the minimum, one feature of the polyhedron
-//! is farthest along n:
+//! Along a unit normal n the overlap is `D(n) = h_E(n) − n·c + h_P(n)`. Here h_E is the support function of
+//! the ellipsoid about its centre c, and h_P that of the polyhedron. The depth is the minimum of D. Let the
+//! foot be the ellipsoid's deepest point after the ellipsoid is pushed out. At the minimum, one feature of
+//! the polyhedron is farthest along n:
 //!
 //! * a face: n is its normal, and the foot lies in its outline;
 //! * an edge: n lies between the normals of its two faces, and the foot between its ends; n is a local
 //!   minimum of the overlap with the edge's line (seen along the edge: of an ellipse with a point);
 //! * a vertex: n lies in its normal cone, and is a local minimum of the overlap with the vertex.
 //!
-//! A point has at most two local minima ([`ellipsoid_math`](super::ellipsoid_math)), so there are few
-//! candidates, and the true minimum is one of them. The contact is the candidate of least depth (ties: the
-//! lower feature).
+//! The overlap of an ellipse or an ellipsoid with a point has at most two local minima
+//! ([`ellipsoid_math`](super::ellipsoid_math)), so there are few candidates, and the true minimum is one of
+//! them. The contact is the candidate of least depth; of equally deep ones, that of the lower feature.
 //!
 //! # Rejecting most candidates
 //!
 //! The search starts with the *lead*, the active face of least overlap δ. The ellipsoid's deepest point `a`
-//! lies δ below it. For every n, `D(n)` is at least the depth of `a` along n. The normal of an edge or vertex
-//! is a sum of its faces' normals, with non-negative coefficients whose sum is at least 1: if `a` lies at
-//! least δ below each of these faces, then `D(n) ≥ δ`. So a smaller minimum can only belong to an edge or
-//! vertex of a *suspect*, a face that `a` lies less than δ below. Without suspects the lead is the contact.
-//! The lead is computed for eight faces at a time; faces that the centre is far below are skipped.
+//! lies δ below the lead. For every n, `D(n)` is at least the depth of `a` along n.
+//!
+//! The normal of an edge or a vertex is a sum of the normals of its faces, with coefficients that are not
+//! negative and whose sum is at least 1. So if `a` lies at least δ below each of these faces, then
+//! `D(n) ≥ δ`. A smaller minimum can therefore only belong to an edge or a vertex of a *suspect*, a face that
+//! `a` lies less than δ below. Without suspects the lead is the contact. The lead is computed for eight faces
+//! at a time; faces that the centre is far below are skipped.
 //!
 //! # Rounding
 //!
 //! A foot may lie outside its face or edge, and a normal outside its cone, within a tolerance for rounding.
 //! `D(n)` of a face or an edge does not depend on the position of the foot; for a normal outside its cone,
 //! `D(n)` is computed with all vertices. So no candidate is below the minimum, and a minimum on the boundary
-//! of two features is found for at least one of them. If no candidate is found although every face is active,
-//! two fallbacks are compared, each with its `D(n)`: the lead, and the direction from the polyhedron's
-//! nearest point to the centre (nearest in the metric in which the ellipsoid is a ball). So an overlapping
-//! body never loses its contact.
+//! of two features is found for at least one of them.
+//!
+//! If no candidate is found although every face is active, two fallbacks are compared, each with its `D(n)`.
+//! One is the lead. The other is the direction from the polyhedron's nearest point to the centre, nearest in
+//! the metric in which the ellipsoid is a ball. So an overlapping body never loses its contact.
 //!
 //! # Internal faces
 //!
 //! Only active features push. A piece finds the minimum among its own active features, without knowing its
 //! neighbours. Each feature of the body belongs to one piece, so the piece that has the minimising feature
 //! finds the body's minimum. Other pieces find other local minima, which are not less deep. Load sharing,
-//! which sees the contacts of all pieces, decides which count. A piece applies two rules. It drops minima
-//! deeper than the least overlap of its active faces, since the body's minimum is not deeper. If no feature
-//! of the piece contains its own foot, the piece returns its active face of least overlap as a
-//! [fallback](PieceContact::stands_in), which counts only if no piece of the body finds anything else.
+//! which sees the contacts of all pieces, decides which contacts count.
+//!
+//! A piece applies two rules. It drops minima deeper than the least overlap of its active faces, because the
+//! body's minimum is not deeper. If no feature of the piece contains its own foot, the piece returns its
+//! active face of least overlap as a [fallback](PieceContact::stands_in). The fallback counts only if no
+//! piece of the body finds anything else.
 
 use super::ellipsoid_math::{
     NormalFoot, nearest_on_ellipse, nearest_on_ellipsoid, second_nearest_on_ellipse,
@@ -87,7 +92,7 @@ pub fn ellipsoid_piece(e: &Ellipsoid, p: &Polyhedron) -> Option<PieceContact> {
     run_at_level!(ellipsoid_piece_in(e: Ellipsoid, p: Polyhedron) -> Option<PieceContact>)
 }
 
-/// [`ellipsoid_piece`] within a kernel.
+/// Same as [`ellipsoid_piece`], for a caller that already runs at the SIMD level `S`.
 #[inline(always)]
 fn ellipsoid_piece_in<S: Simd>(simd: S, e: &Ellipsoid, p: &Polyhedron) -> Option<PieceContact> {
     let prepared = PreparedEllipsoid::new(e);
@@ -95,7 +100,7 @@ fn ellipsoid_piece_in<S: Simd>(simd: S, e: &Ellipsoid, p: &Polyhedron) -> Option
     choose(e, &prepared, p, lead, &suspects)
 }
 
-/// Selects the contact: the lead face or a feature of a suspect.
+/// Returns the contact: that of the lead, or that of a feature of a suspect face.
 fn choose(
     e: &Ellipsoid,
     prepared: &PreparedEllipsoid,
@@ -118,7 +123,7 @@ fn choose(
     })
 }
 
-/// Active face of least overlap.
+/// The lead: the active face of least overlap.
 #[derive(Clone, Copy)]
 struct Lead {
     face: usize,
@@ -127,7 +132,7 @@ struct Lead {
     deepest: Vec3,
 }
 
-/// Faces below which `Lead::deepest` is less deep than below the lead.
+/// Suspects: faces below which `Lead::deepest` is less deep than below the lead.
 struct Suspects {
     faces: [u32; Self::CAPACITY],
     /// Number of suspects; above the capacity, all features of the polyhedron are tested.
@@ -137,7 +142,8 @@ struct Suspects {
 }
 
 impl Lead {
-    /// Returns `None` if a face's plane separates ellipsoid and polyhedron, or if no face is active.
+    /// Returns the lead and the suspects. `None` if the plane of a face separates ellipsoid and polyhedron,
+    /// or if no face is active.
     #[inline(always)]
     fn find<S: Simd>(simd: S, e: &PreparedEllipsoid, p: &Polyhedron) -> Option<(Self, Suspects)> {
         let planes = p.planes();
@@ -179,9 +185,9 @@ impl Lead {
     }
 }
 
-/// Active face of least overlap (ties: lowest index). A face may be skipped if the height of the centre above
-/// it is at most `least_height` (m). `None` if another face, active or not, separates the bodies, or if no
-/// other face is active.
+/// Returns the active face of least overlap; of equal ones, the one of lowest index. Faces above which the
+/// height of the centre is at most `least_height` (m) may be skipped. `None` if the plane of a face that is
+/// not skipped separates the bodies, or if none of these faces is active.
 #[inline(always)]
 fn least_overlap<S: Simd>(
     simd: S,
@@ -222,7 +228,7 @@ impl Suspects {
         self.count += 1;
     }
 
-    /// Suspects, or `None` if there were too many to list.
+    /// Returns the suspects; `None` if there were too many to list.
     fn listed(&self) -> Option<&[u32]> {
         self.faces.get(..self.count)
     }
@@ -235,7 +241,7 @@ struct Candidate {
     feature: Feature,
 }
 
-/// Search among the features of suspects.
+/// Search for the candidate of least depth among the features of suspects.
 struct Search<'a> {
     ellipsoid: &'a Ellipsoid,
     prepared: &'a PreparedEllipsoid,
@@ -275,7 +281,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the candidate of least depth, and `true` if it is a fallback; `None` without an overlap.
+    /// Returns the candidate of least depth, and `true` if it is a fallback. `None` if the bodies do not
+    /// overlap.
     fn least(mut self, suspects: &Suspects) -> Option<(Candidate, bool)> {
         let mut witness = None;
         if !suspects.pierces {
@@ -298,12 +305,13 @@ impl<'a> Search<'a> {
         self.best.map(|best| (best, false)).or(Some((self.lead_face, true)))
     }
 
-    /// Point of the polyhedron inside the ellipsoid, if there is one. It is relative to the ellipsoid's
-    /// centre, in the metric in which the ellipsoid is the unit ball.
+    /// Returns a point of the polyhedron inside the ellipsoid; `None` if there is none. The point is relative
+    /// to the ellipsoid's centre, in the metric in which the ellipsoid is the unit ball.
     ///
-    /// If the centre is inside the polyhedron, the point is the centre. Otherwise, the nearest point in this
-    /// metric lies on a face whose plane has the centre in front of it: at the centre's projection onto the
-    /// plane, or on one of the face's edges beyond which the projection lies.
+    /// If the centre is inside the polyhedron, the point is the centre. Otherwise, the polyhedron's nearest
+    /// point in this metric lies on a face whose plane has the centre in front of it. There it is the
+    /// centre's projection onto the plane, or it lies on an edge of the face beyond which the projection
+    /// lies.
     fn overlap_witness(&self) -> Option<Vec3> {
         let mut inside = true;
         let all = 0..self.polyhedron.faces.len();
@@ -337,15 +345,15 @@ impl<'a> Search<'a> {
         in_outline.then(|| widened * -share)
     }
 
-    /// Returns `true` if the overlap is only rounding: `witness` is barely inside the ellipsoid, and the
-    /// overlap along its normal is no more than a rounding error.
+    /// Returns `true` if the overlap is only rounding. That is so if `witness` is barely inside the ellipsoid
+    /// and the overlap along its normal is no more than a rounding error.
     fn only_touches(&self, witness: &Vec3) -> bool {
         witness.norm_squared() > 1.0 - HARDLY_INSIDE
             && self.whole_depth(&self.direction_from(witness)) <= ROUNDING * self.size
     }
 
-    /// Unit normal along which the ellipsoid is pushed out by a point inside it, given in the unit-ball
-    /// metric. It is perpendicular to the concentric, similar ellipsoid through the point.
+    /// Returns the unit normal along which a point inside the ellipsoid, given in the unit-ball metric,
+    /// pushes the ellipsoid out. It is perpendicular to the concentric, similar ellipsoid through the point.
     fn direction_from(&self, witness: &Vec3) -> Vec3 {
         self.prepared.direction_of(&-witness).normalize()
     }
@@ -367,7 +375,8 @@ impl<'a> Search<'a> {
 
     fn try_features_of(&mut self, suspects: &[u32]) {
         let polyhedron = self.polyhedron;
-        // Vertices already tested: each occurs once per suspect around it. Beyond the capacity, some repeat.
+        // Vertices already tested. Each would come once per suspect around it; beyond the capacity, some are
+        // tested again.
         let mut tried = [u32::MAX; Suspects::CAPACITY];
         let mut count = 0;
         for &face in suspects {
@@ -466,7 +475,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Fallback if every feature lost its foot to rounding (see the module documentation).
+    /// Tests the two fallbacks for the case that every feature lost its foot to rounding (see the module
+    /// documentation).
     fn stand_in(&mut self, witness: Option<Vec3>) {
         self.offer(self.lead_face);
         if let Some(witness) = witness.filter(|w| *w != Vec3::zeros()) {
@@ -484,12 +494,12 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Depth above which a candidate cannot win.
+    /// Returns the depth above which a candidate cannot win, m.
     fn limit(&self) -> f64 {
         self.best.map_or(self.bound, |best| best.depth.min(self.bound))
     }
 
-    /// `D(n)` with the support function of all vertices.
+    /// Returns `D(n)` for any unit normal, with the support function over all vertices, m.
     fn whole_depth(&self, normal: &Vec3) -> f64 {
         let vertex = self.support_vertex(normal);
         let from_vertex = self.ellipsoid.center - self.polyhedron.vertices[vertex].position;

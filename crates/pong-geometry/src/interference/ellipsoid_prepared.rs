@@ -1,9 +1,9 @@
-//! Ellipsoid prepared for many directions and points, and its outline seen along a direction.
+//! Ellipsoid with precomputed matrices, and its outline seen along a direction.
 
 use crate::Vec3;
 use crate::primitive::Ellipsoid;
 
-/// Ellipsoid prepared for many directions and points.
+/// Ellipsoid with matrices that are computed once and used for many directions and points.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PreparedEllipsoid {
     /// Centre, m.
@@ -30,53 +30,56 @@ impl PreparedEllipsoid {
         }
     }
 
-    /// Scaled normal of `n`. Its length is the half width of the ellipsoid along `n`, m.
+    /// Returns the scaled normal of `n`: its components along the principal axes, times the semi-axes. The
+    /// length of the scaled normal is the half width of the ellipsoid along `n`, m.
     #[inline]
     pub(crate) fn widened(&self, n: &Vec3) -> Vec3 {
         Vec3::new(self.widen[0].dot(n), self.widen[1].dot(n), self.widen[2].dot(n))
     }
 
-    /// Farthest point along a normal, given the scaled normal. Relative to the centre and multiplied by the
-    /// half width, m².
+    /// Returns the farthest point along a normal, given the scaled normal. The result is relative to the
+    /// centre and multiplied by the half width, m².
     #[inline]
     pub(crate) fn reach(&self, widened: &Vec3) -> Vec3 {
         self.widen[0] * widened.x + self.widen[1] * widened.y + self.widen[2] * widened.z
     }
 
-    /// Vector in the metric in which the ellipsoid is the unit ball.
+    /// Returns a vector in the metric in which the ellipsoid is the unit ball.
     #[inline]
     pub(crate) fn shrunk(&self, v: &Vec3) -> Vec3 {
         Vec3::new(self.shrink[0].dot(v), self.shrink[1].dot(v), self.shrink[2].dot(v))
     }
 
-    /// Direction, not of unit length, whose scaled normal is parallel to `widened`.
+    /// Returns the direction, not of unit length, whose scaled normal is parallel to `widened`.
     #[inline]
     pub(crate) fn direction_of(&self, widened: &Vec3) -> Vec3 {
         self.shrink[0] * widened.x + self.shrink[1] * widened.y + self.shrink[2] * widened.z
     }
 
-    /// Deepest point of the ellipsoid along −n.
+    /// Returns the deepest point of the ellipsoid along −n.
     #[inline]
     pub(crate) fn deepest(&self, n: &Vec3) -> Vec3 {
         let widened = self.widened(n);
         self.center - self.reach(&widened) / widened.norm()
     }
 
-    /// Returns `true` if a second local minimum ([`ellipsoid_math`](super::ellipsoid_math)) can have a depth
-    /// of at most `depth` (m). At such a minimum t < −a_min², and the depth is −t/h with the half width
-    /// h ≤ a_max: at least a_min²/a_max, the smallest radius of curvature.
+    /// Returns `true` if a second local minimum of the depth ([`ellipsoid_math`](super::ellipsoid_math)) can
+    /// have a depth of at most `depth` (m). At such a minimum the root t of that module is below −a_min², and
+    /// the depth is −t/h with the half width h ≤ a_max. The depth is therefore at least a_min²/a_max, the
+    /// smallest radius of curvature.
     #[inline]
     pub(crate) fn allows_second(&self, depth: f64) -> bool {
         depth * self.largest >= self.smallest * self.smallest
     }
 
-    /// Lower bound of the overlap D over the normals between those of two faces. `heights` (m) are the
-    /// heights of the centre above the two faces.
+    /// Returns a lower bound of the overlap D(n) (see [`ellipsoid_polyhedron`](super::ellipsoid_polyhedron))
+    /// for all normals n between those of two faces, m. `heights` (m) are the heights of the centre above the
+    /// two faces.
     ///
     /// Extended to vectors n of any length, D is convex. So between the two normals, D is no less than its
-    /// linearisations at the two normals. Along the arc a linearisation is a sine wave, concave where
-    /// positive. So the larger of the two is least at an end of the arc or where they are equal. That point
-    /// is found on the chord, and its value divided by its distance from the origin.
+    /// linearisation at either normal. Along the arc a linearisation is a sine wave, concave where positive.
+    /// So the larger of the two linearisations is least at an end of the arc or where the two are equal. That
+    /// point is found on the chord, and its value is divided by its distance from the origin.
     pub(crate) fn arc_bound(&self, normals: &[Vec3; 2], heights: &[f64; 2]) -> f64 {
         let widened = normals.map(|n| self.widened(&n));
         let half_widths = widened.map(|w| w.norm());
@@ -116,7 +119,8 @@ impl Shadow {
     #[inline]
     pub(crate) fn new(e: &PreparedEllipsoid, u: &Vec3, v: &Vec3) -> Self {
         let (wide_u, wide_v) = (e.widened(u), e.widened(v));
-        /// Limit of `zeta`, 2⁵¹²: a larger square overflows, and the rotation would be zero within rounding.
+        /// Limit of `zeta`, 2⁵¹². The square of a larger value overflows, and the rotation would be zero
+        /// within rounding.
         const LARGEST_COTANGENT: f64 = f64::from_bits((1023 + 512) << 52);
         let (uu, vv, uv) = (wide_u.norm_squared(), wide_v.norm_squared(), wide_u.dot(&wide_v));
         if 2.0 * uv.abs() * LARGEST_COTANGENT <= (vv - uu).abs() || uv == 0.0 {
@@ -130,8 +134,9 @@ impl Shadow {
         Self { axes: turned(u, v), semi_axes: turned(&wide_u, &wide_v).map(|w| w.norm()) }
     }
 
-    /// Returns `true` if a point at `components` (m) may be inside and no deeper than `depth` (m). The depth
-    /// is at least the smaller semi-axis times 1 − r, with the point's radius r in the unit-circle metric.
+    /// Returns `true` if a point at `components` (m) may be inside the outline and no deeper than `depth`
+    /// (m). The depth is at least the smaller semi-axis times 1 − r, where r is the point's radius in the
+    /// metric in which the outline is the unit circle.
     #[inline]
     pub(crate) fn may_hold(&self, components: &[f64; 2], depth: f64) -> bool {
         let [x, y] = [components[0] / self.semi_axes[0], components[1] / self.semi_axes[1]];
@@ -139,20 +144,20 @@ impl Shadow {
         square < 1.0 && self.semi_axes[0].min(self.semi_axes[1]) * (1.0 - square.sqrt()) <= depth
     }
 
-    /// [`PreparedEllipsoid::allows_second`] for the outline.
+    /// Same as [`PreparedEllipsoid::allows_second`], for the outline.
     #[inline]
     pub(crate) fn allows_second(&self, depth: f64) -> bool {
         let [a, b] = self.semi_axes;
         depth * a.max(b) >= a.min(b) * a.min(b)
     }
 
-    /// Components of a vector along the principal axes.
+    /// Returns the components of a vector along the principal axes of the outline.
     #[inline]
     pub(crate) fn components(&self, v: &Vec3) -> [f64; 2] {
         [self.axes[0].dot(v), self.axes[1].dot(v)]
     }
 
-    /// Vector in the plane, from its components along the principal axes.
+    /// Returns the vector in the plane of the outline that has these components along the principal axes.
     #[inline]
     pub(crate) fn vector(&self, components: &[f64; 2]) -> Vec3 {
         self.axes[0] * components[0] + self.axes[1] * components[1]

@@ -1,23 +1,25 @@
 //! Ellipsoid (A) – triangle (B), one-sided (docs/theory.md, 2.2).
 //!
 //! The candidates of a feature are those of [`ellipsoid_polyhedron`](super::ellipsoid_polyhedron): for a face
-//! its normal; for an edge or a vertex at most two local minima of the overlap. A candidate is a contact if
-//! its foot (the deepest point after the ellipsoid is pushed out) lies in the feature and its normal between
-//! those of the faces there. If the depth is less than the smallest radius of curvature, exactly one of the
-//! features that meet convexly has a contact, as for a sphere. At larger depths several may have one; then
-//! only the least deep pushes, as in a polyhedron. Load sharing selects it, because it sees the contacts of
-//! all triangles and knows which of them push. A selection here would depend on the triangulation, and could
-//! prefer an edge that does not push.
+//! its normal; for an edge or a vertex at most two local minima of the overlap. Let the foot of a candidate
+//! be the ellipsoid's deepest point after the ellipsoid is pushed out. The candidate is a contact if its foot
+//! lies in the feature, and its normal lies between those of the faces there.
 //!
-//! The ellipsoid is in front of a face if its centre is above the face, and in front of an edge or vertex if
-//! the centre is above the plane through the feature perpendicular to the candidate's normal. Candidates that
-//! miss their feature only by rounding are emitted as fallbacks (`Standing::Spare`).
+//! If the depth is less than the smallest radius of curvature, exactly one of the features that meet convexly
+//! has a contact, as for a sphere. At larger depths several may have one; then only the least deep pushes, as
+//! in a polyhedron. Load sharing selects it, because it sees the contacts of all triangles and knows which of
+//! them push. A selection here would depend on the triangulation, and could prefer an edge that does not
+//! push.
 //!
-//! An ellipsoid may sink so deep into a valley that on each of its two faces the foot lies beyond the concave
-//! edge between them. Then neither face contains its foot, and the centre decides. A face with the centre in
-//! front of it gives a fallback if the centre is not beyond the edge; a face with the centre behind it, if it
-//! would push a ball at the centre. This fallback (`Standing::StandIn`) counts only if no other contact is as
-//! deep.
+//! The ellipsoid is in front of a face if its centre is above the face. It is in front of an edge or a vertex
+//! if the centre is above the plane that passes through the feature and is perpendicular to the candidate's
+//! normal. Candidates that miss their feature only by rounding are emitted as fallbacks (`Standing::Spare`).
+//!
+//! An ellipsoid may sink so deep into a valley that on each of the valley's two faces the foot lies beyond
+//! the concave edge between them. Neither face then contains its foot, and the position of the centre
+//! decides. A face that has the centre in front of it gives a fallback if the centre is not beyond the edge.
+//! A face that has the centre behind it gives a fallback if it would push a ball at the centre. Such a
+//! fallback (`Standing::StandIn`) counts only if no other contact is as deep.
 //!
 //! Degenerate cases: a centre in the plane of a face, on an edge or at a vertex counts as in front of it. A
 //! centre on an edge that may push is displaced slightly along the mean of the normals there, because only
@@ -36,9 +38,10 @@ use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Ellipsoid, TriangleSet};
 
-/// Distance, relative to the sizes, by which a foot may lie outside its feature and still give a fallback.
+/// Distance by which a foot may lie outside its feature and still give a fallback, relative to the sizes
+/// involved.
 const FOOT_SLACK: f64 = 1e-12;
-/// Sine of the angle by which a normal may lie outside those of its edge and still give a fallback.
+/// Sine of the angle by which a normal may lie outside the range of its edge and still give a fallback.
 const CONE_SLACK: f64 = 1e-9;
 /// Relative difference up to which two depths count as equal.
 const DEPTH_SLACK: f64 = 1e-9;
@@ -47,8 +50,9 @@ const SECOND_SLACK: f64 = 1e-6;
 
 /// Tests an ellipsoid against one triangle and emits a contact for each of its features that pushes.
 ///
-/// `thickness` (m): distance up to which a centre behind the triangle is still pushed to the front. An edge
-/// or vertex is emitted only by the triangle that owns it, so that each feature of a surface counts once.
+/// `thickness` (m) is the distance up to which a centre behind the triangle is still pushed to the front. An
+/// edge or a vertex is emitted only by the triangle that owns it, so that each feature of a surface counts
+/// once.
 pub fn ellipsoid_triangle(
     ellipsoid: &Ellipsoid,
     set: &TriangleSet,
@@ -59,7 +63,7 @@ pub fn ellipsoid_triangle(
     EllipsoidOnTriangles::new(ellipsoid).test(set, triangle, thickness, emit);
 }
 
-/// Ellipsoid prepared for many triangles.
+/// Ellipsoid with precomputed matrices, for tests against many triangles.
 #[derive(Clone, Copy, Debug)]
 pub struct EllipsoidOnTriangles {
     ellipsoid: Ellipsoid,
@@ -67,18 +71,19 @@ pub struct EllipsoidOnTriangles {
 }
 
 impl EllipsoidOnTriangles {
-    /// Prepares an ellipsoid.
+    /// Computes the matrices of an ellipsoid.
     pub fn new(ellipsoid: &Ellipsoid) -> Self {
         Self { ellipsoid: *ellipsoid, prepared: PreparedEllipsoid::new(ellipsoid) }
     }
 
-    /// The original ellipsoid.
+    /// Returns the original ellipsoid.
     pub fn ellipsoid(&self) -> &Ellipsoid {
         &self.ellipsoid
     }
 
-    /// [`ellipsoid_triangle`] for a prepared ellipsoid. Most triangles near an ellipsoid touch nothing; use
-    /// [`EllipsoidTrianglePairs`](super::ellipsoid_triangle_pairs::EllipsoidTrianglePairs) to reject them
+    /// Same as [`ellipsoid_triangle`], for an ellipsoid with precomputed matrices. Most triangles near an
+    /// ellipsoid do not touch it; use
+    /// [`EllipsoidTrianglePairs`](super::ellipsoid_triangle_pairs::EllipsoidTrianglePairs) to reject these
     /// eight at a time.
     pub fn test(
         &self,
@@ -112,7 +117,8 @@ impl EllipsoidOnTriangles {
     }
 }
 
-/// Returns `true` if the ellipsoid lies beyond the plane through an edge perpendicular to the triangle.
+/// Returns `true` if the ellipsoid lies entirely outside of a plane that passes through an edge of the
+/// triangle and is perpendicular to the triangle.
 fn passes_beside(e: &PreparedEllipsoid, view: &TriangleView) -> bool {
     (0..3).any(|k| {
         let from = view.corners[k];
@@ -122,7 +128,7 @@ fn passes_beside(e: &PreparedEllipsoid, view: &TriangleView) -> bool {
     })
 }
 
-/// Returns `true` if the foot on the face lies inside the outline.
+/// Returns `true` if the foot, a point in the triangle's plane, lies inside the triangle.
 fn holds_foot(edges: &TriangleEdges<'_>, foot: &Vec3) -> bool {
     !(0..3).any(|k| edges.is_beyond(k, foot))
 }
@@ -140,7 +146,7 @@ struct Tester<'a> {
     foot_slack: f64,
 }
 
-/// Local minimum of the overlap over the normals between those of an edge's faces.
+/// Local minimum of the overlap with an edge, among the normals between those of the edge's faces.
 #[derive(Clone, Copy)]
 struct EdgeMinimum {
     depth: f64,
@@ -172,7 +178,7 @@ impl Tester<'_> {
     }
 
     /// Returns `true` if the foot lies outside the face only beyond concave edges, and only by rounding. A
-    /// foot on the bottom line of a valley is thus inside both faces.
+    /// foot on the bottom line of a valley is therefore inside both faces.
     fn holds_in_a_crease(&self, foot: &Vec3) -> bool {
         (0..3).filter(|&k| self.edges.is_beyond(k, foot)).all(|k| {
             let is_concave = || match self.edges.class(k) {
@@ -190,9 +196,9 @@ impl Tester<'_> {
             && !matches!(self.edges.class(k), EdgeClass::Silent { .. })
     }
 
-    /// Returns `true` if the face gives a fallback although it does not contain its foot: rounding puts the
-    /// foot outside, or the foot lies beyond concave or flat edges and the centre decides (see the module
-    /// documentation).
+    /// Returns `true` if the face gives a fallback although it does not contain its foot. Either rounding
+    /// puts the foot outside, or the foot lies beyond concave or flat edges and the position of the centre
+    /// decides (see the module documentation).
     fn stands_in(&self, foot: &Vec3) -> bool {
         let lost = |k: &usize| self.is_lost(*k, foot);
         if !self.is_behind(self.height) {
@@ -209,16 +215,16 @@ impl Tester<'_> {
         self.edges.beyond(k, foot) > self.foot_slack
     }
 
-    /// Returns `true` if edge `k` is concave or flat, and the foot on the face across it lies beyond the edge
-    /// as well.
+    /// Returns `true` if edge `k` is concave or flat, and the foot on the neighbouring face lies beyond the
+    /// edge as well.
     fn is_lost_beyond(&self, k: usize) -> bool {
         let EdgeClass::Silent { neighbor, outward } = self.edges.class(k) else { return false };
         self.is_lost_to(neighbor, &outward, &self.view.edge_ends(k)[0])
     }
 
-    /// Returns `true` if each edge beyond which the foot lies is concave, and the foot on the face across it
-    /// lies beyond the edge as well. Coplanar triangles count as one face: across a flat edge the search
-    /// continues in the next triangle, and the result is `false` if that triangle contains the foot.
+    /// Returns `true` if each edge beyond which the foot lies is concave, and the foot on the neighbouring
+    /// face lies beyond that edge as well. Coplanar triangles count as one face: across a flat edge the
+    /// search continues in the next triangle, and the result is `false` if that triangle contains the foot.
     fn is_lost_in_folds(&self, foot: &Vec3) -> bool {
         /// Maximum number of coplanar triangles in the search; with more, the result is `false`.
         const TRIANGLES_MAX: usize = 32;
@@ -252,8 +258,9 @@ impl Tester<'_> {
         true
     }
 
-    /// Returns `true` if the foot on `face`, which lies across an edge, is beyond the edge as well, or if the
-    /// ellipsoid is entirely above `face`. `outward` points out of `face`; `end` is an end of the edge.
+    /// Returns `true` if the foot on `face`, the neighbour across an edge, lies beyond the edge as well, or
+    /// if the ellipsoid is entirely above `face`. `outward` is perpendicular to the edge and points out of
+    /// `face`; `end` is an end of the edge.
     fn is_lost_to(&self, face: u32, outward: &Vec3, end: &Vec3) -> bool {
         let other = TriangleView::new(self.set, face);
         let depth = self.prepared.widened(&other.normal).norm() - other.height(&self.ellipsoid.center);
@@ -270,7 +277,7 @@ impl Tester<'_> {
         height < -self.foot_slack
     }
 
-    /// Foot: the deepest point after the ellipsoid is pushed out by `depth` along `normal`.
+    /// Returns the foot: the deepest point after the ellipsoid is pushed out by `depth` along `normal`.
     fn foot_on(&self, normal: &Vec3, depth: f64) -> Vec3 {
         self.prepared.deepest(normal) + normal * depth
     }
@@ -285,7 +292,7 @@ impl Tester<'_> {
         }
     }
 
-    /// Local minima of the overlap with edge `k`, at normals along which the edge may push.
+    /// Returns the local minima of the overlap with edge `k`, at normals along which the edge may push.
     fn edge_minima(&self, k: usize) -> [Option<EdgeMinimum>; 2] {
         if self.misses_edge(k) {
             return [None, None];
@@ -329,7 +336,8 @@ impl Tester<'_> {
         let own = self.half_width - self.height;
         let may_have_second = shadow.allows_second(own * (1.0 + SECOND_SLACK));
         let second = may_have_second.then(|| second_nearest_on_ellipse(shadow.semi_axes, y)).flatten();
-        // The first minimum is never deeper than the edge's faces. If the second is, a face pushes instead.
+        // The first minimum is never deeper than the edge's faces. If the second one is deeper than a face,
+        // the face pushes instead.
         let limit = || {
             let other = |(n, _): (Vec3, Vec3)| self.prepared.widened(&n).norm() - n.dot(&from_edge);
             own.min(neighbor.map_or(f64::INFINITY, other)) * (1.0 + DEPTH_SLACK)
@@ -340,11 +348,11 @@ impl Tester<'_> {
         ]
     }
 
-    /// Returns `true` if edge `k` certainly has no minimum: the edge is outside the ellipsoid, and the
-    /// overlap of the face is less than the smallest radius of curvature.
+    /// Returns `true` if edge `k` certainly has no minimum. This is so if the edge is outside the ellipsoid,
+    /// and the overlap of the face is less than the smallest radius of curvature.
     ///
-    /// For such an overlap the foot of a minimum on the edge lies inside the ellipsoid: in the ball of that
-    /// radius that touches the ellipsoid from inside at the deepest point.
+    /// With such an overlap the foot of a minimum on the edge would lie inside the ellipsoid: in the ball of
+    /// that radius which touches the ellipsoid from inside at the deepest point.
     fn misses_edge(&self, k: usize) -> bool {
         /// Margin far above rounding, in the unit-ball metric.
         const SLACK: f64 = 1e-6;
@@ -359,13 +367,13 @@ impl Tester<'_> {
         (start + along * share).norm_squared() > 1.0 + SLACK + 10.0 * ends_slack
     }
 
-    /// Returns `true` if a second minimum of an edge or a vertex may be less deep than this face.
+    /// Returns `true` if a second local minimum of an edge or a vertex may be less deep than this face.
     fn allows_second(&self) -> bool {
         self.prepared.allows_second((self.half_width - self.height) * (1.0 + SECOND_SLACK))
     }
 
-    /// Tests whether the foot lies between the ends of edge `k`: `Some(true)` if so, `Some(false)` if only
-    /// within rounding, else `None`.
+    /// Tests whether the foot of a candidate lies between the ends of edge `k`. `Some(true)` if it does,
+    /// `Some(false)` if only within rounding, otherwise `None`.
     fn on_edge(&self, k: usize, normal: &Vec3) -> Option<bool> {
         let deepest = self.prepared.deepest(normal);
         let [first, second] = self.view.edge_ends(k);
@@ -384,7 +392,8 @@ impl Tester<'_> {
         if y.component_div(semi_axes).norm_squared() < 1.0 {
             self.try_vertex(corner, &nearest_on_ellipsoid(semi_axes, &y), emit);
         }
-        // A second minimum counts only if no face around the vertex is less deep; this face is tested first.
+        // A second minimum counts only if no face around the vertex is less deep. This face is tested first,
+        // because its overlap is known.
         let second = self.allows_second().then(|| second_nearest_on_ellipsoid(semi_axes, &y)).flatten();
         if let Some(foot) = second.filter(|foot| self.no_deeper_than_the_fan(corner, foot.depth)) {
             self.try_vertex(corner, &foot, emit);
@@ -423,8 +432,9 @@ impl Tester<'_> {
         depth <= least * (1.0 + DEPTH_SLACK)
     }
 
-    /// Standing of a candidate, given the plane through `p` perpendicular to `normal`; `None` if the centre
-    /// is too far behind this plane. `strictly`: the candidate pushes without any tolerance.
+    /// Returns the standing of a candidate, from the height of the centre above the plane through `p`
+    /// perpendicular to `normal`. `None` if the centre is too far behind this plane. `strictly` is true if
+    /// the candidate pushes without any tolerance.
     fn standing(&self, normal: &Vec3, p: &Vec3, strictly: bool) -> Option<Standing> {
         let height = normal.dot(&(self.ellipsoid.center - p));
         if self.is_behind(height) {

@@ -1,17 +1,17 @@
-//! Rejection of pairs of an ellipsoid and a triangle, eight at a time.
+//! Rejection of ellipsoid-triangle pairs, eight at a time.
 //!
 //! An ellipsoid near a surface overlaps the boxes of many triangles and touches few. A pair is rejected if
-//! the ellipsoid lies entirely beyond the plane of the face, or beyond a plane through an edge perpendicular
-//! to the face, or if no feature of the triangle can push:
+//! the ellipsoid lies entirely in front of or behind the triangle, or entirely outside of a plane through an
+//! edge perpendicular to the triangle. It is also rejected if no feature of the triangle can push:
 //!
 //! * the face cannot push if the centre is in front of it, and both the centre and the foot (the deepest
 //!   point after the ellipsoid is pushed out) lie beyond the same edge;
-//! * an edge or a vertex outside the ellipsoid cannot push if the face's overlap is too small for a second
-//!   minimum.
+//! * an edge or a vertex outside the ellipsoid cannot push if the overlap of the face is too small for a
+//!   second local minimum.
 //!
-//! The remaining pairs go through [`EllipsoidOnTriangles`](super::ellipsoid_triangle::EllipsoidOnTriangles)
-//! one by one. This filter changes no result: it makes the comparisons of that test with a larger margin, and
-//! a NaN never rejects a pair.
+//! The remaining pairs go one by one through
+//! [`EllipsoidOnTriangles`](super::ellipsoid_triangle::EllipsoidOnTriangles). The rejection changes no
+//! result: it makes the same comparisons with a larger margin, and NaN never rejects a pair.
 
 use super::triangle_lanes::{
     EightVectors, NOTHING, TriangleLanes, bit_of_each, fill_in, fill_vectors_in, put,
@@ -20,7 +20,7 @@ use crate::Vec3;
 use crate::primitive::{Ellipsoid, TriangleSet};
 use crate::simd::{LANES, LaneBits, Numbers, Simd, Vectors, run_at_level};
 
-/// Batch of up to eight pairs.
+/// Batch of up to eight ellipsoid-triangle pairs.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub struct EllipsoidTrianglePairs {
@@ -47,7 +47,7 @@ impl Default for EllipsoidTrianglePairs {
 }
 
 impl EllipsoidTrianglePairs {
-    /// Number of pairs.
+    /// Returns the number of pairs in the batch.
     #[inline]
     pub fn count(&self) -> usize {
         self.lanes.count
@@ -59,7 +59,7 @@ impl EllipsoidTrianglePairs {
         self.lanes.count = 0;
     }
 
-    /// Adds a pair (at most eight) and returns its lane. `thickness` as in
+    /// Adds a pair to the batch, which may hold eight, and returns the lane of the pair. `thickness` is as in
     /// [`ellipsoid_triangle`](super::ellipsoid_triangle::ellipsoid_triangle).
     #[inline]
     pub fn add(&mut self, ellipsoid: &Ellipsoid, triangle: u32, thickness: f64) -> usize {
@@ -74,8 +74,8 @@ impl EllipsoidTrianglePairs {
         lane
     }
 
-    /// Sets the ellipsoid of all pairs that are added by [`push`](Self::push) from here on; `thickness` as in
-    /// [`add`](Self::add). Faster than `add` if several consecutive pairs have the same ellipsoid.
+    /// Sets the ellipsoid for all pairs that [`push`](Self::push) adds afterwards. `thickness` is as in
+    /// [`add`](Self::add). This is faster than `add` if several consecutive pairs have the same ellipsoid.
     #[inline(always)]
     pub fn begin_in<S: Simd>(&mut self, simd: S, ellipsoid: &Ellipsoid, thickness: f64) {
         let (lane, semi_axes) = (self.count(), &ellipsoid.semi_axes);
@@ -89,13 +89,14 @@ impl EllipsoidTrianglePairs {
         self.lanes.begin_in(simd, &ellipsoid.center, thickness);
     }
 
-    /// Adds a pair of the current ellipsoid with a triangle (at most eight) and returns its lane.
+    /// Adds a pair of the current ellipsoid and a triangle to the batch, which may hold eight, and returns
+    /// the lane of the pair.
     #[inline(always)]
     pub fn push(&mut self, triangle: u32) -> usize {
         self.lanes.push(triangle)
     }
 
-    /// Returns the pairs with triangles of `set` that may touch, one bit per lane, and clears the batch.
+    /// Returns the pairs that may touch, one bit per lane, and empties the batch. The triangles are in `set`.
     #[inline]
     pub fn take(&mut self, set: &TriangleSet) -> LaneBits {
         if self.lanes.count == 0 {
@@ -108,7 +109,7 @@ impl EllipsoidTrianglePairs {
     }
 }
 
-/// Principal axis times its semi-axis, m, and reciprocal square of the semi-axis, 1/m².
+/// Returns a principal axis times its semi-axis, m, and the reciprocal square of the semi-axis, 1/m².
 #[inline(always)]
 fn along(ellipsoid: &Ellipsoid, axis: usize) -> (Vec3, f64) {
     let semi_axis = ellipsoid.semi_axes[axis];
@@ -119,13 +120,13 @@ fn may_touch(pairs: &EllipsoidTrianglePairs) -> LaneBits {
     run_at_level!(may_touch_in(pairs: EllipsoidTrianglePairs) -> LaneBits)
 }
 
-/// Smallest distance beyond an edge that counts, relative to the lengths involved: far above the foot
-/// tolerance.
+/// Distance beyond an edge, relative to the lengths involved, above which a point counts as beyond it. Far
+/// above the tolerance of a foot.
 const FAR_SLACK: f64 = 1e-9;
-/// Amount by which a squared distance must exceed 1 to be outside the unit ball: ten times that of the single
-/// test, `misses_edge`.
+/// Amount by which a squared distance must exceed 1 to count as outside the unit ball: ten times the `SLACK`
+/// of the test of a single pair (`misses_edge`).
 const OUTSIDE_SLACK: f64 = 1e-5;
-/// Additional amount, relative to the squared lengths involved: covers rounding at distant corners.
+/// Additional amount, relative to the squared lengths involved, that covers rounding at distant corners.
 const OUTSIDE_SHARE: f64 = 1e-12;
 
 /// Ellipsoids, one per lane.
@@ -137,20 +138,21 @@ struct Ellipsoids<S: Simd> {
 }
 
 impl<S: Simd> Ellipsoids<S> {
-    /// Scaled normals: their lengths are the half widths times the lengths of the normals.
+    /// Returns the scaled normals. Their lengths are the half widths times the lengths of the normals.
     #[inline(always)]
     fn widened(&self, normal: Vectors<S>) -> Vectors<S> {
         normal.dot_rows(self.widen)
     }
 
-    /// Vectors in the unit-ball metric.
+    /// Returns vectors in the metric in which the ellipsoids are the unit ball.
     #[inline(always)]
     fn shrunk(&self, vector: Vectors<S>) -> Vectors<S> {
         let (wide, shrink) = (self.widened(vector), self.shrink);
         Vectors { x: wide.x * shrink.x, y: wide.y * shrink.y, z: wide.z * shrink.z }
     }
 
-    /// Returns the lanes where `product`² certainly exceeds `reach_square`. `product` is `normal·arm`.
+    /// Returns the lanes in which the square of `product` certainly exceeds `reach_square`. `product` is
+    /// `normal·arm`.
     #[inline(always)]
     fn exceeds(
         &self,
@@ -174,7 +176,7 @@ fn load_three<S: Simd>(simd: S, [first, second, third]: &[EightVectors; 3]) -> [
     [Vectors::load(simd, first), Vectors::load(simd, second), Vectors::load(simd, third)]
 }
 
-/// Sums of the absolute components.
+/// Returns the sums of the absolute components.
 #[inline(always)]
 fn taxicab<S: Simd>(v: Vectors<S>) -> Numbers<S> {
     v.x.abs() + v.y.abs() + v.z.abs()
@@ -222,8 +224,8 @@ fn may_touch_in<S: Simd>(simd: S, pairs: &EllipsoidTrianglePairs) -> LaneBits {
         let wide = ellipsoids.widened(outward);
         let is_apart = simd.bits(ellipsoids.exceeds(beyond, wide.norm_squared(), outward, arm));
         apart |= simd.bits(zero.below(beyond)) & is_apart;
-        // `beyond` and `foot_beyond`: distances of centre and foot beyond the edge, times the length of
-        // `outward`, and for the foot also times `half_width`.
+        // Distances of the centre (`beyond`) and of the foot (`foot_beyond`) beyond the edge, times the
+        // length of `outward`, and for the foot also times `half_width`.
         let room = slack * taxicab(outward);
         let foot_beyond = beyond * half_width - wide.dot(widened);
         let lost = simd.bits((room * half_width).below(foot_beyond)) & simd.bits(room.below(beyond));

@@ -1,5 +1,5 @@
-//! Active face above which a point is highest (for a point inside: below which it is least deep), found in
-//! one pass over the planes of a polyhedron.
+//! Search for the active face above which a point is highest, in one pass over the planes of a polyhedron.
+//! For a point inside, it is the face below which the point is least deep.
 
 use crate::Vec3;
 use crate::primitive::{FacePlanes, PlaneBlock};
@@ -17,7 +17,7 @@ pub(super) struct Highest {
     pub height: f64,
 }
 
-/// Condition that the point must meet.
+/// Condition that the point must meet for a result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Whereabouts {
     Anywhere,
@@ -25,8 +25,8 @@ pub(super) enum Whereabouts {
     Below(f64),
 }
 
-/// Active face above which `p` is highest. `None` if `p` does not meet the condition, if no face is active,
-/// or if no height is a number above −∞.
+/// Returns the active face above which `p` is highest. `None` if `p` does not meet the condition, if no face
+/// is active, or if all heights are −∞ or NaN.
 #[inline(always)]
 pub(super) fn highest_of_many<S: Simd>(
     simd: S,
@@ -55,8 +55,8 @@ struct Search<'a, S: Simd> {
 }
 
 impl<S: Simd> Search<'_, S> {
-    /// Heights of the point above the planes of `N` blocks from `start` on, −∞ for inactive faces. The last
-    /// block is repeated beyond the end. `None` if the point does not meet the condition.
+    /// Returns the heights of the point above the planes of `N` blocks from `start` on, −∞ for inactive
+    /// faces. Beyond the last block, that block is repeated. `None` if the point does not meet the condition.
     #[inline(always)]
     fn heights<const N: usize>(&self, start: usize) -> Option<[S::Eight; N]> {
         let blocks = self.planes.blocks.as_slice();
@@ -95,7 +95,8 @@ impl<S: Simd> Search<'_, S> {
         top
     }
 
-    /// First face with the given height among `N` blocks from `start` on.
+    /// Returns the first face with the given height among `N` blocks from `start` on; `None` if there is
+    /// none.
     #[inline(always)]
     fn first_at<const N: usize>(
         &self,

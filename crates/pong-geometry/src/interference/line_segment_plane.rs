@@ -4,7 +4,7 @@ use super::Interference;
 use super::point_plane::point_plane;
 use crate::primitive::{LineSegment, Plane, Point};
 
-/// Contact of each end, in the order of the ends.
+/// Returns the contact of each end, in the order of the ends.
 pub fn line_segment_plane(segment: &LineSegment, plane: &Plane) -> [Option<Interference>; 2] {
     segment.ends.map(|position| point_plane(&Point { position }, plane))
 }

@@ -10,11 +10,11 @@
 //! * where the segment leaves through f itself, the end carries no force.
 //!
 //! The face that stores the least energy pushes. If the segment enters through f and leaves through h, both
-//! faces measure the same crossing of their common edge, at opposite ends. It is assigned to the end whose
-//! tip is farther out, whichever of the two faces is evaluated.
+//! faces measure the same crossing of their common edge, at opposite ends of the segment. The crossing is
+//! assigned to the end whose tip is farther out, whichever of the two faces is evaluated.
 //!
-//! A simpler rule would test where the segment leaves the *polygon* of f. It gains energy on closed paths,
-//! and halves the force of a segment that lies flat beside an obtuse edge (docs/decisions/0001).
+//! A simpler rule would test where the segment leaves the *polygon* of f. That rule gains energy on closed
+//! paths, and halves the force of a segment that lies flat beside an obtuse edge (docs/decisions/0001).
 //!
 //! Degenerate cases: a crossing below a face parallel to the segment has the segment's depth below that face;
 //! a face f parallel to the exit face h takes no part; a segment that only touches has no contact; of two
@@ -30,32 +30,33 @@ use crate::simd::{Finder, First, FirstOf, LANES, Simd, is_moderate, run_at_level
 /// Contact at each end: 0 towards the segment's first end, 1 towards its second.
 pub type EndContacts = [Option<Interference>; 2];
 
-/// Contact at each end for one piece of a body, with the role of the neighbouring pieces.
+/// Contact at each end for one piece of a body, with the role that the neighbouring pieces play in it.
 pub type PieceContacts = [Option<(Interference, AtWall)>; 2];
 
-/// Role of the neighbouring pieces in a contact.
+/// Role that the neighbouring pieces play in a contact of one piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AtWall {
-    /// None. Exception: for a tip on an internal face the caller tests [`Polyhedron::containment`].
+    /// No role. Exception: for a tip on an internal face the caller tests [`Polyhedron::containment`].
     No,
-    /// Crossing of an edge at which an internal face ends. The piece behind that face may report it as well.
+    /// Crossing of an edge at which an internal face ends. The piece behind that face may report the same
+    /// crossing.
     SharedEdge,
-    /// Fallback for a tip that rounding puts beyond an internal face: counts if no piece contains the tip.
+    /// Fallback for a tip that rounding puts beyond an internal face. It counts if no piece contains the tip.
     StandsIn,
     /// Exit through an active face where an internal face ends. The piece behind the internal face may report
     /// this end as well.
     Exit,
     /// Fallback for an exit as in `Exit` that rounding puts on the internal face. It counts if no other piece
-    /// reports this end, and none contains the segment beyond the exit.
+    /// reports this end, and no other piece contains the segment beyond the exit.
     ExitStandsIn,
 }
 
 /// Energies within this factor count as equal, so that rounding does not choose between equal faces.
 const TIE: f64 = 1.0 - 1e-12;
 
-/// Tests a segment against one convex solid, or one piece alone. A crossing of an edge at which an internal
-/// face ends is returned only for the first piece that has the edge. Each contact carries half of the pair's
-/// stiffness and damping.
+/// Tests a segment against one convex solid, or against one piece of a body by itself. A crossing of an edge
+/// at which an internal face ends is returned only for the first piece that has the edge. Each contact
+/// carries half of the pair's stiffness and damping.
 #[inline]
 pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
     let counts = |(contact, at_wall): &(Interference, AtWall)| match at_wall {
@@ -77,7 +78,8 @@ pub fn line_segment_piece(segment: &LineSegment, polyhedron: &Polyhedron) -> Pie
     }
 }
 
-/// Largest numbers of face blocks of the three variants of the test; above `MANY`, every face is evaluated.
+/// Largest numbers of face blocks for which the three variants of the test are compiled. Above `MANY` blocks,
+/// every face is evaluated.
 const FEW: usize = 2;
 const SOME: usize = FacePlanes::IN_REGISTERS;
 const MANY: usize = 16;
@@ -123,7 +125,8 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
         search.visit_all();
         return search.contacts();
     }
-    // With many faces, the face nearest to a tip limits the energy, so that few faces remain.
+    // With many faces, the face nearest to a tip is evaluated first. Its energy is an upper limit for the
+    // least energy, so only the few faces that may store less remain to be evaluated.
     let nearest = if N > FacePlanes::IN_REGISTERS { planes.nearest_face::<N>(&inside) } else { None };
     let at_nearest = match &nearest {
         Some(nearest) => search.stored(nearest.face),
@@ -141,8 +144,9 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
     search.contacts()
 }
 
-/// Contacts of a segment along the line in which internal faces meet. Rounding may put the segment outside
-/// all pieces there, so each piece reports the tips as fallbacks, and load sharing decides which one counts.
+/// Returns the contacts of a segment that runs along the line in which internal faces meet. Rounding may put
+/// the segment outside all pieces there. Each piece therefore reports the tips as fallbacks, and load sharing
+/// decides which one counts.
 #[cold]
 fn along_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts {
     let Some(mut inside) = inside_of_wide_walls(segment, polyhedron) else { return [None, None] };
@@ -160,8 +164,8 @@ fn along_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts 
     })
 }
 
-/// Assigns exits at the boundary edge of an internal face to the active face at that edge, even if rounding
-/// named the internal face. Returns the role of the neighbouring pieces at each end.
+/// Changes exits at the boundary edge of an internal face to exits through the active face at that edge, even
+/// if rounding named the internal face. Returns the role of the neighbouring pieces at each end.
 fn assign_exits(segment: &LineSegment, polyhedron: &Polyhedron, inside: &mut [InsideEnd; 2]) -> [AtWall; 2] {
     [0, 1].map(|end: usize| match leaves_at_wall(segment, polyhedron, &inside[end], end) {
         None => AtWall::No,
@@ -173,8 +177,8 @@ fn assign_exits(segment: &LineSegment, polyhedron: &Polyhedron, inside: &mut [In
     })
 }
 
-/// Factor by which the lower bound of a face must exceed the energy of another face to exclude the face: far
-/// above rounding of the bounds and any chain of ties.
+/// Factor on the energy of one face: a face whose lower bound exceeds the product cannot be the one of least
+/// energy. The factor is far above rounding of the bounds and above any chain of ties.
 const BEYOND_ROUNDING: f64 = 1.0 + 1e-6;
 
 /// Search for the face that stores the least energy.
@@ -205,8 +209,9 @@ impl Search<'_> {
         }
     }
 
-    /// Evaluates, in face order, the faces whose lower bound is at most the least energy found so far. The
-    /// face of least bound and the face nearest to a tip (`at_nearest`) give the first limit.
+    /// Evaluates, in face order, all faces whose lower bound is at most the least energy found so far. The
+    /// first limit is the smaller energy of two faces: the face of least bound and the face nearest to a tip
+    /// (`at_nearest`).
     #[inline(always)]
     fn visit_likely<S: Simd, const N: usize>(&mut self, bounds: &Bounds<S, N>, at_nearest: Option<Stored>) {
         let likeliest = bounds.least();
@@ -232,16 +237,17 @@ impl Search<'_> {
     fn visit(&mut self, stored: Option<Stored>) {
         let Some(stored) = stored else { return };
         let least = self.best.map_or(f64::INFINITY, |best| best.energy);
-        // Zero energy wins too: the segment lies in the face or only touches it, and then no face pushes.
+        // A face with zero energy wins too. The segment then lies in the face or only touches it, and no face
+        // pushes.
         if stored.energy < least * TIE {
             self.best = Some(stored);
         }
     }
 
-    /// Energy stored by a face; `None` if it takes no part.
+    /// Returns the energy stored by a face; `None` if the face takes no part.
     ///
-    /// The depth at an end that leaves through an internal face is included, although the piece behind that
-    /// face carries this end. Without it, the energy of the face would be too low.
+    /// At an end that leaves through an internal face the depth is included, although the piece behind that
+    /// face carries this end. Without this depth, the energy of the face would be too low.
     fn stored(&self, face: usize) -> Option<Stored> {
         let ends = [self.at_end(face, 0).measured()?, self.at_end(face, 1).measured()?];
         let square = |end: usize| ends[end].depth() * ends[end].depth();
@@ -254,7 +260,7 @@ impl Search<'_> {
         AtEnd { segment: self.segment, polyhedron: self.polyhedron, face, inside: &self.inside[end], tip_b }
     }
 
-    /// Contacts of the best face.
+    /// Returns the contacts of the face of least energy.
     fn contacts(&self) -> PieceContacts {
         let Some(best) = &self.best else { return [None, None] };
         let at_ends = [self.carried(best, 0), self.carried(best, 1)];
@@ -272,7 +278,7 @@ impl Search<'_> {
         contacts
     }
 
-    /// Contact found at `end`, and the end to which it is assigned.
+    /// Returns the contact found at `end`, and the end to which it is assigned; `None` if there is none.
     #[inline(always)]
     fn carried(&self, best: &Stored, end: usize) -> Option<((Interference, AtWall), usize)> {
         let contact = self.at_end(best.face, end).contact(&best.ends[end]);
@@ -290,17 +296,17 @@ impl Search<'_> {
         Some(((contact, at_wall), end))
     }
 
-    /// Returns `true` if the segment enters through the best face and leaves through `exit` at `end`, and
-    /// both faces measure the same crossing.
+    /// Returns `true` if two faces measure the same crossing: the best face, through which the segment
+    /// enters, and `exit`, through which it leaves at `end`.
     #[inline(always)]
     fn is_claimed_by_both(&self, best: &Stored, end: usize, exit: usize) -> bool {
         let of_exit = || self.at_end(exit, 1 - end).measured();
         matches!(best.ends[1 - end], Measured::Leaves) && matches!(of_exit(), Some(Measured::Crossing(_)))
     }
 
-    /// Contact at an end that leaves through an internal face. `None` because the piece behind that face
-    /// reports this end, except for a crossing of a convex edge in which the internal face ends, and for a
-    /// tip at internal faces.
+    /// Returns the contact at an end that leaves through an internal face. As a rule `None`, because the
+    /// piece behind that face reports this end. There are two exceptions: a crossing of a convex edge in
+    /// which the internal face ends, and a tip at internal faces.
     #[cold]
     fn carried_at_wall(
         &self,
@@ -314,7 +320,8 @@ impl Search<'_> {
         };
         match crossing.and_then(|crossing| Some((crossing, carrier(&crossing)?))) {
             Some((crossing, carrier)) => Some(((crossing, AtWall::SharedEdge), carrier)),
-            // A tip on internal faces within rounding is a fallback: inside or outside is undecidable.
+            // A tip on internal faces within rounding is a fallback, because it cannot be decided whether it
+            // is inside.
             None if self.polyhedron.containment(&self.segment.ends[end]) != Containment::Outside => {
                 let stood_in = along_walls(self.segment, self.polyhedron)[end];
                 stood_in.filter(|(_, at_wall)| *at_wall == AtWall::StandsIn).map(|found| (found, end))
@@ -324,7 +331,8 @@ impl Search<'_> {
     }
 }
 
-/// Energy above which a face cannot be the one of least energy, given that of another face.
+/// Returns the energy above which a face cannot be the one of least energy, given the energy that another
+/// face stores. Infinite if that other face takes no part or stores none.
 #[inline(always)]
 fn limit_of(stored: Option<&Stored>) -> f64 {
     match stored {

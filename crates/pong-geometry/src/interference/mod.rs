@@ -1,7 +1,8 @@
 //! Interference tests: one file per pair of primitives (the list of modules is the capability table).
 //!
 //! Every test takes A already transformed to the frame of B's movable group and returns [`Interference`]s in
-//! that frame. A test never allocates; where a pair can touch at several points it calls `emit` for each.
+//! that frame. No test allocates memory. A test of two primitives that can touch at several points calls a
+//! function of the caller (`emit`) for each contact.
 
 mod axis_approach;
 pub mod ball_bore;
@@ -63,7 +64,7 @@ pub struct Interference {
     pub feature: Feature,
 }
 
-/// Feature of B: its kind and index. Ordered by kind, then index.
+/// Feature of B, encoded as its kind and its index. Features are ordered by kind, then by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Feature(pub u32);
 
@@ -79,27 +80,27 @@ pub enum FeatureKind {
 }
 
 impl Feature {
-    /// The whole primitive: planes, spheres, ellipsoids.
+    /// The whole primitive, for planes, spheres and ellipsoids.
     pub const WHOLE: Self = Self(0);
     const KIND_SHIFT: u32 = 30;
     const INDEX_MASK: u32 = (1 << Self::KIND_SHIFT) - 1;
 
-    /// Face with this index (or the triangle itself).
+    /// Returns the face with this index; a triangle is a face too.
     pub fn face(index: usize) -> Self {
         Self(index as u32)
     }
 
-    /// Edge with this index.
+    /// Returns the edge with this index.
     pub fn edge(index: usize) -> Self {
         Self(1 << Self::KIND_SHIFT | index as u32)
     }
 
-    /// Vertex with this index.
+    /// Returns the vertex with this index.
     pub fn vertex(index: usize) -> Self {
         Self(2 << Self::KIND_SHIFT | index as u32)
     }
 
-    /// Kind of the feature.
+    /// Returns the kind of the feature.
     pub fn kind(self) -> FeatureKind {
         match self.0 >> Self::KIND_SHIFT {
             0 => FeatureKind::Face,
@@ -113,17 +114,18 @@ impl Feature {
         self.kind() == FeatureKind::Face
     }
 
-    /// Index within its kind.
+    /// Returns the index of the feature within its kind.
     pub fn index(self) -> usize {
         (self.0 & Self::INDEX_MASK) as usize
     }
 }
 
-/// Sphere against a point of B: a foot point on an edge, a vertex, or the centre of another sphere.
+/// Returns the contact of a sphere with one point of B: a foot point on an edge, a vertex, or the centre of
+/// another sphere. `None` if the sphere does not contain the point.
 ///
-/// `mean_normal` gives the direction of the normal if the centre coincides with the point up to rounding: the
-/// vector between them is then only rounding, and may point along an edge or into the solid. It need not be a
-/// unit vector, but not zero.
+/// `mean_normal` gives the direction of the normal if the sphere's centre coincides with the point up to
+/// rounding. The vector between the two is then only rounding, and may point along an edge or into the solid.
+/// `mean_normal` need not have unit length, but must not be zero.
 #[inline]
 pub(crate) fn ball_over_point(
     sphere: &Sphere,
@@ -141,7 +143,7 @@ pub(crate) fn ball_over_point(
     }
     let has_direction = distance > ROUNDING * sphere.center.amax();
     let normal = if has_direction {
-        // Clamped because a compiler may divide before the branch.
+        // Clamped, so that the divisor is not zero even if a compiler divides before the branch.
         (arm / distance.max(f64::MIN_POSITIVE)).normalize()
     } else {
         mean_normal().normalize()

@@ -15,12 +15,12 @@ pub enum Place {
     Corner(usize),
 }
 
-/// Squared distance (m²) between a point and a triangle, and the part of the triangle that contains the
-/// nearest point.
+/// Returns the squared distance (m²) between a point and a triangle, and the part of the triangle that
+/// contains the nearest point.
 ///
-/// If a point lies outside an edge and projects onto it between its ends, that edge is nearest. Both
-/// triangles at an edge measure from the same end, so they agree on whether a point is nearest to the edge or
-/// to a corner.
+/// If a point lies outside an edge and projects onto it between the edge's ends, that edge is nearest. Both
+/// triangles at an edge measure from the same end, so they agree on whether the edge or a corner is nearest
+/// to a point.
 pub fn nearest_on_triangle(p: &Vec3, corners: &[Vec3; 3]) -> (f64, Place) {
     let edges = [0, 1, 2].map(|k| corners[(k + 1) % 3] - corners[k]);
     let arms = corners.map(|corner| p - corner);
@@ -51,7 +51,7 @@ pub fn nearest_on_triangle(p: &Vec3, corners: &[Vec3; 3]) -> (f64, Place) {
     nearest
 }
 
-/// Point of a triangle nearest to a given point of its plane.
+/// Returns the point of a triangle nearest to a given point of the triangle's plane.
 pub fn nearest_in_plane(p: &Vec3, corners: &[Vec3; 3]) -> Vec3 {
     match nearest_on_triangle(p, corners).1 {
         Place::Face => *p,
@@ -63,11 +63,12 @@ pub fn nearest_in_plane(p: &Vec3, corners: &[Vec3; 3]) -> Vec3 {
     }
 }
 
-/// Returns `true` if a point is in front of a surface, or on it, given the part `place` of a triangle that
-/// contains the nearest surface point.
+/// Returns `true` if a point is in front of a surface, or on it. `place` is the part of `triangle` that
+/// contains the surface point nearest to the given point.
 ///
-/// On an edge, the side follows from the sum of the two face normals, or at a free edge from the only face
-/// normal; at a vertex, from the orientation of the surface around it as seen from the point.
+/// On an edge, the side follows from the sum of the two face normals, or from the only face normal if the
+/// edge is free. At a vertex, it follows from the orientation of the surface around the vertex as seen from
+/// the point.
 pub fn is_in_front_at(p: &Vec3, set: &TriangleSet, triangle: u32, place: Place) -> bool {
     let view = TriangleView::new(set, triangle);
     match place {

@@ -1,4 +1,4 @@
-//! Point against ellipsoid: depth and normal at the nearest surface point.
+//! Point (A) – ellipsoid (B): depth and normal at the nearest surface point.
 
 use super::ellipsoid_math::nearest_on_ellipsoid;
 use super::{Feature, Interference};
@@ -7,8 +7,8 @@ use crate::primitive::Ellipsoid;
 
 /// Tests a point (A) against an ellipsoid (B); `None` unless the point is inside.
 ///
-/// At the centre the normal is the direction of the first of the smallest axes. See
-/// [`ellipsoid_math`](super::ellipsoid_math) for the equation.
+/// For a point at the centre, the normal is the direction of the shortest axis, the first if several are
+/// equal. See [`ellipsoid_math`](super::ellipsoid_math) for the equation.
 pub fn point_ellipsoid(p: &Vec3, e: &Ellipsoid) -> Option<Interference> {
     let y = e.axes.tr_mul(&(p - e.center));
     if y.component_div(&e.semi_axes).norm_squared() >= 1.0 {

@@ -3,7 +3,7 @@
 use super::{Feature, Interference};
 use crate::primitive::{Plane, Point};
 
-/// Contact of a point below a plane.
+/// Returns the contact of a point below a plane; `None` for a point above or on it.
 pub fn point_plane(point: &Point, plane: &Plane) -> Option<Interference> {
     let depth = -plane.height(&point.position);
     (depth > 0.0).then_some(Interference {

@@ -1,10 +1,11 @@
-//! Point (A) – polyhedron (B): the side of entry (docs/theory.md, 2.4).
+//! Point (A) – polyhedron (B): contact with the face by which the point entered (docs/theory.md, 2.4).
 //!
 //! A point inside is pushed out through the face by which it entered, or through a neighbour of that face if
-//! the neighbour is nearer. The engine remembers the face of entry; this file has the queries on one piece.
+//! the neighbour is nearer. The engine remembers the face of entry; the functions here answer its questions
+//! about one piece of a body.
 //!
-//! Degenerate cases: a point on an active face is outside; a point on an internal face belongs to the piece
-//! whose face is `closed`. Ties go to the lower index.
+//! Degenerate cases: a point on an active face is outside. A point on an internal face belongs to the piece
+//! whose face is `closed`. Of equally near faces, the one of lower index counts.
 
 use super::highest_face::{Whereabouts, highest_of_many};
 use super::{Feature, Interference};
@@ -14,12 +15,12 @@ use crate::primitive::{PlaneBlock, Polyhedron};
 use crate::simd::{LaneBits, Simd, Splat, run_at_level};
 use crate::{Vec3, divisor};
 
-/// Least cosine between the normals of two adjacent faces at which the remembered face may move from one to
-/// the other; it does not move across sharper edges (docs/theory.md, 2.4).
+/// Least cosine between the normals of two adjacent faces at which the remembered face may change from one to
+/// the other. Across sharper edges it does not change (docs/theory.md, 2.4).
 const FOLLOWED_COSINE_MIN: f64 = 0.3;
 
-/// Active face of least depth at a point; `None` if no face is active. The heights above the faces must be
-/// finite, as for coordinates up to 1e100.
+/// Returns the active face of least depth at a point; `None` if no face is active. The heights of the point
+/// above the faces must be finite, as they are for coordinates up to 1e100.
 #[inline]
 pub fn shallowest_face(p: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
     run_at_level!(shallowest_face_in(p: Vec3, polyhedron: Polyhedron) -> Option<usize>)
@@ -30,13 +31,13 @@ fn shallowest_face_in<S: Simd>(simd: S, p: &Vec3, polyhedron: &Polyhedron) -> Op
     highest_of_many(simd, p, polyhedron.planes(), Whereabouts::Anywhere).map(|highest| highest.face)
 }
 
-/// Cosines up to this much below the largest count as equal to it: normals rounded to single precision differ
-/// by this much.
+/// Cosines up to this much below the largest count as equal to it, because normals rounded to single
+/// precision differ by this much.
 const SAME_COSINE: f64 = 1e-6;
 
-/// Active face whose normal is nearest to a direction; of equally near ones, the face of least depth at the
-/// point. `None` if no face is active. (Several normals are equally near if they are all perpendicular to the
-/// direction, such as those of the sides of a piece that was entered through its base.)
+/// Returns the active face whose normal is nearest to a direction; of equally near ones, the face of least
+/// depth at the point. `None` if no face is active. Several normals are equally near if they are all
+/// perpendicular to the direction, such as those of the sides of a piece that was entered through its base.
 pub fn face_most_along(direction: &Vec3, p: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
     let active = || polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active);
     let most = active().map(|(_, face)| face.normal.dot(direction)).fold(f64::NEG_INFINITY, f64::max);
@@ -51,7 +52,7 @@ pub fn face_most_along(direction: &Vec3, p: &Vec3, polyhedron: &Polyhedron) -> O
     best.map(|(index, _)| index)
 }
 
-/// Entry of the straight line from `from` (outside) to `to` (inside).
+/// Place where the straight line from `from` (outside) to `to` (inside) enters a polyhedron.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
     /// Face of entry, active or not.
@@ -60,13 +61,15 @@ pub struct Entry {
     pub at: f64,
 }
 
-/// Face through which a straight line enters; `None` if it starts inside or misses.
+/// Returns the face through which a straight line enters the polyhedron; `None` if the line starts inside or
+/// misses.
 ///
-/// Internal faces are raised by their tolerance ([`FacePlanes::WALL_TOLERANCE`]). So a line along an internal
-/// face enters by the active face, and a line between two adjacent pieces enters at least one of them.
+/// Internal faces are raised by their tolerance ([`FacePlanes::WALL_TOLERANCE`]). A line along an internal
+/// face therefore enters by the active face, and a line between two adjacent pieces enters at least one of
+/// them.
 pub fn entry_of_line(from: &Vec3, to: &Vec3, polyhedron: &Polyhedron) -> Option<Entry> {
-    // Not an `Option`: a compiler may compare its number before its tag, and an uninitialised number may
-    // raise a floating-point exception.
+    // `entry` is not an `Option`, because a compiler may compare the number of an `Option` before its tag,
+    // and an uninitialised number may raise a floating-point exception.
     let mut entry = Entry { face: usize::MAX, at: f64::NEG_INFINITY };
     let mut leave = f64::INFINITY;
     let slack = polyhedron.planes().wall_slack;
@@ -88,7 +91,7 @@ pub fn entry_of_line(from: &Vec3, to: &Vec3, polyhedron: &Polyhedron) -> Option<
     (entry.face != usize::MAX && entry.at < leave).then_some(entry)
 }
 
-/// Result of moving the remembered face.
+/// Result of [`follow`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reached {
     /// Face to remember next.
@@ -99,18 +102,19 @@ pub struct Reached {
     pub depth: f64,
 }
 
-/// Moves the remembered face to its neighbour of least depth, again and again while that lowers the depth
-/// below the remembered face. It does not move across a sharp edge. It does not move either if that would
-/// increase the depth below the face that pushes: a sharp neighbour that pushes now may not be adjacent to
-/// the new face.
+/// Returns the face to remember next, and the face that pushes, for a point inside. `remembered` is the face
+/// remembered so far. It changes to its neighbour of least depth, again and again, while that lowers the
+/// depth below the remembered face.
 ///
-/// So the resulting depth is at most the depth without the move, and between two commits it grows by no more
-/// than the point has moved. The heights above the faces must be finite, as for [`shallowest_face`].
+/// It does not change across a sharp edge. It does not change either if that would increase the depth below
+/// the face that pushes: this face may be a sharp neighbour of the present face but not of the next. So the
+/// depth is at most that without a change, and between two commits it grows by no more than the point has
+/// moved. The heights above the faces must be finite, as for [`shallowest_face`].
 #[inline]
 pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> Reached {
     let mut here = Reached::at(p, polyhedron, remembered);
-    // Every step lowers the depth below the remembered face, so the loop ends. Usually the remembered face
-    // itself pushes; then no neighbour has less depth.
+    // The loop ends, because every step lowers the depth below the remembered face. Usually the remembered
+    // face itself pushes; then no neighbour has less depth.
     while here.pushes != here.face
         && let Some(next) = less_deep_neighbor(p, polyhedron, here.face)
     {
@@ -149,7 +153,7 @@ impl Reached {
     }
 }
 
-/// [`Reached::at`] if all faces are in one block.
+/// Same as [`Reached::at`], for a polyhedron with all its faces in one block.
 #[inline(always)]
 fn reached_in_block<S: Simd>(simd: S, p: &Vec3, block: &PlaneBlock, &face: &usize) -> Reached {
     let candidates: LaneBits = block.beside[face] | 1 << face;
@@ -160,8 +164,8 @@ fn reached_in_block<S: Simd>(simd: S, p: &Vec3, block: &PlaneBlock, &face: &usiz
     Reached { face, pushes, depth: -top }
 }
 
-/// Active neighbour of least depth across an edge that is not sharp; `None` if no such neighbour has less
-/// depth than the face.
+/// Returns the active neighbour of least depth across an edge that is not sharp. `None` if no such neighbour
+/// has less depth than the face.
 fn less_deep_neighbor(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> Option<usize> {
     let mut next = None;
     let mut depth = -polyhedron.height(face, p);
@@ -179,7 +183,7 @@ fn less_deep_neighbor(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> Option<
     next
 }
 
-/// Contact of a point inside with the face that pushes; `None` if the point lies on the face.
+/// Returns the contact of a point inside with the face that pushes; `None` if the point lies on the face.
 pub fn point_below_face(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> Option<Interference> {
     let depth = -polyhedron.height(face, p);
     (depth > 0.0).then(|| Interference {

@@ -1,12 +1,12 @@
-//! Edges and vertices of a triangle surface that may push, and the range of their normals. They are computed
-//! once per surface. They save most sphere-triangle tests and change no result.
+//! Marks of the edges and vertices of a triangle surface that may push, with bounds of their normals. They
+//! are computed once per surface. They save most sphere-triangle tests and change no result.
 
 use super::triangle_features::{EdgeClass, TriangleView, walk_fan_while};
 use crate::primitive::{Lean, MayPush, TriangleSet};
 
 /// Stores in every triangle of a set which of its edges and vertices may push, and a bound of the angle
-/// between their normals and the triangle's normal. An edge may push if the triangle owns it and it is not
-/// silent; a vertex, if the triangle has the lowest index in the fan around it.
+/// between their normals and the triangle's normal. An edge may push if the triangle owns it and the edge is
+/// convex or free. A vertex may push if the triangle has the lowest index of all triangles around the vertex.
 pub fn mark_pushing(set: &mut TriangleSet) {
     for triangle in 0..set.triangles.len() as u32 {
         let marks = Marks::of(set, triangle);
@@ -41,8 +41,9 @@ impl Marks {
     }
 }
 
-/// Bound of the angle between the triangle's normal and the normals along which edge `k` pushes, which reach
-/// up to that of the other face. `None` if the triangle does not own the edge, or the edge is silent.
+/// Returns a bound of the angle between the triangle's normal and the normals along which edge `k` pushes,
+/// which extend up to that of the other face. `None` if the triangle does not own the edge, or if the edge is
+/// concave or flat.
 fn lean_of_edge(set: &TriangleSet, view: &TriangleView, k: usize) -> Option<Lean> {
     if !view.owns_edge(set, k) {
         return None;
@@ -57,15 +58,15 @@ fn lean_of_edge(set: &TriangleSet, view: &TriangleView, k: usize) -> Option<Lean
     }
 }
 
-/// Bound of the angle between the triangle's normal and the normals along which a vertex pushes. `None` if
-/// another triangle of the vertex's fan has a lower index.
+/// Returns a bound of the angle between the triangle's normal and the normals along which a vertex pushes.
+/// `None` if another triangle around the vertex has a lower index.
 ///
 /// Let n be the triangle's normal, w a unit vector perpendicular to n, and φ an angle. The vertex pushes
-/// along n + w tan φ only if no edge of the fan has a positive component along it. For an edge along u − s·n,
-/// with a unit vector u perpendicular to n and the slope of descent s, this means tan φ (w·u) ≤ s. If the
-/// edges go round the vertex counter-clockwise, w lies between the u of two consecutive edges, and for one of
-/// them w·u is at least the cosine of half the angle between them. So tan φ is at most the largest s over the
-/// smallest such cosine.
+/// along n + w tan φ only if no edge at the vertex has a positive component along this vector. For an edge
+/// along u − s·n, with a unit vector u perpendicular to n and the slope of descent s, this means tan φ (w·u)
+/// ≤ s. If the edges go round the vertex counter-clockwise, w lies between the vectors u of two consecutive
+/// edges, and for one of them w·u is at least the cosine of half the angle between them. So tan φ is at most
+/// the largest s over the smallest such cosine.
 fn lean_of_vertex(set: &TriangleSet, view: &TriangleView, corner: usize) -> Option<Lean> {
     /// Cosine of half the angle between two edges, seen along the normal, below which there is no useful
     /// bound.

@@ -1,14 +1,16 @@
-//! Ray (A) – bore (B): exit of the ray from the hole into the wall (docs/theory.md, 2.5 and 2.8).
+//! Ray (A) – bore (B): the point at which the ray leaves the hole through the wall (docs/theory.md, 2.5 and
+//! 2.8).
 //!
-//! Degenerate case: a ray along the wall, or from behind it, has no hit.
+//! Degenerate case: a ray that runs along the wall, or that crosses it from behind, has no hit.
 
 use super::Feature;
 use super::ray_plane::RayHit;
 use crate::Vec3;
 use crate::primitive::{Bore, Curved, Ray};
 
-/// Hit of a ray on the wall from within the hole, if −reach < distance < length. A ray without a `reach` uses
-/// the thickness of the wall.
+/// Returns the hit of a ray on the wall from within the hole. `None` unless the ray leaves the hole between
+/// the ends of the wall, and −reach < distance < length. A ray without a `reach` uses the thickness of the
+/// wall.
 pub fn ray_bore(ray: &Ray, bore: &Bore) -> Option<RayHit> {
     let distance = way_out(&ray.origin, &ray.direction, bore)?;
     let reach = ray.reach.unwrap_or(bore.thickness);
@@ -28,8 +30,9 @@ pub fn ray_bore(ray: &Ray, bore: &Bore) -> Option<RayHit> {
     Some(RayHit { distance, normal_b: -outward.normalize(), feature: Feature::face(0) })
 }
 
-/// Parameter of the point, in units of `direction`, at which a line leaves the cone of the wall: where its
-/// distance from the axis grows past the cone's radius.
+/// Returns the position, in units of `direction`, at which a line leaves the cone of the wall: there the
+/// line's distance from the axis grows beyond the cone's radius. The cone is extended past the mouths. `None`
+/// if the line does not leave it.
 pub(crate) fn way_out(origin: &Vec3, direction: &Vec3, bore: &Bore) -> Option<f64> {
     let hole = &bore.hole;
     let widening = (hole.radii[1] - hole.radii[0]) / hole.length;
@@ -49,14 +52,15 @@ pub(crate) fn way_out(origin: &Vec3, direction: &Vec3, bore: &Bore) -> Option<f6
     } else if square != 0.0 {
         (slope - half) / square
     } else {
-        // Parallel to a generator of the cone: the line enters and never leaves.
+        // The line is parallel to a generator of the cone: it enters and never leaves.
         return None;
     };
     (distance.is_finite() && radius + growth * distance > 0.0).then_some(distance)
 }
 
 impl Curved for Bore {
-    /// Path from the inside of the bore through its wall.
+    /// Returns the normal of the wall where a straight path leaves the hole through it; `None` if the path
+    /// does not. The radius does not matter.
     fn passed(&self, from: &Vec3, to: &Vec3, _radius: f64) -> Option<Vec3> {
         let ray = Ray { reach: Some(0.0), ..Ray::between(from, to)? };
         ray_bore(&ray, self).map(|hit| hit.normal_b)

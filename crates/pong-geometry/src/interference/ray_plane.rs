@@ -1,12 +1,13 @@
-//! Ray (A) – plane (B), and the contact of any ray with the surface it hits (docs/theory.md, 2.5).
+//! Ray (A) – plane (B), and the contact that follows from the hit of a ray on any surface (docs/theory.md,
+//! 2.5).
 //!
-//! Degenerate case: a ray along the surface, or from behind it, has no hit.
+//! Degenerate case: a ray that runs along the surface, or that crosses it from behind, has no hit.
 
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Plane, Ray, RayResponse};
 
-/// Hit of a ray on the front of a surface.
+/// Hit of a ray on the front of a surface: distance, normal and feature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
     /// Distance from the ray's origin along its direction, m; negative behind the origin.
@@ -17,24 +18,26 @@ pub struct RayHit {
     pub feature: Feature,
 }
 
-/// Hit of a ray on a plane, if from the front and −reach < distance < length.
+/// Returns the hit of a ray on the front of a plane; `None` unless −reach < distance < length.
 pub fn ray_plane(ray: &Ray, plane: &Plane) -> Option<RayHit> {
     hit_plane(ray, &plane.normal, -plane.height(&ray.origin), ray.reach.unwrap_or(0.0), Feature::WHOLE)
 }
 
-/// Hit on a plane that lies `rise` (m) from the ray's origin along `normal`.
+/// Returns the hit of a ray on the front of a plane that lies `rise` (m) from the ray's origin along
+/// `normal`; `None` unless −`reach` < distance < length. `rise` is negative if the origin is in front.
 #[inline]
 pub(super) fn hit_plane(ray: &Ray, normal: &Vec3, rise: f64, reach: f64, feature: Feature) -> Option<RayHit> {
     let closing = ray.direction.dot(normal);
     if closing >= 0.0 {
         return None;
     }
-    // Clamped because a compiler may divide before the branch.
+    // Clamped, so that the divisor is not zero even if a compiler divides before the branch.
     let distance = rise / closing.min(-f64::MIN_POSITIVE);
     (-reach < distance && distance < ray.length).then_some(RayHit { distance, normal_b: *normal, feature })
 }
 
-/// Contact of a ray with the nearest surface it hits.
+/// Returns the contact of a ray with the nearest surface that it hits, along the direction that the ray's
+/// `response` selects.
 #[inline]
 pub fn ray_contact(ray: &Ray, hit: &RayHit) -> Interference {
     let shortening = ray.length - hit.distance;

@@ -1,23 +1,27 @@
-//! Ray (A) – polyhedron (B) (docs/theory.md, 2.5): the face through which the ray enters the solid.
+//! Ray (A) – polyhedron (B) (docs/theory.md, 2.5): finds the face through which the ray enters the solid.
 //!
-//! Degenerate cases: a ray along an active face is outside. A ray through an edge hits the face of lower
-//! index. A ray that enters near an internal face, or runs along the line where several internal faces meet,
-//! may by rounding miss all pieces. So internal faces are raised by their tolerance: at least one piece is
-//! hit, and if several are, the engine keeps the nearest hit.
+//! Degenerate cases: a ray that runs along an active face has no hit. A ray through an edge hits the face of
+//! lower index.
+//!
+//! A ray that enters near an internal face, or runs along the line in which several internal faces meet,
+//! could by rounding miss all pieces. Internal faces are therefore raised by their tolerance, so that at
+//! least one piece is hit. If several pieces are hit, the engine keeps the nearest hit.
 
 use super::Feature;
 use super::ray_plane::RayHit;
 use crate::primitive::{FacePlanes, PlaneBlock, Polyhedron, Ray};
 use crate::simd::{Finder, First, FirstOf, LaneBits, Simd, Splat, run_at_level};
 
-/// Numbers of face blocks for which the kernel is compiled; up to `SOME` it keeps the distances in registers.
+/// Largest numbers of face blocks for which the three variants of the kernel are compiled. Up to `SOME`, the
+/// kernel keeps the distances in registers.
 const FEW: usize = 2;
 const SOME: usize = FacePlanes::IN_REGISTERS;
 const MANY: usize = usize::MAX;
 
-/// Hit of a ray that enters a polyhedron through an active face. The origin may lie inside the solid, less
-/// than `reach` behind the entry, but not beyond the far side. The heights above the faces must be finite, as
-/// for coordinates up to 1e100.
+/// Returns the hit of a ray that enters a polyhedron through an active face; `None` if there is none. The
+/// ray's origin may lie inside the solid, less than the ray's `reach` behind the entry, but not beyond the
+/// far side. The heights of the origin above the faces must be finite, as they are for coordinates up to
+/// 1e100.
 #[inline]
 pub fn ray_polyhedron(ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
     if polyhedron.planes().blocks.len() <= FEW {
@@ -60,9 +64,9 @@ fn hit<S: Simd, F: Finder<S>, const N: usize>(simd: S, ray: &Ray, polyhedron: &P
 /// Interval of a line inside the solid, as distances from the ray's origin.
 struct Passage<S: Simd, F: Finder<S>> {
     simd: S,
-    /// Last face through which the line passes inwards: there it enters the solid.
+    /// Search for the last plane that the line crosses inwards: there it enters the solid.
     entry: F,
-    /// Minus the distance of the first exit among the faces of each lane.
+    /// For each lane, minus the distance at which the line first crosses one of its planes outwards.
     leave: S::Eight,
     /// Tolerance by which internal faces are raised, m.
     wall_slack: f64,
@@ -75,8 +79,8 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
         Self { simd, entry: F::above(simd, nowhere), leave: simd.splat(nowhere), wall_slack }
     }
 
-    /// Returns `true` if the line leaves the solid farther along than `distance`, and in front of the ray's
-    /// origin.
+    /// Returns `true` if the line leaves the solid at a distance greater than `distance`, and in front of the
+    /// ray's origin.
     #[inline(always)]
     fn leaves_after(&self, distance: f64) -> bool {
         let simd = self.simd;
@@ -84,8 +88,9 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
         simd.bits(simd.and(beyond, simd.below(self.leave, simd.splat(0.0)))) == LaneBits::MAX
     }
 
-    /// Clips the line to eight planes. `heights`: heights of the origin above the planes; `climbs`: their
-    /// rates along the line. Returns `false` if the line is parallel to one of the planes and outside it.
+    /// Clips the line to eight planes. `heights` are the heights of the origin above the planes, `climbs`
+    /// their rates along the line. Returns `false` if the line runs parallel to one of the planes and outside
+    /// it.
     #[inline(always)]
     fn clip(&mut self, index: usize, block: &PlaneBlock, heights: S::Eight, climbs: S::Eight) -> bool {
         let simd = self.simd;
@@ -97,7 +102,7 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
                 simd.select(simd.mask(block.active), heights, simd.sub(heights, room))
             }
         };
-        // Distances with the sign reversed.
+        // Distances to the planes with the sign reversed.
         let before = simd.ratio(heights, climbs);
         let entered = simd.select(simd.below(climbs, zero), simd.sub(zero, before), nowhere);
         self.entry.offer(index, entered);
@@ -116,8 +121,9 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
     }
 }
 
-/// Hit on the face by which the line enters the solid: if the face is active, the line leaves the solid
-/// later, and the distance is within the ray's range.
+/// Returns the hit on the face through which the line enters the solid. `None` unless all of these hold: the
+/// face is active, the line leaves the solid only after the entry (`leaves_after`), and `distance` is within
+/// the ray's range.
 #[inline(always)]
 fn hit_at(
     ray: &Ray,

@@ -1,9 +1,9 @@
-//! Ray (A) – sphere, ellipsoid, capsule, cylinder and cone (B): entry of the ray's line into the solid
-//! (docs/theory.md, 2.5 and 2.8).
+//! Ray (A) – sphere, ellipsoid, capsule, cylinder and cone (B): the point at which the ray's line enters the
+//! solid (docs/theory.md, 2.5 and 2.8).
 //!
-//! Degenerate cases: a tangent line does not enter. A line through the rim of a cylinder or a cone enters by
-//! the lateral surface. The origin may lie inside the solid, less than `reach` behind the entry, but not
-//! beyond the far side.
+//! Degenerate cases: a line that touches the solid tangentially has no hit. A line through the rim of a
+//! cylinder or a cone enters by the lateral surface. The ray's origin may lie inside the solid, less than the
+//! ray's `reach` behind the entry, but not beyond the far side.
 
 use super::Feature;
 use super::ray_plane::RayHit;
@@ -11,14 +11,14 @@ use super::round_surface::nearest_on_segment;
 use crate::primitive::{Capsule, Ellipsoid, Frustum, Ray, Sphere};
 use crate::{Vec3, any_perpendicular};
 
-/// Hit of a ray on a sphere.
+/// Returns the hit of a ray on a sphere; `None` if there is none within the ray's range.
 pub fn ray_sphere(ray: &Ray, sphere: &Sphere) -> Option<RayHit> {
     let line = Line::near(ray, &sphere.center);
     let inside = line.in_ball(&sphere.center, sphere.radius)?;
     line.hit(ray, &inside, (line.at(inside.from) - sphere.center).normalize(), Feature::WHOLE)
 }
 
-/// Hit of a ray on an ellipsoid. In units of the semi-axes the ellipsoid is a sphere of radius 1.
+/// Returns the hit of a ray on an ellipsoid. In units of the semi-axes the ellipsoid is a sphere of radius 1.
 pub fn ray_ellipsoid(ray: &Ray, ellipsoid: &Ellipsoid) -> Option<RayHit> {
     let Ellipsoid { center, axes, semi_axes } = ellipsoid;
     let line = Line::near(ray, center);
@@ -32,7 +32,8 @@ pub fn ray_ellipsoid(ray: &Ray, ellipsoid: &Ellipsoid) -> Option<RayHit> {
     line.hit(ray, &inside, normal, Feature::WHOLE)
 }
 
-/// Hit of a ray on a capsule: on its lateral surface or one of its two end spheres, whichever comes first.
+/// Returns the hit of a ray on a capsule: on the lateral surface or one of the end spheres, whichever comes
+/// first.
 pub fn ray_capsule(ray: &Ray, capsule: &Capsule) -> Option<RayHit> {
     let [one, other] = capsule.ends;
     let line = Line::near(ray, &(0.5 * (one + other)));
@@ -48,7 +49,8 @@ pub fn ray_capsule(ray: &Ray, capsule: &Capsule) -> Option<RayHit> {
     line.hit(ray, &inside, normal, Feature::WHOLE)
 }
 
-/// Hit of a ray on a cylinder or a cone: face 0 is the lateral surface, faces 1 and 2 the ends.
+/// Returns the hit of a ray on a cylinder or a cone. Face 0 is the lateral surface, faces 1 and 2 are the
+/// ends.
 pub fn ray_frustum(ray: &Ray, frustum: &Frustum) -> Option<RayHit> {
     let line = Line::near(ray, &(0.5 * (frustum.ends[0] + frustum.ends[1])));
     let (round, between) = (line.in_round(frustum)?, line.between_ends(frustum));
@@ -62,7 +64,7 @@ pub fn ray_frustum(ray: &Ray, frustum: &Frustum) -> Option<RayHit> {
     line.hit(ray, &inside, normal, Feature::face(face))
 }
 
-/// Outward normal at a point of the lateral surface.
+/// Returns the outward unit normal at a point of the lateral surface.
 fn wall_normal(place: &Vec3, frustum: &Frustum) -> Vec3 {
     let arm = place - frustum.ends[0];
     let across = arm - frustum.axis * frustum.axis.dot(&arm);
@@ -81,20 +83,20 @@ struct Inside {
 }
 
 impl Inside {
-    /// Intersection of two intervals, if it has a positive length.
+    /// Returns the intersection of two intervals; `None` unless it has a positive length.
     fn cut(&self, other: &Self) -> Option<Self> {
         let (from, to) = (self.from.max(other.from), self.to.min(other.to));
         (from < to).then_some(Self { from, to })
     }
 
-    /// Union of two intervals of one convex solid.
+    /// Returns the union of two overlapping intervals of one convex solid.
     fn with(&self, other: &Self) -> Self {
         Self { from: self.from.min(other.from), to: self.to.max(other.to) }
     }
 }
 
-/// Line of a ray, parametrised from the point of the line nearest to the middle of a solid: from a distant
-/// point, squares would lose precision.
+/// Line of a ray. Positions along it are measured from its point nearest to the middle of a solid, because
+/// squares of coordinates measured from a distant point would lose precision.
 struct Line {
     start: Vec3,
     direction: Vec3,
@@ -128,7 +130,7 @@ impl Line {
         Some(Inside { from: -along - half, to: half - along })
     }
 
-    /// Interval between the planes of the two ends.
+    /// Returns the interval of the line between the planes of the two ends.
     fn between_ends(&self, frustum: &Frustum) -> Inside {
         let (climb, height) =
             (self.direction.dot(&frustum.axis), (self.start - frustum.ends[0]).dot(&frustum.axis));
@@ -141,8 +143,9 @@ impl Line {
         Inside { from: one.min(other), to: one.max(other) }
     }
 
-    /// Interval inside the lateral surface, which is extended beyond the ends to the apex: where the squared
-    /// distance from the axis less the squared radius, a·t² + 2b·t + c, is negative.
+    /// Returns the interval of the line inside the lateral surface, which is extended beyond the ends up to
+    /// the apex. `None` if the line does not enter it. Inside, the squared distance from the axis less the
+    /// squared radius, a·t² + 2b·t + c, is negative.
     fn in_round(&self, frustum: &Frustum) -> Option<Inside> {
         let [first, last] = frustum.radii;
         let widening = (last - first) / frustum.length;
@@ -157,8 +160,8 @@ impl Line {
         if a > 0.0 {
             return if root > 0.0 { Some(roots(a, b, c, root)) } else { None };
         }
-        // The line is steeper than the lateral surface: once inside, it stays inside, on the side to which
-        // the cone opens.
+        // The line is at a smaller angle to the axis than the lateral surface: on the side to which the cone
+        // opens, it stays inside once it has entered.
         if opening == 0.0 {
             return (c < 0.0).then_some(Inside { from: f64::NEG_INFINITY, to: f64::INFINITY });
         }
@@ -172,10 +175,10 @@ impl Line {
     }
 }
 
-/// Roots of a·t² + 2b·t + c, given b² − a·c, without cancellation.
+/// Returns the roots of a·t² + 2b·t + c without cancellation. `square` is b² − a·c.
 fn roots(a: f64, b: f64, c: f64, square: f64) -> Inside {
     let sum = -(b + square.sqrt().copysign(b));
-    // Clamped because a compiler may divide before the branch.
+    // Clamped, so that the divisor is not zero even if a compiler divides before the branch.
     let divisor = sum.abs().max(f64::MIN_POSITIVE).copysign(sum);
     let (one, other) = (sum / a, if sum == 0.0 { 0.0 } else { c / divisor });
     Inside { from: one.min(other), to: one.max(other) }

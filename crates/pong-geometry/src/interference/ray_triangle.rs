@@ -1,13 +1,14 @@
-//! Ray (A) – triangle (B), from the front (docs/theory.md, 2.5).
+//! Ray (A) – triangle (B): hits on its front (docs/theory.md, 2.5), and on its back as the front of the
+//! reversed triangle.
 //!
 //! The inside test projects the corners along the ray. The two projected coordinates of a corner are
-//! bit-identical in all triangles that share it, and a comparison of two products decides on which side of an
-//! edge the ray passes. Rounding is monotonic: it may make the products equal, but never reverses the
-//! comparison. Equal counts as inside, so a closed ring of triangles around the ray is always hit, at edges
+//! bit-identical in all triangles that share it. On which side of an edge the ray passes is decided by
+//! comparing two products. Rounding is monotonic: it may make the products equal, but never reverses the
+//! comparison. Equal counts as inside. So a closed ring of triangles around the ray is always hit, at edges
 //! and vertices too (after Woop, Benthin and Wald 2013, Watertight ray/triangle intersection).
 //!
-//! Degenerate cases: a ray through a shared edge or vertex hits one or more triangles there (the engine keeps
-//! that of lowest index); a ray in the triangle's plane has no hit.
+//! Degenerate cases: a ray through a shared edge or vertex hits one or more of its triangles, of which the
+//! engine keeps the one of lowest index. A ray in the triangle's plane has no hit.
 
 use super::Feature;
 use super::ray_plane::{RayHit, hit_plane};
@@ -15,14 +16,14 @@ use super::triangle_features::TriangleView;
 use crate::Vec3;
 use crate::primitive::{Ray, TriangleSet};
 
-/// Hit of a ray on the front of a triangle. `reach` (m): distance behind the ray's origin up to which the
-/// triangle may lie.
+/// Returns the hit of a ray on the front of a triangle; `None` if there is none. The triangle may lie up to
+/// `reach` (m) behind the ray's origin.
 #[inline(always)]
 pub fn ray_triangle(ray: &Ray, set: &TriangleSet, triangle: u32, reach: f64) -> Option<RayHit> {
     hit_corners(ray, set.corners(triangle), triangle, reach)
 }
 
-/// Hit of a ray on the back of a triangle; exactly the hit on the front of the reversed triangle.
+/// Returns the hit of a ray on the back of a triangle: exactly the hit on the front of the reversed triangle.
 #[inline]
 pub fn ray_back_of_triangle(ray: &Ray, set: &TriangleSet, triangle: u32, reach: f64) -> Option<RayHit> {
     let [first, second, third] = set.corners(triangle);
@@ -39,10 +40,12 @@ fn hit_corners(ray: &Ray, corners: [Vec3; 3], triangle: u32, reach: f64) -> Opti
     hit_plane(ray, &view.normal, -view.height(&ray.origin), reach, Feature::face(triangle as usize))
 }
 
-/// Returns `true` if the corners run counter-clockwise around the ray, seen along it.
+/// Returns `true` if the three corners run counter-clockwise around the ray, seen along it: the ray passes
+/// inside.
 ///
-/// The two coordinates perpendicular to the ray are distances from two planes through it (not normalised):
-/// the components of `arm × direction` other than along the direction's dominant axis.
+/// The corners are projected to two coordinates perpendicular to the ray, their distances (not normalised)
+/// from two planes through the ray. These are the components of `arm × direction`, with `arm` from the origin
+/// to the corner, except the component along the dominant axis of the direction.
 #[inline(always)]
 fn passes_inside(ray: &Ray, corners: &[Vec3; 3]) -> bool {
     let direction = &ray.direction;

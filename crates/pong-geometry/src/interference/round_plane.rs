@@ -1,5 +1,5 @@
-//! Capsule, cylinder and cone (A) – plane (B): half a spring at each end sphere of a capsule, and at the
-//! lowest and highest point of each disc of a cylinder or a cone (docs/theory.md, 2.8).
+//! Capsule, cylinder and cone (A) – plane (B) (docs/theory.md, 2.8). Half a spring acts at each end sphere of
+//! a capsule, and at each end disc of a cylinder or a cone, there at the disc's lowest and highest points.
 
 use super::Interference;
 use super::point_plane::point_plane;
@@ -7,16 +7,16 @@ use super::sphere_plane::sphere_plane;
 use crate::primitive::{Capsule, Frustum, Plane, Point, Sphere};
 use crate::{Vec3, any_perpendicular};
 
-/// Lowest point of each disc, then highest point of each disc: index disc + 2·(0 lowest, 1 highest).
+/// Contacts of the lowest points of discs 0 and 1, then of the highest points of discs 0 and 1.
 pub type RimContacts = [Option<Interference>; 4];
 
-/// Contact of each end sphere, in the order of the ends.
+/// Returns the contact of each end sphere, in the order of the ends.
 pub fn capsule_plane(capsule: &Capsule, plane: &Plane) -> [Option<Interference>; 2] {
     capsule.ends.map(|center| sphere_plane(&Sphere { center, radius: capsule.radius }, plane))
 }
 
-/// Contacts of the lowest and highest point of each disc. A disc of radius 0, the apex of a cone, has one
-/// point.
+/// Returns the contacts of the lowest and highest point of each disc. A disc of radius 0, the apex of a cone,
+/// has a lowest point only.
 ///
 /// Let k be the stiffness, R the radius of a disc, h the depth of its centre and s the sine of its tilt.
 /// While both points of the disc push, their energy ¼k((h − Rs)² + (h + Rs)²) = ½k(h² + R²s²) does not depend
@@ -32,10 +32,10 @@ pub fn frustum_plane(frustum: &Frustum, plane: &Plane) -> RimContacts {
     [at(0, 1.0), at(1, 1.0), highest(0), highest(1)]
 }
 
-/// Unit vector of steepest descent in the planes of the discs. If the solid is upright, that direction is
-/// only rounding, and the result is a fixed vector perpendicular to the plane's normal.
+/// Returns the unit vector of steepest descent in the planes of the discs. If the axis is parallel to the
+/// plane's normal up to rounding, the result is a fixed vector perpendicular to that normal.
 fn down_the_discs(frustum: &Frustum, plane: &Plane) -> Vec3 {
-    /// Sine of a tilt caused by rounding of unit vectors.
+    /// Sine of an angle between two unit vectors that can come from rounding alone.
     const UPRIGHT: f64 = 16.0 * f64::EPSILON;
     let level = plane.normal.cross(&frustum.axis);
     let sine = level.norm();

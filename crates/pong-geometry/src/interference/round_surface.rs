@@ -4,7 +4,7 @@ use super::Feature;
 use crate::primitive::{Capsule, Frustum};
 use crate::{Vec3, any_perpendicular};
 
-/// Nearest surface point of a solid.
+/// Surface point of a solid nearest to a given point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
     /// Distance of the point from the surface, m; negative inside.
@@ -19,8 +19,9 @@ pub(crate) struct Nearest {
 /// Accumulated rounding of two points, relative to their coordinates.
 pub(crate) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Nearest surface point of a capsule: that of a sphere around the nearest point of the axis. At a point on
-/// the axis all perpendicular directions are equivalent, and the normal is a fixed one of them.
+/// Returns the surface point of a capsule nearest to `place`: that of a sphere around the nearest point of
+/// the axis. At a point on the axis all perpendicular directions are equivalent, and the normal is a fixed
+/// one of them.
 pub(crate) fn of_capsule(place: &Vec3, capsule: &Capsule) -> Nearest {
     let foot = nearest_on_segment(place, &capsule.ends);
     let arm = place - foot;
@@ -33,7 +34,7 @@ pub(crate) fn of_capsule(place: &Vec3, capsule: &Capsule) -> Nearest {
     Nearest { distance: distance - capsule.radius, normal_b: normal, feature: Feature::WHOLE }
 }
 
-/// Point of a segment nearest to a given point.
+/// Returns the point of a segment nearest to a given point.
 pub(crate) fn nearest_on_segment(place: &Vec3, [one, other]: &[Vec3; 2]) -> Vec3 {
     let along = other - one;
     let share = (place - one).dot(&along) / along.norm_squared();
@@ -68,9 +69,9 @@ impl Meridian {
     }
 }
 
-/// Nearest surface point of a frustum. In the half plane of [`Meridian`] the solid is a trapezoid. For a
-/// point outside, the result is the nearest point of the trapezoid; for a point inside, it lies on the side
-/// of least depth.
+/// Returns the surface point of a frustum nearest to `place`. In the half plane of [`Meridian`] the solid is
+/// a trapezoid. For a point outside, the result is the nearest point of the trapezoid. For a point inside, it
+/// lies on the side of the trapezoid below which the point is least deep.
 pub(crate) fn of_frustum(place: &Vec3, frustum: &Frustum) -> Nearest {
     let at = Meridian::new(place, frustum);
     let [wall_along, wall_aside] = frustum.wall;
@@ -110,7 +111,8 @@ pub(crate) fn of_frustum(place: &Vec3, frustum: &Frustum) -> Nearest {
     Nearest { distance, normal_b: in_space(along, aside).normalize(), feature }
 }
 
-/// Point of the generator of the lateral surface nearest to `at`, in half-plane coordinates.
+/// Returns the point of the lateral surface nearest to `at`, in the coordinates of [`Meridian`]: distance
+/// along the axis and from the axis, m.
 fn on_wall(at: &Meridian, frustum: &Frustum) -> (f64, f64) {
     let [first, last] = frustum.radii;
     let (length, widening) = (frustum.length, last - first);

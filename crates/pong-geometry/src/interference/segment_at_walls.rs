@@ -1,8 +1,8 @@
 //! Ends of a line segment at an internal face of a piece (see
 //! [`line_segment_polyhedron`](super::line_segment_polyhedron)). The contact of such an end belongs to the
 //! piece behind the internal face, with two exceptions. If the internal face ends in a convex edge of the
-//! body, the edge pushes, once for all pieces at it. A tip where several internal faces meet may, by
-//! rounding, lie in none of the pieces there.
+//! body, that edge pushes, once for all pieces at it. Where several internal faces meet, rounding may put a
+//! tip in none of the pieces.
 //!
 //! A segment may leave the body through the edge between an active face and an internal face. Rounding then
 //! decides by which of the two faces it leaves a piece, and whether the piece behind the internal face
@@ -14,12 +14,14 @@ use super::segment_ends::{InsideEnd, Wedge};
 use crate::primitive::{LineSegment, Polyhedron};
 use crate::{Vec3, divisor};
 
-/// Part of a segment inside a piece whose internal faces are raised by their tolerance.
+/// Returns the part of a segment inside a piece whose internal faces are raised by their tolerance; `None` if
+/// no part is inside.
 pub(super) fn inside_of_wide_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[InsideEnd; 2]> {
     inside_of(segment, polyhedron, polyhedron.planes().wall_slack)
 }
 
-/// Part of a segment inside a piece whose internal faces are raised by `room` (m).
+/// Returns the part of a segment inside a piece whose internal faces are raised by `room` (m); `None` if no
+/// part is inside.
 fn inside_of(segment: &LineSegment, polyhedron: &Polyhedron, room: f64) -> Option<[InsideEnd; 2]> {
     let mut ends = [0.0, 1.0].map(|at| InsideEnd { at, leaves_by: None });
     for (index, face) in polyhedron.faces.iter().enumerate() {
@@ -41,15 +43,16 @@ fn inside_of(segment: &LineSegment, polyhedron: &Polyhedron, room: f64) -> Optio
     (ends[0].at < ends[1].at).then_some(ends)
 }
 
-/// Assigns the crossing of a convex edge, in which an internal face ends, to an end of the segment. At the
-/// edge `face` meets a face of the next piece.
+/// Returns the end of the segment to which the crossing of a convex edge is assigned, for an edge in which an
+/// internal face ends. At that edge `face` meets a face of the next piece, here called the other face.
 ///
-/// * `end`, if the tip there is above the face of the next piece, and the energy of `face` is not the larger;
-/// * the opposite end, if its tip is above `face`, and the energy of the face of the next piece is not the
-///   larger;
-/// * if both apply, the end that extends farther out;
-/// * `None`, if neither applies. If both tips are below both faces, each piece has a contact at its own tip,
-///   and a crossing would be a third contact.
+/// * `end`, if the tip there is above the other face, and `face` would store no more energy than the other
+///   face;
+/// * the opposite end, if the tip there is above `face`, and the other face would store no more energy than
+///   `face`;
+/// * if both conditions hold, the end that extends farther out;
+/// * `None`, if neither holds. For example, if both tips are below both faces, each piece has a contact at
+///   its own tip, and the crossing would be a third contact.
 pub(super) fn end_that_crosses(
     segment: &LineSegment,
     polyhedron: &Polyhedron,
@@ -77,8 +80,8 @@ pub(super) fn end_that_crosses(
     }
 }
 
-/// Exit of a segment from the body through the edge between an active face and an internal face, or a tip on
-/// an internal face.
+/// Place at which a segment leaves the body through the edge between an active face and an internal face, or
+/// at which its tip lies on an internal face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExitAtWall {
     /// True for a tip, false for an exit.
@@ -89,8 +92,9 @@ pub struct ExitAtWall {
     pub slack: f64,
 }
 
-/// Exit of a segment from a piece at `end`, if it lies on the edge between an active face and an internal
-/// face; or the tip, if it lies on an internal face.
+/// Returns the exit of a segment from a piece at `end` if it lies on the edge between an active face and an
+/// internal face. If the segment ends inside, returns its tip if that lies on an internal face. Otherwise
+/// `None`.
 pub fn exit_at_wall(segment: &LineSegment, polyhedron: &Polyhedron, end: usize) -> Option<ExitAtWall> {
     let inside = inside_of(segment, polyhedron, 0.0).or_else(|| inside_of_wide_walls(segment, polyhedron))?;
     let is_tip = inside[end].leaves_by.is_none();
@@ -107,13 +111,14 @@ pub fn exit_at_wall(segment: &LineSegment, polyhedron: &Polyhedron, end: usize) 
     })
 }
 
-/// Interval of a segment inside a piece, as parameters along the segment.
+/// Returns the interval of a segment inside a piece, as fractions of the segment's length; `None` if it is
+/// empty.
 pub fn part_inside(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[f64; 2]> {
     inside_of(segment, polyhedron, 0.0).map(|ends| ends.map(|end| end.at))
 }
 
-/// Exit by the active face, if the segment leaves through the edge between an active face and an internal
-/// face. By rounding `inside.leaves_by` may be either of the two faces.
+/// Returns the exit through the active face, if the segment leaves through the edge between an active face
+/// and an internal face; otherwise `None`. By rounding `inside.leaves_by` may be either of the two faces.
 pub(super) fn leaves_at_wall(
     segment: &LineSegment,
     polyhedron: &Polyhedron,
@@ -126,8 +131,8 @@ pub(super) fn leaves_at_wall(
     if polyhedron.faces[leaves_by].active {
         return polyhedron.walls_at(&place).next().is_some().then_some(*inside);
     }
-    // If `leaves_by` is the internal face, the exit by an active face must be there too, within the tolerance
-    // along the segment.
+    // If `leaves_by` is the internal face, an exit through an active face must lie at the same place, within
+    // the tolerance along the segment.
     let (length, slack) = ((to - from).norm(), polyhedron.planes().wall_slack);
     let exit = |other: usize| {
         let [before, beyond] = [from, to].map(|tip| polyhedron.height(other, tip));
@@ -140,7 +145,7 @@ pub(super) fn leaves_at_wall(
         })
     };
     let nearer = |a: &InsideEnd, b: &InsideEnd| if end == 1 { a.at <= b.at } else { a.at >= b.at };
-    // All internal faces at the exit are searched: of coplanar internal faces, `leaves_by` may be any.
+    // All internal faces at the exit are searched, because `leaves_by` may be any of several coplanar ones.
     let rims = polyhedron.walls_at(&place).flat_map(|wall| polyhedron.rims_of(wall));
     let beside = rims.map(|rim| rim.neighbor as usize).filter(|&other| polyhedron.faces[other].active);
     beside.filter_map(exit).reduce(|a, b| if nearer(&a, &b) { a } else { b })

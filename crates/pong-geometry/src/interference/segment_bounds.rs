@@ -1,13 +1,13 @@
-//! Part of a line segment inside a polyhedron, and lower bounds of the energies of its faces, eight faces at
-//! a time. The energy of a face is the sum of the squared depths of the two ends of that part below the face,
-//! m²; the face of least energy pushes (docs/theory.md, 2.3).
+//! Part of a line segment inside a polyhedron, and lower bounds of the energies of the polyhedron's faces,
+//! eight faces at a time. That part of the segment has two ends, and the energy of a face is the sum of the
+//! squared depths of these ends below the face, m². The face of least energy pushes (docs/theory.md, 2.3).
 
 use super::segment_ends::InsideEnd;
 use crate::Vec3;
 use crate::primitive::{FacePlanes, LineSegment, PlaneBlock, Polyhedron};
 use crate::simd::{Finder, LANES, LaneBits, Simd, Splat};
 
-/// Segment against the planes of a polyhedron.
+/// Line segment and the face planes of a polyhedron, ready for tests of eight faces at a time.
 #[derive(Clone, Copy)]
 pub(super) struct SegmentPlanes<'a, S: Simd> {
     simd: S,
@@ -20,11 +20,11 @@ pub(super) struct SegmentPlanes<'a, S: Simd> {
 #[derive(Clone, Copy)]
 pub(super) struct InsidePart {
     pub ends: [InsideEnd; 2],
-    /// For each end of the segment, its greatest height above a plane, m.
+    /// For each end of the segment, its greatest height above any plane, m; negative if the end is inside.
     tops: [f64; 2],
 }
 
-/// Tip inside the polyhedron, and the active face nearest to it.
+/// Tip of the segment that is inside the polyhedron, and the active face nearest to that tip.
 #[derive(Clone, Copy)]
 pub(super) struct Nearest {
     /// End of the segment that is inside.
@@ -32,7 +32,7 @@ pub(super) struct Nearest {
     pub face: usize,
 }
 
-/// Blocks that may contain the face of least energy.
+/// Face blocks that may contain the face of least energy.
 #[derive(Clone, Copy)]
 pub(super) struct Likely {
     /// Bit mask of the blocks.
@@ -42,13 +42,13 @@ pub(super) struct Likely {
 }
 
 impl Likely {
-    /// All faces of `blocks` blocks.
+    /// Returns the mask of all faces in `blocks` blocks.
     pub fn anywhere(blocks: usize) -> Self {
         Self { blocks: u64::MAX >> (u64::BITS as usize - blocks), faces: u32::MAX }
     }
 }
 
-/// Reason why a segment misses a polyhedron.
+/// Reason why a segment does not intersect a polyhedron.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Missed {
     /// Entirely outside one plane; for an internal face, by more than its tolerance.
@@ -64,7 +64,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         Self { simd, polyhedron, segment, ends }
     }
 
-    /// Clips the segment to the solid.
+    /// Returns the part of the segment inside the solid.
     ///
     /// # Errors
     /// [`Missed`] if no point of the segment lies inside.
@@ -88,7 +88,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
                 crossed |= u64::from(self.is_crossed(heights)) << index;
             }
         }
-        // Only blocks in which an end is above a plane need the division.
+        // Only blocks in which an end of the segment is above a plane need the division.
         while crossed != 0 {
             let index = crossed.trailing_zeros() as usize;
             let block = self.polyhedron.planes().block(index);
@@ -107,8 +107,8 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         }
     }
 
-    /// Active face below which a tip inside has the least depth; `None` if no tip is inside, or if an
-    /// internal face is nearer to it.
+    /// Returns the first tip that is inside the solid, and the active face below which it is least deep.
+    /// `None` if no tip is inside, or if an internal face is nearer to the tip.
     #[inline(always)]
     pub fn nearest_face<const N: usize>(&self, inside: &InsidePart) -> Option<Nearest> {
         let end = if inside.ends[0].leaves_by.is_none() { 0 } else { 1 };
@@ -126,8 +126,8 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         None
     }
 
-    /// Faces whose energy may be at most `limit`, m². For every other face the squared depth of the tip of
-    /// `nearest` alone exceeds `limit`.
+    /// Returns the faces whose energy may be at most `limit`, m². The energy of every other face exceeds
+    /// `limit`, because the squared depth of the tip of `nearest` alone does.
     #[inline(always)]
     pub fn likely<const N: usize>(&self, nearest: &Nearest, limit: f64) -> Likely {
         let (simd, limit) = (self.simd, self.simd.splat(limit));
@@ -149,8 +149,8 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         simd.bits(simd.below(simd.splat(0.0), simd.larger(first, second))) != 0
     }
 
-    /// Planes that exclude the segment: neither end is below the plane. A closed face does not exclude a
-    /// segment that lies in its plane.
+    /// Returns the planes that exclude the segment: neither end of the segment is below the plane. The plane
+    /// of a closed face does not exclude a segment that lies in it.
     #[inline(always)]
     fn outside(&self, block: &PlaneBlock, [first, second]: [S::Eight; 2]) -> LaneBits {
         let (simd, zero) = (self.simd, self.simd.splat(0.0));
@@ -162,8 +162,8 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         outside & !along_closed
     }
 
-    /// Reason for the miss; `outside`: the planes of the block that exclude the segment. The tolerance of
-    /// internal faces matters only if all of them are internal.
+    /// Returns the reason for the miss. `outside` are the planes of the block that exclude the segment. If
+    /// all of these belong to internal faces, the segment may miss only by the tolerance of internal faces.
     #[inline(always)]
     fn missed_by(&self, block: &PlaneBlock, [first, second]: [S::Eight; 2], outside: LaneBits) -> Missed {
         if outside & block.active != 0 {
@@ -174,14 +174,15 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         if beyond != 0 { Missed::ByFar } else { Missed::Perhaps }
     }
 
-    /// Returns `true` if no point of the segment would be inside even with the internal faces raised by their
-    /// tolerance; bit-identical to [`inside_of_wide_walls`](super::segment_at_walls::inside_of_wide_walls).
+    /// Returns `true` if no point of the segment would be inside even if the internal faces were raised by
+    /// their tolerance. The result is bit-identical to that of
+    /// [`inside_of_wide_walls`](super::segment_at_walls::inside_of_wide_walls).
     #[inline(always)]
     pub fn misses_wide_walls<const N: usize>(&self) -> bool {
         let (simd, zero) = (self.simd, self.simd.splat(0.0));
         let slack = simd.splat(self.polyhedron.planes().wall_slack);
         let nowhere = simd.splat(f64::NEG_INFINITY);
-        // Parameter of entry, and minus the parameter of exit: the largest of each counts.
+        // Parameters of entry, and of exit with the sign reversed: of each, the largest counts.
         let (mut entering, mut leaving) = (zero, simd.splat(-1.0));
         for index in 0..self.polyhedron.planes().count::<N>() {
             let block = self.polyhedron.planes().block(index);
@@ -199,8 +200,8 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         simd.largest(entering) >= -simd.largest(leaving)
     }
 
-    /// Lower bounds of the energies of the faces, for at most `N` blocks. If these exceed the register
-    /// budget, only for the blocks of the bit mask `blocks`.
+    /// Returns lower bounds of the energies of the faces, for at most `N` blocks. If `N` blocks do not fit
+    /// into registers, only the blocks of the bit mask `blocks` are evaluated.
     #[inline(always)]
     pub fn bounds<const N: usize>(&self, inside: &InsidePart, mut blocks: u64) -> Bounds<S, N> {
         let simd = self.simd;
@@ -221,7 +222,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         bounds
     }
 
-    // A method: a closure would not be compiled for the instruction-set level.
+    // A method, because a closure would not be compiled for the instruction-set level.
     #[allow(clippy::manual_map)]
     #[inline(always)]
     fn end(&self, inside: &InsidePart, end: usize) -> End<S> {
@@ -247,11 +248,11 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
     }
 }
 
-/// Interval of the segment inside the solid.
+/// Search for the interval of the segment inside the solid.
 struct InsideEnds<S: Simd, F: Finder<S>> {
     simd: S,
     entering: F,
-    /// Search for the maximum of minus the parameter, that is, for the first exit.
+    /// Search for the first exit, as the maximum of the exit's parameter with the sign reversed.
     leaving: F,
 }
 
@@ -261,7 +262,8 @@ impl<S: Simd, F: Finder<S>> InsideEnds<S, F> {
         Self { simd, entering: F::above(simd, 0.0), leaving: F::above(simd, -1.0) }
     }
 
-    /// Clips to the planes of a block, given the heights of the two ends above them.
+    /// Clips the interval to the planes of a block, given the heights of the two ends of the segment above
+    /// them.
     #[inline(always)]
     fn clip(&mut self, index: usize, [first, second]: [S::Eight; 2]) {
         let simd = self.simd;
@@ -303,7 +305,7 @@ impl<S: Simd, const N: usize> Bounds<S, N> {
         self.top = simd.larger(simd.select(own, simd.sub(simd.splat(0.0), bounds), nowhere), self.top);
     }
 
-    /// First face with the least bound.
+    /// Returns the face with the least bound, the first of equal ones; `None` if no face has a bound.
     #[inline(always)]
     pub fn least(&self) -> Option<usize> {
         let least = -self.simd.largest(self.top);
@@ -316,7 +318,7 @@ impl<S: Simd, const N: usize> Bounds<S, N> {
         None
     }
 
-    /// Faces of a block whose bound is at most `energy`, m².
+    /// Returns the faces of a block whose bound is at most `energy`, m².
     #[inline(always)]
     pub fn up_to(&self, energy: f64, block: usize) -> LaneBits {
         let simd = self.simd;
@@ -324,7 +326,7 @@ impl<S: Simd, const N: usize> Bounds<S, N> {
     }
 }
 
-/// One end of the part of the segment inside.
+/// One end of the part of the segment inside the solid.
 #[derive(Clone, Copy)]
 struct End<S: Simd> {
     simd: S,
@@ -340,21 +342,23 @@ struct Leaving<S: Simd> {
     along: Splat<S>,
     normal: Vec3,
     slope: f64,
-    /// Least height of the tip above a face, m, at which the tip may project into the face.
+    /// Height of the tip above the plane of another face, m, below which the tip cannot project into that
+    /// face.
     lowest: S::Eight,
 }
 
 impl<S: Simd> End<S> {
-    /// Lower bound of the squared depth of this end below each face, m²; infinite if the face certainly takes
-    /// no part.
+    /// Returns a lower bound of the squared depth of this end below each face, m²; infinite for a face that
+    /// certainly takes no part.
     #[inline(always)]
     fn least_square(&self, index: usize, block: &PlaneBlock) -> S::Eight {
         let (simd, zero) = (self.simd, self.simd.splat(0.0));
         let height = block.heights(simd, &self.tip);
         let Some(leaving) = &self.leaves else { return self.square_below(height) };
         let crossing = leaving.crossing_square(simd, block);
-        // If the tip projects into the face, its depth counts (0 above the face), otherwise the crossing. The
-        // smaller one is a lower bound. A tip above the face by less than `lowest` does not project into it.
+        // If the tip projects into the face, its own depth counts (0 above the face), otherwise that of the
+        // crossing. The smaller one is a lower bound. A tip above the face by less than `lowest` does not
+        // project into it.
         let over = self.square_below(height);
         let least = simd.select(simd.below(crossing, over), crossing, over);
         let is_beside = simd.and(simd.at_least(height, zero), simd.below(height, leaving.lowest));
@@ -365,7 +369,7 @@ impl<S: Simd> End<S> {
         simd.select(simd.mask(1 << (leaving.face % LANES)), zero, least)
     }
 
-    /// Squared depth; 0 above the plane.
+    /// Returns the squared depth for a height above a plane; 0 above the plane.
     #[inline(always)]
     fn square_below(&self, height: S::Eight) -> S::Eight {
         let (simd, zero) = (self.simd, self.simd.splat(0.0));
@@ -374,8 +378,9 @@ impl<S: Simd> End<S> {
 }
 
 impl<S: Simd> Leaving<S> {
-    /// Squared depth of the crossing with each face, m²; 0 if the exit point is above the face, infinite if
-    /// the planes of the face and of the exit face do not intersect.
+    /// Returns the squared depth of the crossing (see
+    /// [`line_segment_polyhedron`](super::line_segment_polyhedron)) with each face, m². It is 0 if the exit
+    /// point is above the face, and infinite if the planes of the face and of the exit face are parallel.
     #[inline(always)]
     fn crossing_square(&self, simd: S, block: &PlaneBlock) -> S::Eight {
         let zero = simd.splat(0.0);
@@ -390,7 +395,7 @@ impl<S: Simd> Leaving<S> {
         }
         let numerator = simd.mul(height, exit_slope);
         let square = simd.ratio(simd.mul(numerator, numerator), length_square);
-        // Applied by `larger`: with a selection, a compiler could drop the guard against 0/0.
+        // Applied by `larger`, because with a selection a compiler could drop the guard against 0/0.
         let least = simd.select(simd.equal(length_square, zero), simd.splat(f64::INFINITY), zero);
         let square = simd.larger(square, least);
         simd.select(simd.below(zero, height), zero, square)

@@ -1,11 +1,11 @@
-//! Depth of one end of the part of a line segment inside a polyhedron, below one face (see
-//! [`line_segment_polyhedron`](super::line_segment_polyhedron)).
+//! Line segment that lies partly inside a polyhedron: the depth of each end of the part inside, below a given
+//! face (see [`line_segment_polyhedron`](super::line_segment_polyhedron)).
 
 use super::{Feature, Interference};
 use crate::primitive::{LineSegment, Polyhedron, PolyhedronFace, RimEdge};
 use crate::{Vec3, divisor};
 
-/// One end of the part of the segment inside the solid.
+/// One end of the part of a segment inside a solid.
 #[derive(Clone, Copy)]
 pub(super) struct InsideEnd {
     /// Parameter along the segment, 0…1.
@@ -14,7 +14,7 @@ pub(super) struct InsideEnd {
     pub leaves_by: Option<usize>,
 }
 
-/// One end of the part inside, evaluated for one face.
+/// One end of the part of a segment inside a solid, evaluated for one face.
 pub(super) struct AtEnd<'a> {
     pub segment: &'a LineSegment,
     pub polyhedron: &'a Polyhedron,
@@ -23,19 +23,19 @@ pub(super) struct AtEnd<'a> {
     pub tip_b: &'a Vec3,
 }
 
-/// Depth measured at an end.
+/// Depth of an end of the part inside, below one face.
 #[derive(Clone, Copy)]
 pub(super) enum Measured {
     /// No depth: the segment leaves through the face itself.
     Leaves,
-    /// Depth of the tip, inside or straight below the face (negative above it), m.
+    /// Depth of the tip, m. The tip is inside the solid, or straight below the face (negative if above it).
     Tip(f64),
     /// Depth of a crossing: the segment leaves through another face.
     Crossing(Crossing),
 }
 
-/// Crossing of the segment's line and the intersection line of two face planes: of the face that pushes and
-/// of the face through which the segment leaves.
+/// Place where the segment's line passes the line in which two face planes intersect. One is the plane of the
+/// face that pushes, the other that of the face through which the segment leaves.
 ///
 /// Let f be the face that pushes and h the face of the exit, n_f and n_h their normals, s the direction of
 /// the segment, and q its exit point, which lies in the plane of h. The common normal of the two lines is u =
@@ -51,7 +51,7 @@ pub(super) struct Crossing {
     length: f64,
 }
 
-/// Planes of two faces of a body that meet in an edge, which a segment may cross.
+/// Planes of two faces of a body that meet in an edge that a segment may cross.
 #[derive(Clone, Copy)]
 pub(super) struct Wedge {
     /// Outward unit normals and offsets, m: of the face that pushes, then of the other face.
@@ -59,17 +59,17 @@ pub(super) struct Wedge {
 }
 
 impl Wedge {
-    /// Difference up to which parameters along a segment count as equal, so that rounding does not choose
-    /// between tips that extend equally far.
+    /// Difference up to which positions along a segment (fractions of its length) count as equal, so that
+    /// rounding does not choose between tips that extend equally far.
     const TIE: f64 = 1e-9;
 
-    /// Wedge of two faces of a piece.
+    /// Returns the wedge of two faces of a piece.
     pub fn of_faces(polyhedron: &Polyhedron, face: usize, other: usize) -> Self {
         Self { planes: [face, other].map(|f| (polyhedron.faces[f].normal, polyhedron.faces[f].offset)) }
     }
 
-    /// Wedge of a face of a piece and the face of the next piece, if an internal face between the pieces ends
-    /// in the edge; `None` if the two faces do not meet convexly.
+    /// Returns the wedge of `face` and the face of the next piece at `edge`, for an edge in which the
+    /// internal face between the two pieces ends. `None` if the two faces do not meet convexly.
     pub fn of_edge(polyhedron: &Polyhedron, face: usize, edge: usize) -> Option<Self> {
         let edge = &polyhedron.edges[edge];
         let push = edge.convex.as_ref()?;
@@ -80,19 +80,19 @@ impl Wedge {
         Some(Self { planes: [(own.normal, own.offset), (other, other.dot(&place))] })
     }
 
-    /// Height of a point above one of the planes, m.
+    /// Returns the height of a point above one of the planes, m.
     #[inline]
     pub fn height(&self, plane: usize, p: &Vec3) -> f64 {
         let (normal, offset) = &self.planes[plane];
         normal.dot(p) - offset
     }
 
-    /// End to which the crossing of the edge is assigned if the segment enters through one plane and leaves
-    /// through the other: the end whose tip extends farther out, or the first if both extend equally far.
-    /// Otherwise returns `end`.
+    /// Returns the end of the segment to which the crossing of the edge is assigned. If the segment enters
+    /// through one plane and leaves through the other, that is the end whose tip extends farther out, or the
+    /// first end if both extend equally far. Otherwise it is `end`.
     ///
-    /// While one tip is inside, the crossing belongs to the other end, so nothing changes when that tip comes
-    /// out.
+    /// While one tip is inside, the crossing belongs to the other end. So nothing changes when the first tip
+    /// comes out.
     pub fn farther_out(&self, segment: &LineSegment, end: usize) -> usize {
         let heights = |plane| (self.height(plane, &segment.ends[0]), self.height(plane, &segment.ends[1]));
         let ((first, second), (other_first, other_second)) = (heights(0), heights(1));
@@ -100,14 +100,14 @@ impl Wedge {
             return end;
         }
         let at = first / divisor(first - second) + other_first / divisor(other_first - other_second);
-        // `at` is the sum of the parameters of the entry and the exit. It is 1 if the parts outside are
-        // equally long.
+        // `at` is the sum of the positions of the entry and the exit, as fractions of the length. It is 1 if
+        // the parts outside are equally long.
         usize::from(at < 1.0 - Self::TIE)
     }
 }
 
 impl Measured {
-    /// Depth, m; 0 if the end does not touch.
+    /// Returns the depth, m; 0 if the end does not touch.
     #[inline(always)]
     pub fn depth(&self) -> f64 {
         let depth = match self {
@@ -125,7 +125,7 @@ impl AtEnd<'_> {
         &self.polyhedron.faces[self.face]
     }
 
-    /// Depth of the end; `None` if the face takes no part.
+    /// Returns the depth of the end below the face; `None` if the face takes no part.
     #[inline(always)]
     pub fn measured(&self) -> Option<Measured> {
         match self.inside.leaves_by {
@@ -137,7 +137,7 @@ impl AtEnd<'_> {
         }
     }
 
-    /// Contact of the end, if it touches.
+    /// Returns the contact of the end, given its depth; `None` if it does not touch.
     #[inline(always)]
     pub fn contact(&self, measured: &Measured) -> Option<Interference> {
         match measured {
@@ -163,8 +163,8 @@ impl AtEnd<'_> {
         self.segment.ends[0] + self.along() * self.inside.at
     }
 
-    /// Edge between this face and the internal face through which the segment leaves. Of coplanar internal
-    /// faces, `leaves_by` may be any, so the exit point decides.
+    /// Returns the edge between this face and the internal face through which the segment leaves. The edge is
+    /// found by the exit point, because `leaves_by` may be any of several coplanar internal faces.
     #[cold]
     fn rim_at_wall(&self) -> Option<&RimEdge> {
         let (place, slack) = (self.leaving(), self.polyhedron.planes().wall_slack);
@@ -175,8 +175,8 @@ impl AtEnd<'_> {
         self.polyhedron.rim(self.face).iter().find(is_there)
     }
 
-    /// Crossing, for an exit through the face `leaves_by`; `None` if its plane does not intersect that of
-    /// this face.
+    /// Returns the crossing for an exit through the face `leaves_by`; `None` if the planes of that face and
+    /// of this face are parallel.
     #[inline(always)]
     fn crossing(&self, leaves_by: usize) -> Option<Crossing> {
         let (face, exit, along) = (self.face(), &self.polyhedron.faces[leaves_by], self.along());
@@ -207,7 +207,7 @@ impl AtEnd<'_> {
 /// Returns `true` if a point projects onto a face's polygon along the face's normal.
 #[inline(always)]
 fn is_over_face(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bool {
-    // Branch-free in groups of four: most outlines are decided in the first group.
+    // Branch-free in groups of four, because most points outside are outside of an edge in the first group.
     polyhedron
         .rim(face)
         .chunks(4)

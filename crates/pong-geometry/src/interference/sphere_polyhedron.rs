@@ -1,9 +1,10 @@
-//! Sphere (A) – polyhedron (B): with the centre outside, the nearest surface point; with the centre inside, a
-//! point contact plus the radius (docs/theory.md, 2.2 and 2.4).
+//! Sphere (A) – polyhedron (B) (docs/theory.md, 2.2 and 2.4). If the centre is outside, the contact is with
+//! the nearest surface point. If the centre is inside, it is that of a point, with the radius added to the
+//! depth.
 //!
-//! Degenerate cases: a centre on a face counts as outside; on an edge or vertex the active face of lowest
-//! index there pushes. If the centre is straight above the seam of two pieces, both may push, and the two
-//! contacts share one spring.
+//! Degenerate cases: a centre on a face counts as outside. If the centre is on an edge or a vertex, the
+//! active face of lowest index there pushes. If the centre is straight above the seam of two pieces, both may
+//! push, and the two contacts share one spring.
 
 use super::point_polyhedron::{point_below_face, shallowest_face};
 use super::{Feature, Interference, ball_over_point};
@@ -11,8 +12,9 @@ use crate::Vec3;
 use crate::primitive::{EdgeBlock, Polyhedron, Sphere};
 use crate::simd::{LANES, LaneBits, Simd, Splat, run_at_level};
 
-/// Contact of a sphere without a remembered face: with the nearest feature if the centre is outside, else
-/// with the active face of least depth.
+/// Returns the contact of a sphere without a remembered face. It is with the nearest feature if the centre is
+/// outside, otherwise with the active face of least depth. `None` if there is no overlap or that feature may
+/// not push.
 #[inline]
 pub fn sphere_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
     run_at_level!(sphere_polyhedron_in(sphere: Sphere, polyhedron: Polyhedron) -> Option<Interference>)
@@ -29,8 +31,8 @@ fn sphere_polyhedron_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedr
     Some(sphere_inside_polyhedron(sphere, polyhedron, face))
 }
 
-/// Contact of a sphere whose centre is outside: with the feature nearest to the centre, if that feature may
-/// push.
+/// Returns the contact of a sphere whose centre is outside: with the feature nearest to the centre. `None` if
+/// the sphere does not reach that feature, or if the feature may not push.
 #[inline]
 pub fn sphere_outside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
     run_at_level!(outside_in(sphere: Sphere, polyhedron: Polyhedron) -> Option<Interference>)
@@ -42,7 +44,7 @@ fn outside_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedron) -> Opt
     near.contact(&near.survey()?)
 }
 
-/// Contact of a sphere whose centre is inside, below the face that pushes.
+/// Returns the contact of a sphere whose centre is inside, with the face that pushes.
 #[inline]
 pub fn sphere_inside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron, face: usize) -> Interference {
     let normal = polyhedron.faces[face].normal;
@@ -55,7 +57,7 @@ pub fn sphere_inside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron, face: 
     }
 }
 
-/// Sphere near a polyhedron.
+/// Sphere and polyhedron, ready for tests of eight planes at a time.
 struct Near<'a, S: Simd> {
     simd: S,
     sphere: &'a Sphere,
@@ -63,7 +65,7 @@ struct Near<'a, S: Simd> {
     center: Splat<S>,
 }
 
-/// Result of testing all planes, if none separates the sphere.
+/// Position of the centre relative to all planes, if no plane separates the sphere from the polyhedron.
 struct Survey {
     is_inside: bool,
     /// Greatest height of the centre above a plane, m.
@@ -76,7 +78,7 @@ impl<'a, S: Simd> Near<'a, S> {
         Self { simd, sphere, polyhedron, center: Splat::new(simd, &sphere.center) }
     }
 
-    /// Tests all planes; `None` if one separates the sphere.
+    /// Returns the position of the centre relative to all planes; `None` if one of them separates the sphere.
     #[inline(always)]
     fn survey(&self) -> Option<Survey> {
         let simd = self.simd;
@@ -94,7 +96,8 @@ impl<'a, S: Simd> Near<'a, S> {
         Some(Survey { is_inside: held == LaneBits::MAX, top: simd.largest(top) })
     }
 
-    /// Contact with the nearest feature.
+    /// Returns the contact with the feature nearest to the centre; `None` if the sphere does not reach it or
+    /// it may not push.
     #[inline(always)]
     fn contact(&self, survey: &Survey) -> Option<Interference> {
         if let Some(face) = self.face_below(survey) {
@@ -106,11 +109,12 @@ impl<'a, S: Simd> Near<'a, S> {
         }
     }
 
-    /// Face that contains the centre's foot point, its projection onto the plane of the face.
+    /// Returns the face that contains the centre's foot point, its projection onto the plane of the face;
+    /// `None` if no face does.
     #[inline(always)]
     fn face_below(&self, survey: &Survey) -> Option<usize> {
         let (simd, planes) = (self.simd, self.polyhedron.planes());
-        // At internal faces the outlines are widened, so the bound does not apply.
+        // Outlines are widened at internal faces, so the bound does not apply there.
         let lowest = match planes.simple {
             true => self.polyhedron.least_height_over_face(&self.sphere.center, survey.top).max(0.0),
             false => 0.0,
@@ -121,7 +125,7 @@ impl<'a, S: Simd> Near<'a, S> {
             let mut faces = simd.bits(simd.at_least(heights, simd.splat(lowest))) & block.own;
             while faces != 0 {
                 let face = index * LANES + faces.trailing_zeros() as usize;
-                // By rounding, both an internal face and an active face may contain the foot point: the
+                // By rounding, both an internal face and an active face may contain the foot point. Then the
                 // active face counts.
                 let counts = match found {
                     None => true,
@@ -179,7 +183,7 @@ impl<'a, S: Simd> Near<'a, S> {
         best
     }
 
-    /// Distance from the centre within which a feature may be touched, m.
+    /// Returns the distance from the centre within which the sphere may touch a feature, m.
     #[inline(always)]
     fn reach(&self) -> f64 {
         /// Far above the rounding of a distance.
@@ -202,15 +206,15 @@ impl<'a, S: Simd> Near<'a, S> {
     }
 }
 
-/// Returns `true` if the foot point of `p` lies in a face. Where the face continues in the next piece, its
-/// outline is widened by a tolerance: each piece computes the seam from its own normals, and both could miss
-/// a centre straight above it.
+/// Returns `true` if the projection of `p` onto a face's plane lies in the face. Where the face continues in
+/// the next piece, its outline is widened by a tolerance. Otherwise a point straight above the seam could
+/// miss both faces, because each piece computes the seam from its own normals.
 #[inline(always)]
 fn holds_foot(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bool {
     if !polyhedron.planes().all_active {
         return holds_foot_beside_walls(p, polyhedron, face);
     }
-    // Branch-free in groups of four: most outlines are decided in the first group.
+    // Branch-free in groups of four, because most points outside are outside of an edge in the first group.
     polyhedron
         .rim(face)
         .chunks(4)
@@ -227,7 +231,8 @@ fn holds_foot_beside_walls(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bo
     })
 }
 
-/// Contact with an edge, for a centre in the Voronoi region of the edge.
+/// Returns the contact with an edge, for a centre in the Voronoi region of the edge; `None` if the edge never
+/// pushes or the sphere does not reach it.
 fn edge_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Option<Interference> {
     let edge = &polyhedron.edges[index];
     let [first, second] = edge.vertices.map(|v| polyhedron.vertices[v as usize].position);
@@ -237,9 +242,10 @@ fn edge_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Optio
     ball_over_point(sphere, &foot, Feature::edge(index), || normals[0] + normals[1])
 }
 
-/// Contact with a vertex within the radius, if the centre lies in its normal cone.
+/// Returns the contact with a vertex; `None` if the centre is outside the vertex's normal cone, or the sphere
+/// does not reach the vertex.
 fn vertex_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Option<Interference> {
-    // Tolerance for the product of a unit direction and a unit edge: without it, a centre straight above a
+    // Tolerance for the product of a unit direction and a unit edge. Without it, a centre straight above a
     // vertex in the middle of a straight edge could fall between the two halves of that edge.
     const CONE_COSINE_SLACK: f64 = 1e-12;
     let vertex = &polyhedron.vertices[index];
@@ -253,7 +259,7 @@ fn vertex_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Opt
     ball_over_point(sphere, &vertex.position, Feature::vertex(index), || -cone.iter().sum::<Vec3>())
 }
 
-/// Deeper of two contacts; at equal depth, the contact of the lower feature.
+/// Returns the deeper of two contacts; at equal depth, the contact of the lower feature.
 fn deeper(best: Option<Interference>, candidate: Option<Interference>) -> Option<Interference> {
     let (Some(a), Some(b)) = (best, candidate) else { return best.or(candidate) };
     let replaces = b.depth > a.depth || (b.depth == a.depth && b.feature < a.feature);

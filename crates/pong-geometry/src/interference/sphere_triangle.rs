@@ -1,7 +1,7 @@
 //! Sphere (A) – triangle (B), one-sided (docs/theory.md, 2.2).
 //!
-//! Degenerate cases: a centre in the plane counts as in front; a centre on a convex edge or vertex pushes
-//! along the mean of the normals there.
+//! Degenerate cases: a centre in the plane of the triangle counts as in front. If the centre is on a convex
+//! edge or vertex, the normal is the mean of the face normals there.
 
 use super::behind_triangle::has_behind;
 use super::triangle_features::{
@@ -14,13 +14,13 @@ use crate::Vec3;
 use crate::primitive::{Sphere, TriangleSet};
 
 /// Distance beyond an edge, relative to the coordinates, up to which a centre behind the face still gives a
-/// fallback contact ([`Standing::SpareBehind`]): some thousand roundings.
+/// fallback ([`Standing::SpareBehind`]). It is some thousand times the rounding error.
 const FOOT_SLACK: f64 = 1e-12;
 
 /// Tests a sphere against one triangle and emits a contact for each of its features that pushes.
 ///
-/// `thickness` (m): distance up to which a centre behind the face is still pushed to the front. Edges and
-/// vertices are emitted only by their owner, so that each feature of a surface counts once.
+/// `thickness` (m) is the distance up to which a centre behind the face is still pushed to the front. An edge
+/// or a vertex is emitted only by the triangle that owns it, so that each feature of a surface counts once.
 #[inline(always)]
 pub fn sphere_triangle(
     sphere: &Sphere,
@@ -34,7 +34,8 @@ pub fn sphere_triangle(
     }
 }
 
-/// Contact of a sphere whose centre is in front, with a triangle of which only the face may push.
+/// Returns the contact of a sphere with a triangle of which only the face may push. The sphere's centre must
+/// be in front; `None` if the sphere does not reach the face.
 #[inline]
 pub fn sphere_over_face(sphere: &Sphere, set: &TriangleSet, triangle: u32) -> Option<TriangleContact> {
     let view = TriangleView::new(set, triangle);
@@ -65,7 +66,7 @@ fn emit_features(
         Some(Rim::Vertex(corner)) => return emit_on_vertex(sphere, &edges, corner, emit),
         None => {}
     }
-    // In front, a centre clearly beyond an edge belongs to another feature.
+    // A centre that is in front and clearly beyond an edge belongs to another feature.
     let of_other_feature = near.in_front && near.beyond.contains(&true);
     let has_beyond = || match height > 0.0 {
         true => (0..3).all(|k| !beyond[k] || edges.has_on_seam(k, &sphere.center)),
@@ -85,7 +86,7 @@ fn emit_features(
     }
 }
 
-/// Rounding error of a centre relative to the triangle, m.
+/// Returns the rounding error of a centre's position relative to the triangle, m.
 fn foot_slack(center: &Vec3, edges: &TriangleEdges) -> f64 {
     FOOT_SLACK * ((center - edges.view.corners[0]).amax() + center.amax())
 }
@@ -96,8 +97,8 @@ enum Rim {
     Vertex(usize),
 }
 
-/// Convex edge or vertex of the triangle on which the centre lies, within rounding. All faces there have the
-/// centre in their planes; only the edge or the vertex pushes.
+/// Returns the convex edge or vertex of the triangle on which the centre lies, within rounding; otherwise
+/// `None`. All faces there have the centre in their planes; only the edge or the vertex pushes.
 fn on_convex_rim(sphere: &Sphere, edges: &TriangleEdges, height: f64) -> Option<Rim> {
     let (center, corners) = (&sphere.center, &edges.view.corners);
     let slack = foot_slack(center, edges);
@@ -122,7 +123,8 @@ fn on_convex_rim(sphere: &Sphere, edges: &TriangleEdges, height: f64) -> Option<
     (0..3).find(|&k| is_on(k)).map(Rim::Edge)
 }
 
-/// Returns `true` if the fan around a vertex has a convex edge and no concave one.
+/// Returns `true` if a vertex is convex: of the edges that end in it, at least one is convex and none is
+/// concave.
 fn is_convex_at(edges: &TriangleEdges, corner: usize) -> bool {
     let mut has_convex = false;
     let all = walk_fan_while(edges.set, edges.view.index, corner, |t, at| {
@@ -139,7 +141,7 @@ fn is_convex_at(edges: &TriangleEdges, corner: usize) -> bool {
     all.is_some() && has_convex
 }
 
-/// Contact of a centre on convex edge `k`, along the mean of the two normals.
+/// Emits the contact of a centre on convex edge `k`, with the mean of the two face normals.
 fn emit_on_edge(sphere: &Sphere, edges: &TriangleEdges, k: usize, emit: &mut dyn FnMut(TriangleContact)) {
     let EdgeClass::Convex { normal, .. } = edges.class(k) else { return };
     let view = edges.view;
@@ -148,7 +150,7 @@ fn emit_on_edge(sphere: &Sphere, edges: &TriangleEdges, k: usize, emit: &mut dyn
     }
 }
 
-/// Contact of a centre on a convex vertex, along the mean of the normals there.
+/// Emits the contact of a centre on a convex vertex, with the mean of the face normals there.
 fn emit_on_vertex(
     sphere: &Sphere,
     edges: &TriangleEdges,
@@ -174,8 +176,8 @@ fn emit_on_rim(sphere: &Sphere, mean: &Vec3, feature: Feature, emit: &mut dyn Fn
 }
 
 /// Returns `true` if a centre behind a triangle is beyond some of its edges only by rounding, and these edges
-/// are silent. Behind a vertex of a flat surface, rounding can put the centre beyond an edge of every
-/// triangle there. (In front, the vertex pushes.)
+/// are concave or flat. Behind a vertex of a flat surface, rounding can put the centre beyond an edge of
+/// every triangle there. (A centre in front of the vertex is pushed by the vertex.)
 fn hardly_beyond(sphere: &Sphere, edges: &TriangleEdges, beyond: [bool; 3]) -> bool {
     let slack = foot_slack(&sphere.center, edges);
     let is_silent = |k: usize| matches!(edges.class(k), EdgeClass::Silent { .. });

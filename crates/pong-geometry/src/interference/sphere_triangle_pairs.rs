@@ -1,22 +1,26 @@
-//! Rejection of sphere-triangle pairs, eight at a time.
+//! Classification of sphere-triangle pairs, eight at a time.
 //!
-//! A sphere near a surface overlaps the boxes of many triangles and touches few. Dot products alone classify
-//! most pairs: the sphere is too far from the plane or too far beyond an edge, or no feature near it may
-//! push, or (most of the rest) only the face may push. The remaining pairs go through
-//! [`sphere_triangle`](super::sphere_triangle::sphere_triangle) one by one. This filter changes no result:
-//! every comparison has a margin for rounding or uses the same bits as the single test, and NaN never
-//! rejects.
+//! A sphere near a surface overlaps the boxes of many triangles and touches few. Dot products alone decide
+//! most pairs:
+//!
+//! * most are rejected: the sphere is too far from the plane, too far beyond an edge, or near no feature that
+//!   may push;
+//! * in most of the others only the face may push, for which a shorter test is enough;
+//! * the few that remain go one by one through [`sphere_triangle`](super::sphere_triangle::sphere_triangle).
+//!
+//! The classification changes no result: every comparison has a margin for rounding or is bit-identical to
+//! that of the test of a single pair, and NaN never rejects a pair.
 
 use super::triangle_lanes::{EightVectors, TriangleLanes, bit_of_each, fill_in};
 use super::triangle_reach::{REACH_SLACK, SIDE_SLACK};
 use crate::primitive::{Lean, Sphere, TriangleSet};
 use crate::simd::{LANES, LaneBits, Simd, run_at_level};
 
-/// Fraction of the product of two lengths that a dot product must exceed to count as positive: far above the
-/// tolerance of the test of a single pair and its rounding.
+/// Fraction of the product of two lengths that a dot product must exceed to count as positive. It is far
+/// above the corresponding tolerance in the test of a single pair, and above rounding.
 const ALONG_SLACK: f64 = 2e-9;
 
-/// Batch of up to eight pairs.
+/// Batch of up to eight sphere-triangle pairs.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub struct SphereTrianglePairs {
@@ -36,7 +40,7 @@ impl Default for SphereTrianglePairs {
 }
 
 impl SphereTrianglePairs {
-    /// Number of pairs.
+    /// Returns the number of pairs in the batch.
     #[inline]
     pub fn count(&self) -> usize {
         self.lanes.count
@@ -48,7 +52,7 @@ impl SphereTrianglePairs {
         self.lanes.count = 0;
     }
 
-    /// Adds a pair (at most eight) and returns its lane. `thickness` as in
+    /// Adds a pair to the batch, which may hold eight, and returns the lane of the pair. `thickness` is as in
     /// [`sphere_triangle`](super::sphere_triangle::sphere_triangle).
     #[inline(always)]
     pub fn add(&mut self, sphere: &Sphere, triangle: u32, thickness: f64) -> usize {
@@ -57,21 +61,22 @@ impl SphereTrianglePairs {
         lane
     }
 
-    /// Sets the sphere of all pairs that [`push`](Self::push) adds from here on; `thickness` as in
-    /// [`add`](Self::add). Faster than `add` if several consecutive pairs have the same sphere.
+    /// Sets the sphere for all pairs that [`push`](Self::push) adds afterwards. `thickness` is as in
+    /// [`add`](Self::add). This is faster than `add` if several consecutive pairs have the same sphere.
     #[inline(always)]
     pub fn begin_in<S: Simd>(&mut self, simd: S, sphere: &Sphere, thickness: f64) {
         fill_in(simd, &mut self.radii, self.lanes.count, sphere.radius);
         self.lanes.begin_in(simd, &sphere.center, thickness);
     }
 
-    /// Adds a pair of the current sphere with a triangle (at most eight) and returns its lane.
+    /// Adds a pair of the current sphere and a triangle to the batch, which may hold eight, and returns the
+    /// lane of the pair.
     #[inline(always)]
     pub fn push(&mut self, triangle: u32) -> usize {
         self.lanes.push(triangle)
     }
 
-    /// Classifies the pairs, for triangles of `set`, and clears the batch.
+    /// Classifies all pairs of the batch, whose triangles are in `set`, and empties the batch.
     #[inline]
     pub fn take(&mut self, set: &TriangleSet) -> PairsTold {
         if self.count() == 0 {
@@ -83,7 +88,7 @@ impl SphereTrianglePairs {
         told
     }
 
-    /// [`take`](Self::take) within a kernel.
+    /// Same as [`take`](Self::take), for a caller that already runs at the SIMD level `S`.
     #[inline(always)]
     pub fn take_in<S: Simd>(&mut self, simd: S, set: &TriangleSet) -> PairsTold {
         self.fetch(set);
@@ -105,12 +110,12 @@ impl SphereTrianglePairs {
     }
 }
 
-/// Classification of pairs, a bit per lane.
+/// Classification of the pairs of a batch, one bit per lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PairsTold {
     /// Pairs that may touch.
     pub near: LaneBits,
-    /// Pairs of `near` in which only the face may push, with the centre in front:
+    /// Pairs of `near` whose sphere has its centre in front and can be pushed by the face only. For these
     /// [`sphere_over_face`](super::sphere_triangle::sphere_over_face) is enough.
     pub over_face: LaneBits,
 }
@@ -164,7 +169,7 @@ impl<S: Simd> Vector<S> {
         }
     }
 
-    /// Sums of the absolute components.
+    /// Returns the sums of the absolute components.
     #[inline(always)]
     fn taxicab(&self) -> S::Eight {
         let simd = self.simd;
@@ -178,7 +183,7 @@ fn size<S: Simd>(simd: S, x: S::Eight) -> S::Eight {
     simd.larger(x, simd.sub(simd.splat(0.0), x))
 }
 
-/// Classifies the pairs. The first comparisons, and the names, are those of
+/// Classifies the pairs. The first comparisons and the names are those of
 /// [`InReach`](super::triangle_reach::InReach).
 #[inline(always)]
 fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
@@ -219,8 +224,8 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
     let any_lean = simd.splat(Lean::ANY.tangent());
     let edges_lean_little = in_front & simd.bits(simd.below(edge_lean, any_lean));
     let vertices_lean_little = in_front & simd.bits(simd.below(vertex_lean, any_lean));
-    // Largest squared distances at which an edge (measured in the triangle's plane) and a vertex can push the
-    // centre, times `normal_square`.
+    // Squared distances, times `normal_square`, up to which an edge and a vertex can push the centre. For an
+    // edge the distance is measured in the triangle's plane.
     let edge_reach = simd.mul(height_square, simd.mul(edge_lean, edge_lean));
     let vertex_reach = simd.add(height_square, simd.mul(height_square, simd.mul(vertex_lean, vertex_lean)));
     for k in 0..3 {
@@ -236,8 +241,8 @@ fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
         // True if the foot point on the edge's line lies before the edge's start or after its end.
         let (from_start, from_end) = (arm.dot(edge), next_arm.dot(edge));
         let beside = simd.bits(simd.below(from_start, zero)) | simd.bits(simd.below(zero, from_end));
-        // True if the centre lies outside the range of normals along which the edge pushes, over the other
-        // face.
+        // True if the centre lies over the face across the edge, outside the range of normals along which the
+        // edge pushes.
         let aside = simd.sub(beyond, side_slack);
         let leans_more = simd.below(simd.mul(edge_reach, edge_square), simd.mul(aside, aside));
         let over_other = edges_lean_little & surely_beyond & simd.bits(leans_more);

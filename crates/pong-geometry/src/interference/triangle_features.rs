@@ -1,20 +1,21 @@
 //! Features of a triangle surface and the normals along which they push: faces, edges, vertices
 //! (docs/theory.md, 2.2).
 //!
-//! A triangle surface is a set of one-sided facets joined at edges. For a support point *p* of a shape with a
-//! centre:
+//! A triangle surface is a set of one-sided facets joined at edges. Let *p* be the support point of a shape
+//! that has a centre:
 //!
 //! * a face pushes along its normal if *p* lies over it;
 //! * a convex edge pushes only along normals strictly between those of its two faces;
 //! * a convex vertex pushes only inside its normal cone;
-//! * concave and flat edges are silent;
+//! * a concave or flat edge never pushes: it is called *silent*;
 //! * a free edge (one face only) pushes from the edge towards the centre, while the centre is in front.
 //!
-//! The regions of faces, edges and vertices partition the space in front. Each bounding plane is computed
-//! once, from the same numbers, for the features on both sides, so rounding opens no gap between them. A
-//! silent edge has no region of its own: a point that rounding puts outside both faces belongs to the face of
-//! lower index. Behind two faces that meet concavely there is a wedge that lies beyond their common edge as
-//! seen from either face. It belongs to both faces, as does the space in front of the edge.
+//! These regions of faces, edges and vertices partition the space in front of the surface. Each plane between
+//! two regions is computed once, from the same numbers for the features on both sides, so rounding opens no
+//! gap between the regions. A silent edge has no region of its own: a point that rounding puts outside both
+//! of its faces belongs to the face of lower index. Behind two faces that meet concavely there is a wedge
+//! that lies beyond their common edge as seen from either face. The wedge belongs to both faces, as does the
+//! space in front of the edge.
 
 use super::{Feature, FeatureKind, Interference};
 use crate::Vec3;
@@ -32,12 +33,12 @@ pub enum Standing {
     Front,
     /// Centre behind the face, within its thickness.
     Behind,
-    /// Fallback: rounding may assign the centre to this feature, to a feature beside it, or to neither. It
-    /// counts if no other contact covers the centre.
+    /// Fallback, because rounding may assign the centre to this feature, to a feature beside it, or to
+    /// neither. It counts if no other contact covers the centre.
     Spare,
     /// Fallback as `Spare`, for a face with the centre behind it.
     SpareBehind,
-    /// Fallback face whose foot point lies beyond a concave edge: counts if no other contact is as deep.
+    /// Fallback face whose foot point lies beyond a concave edge. It counts if no other contact is as deep.
     StandIn,
 }
 
@@ -50,8 +51,7 @@ pub struct TriangleContact {
     pub standing: Standing,
 }
 
-/// Triangle with its plane. The planes that bound the Voronoi regions of its face, edges and corners are
-/// derived from it.
+/// Triangle with its plane, from which the regions of its face, edges and corners are derived.
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleView {
     /// Index in the set.
@@ -90,14 +90,15 @@ pub enum EdgeClass {
 const CONCAVE_SINE_MIN: f64 = 1e-9;
 
 impl TriangleView {
-    /// Returns `true` if the face across a silent edge meets this one concavely; `outward` points out of that
-    /// face.
+    /// Returns `true` if the face across a silent edge (one that never pushes) meets this face concavely
+    /// rather than flat. `outward`, as in [`EdgeClass::Silent`], lies in the plane of that other face, is
+    /// perpendicular to the edge and points out of the other face.
     #[inline]
     pub fn meets_concavely(&self, outward: &Vec3) -> bool {
         self.normal.dot(outward) < -CONCAVE_SINE_MIN
     }
 
-    /// View of one triangle of a set.
+    /// Creates the view of one triangle of a set.
     #[inline]
     pub fn new(set: &TriangleSet, index: u32) -> Self {
         let corners = set.corners(index);
@@ -105,26 +106,28 @@ impl TriangleView {
         Self { index, corners, normal }
     }
 
-    /// Signed distance of a point in front of the plane, m.
+    /// Returns the height of a point above the plane, m; positive in front.
     #[inline]
     pub fn height(&self, p: &Vec3) -> f64 {
         self.normal.dot(&(p - self.corners[0]))
     }
 
-    /// Ends of edge `k` in (x, y, z) order.
+    /// Returns the ends of edge `k`, ordered by x, then y, then z, so that both of its triangles give the
+    /// same order.
     #[inline]
     pub fn edge_ends(&self, k: usize) -> [Vec3; 2] {
         let (a, b) = (self.corners[k], self.corners[(k + 1) % 3]);
         if lexicographically_before(&b, &a) { [b, a] } else { [a, b] }
     }
 
-    /// Unit vector in the plane, perpendicular to edge `k`, pointing out of the triangle.
+    /// Returns the unit vector in the triangle's plane that is perpendicular to edge `k` and points out of
+    /// the triangle.
     #[inline]
     pub fn outward(&self, k: usize) -> Vec3 {
         (self.corners[(k + 1) % 3] - self.corners[k]).cross(&self.normal).normalize()
     }
 
-    /// Type of edge `k`.
+    /// Returns the type of edge `k`.
     pub fn classify_edge(&self, set: &TriangleSet, k: usize) -> EdgeClass {
         let neighbor = set.triangles[self.index as usize].neighbors[k];
         if neighbor == NO_NEIGHBOR {
@@ -146,16 +149,16 @@ impl TriangleView {
         set.triangles[self.index as usize].may_push.edge(k) && self.owns_edge(set, k)
     }
 
-    /// Returns `true` if the vertex may push and this triangle may own it: both neighbours at the vertex have
-    /// higher indices. The other triangles of the fan are not tested.
+    /// Returns `true` if the vertex may push and this triangle may own it. That is so if both neighbours at
+    /// the vertex have higher indices; the other triangles around the vertex are not tested.
     #[inline]
     pub(super) fn may_own_vertex(&self, set: &TriangleSet, corner: usize) -> bool {
         let may_push = set.triangles[self.index as usize].may_push.vertex(corner);
         may_push && self.owns_edge(set, corner) && self.owns_edge(set, (corner + 2) % 3)
     }
 
-    /// Returns `true` if this triangle owns edge `k`: it has the lower index of the two triangles that share
-    /// the edge.
+    /// Returns `true` if this triangle owns edge `k`: the edge is free, or the triangle has the lower index
+    /// of the two that share it.
     #[inline]
     pub fn owns_edge(&self, set: &TriangleSet, k: usize) -> bool {
         let neighbor = set.triangles[self.index as usize].neighbors[k];
@@ -176,19 +179,20 @@ impl<'a> TriangleEdges<'a> {
         Self { set, view, outwards: Default::default(), classes: Default::default() }
     }
 
-    /// [`TriangleView::outward`], cached.
+    /// Same as [`TriangleView::outward`], cached.
     #[inline]
     pub fn outward(&self, k: usize) -> Vec3 {
         *self.outwards[k].get_or_init(|| self.view.outward(k))
     }
 
-    /// [`TriangleView::classify_edge`], cached.
+    /// Same as [`TriangleView::classify_edge`], cached.
     #[inline]
     pub fn class(&self, k: usize) -> EdgeClass {
         *self.classes[k].get_or_init(|| self.view.classify_edge(self.set, k))
     }
 
-    /// Signed distance of a point from edge `k`, m, along the triangle's plane; positive outside.
+    /// Returns the distance of a point beyond edge `k`, measured in the triangle's plane, m; negative within
+    /// the edge.
     #[inline]
     pub fn beyond(&self, k: usize, p: &Vec3) -> f64 {
         self.outward(k).dot(&(p - self.view.edge_ends(k)[0]))
@@ -202,9 +206,9 @@ impl<'a> TriangleEdges<'a> {
     }
 
     /// Returns `true` if a point in front of the triangle and beyond edge `k` still belongs to the triangle.
-    /// By rounding a point may be beyond a silent edge for both of its faces; then it belongs to the face of
-    /// lower index. This does not apply if the normals of the faces are a right angle or more apart: such a
-    /// point is outside the fold, where neither face pushes.
+    /// By rounding, a point may be beyond a silent (concave or flat) edge as seen from both of its faces; it
+    /// then belongs to the face of lower index. If the normals of the two faces are a right angle or more
+    /// apart, the result is `false`: the point is outside the fold, where neither face pushes.
     pub fn has_on_seam(&self, k: usize, p: &Vec3) -> bool {
         let EdgeClass::Silent { neighbor, outward } = self.class(k) else { return false };
         outward.dot(&(p - self.view.edge_ends(k)[0])) > 0.0
@@ -222,8 +226,8 @@ pub struct Fan {
     pub open: bool,
 }
 
-/// Walks the fan around corner `corner` of `triangle`, and calls `visit` once per triangle with its index and
-/// the corner's index in it.
+/// Visits all triangles around corner `corner` of `triangle`. `visit` is called once per triangle, with the
+/// triangle's index and the corner's index in it.
 pub fn walk_fan(set: &TriangleSet, triangle: u32, corner: usize, visit: &mut dyn FnMut(u32, usize)) -> Fan {
     let all = walk_fan_while(set, triangle, corner, |t, at| {
         visit(t, at);
@@ -232,7 +236,7 @@ pub fn walk_fan(set: &TriangleSet, triangle: u32, corner: usize, visit: &mut dyn
     all.expect("nothing ends the walk")
 }
 
-/// [`walk_fan`] that stops when `visit` returns `false`; the result is then `None`.
+/// Same as [`walk_fan`], but stops when `visit` returns `false`; the result is then `None`.
 #[inline]
 pub(super) fn walk_fan_while(
     set: &TriangleSet,
@@ -245,8 +249,8 @@ pub(super) fn walk_fan_while(
     if !visit(triangle, corner) {
         return None;
     }
-    // Walks across the edge that ends in the corner; if the fan is open, then across the edge that starts
-    // there.
+    // Walks across the edge that ends in the corner, and if the fan is open, then across the edge that starts
+    // in the corner.
     for side in [2, 0] {
         let (mut current, mut at) = (triangle, corner);
         loop {
@@ -269,18 +273,22 @@ pub(super) fn walk_fan_while(
     Some(fan)
 }
 
-/// Tests whether a normal lies in the cone of a vertex: `Some(true)` if strictly, `Some(false)` if within
-/// rounding. `None` if the normal lies outside, if a triangle of lower index owns the vertex, if the centre
-/// is behind all faces of an open fan, or if a closed fan is seen from its back (the bottom of a pit, from
-/// within the solid).
+/// Tests whether a vertex pushes along `direction`, which points from the vertex to the centre (any length).
+/// `Some(true)` if the direction is strictly inside the vertex's normal cone, `Some(false)` if it is on the
+/// boundary of the cone within rounding. Otherwise `None`, and also if
 ///
-/// `direction` points from the vertex to the centre (any length); `center_in_front` is called per triangle of
-/// the fan.
+/// * a triangle of lower index owns the vertex;
+/// * the fan is open and the centre is behind all of its faces;
+/// * the fan is closed and seen from its back, as the bottom of a pit from within the solid.
 ///
-/// If the normal is in the cone, all edges of the fan descend from the vertex, seen along `direction`. Their
-/// lines meet a plane below the vertex, perpendicular to `direction`, in the corners of a simple polygon. The
-/// polygon runs counter-clockwise if the centre sees the front of the surface, clockwise if it sees the back.
-/// The sum of the signed areas of its triangles around the vertex's projection gives the orientation.
+/// `center_in_front`, called once per triangle of the fan, returns `true` if the centre is in front of that
+/// triangle.
+///
+/// *Front or back.* If the direction is in the cone, all edges of the fan descend from the vertex, seen along
+/// `direction`. Their lines meet a plane that is below the vertex and perpendicular to `direction` in the
+/// corners of a simple polygon. The polygon runs counter-clockwise if the centre sees the front of the
+/// surface, clockwise if it sees the back. The sum of the signed areas of the polygon's triangles around the
+/// vertex's projection gives the orientation.
 pub fn vertex_pushes(
     set: &TriangleSet,
     triangle: u32,
@@ -292,11 +300,11 @@ pub fn vertex_pushes(
     const CONE_COSINE_SLACK: f64 = 1e-12;
     let apex = set.corners(triangle)[corner];
     let length = direction.norm();
-    // At the vertex itself there is no direction, and the scale avoids a division by zero.
+    // At the vertex itself there is no direction, and the scale of 1 avoids a division by zero.
     let scale = if length > 0.0 { length } else { 1.0 };
     let (mut strictly, mut in_front) = (true, false);
     let mut turn = 0.0;
-    // Most vertices fail at one of the first triangles.
+    // The walk stops early, because most vertices fail at one of the first triangles.
     let fan = walk_fan_while(set, triangle, corner, |t, at| {
         let corners = set.corners(t);
         let edges = [corners[(at + 1) % 3] - apex, corners[(at + 2) % 3] - apex];
@@ -319,14 +327,13 @@ pub fn vertex_pushes(
     seen_from_front.then_some(strictly)
 }
 
-/// Returns `true` if the surface around a vertex is seen from its front, for a point whose nearest surface
-/// point is the vertex; `direction` points from the vertex to the point (any length). A point at the vertex
-/// counts as in front.
+/// Returns `true` if a point whose nearest surface point is the vertex sees the front of the surface there.
+/// `direction` points from the vertex to the point (any length). A point at the vertex counts as in front.
 ///
-/// As in [`vertex_pushes`], the orientation of the polygon in a plane perpendicular to `direction` decides,
-/// here for closed and open fans.
+/// The orientation of the polygon described at [`vertex_pushes`] decides, here for closed and open fans.
 pub fn vertex_is_seen_from_front(set: &TriangleSet, triangle: u32, corner: usize, direction: &Vec3) -> bool {
-    /// Lower limit of the cosine: an edge perpendicular to the direction would meet that plane at infinity.
+    /// Lower limit of the cosine, because an edge perpendicular to the direction would meet that plane at
+    /// infinity.
     const COSINE_MIN: f64 = 1e-12;
     let apex = set.corners(triangle)[corner];
     let length = direction.norm();
@@ -343,8 +350,8 @@ pub fn vertex_is_seen_from_front(set: &TriangleSet, triangle: u32, corner: usize
     turn >= 0.0
 }
 
-/// Returns `true` if a point is in front of one of the faces at a feature of a triangle, or behind it by at
-/// most `rounding` (m).
+/// Returns `true` if a point is in front of one of the faces that meet at a feature of a triangle, or behind
+/// that face by at most `rounding` (m).
 pub fn is_in_front_of_a_face(
     p: &Vec3,
     set: &TriangleSet,
@@ -367,7 +374,7 @@ pub fn is_in_front_of_a_face(
     }
 }
 
-/// A point on a feature of a triangle surface, m; `None` if the set has no such feature.
+/// Returns a point on a feature of a triangle surface, m; `None` if the set has no such feature.
 pub fn place_on_feature(set: &TriangleSet, feature: Feature) -> Option<Vec3> {
     let index = feature.index();
     let corner = |triangle: usize, k: usize| Some(set.triangles.get(triangle)?.vertices[k] as usize);
@@ -396,7 +403,8 @@ fn edge_towards(set: &TriangleSet, triangle: u32, neighbor: u32) -> usize {
         .expect("neighbours share an edge")
 }
 
-/// Order of the ends of an edge that both of its faces use.
+/// Returns `true` if `a` is the first of the two ends of an edge, in an order that both faces of the edge
+/// use.
 #[inline]
 pub(super) fn lexicographically_before(a: &Vec3, b: &Vec3) -> bool {
     (a.x, a.y, a.z) < (b.x, b.y, b.z)

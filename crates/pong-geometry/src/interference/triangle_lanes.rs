@@ -1,10 +1,10 @@
-//! Eight triangles as coordinate arrays.
+//! Up to eight triangles, stored as coordinate arrays for SIMD.
 
 use crate::Vec3;
 use crate::primitive::TriangleSet;
 use crate::simd::{LANES, LaneBits, Simd};
 
-/// Eight vectors as coordinate arrays.
+/// Eight vectors stored as arrays of x, y and z.
 pub(super) type EightVectors = [[f64; LANES]; 3];
 
 /// Initial value of unused lanes.
@@ -54,7 +54,8 @@ impl TriangleLanes {
         count: 0,
     };
 
-    /// Adds a triangle (at most eight) and returns its lane. The triangle's data is not read yet.
+    /// Adds a triangle to the lanes, of which there are eight, and returns its lane. The triangle's data is
+    /// read later, by [`fetch`](Self::fetch).
     #[inline(always)]
     pub fn add(&mut self, center: &Vec3, triangle: u32, thickness: f64) -> usize {
         let lane = self.push(triangle);
@@ -63,7 +64,7 @@ impl TriangleLanes {
         lane
     }
 
-    /// Sets the centre and thickness of all triangles that [`push`](Self::push) adds from here on.
+    /// Sets the centre and thickness for all triangles that [`push`](Self::push) adds afterwards.
     #[inline(always)]
     pub fn begin_in<S: Simd>(&mut self, simd: S, center: &Vec3, thickness: f64) {
         fill_vectors_in(simd, &mut self.centers, self.count, center);
@@ -80,8 +81,8 @@ impl TriangleLanes {
         lane
     }
 
-    /// Reads the triangles: first all records, then all corners. Each read may miss the cache, and a corner's
-    /// address depends on the record; in this order the misses overlap.
+    /// Reads the data of the triangles: first all records, then all corners. Each read may miss the cache,
+    /// and the address of a corner depends on the record. In this order the cache misses overlap.
     #[inline(always)]
     pub fn fetch(&mut self, set: &TriangleSet) {
         // Unused lanes repeat a triangle that is read anyway, so that the loops have a fixed length.
@@ -103,7 +104,7 @@ impl TriangleLanes {
         }
     }
 
-    /// Lanes in use.
+    /// Returns the lanes that hold a triangle.
     #[inline(always)]
     pub fn used(&self) -> LaneBits {
         !(LaneBits::MAX.checked_shl(self.count as u32).unwrap_or(0))

@@ -1,8 +1,8 @@
-//! Quick rejection of sphere-triangle pairs by a few products, without roots or divisions: most triangles
+//! Quick rejection of sphere-triangle pairs by a few products, without roots or divisions. Most triangles
 //! near a sphere are rejected here.
 //!
-//! The test has a single branch, at the end, because the positions of a sphere among triangles are
-//! unpredictable.
+//! The test has a single branch, at its end, because a processor cannot predict where a sphere lies relative
+//! to each of many triangles.
 
 use super::triangle_features::TriangleView;
 use crate::Vec3;
@@ -13,23 +13,26 @@ use crate::primitive::{Sphere, TriangleSet};
 pub(super) struct InReach {
     /// Triangle, with a normal that is not normalised yet.
     pub view: TriangleView,
-    /// True if the sphere's centre is certainly in front.
+    /// True if the sphere's centre is in front of the triangle by more than rounding.
     pub in_front: bool,
-    /// For each edge, true if the centre is certainly beyond it, within the triangle's plane.
+    /// For each edge, true if the centre, projected onto the triangle's plane, is beyond the edge by more
+    /// than rounding.
     pub beyond: [bool; 3],
-    /// For each edge, true if the centre is certainly not beyond it.
+    /// For each edge, true if the projected centre is on the triangle's side of the edge by more than
+    /// rounding.
     pub within: [bool; 3],
 }
 
 /// Relative margin of the reach: far above the rounding of depths and heights.
 pub(super) const REACH_SLACK: f64 = 1e-9;
-/// Relative margin of the side of an edge: far above rounding, including that of an outward vector computed
-/// from the unit normal, and above the sine at which two faces count as convex.
+/// Relative margin of the comparison on which side of an edge a point lies. It is far above rounding,
+/// including that of an outward vector computed from the unit normal, and above the sine at which two faces
+/// count as convex.
 pub(super) const SIDE_SLACK: f64 = 1e-10;
 
 impl InReach {
-    /// Returns `None` if the sphere certainly touches no feature of the triangle, and is not within
-    /// `thickness` (m) behind its plane.
+    /// Returns the triangle if the sphere may touch one of its features, or may be less than `thickness` (m)
+    /// behind its plane. `None` if neither is possible even with rounding.
     #[inline(always)]
     pub fn of(sphere: &Sphere, set: &TriangleSet, triangle: u32, thickness: f64) -> Option<Self> {
         let corners = set.corners(triangle);
@@ -55,7 +58,7 @@ impl InReach {
             let beyond = edge.cross(&normal).dot(arm);
             let slack = SIDE_SLACK * taxicab(edge) * taxicab(&normal) * (taxicab(arm) + taxicab(edge));
             (near.beyond[k], near.within[k]) = (beyond > slack, beyond < -slack);
-            // In front only the nearest feature pushes, up to rounding.
+            // If the centre is in front, only the nearest feature can push, up to rounding.
             let edge_square = edge.norm_squared();
             let square = height_square * edge_square + beyond * beyond;
             is_far |= in_front & near.beyond[k] & (square > reach_square * edge_square);

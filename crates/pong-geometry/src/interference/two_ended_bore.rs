@@ -2,8 +2,8 @@
 //! (docs/theory.md, 2.8).
 //!
 //! At an end in the hole the tip or rim contacts the wall. At an end outside the hole the side of the shape
-//! contacts the circle of the mouth. All three shapes are treated as rods: a segment has radius 0, a capsule
-//! is a segment with a skin.
+//! contacts the circle of the mouth. All three shapes are treated as rods: a segment is a rod of radius 0, a
+//! capsule a segment with a skin.
 
 use super::ball_bore::{BallContacts, ball_bore, ball_mouth};
 use super::circles::{Across, Circle, Reach, Wall, shares};
@@ -12,8 +12,8 @@ use crate::Vec3;
 use crate::primitive::{Bore, Capsule, Frustum, LineSegment, Sphere};
 
 /// Contacts of a rod in a hole at end 0 and end 1 of the rod. Each end has half a spring and up to two
-/// contacts, the deepest and that on the opposite side. The two share the half spring if their normals are
-/// less than 90° apart.
+/// contacts: the deepest, and one on the opposite side or at a second maximum of the depth. The two contacts
+/// of an end share its half spring if their normals are less than 90° apart.
 pub type EndsInBore = [BallContacts; 2];
 
 /// Tests a segment against a bore.
@@ -76,14 +76,15 @@ struct RodEnd<'a> {
     mouth: usize,
 }
 
-/// Point at which a tip or a rim extends farthest beyond the wall; the wall is extended past the mouths.
+/// Contacts and position of the point at which a tip or a rim extends farthest beyond the wall. The wall is
+/// extended past the mouths.
 struct AtWall {
     contacts: BallContacts,
-    /// Depth at that point without the skin, m; negative before contact.
+    /// Depth of that point without the skin, m; negative in the hole.
     depth: f64,
-    /// Distances of that point from the mouth of this end and from the other mouth, m, positive in the hole.
+    /// Distances of that point from the mouth of this end and from the other mouth, m; positive in the hole.
     inside: [f64; 2],
-    /// True if the rod approaches the wall, or goes deeper behind it, towards this end.
+    /// True if the rod leans outward: towards this end it approaches the wall, or goes deeper behind it.
     outward: bool,
 }
 
@@ -104,10 +105,15 @@ impl RodEnd<'_> {
         self.limited(self.with_corner(&wall))
     }
 
-    /// Combines the contacts at the wall and at the mouth. Inside the hole the end contacts the wall, past
-    /// the mouth the side contacts the circle of the mouth. Nearer to the mouth than the depth, the two are
-    /// combined so that the energy is continuous: inside, for a rod that leans outward, the less deep one
-    /// counts; past the mouth, for a rod that does not, the deeper one.
+    /// Returns the contacts of this end, combined from those at the wall and at the mouth so that the energy
+    /// is continuous. The depth and the position are those of the point farthest beyond the wall:
+    ///
+    /// * past the mouth of the other end: no contact;
+    /// * in the hole: the contacts at the wall. But if the rod leans outward, the point is nearer to the
+    ///   mouth than its depth, and the mouth has a contact, then the less deep of wall and mouth counts;
+    /// * past the mouth of this end: the contacts at the mouth. But if the rod does not lean outward, the
+    ///   point is no farther from the mouth than its depth, and the mouth has a contact, then the deeper of
+    ///   wall and mouth counts.
     fn with_corner(&self, wall: &AtWall) -> BallContacts {
         let [own, other] = wall.inside;
         if self.bore.is_past(1 - self.mouth, other) {
@@ -154,12 +160,13 @@ impl RodEnd<'_> {
         }
     }
 
-    /// Sides of the wall that a tip or rim contacts: the deepest, and the opposite side if the tip or rim is
-    /// too large for the hole. Otherwise the second is a second local maximum, if any.
+    /// Returns the sides of the wall that a tip or rim contacts, the deepest first. If the tip or rim is too
+    /// large for the hole, the second is the opposite side. Otherwise it is a second local maximum of the
+    /// depth, if there is one.
     fn sides(&self, across: &Across, circle: &Circle, reach: impl Fn(&Vec3) -> Reach) -> [Option<Vec3>; 2] {
         let axis = self.bore.hole.axis;
-        // Projection of the circle's centre onto the axis of the hole: there the wall is equally far on all
-        // sides.
+        // Projection of the circle's centre onto the axis of the hole. From there the wall is equally far on
+        // all sides.
         let beside = self.bore.hole.ends[0] + axis * axis.dot(&(circle.center_b - self.bore.hole.ends[0]));
         let room = -self.wall.height(&across.first_b, &beside);
         let size = circle.radius + self.rod.skin;
@@ -184,8 +191,8 @@ impl RodEnd<'_> {
         Circle { center_b: ends[self.mouth], axis_b: axis, radius: radii[self.mouth] }
     }
 
-    /// Contacts of the rod's side with the mouth, over the length of the rod; for a capsule also of its end
-    /// spheres.
+    /// Returns the deepest of the contacts with the mouth that a capsule has: those of its side between the
+    /// ends, and those of its end spheres.
     fn side_at_mouth(&self) -> BallContacts {
         if !self.is_convex() {
             return NOTHING;
@@ -199,8 +206,8 @@ impl RodEnd<'_> {
         tips.into_iter().fold(side, |one, other| self.deeper(one, other))
     }
 
-    /// Contacts of the rod's side with the mouth; the side is extended past this end by the thickness of the
-    /// wall.
+    /// Returns the contacts of the rod's side with the mouth. The side is extended past this end by the
+    /// thickness of the wall.
     fn line_at_mouth(&self) -> BallContacts {
         if !self.is_convex() {
             return NOTHING;
@@ -214,8 +221,8 @@ impl RodEnd<'_> {
         self.bore.mouths[self.mouth] && self.bore.hole.radii[self.mouth] > 0.0
     }
 
-    /// Contacts of the side with the circle of the mouth, at positions along the rod (m) that `counts`
-    /// accepts. Seen along the rod, the mouth is an ellipse and the axis a point.
+    /// Returns the contacts of the rod's side with the circle of the mouth, at positions along the rod (m)
+    /// that `counts` accepts. Seen along the rod, the circle is an ellipse and the rod's axis a point.
     fn at_circle(&self, counts: impl Fn(f64) -> bool) -> BallContacts {
         let (rod, circle) = (self.rod, self.mouth_circle());
         let arm = rod.ends[0] - circle.center_b;
@@ -230,8 +237,8 @@ impl RodEnd<'_> {
             return NOTHING;
         }
         let is_on = |place: &Vec3| counts(rod.axis_b.dot(&(place - rod.ends[0])));
-        // A rod that lies flat across the mouth touches it at two points; one contact acts midway between
-        // them.
+        // A rod that lies flat across the mouth touches it at two points; one contact acts midway between the
+        // two.
         let place_on = |side: &Vec3| match circle.chord(side, &rod.axis_b, &beside) {
             None => Some(circle.farthest(side)).filter(is_on),
             Some([one, other]) => match (is_on(&one), is_on(&other)) {
@@ -262,9 +269,9 @@ impl RodEnd<'_> {
         across.greatest(reach).map(touched)
     }
 
-    /// Returns `true` if the rod's axis crosses the plane of the mouth at a position that `counts` accepts,
-    /// and the point of the rod nearest to the crossing is less than the thickness of the wall from the disc
-    /// of the mouth.
+    /// Returns `true` if the rod's axis crosses the plane of the mouth near the mouth. Two conditions must
+    /// hold. First, `counts` accepts the position of the crossing along the rod. Second, the point of the rod
+    /// nearest to the crossing is less than the thickness of the wall from the disc of the mouth.
     fn is_crossed_behind(&self, counts: impl Fn(f64) -> bool) -> bool {
         /// Cosine below which a rod counts as perpendicular to the hole and crosses no mouth.
         const SQUARE: f64 = 1e-9;
@@ -280,7 +287,8 @@ impl RodEnd<'_> {
         counts(along) && (above * above + off * off).sqrt() < self.bore.thickness
     }
 
-    /// Distance that the rod must move to leave the hole by a mouth, m.
+    /// Returns the distance by which the rod must move along the hole's axis to leave the hole by a mouth, m;
+    /// negative if it is outside that mouth already.
     fn exit_distance(&self, mouth: usize) -> f64 {
         let outward = self.outward(mouth);
         let depth = |end: usize| {
@@ -293,8 +301,8 @@ impl RodEnd<'_> {
         self.bore.hole.axis * if mouth == 0 { -1.0 } else { 1.0 }
     }
 
-    /// Limits the contacts of a rod that is barely in the hole: if leaving by a mouth takes less energy, the
-    /// mouth pushes instead.
+    /// Returns the contacts of a rod that may be barely in the hole: `contacts`, or that of the mouth by
+    /// which the rod leaves the hole with less energy.
     fn limited(&self, contacts: BallContacts) -> BallContacts {
         if self.rod.skin > 0.0 || contacts == NOTHING {
             return contacts;
@@ -315,20 +323,20 @@ impl RodEnd<'_> {
         [0, 1].into_iter().filter_map(leaves).fold(contacts, |one, other| self.shallower(one, other))
     }
 
-    /// Contacts of greater energy; `one`, unless that of `other` is greater by more than rounding. (For a rod
-    /// along the wall both energies are equal.)
+    /// Returns the contacts of greater energy: `other` if its energy is greater by more than rounding, else
+    /// `one`. (For a rod along the wall both energies are equal.)
     fn deeper(&self, one: BallContacts, other: BallContacts) -> BallContacts {
         if energy(&other) > energy(&one) + self.rounding_of(&one) { other } else { one }
     }
 
-    /// Contacts of less energy, with the same tolerance.
+    /// Returns the contacts of less energy: `other` if its energy is less by more than rounding, else `one`.
     fn shallower(&self, one: BallContacts, other: BallContacts) -> BallContacts {
         if energy(&other) < energy(&one) - self.rounding_of(&one) { other } else { one }
     }
 
-    /// Rounding error of an energy, m².
+    /// Returns the rounding error of the energy of these contacts, m².
     fn rounding_of(&self, contacts: &BallContacts) -> f64 {
-        /// Error of a direction, rad, at which the slope is discontinuous.
+        /// Error, rad, of a direction that was found where the slope is discontinuous.
         const DIRECTION: f64 = 4e-12;
         let places = [&self.rod.ends, &self.bore.hole.ends].into_iter().flatten().map(|place| place.amax());
         let reach = places.fold(self.rod.length, f64::max);
@@ -337,7 +345,8 @@ impl RodEnd<'_> {
     }
 }
 
-/// Stored energy divided by half the stiffness, m².
+/// Returns Σ λ·depth over the contacts of one end, m² (docs/theory.md, 2.8). The stored energy is a quarter
+/// of the stiffness times this sum.
 fn energy(contacts: &BallContacts) -> f64 {
     let [one, two] = contacts;
     let depths = [one, two].map(|contact| contact.map_or(0.0, |contact| contact.depth));

@@ -1,10 +1,10 @@
-//! Line segment and capsule (A) – capsule, cylinder and cone (B): half a spring at each end of the overlap
-//! (docs/theory.md, 2.8).
+//! Line segment and capsule (A) – capsule, cylinder and cone (B) (docs/theory.md, 2.8): half a spring acts at
+//! each end of the overlap.
 //!
-//! Let k be the stiffness, δ the depth of the pair, and δ₀ and δ₁ the depths at the two ends of the overlap.
-//! The stored energy is ¼k(δ² + δ₀²δ₁²/δ²). An end of the overlap is an end of A in B or an end of B in A,
-//! whichever is deeper. The derivatives of the energy give the weights: ½(1 − δ₀²δ₁²/δ⁴) of the deepest
-//! point, ½δ₁²/δ² of end 0 and ½δ₀²/δ² of end 1.
+//! An end of the overlap is an end of A in B or an end of B in A, whichever is deeper. Let k be the
+//! stiffness, δ the depth of the pair, and δ₀ and δ₁ the depths at the two ends of the overlap. The stored
+//! energy is ¼k(δ² + δ₀²δ₁²/δ²). The derivatives of the energy give the weights: ½(1 − δ₀²δ₁²/δ⁴) at the
+//! deepest point, ½δ₁²/δ² at end 0 and ½δ₀²/δ² at end 1.
 
 use super::Interference;
 use super::axis_approach::{Approach, RoundSolid};
@@ -17,11 +17,11 @@ use crate::primitive::{Capsule, Frustum, LineSegment};
 pub struct EndContact {
     /// Point, normal and depth.
     pub interference: Interference,
-    /// Fraction of half a spring that acts: 0…1.
+    /// Fraction of half a spring that acts in this contact, 0…1.
     pub share: f64,
 }
 
-/// Contacts of a segment or a capsule: at its end 0, at its end 1, at the deepest point.
+/// Contacts of a segment or a capsule: at its end 0, at its end 1, and at the deepest point.
 pub type EndContacts = [Option<EndContact>; 3];
 
 /// Tests a segment against a capsule.
@@ -57,7 +57,7 @@ fn two_ended(ends: &[Vec3; 2], radius: f64, solid: &impl RoundSolid) -> EndConta
             (None, other) => other,
             (own, _) => own,
         };
-        // The depth of an end is at most that of the pair; rounding might exceed it.
+        // The depth of an end is at most that of the pair, but rounding might exceed it.
         deeper.map(|contact| Interference { depth: contact.depth.min(deepest.depth), ..contact })
     };
     shared([at_end(0), at_end(1)], &deepest)

@@ -26,13 +26,14 @@ pub struct Ellipsoid {
 }
 
 impl Sphere {
-    /// Sphere transformed to another frame.
+    /// Returns the sphere transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { center: x.point(&self.center), radius: self.radius }
     }
 
-    /// Least and greatest coordinates of the region of contact, m.
+    /// Returns the lowest and the highest corner of the sphere's bounding box, along the axes of the frame,
+    /// m.
     #[inline]
     pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
         box_around(&self.center, Vec3::repeat(self.radius))
@@ -40,21 +41,22 @@ impl Sphere {
 }
 
 impl Ellipsoid {
-    /// Ellipsoid transformed to another frame.
+    /// Returns the ellipsoid transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { center: x.point(&self.center), axes: x.rotation * self.axes, semi_axes: self.semi_axes }
     }
 
-    /// Least and greatest coordinates of the region of contact, m. Triangles may push an ellipsoid at foot
-    /// points outside its own box.
+    /// Returns the lowest and the highest corner of the box, along the axes of the frame, around everything
+    /// that the ellipsoid can touch, m. If `meets_triangles`, the box may be larger than the bounding box,
+    /// because triangles may push an ellipsoid at foot points outside it.
     #[inline]
     pub fn region(&self, meets_triangles: bool) -> (Vec3, Vec3) {
         box_around(&self.center, self.half_sizes(meets_triangles))
     }
 
-    /// Half widths of the region of contact, m. Not inlined, so that the cheaper kinds do not pay for its
-    /// stack frame.
+    /// Returns the half sizes of the box of [`region`](Self::region), m. The function is not inlined, so that
+    /// the cheaper kinds do not pay for its stack frame.
     #[inline(never)]
     fn half_sizes(&self, meets_triangles: bool) -> Vec3 {
         let least = if meets_triangles { self.reach_of_feet() } else { 0.0 };
@@ -62,13 +64,13 @@ impl Ellipsoid {
         Vec3::from(axes.map(|axis| self.half_width(&axis).max(least)))
     }
 
-    /// Half the width along a unit direction, `√Σ(aᵢ nᵢ)²`, m.
+    /// Returns half the width along a unit direction, `√Σ(aᵢ nᵢ)²`, m.
     #[inline]
     pub fn half_width(&self, direction: &Vec3) -> f64 {
         self.axes.tr_mul(direction).component_mul(&self.semi_axes).norm()
     }
 
-    /// Surface point farthest along a unit direction, m.
+    /// Returns the surface point farthest along a unit direction, m.
     #[inline]
     pub fn support(&self, direction: &Vec3) -> Vec3 {
         let scaled = self.axes.tr_mul(direction).component_mul(&self.semi_axes);
@@ -76,14 +78,15 @@ impl Ellipsoid {
         self.center + self.axes * scaled.component_mul(&self.semi_axes) / half_width
     }
 
-    /// Distance from the centre within which a triangle may push the ellipsoid without overlapping it, m.
+    /// Returns the distance from the centre within which a triangle may push the ellipsoid without
+    /// overlapping it, m.
     ///
-    /// A face pushes if it contains the foot point: the projection of the deepest point onto its plane. For a
-    /// slender, oblique ellipsoid most of that projection line is outside the ellipsoid. If the centre lies
-    /// in the plane, the foot point is at most the difference of the largest and the smallest semi-axis away
-    /// from it. If the centre lies behind the plane, its depth, at most the thickness, adds at a right angle.
-    /// The default thickness is the smallest semi-axis; the bounding volume of the triangle covers a larger
-    /// thickness.
+    /// A face pushes if it contains the foot point: the projection of the ellipsoid's deepest point onto the
+    /// plane of the face. For a slender, oblique ellipsoid most of that projection line is outside the
+    /// ellipsoid. If the centre lies in the plane, the foot point is at most the difference of the largest
+    /// and the smallest semi-axis away from the centre. If the centre lies behind the plane, its depth, at
+    /// most the thickness, adds at a right angle. The default thickness is the smallest semi-axis; the
+    /// bounding volume of the triangle covers a larger thickness.
     pub fn reach_of_feet(&self) -> f64 {
         let (smallest, largest) = (self.semi_axes.min(), self.semi_axes.max());
         ((largest - smallest) * (largest - smallest) + smallest * smallest).sqrt()
@@ -114,9 +117,11 @@ impl Bounded for Ellipsoid {
         direction.dot(&self.center) + self.half_width(direction)
     }
 
-    /// Upper bound of the distance from q to the farthest point y of `Σ(yᵢ/aᵢ)² ≤ 1`, both in the principal
-    /// frame, by duality: for every λ ≥ max aᵢ², `|y − q|² ≤ λ + Σ qᵢ²·λ/(λ − aᵢ²)`, with equality at the
-    /// minimum. So the bound is valid at whichever λ the search stops.
+    /// Returns an upper bound of the distance from `from` to the farthest point of the ellipsoid, m.
+    ///
+    /// In the principal frame let q be the given point and y a point with `Σ(yᵢ/aᵢ)² ≤ 1`. By duality
+    /// `|y − q|² ≤ λ + Σ qᵢ²·λ/(λ − aᵢ²)` for every λ ≥ max aᵢ², with equality at the minimum over λ. The
+    /// bound is therefore valid at whichever λ the search stops.
     fn farthest(&self, from: &Vec3) -> f64 {
         const BISECTIONS: usize = 40;
         let q = self.axes.tr_mul(&(from - self.center));
@@ -125,7 +130,7 @@ impl Bounded for Ellipsoid {
             return largest;
         }
         let squares = self.semi_axes.component_mul(&self.semi_axes);
-        // λ = largest² + excess: this gives λ − aᵢ² without cancellation.
+        // λ = largest² + excess, because λ − aᵢ² then has no cancellation.
         let below = self.semi_axes.map(|a| (largest - a) * (largest + a));
         let sum = |term: &dyn Fn(usize) -> f64| -> f64 { (0..3).filter(|&i| q[i] != 0.0).map(term).sum() };
         let (mut low, mut high) = (0.0, largest * q.norm());
@@ -214,8 +219,8 @@ impl Primitive for Ellipsoid {
     }
 }
 
-/// The path of the other sphere's centre is tested against the larger of the two radii: a large sphere can
-/// pass through a small one that lies beside the path.
+/// The path of the passing sphere's centre is tested against the larger of the two radii, because a large
+/// sphere can pass through a small one that lies beside the path.
 impl Curved for Sphere {
     fn passed(&self, from: &Vec3, to: &Vec3, radius: f64) -> Option<Vec3> {
         let radius = self.radius.max(radius);
@@ -234,7 +239,8 @@ impl Curved for Ellipsoid {
     }
 }
 
-/// Entry point into the unit ball of a path with both ends outside it, if any.
+/// Returns the point at which a path enters the unit ball; `None` if it does not, or if an end of the path is
+/// inside.
 fn through_unit_ball(from: &Vec3, to: &Vec3) -> Option<Vec3> {
     let path = to - from;
     let (square, along, room) = (path.norm_squared(), from.dot(&path), from.norm_squared() - 1.0);

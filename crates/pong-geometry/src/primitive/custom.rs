@@ -2,16 +2,19 @@
 
 use crate::Vec3;
 
-/// Primitive defined by a Rust user. Its testers are registered with the engine by kind name.
+/// Primitive defined by a Rust user. Its contact testers are registered with the engine by the name of its
+/// kind.
 pub trait CustomPrimitive: std::fmt::Debug + Send + Sync + std::any::Any {
-    /// The kind's name, as in the model file and in the registration of its testers.
+    /// Returns the kind's name, as in the model file and in the registration of its testers.
     fn kind_name(&self) -> &str;
 
-    /// Support function: the largest `direction · x` over the primitive, in the frame of its movable group, m.
+    /// Returns the largest `direction · x` over the primitive, in the frame of its movable group, m (support
+    /// function).
     ///
-    /// `direction` is a unit vector. Infinity makes the primitive unbounded. Bounding volumes are fitted from it.
+    /// `direction` is a unit vector. If the result is infinite, the primitive is unbounded. Bounding volumes
+    /// are fitted from this function.
     fn support(&self, direction: &Vec3) -> f64;
 
-    /// The primitive as `Any`, so that a tester can get its own type back.
+    /// Returns the primitive as `Any`, so that a tester can get its own type back.
     fn as_any(&self) -> &dyn std::any::Any;
 }

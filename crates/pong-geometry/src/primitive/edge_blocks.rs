@@ -7,11 +7,10 @@ use crate::simd::{LANES, LaneBits, Simd, Splat};
 /// Eight vectors as coordinate arrays.
 type EightVectors = [[f64; LANES]; 3];
 
-/// Relative enlargement of the boxes around edges, as a fraction of the largest coordinate: far above
-/// rounding.
+/// Enlargement of the boxes around edges, as a fraction of the largest coordinate. It is far above rounding.
 const BOX_SLACK: f64 = 1e-9;
 
-/// Edges that may push, in spatially compact blocks of eight; not in edge-index order.
+/// Edges that may push, in blocks of eight that are close together; not in the order of their indices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EdgeBlocks {
     /// Blocks; unused lanes of the last block repeat the last edge.
@@ -30,8 +29,8 @@ pub struct EdgeBlock {
     pub second: EightVectors,
     /// Vectors from the first to the second ends, m.
     pub along: EightVectors,
-    /// For each of the two adjacent faces, the unit vector in the face's plane, perpendicular to the edge,
-    /// pointing out of the face.
+    /// For each of the two adjacent faces, the unit vector that lies in the face's plane, is perpendicular to
+    /// the edge and points out of the face.
     pub outwards: [EightVectors; 2],
     /// Indices into [`PolyhedronParts::edges`].
     pub index: [u32; LANES],
@@ -60,7 +59,7 @@ pub struct VertexBlock {
 }
 
 impl EdgeBlocks {
-    /// Collects the edges that may push.
+    /// Creates the blocks from the edges that may push.
     pub fn new(parts: &PolyhedronParts) -> Self {
         let mut edges: Vec<Edge> =
             (0..parts.edges.len()).filter_map(|index| Edge::of(parts, index)).collect();
@@ -92,8 +91,8 @@ impl Edge {
     }
 }
 
-/// Sorts edges so that the edges of a block are close together: splits recursively across the longest extent,
-/// into whole blocks.
+/// Sorts edges so that the edges of a block are close together. The edges are split recursively across their
+/// longest extent, each time into two parts of which the first consists of whole blocks.
 fn bring_together(edges: &mut [Edge]) {
     if edges.len() <= LANES {
         return;
@@ -112,7 +111,7 @@ fn bounds(points: impl Iterator<Item = Vec3>) -> (Vec3, Vec3) {
     points.fold(none, |(low, high), p| (low.inf(&p), high.sup(&p)))
 }
 
-/// Eight vectors; unused lanes repeat the last one.
+/// Returns eight vectors; unused lanes repeat the last one.
 fn eight<T>(things: &[T], vector: impl Fn(&T) -> Vec3) -> EightVectors {
     std::array::from_fn(|axis| std::array::from_fn(|lane| vector(&things[lane.min(things.len() - 1)])[axis]))
 }
@@ -129,8 +128,8 @@ impl EdgeBlock {
         }
     }
 
-    /// Returns the edges whose Voronoi region contains a point: it lies between the planes through the two
-    /// ends, perpendicular to the edge, and on the outward side of both faces at the edge.
+    /// Returns the edges whose Voronoi region contains a point. The point is then between the planes through
+    /// the two ends, perpendicular to the edge, and on the outward side of both faces at the edge.
     #[inline(always)]
     pub fn between<S: Simd>(&self, simd: S, p: &Splat<S>) -> LaneBits {
         let zero = simd.splat(0.0);
@@ -179,7 +178,7 @@ fn box_around(edges: &[Edge]) -> (Vec3, Vec3) {
 }
 
 impl VertexBlock {
-    /// Blocks of all vertices.
+    /// Returns blocks of all vertices, in the order of their indices.
     pub fn all(parts: &PolyhedronParts) -> Vec<Self> {
         let block = |vertices: &[PolyhedronVertex]| Self {
             position: eight(vertices, |vertex| vertex.position),

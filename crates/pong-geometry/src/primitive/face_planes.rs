@@ -9,8 +9,8 @@ use crate::simd::{LANES, LaneBits, MODERATE, Simd, Splat, is_moderate};
 pub struct FacePlanes {
     /// Blocks; the last one may have unused lanes.
     pub blocks: Vec<PlaneBlock>,
-    /// Faces by decreasing area (ties: lower index first). A point outside the solid is most often above a
-    /// large face, so a test of one plane after another ends sooner in this order.
+    /// Faces by decreasing area; of equal ones, the lower index first. A point outside the solid is most
+    /// often above a large face, so a test of one plane after another ends sooner in this order.
     pub widest_first: Vec<PolyhedronFace>,
     /// True if all numbers are moderate ([`is_moderate`]); heights of moderate points are then finite.
     pub moderate: bool,
@@ -22,8 +22,8 @@ pub struct FacePlanes {
     pub wall_slack: f64,
 }
 
-/// Eight planes. Unused lanes repeat the last face, so they change no result; of equal lanes the lowest
-/// counts.
+/// Eight planes. Unused lanes repeat the last face. They change no result, because of lanes with equal values
+/// the lowest counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct PlaneBlock {
@@ -42,14 +42,14 @@ pub struct PlaneBlock {
 }
 
 impl PlaneBlock {
-    /// Heights of a point above the planes, bit-identical to [`PolyhedronFace::height`].
+    /// Returns the heights of a point above the planes, bit-identical to [`PolyhedronFace::height`].
     #[inline(always)]
     pub fn heights<S: Simd>(&self, simd: S, p: &Splat<S>) -> S::Eight {
         simd.sub(p.dot(&self.normal), simd.load(&self.offset))
     }
 
-    /// Returns the planes for which a point at these heights is on the solid's side: below the plane, or on
-    /// the plane of a closed face.
+    /// Returns the planes for which a point at these heights is on the solid's side. It is there if it is
+    /// below the plane, or on the plane of a closed face.
     #[inline(always)]
     pub fn held<S: Simd>(&self, simd: S, heights: S::Eight) -> LaneBits {
         let zero = simd.splat(0.0);
@@ -62,8 +62,8 @@ impl PlaneBlock {
 }
 
 impl PlaneBlock {
-    /// Returns the planes that a point at these heights is below; for internal faces, below or less than
-    /// `wall_slack` above.
+    /// Returns the planes for which a point at these heights is on the solid's side within the tolerance:
+    /// below the plane, or less than `wall_slack` above the plane of an internal face.
     #[inline(always)]
     pub fn held_or_at_wall<S: Simd>(&self, simd: S, heights: S::Eight, wall_slack: f64) -> LaneBits {
         let below = simd.bits(simd.below(heights, simd.splat(0.0)));
@@ -80,22 +80,22 @@ impl PlaneBlock {
 
 impl FacePlanes {
     /// Tolerance of internal faces, relative to a piece's diameter. Two opposite internal faces closer than
-    /// the tolerance count as one plane, and a point closer than the tolerance to an internal face counts as
-    /// on the face. Without it, a point where several internal faces meet could, by rounding, lie in no piece
-    /// or in several.
+    /// the tolerance count as one plane. A point closer than the tolerance to an internal face counts as on
+    /// the face. Without the tolerance, a point where several internal faces meet could, by rounding, lie in
+    /// no piece or in several.
     pub const WALL_TOLERANCE: f64 = 1e-6;
 
     /// Maximum number of blocks that kernels keep in registers.
     pub const IN_REGISTERS: usize = 4;
 
-    /// Number of blocks that a kernel for `N` blocks processes: `N` if the kernel keeps them in registers,
-    /// else all blocks of the piece.
+    /// Returns the number of blocks that a kernel compiled for `N` blocks processes: `N` if the kernel keeps
+    /// the blocks in registers, otherwise all blocks of the piece.
     #[inline(always)]
     pub(crate) fn count<const N: usize>(&self) -> usize {
         if N <= Self::IN_REGISTERS { N } else { self.blocks.len() }
     }
 
-    /// Returns a block; an index past the last returns the last one.
+    /// Returns the block with this index; for an index past the last block, the last one.
     ///
     /// # Panics
     /// If the polyhedron has no faces.
@@ -104,7 +104,8 @@ impl FacePlanes {
         &self.blocks[index.min(self.blocks.len() - 1)]
     }
 
-    /// The only block, if there is one: most pieces have at most eight faces.
+    /// Returns the only block; `None` if there are several. Most pieces have at most eight faces, so one
+    /// block.
     #[inline]
     pub(crate) fn only_block(&self) -> Option<&PlaneBlock> {
         let [only] = &self.blocks[..] else { return None };
@@ -129,8 +130,8 @@ fn widest_first(parts: &PolyhedronParts) -> Vec<PolyhedronFace> {
     faces.into_iter().map(|(_, face)| face).collect()
 }
 
-/// Twice the area of a face, m², from the triangles between the first corner of its outline and the edges not
-/// adjacent to that corner.
+/// Returns twice the area of a face, m². The face is divided into triangles between the first corner of its
+/// outline and the edges not adjacent to that corner.
 fn twice_the_area(parts: &PolyhedronParts, face: &PolyhedronFace) -> f64 {
     let mut from_first = parts.rims_of(face).iter().map(|rim| parts.vertices[rim.start as usize].position);
     let Some(first) = from_first.next() else { return 0.0 };

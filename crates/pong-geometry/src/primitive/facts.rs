@@ -1,62 +1,64 @@
-//! Properties of one primitive: all that the engine and the viewers need of a kind, except its contact tests.
+//! Properties of one primitive: all that the engine and the viewers need of a kind, apart from contact tests.
 
 use crate::bounding::Bounded;
 use crate::{Mat3, Vec3};
 use std::borrow::Cow;
 
-/// Primitive in the frame of its movable group. Each kind implements this in its own file.
+/// Properties of a primitive, given in the frame of its movable group. Each kind implements this trait in its
+/// own file.
 pub trait Primitive: Bounded {
-    /// Point of A whose displacement deflects the bristle of a contact, m: centre of a sphere or ellipsoid,
-    /// the point itself, end of a segment or of a round part's axis, tip of a ray. `end` is the end in the
-    /// contact's key. Borrowed where possible.
+    /// Returns the point of A whose displacement deflects the bristle of a contact, m. It is the centre of a
+    /// sphere or an ellipsoid, the point itself, an end of a segment or of a round part's axis, or the tip of
+    /// a ray. `end` is the end in the contact's key.
     fn reference_point(&self, _end: u32) -> Cow<'_, Vec3> {
         Cow::Owned(Vec3::zeros())
     }
 
-    /// Points whose paths are followed to detect tunnelling, m.
+    /// Returns the points whose paths are followed to detect tunnelling, m.
     fn followed(&self) -> [Option<Vec3>; 3] {
         [None; 3]
     }
 
-    /// Axis and radius of a primitive that can touch round solids, m; both ends of the axis of a point-like
-    /// primitive coincide.
+    /// Returns axis and radius of a primitive that can touch round solids, m; otherwise `None`. For a point,
+    /// a ray or a sphere both ends of the axis coincide.
     fn core(&self) -> Option<([Vec3; 2], f64)> {
         None
     }
 
-    /// Least radius of a primitive that can touch triangles, m. A triangle for which the model gives no
-    /// thickness uses this radius.
+    /// Returns the least radius of a primitive that can touch triangles, m. A triangle for which the model
+    /// gives no thickness takes this radius as its thickness.
     fn smallest_radius_m(&self) -> Option<f64> {
         None
     }
 
-    /// Least thickness of the primitive, m, where a path can pass through it; infinite if no path can.
+    /// Returns the least thickness of the primitive, m, where a path can pass through it; infinite if no path
+    /// can.
     fn least_width_m(&self) -> f64 {
         f64::INFINITY
     }
 
-    /// The primitive as a round solid, if tunnelling through it is detected by the axis of the passing
-    /// element.
+    /// Returns the primitive as a round solid, if tunnelling through it is detected by the axis of the
+    /// passing element.
     fn round(&self) -> Option<&dyn Round> {
         None
     }
 
-    /// The primitive as a curved surface, if tunnelling through it is detected by points of the passing
-    /// element.
+    /// Returns the primitive as a curved surface, if tunnelling through it is detected by points of the
+    /// passing element.
     fn curved(&self) -> Option<&dyn Curved> {
         None
     }
 
-    /// Sizes that a model limits, with their names, m.
+    /// Returns the sizes that a model limits, with their names, m.
     fn sizes_m(&self) -> Vec<(&'static str, f64)> {
         Vec::new()
     }
 
-    /// Drawing of the primitive; `None` for a polyhedron, which is drawn face by face.
+    /// Returns the drawing of the primitive; `None` for a polyhedron, which is drawn face by face.
     fn drawing(&self) -> Option<Drawing>;
 }
 
-/// Distance between two bodies and its direction.
+/// Distance of another body from a round solid, with its direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Gap {
     /// Distance, m; in overlap, minus the length of the minimum translation.
@@ -68,17 +70,17 @@ pub struct Gap {
 
 /// Round solid that the axis of another element may sweep through (docs/theory.md, 2.9).
 pub trait Round {
-    /// Gap to the axis between two points, which may coincide.
+    /// Returns the gap between the solid and the segment `axis`, whose ends may coincide.
     fn gap(&self, axis: &[Vec3; 2]) -> Gap;
 
-    /// Least distance between two parallel planes that enclose the solid, m.
+    /// Returns the least distance between two parallel planes that enclose the solid, m.
     fn width_m(&self) -> f64;
 }
 
 /// Curved surface that a point of another element may pass through (docs/theory.md, 2.9).
 pub trait Curved {
-    /// Unit normal of the surface where a straight path enters it, if the path passes through. `radius`, m,
-    /// is that of the sphere whose centre takes the path; 0 for a point.
+    /// Returns the unit normal of the surface where a straight path enters it; `None` if the path does not
+    /// pass through. `radius`, m, is that of the sphere whose centre takes the path; 0 for a point.
     fn passed(&self, from: &Vec3, to: &Vec3, radius: f64) -> Option<Vec3>;
 }
 
@@ -142,7 +144,7 @@ pub enum Stroke {
     },
 }
 
-/// Point of an axis: end 0, end 1, or for any other `end` the middle.
+/// Returns a point of an axis: end 0, end 1, or for any other `end` the middle.
 pub(super) fn on_axis([one, other]: &[Vec3; 2], end: u32) -> Cow<'_, Vec3> {
     match end {
         0 => Cow::Borrowed(one),
@@ -151,18 +153,18 @@ pub(super) fn on_axis([one, other]: &[Vec3; 2], end: u32) -> Cow<'_, Vec3> {
     }
 }
 
-/// Ends and middle of an axis.
+/// Returns the two ends and the middle of an axis.
 pub(super) fn ends_and_middle([one, other]: &[Vec3; 2]) -> [Option<Vec3>; 3] {
     [Some(*one), Some(*other), Some(0.5 * (one + other))]
 }
 
-/// Largest component of the vector between two points, m: at least 1/√3 of their distance, and free of
-/// squares that may overflow.
+/// Returns the largest component of the vector between two points, m. It is at least 1/√3 of their distance,
+/// and computed without squares, which may overflow.
 pub(super) fn distance_m([one, other]: &[Vec3; 2]) -> f64 {
     (one - other).amax()
 }
 
-/// Box around a centre with half sizes, m.
+/// Returns the lowest and the highest corner of a box, given its centre and half sizes, m.
 pub(super) fn box_around(center: &Vec3, half: Vec3) -> (Vec3, Vec3) {
     (center - half, center + half)
 }

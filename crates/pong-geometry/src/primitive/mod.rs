@@ -1,4 +1,4 @@
-//! Primitives of a model, and their storage in flat arrays.
+//! Kinds of primitives, and the flat arrays in which a model stores them.
 //!
 //! All geometry of one movable group is expressed in the frame of that group.
 
@@ -26,12 +26,13 @@ pub use round::{Bore, Capsule, Frustum};
 pub use simple::{LineSegment, Plane, Point, Ray, RayResponse};
 pub use triangles::{Lean, MayPush, NO_NEIGHBOR, TriangleRecord, TriangleSet};
 
-/// Expands a macro for every kind whose elements a movable group keeps in one array: documentation, name,
-/// number, shape, array. Triangles, which are parts of a mesh, and custom primitives are not in the list:
-/// each expansion adds them.
+/// Expands a macro with one row per kind of primitive: documentation, name, number, shape, and the movable
+/// group's array for this shape. Triangles, which are parts of a mesh, and custom primitives are not in the
+/// list: each user of this macro adds them.
 ///
-/// A new kind needs a row here, a shape with its [`Primitive`](crate::primitive::Primitive) in a file of this
-/// folder, an array in the movable group, its fields in the reader, and rows in the engine's table of pairs.
+/// For a new kind, add a row here, a shape with its [`Primitive`](crate::primitive::Primitive) in a file of
+/// this folder, an array in the movable group, the fields in the reader of model files, and rows in the
+/// engine's table of pairs.
 #[macro_export]
 macro_rules! for_each_kind {
     ($then:ident) => {
@@ -62,9 +63,9 @@ macro_rules! for_each_kind {
     };
 }
 
-/// Expands a macro for every shape that can be A in the engine's tests: name, shape, array, kinds. Such a
-/// shape has the methods `carried` (its copy in another frame) and `region` (box around everything that it
-/// can touch).
+/// Expands a macro with one row per shape that can be A in the engine's tests: name, shape, array, kinds.
+/// Each of these shapes has the methods `carried` (its copy in another frame) and `region` (a box around
+/// everything that it can touch).
 #[macro_export]
 macro_rules! for_each_moving_shape {
     ($then:ident) => {

@@ -1,8 +1,8 @@
 //! Convex planar polyhedra with their surface topology.
 //!
-//! A polyhedron is one convex piece of a body. Pieces that touch along *inactive* faces (internal faces,
-//! "inner walls" in the documentation) form one surface (docs/theory.md, 2.2). Which edges and vertices may
-//! push is therefore a property of the whole surface, computed when the model is loaded.
+//! A polyhedron is one convex piece of a body. Pieces that touch along *inactive* faces (internal faces) form
+//! one surface (docs/theory.md, 2.2). Which edges and vertices may push is therefore a property of the whole
+//! surface. It is computed when the model is loaded.
 
 use super::edge_blocks::{EdgeBlocks, VertexBlock};
 use super::face_planes::FacePlanes;
@@ -12,10 +12,10 @@ use crate::Vec3;
 use crate::bounding::{Bounded, farthest_of_points, support_of_points};
 use crate::simd::{LaneBits, Simd, Splat, run_at_level};
 
-/// Convex solid: intersection of the half spaces of its faces.
+/// Convex solid: the intersection of the half spaces of its faces.
 ///
-/// Created by [`new`](Self::new) from [`PolyhedronParts`], to which it dereferences; [`change`](Self::change)
-/// modifies them.
+/// It is created by [`new`](Self::new) from [`PolyhedronParts`]. It dereferences to these parts;
+/// [`change`](Self::change) modifies them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyhedron {
     parts: PolyhedronParts,
@@ -24,23 +24,22 @@ pub struct Polyhedron {
     vertex_blocks: Vec<VertexBlock>,
 }
 
-/// Position of a point relative to one piece of a body.
+/// Position of a point relative to one piece of a body. Exactly on an internal face, the point is inside the
+/// piece whose face is `closed`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Containment {
     /// Inside, not on an internal face.
     Inside,
-    /// Inside (by the tie rule of internal faces), and on an internal face within the tolerance
-    /// (`wall_slack`).
+    /// Inside, and on an internal face within the tolerance `wall_slack`.
     AtWall,
-    /// On or above internal faces by less than `wall_slack`, not inside by the tie rule, and below all active
-    /// faces.
+    /// Outside by less than `wall_slack`, and above internal faces only: the point is below all active faces.
     BeyondWall,
     /// Outside.
     Outside,
 }
 
 impl Polyhedron {
-    /// Builds the polyhedron and its data for the tests: planes, edges and vertices.
+    /// Builds the polyhedron and the data derived from its parts: blocks of planes, edges and vertices.
     pub fn new(parts: PolyhedronParts) -> Self {
         Self {
             planes: FacePlanes::new(&parts),
@@ -50,7 +49,7 @@ impl Polyhedron {
         }
     }
 
-    /// Modifies the parts and rebuilds all derived data.
+    /// Modifies the parts by calling `change`, and rebuilds all derived data.
     pub fn change(&mut self, change: impl FnOnce(&mut PolyhedronParts)) {
         let mut parts = self.parts.clone();
         change(&mut parts);
@@ -80,11 +79,13 @@ impl Polyhedron {
         &self.vertex_blocks
     }
 
-    /// Least height of `p` above a face, m, at which the face may contain the point of the solid nearest to
-    /// `p`. Without rounding such a face has the greatest height of all, `top`, m.
+    /// Returns a bound on the height of `p` above a face, m: below it, the projection of `p` onto the face's
+    /// plane cannot be the point of the solid nearest to `p`. `top`, m, is the greatest height of `p` above
+    /// any face.
     ///
-    /// The slack is far above the convexity error of a loaded polyhedron and above the rounding of the
-    /// narrowest outline.
+    /// Without rounding, the bound would be `top` itself. The slack subtracted from `top` is far above the
+    /// convexity error of a loaded polyhedron, and above the rounding in the test whether the projection lies
+    /// within a very narrow face.
     #[inline]
     pub(crate) fn least_height_over_face(&self, p: &Vec3, top: f64) -> f64 {
         const SLACK: f64 = 1e-4;
@@ -92,22 +93,23 @@ impl Polyhedron {
         top - SLACK * (self.parts.diameter + p.amax() + place)
     }
 
-    /// Returns `true` if a point lies inside this piece (by the tie rule of internal faces).
+    /// Returns `true` if a point lies inside this piece. Exactly on an internal face, it does if the face is
+    /// `closed`.
     #[inline]
     pub fn contains(&self, p: &Vec3) -> bool {
         let planes = self.planes();
         run_at_level!(planes_hold(p: Vec3, planes: FacePlanes) -> bool)
     }
 
-    /// Position of a point relative to this piece. Near internal faces the result depends on the neighbouring
-    /// pieces too: see [`Containment`].
+    /// Returns the position of a point relative to this piece. In which piece of the body a point near
+    /// internal faces lies depends on the neighbouring pieces too: see [`Containment`].
     #[inline]
     pub fn containment(&self, p: &Vec3) -> Containment {
         let planes = self.planes();
         run_at_level!(containment_in(p: Vec3, planes: FacePlanes) -> Containment)
     }
 
-    /// Internal faces that the point is above, or less than `wall_slack` below.
+    /// Returns the internal faces that the point is above, or less than `wall_slack` below.
     pub fn walls_at<'a>(&'a self, p: &'a Vec3) -> impl Iterator<Item = &'a PolyhedronFace> {
         let slack = self.planes.wall_slack;
         self.faces.iter().filter(move |face| !face.active && face.height(p) > -slack)
@@ -169,7 +171,7 @@ impl Bounded for Polyhedron {
 }
 
 impl Primitive for Polyhedron {
-    /// Least extent along any of the face normals, m.
+    /// Returns the least width of the solid along any of its face normals, m.
     fn least_width_m(&self) -> f64 {
         let lowest = |normal: &Vec3| {
             let along = self.vertices.iter().map(|vertex| normal.dot(&vertex.position));

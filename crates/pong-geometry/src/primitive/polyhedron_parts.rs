@@ -1,11 +1,11 @@
-//! Parts of a polyhedron: faces, outlines, edges and vertices with their surface topology.
+//! Parts of a polyhedron: faces, face outlines, edges and vertices, and how these are connected.
 
 use crate::Vec3;
 
 /// All parts of a polyhedron.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PolyhedronParts {
-    /// Faces; the lower index wins ties.
+    /// Faces; if two faces are equal in a comparison, the lower index counts.
     pub faces: Vec<PolyhedronFace>,
     /// Edges of all face outlines, face after face, counter-clockwise seen from outside.
     pub rims: Vec<RimEdge>,
@@ -30,8 +30,8 @@ pub struct PolyhedronFace {
     /// True if the face can push. An inactive face is an internal face (inner wall) between pieces of one
     /// body.
     pub active: bool,
-    /// True if a point exactly on this plane belongs to this piece: an internal face whose opposite face
-    /// belongs to a piece with a higher index.
+    /// True if a point exactly on this plane belongs to this piece. That is so for an internal face whose
+    /// opposite face belongs to a piece with a higher index.
     pub closed: bool,
     /// First entry of this face's outline in [`PolyhedronParts::rims`].
     pub first_rim: u32,
@@ -48,10 +48,10 @@ pub struct RimEdge {
     pub edge: u32,
     /// Face on the other side (index into [`PolyhedronParts::faces`]).
     pub neighbor: u32,
-    /// End of the edge that comes first in (x, y, z) order, so that every face and piece measures from the
-    /// same point, m.
+    /// End of the edge from which distances are measured, m: the first in (x, y, z) order, so that every face
+    /// and piece measures from the same point.
     pub anchor: Vec3,
-    /// Unit vector in the face's plane, perpendicular to the edge, pointing out of the face.
+    /// Unit vector that lies in the face's plane, is perpendicular to the edge and points out of the face.
     pub outward: Vec3,
 }
 
@@ -64,12 +64,12 @@ pub struct PolyhedronEdge {
     pub faces: [u32; 2],
     /// Unit direction from the first to the second end.
     pub direction: Vec3,
-    /// Normals along which the edge pushes; `None` if it cannot push. It pushes if two active faces of the
-    /// surface (possibly of two pieces) meet here convexly, and this piece has the lowest index of the pieces
-    /// with the edge.
+    /// Normals along which the edge pushes; `None` if it cannot push. It pushes if two conditions hold: two
+    /// active faces of the surface (possibly of two pieces) meet here convexly, and this piece has the lowest
+    /// index of the pieces with the edge.
     pub push: Option<EdgePush>,
-    /// Same as `push`, but set in every piece that has the edge: used for shapes that cross the edge from one
-    /// piece into another.
+    /// Same as `push`, but set in every piece that has the edge. It is used for shapes that cross the edge
+    /// from one piece into another.
     pub convex: Option<EdgePush>,
 }
 
@@ -78,8 +78,8 @@ pub struct PolyhedronEdge {
 pub struct EdgePush {
     /// Outward unit normals of the two active faces that meet at the edge.
     pub normals: [Vec3; 2],
-    /// For each of the two faces, the unit vector in the face's plane, perpendicular to the edge, pointing
-    /// out of the face.
+    /// For each of the two faces, the unit vector that lies in the face's plane, is perpendicular to the edge
+    /// and points out of the face.
     pub outwards: [Vec3; 2],
 }
 
@@ -88,8 +88,8 @@ pub struct EdgePush {
 pub struct PolyhedronVertex {
     /// Position in the group frame, m.
     pub position: Vec3,
-    /// True if the vertex may push: active faces of the surface meet here, and this piece has the lowest
-    /// index of the pieces with the vertex.
+    /// True if the vertex may push. Two conditions must hold: active faces of the surface meet here, and this
+    /// piece has the lowest index of the pieces with the vertex.
     pub pushes: bool,
     /// First entry of its cone in [`PolyhedronParts::cone_edges`].
     pub first_cone: u32,
@@ -98,26 +98,27 @@ pub struct PolyhedronVertex {
 }
 
 impl PolyhedronParts {
-    /// Outline of a face.
+    /// Returns the outline of a face, given by its index.
     #[inline]
     pub fn rim(&self, face: usize) -> &[RimEdge] {
         self.rims_of(&self.faces[face])
     }
 
-    /// Outline of a face, given by reference.
+    /// Returns the outline of a face, given by reference.
     #[inline]
     pub fn rims_of(&self, face: &PolyhedronFace) -> &[RimEdge] {
         &self.rims[face.first_rim as usize..(face.first_rim + face.rim_count) as usize]
     }
 
-    /// Directions of the surface's edges away from a vertex.
+    /// Returns the directions of the surface's edges away from a vertex, which define the normal cone of the
+    /// vertex.
     #[inline]
     pub fn cone(&self, vertex: usize) -> &[Vec3] {
         let vertex = &self.vertices[vertex];
         &self.cone_edges[vertex.first_cone as usize..(vertex.first_cone + vertex.cone_count) as usize]
     }
 
-    /// Signed distance of a point above a face's plane (positive outside), m.
+    /// Returns the height of a point above a face's plane, m; positive outside.
     #[inline]
     pub fn height(&self, face: usize, p: &Vec3) -> f64 {
         self.faces[face].height(p)
@@ -125,7 +126,7 @@ impl PolyhedronParts {
 }
 
 impl PolyhedronFace {
-    /// Signed distance of a point above the plane (positive outside), m.
+    /// Returns the height of a point above the face's plane, m; positive outside.
     #[inline]
     pub fn height(&self, p: &Vec3) -> f64 {
         self.normal.dot(p) - self.offset

@@ -8,13 +8,15 @@ use std::borrow::Cow;
 /// All points within a radius of a straight segment: a cylinder with a hemisphere at each end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capsule {
-    /// Centres of the two hemispheres, m; distinct. End 0 and end 1 are the state keys of their contacts.
+    /// Centres of the two hemispheres, m; distinct. Their numbers, 0 and 1, are part of the keys of the
+    /// capsule's contacts.
     pub ends: [Vec3; 2],
     /// Radius, m, positive.
     pub radius: f64,
 }
 
-/// Straight frustum of a cone: the solid of a cylinder (equal radii) or of a cone, or the hole of a bore.
+/// Straight frustum of a cone. It is the solid of a cylinder (equal radii) or of a cone, or the hole of a
+/// bore.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frustum {
     /// Centres of the two end circles, m.
@@ -25,8 +27,8 @@ pub struct Frustum {
     pub axis: Vec3,
     /// Distance between the ends, m. Zero for a disc.
     pub length: f64,
-    /// Outward unit normal of the lateral surface in a plane through the axis: axial component, then radial
-    /// component (positive).
+    /// Outward unit normal of the lateral surface, in a half plane bounded by the axis: axial component, then
+    /// radial component (positive).
     pub wall: [f64; 2],
 }
 
@@ -43,9 +45,9 @@ pub struct Bore {
 }
 
 impl Bore {
-    /// Returns `true` if a point is past an end of the bore; `inside` is its signed distance from the end
-    /// (any unit), positive inside. A point exactly on the seam of two bores in line belongs only to the bore
-    /// whose end 0 lies there.
+    /// Returns `true` if a point is past an end of the bore. `inside` is its signed distance from the end
+    /// (any unit), positive inside. A point exactly on the seam of two bores in line must belong to one of
+    /// them only: it is past end 1 of a bore, but not past end 0.
     #[inline]
     pub(crate) fn is_past(&self, end: usize, inside: f64) -> bool {
         inside < 0.0 || (inside == 0.0 && end == 1 && !self.mouths[end])
@@ -53,13 +55,14 @@ impl Bore {
 }
 
 impl Capsule {
-    /// Capsule transformed to another frame.
+    /// Returns the capsule transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { ends: self.ends.map(|end| x.point(&end)), radius: self.radius }
     }
 
-    /// Least and greatest coordinates of the region of contact, m.
+    /// Returns the lowest and the highest corner of the capsule's bounding box, along the axes of the frame,
+    /// m.
     #[inline]
     pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
         let [a, b] = &self.ends;
@@ -68,7 +71,8 @@ impl Capsule {
 }
 
 impl Frustum {
-    /// Frustum between two distinct points, m, with a radius at each, m, not negative and not both zero.
+    /// Creates the frustum between two distinct points, m, with a radius at each, m. The radii must not be
+    /// negative, and not both zero.
     pub fn new(ends: [Vec3; 2], radii: [f64; 2]) -> Self {
         let between = ends[1] - ends[0];
         let length = between.norm();
@@ -78,7 +82,7 @@ impl Frustum {
         Self { ends, radii, axis: between / length, length, wall }
     }
 
-    /// One of the two end circles as a solid disc without thickness.
+    /// Returns the disc at one end: a frustum of length zero.
     pub fn disc(&self, end: usize) -> Self {
         Self {
             ends: [self.ends[end]; 2],
@@ -89,14 +93,14 @@ impl Frustum {
         }
     }
 
-    /// Frustum transformed to another frame.
+    /// Returns the frustum transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { ends: self.ends.map(|end| x.point(&end)), axis: x.vector(&self.axis), ..*self }
     }
 
-    /// Least and greatest coordinates of the region of contact, m. Not inlined, so that the cheaper kinds do
-    /// not pay for its stack frame.
+    /// Returns the lowest and the highest corner of the frustum's bounding box, along the axes of the frame,
+    /// m. The function is not inlined, so that the cheaper kinds do not pay for its stack frame.
     #[inline(never)]
     pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
         let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
@@ -104,7 +108,7 @@ impl Frustum {
         (along(-1.0), along(1.0))
     }
 
-    /// Maximum of `direction · x` over the solid, m, for a unit direction.
+    /// Returns the maximum of `direction · x` over the solid, m, for a unit direction.
     #[inline]
     pub fn support(&self, direction: &Vec3) -> f64 {
         let aside = direction.cross(&self.axis).norm();
@@ -132,7 +136,8 @@ impl Bounded for Frustum {
         Frustum::support(self, direction)
     }
 
-    /// The farthest point lies on one of the end circles, on the far side of the axis.
+    /// Returns the distance of the farthest point, m. That point lies on one of the end circles, on the far
+    /// side of the axis.
     fn farthest(&self, from: &Vec3) -> f64 {
         let of_circle = |end: usize| {
             let arm = from - self.ends[end];
@@ -153,9 +158,9 @@ impl Bounded for Frustum {
 }
 
 impl Bore {
-    /// Region in which a bore may push: the hole dilated by the thickness. The layer of that thickness behind
-    /// the wall would be too small: the origin of a ray that grazes the wall may lie beside the layer, as may
-    /// a shape that passes through the wall near a mouth.
+    /// Returns the region in which the bore may push: the hole dilated by the thickness. The layer of that
+    /// thickness behind the wall would be too small: the origin of a ray that grazes the wall may lie beside
+    /// the layer, and so may a shape that passes through the wall near a mouth.
     fn pushed(&self) -> Dilated<'_> {
         Dilated { thing: &self.hole, reach: self.thickness }
     }
@@ -215,8 +220,8 @@ impl Primitive for Capsule {
 }
 
 impl Primitive for Frustum {
-    /// The disc at end 0 has contacts with the ends 0 and 2 in their keys, the disc at end 1 contacts with 1
-    /// and 3.
+    /// Returns the centre of the disc to which the contact belongs. In the keys of the contacts, ends 0 and 2
+    /// are contacts of the disc at end 0, ends 1 and 3 those of the disc at end 1.
     #[inline]
     fn reference_point(&self, end: u32) -> Cow<'_, Vec3> {
         Cow::Borrowed(&self.ends[usize::from(!end.is_multiple_of(2))])
@@ -234,7 +239,7 @@ impl Primitive for Frustum {
         Some(self)
     }
 
-    /// The zero radius of an apex is left out.
+    /// Returns the sizes with their names, without the zero radius of an apex.
     fn sizes_m(&self) -> Vec<(&'static str, f64)> {
         let radii = self.radii.into_iter().filter(|radius| *radius > 0.0);
         radii.map(|radius| ("a radius", radius)).chain([("the length", distance_m(&self.ends))]).collect()
@@ -268,7 +273,7 @@ impl Primitive for Bore {
         sizes
     }
 
-    /// The wall alone, seen from inside.
+    /// Returns the drawing of the wall alone, seen from inside.
     fn drawing(&self) -> Option<Drawing> {
         let Frustum { ends, radii, axis, length, .. } = self.hole;
         let corner = |along, aside| Stroke::Corner { along, aside };

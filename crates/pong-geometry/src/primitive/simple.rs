@@ -24,11 +24,11 @@ pub struct Plane {
 /// Straight segment between two distinct points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineSegment {
-    /// The ends, m. End 0 and end 1 are the state keys of its contacts.
+    /// Ends, m. Their numbers, 0 and 1, are part of the keys of the segment's contacts.
     pub ends: [Vec3; 2],
 }
 
-/// Response of a ray to the surface it hits (docs/theory.md, 2.5).
+/// Direction in which a ray pushes, and how its depth is measured (docs/theory.md, 2.5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RayResponse {
     /// Depth is measured along the surface normal, and the force acts along the normal.
@@ -37,7 +37,7 @@ pub enum RayResponse {
     Axial,
 }
 
-/// Plunger of given length.
+/// Plunger of a given length that pushes with its tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Point where the plunger is held, m.
@@ -46,21 +46,21 @@ pub struct Ray {
     pub direction: Vec3,
     /// Free length, m.
     pub length: f64,
-    /// Distance behind the origin at which a surface is still hit, m; `None` takes the default of the surface
-    /// (0, or the thickness of a triangle or a bore).
+    /// Distance behind the origin at which a surface is still hit, m. `None` takes the default of the
+    /// surface: the thickness of a triangle or a bore, otherwise 0.
     pub reach: Option<f64>,
     /// Direction of the force: along the surface normal or along the ray.
     pub response: RayResponse,
 }
 
 impl Point {
-    /// Point transformed to another frame.
+    /// Returns the point transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { position: x.point(&self.position) }
     }
 
-    /// Least and greatest coordinates of the region of contact, m.
+    /// Returns the lowest and the highest corner of the point's bounding box, m: both are the point itself.
     #[inline]
     pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
         (self.position, self.position)
@@ -68,13 +68,14 @@ impl Point {
 }
 
 impl LineSegment {
-    /// Segment transformed to another frame.
+    /// Returns the segment transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { ends: [x.point(&self.ends[0]), x.point(&self.ends[1])] }
     }
 
-    /// Least and greatest coordinates of the region of contact, m.
+    /// Returns the lowest and the highest corner of the segment's bounding box, along the axes of the frame,
+    /// m.
     #[inline]
     pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
         let [a, b] = &self.ends;
@@ -83,7 +84,7 @@ impl LineSegment {
 }
 
 impl Ray {
-    /// Ray from one point to another; `None` if they coincide or their distance is not finite.
+    /// Returns the ray from one point to another; `None` if they coincide or their distance is not finite.
     ///
     /// The clamp of the length changes no result: it keeps the divisor from zero if a compiler moves the
     /// division before the branch.
@@ -98,20 +99,21 @@ impl Ray {
         Some(Self { origin: *from, direction, length, reach: None, response: RayResponse::Normal })
     }
 
-    /// Free tip, m.
+    /// Returns the free tip, m.
     #[inline]
     pub fn tip(&self) -> Vec3 {
         self.origin + self.direction * self.length
     }
 
-    /// Ray transformed to another frame.
+    /// Returns the ray transformed to another frame.
     #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { origin: x.point(&self.origin), direction: x.vector(&self.direction), ..*self }
     }
 
-    /// Least and greatest coordinates of the region of contact, m. A ray also hits surfaces up to its reach
-    /// behind its origin. If `reach` is `None`, the box of the triangle includes the default.
+    /// Returns the lowest and the highest corner of the box, along the axes of the frame, around everything
+    /// that the ray can hit, m. A ray also hits surfaces up to `reach` behind its origin. If `reach` is
+    /// `None`, the default is not included here, but in the box of the triangle.
     #[inline]
     pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
         let start = self.origin - self.direction * self.reach.unwrap_or(0.0);
@@ -120,7 +122,7 @@ impl Ray {
 }
 
 impl Plane {
-    /// Signed distance of a point above the plane (positive outside the solid), m.
+    /// Returns the height of a point above the plane, m; positive outside the solid.
     #[inline]
     pub fn height(&self, p: &Vec3) -> f64 {
         self.normal.dot(p) - self.offset
@@ -222,7 +224,7 @@ impl Primitive for Ray {
         Some(([self.origin; 2], 0.0))
     }
 
-    /// A reach of zero is left out.
+    /// Returns the sizes with their names, without a reach of zero.
     fn sizes_m(&self) -> Vec<(&'static str, f64)> {
         let reach = self.reach.filter(|reach| *reach > 0.0).map(|reach| ("the reach", reach));
         [("the length", self.length)].into_iter().chain(reach).collect()

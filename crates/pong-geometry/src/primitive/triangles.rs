@@ -1,13 +1,13 @@
 //! All triangles of one movable group, with shared vertices and neighbours.
 //!
-//! A triangle takes 44 bytes. Normals and edge planes are computed when needed; stored are which edges and
-//! vertices may push, and how far their pushing normals deviate from the face normal. Edge `k` runs from
-//! vertex `k` to vertex `k + 1` (mod 3).
+//! A triangle takes 44 bytes. Its normal and the planes of its edges are computed when needed. Stored are
+//! which edges and vertices may push, and how far their pushing normals deviate from the face normal. Edge
+//! `k` runs from vertex `k` to vertex `k + 1` (mod 3).
 
 use crate::Vec3;
 
-/// Value in [`TriangleRecord::neighbors`] for a boundary edge, or an edge shared by three or more triangles,
-/// which counts as boundary.
+/// Value in [`TriangleRecord::neighbors`] for a boundary edge. An edge shared by three or more triangles
+/// counts as boundary too.
 pub const NO_NEIGHBOR: u32 = u32::MAX;
 
 /// Triangles of one movable group.
@@ -37,7 +37,7 @@ pub struct TriangleRecord {
 }
 
 /// Edges and vertices of a triangle that may push, set by
-/// [`mark_pushing`](crate::interference::pushing_features::mark_pushing). It only saves tests and changes no
+/// [`mark_pushing`](crate::interference::pushing_features::mark_pushing). They only save tests and change no
 /// result: without this information every feature is tested.
 ///
 /// Bit `k` is edge `k`, bit `3 + k` is vertex `k`.
@@ -45,16 +45,16 @@ pub struct TriangleRecord {
 pub struct MayPush(pub u8);
 
 impl MayPush {
-    /// All features, when nothing is known.
+    /// All edges and vertices, for a triangle of which nothing is known.
     pub const ALL: Self = Self(0b11_1111);
 
-    /// Bit of edge `k`.
+    /// Returns `true` if edge `k` may push.
     #[inline]
     pub fn edge(self, k: usize) -> bool {
         self.0 >> k & 1 == 1
     }
 
-    /// Bit of vertex `k`.
+    /// Returns `true` if vertex `k` may push.
     #[inline]
     pub fn vertex(self, k: usize) -> bool {
         self.0 >> (3 + k) & 1 == 1
@@ -62,21 +62,21 @@ impl MayPush {
 }
 
 /// Upper bound of the tangent of the angle between the face normal and any normal along which a feature may
-/// push, set by [`mark_pushing`](crate::interference::pushing_features::mark_pushing). It only saves tests
+/// push. It is set by [`mark_pushing`](crate::interference::pushing_features::mark_pushing), only saves tests
 /// and changes no result: without this information the bound is [`Lean::ANY`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Lean(u8);
 
 impl Lean {
-    /// No pushing normal.
+    /// Bound if no feature pushes.
     pub const NONE: Self = Self(0);
-    /// Any normal.
+    /// Bound if a feature may push along any normal.
     pub const ANY: Self = Self(u8::MAX);
 
     /// Quantisation steps per unit of the tangent.
     const STEPS: f64 = 64.0;
 
-    /// Rounds up a non-negative tangent; NaN gives [`Lean::ANY`].
+    /// Returns the bound for a non-negative tangent, rounded up; NaN gives [`Lean::ANY`].
     pub fn of_tangent(tangent: f64) -> Self {
         /// Margin in steps, far above the rounding of two normals and of a height.
         const ROOM: f64 = 0.01;
@@ -84,7 +84,7 @@ impl Lean {
         if steps < f64::from(u8::MAX) { Self(steps as u8) } else { Self::ANY }
     }
 
-    /// Tangent of the bound.
+    /// Returns the tangent of the bound.
     #[inline]
     pub fn tangent(self) -> f64 {
         f64::from(self.0) / Self::STEPS
@@ -92,16 +92,16 @@ impl Lean {
 }
 
 impl TriangleSet {
-    /// Corners of a triangle, m.
+    /// Returns the corners of a triangle, m.
     #[inline]
     pub fn corners(&self, triangle: u32) -> [Vec3; 3] {
         self.triangles[triangle as usize].vertices.map(|v| self.vertices[v as usize])
     }
 
-    /// Unit normal towards the front.
+    /// Returns the unit normal towards the front.
     ///
-    /// Computed from the two edges at the first vertex; the loader refuses triangles so flat that the choice
-    /// of the edges would matter.
+    /// It is computed from the two edges at the first vertex. The loader refuses triangles so flat that the
+    /// choice of the edges would matter.
     #[inline]
     pub fn normal(&self, triangle: u32) -> Vec3 {
         let [a, b, c] = self.corners(triangle);

@@ -20,18 +20,18 @@ pub trait Simd: BoxSimd {
     fn sub(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn mul(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn div(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
-    /// `a / b`; an arbitrary number where `b` is zero, so that an unused quotient raises no floating-point
-    /// exception.
+    /// Returns `a / b`, and an arbitrary number where `b` is zero, so that an unused quotient raises no
+    /// floating-point exception.
     ///
-    /// Divides by 2 there, not by 1: since a/1 = a, a compiler for AVX-512 would divide by `b` before it
-    /// selects.
+    /// Where `b` is zero, it divides by 2 and not by 1: since a/1 = a, a compiler for AVX-512 would divide by
+    /// `b` before it selects.
     #[inline(always)]
     fn ratio(self, a: Self::Eight, b: Self::Eight) -> Self::Eight {
         self.div(a, self.select(self.equal(b, self.splat(0.0)), self.splat(2.0), b))
     }
     fn sqrt(self, values: Self::Eight) -> Self::Eight;
-    /// `values · 2ⁿ`, exactly, where `n` is in the lowest twelve bits of `power`. The products must be normal
-    /// numbers.
+    /// Returns `values · 2ⁿ`, exactly, where `n` is in the lowest twelve bits of `power`. The products must
+    /// be normal numbers.
     fn scaled(self, values: Self::Eight, power: Self::Eight) -> Self::Eight;
     /// `a < b`.
     fn below(self, a: Self::Eight, b: Self::Eight) -> Self::Mask;
@@ -39,24 +39,24 @@ pub trait Simd: BoxSimd {
     fn at_least(self, a: Self::Eight, b: Self::Eight) -> Self::Mask;
     /// `a = b`; the two zeros are equal.
     fn equal(self, a: Self::Eight, b: Self::Eight) -> Self::Mask;
-    /// The larger: `if a > b { a } else { b }`.
+    /// Returns the larger numbers: `if a > b { a } else { b }`.
     fn larger(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
-    /// The smaller: `if a < b { a } else { b }`.
+    /// Returns the smaller numbers: `if a < b { a } else { b }`.
     fn smaller(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
-    /// Absolute values; that of a NaN has no meaning.
+    /// Returns the absolute values; that of a NaN has no meaning.
     fn abs(self, values: Self::Eight) -> Self::Eight;
-    /// Largest of the eight numbers, none of which may be NaN; the sign of a zero is arbitrary.
+    /// Returns the largest of the eight numbers, none of which may be NaN. The sign of a zero is arbitrary.
     fn largest(self, values: Self::Eight) -> f64;
     fn bits(self, mask: Self::Mask) -> LaneBits;
     fn mask(self, bits: LaneBits) -> Self::Mask;
     fn and(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
-    /// `a` where the mask is set, else `b`.
+    /// Returns `a` where the mask is set, otherwise `b`.
     fn select(self, mask: Self::Mask, a: Self::Eight, b: Self::Eight) -> Self::Eight;
 }
 
-/// Function that can run at any level. Mark `run` and everything it calls with a [`Simd`]
-/// `#[inline(always)]`: only inlined code uses the instructions of the level. This applies to closures too,
-/// for example in `map`; prefer loops and `match`.
+/// Function that can run at any instruction-set level. Mark `run` and everything it calls with a [`Simd`]
+/// `#[inline(always)]`, because only inlined code uses the instructions of the level. This applies to
+/// closures too, for example in `map`; prefer loops and `match`.
 pub trait Kernel {
     /// Result type.
     type Output;

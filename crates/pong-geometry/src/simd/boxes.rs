@@ -1,4 +1,5 @@
-//! Eight boxes in single precision against a box or a sphere, and the selection of their contents.
+//! Overlap tests of eight boxes in single precision against a box or a sphere, and the selection of the
+//! boxes' contents.
 
 use super::lanes::{LANES, LaneBits};
 
@@ -7,15 +8,15 @@ pub type EightBoxes = [[[f32; LANES]; 3]; 2];
 
 /// Overlap tests of eight boxes, and selection of their contents.
 pub trait BoxSimd: Copy {
-    /// Bit `i` is set unless box `i` is separated from the box between `low` and `high` along an axis.
-    /// Comparisons with NaN never separate.
+    /// Returns a mask in which bit `i` is set unless box `i` is separated from the box between `low` and
+    /// `high` along an axis. A comparison with NaN never separates.
     fn boxes_met(self, boxes: &EightBoxes, low: &[f32; 3], high: &[f32; 3]) -> LaneBits;
 
-    /// Bit `i` is set unless the squared distance from a point to box `i` exceeds `square`. An axis with a
-    /// NaN coordinate adds nothing to the distance.
+    /// Returns a mask in which bit `i` is set unless the squared distance from a point to box `i` exceeds
+    /// `square`. An axis with a NaN coordinate adds nothing to the distance.
     fn boxes_near(self, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits;
 
-    /// Moves the numbers whose bits are set to the front, in order. The remaining lanes have no meaning.
+    /// Returns the numbers whose bits are set, in order, at the front. The remaining lanes have no meaning.
     fn packed(self, values: &[u32; LANES], bits: LaneBits) -> [u32; LANES];
 }
 

@@ -1,16 +1,16 @@
-//! First position of the maximum of many numbers.
+//! Search for the maximum of many numbers, and for its first position.
 
 use super::arithmetic::Simd;
 use super::lanes::LANES;
 
-/// Maximum search over numbers offered in blocks of eight, counted from 0; among equal numbers the first
-/// wins.
+/// Search for the maximum of numbers that are offered in blocks of eight. Blocks are counted from 0. Of
+/// several equal maxima the first counts.
 pub trait Finder<S: Simd>: Copy {
-    /// Starts a search for numbers above `floor`.
+    /// Starts a search for the maximum of all numbers above `floor`.
     fn above(simd: S, floor: f64) -> Self;
     /// Offers a block of eight numbers; blocks must come in increasing order.
     fn offer(&mut self, block: usize, values: S::Eight);
-    /// Maximum found; `None` if no number was above the floor.
+    /// Returns the maximum; `None` if no number was above the floor.
     fn found(self) -> Option<Found>;
 }
 
@@ -26,14 +26,14 @@ pub struct Found {
 }
 
 impl Found {
-    /// Index of the maximum over all blocks.
+    /// Returns the index of the maximum among the numbers of all blocks.
     #[inline(always)]
     pub fn place(&self) -> usize {
         self.block * LANES + self.lane
     }
 }
 
-/// Search over any number of blocks.
+/// Search over any number of blocks, which keeps only the maxima.
 #[derive(Clone, Copy)]
 pub struct First<S: Simd> {
     simd: S,
@@ -83,7 +83,8 @@ impl<S: Simd> Finder<S> for First<S> {
     }
 }
 
-/// Search over at most `N` blocks (`N` ≤ 8), which it keeps until the end: faster if they fit into registers.
+/// Search over at most `N` blocks (`N` ≤ 8), all of which it keeps until the end. It is faster if the blocks
+/// fit into registers.
 #[derive(Clone, Copy)]
 pub struct FirstOf<S: Simd, const N: usize> {
     simd: S,

@@ -1,4 +1,5 @@
-//! Elementary functions of eight numbers, with only +, −, ×, ÷ and √: every machine gives the same bits.
+//! Elementary functions of eight numbers. Only +, −, ×, ÷ and √ are used, so every machine gives the same
+//! bits.
 //!
 //! The relative error of each is below 6·10⁻¹⁶, except for the cosine near a right angle, whose absolute
 //! error is below 10⁻¹⁵.
@@ -8,13 +9,13 @@ use super::numbers::Numbers;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LN_2, LOG2_E};
 
 impl<S: Simd> Numbers<S> {
-    /// exp(−z) for z ≥ 0; for z > 700 the value at 700, about 10⁻³⁰⁴.
+    /// Returns exp(−z) for z ≥ 0; for z > 700 the value at 700, about 10⁻³⁰⁴.
     ///
-    /// Uses −z = n·ln 2 + r, |r| ≤ ½·ln 2, and the series of exp(r).
+    /// With −z = n·ln 2 + r and |r| ≤ ½·ln 2, the result is 2ⁿ times the series of exp(r).
     #[inline(always)]
     pub fn exp_of_minus(self) -> Self {
         const LARGEST: f64 = 700.0;
-        /// Adding this rounds to an integer, which is then in the lowest bits.
+        /// Number whose addition rounds to an integer, which is then in the lowest bits of the sum.
         const ROUNDER: f64 = 1.5 * (1_u64 << 52) as f64;
         /// Upper 32 bits of ln 2, so that products with n are exact; `LN_2_LOW` is the remainder.
         const LN_2_HIGH: f64 = f64::from_bits(LN_2.to_bits() & !0x1F_FFFF);
@@ -26,9 +27,10 @@ impl<S: Simd> Numbers<S> {
         rest.series(&EXPONENTIAL).scaled(power)
     }
 
-    /// Angle of the point (x, self) from the x axis, for x ≥ 0: −π/2 to π/2, and 0 for the origin.
+    /// Returns the angle of the point (x, self) from the x axis, for x ≥ 0. It is in −π/2 to π/2, and 0 for
+    /// the origin.
     ///
-    /// Reduces the arctangent of a slope up to 1 to that of a slope up to tan(π/8).
+    /// The arctangent of a slope up to 1 is reduced to that of a slope up to tan(π/8).
     #[inline(always)]
     pub fn angle_above(self, x: Self) -> Self {
         const TANGENT_OF_EIGHTH: f64 = 0.414_213_562_373_095_03;
@@ -45,7 +47,7 @@ impl<S: Simd> Numbers<S> {
         Self::select(self.below(self.all(0.0)), -angle, angle)
     }
 
-    /// Sine and cosine of angles from −π/2 to π/2, from those of half the angle.
+    /// Returns sine and cosine of angles from −π/2 to π/2, computed from those of half the angle.
     #[inline(always)]
     pub fn sin_cos(self) -> (Self, Self) {
         let half = self * self.all(0.5);
@@ -56,7 +58,7 @@ impl<S: Simd> Numbers<S> {
         (two * sine * cosine, self.all(1.0) - two * sine * sine)
     }
 
-    /// Σ cₖ·selfᵏ.
+    /// Returns the polynomial Σ cₖ·selfᵏ.
     #[inline(always)]
     pub fn series<const N: usize>(self, coefficients: &[f64; N]) -> Self {
         let mut sum = self.all(coefficients[N - 1]);
@@ -67,7 +69,7 @@ impl<S: Simd> Numbers<S> {
     }
 }
 
-/// 1/k!.
+/// Coefficients of exp(x): 1/k!.
 const EXPONENTIAL: [f64; 14] = {
     let mut coefficients = [1.0; 14];
     let mut k = 1;
@@ -78,13 +80,13 @@ const EXPONENTIAL: [f64; 14] = {
     coefficients
 };
 
-/// (−1)ᵏ/(2k + 1)!.
+/// Coefficients of sin(x)/x in x²: (−1)ᵏ/(2k + 1)!.
 const SINE: [f64; 10] = alternating(1);
 
-/// (−1)ᵏ/(2k)!.
+/// Coefficients of cos(x) in x²: (−1)ᵏ/(2k)!.
 const COSINE: [f64; 10] = alternating(0);
 
-/// (−1)ᵏ/(2k + odd)!.
+/// Returns the coefficients (−1)ᵏ/(2k + odd)!.
 const fn alternating(odd: u32) -> [f64; 10] {
     let mut coefficients = [1.0; 10];
     let mut k = 1;
@@ -96,8 +98,8 @@ const fn alternating(odd: u32) -> [f64; 10] {
     coefficients
 }
 
-/// arctan(t)/t as a polynomial in t² up to tan²(π/8), fitted with 50 digits at Chebyshev nodes: the error is
-/// below 4·10⁻¹⁷.
+/// Coefficients of arctan(t)/t as a polynomial in t² up to tan²(π/8), fitted with 50 digits at Chebyshev
+/// nodes. The error is below 4·10⁻¹⁷.
 const ARCTANGENT: [f64; 11] = [
     1.0,
     -0.3333333333332844,

@@ -1,6 +1,6 @@
-//! Number of lanes.
+//! Number of lanes, and masks of lanes.
 
-/// Numbers processed at a time.
+/// Number of lanes: the count of numbers that are processed at a time.
 pub const LANES: usize = 8;
 
 /// Bit mask of lanes; the lowest bit is lane 0.

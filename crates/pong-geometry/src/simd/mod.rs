@@ -2,8 +2,8 @@
 //!
 //! A kernel is written once, generic over a [`Simd`], and [`run`] calls it with the widest [`Simd`] that the
 //! machine has. Every operation rounds each lane as the scalar `f64` operation does; nothing is fused and
-//! nothing is summed across lanes. So the level changes the time, never the result. (The payload of a NaN is
-//! not part of the result.)
+//! nothing is summed across lanes. So the instruction-set level changes the time, never the result. (The
+//! payload of a NaN is not part of the result.)
 
 mod arithmetic;
 mod boxes;
@@ -40,13 +40,13 @@ pub enum Level {
     Avx512 = 3,
 }
 
-/// Highest level that may be used.
+/// Highest level that kernels may use.
 static LEVEL: AtomicU8 = AtomicU8::new(Level::Avx512 as u8);
 
 impl Level {
     const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
 
-    /// Widest level of this machine.
+    /// Returns the widest level of this machine.
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
@@ -60,13 +60,13 @@ impl Level {
         Self::Portable
     }
 
-    /// Levels of this machine, the portable one first.
+    /// Returns all levels of this machine, the portable one first.
     pub fn available() -> impl Iterator<Item = Self> {
         let best = Self::best();
         Self::ALL.into_iter().filter(move |&level| level <= best)
     }
 
-    /// Name for reports.
+    /// Returns the name of the level for reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Portable => "portable",
@@ -76,27 +76,27 @@ impl Level {
     }
 }
 
-/// Level at which kernels run: the best of the machine, limited by [`set_level`].
+/// Returns the level at which kernels run: the best of the machine, limited by [`set_level`].
 pub fn level() -> Level {
     let most = LEVEL.load(Ordering::Relaxed);
     Level::available().filter(|&level| level as u8 <= most).max().unwrap_or(Level::Portable)
 }
 
-/// Name of the level in use.
+/// Returns the name of the level at which kernels run.
 pub fn level_name() -> &'static str {
     level().name()
 }
 
-/// Sets the highest level that the process may use, and returns the level then in use.
+/// Sets the highest level that the process may use, and returns the level at which kernels then run.
 ///
-/// For comparisons and tests: results are bit-identical at every level. May be called at any time from any
-/// thread.
+/// This is for comparisons and tests, because results are bit-identical at every level. It may be called at
+/// any time from any thread.
 pub fn set_level(level: Level) -> Level {
     LEVEL.store(level as u8, Ordering::Relaxed);
     self::level()
 }
 
-/// Runs a function whose arguments are a [`Simd`] and references, at the level in use.
+/// Runs a function at the level in use. Its arguments must be a [`Simd`] and references.
 macro_rules! run_at_level {
     ($function:ident($($argument:ident: $kind:ty),*) -> $output:ty) => {{
         struct Work<'a> {
@@ -115,8 +115,8 @@ macro_rules! run_at_level {
 }
 pub(crate) use run_at_level;
 
-/// Runs a kernel at the level in use. The dispatch takes a few nanoseconds, so code with many small kernels
-/// should itself be one kernel.
+/// Runs a kernel at the level in use ([`level`]). The dispatch takes a few nanoseconds, so code that would
+/// call many small kernels should itself be one kernel.
 #[inline(always)]
 pub fn run<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
@@ -136,7 +136,7 @@ pub fn run<K: Kernel>(kernel: K) -> K::Output {
     run_portable(kernel)
 }
 
-/// Not inlined, so that callers of kernels stay small.
+/// Runs a kernel at the portable level. Not inlined, so that callers of kernels stay small.
 #[cfg_attr(target_arch = "x86_64", inline(never))]
 fn run_portable<K: Kernel>(kernel: K) -> K::Output {
     kernel.run(Portable)

@@ -1,4 +1,4 @@
-//! Eight numbers, and eight vectors, with the operators of a scalar.
+//! Eight numbers and eight vectors, with the operators of a single number or vector.
 
 use super::arithmetic::Simd;
 use super::lanes::LANES;
@@ -31,72 +31,73 @@ impl<S: Simd> Numbers<S> {
         self.simd.store(self.eight)
     }
 
-    /// Numbers as the type that [`Simd`] operates on.
+    /// Returns the numbers as the type that [`Simd`] operates on.
     #[inline(always)]
     pub fn eight(self) -> S::Eight {
         self.eight
     }
 
-    /// Broadcasts one number, with the instruction set of `self`.
+    /// Broadcasts one number to all lanes, at the level of `self`.
     #[inline(always)]
     pub fn all(self, value: f64) -> Self {
         Self::splat(self.simd, value)
     }
 
-    /// `self / divisor` for non-negative divisors; a zero divisor is replaced by the smallest normal number.
+    /// Returns `self / divisor` for non-negative divisors. A zero divisor is replaced by the smallest normal
+    /// number.
     ///
-    /// Every divisor is raised, also in lanes whose quotient is not used: a division by zero would raise a
-    /// floating-point exception there too.
+    /// This applies in lanes whose quotient is not used too, because a division by zero would raise a
+    /// floating-point exception there as well.
     #[inline(always)]
     pub fn over(self, divisor: Self) -> Self {
         let divisor = divisor.larger(self.all(f64::MIN_POSITIVE));
         Self { eight: self.simd.div(self.eight, divisor.eight), ..self }
     }
 
-    /// Square roots of non-negative numbers.
+    /// Returns the square roots of non-negative numbers.
     #[inline(always)]
     pub fn sqrt(self) -> Self {
         Self { eight: self.simd.sqrt(self.eight), ..self }
     }
 
-    /// `if self > other { self } else { other }`.
+    /// Returns `if self > other { self } else { other }`.
     #[inline(always)]
     pub fn larger(self, other: Self) -> Self {
         Self { eight: self.simd.larger(self.eight, other.eight), ..self }
     }
 
-    /// `if self < other { self } else { other }`.
+    /// Returns `if self < other { self } else { other }`.
     #[inline(always)]
     pub fn smaller(self, other: Self) -> Self {
         Self { eight: self.simd.smaller(self.eight, other.eight), ..self }
     }
 
-    /// Absolute values.
+    /// Returns the absolute values.
     #[inline(always)]
     pub fn abs(self) -> Self {
         Self { eight: self.simd.abs(self.eight), ..self }
     }
 
-    /// `self < other`.
+    /// Returns the lanes in which `self < other`.
     #[inline(always)]
     pub fn below(self, other: Self) -> S::Mask {
         self.simd.below(self.eight, other.eight)
     }
 
-    /// `self ≥ other`.
+    /// Returns the lanes in which `self ≥ other`.
     #[inline(always)]
     pub fn at_least(self, other: Self) -> S::Mask {
         self.simd.at_least(self.eight, other.eight)
     }
 
-    /// `a` where the mask is set, else `b`.
+    /// Returns `a` where the mask is set, otherwise `b`.
     #[inline(always)]
     pub fn select(mask: S::Mask, a: Self, b: Self) -> Self {
         Self { eight: a.simd.select(mask, a.eight, b.eight), ..a }
     }
 
-    /// `self · 2ⁿ`, exactly, where `n` is in the lowest bits of the number `n + 1.5·2⁵²`. The products must
-    /// be normal numbers.
+    /// Returns `self · 2ⁿ`, exactly. `power` is the number `n + 1.5·2⁵²`, whose lowest bits contain `n`. The
+    /// products must be normal numbers.
     #[inline(always)]
     pub(super) fn scaled(self, power: Self) -> Self {
         Self { eight: self.simd.scaled(self.eight, power.eight), ..self }
@@ -140,7 +141,7 @@ impl<S: Simd> Neg for Numbers<S> {
     }
 }
 
-/// Length below which a vector has no direction: the squares of its coordinates lose precision.
+/// Length below which a vector has no direction, because the squares of its coordinates lose precision.
 const SHORTEST: f64 = 1e-150;
 
 /// Eight vectors in registers.
@@ -171,19 +172,19 @@ impl<S: Simd> Vectors<S> {
         [self.x.store(), self.y.store(), self.z.store()]
     }
 
-    /// Dot products with other vectors.
+    /// Returns the dot products with other vectors.
     #[inline(always)]
     pub fn dot(self, other: Self) -> Numbers<S> {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
-    /// Products of matrices, each given by its three rows, with the vectors.
+    /// Returns the products of eight matrices with the vectors. The matrices are given by their three rows.
     #[inline(always)]
     pub fn dot_rows(self, [first, second, third]: [Self; 3]) -> Self {
         Self { x: first.dot(self), y: second.dot(self), z: third.dot(self) }
     }
 
-    /// Cross products with other vectors.
+    /// Returns the cross products with other vectors.
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
         Self {
@@ -193,19 +194,19 @@ impl<S: Simd> Vectors<S> {
         }
     }
 
-    /// Squared lengths.
+    /// Returns the squared lengths.
     #[inline(always)]
     pub fn norm_squared(self) -> Numbers<S> {
         self.dot(self)
     }
 
-    /// Lengths.
+    /// Returns the lengths.
     #[inline(always)]
     pub fn norm(self) -> Numbers<S> {
         self.norm_squared().sqrt()
     }
 
-    /// Unit vectors; `other` where a vector is too short to have a direction.
+    /// Returns the unit vectors; `other` where a vector is too short to have a direction.
     #[inline(always)]
     pub fn unit_or(self, other: Self) -> Self {
         let length = self.norm();
@@ -213,14 +214,14 @@ impl<S: Simd> Vectors<S> {
         Self::select(has_length, self.along(length), other)
     }
 
-    /// Unit vectors, given the lengths of the vectors. If a vector is too short to have a direction, the
-    /// result is shorter than 1.
+    /// Returns the unit vectors, given the lengths of the vectors. If a vector is too short to have a
+    /// direction, the result is shorter than 1.
     #[inline(always)]
     pub fn along(self, length: Numbers<S>) -> Self {
         self * length.all(1.0).over(length.larger(length.all(SHORTEST)))
     }
 
-    /// `a` where the mask is set, else `b`.
+    /// Returns `a` where the mask is set, otherwise `b`.
     #[inline(always)]
     pub fn select(mask: S::Mask, a: Self, b: Self) -> Self {
         Self {

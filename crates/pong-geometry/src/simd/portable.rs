@@ -1,10 +1,10 @@
-//! Plain arrays: the reference for the other levels.
+//! Portable level: operations on plain arrays, the reference for the other levels.
 
 use super::arithmetic::Simd;
 use super::boxes::{BoxSimd, EightBoxes};
 use super::lanes::{LANES, LaneBits};
 
-/// Level that every machine has.
+/// Instruction-set level that every machine has.
 #[derive(Clone, Copy, Debug)]
 pub struct Portable;
 

@@ -20,7 +20,7 @@ impl<S: Simd> Splat<S> {
         Self { simd, x: simd.splat(v.x), y: simd.splat(v.y), z: simd.splat(v.z) }
     }
 
-    /// Dot products with eight vectors given as coordinate arrays, bit-identical to `Vec3::dot`.
+    /// Returns the dot products with eight vectors given as coordinate arrays, bit-identical to `Vec3::dot`.
     #[inline(always)]
     pub fn dot(&self, [x, y, z]: &[[f64; LANES]; 3]) -> S::Eight {
         let simd = self.simd;
@@ -28,7 +28,7 @@ impl<S: Simd> Splat<S> {
         simd.add(sum, simd.mul(simd.load(z), self.z))
     }
 
-    /// Differences from eight other vectors.
+    /// Returns the differences from eight other vectors: `self` minus the others.
     #[inline(always)]
     pub fn less(&self, [x, y, z]: &[[f64; LANES]; 3]) -> Self {
         let simd = self.simd;
@@ -40,7 +40,7 @@ impl<S: Simd> Splat<S> {
         }
     }
 
-    /// Squared lengths, bit-identical to `Vec3::norm_squared`.
+    /// Returns the squared lengths, bit-identical to `Vec3::norm_squared`.
     #[inline(always)]
     pub fn norm_squared(&self) -> S::Eight {
         let simd = self.simd;
@@ -48,7 +48,7 @@ impl<S: Simd> Splat<S> {
         simd.add(sum, simd.mul(self.z, self.z))
     }
 
-    /// Squared distances to eight axis-aligned boxes.
+    /// Returns the squared distances to eight axis-aligned boxes.
     #[inline(always)]
     pub fn distance_square_to_boxes(&self, low: &[[f64; LANES]; 3], high: &[[f64; LANES]; 3]) -> S::Eight {
         let simd = self.simd;
@@ -61,7 +61,8 @@ impl<S: Simd> Splat<S> {
     }
 }
 
-/// Numbers below this bound are moderate: sums of squares of products of two such numbers are finite.
+/// Numbers whose magnitude is below this bound are moderate: sums of squares of products of two of them are
+/// finite.
 pub const MODERATE: f64 = 1e60;
 
 /// Returns `true` if all components are moderate ([`MODERATE`]).

@@ -1,5 +1,5 @@
-//! x86-64: one register of eight numbers (AVX-512) or two of four (AVX2). `pulp` returns a token only if the
-//! machine has the instructions, which makes their use safe.
+//! Levels of x86-64: one register of eight numbers (AVX-512) or two registers of four (AVX2). `pulp` returns
+//! a token only if the machine has the instructions, which makes their use safe.
 
 use super::arithmetic::{Kernel, Simd};
 use super::lanes::{LANES, LaneBits};
@@ -7,7 +7,7 @@ use pulp::cast;
 use pulp::x86::{V3, V4};
 use std::arch::x86_64::{__m128d, __m256d, __m256i, __m512d, _CMP_EQ_OQ, _CMP_GE_OQ, _CMP_LT_OQ};
 
-/// Kernel with the level at which it runs.
+/// Kernel together with the level at which it runs.
 pub(super) struct With<K, S>(pub K, pub S);
 
 impl<K: Kernel, S: Simd> pulp::NullaryFnOnce for With<K, S> {
@@ -19,7 +19,7 @@ impl<K: Kernel, S: Simd> pulp::NullaryFnOnce for With<K, S> {
     }
 }
 
-/// Eight numbers per instruction.
+/// AVX-512 level: eight numbers per instruction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Avx512(pub V4);
 
@@ -119,11 +119,11 @@ fn largest_of_four(v3: V3, values: __m256d) -> f64 {
     cast::<__m128d, [f64; 2]>(one)[0]
 }
 
-/// Four numbers per instruction.
+/// AVX2 level: four numbers per instruction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Avx2(pub V3);
 
-/// Lanes 0 to 3 and 4 to 7.
+/// Eight numbers as two registers: lanes 0 to 3, and lanes 4 to 7.
 type Halves = [__m256d; 2];
 
 impl Simd for Avx2 {

@@ -1,4 +1,4 @@
-//! x86-64: eight single-precision boxes in one register, at both levels.
+//! Overlap tests on x86-64: eight single-precision boxes in one register, for AVX2 and for AVX-512.
 
 use super::boxes::{BoxSimd, EightBoxes};
 use super::lanes::{LANES, LaneBits};
@@ -35,7 +35,7 @@ fn boxes_near(avx: Avx, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> La
     avx._mm256_movemask_ps(near) as LaneBits
 }
 
-/// For every lane mask, the numbers of its set lanes in increasing order, one byte each, lowest byte first.
+/// For every lane mask, the indices of its set lanes in increasing order, one byte each, lowest byte first.
 static NUMBERS: [u64; 1 << LANES] = {
     let mut numbers = [0; 1 << LANES];
     let mut bits = 0;
