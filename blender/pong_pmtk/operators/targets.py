@@ -2,7 +2,6 @@
 """Targets of operators."""
 
 
-
 def selected(context):
     """Selected editable objects; in Edit Mode those being edited."""
     edited = getattr(context, "objects_in_mode", None)
