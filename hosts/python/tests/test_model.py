@@ -159,7 +159,7 @@ def test_the_schema_has_every_kind_and_field():
     assert radius == {"type": "positive", "unit": "m", "required": True}
     assert tables["primitives"]["Ray"]["response"]["choices"] == ("Normal", "Axial")
     assert tables["normal_laws"]["Linear"]["restitution"]["fields"]["mass"]["unit"] == "kg"
-    assert tables["group"]["bound"]["default"] == "Aabb" and "Custom" in tables["bounds"]
+    assert tables["group"]["bound"]["words"].startswith("`Aabb` if movable") and "Custom" in tables["bounds"]
     assert list(tables["friction_laws"]) == ["None", "Bristle", "Coulomb", "Custom"]
 
 
