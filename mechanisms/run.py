@@ -7,8 +7,8 @@
     python3 mechanisms/run.py NAME --log DIR --drawn    with bodies that touch nothing, for viewers and films
     python3 mechanisms/run.py NAME --campaign DIR --runs 1000      dispersed runs; rows go to DIR, what is there stays
 
-Needs mujoco, numpy and the plugin (docs/mujoco.md): its file in the variable PLUGIN, or the wheel pong_mujoco; for
-logs the wheel pong, too, and for campaigns the same with [campaign] (docs/campaigns.md).
+Needs mujoco, numpy, the wheel pong (docs/python.md) and the plugin (docs/mujoco.md): its file in the variable PLUGIN, or
+the wheel pong_mujoco; for campaigns the wheel pong with [campaign] (docs/campaigns.md).
 `bash ci/mechanisms NAME` installs and builds these. Exit code 1 if anything is off.
 """
 

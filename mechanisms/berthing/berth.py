@@ -86,10 +86,6 @@ class Berthing(Machine):
         w, *v = self.data.qpos[self.model.joint("module").qposadr[0] + 3 :][:4]
         return 2.0 * np.array(v) * np.sign(w)
 
-    def roller_force(self, i):
-        """Force on the roller of a latch along z, N."""
-        return float(self.wrench(f"coupler_{i}")[2])
-
 
 def same_bits_after_restart(case, before, after):
     """Runs for `before` s, then for `after` s, repeats the latter in another machine, and compares the bits of both ends."""

@@ -49,9 +49,8 @@ BILL_HALF_WIDTH = 0.020
 # --- standoffs: springs with little loss, so that they push the module off. Chosen. --------------------------------------
 STANDOFF_DAMPING = 50.0  # N·s/m
 
-# --- masses. Public, of low trust: 240 and 311 kg for active halves, 440 lb for the passive one. -------------------------
+# --- masses. Public, of low trust: 240 and 311 kg for active halves. ----------------------------------------------------
 ACTIVE_MASSES = (240.0, 311.0)
-PASSIVE_MASS = common.RING_MASS
 
 # --- the arm, at the grapple point: springs and dampers of the models' arm. Chosen. ---------------------------------------
 ARM_STIFFNESS = (4e3, 4e3, 4e3, 1.5e4, 1.5e4, 1.5e4)  # N/m, N·m/rad

@@ -23,7 +23,7 @@ class Surface:
     friction: float = 0.0
     bristle_damping: float | None = None
 
-    def text(self):
+    def data(self):
         if self.stiffness is None:
             return ron.rigid(self.friction)
         return ron.elastic(self.stiffness, self.damping, self.friction, self.bristle_damping)
@@ -37,7 +37,7 @@ class Part:
     name: str
     fields: tuple
 
-    def text(self):
+    def data(self):
         return ron.primitive(self.kind, self.name, **dict(self.fields))
 
 
@@ -56,9 +56,9 @@ class Model:
     links: tuple = ()
 
     def text(self):
-        parts = [one.text() for one in self.parts]
+        parts = [one.data() for one in self.parts]
         groups = [(link, parts) for link in self.links]
-        return ron.model(self.name, self.surface.text(), parts, groups)
+        return ron.model(self.name, self.surface.data(), parts, groups)
 
 
 def around(count, radius, first_deg=0.0):

@@ -33,7 +33,7 @@ def _parts(of, body):
 
 
 def _sphere(name, place, turned, size):
-    return ron.primitive("Sphere", name, center=place, radius=size[0])
+    return ron.primitive("Sphere", name, center=tuple(place), radius=size[0])
 
 
 def _capsule(name, place, turned, size):
@@ -45,7 +45,7 @@ def _cylinder(name, place, turned, size):
 
 
 def _ends(place, turned, size):
-    return [place + side * size[1] * turned[:, 2] for side in (-1, 1)]
+    return tuple(tuple(place + side * size[1] * turned[:, 2]) for side in (-1, 1))
 
 
 def _box(name, place, turned, size):

@@ -14,7 +14,6 @@ from kit import figure
 
 STATE = 13  # position, quaternion, velocity of the origin, angular velocity
 SENSED_BEFORE_WRENCHES = 3
-UNTURNED = (1.0, 0.0, 0.0, 0.0)
 
 
 class Recorder:

@@ -2,22 +2,21 @@
 
 import pathlib
 
-from kit.files import module_of
+from pong import model as models
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def read(path):
-    """A model file as dictionaries and lists, by its path from the root of the repository."""
-    reader = module_of(ROOT / "hosts/mujoco/docking/ron.py", "ron_of_models")
-    return reader.read((ROOT / path).read_text(encoding="utf-8"))
+    """A model file as data, by its path from the root of the repository."""
+    return models.read(ROOT / path)
 
 
 def polyhedra(group, carrier):
     """(carrying movable group, or `carrier`; polyhedron) of a group and those below it."""
     for primitive in group.get("primitives", []):
-        if primitive["is"] == "Polyhedron":
-            yield carrier, primitive
+        if "Polyhedron" in primitive:
+            yield carrier, primitive["Polyhedron"]
     for below in group.get("groups", []):
         yield from polyhedra(below, below["name"] if below.get("movable") else carrier)
 

@@ -1,5 +1,10 @@
 #!/usr/bin/env python3
-"""Builds the peg and the hole (validation case V20). Run it from anywhere: python3 build.py [folder]."""
+"""Builds the peg, the hole and their scenes (validation case V20) through the modelling toolkit: python build.py
+[FOLDER] [--blend FILE] with Blender as a Python module.
+
+The origin of the peg is the centre of its tip; z points along the peg, away from the bottom of the hole. The origin of
+the hole is the centre of its mouth; z points out of the hole.
+"""
 
 import math
 import pathlib
@@ -7,7 +12,9 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-import model_writer as w  # noqa: E402
+import authoring as a  # noqa: E402
+import geometry as g  # noqa: E402
+from scene_text import numbers  # noqa: E402
 
 SIDES = 16  # of the polygons that stand for peg and bore
 PEG_DIAMETER = 0.100  # across the peg's edges, m
@@ -21,6 +28,7 @@ FRICTION = 0.5
 OVERLAP = 2e-5  # by which the scenes press the peg into wall and mouth, m
 
 STEP = 360.0 / SIDES
+SURFACES = {"peg": a.surface(STIFFNESS, a.linear(DAMPING), a.bristle(FRICTION))}
 
 
 def peg():
@@ -28,41 +36,33 @@ def peg():
     radius = PEG_DIAMETER / 2
     edges = []
     for i in range(SIDES):
-        tip = w.on_circle(radius, i * STEP, 0.0)
-        edges.append(w.segment(f"edge_{i:02}", tip, w.add(tip, (0.0, 0.0, PEG_LENGTH))))
-    about = [
-        "The peg of validation case V20. Written by build.py.",
-        "The origin is the centre of the tip; z points along the peg, away from the hole's bottom.",
-    ]
-    return w.model("peg", surfaces(), w.group("peg", primitives=edges, bound="Obb", surface="peg"), about)
+        tip = g.on_circle(radius, i * STEP, 0.0)
+        edges.append(a.segment(f"edge_{i:02}", tip, g.add(tip, (0.0, 0.0, PEG_LENGTH))))
+    return a.model("peg", SURFACES, a.group("peg", primitives=edges, bound="Obb", surface="peg"))
 
 
 def wedge(i):
     """One wedge of the block: its flat towards the bore, its two flanks internal faces."""
     azimuth = i * STEP
-    outwards = w.on_circle(1.0, azimuth)
+    outwards = g.on_circle(1.0, azimuth)
     flanks = []
     for side in (-1, 1):
-        along = w.on_circle(1.0, azimuth + side * STEP / 2)
-        flanks.append((w.scaled(w.cross((0.0, 0.0, 1.0), along), side), 0.0))
+        along = g.on_circle(1.0, azimuth + side * STEP / 2)
+        flanks.append((g.scaled(g.cross((0.0, 0.0, 1.0), along), side), 0.0))
     half_spaces = [
-        (w.scaled(outwards, -1.0), -(PEG_DIAMETER + CLEARANCE) / 2),
+        (g.scaled(outwards, -1.0), -(PEG_DIAMETER + CLEARANCE) / 2),
         (outwards, BLOCK_RADIUS),
         flanks[0],
         flanks[1],
         ((0.0, 0.0, 1.0), 0.0),
         ((0.0, 0.0, -1.0), HOLE_DEPTH),
     ]
-    return w.polyhedron(f"wedge_{i:02}", half_spaces, inactive=(2, 3))
+    return a.polyhedron(f"wedge_{i:02}", half_spaces, inactive=(2, 3))
 
 
 def hole():
-    wedges = [w.group(f"side_{i:02}", primitives=[wedge(i)], bound="Obb") for i in range(SIDES)]
-    about = [
-        "The hole of validation case V20: wedges around a bore. Written by build.py.",
-        "The origin is the centre of the mouth; z points out of the hole.",
-    ]
-    return w.model("hole", surfaces(), w.group("hole", groups=wedges, bound="Aabb", surface="peg"), about)
+    wedges = [a.group(f"side_{i:02}", primitives=[wedge(i)], bound="Obb") for i in range(SIDES)]
+    return a.model("hole", SURFACES, a.group("hole", groups=wedges, bound="Aabb", surface="peg"))
 
 
 def tilt_for(depth):
@@ -97,7 +97,7 @@ def scene(name, depth):
         '        (name: "hole", model: "hole", bodies: [(motion: Fixed)]),',
         '        (name: "peg", model: "peg", bodies: [(',
         "            motion: Free, mass: 1.0, inertia: Diagonal(0.004, 0.004, 0.00125), mass_center: (0.0, 0.0, 0.1),",
-        f"            position: {w.triple(place)}, orientation: {quaternion},",
+        f"            position: {numbers(g.rounded(place))}, orientation: {quaternion},",
         "        )]),",
         "    ],",
         '    pairs: [("peg", "hole")],',
@@ -111,17 +111,6 @@ def scene(name, depth):
     return "\n".join(lines) + "\n"
 
 
-def surfaces():
-    return {"peg": f"(stiffness: {STIFFNESS!r}, normal: Linear(damping: {DAMPING!r}), friction: Bristle(mu: {FRICTION}))"}
-
-
-def main():
-    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
-    w.write(folder / "peg.ron", peg())
-    w.write(folder / "hole.ron", hole())
-    w.write(folder / "scene_shallow.ron", scene("shallow", 0.03))
-    w.write(folder / "scene_deep.ron", scene("deep", 0.08))
-
-
 if __name__ == "__main__":
-    main()
+    scenes = {"scene_shallow.ron": scene("shallow", 0.03), "scene_deep.ron": scene("deep", 0.08)}
+    a.main([peg(), hole()], HERE, scenes)

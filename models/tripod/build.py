@@ -1,12 +1,18 @@
 #!/usr/bin/env python3
-"""Builds the tripod and its ground (validation case V2). Run it from anywhere: python3 build.py [folder]."""
+"""Builds the tripod, its ground and its scene (validation case V2) through the modelling toolkit: python build.py
+[FOLDER] [--blend FILE] with Blender as a Python module.
+
+The origin of the tripod is the centre of the circle of its feet, in the plane of the feet; z points up. The ground is
+rigid and fills all below z = 0.
+"""
 
 import pathlib
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-import model_writer as w  # noqa: E402
+import authoring as a  # noqa: E402
+from geometry import on_circle  # noqa: E402
 
 RADIUS = 0.5  # of the circle on which the feet stand, m
 FOOT_STIFFNESS = 1e5  # of each foot on a rigid ground, N/m
@@ -14,20 +20,15 @@ FRICTION = 0.5
 
 
 def tripod():
-    feet = [w.point(f"foot_{i}", w.on_circle(RADIUS, 90.0 + 120.0 * i)) for i in range(3)]
-    surfaces = {"foot": f"(stiffness: {FOOT_STIFFNESS!r}, normal: Linear(damping: 0.0), friction: Bristle(mu: {FRICTION}))"}
-    about = [
-        "Three points on a circle: the tripod of validation case V2. Written by build.py.",
-        "The group's origin is the centre of the circle, in the plane of the feet; z points up.",
-    ]
-    return w.model("tripod", surfaces, w.group("tripod", primitives=feet, bound="Sphere", surface="foot"), about)
+    feet = [a.point(f"foot_{i}", on_circle(RADIUS, 90.0 + 120.0 * i)) for i in range(3)]
+    surfaces = {"foot": a.surface(FOOT_STIFFNESS, a.linear(0.0), a.bristle(FRICTION))}
+    return a.model("tripod", surfaces, a.group("tripod", primitives=feet, bound="Sphere", surface="foot"))
 
 
 def ground():
-    surfaces = {"ground": f"(stiffness: inf, normal: Linear(damping: 0.0), friction: Bristle(mu: {FRICTION}))"}
-    about = ["A rigid half space below z = 0. Written by build.py."]
-    root = w.group("ground", primitives=[w.flat_ground("top", (0.0, 0.0, 1.0), 0.0)], surface="ground")
-    return w.model("ground", surfaces, root, about)
+    surfaces = {"ground": a.surface(float("inf"), a.linear(0.0), a.bristle(FRICTION))}
+    top = a.flat_ground("top", (0.0, 0.0, 1.0), 0.0)
+    return a.model("ground", surfaces, a.group("ground", primitives=[top], surface="ground"))
 
 
 def scene():
@@ -57,12 +58,5 @@ def scene():
     return "\n".join(lines) + "\n"
 
 
-def main():
-    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
-    w.write(folder / "tripod.ron", tripod())
-    w.write(folder / "ground.ron", ground())
-    w.write(folder / "scene_drop.ron", scene())
-
-
 if __name__ == "__main__":
-    main()
+    a.main([tripod(), ground()], HERE, {"scene_drop.ron": scene()})

@@ -180,6 +180,8 @@ class GroupBuilder:
     def bound(self, thing: SnapshotObject) -> str | None:
         if thing.mark.custom_bound:
             return f"Custom:{thing.mark.custom_bound}"
+        if thing.mark.bound == "Default":
+            return None
         if thing.mark.bound not in BOUNDS:
             cause = f'its bounding volume is "{thing.mark.bound}"'
             self.findings.error("unknown-bound", self.scene.where(thing), cause, f"choose from: {', '.join(BOUNDS)}")

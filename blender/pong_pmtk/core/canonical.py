@@ -36,7 +36,7 @@ def _group(group: Group, is_root: bool = False) -> Group:
         group.movable and not is_root,
         None if position is None or not any(position) else tuple(map(float, position)),
         None if orientation is None or tuple(orientation) == (1.0, 0.0, 0.0, 0.0) else tuple(map(float, orientation)),
-        None if group.bound == "Aabb" else group.bound,
+        None if group.bound == "Aabb" and (group.movable or is_root) else group.bound,
         group.surface,
         [_group(below) for below in group.groups],
         [_primitive(primitive) for primitive in group.primitives],

@@ -80,7 +80,7 @@ class Mark:
     order: int = 0  # place among siblings, from 1; those with 0 come last, in the natural order of their names
     # groups
     movable: bool = False
-    bound: str = "Aabb"
+    bound: str = "Default"  # or one of BOUNDS
     custom_bound: str = ""  # name of a registered kind of volume, instead of `bound`
     leaf_size: int = 0  # most elements of a leaf; 0 for no limit
     # primitives

@@ -130,7 +130,7 @@ def _group(data: dict, is_root: bool = False) -> Group:
         bool(data.get("movable")) and not is_root,
         pose.get("position"),
         pose.get("orientation"),
-        None if bound == "Aabb" else bound,
+        None if bound == "Aabb" and (data.get("movable") or is_root) else bound,
         data.get("surface"),
         [_group(below) for below in data.get("groups") or []],
         [_primitive(primitive) for primitive in data.get("primitives") or []],

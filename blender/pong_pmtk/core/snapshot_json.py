@@ -10,7 +10,7 @@ import typing
 import numpy as np
 
 from . import marks, snapshot
-from .marks import Mark, ModelSettings
+from .marks import Mark
 from .snapshot import Snapshot
 from .surfaces import law_of, to_json
 
@@ -41,14 +41,6 @@ def mark_to_json(mark: Mark) -> dict:
 
 def mark_from_json(data: dict) -> Mark:
     return decoded(Mark, data, "mark")
-
-
-def settings_to_json(settings: ModelSettings) -> dict:
-    return encoded(settings)
-
-
-def settings_from_json(data: dict) -> ModelSettings:
-    return decoded(ModelSettings, data, "settings")
 
 
 def encoded(value):

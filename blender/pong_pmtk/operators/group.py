@@ -52,7 +52,7 @@ class PONG_OT_group_new(bpy.types.Operator):
 
     name: bpy.props.StringProperty(name="Name", default="group")
     movable: bpy.props.BoolProperty(name="Movable", description="A rigid body of its own")
-    bound: bpy.props.EnumProperty(name="Bound", items=BOUND_ITEMS)
+    bound: bpy.props.EnumProperty(name="Bound", items=BOUND_ITEMS, default="Default")
     origin: bpy.props.EnumProperty(name="Origin", default="PARENT", items=[
         ("PARENT", "Of the Parent", "Identity pose"), ("MEDIAN", "Median", "Middle of the selected origins"),
         ("ACTIVE", "Active Object", "Origin of the active object"), ("CURSOR", "3D Cursor", "The 3D cursor")])
@@ -89,7 +89,7 @@ class PONG_OT_group_set(Selection, bpy.types.Operator):
     role: bpy.props.EnumProperty(name="Role", items=[
         ("group", "Group", "Holds groups or primitives"), ("root", "Root", "The whole model")])
     movable: bpy.props.BoolProperty(name="Movable", description="A rigid body of its own")
-    bound: bpy.props.EnumProperty(name="Bound", items=BOUND_ITEMS)
+    bound: bpy.props.EnumProperty(name="Bound", items=BOUND_ITEMS, default="Default")
 
     def execute(self, context):
         given = self.properties.is_property_set

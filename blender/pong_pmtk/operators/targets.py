@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Targets of operators."""
 
-import bpy
-
 
 def selected(context):
     """Selected editable objects; in Edit Mode those being edited."""
@@ -64,16 +62,3 @@ class Edited:
 
 def edited_meshes(context):
     return [obj for obj in selected(context) if obj.type == "MESH" and obj.data.is_editmode]
-
-
-def in_object_mode(function):
-    """Runs `function` in Object Mode and restores the mode."""
-    active = bpy.context.view_layer.objects.active
-    mode = active.mode if active is not None else "OBJECT"
-    if mode != "OBJECT":
-        bpy.ops.object.mode_set(mode="OBJECT")
-    try:
-        return function()
-    finally:
-        if mode != "OBJECT":
-            bpy.ops.object.mode_set(mode=mode)

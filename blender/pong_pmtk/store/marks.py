@@ -35,11 +35,13 @@ KIND_TIPS = {
     "Bore": "The wall of a round or tapered hole, open at both ends: along the object's z axis",
 }
 KIND_ITEMS = [("NONE", "None", "Nothing")] + [(kind, kind, KIND_TIPS.get(kind, "")) for kind in KINDS]
+# Files of Blender hold the numbers.
 BOUND_ITEMS = [
-    ("Aabb", "Box", "Box along the axes of the movable group"),
-    ("Sphere", "Sphere", "Ball"),
-    ("Obb", "Oriented Box", "Box that fits best"),
-    ("Above", "None", "No volume of its own: what it holds counts to the group above"),
+    ("Default", "Default", "A box for a movable group and around other volumes; otherwise none", 0, 4),
+    ("Aabb", "Box", "Box along the axes of the movable group", 0, 0),
+    ("Sphere", "Sphere", "Ball", 0, 1),
+    ("Obb", "Oriented Box", "Box that fits best", 0, 2),
+    ("Above", "None", "No volume of its own: what it holds counts to the group above", 0, 3),
 ]
 # Blender shows lengths in the scene's unit, without trailing zeros: 0.25 mm.
 LENGTH = {"subtype": "DISTANCE", "unit": "LENGTH", "min": 0.0, "precision": 6}
@@ -82,7 +84,8 @@ class PONG_PG_mark(bpy.types.PropertyGroup):
     label: bpy.props.StringProperty(name="Name", description="In the model. Empty: the object's name")
     surface: bpy.props.StringProperty(name="Surface", description="Empty: that of the group above")
     movable: bpy.props.BoolProperty(name="Movable", description="A rigid body of its own, whose state the host gives")
-    bound: bpy.props.EnumProperty(name="Bound", items=BOUND_ITEMS, description="Bounding volume around all below")
+    bound: bpy.props.EnumProperty(name="Bound", items=BOUND_ITEMS, default="Default",
+                                    description="Bounding volume around all below")
     custom_bound: bpy.props.StringProperty(name="Custom Bound", description="A registered kind of volume instead")
     leaf_size: bpy.props.IntProperty(name="Leaf Size", min=0, description="Most elements of a leaf. 0: no limit")
     order: bpy.props.IntProperty(name="Order", min=0, description="Place among siblings, from 1. 0: behind, by name")

@@ -80,7 +80,7 @@ class Fits(unittest.TestCase):
         for name, more in (("arm", {"custom_bound": "torus"}), ("leg", {})):
             group = s.group(name, **more)
             s.primitive(f"{name}_spring", "Custom", above=group, custom_kind="spring", parameters=[1.0])
-        s.primitive("ball", "Sphere", above=s.group("foot"), radius=1.0)
+        s.primitive("ball", "Sphere", above=s.group("foot", bound="Aabb"), radius=1.0)
         made = built(s)
         self.assertEqual(set(bounds.volumes(made.loaded)), {"model", "model/foot"})
         alone = scene()

@@ -22,7 +22,6 @@ mod run;
 mod terminal;
 mod text;
 mod trade;
-mod trim;
 mod tune;
 mod verify;
 mod view;
@@ -52,7 +51,6 @@ enum Command {
     Mass(mass::Arguments),
     Replay(replay::Arguments),
     Trade(trade::Arguments),
-    Trim(trim::Arguments),
     Tune(tune::Arguments),
     Verify(verify::Arguments),
     View(view::Arguments),
@@ -76,7 +74,6 @@ fn main() -> ExitCode {
         Command::Mass(arguments) => mass::main(&arguments),
         Command::Replay(arguments) => replay::main(&arguments),
         Command::Trade(arguments) => trade::main(&arguments),
-        Command::Trim(arguments) => trim::main(&arguments),
         Command::Tune(arguments) => tune::main(&arguments),
         Command::Verify(arguments) => verify::main(&arguments),
         Command::View(arguments) => view::main(&arguments),

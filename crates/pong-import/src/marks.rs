@@ -26,7 +26,7 @@ pub(crate) struct Mark {
     /// Position among siblings, from 1; 0 for last, sorted by name.
     pub(crate) order: u64,
     pub(crate) movable: bool,
-    /// Name as in model files, or `Custom:` and the name of a registered kind; empty for `Aabb`, the default.
+    /// Name as in model files, or `Custom:` and the name of a registered kind; empty for the default.
     pub(crate) bound: String,
     pub(crate) kind: String,
     /// Radius before the node's scale, as are semi-axes and length.
@@ -124,11 +124,7 @@ impl<'a> Fields<'a> {
     fn bound(&mut self) -> String {
         let custom = self.text("custom_bound");
         let bound = self.word("bound", &BOUNDS, "");
-        match (custom.as_str(), bound.as_str()) {
-            ("", "Aabb") => String::new(),
-            ("", _) => bound,
-            _ => format!("Custom:{custom}"),
-        }
+        if custom.is_empty() { bound } else { format!("Custom:{custom}") }
     }
 
     fn unknown(&mut self) {

@@ -25,7 +25,7 @@ pub struct Group {
     pub position: Option<[f64; 3]>,
     /// Unit quaternion (w, x, y, z), from the group's axes to those of the parent.
     pub orientation: Option<[f64; 4]>,
-    /// `None` for `Aabb`, the default; `Custom:` and the name of a registered kind.
+    /// `None` for the default of the format; `Custom:` and the name of a registered kind.
     pub bound: Option<String>,
     pub surface: Option<String>,
     pub groups: Vec<Group>,

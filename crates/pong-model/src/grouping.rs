@@ -69,19 +69,39 @@ pub fn groups(text: &str) -> Result<Vec<Group>, String> {
 /// Cause and cure, if [`parse`](crate::parse) does not accept the text, or a group does not exist.
 pub fn regrouped(text: &str, changes: &[Regrouped]) -> Result<String, String> {
     let (mark, plain) = text.strip_prefix(BOM).map_or(("", text), |plain| (&text[..BOM.len_utf8()], plain));
-    let found = read(plain)?;
-    let mut edits = Vec::new();
+    let mut found = read(plain)?;
     for change in changes {
-        let Some(places) = found.iter().find(|places| places.group.path == change.path) else {
+        let Some(places) = found.iter_mut().find(|places| places.group.path == change.path) else {
             return Err(format!("there is no group {}; name one of the file's", change.path));
         };
-        edits.extend(places.edits(plain, change));
+        (places.group.bound, places.group.leaf_size) = (change.bound.clone(), change.leaf_size);
     }
-    Ok(mark.to_owned() + &edited(plain, edits))
+    let defaults = default_bounds(&found, |places| Some(&places.group.bound));
+    let edits = found.iter().zip(defaults).flat_map(|(places, default)| places.edits(plain, &default));
+    Ok(mark.to_owned() + &edited(plain, edits.collect()))
+}
+
+/// Bounding volumes that groups get if the text names none: `Above` for a group that is not movable, has no leaf
+/// size, and has no volume below it in its body; otherwise `Aabb`. `named` returns the volume that a group is given.
+fn default_bounds(found: &[Places], named: impl Fn(&Places) -> Option<&Bound>) -> Vec<Bound> {
+    let mut volume_below = vec![false; found.len()];
+    let mut defaults = vec![Bound::Around(BoundKind::Aabb); found.len()];
+    // Groups below come after their group.
+    for index in (0..found.len()).rev() {
+        let group = &found[index].group;
+        if !group.movable && group.leaf_size.is_none() && !volume_below[index] {
+            defaults[index] = Bound::Above;
+        }
+        if let Some(above) = group.above.filter(|_| !group.movable) {
+            let bound = named(&found[index]).unwrap_or(&defaults[index]);
+            volume_below[above] |= volume_below[index] || *bound != Bound::Above;
+        }
+    }
+    defaults
 }
 
 /// Text after edits, which must not overlap.
-pub(crate) fn edited(text: &str, mut edits: Vec<Edit>) -> String {
+fn edited(text: &str, mut edits: Vec<Edit>) -> String {
     edits.sort_by_key(|edit| edit.from);
     let mut out = String::new();
     let mut done = 0;
@@ -123,27 +143,30 @@ fn meshes(node: &Node, files: &mut Vec<String>) {
     }
 }
 
-pub(crate) const BOM: char = '\u{feff}';
+const BOM: char = '\u{feff}';
 
 /// Positions of a group's fields in the text, as start and end in bytes.
 struct Places {
     bound: Option<(usize, usize)>,
     leaf_size: Option<(usize, usize)>,
+    /// Values in the text, `None` where it has none.
+    written: (Option<Bound>, Option<usize>),
     /// Start of the name's field and end of its value.
     name: (usize, usize),
     group: Group,
 }
 
 /// Replacement of a range of a text.
-pub(crate) struct Edit {
-    pub from: usize,
-    pub to: usize,
-    pub put: String,
+struct Edit {
+    from: usize,
+    to: usize,
+    put: String,
 }
 
 impl Places {
-    /// Edits for a change; none if the text already has these values.
-    fn edits(&self, text: &str, change: &Regrouped) -> Vec<Edit> {
+    /// Edits that give the text the values of the group; none if it already has them. `default`: bounding volume of
+    /// the group if the text names none.
+    fn edits(&self, text: &str, default: &Bound) -> Vec<Edit> {
         let mut edits = Vec::new();
         let mut added = String::new();
         let mut set = |place: Option<(usize, usize)>, name: &str, value: Option<String>| match (place, value)
@@ -154,11 +177,12 @@ impl Places {
             (None, Some(value)) => added += &format!("{}{name}: {value}", self.separator(text)),
             (None, None) => {}
         };
-        if change.bound != self.group.bound {
-            set(self.bound, "bound", Some(change.bound.to_string()));
+        let Group { bound, leaf_size, .. } = &self.group;
+        if bound != self.written.0.as_ref().unwrap_or(default) {
+            set(self.bound, "bound", Some(bound.to_string()));
         }
-        if change.leaf_size != self.group.leaf_size {
-            set(self.leaf_size, "leaf_size", change.leaf_size.map(|size| size.to_string()));
+        if *leaf_size != self.written.1 {
+            set(self.leaf_size, "leaf_size", leaf_size.map(|size| size.to_string()));
         }
         if !added.is_empty() {
             edits.push(Edit { from: self.name.1, to: self.name.1, put: added });
@@ -183,6 +207,10 @@ fn read(text: &str) -> Result<Vec<Places>, String> {
     let root = fields(&node).and_then(|top| field(top, "root")).ok_or_else(refused)?;
     let mut found = Vec::new();
     walk(text, &root.value, None, &mut found).ok_or_else(refused)?;
+    let defaults = default_bounds(&found, |places| places.written.0.as_ref());
+    for (places, default) in found.iter_mut().zip(defaults) {
+        places.group.bound = places.written.0.clone().unwrap_or(default);
+    }
     Ok(found)
 }
 
@@ -202,7 +230,16 @@ fn walk(text: &str, node: &Node, above: Option<usize>, found: &mut Vec<Places>) 
         _ => None,
     };
     let movable = field(own, "movable").map(|field| within_some(&field.value).value.clone());
+    let written = match bound {
+        Some(field) => Some(bound_of(&field.value)?),
+        None => None,
+    };
+    let limit = leaf_size.and_then(|field| match within_some(&field.value).value {
+        Value::Number(size) => Some(size as usize),
+        _ => None,
+    });
     found.push(Places {
+        written: (written.clone(), limit),
         bound: bound.and_then(span),
         leaf_size: leaf_size.and_then(span),
         name: (name.at as usize, span(name)?.1),
@@ -210,11 +247,8 @@ fn walk(text: &str, node: &Node, above: Option<usize>, found: &mut Vec<Places>) 
             path,
             above,
             movable: above.is_none() || movable == Some(Value::Bool(true)),
-            bound: bound.map_or(Some(Bound::Around(BoundKind::Aabb)), |field| bound_of(&field.value))?,
-            leaf_size: leaf_size.and_then(|field| match within_some(&field.value).value {
-                Value::Number(size) => Some(size as usize),
-                _ => None,
-            }),
+            bound: written.unwrap_or(Bound::Above),
+            leaf_size: limit,
             holds_primitives: list("primitives").is_some(),
         },
     });
@@ -239,20 +273,20 @@ fn bound_of(node: &Node) -> Option<Bound> {
 }
 
 /// Replaces `Some(x)` by `x`.
-pub(crate) fn within_some(node: &Node) -> &Node {
+fn within_some(node: &Node) -> &Node {
     match &node.value {
         Value::Tuple(Some(word), items) if word.as_ref() == "Some" && items.len() == 1 => &items[0],
         _ => node,
     }
 }
 
-pub(crate) fn fields(node: &Node) -> Option<&[Field]> {
+fn fields(node: &Node) -> Option<&[Field]> {
     match &node.value {
         Value::Struct(_, fields) => Some(fields),
         _ => None,
     }
 }
 
-pub(crate) fn field<'n>(fields: &'n [Field], name: &str) -> Option<&'n Field> {
+fn field<'n>(fields: &'n [Field], name: &str) -> Option<&'n Field> {
     fields.iter().find(|field| field.name.as_ref() == name)
 }

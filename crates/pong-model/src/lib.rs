@@ -46,7 +46,6 @@ pub mod surface;
 pub mod t_junctions;
 mod tree;
 mod triangle_topology;
-pub mod trimming;
 #[doc(hidden)]
 pub mod weld;
 pub mod write;

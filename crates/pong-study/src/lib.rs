@@ -2,7 +2,6 @@
 //!
 //! * [`sweep`]: the options that buy speed, each against a reference. See `docs/trade.md`.
 //! * [`tree_tuning`]: other bounding volumes and leaves, with the same bits required. See `docs/tune.md`.
-//! * [`trimming`]: models without the primitives that a run never came near. See `docs/trim.md`.
 
 #![forbid(unsafe_code)]
 
@@ -10,6 +9,5 @@ mod error;
 mod runs;
 pub mod sweep;
 pub mod tree_tuning;
-pub mod trimming;
 
 pub use error::{Result, StudyError};

@@ -159,7 +159,7 @@ def test_the_schema_has_every_kind_and_field():
     assert radius == {"type": "positive", "unit": "m", "required": True}
     assert tables["primitives"]["Ray"]["response"]["choices"] == ("Normal", "Axial")
     assert tables["normal_laws"]["Linear"]["restitution"]["fields"]["mass"]["unit"] == "kg"
-    assert tables["group"]["bound"]["default"] == "Aabb" and "Custom" in tables["bounds"]
+    assert tables["group"]["bound"]["words"].startswith("`Aabb` if movable") and "Custom" in tables["bounds"]
     assert list(tables["friction_laws"]) == ["None", "Bristle", "Coulomb", "Custom"]
 
 
@@ -231,11 +231,11 @@ def test_bounds_of_groups():
     text = with_root(
         """groups: [
             (name: "arm", movable: true, bound: Sphere, pose: (position: (9, 0, 0)), groups: [
-                (name: "hand", pose: (position: (0, 0, 2)), primitives: [
+                (name: "hand", bound: Aabb, pose: (position: (0, 0, 2)), primitives: [
                     Sphere(name: "ball", center: (1, 0, 0), radius: 0.5),
                 ]),
             ]),
-            (name: "floor", primitives: [Plane(name: "p", normal: (0, 0, 1), offset: 0)]),
+            (name: "floor", bound: Aabb, primitives: [Plane(name: "p", normal: (0, 0, 1), offset: 0)]),
         ]"""
     )
     bounds = {bound["path"]: bound for bound in pong.Model.parse(text).bounds()}

@@ -14,7 +14,6 @@ mod replay;
 mod step_warnings;
 mod terminal;
 mod trade;
-mod trim;
 mod tune;
 mod users_guide;
 mod verify;

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 const BALL: &str = r#"(format: "pong-model", version: 1, name: "ball", surfaces: { "soft": (stiffness: 1e5) },
     // The skin of the ball.
-    root: (name: "ball", surface: "soft", groups: [(name: "inner", groups: [(name: "core", primitives: [
+    root: (name: "ball", surface: "soft", groups: [(name: "inner", bound: Aabb, groups: [(name: "core", bound: Obb, primitives: [
         Sphere(name: "skin", center: (0, 0, 0), radius: 0.1)])])]))"#;
 
 fn folder(test: &str) -> PathBuf {

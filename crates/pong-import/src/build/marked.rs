@@ -51,7 +51,7 @@ pub(super) fn tree(
             let frame = body_frame(&build.nodes[root].to_top(build.nodes), grid, &path, build.findings)?;
             let mark = marks[root].clone().unwrap_or_default();
             group.name = build.name_of(root);
-            group.bound = Some(mark.bound).filter(|bound| !bound.is_empty());
+            group.bound = Some(mark.bound).filter(|bound| !bound.is_empty() && bound != "Aabb");
             group.surface = Some(mark.surface).filter(|surface| !surface.is_empty());
             let children = std::mem::take(&mut build.below[root]);
             build.fill(&mut group, &children, &frame.rest);
@@ -187,7 +187,9 @@ impl Build<'_, '_> {
         let mut group = Group {
             name: self.name_of(node),
             movable: mark.movable,
-            bound: Some(mark.bound.clone()).filter(|bound| !bound.is_empty()),
+            // A box is the default of movable groups.
+            bound: Some(mark.bound.clone())
+                .filter(|bound| !bound.is_empty() && !(mark.movable && bound == "Aabb")),
             surface: Some(mark.surface.clone()).filter(|surface| !surface.is_empty()),
             ..Group::default()
         };

@@ -57,11 +57,22 @@ fn read_group(
     };
     place.surface = surface;
     let draft = &mut groups.bodies[place.body].groups[place.group];
-    draft.above = bound.is_none();
-    draft.bound = bound.unwrap_or(BoundKind::Aabb);
+    draft.bound = bound.clone().flatten().unwrap_or(BoundKind::Aabb);
     draft.leaf_size = leaf_size;
     draft.at = node.at;
     read_contents(groups, &fields, &place);
+    let above = match bound {
+        Some(given) => given.is_none(),
+        None => {
+            !movable && leaf_size.is_none() && !holds_volume(&groups.bodies[place.body].groups, place.group)
+        }
+    };
+    groups.bodies[place.body].groups[place.group].above = above;
+}
+
+/// Tests whether a group of the same body, at any depth below this group, has a volume of its own.
+fn holds_volume(groups: &[GroupDraft], group: usize) -> bool {
+    groups[group].children.iter().any(|&child| !groups[child].above || holds_volume(groups, child))
 }
 
 fn new_body(
@@ -174,10 +185,15 @@ fn read_pose(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, is_root: 
     }
 }
 
-/// Kind of a group's volume; `None` if it has no volume of its own.
-fn read_bound(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, movable: bool) -> Option<BoundKind> {
-    let Some(node) = fields.optional("bound") else { return Some(BoundKind::Aabb) };
-    match reader.variant(node, path, schema::BOUNDS) {
+/// Kind of a group's volume, `Some(None)` for `Above`; `None` if the file names none.
+fn read_bound(
+    reader: &mut Reader<'_>,
+    fields: &Fields<'_>,
+    path: &str,
+    movable: bool,
+) -> Option<Option<BoundKind>> {
+    let node = fields.optional("bound")?;
+    Some(match reader.variant(node, path, schema::BOUNDS) {
         Some("Sphere") => Some(BoundKind::Sphere),
         Some("Obb") => Some(BoundKind::Obb),
         Some("Custom") => Some(custom_bound(reader, node, path)),
@@ -188,7 +204,7 @@ fn read_bound(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, movable:
         }
         Some("Above") => None,
         _ => Some(BoundKind::Aabb),
-    }
+    })
 }
 
 fn read_leaf_size(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str) -> Option<usize> {

@@ -62,7 +62,7 @@ pub const GROUP: &[Field] = &[
     required("name", Type::Text, ""),
     described("movable", Type::Boolean, "", "`false`; root: `true`"),
     described("pose", Type::Record(POSE), "", "that of the group above"),
-    optional("bound", Type::Bound, "", "Aabb"),
+    described("bound", Type::Bound, "", "`Aabb` if movable, limited or above a volume, otherwise `Above`"),
     described("leaf_size", Type::Whole, "", "no limit"),
     described("surface", Type::Text, "", "that of the group above"),
     described("groups", Type::Groups, "", "none: the group holds primitives"),

@@ -125,6 +125,41 @@ fn what_a_group_without_a_volume_holds_is_in_the_leaf_of_the_group_above() {
     assert!(tree.nodes.iter().all(|node| matches!(node.volume, Volume::Obb { .. })), "{:?}", tree.nodes);
 }
 
+/// A group that names no bound has a volume only around volumes of its body, or to cut its contents into leaves.
+#[test]
+fn groups_that_name_no_bound_are_part_of_the_leaf_above() {
+    let plain = text().replace("bound: Some(Obb), ", "").replace("leaf_size: 3, ", "");
+    let no_bound = plain.replace("bound: /* small */ Sphere, ", "");
+    let (one_leaf, kept) = (load(&no_bound), load(&plain));
+    assert_same_but_for_trees(&load(&text()), &one_leaf);
+    assert_eq!(leaves(&one_leaf.bodies[0].tree), [("m".to_owned(), 18)]);
+    assert_eq!(leaves(&one_leaf.bodies[1].tree), [("m/arm".to_owned(), 2)]);
+    assert_eq!(leaves(&kept.bodies[0].tree), [("m".to_owned(), 13), ("m/b".to_owned(), 5)]);
+    // A volume below a group keeps that of the group, and is no reason for one beside it.
+    let nested = load(&text().replace("leaf_size: 3, ", ""));
+    let expected = [("m/a", 7), ("m/a/left", 6), ("m/b", 5)].map(|(path, count)| (path.to_owned(), count));
+    let mut found = leaves(&nested.bodies[0].tree);
+    found.sort();
+    assert_eq!(found, expected);
+    for text in [&no_bound, &plain] {
+        let bounds = groups(text).unwrap().into_iter().map(|group| group.bound.to_string());
+        let b = if text == &plain { "Sphere" } else { "Above" };
+        assert_eq!(bounds.collect::<Vec<_>>(), ["Aabb", "Above", "Above", "Above", b, "Aabb"]);
+    }
+}
+
+/// A new volume below groups that name no bound does not give them one.
+#[test]
+fn a_change_leaves_the_volumes_of_other_groups_alone() {
+    let text = text().replace("bound: Some(Obb), ", "").replace("leaf_size: 3, ", "");
+    let changed = regrouped(&text, &[change("m/a/left", around(BoundKind::Obb), None)]).unwrap();
+    let after = groups(&changed).unwrap();
+    let bounds: Vec<_> = after.iter().map(|group| group.bound.to_string()).collect();
+    assert_eq!(bounds, ["Aabb", "Above", "Obb", "Above", "Sphere", "Aabb"]);
+    let back = regrouped(&changed, &[change("m/a/left", Bound::Above, None)]).unwrap();
+    assert_eq!(groups(&back).unwrap(), groups(&text).unwrap());
+}
+
 /// Only the necessary parts of a text change; a change can be reverted.
 #[test]
 fn a_text_keeps_all_but_the_fields_that_change() {
@@ -146,7 +181,7 @@ fn a_text_keeps_all_but_the_fields_that_change() {
             "(name: \"b\", leaf_size: 2, bound: /* small */ Obb",
         )
         .replace("name: \"m\", // the root", "name: \"m\",\n        bound: Sphere, // the root")
-        .replace("leaf_size: 3", "leaf_size: None")
+        .replace("(name: \"right\", leaf_size: 3", "(name: \"right\", bound: Aabb, leaf_size: None")
         .replace("(name: \"arm\", movable", "(name: \"arm\", bound: Obb, movable");
     assert_eq!(changed, expected);
     assert_same_but_for_trees(&load(&text), &load(&changed));

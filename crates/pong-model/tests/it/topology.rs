@@ -526,8 +526,8 @@ fn a_plane_makes_its_leaf_and_all_above_unbounded_but_not_its_neighbours() {
     let text = format!(
         "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{ \"s\": (stiffness: 1) }},\n\
          root: (name: \"root\", surface: \"s\", groups: [\n\
-         (name: \"a\", primitives: [Plane(name: \"p\", normal: (0,0,1), offset: 0), {}]),\n\
-         (name: \"b\", primitives: [Point(name: \"p\", position: (0,0,0))]),\n\
+         (name: \"a\", bound: Aabb, primitives: [Plane(name: \"p\", normal: (0,0,1), offset: 0), {}]),\n\
+         (name: \"b\", bound: Aabb, primitives: [Point(name: \"p\", position: (0,0,0))]),\n\
          (name: \"c\", groups: [(name: \"d\", movable: true, primitives: [Plane(name: \"p\", normal: (0,0,1), offset: 0)])])]))",
         balls.join(", ")
     );

@@ -15,12 +15,6 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    /// True if the wrenches and limits are the same bits. The indices of primitives, which contacts and
-    /// contact state hold, may differ.
-    pub fn has_wrenches_of(&self, other: &Self) -> bool {
-        self.wrenches == other.wrenches
-    }
-
     /// Name of the first difference between parts that both have; `None` if they agree.
     pub fn difference(&self, other: &Self) -> Option<&'static str> {
         let parts = [

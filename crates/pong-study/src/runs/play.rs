@@ -61,11 +61,6 @@ impl Player {
         Ok(Self { held, bodies, pairs, states: Vec::new() })
     }
 
-    /// The playing world.
-    pub fn world(&self) -> &World {
-        self.held.world()
-    }
-
     /// Plays every `stride`-th window, counts, and compares every answer with the run's own.
     pub fn compare(&mut self, motions: &Motions, stride: usize) -> Result<Compared, EngineError> {
         let mut counts = Counts::default();

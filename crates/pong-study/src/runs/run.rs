@@ -4,7 +4,7 @@ use crate::runs::motions::{Commit, Gatherer, Motions, rows};
 use crate::runs::play::{Held, Player, bodies};
 use crate::runs::subject::Subject;
 use crate::{Result, StudyError};
-use pong_engine::{EngineError, World};
+use pong_engine::EngineError;
 use pong_executive::scene::{BuiltScene, Scene, Variation};
 use pong_model::{Extensions, Model};
 use pong_record::{Event, FrameRow, Log, LoggedEvent, ReplayOptions, rerun, world_of_log};
@@ -30,16 +30,8 @@ enum Source {
 /// Called with the number of frames done; its error ends the run.
 pub(crate) type Tick<'a> = &'a mut dyn FnMut(u64) -> Result<()>;
 
-/// Called with the world after each frame; its error ends the run.
-pub(crate) type Seen<'a> = &'a mut dyn FnMut(&World) -> Result<(), EngineError>;
-
 /// Ranges of the frames to keep, given the positions of a log's events.
 type Rows<'a> = &'a mut dyn FnMut(&[u64]) -> Vec<(u64, u64)>;
-
-/// An observer that does nothing.
-fn unseen(_: &World) -> Result<(), EngineError> {
-    Ok(())
-}
 
 impl Run {
     /// Reads a scene, or the folder of a log; new models are added to the subjects.
@@ -100,20 +92,8 @@ impl Run {
 
     /// Runs it unchanged and keeps its motions, at most `wanted` frames.
     pub fn gather(&self, wanted: u64, tick: Tick<'_>) -> Result<Motions> {
-        self.gather_with(None, wanted, &mut unseen, tick)
-    }
-
-    /// As [`gather`](Self::gather) with other models, one for each subject; `seen` is called with every
-    /// frame.
-    pub fn gather_with(
-        &self,
-        made: Option<&[Arc<Model>]>,
-        wanted: u64,
-        seen: Seen<'_>,
-        tick: Tick<'_>,
-    ) -> Result<Motions> {
         let mut rows_without = |events: &[u64]| rows(self.frames, wanted, events);
-        let motions = self.repeat(made, &mut rows_without, seen, tick)?;
+        let motions = self.repeat(None, &mut rows_without, tick)?;
         if motions.windows.is_empty() {
             return Err(StudyError::new(&self.name, "it has no frame to tune for; give a run that has some"));
         }
@@ -123,7 +103,7 @@ impl Run {
     /// Runs all of it again with other models, one for each subject; returns the first frame with another
     /// answer.
     pub fn differs(&self, made: &[Arc<Model>], motions: &Motions, tick: Tick<'_>) -> Result<Option<String>> {
-        let again = self.repeat(Some(made), &mut |_| Vec::new(), &mut unseen, tick)?.answers;
+        let again = self.repeat(Some(made), &mut |_| Vec::new(), tick)?.answers;
         if again.len() != motions.answers.len() {
             return Ok(Some("the number of frames".to_owned()));
         }
@@ -133,22 +113,16 @@ impl Run {
 
     /// Runs it from its start and keeps the frames of `rows`, which is called with the positions of a log's
     /// events.
-    fn repeat(
-        &self,
-        made: Option<&[Arc<Model>]>,
-        rows: Rows<'_>,
-        seen: Seen<'_>,
-        tick: Tick<'_>,
-    ) -> Result<Motions> {
+    fn repeat(&self, made: Option<&[Arc<Model>]>, rows: Rows<'_>, tick: Tick<'_>) -> Result<Motions> {
         match &self.source {
             Source::Scene(scene) => {
                 let built = build(scene, made.map(|made| (self, made)))?;
-                self.follow(built, rows(&[]), seen, tick)
+                self.follow(built, rows(&[]), tick)
             }
             Source::Log(path) => {
                 let mut log = open(path)?;
                 let events = places_of_events(&mut log, self.frames)?;
-                self.rerun(log, made.unwrap_or_default(), rows(&events), seen, tick)
+                self.rerun(log, made.unwrap_or_default(), rows(&events), tick)
             }
         }
     }
@@ -177,13 +151,7 @@ impl Run {
     }
 
     /// Runs the scene; keeps every answer, and the frames of `rows`.
-    fn follow(
-        &self,
-        mut built: BuiltScene,
-        rows: Vec<(u64, u64)>,
-        seen: Seen<'_>,
-        tick: Tick<'_>,
-    ) -> Result<Motions> {
+    fn follow(&self, mut built: BuiltScene, rows: Vec<(u64, u64)>, tick: Tick<'_>) -> Result<Motions> {
         let refused = |error: EngineError| self.refused(&error);
         let bodies = bodies(built.simulation.world()).map_err(refused)?;
         let mut gatherer = Gatherer::new(rows);
@@ -193,7 +161,6 @@ impl Run {
                 if frame == 0 { built.simulation.commit_initial_states() } else { built.simulation.step() };
             moved.map_err(|error| StudyError::new(&self.name, error))?;
             gatherer.after(built.simulation.world(), &bodies, Commit::All).map_err(refused)?;
-            seen(built.simulation.world()).map_err(refused)?;
             tick(frame + 1)?;
         }
         Ok(gatherer.finish())
@@ -205,7 +172,6 @@ impl Run {
         mut log: Log,
         made: &[Arc<Model>],
         rows: Vec<(u64, u64)>,
-        seen: Seen<'_>,
         tick: Tick<'_>,
     ) -> Result<Motions> {
         let instead = |index: usize| made.get(self.models[index].1).cloned();
@@ -219,7 +185,6 @@ impl Run {
             let commit = commit(&frame.logged.row, &events);
             let gathered = gatherer.after(frame.world, frame.bodies, commit);
             gathered.and_then(|()| gatherer.before(frame.world)).map_err(|error| self.refused(&error))?;
-            seen(frame.world).map_err(|error| self.refused(&error))?;
             tick(frame.index + 1)
         })?;
         Ok(gatherer.finish())

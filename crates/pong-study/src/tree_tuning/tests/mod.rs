@@ -19,9 +19,9 @@ use pong_model::Extensions;
 use std::path::{Path, PathBuf};
 
 /// A ball of 0.1 m that falls on a sheet of triangles and slides; both in groups without purpose.
-const BALL: &str = "groups: [(name: \"a\", groups: [(name: \"b\", groups: [(name: \"c\", primitives: \
-                    [Sphere(name: \"skin\", center: (0, 0, 0), radius: 0.1)])])])]";
-const SHEET: &str = "groups: [(name: \"x\", bound: Obb, groups: [(name: \"y\", primitives: [TriangleMesh(name: \"floor\", \
+const BALL: &str = "groups: [(name: \"a\", bound: Aabb, groups: [(name: \"b\", bound: Aabb, \
+                    groups: [(name: \"c\", bound: Aabb, primitives: [Sphere(name: \"skin\", center: (0, 0, 0), radius: 0.1)])])])]";
+const SHEET: &str = "groups: [(name: \"x\", bound: Obb, groups: [(name: \"y\", bound: Aabb, primitives: [TriangleMesh(name: \"floor\", \
                      vertices: [(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)], triangles: [(0, 1, 2), (0, 2, 3)])])])]";
 
 fn ball_on_sheet(folder: &Folder) -> PathBuf {

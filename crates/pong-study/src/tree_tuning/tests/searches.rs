@@ -102,9 +102,10 @@ fn equal_measurements_give_equal_proposals() {
 
 fn shape() -> Shape {
     let text = "(root: (name: \"r\", groups: [\n\
-                (name: \"arm\", movable: true, groups: [(name: \"p\", primitives: [1]), (name: \"q\", primitives: [1])]),\n\
+                (name: \"arm\", movable: true, groups: [(name: \"p\", bound: Aabb, primitives: [1]), \
+                (name: \"q\", bound: Aabb, primitives: [1])]),\n\
                 (name: \"own\", bound: Custom(\"mine\"), primitives: [1]),\n\
-                (name: \"leaf\", primitives: [1])]))";
+                (name: \"leaf\", bound: Aabb, primitives: [1])]))";
     let groups = grouping::groups(text).unwrap();
     Shape { name: "r".to_owned(), elements: vec![0, 0, 40, 9, 5, 200], groups }
 }
