@@ -7,7 +7,7 @@ use crate::energy::episodes::{PairEnergies, PairEnergy};
 use crate::error::EngineError;
 use crate::frame::{
     self, EvaluationBuffers, EvaluationInput, FrictionPreload, MOTIONS_AT_ONCE, ROUND, TunnellingEvents,
-    WorkerInput, WorkerPool, fresh, remember,
+    WorkerInput, WorkerPool, new_records, write_records,
 };
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
@@ -65,11 +65,7 @@ impl Runtime {
                 ContactMemory::with_capacity(poses, pairs, sealed.record_capacity, sealed.law_state_len);
             let energies = ContactEnergies::with_capacity(sealed.coupling, sealed.record_capacity);
             let pairs = PairEnergies::new(sealed.account_pairs(), sealed.delay());
-            Arc::new(
-                memory
-                    .with_threads(workers + 1, sealed.limits.thread_records())
-                    .with_energies(energies, pairs),
-            )
+            Arc::new(memory.with_energies(energies, pairs))
         };
         let nothing = Arc::new(ContactMemory::default());
         let input = || WorkerInput {
@@ -183,7 +179,7 @@ impl Runtime {
         let Self { memory, spares, frame, .. } = self;
         take_turns(memory, spares, |old, next| {
             next.poses.commit(&old.poses, (frame.number, &frame.poses), &states.enabled);
-            remember(frame, next);
+            write_records(frame, next);
             (next.work, next.dissipated) = (frame.energy.work, frame.energy.dissipated);
             next.pair_energies.copy_from(&frame.energy.pairs);
         });
@@ -236,8 +232,12 @@ impl Runtime {
         take_turns(memory, spares, |old, next| {
             let now = (&frame.poses[..], &states.enabled[..]);
             next.poses.commit_some(&old.poses, now, moment, &accepts);
-            left_out =
-                old.accept_into(fresh(frame), (&frame.energy.pairs, &frame.energy.added), accepted, next);
+            left_out = old.accept_into(
+                new_records(frame),
+                (&frame.energy.pairs, &frame.energy.added),
+                accepted,
+                next,
+            );
         });
         if left_out > 0 {
             frame.report.status.set(StatusBits::CONTACT_LIMIT);

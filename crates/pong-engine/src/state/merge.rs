@@ -4,7 +4,7 @@
 //! capacity. Then the records with the largest force are kept, ties in key order; contacts that do not push
 //! have zero force.
 
-use super::memory::{ContactMemory, Remembered};
+use super::memory::{ContactMemory, RecordEntry};
 use super::record::ContactRecord;
 use crate::energy::episodes::PairEnergies;
 use crate::energy::ledger::LedgerEntry;
@@ -19,7 +19,7 @@ impl ContactMemory {
     /// Returns the number of records dropped because `next` is full.
     pub fn accept_into<'a>(
         &'a self,
-        fresh: impl Iterator<Item = Remembered<'a>> + Clone,
+        fresh: impl Iterator<Item = RecordEntry<'a>> + Clone,
         (energies, added): (&PairEnergies, &[LedgerEntry]),
         accepted: impl Fn(u32) -> bool,
         next: &mut Self,
@@ -42,7 +42,7 @@ impl ContactMemory {
     }
 
     /// Replaces all records, keeping the strongest if there are too many. Returns the number dropped.
-    fn fill<'a>(&mut self, records: impl Iterator<Item = Remembered<'a>> + Clone) -> usize {
+    fn fill<'a>(&mut self, records: impl Iterator<Item = RecordEntry<'a>> + Clone) -> usize {
         if self.take(records.clone()) {
             return 0;
         }
@@ -53,7 +53,7 @@ impl ContactMemory {
     }
 
     /// Replaces all records; returns false when there is no more room.
-    fn take<'a>(&mut self, mut records: impl Iterator<Item = Remembered<'a>>) -> bool {
+    fn take<'a>(&mut self, mut records: impl Iterator<Item = RecordEntry<'a>>) -> bool {
         self.clear_records();
         records.all(|remembered| self.push(&remembered).is_ok())
     }
@@ -61,17 +61,17 @@ impl ContactMemory {
 
 /// Merges two sources that share no pair of movable groups into one in key order.
 #[derive(Clone)]
-struct InKeyOrder<'a, K: Iterator<Item = Remembered<'a>>, F: Iterator<Item = Remembered<'a>>> {
+struct InKeyOrder<'a, K: Iterator<Item = RecordEntry<'a>>, F: Iterator<Item = RecordEntry<'a>>> {
     kept: Peekable<K>,
     fresh: Peekable<F>,
 }
 
 impl<'a, K, F> Iterator for InKeyOrder<'a, K, F>
 where
-    K: Iterator<Item = Remembered<'a>>,
-    F: Iterator<Item = Remembered<'a>>,
+    K: Iterator<Item = RecordEntry<'a>>,
+    F: Iterator<Item = RecordEntry<'a>>,
 {
-    type Item = Remembered<'a>;
+    type Item = RecordEntry<'a>;
 
     fn next(&mut self) -> Option<Self::Item> {
         match (self.kept.peek(), self.fresh.peek()) {

@@ -2,11 +2,10 @@
 
 use super::block::{StateError, largest_len, needed_len, write_block};
 use super::lookup::RecordsOfKey;
-use super::memory::{ContactMemory, Remembered};
+use super::memory::{ContactMemory, RecordEntry};
 use super::poses::{CommittedPoses, NEVER, Past};
 use super::record::{ContactKey, ContactRecord, ContactRole};
 use super::records::Records;
-use super::slot::Slot;
 use crate::energy::account::{EnergyAccount, WrenchCoupling};
 use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
 use crate::energy::episodes::PairEnergies;
@@ -104,7 +103,7 @@ fn memory_with(
     for record in fresh {
         let law_state: Vec<f64> = (0..stride).map(|_| random.unit()).collect();
         let Some(coupling) = coupling else {
-            memory.push(&Remembered { record, law_state: &law_state, energy: None }).unwrap();
+            memory.push(&RecordEntry { record, law_state: &law_state, energy: None }).unwrap();
             continue;
         };
         let account = EnergyAccount {
@@ -116,20 +115,20 @@ fn memory_with(
         let wrench = |_| Wrench { force: random.vector(0.5), moment: random.vector(0.5) };
         let delayed: Vec<Wrench> = (0..coupling.delay()).map(wrench).collect();
         let energy = Some(ContactEnergyRef { energy: &energy, delayed: &delayed });
-        memory.push(&Remembered { record, law_state: &law_state, energy }).unwrap();
+        memory.push(&RecordEntry { record, law_state: &law_state, energy }).unwrap();
     }
     memory
 }
 /// Records as the slow reference model stores them.
 fn listed(memory: &ContactMemory) -> Vec<(ContactRecord, Vec<f64>)> {
-    let numbers = |remembered: &Remembered<'_>| {
+    let numbers = |remembered: &RecordEntry<'_>| {
         let energy = remembered.energy.iter().flat_map(ContactEnergyRef::numbers);
         remembered.law_state.iter().copied().chain(energy).collect()
     };
     memory.iter().map(|remembered| (remembered.record, numbers(&remembered))).collect()
 }
 
-fn fresh_of(memory: &ContactMemory) -> impl Iterator<Item = Remembered<'_>> + Clone {
+fn fresh_of(memory: &ContactMemory) -> impl Iterator<Item = RecordEntry<'_>> + Clone {
     memory.iter()
 }
 
@@ -305,7 +304,7 @@ fn records_of_one_key_are_found_together_whatever_was_done_before() {
         let mut copy = memory_of(&mut random, CAPACITY, 2);
         copy.copy_from(&memory);
         for memory in [&memory, &copy] {
-            for (index, Remembered { record, law_state, .. }) in memory.iter().enumerate() {
+            for (index, RecordEntry { record, law_state, .. }) in memory.iter().enumerate() {
                 let RecordsOfKey { range, records } = memory.under(&record.key);
                 assert!((range.first()..range.first() + records.len()).contains(&index));
                 assert!(records.iter().all(|other| other.key == record.key));
@@ -348,7 +347,7 @@ fn the_first_record_of_a_head_is_found_whatever_was_hinted_before() {
             records.truncate(keys.len());
         }
         for head in (0..100).map(|_| some(&mut random).head()) {
-            assert_eq!(records.place_of_head(head), keys.iter().filter(|key| key.head() < head).count());
+            assert_eq!(records.first_of_head(head), keys.iter().filter(|key| key.head() < head).count());
         }
     }
 }
@@ -366,7 +365,7 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
         (Vec3::z(), 0, ContactRole::Tracked),
     ] {
         memory
-            .push(&Remembered {
+            .push(&RecordEntry {
                 record: ContactRecord { normal_b: normal, feature, role, ..model },
                 law_state: &[],
                 energy: None,
@@ -388,63 +387,6 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
     assert_eq!(found(Vec3::new(0.0, 0.8, 0.6), ContactRole::Tracked), Some(3));
     let elsewhere = ContactKey { primitive_a: model.key.primitive_a + 1, ..model.key };
     assert_eq!(memory.under(&elsewhere).matching(&Vec3::z(), ContactRole::Tracked), None);
-}
-
-/// Each thread writes the contacts of some high words, in any order; some threads write none, and some
-/// records are left out.
-#[test]
-fn records_by_thread_equal_records_in_order() {
-    const LANES: usize = 3;
-    let mut random = Random(5);
-    for case in 0..100 {
-        let expected = memory_of(&mut random, CAPACITY, 0);
-        let mut memory = ContactMemory::with_capacity(poses_of(&mut random), GROUP_PAIRS, CAPACITY, 0)
-            .with_threads(LANES, 2 * CAPACITY);
-        let in_order: Vec<ContactRecord> = expected.records.iter().copied().collect();
-        let mut groups: Vec<&[ContactRecord]> =
-            in_order.chunk_by(|a, b| a.key.head() == b.key.head()).collect();
-        let mut threads = vec![Vec::new(); LANES];
-        let mut written = Vec::new();
-        while !groups.is_empty() {
-            let group = groups.swap_remove(random.below(groups.len()));
-            let thread = random.below(if case % 2 == 0 { LANES } else { 1 });
-            if random.below(4) == 0 {
-                threads[thread].push(record_of(&mut random));
-            }
-            for record in group {
-                written.push((record.key, Slot::new(thread, threads[thread].len())));
-                threads[thread].push(*record);
-            }
-        }
-        written.sort_by_key(|(key, _)| *key);
-        assert!(memory.records.adopt(written.iter().map(|(key, place)| (key.head(), *place))));
-        for (thread, records) in threads.iter().enumerate() {
-            records.iter().for_each(|record| memory.records.thread_mut(thread).push(*record).unwrap());
-        }
-
-        assert!(memory.records == expected.records);
-        let lookups = [&memory, &expected];
-        for record in &in_order {
-            let [found, same] = lookups.map(|lookup| lookup.under(&record.key));
-            assert!(found.range.first() == same.range.first() && found.records == same.records);
-            assert!(!found.records.is_empty() && memory.at(found.range).records == found.records);
-        }
-        for pair in 0..GROUP_PAIRS as u32 {
-            assert!(memory.records.of_group_pair(pair).eq(expected.records.of_group_pair(pair)));
-        }
-        assert_eq!(memory.records.place_of_head(u64::MAX), in_order.len());
-        // Every other change starts with a copy, which is in key order.
-        let mut copy = memory_of(&mut random, 3, 0);
-        copy.copy_from(&memory);
-        assert!(copy.records == expected.records && block_of(&copy) == block_of(&memory));
-
-        // Records of one high word that are not contiguous cannot stay in place.
-        if let Some(second) = written.windows(2).position(|two| two[0].0.head() == two[1].0.head()) {
-            written[second + 1].1 = Slot::new(LANES - 1, 2 * CAPACITY - 1);
-            assert!(!memory.records.adopt(written.iter().map(|(key, place)| (key.head(), *place))));
-            assert_eq!(memory.records.len(), 0);
-        }
-    }
 }
 
 /// A block in a buffer for the largest block.

@@ -93,14 +93,13 @@ impl WaitingBristles {
         self.stuck = self.stuck & !(1 << lane) | LaneBits::from(one.stuck) << lane;
     }
 
-    /// Computes all pending friction, which completes the contacts, and returns their indices.
+    /// Computes all pending friction, which completes the contacts.
     #[inline]
-    pub fn flush(&mut self, contacts: &mut [FrameContact]) -> &[u32] {
+    pub fn flush(&mut self, contacts: &mut [FrameContact]) {
         let count = std::mem::take(&mut self.count);
         if count > 0 {
             simd::run(Settle { bristles: self, count, contacts });
         }
-        &self.places[..count]
     }
 }
 

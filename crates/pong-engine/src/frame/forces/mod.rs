@@ -6,7 +6,6 @@ pub(crate) mod contact_buffer;
 pub(crate) mod contact_ref;
 pub(crate) mod found;
 pub(crate) mod reference_point;
-pub(crate) mod wrench_term;
 
 use crate::frame::broad_phase::chunk::Chunk;
 use crate::frame::buffers::EvaluationBuffers;
@@ -197,14 +196,12 @@ impl PairContext<'_> {
         (*work, *dissipated) = (0.0, 0.0);
         let pushes = found.role == ContactRole::Active;
         let continued = continues.map(|(index, _)| index as u32);
-        out.places[place] = ContactRef::new(found.key.head(), slot, pushes, continued);
+        out.refs[place] = ContactRef::new(found.key.head(), slot, pushes, continued);
         if rubs && !matches!(props.friction, FrictionProps::None) {
             let slipping =
                 Slipping { elements_a, found, point, slip_velocity, pressed, continues, share, place };
             self.add_friction(&slipping, props, out);
             out.flush_if_full();
-        } else {
-            out.remember(place);
         }
     }
 

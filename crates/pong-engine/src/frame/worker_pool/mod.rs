@@ -83,8 +83,8 @@ impl Job for Shared {
             context.out.begin(input.phase);
         }
         self.run_blocks((input, memory), blocks, &mut context);
-        // Finish on the worker: the data is in this core's cache, not in the caller's.
-        context.out.finish();
+        // Here, because the contacts are in the cache of the worker's core.
+        context.out.flush();
     }
 }
 
@@ -210,7 +210,7 @@ impl WorkerPool {
             let mut other = locked(other);
             times.add(&other.out.times);
             match taken {
-                Some(taken) if as_they_are && other.out.remembers_all() => {
+                Some(taken) if as_they_are => {
                     out.counts.add(&other.out.counts);
                     taken.move_from(&mut other.out);
                 }
