@@ -103,8 +103,8 @@ impl EvaluationBuffers {
 
     /// Contacts that push, in summation order.
     pub fn pushing(&self) -> impl Iterator<Item = &FrameContact> {
-        let pushing = self.order.iter().filter(|place| place.pushes());
-        pushing.map(|place| self.found().contact(place))
+        let pushing = self.order.iter().filter(|reference| reference.pushes());
+        pushing.map(|reference| self.found().contact(reference))
     }
 
     /// Contacts found by all threads.

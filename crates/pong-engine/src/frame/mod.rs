@@ -21,7 +21,7 @@ pub(crate) use broad_phase::blocks::{PendingParts, ROUND};
 pub(crate) use buffers::EvaluationBuffers;
 pub(crate) use energy::interval::Interval;
 pub(crate) use forces::contact::FrameContact;
-pub(crate) use forces::contact_ref::ContactRef;
+pub(crate) use forces::contact_ref::{ContactRef, Slot};
 pub(crate) use input::motion::PairMotions;
 pub(crate) use input::states::require_states;
 pub(crate) use input::{Block, EvaluationInput, WorkerInput};

@@ -3,10 +3,10 @@
 use crate::energy::contact::ContactEnergies;
 use crate::frame::load_sharing::solver::scratch_bytes;
 use crate::frame::narrow_phase::pair_table::most_contacts;
-use crate::frame::{ContactRef, FrameContact, WorkerContext, arena_bytes};
+use crate::frame::{ContactRef, FrameContact, Slot, WorkerContext, arena_bytes};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits};
-use crate::state::{Records, Slot};
+use crate::state::Records;
 use pong_model::Tree;
 use pong_threads::MAX_WORKERS;
 

@@ -47,7 +47,7 @@ impl ContactMemory {
         let mut carried = CarryOutcome::default();
         let pushes = |record: &ContactRecord| record.role == ContactRole::Active;
         self.clear_records();
-        self.records.expect(from.records.len());
+        self.records.size_hints(from.records.len());
         // Laws of new Objects may have more state values, and those of removed Objects may have had more.
         let mut law_state = vec![0.0; self.law_state_len];
         let shared = self.law_state_len.min(from.law_state_len);

@@ -8,7 +8,6 @@ mod merge;
 mod poses;
 mod record;
 mod records;
-mod slot;
 #[cfg(test)]
 mod tests;
 
@@ -20,4 +19,3 @@ pub(crate) use memory::{ContactMemory, RecordEntry};
 pub(crate) use poses::{CommittedPoses, Past};
 pub(crate) use record::{ContactKey, ContactRecord, ContactRole, NO_FACE};
 pub(crate) use records::{RecordRange, Records};
-pub(crate) use slot::Slot;

@@ -89,7 +89,7 @@ impl Records {
 
     /// Sizes the hints for this many records; call before the first is written.
     #[inline]
-    pub fn expect(&mut self, records: usize) {
+    pub fn size_hints(&mut self, records: usize) {
         self.hints_used = hints_for(records).min(self.hints.len());
     }
 

@@ -1,15 +1,15 @@
 //! Buffer of the contacts that one thread finds, unordered and of fixed capacity. It counts the demand beyond
 //! that.
 
-use super::bristles::WaitingBristles;
+use super::bristles::PendingBristles;
 use crate::frame::forces::contact::FrameContact;
-use crate::frame::forces::contact_ref::ContactRef;
+use crate::frame::forces::contact_ref::{ContactRef, Slot};
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::law::FrictionProps;
 use crate::law::friction::{FrictionInput, FrictionOutput, friction_alone};
 use crate::report::{FrameCounts, WorkTimes};
 use crate::sealed::Sealed;
-use crate::state::{ContactRole, Slot};
+use crate::state::ContactRole;
 use pong_arena::Table;
 use std::mem::swap;
 
@@ -25,7 +25,7 @@ pub(crate) struct ContactBuffer {
     /// References to the contacts, one each.
     pub refs: Table<ContactRef>,
     /// Contacts whose friction is pending.
-    pub(super) bristles: WaitingBristles,
+    pub(super) bristles: PendingBristles,
     /// State of registered friction laws, `law_state_len` numbers per contact.
     pub law_state: Table<f64>,
     pub law_state_len: usize,
@@ -90,7 +90,7 @@ impl ContactBuffer {
             phase: Self::NO_PHASE,
             contacts: Table::with_capacity(contacts, FrameContact::blank()),
             refs: Table::with_capacity(contacts, ContactRef::NOWHERE),
-            bristles: WaitingBristles::new(),
+            bristles: PendingBristles::new(),
             law_state: Table::with_capacity(contacts * law_state_len, 0.0),
             law_state_len,
             ranked: Table::with_capacity(if thread == 0 { contacts } else { 0 }, 0),

@@ -29,8 +29,8 @@ impl<'a> FoundContacts<'a> {
     }
 }
 
-/// Buffers that are swapped with those of the workers. Frames that the caller runs alone see none of them,
-/// because even to check a buffer costs a cache miss.
+/// Back buffers that are swapped with the workers' buffers after a round. While they are not in use they read
+/// as an empty slice, because reading a buffer costs a frame of the caller alone a cache miss.
 #[derive(Debug)]
 pub(crate) struct WorkerBuffers {
     all: Vec<ContactBuffer>,

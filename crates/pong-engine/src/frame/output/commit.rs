@@ -9,7 +9,7 @@ use crate::state::{ContactMemory, RecordEntry};
 #[inline]
 pub(crate) fn write_records(frame: &EvaluationBuffers, next: &mut ContactMemory) {
     next.clear_records();
-    next.records.expect(frame.order.len());
+    next.records.size_hints(frame.order.len());
     let found = frame.found();
     for reference in frame.order.iter() {
         let (law_state, energy) = law_state_and_energy(frame, reference);
