@@ -547,7 +547,10 @@ fn what_has_no_room_or_no_value_here_is_refused() {
     let config = Config { contact_capacity: Some(1), ..ledger() };
     let mut small = builder_of(config, &["floor", "tip_a", "tip_b", "tip_c"]).seal().unwrap().0;
     let refused = small.continue_from(&yard.world).unwrap_err().to_string();
-    assert!(refused.contains("3 contact records") && refused.contains("`contact_capacity` of 2"), "{refused}");
+    assert!(
+        refused.contains("3 contact records") && refused.contains("`contact_capacity` of 2"),
+        "{refused}"
+    );
 
     // One model for two Objects.
     let mut builder = WorldBuilder::new(ledger());
