@@ -58,7 +58,7 @@ pub fn run(model: Model, input: &mut Input<'_>) {
         }
         for contact in world.contacts_iter() {
             let numbers = contact.force.iter().chain(contact.point.iter()).chain(contact.normal.iter());
-            let alone = [contact.depth, contact.rate, contact.stored, contact.weight];
+            let alone = [contact.depth, contact.depth_rate, contact.stored, contact.weight];
             assert!(numbers.chain(&alone).all(|x| x.is_finite()), "{contact:?}");
         }
     }

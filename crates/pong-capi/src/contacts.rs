@@ -165,22 +165,20 @@ pub unsafe extern "C" fn pong_get_contact_stiffness(
     })
 }
 
-const KIND_SHIFT: u32 = 30;
-
 impl From<&Contact> for pong_contact {
     fn from(contact: &Contact) -> Self {
         Self {
             pair: contact.pair.into(),
             a: (&contact.a).into(),
             b: (&contact.b).into(),
-            feature_kind: contact.feature >> KIND_SHIFT,
-            feature_index: contact.feature & ((1 << KIND_SHIFT) - 1),
+            feature_kind: contact.feature.kind() as u32,
+            feature_index: contact.feature.index() as u32,
             end: contact.end,
             sticks: contact.sticks.into(),
             point: contact.point.into(),
             normal: contact.normal.into(),
             depth: contact.depth,
-            depth_rate: contact.rate,
+            depth_rate: contact.depth_rate,
             weight: contact.weight,
             normal_force: contact.normal_force,
             friction_force: contact.friction_force.into(),

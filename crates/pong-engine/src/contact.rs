@@ -2,8 +2,10 @@
 
 use crate::ids::{InterfaceId, ObjectId, PairId};
 use pong_geometry::Vec3;
+use pong_geometry::interference::Feature;
 
-/// One contact of the last frame.
+/// One contact of the last frame, in the form that a host gets. The C structure, the rows of a log and
+/// NumPy's rows are layouts of it.
 ///
 /// Forces are those on A; B receives the opposite at the same point. Vectors are in common axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,8 +16,8 @@ pub struct Contact {
     pub a: ContactSide,
     /// Side B.
     pub b: ContactSide,
-    /// Feature of B that pushes: kind in the two highest bits (0 face, 1 edge, 2 vertex), index below.
-    pub feature: u32,
+    /// Face, edge or vertex of B that pushes.
+    pub feature: Feature,
     /// Location on a segment or a round part with two ends: 0 and 1 at its ends, 2 between them, above 2
     /// other points of a cylinder's or cone's rims (docs/theory.md, 2.8). 0 for all other kinds.
     pub end: u32,
@@ -26,7 +28,7 @@ pub struct Contact {
     /// Depth δ, m.
     pub depth: f64,
     /// Depth rate δ', m/s, positive while closing.
-    pub rate: f64,
+    pub depth_rate: f64,
     /// Weight w of the contact, 0…1.
     pub weight: f64,
     /// Normal force, N, never negative.

@@ -7,7 +7,7 @@ use crate::energy::episodes::{PairEnergies, PairEnergy};
 use crate::error::EngineError;
 use crate::frame::{
     self, EvaluationBuffers, EvaluationInput, FrictionPreload, MOTIONS_AT_ONCE, ROUND, TunnellingEvents,
-    WorkerInput, WorkerPool, fresh, remember,
+    WorkerInput, WorkerPool, new_records, write_records,
 };
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
@@ -27,9 +27,9 @@ pub(crate) struct Runtime {
     pub tables: Arc<Vec<SurfaceTable>>,
     /// The committed contact state.
     pub memory: Arc<ContactMemory>,
-    /// Back buffers for the next contact state. A stuck worker may still read an earlier one, so with workers
-    /// there is one buffer more than the two that are swapped.
-    spares: Vec<Arc<ContactMemory>>,
+    /// Memory for the next contact state, swapped with `memory` when it is written. A stuck worker may still
+    /// hold an earlier contact state, so a world with workers has two back buffers.
+    back_buffers: Vec<Arc<ContactMemory>>,
     /// Contact state without capacity; the workers hold it between frames.
     nothing: Arc<ContactMemory>,
     pub frame: EvaluationBuffers,
@@ -65,11 +65,7 @@ impl Runtime {
                 ContactMemory::with_capacity(poses, pairs, sealed.record_capacity, sealed.law_state_len);
             let energies = ContactEnergies::with_capacity(sealed.coupling, sealed.record_capacity);
             let pairs = PairEnergies::new(sealed.account_pairs(), sealed.delay());
-            Arc::new(
-                memory
-                    .with_threads(workers + 1, sealed.limits.thread_records())
-                    .with_energies(energies, pairs),
-            )
+            Arc::new(memory.with_energies(energies, pairs))
         };
         let nothing = Arc::new(ContactMemory::default());
         let input = || WorkerInput {
@@ -81,8 +77,8 @@ impl Runtime {
         };
         // Allocate before the workers start: the allocator reserves address space for every thread.
         let committed = memory();
-        let spares = if scene.config.workers.is_some() { 2 } else { 1 };
-        let spares = (0..spares).map(|_| memory()).collect();
+        let back_buffers = if scene.config.workers.is_some() { 2 } else { 1 };
+        let back_buffers = (0..back_buffers).map(|_| memory()).collect();
         let frame = EvaluationBuffers::new(scene, &sealed, input(), workers);
         let pool = match &scene.config.workers {
             None => None,
@@ -101,7 +97,7 @@ impl Runtime {
         };
         Ok(Self {
             memory: committed,
-            spares,
+            back_buffers,
             frame,
             pool,
             evaluated: false,
@@ -142,7 +138,7 @@ impl Runtime {
         let given =
             EvaluationInput { scene, sealed: &self.sealed, states, memory: &self.memory, clock: self.clock };
         frame::evaluate(&given, self.pool.as_mut(), &mut self.frame);
-        self.let_go_of_memory();
+        self.release_memory();
         self.contacts_peak = self.contacts_peak.max(self.frame.order.len());
         if let Some(body) = self.frame.overflows(&self.sealed) {
             // Discard the contacts of a frame whose wrench overflowed.
@@ -157,7 +153,7 @@ impl Runtime {
     /// Makes the workers release the contact state. Afterwards only a stuck worker may still hold one, even
     /// if a host's law panicked.
     #[inline]
-    fn let_go_of_memory(&mut self) {
+    fn release_memory(&mut self) {
         if let Some(pool) = &mut self.pool {
             pool.release(&self.nothing);
         }
@@ -168,9 +164,9 @@ impl Runtime {
     pub fn last_two_commits(&self) -> Option<(&CommittedPoses, &CommittedPoses)> {
         let now = &self.memory.poses;
         let earlier = self
-            .spares
+            .back_buffers
             .iter()
-            .map(|spare| &spare.poses)
+            .map(|buffer| &buffer.poses)
             .filter(|poses| (1..now.frame()).contains(&poses.frame()));
         let before = earlier.max_by_key(|poses| poses.frame())?;
         (self.frame.computed && now.frame() == self.frame.number).then_some((before, now))
@@ -180,10 +176,10 @@ impl Runtime {
     #[inline]
     pub fn commit(&mut self, states: &States) {
         let mut watch = self.clock.start();
-        let Self { memory, spares, frame, .. } = self;
-        take_turns(memory, spares, |old, next| {
+        let Self { memory, back_buffers, frame, .. } = self;
+        write_and_swap(memory, back_buffers, |old, next| {
             next.poses.commit(&old.poses, (frame.number, &frame.poses), &states.enabled);
-            remember(frame, next);
+            write_records(frame, next);
             (next.work, next.dissipated) = (frame.energy.work, frame.energy.dissipated);
             next.pair_energies.copy_from(&frame.energy.pairs);
         });
@@ -220,24 +216,28 @@ impl Runtime {
             self.evaluated = false;
             return Ok(());
         }
-        let Some(moment) = self.memory.poses.free_moment(&accepts) else {
+        let Some(epoch) = self.memory.poses.free_epoch(&accepts) else {
             let most = self.memory.poses.capacity();
             let cause = format!(
-                "the pairs that keep their past were last committed at {most} different moments, and there is no room to \
-                 remember one more; commit some of them together, or all pairs at once"
+                "the other pairs keep {most} commit epochs (commits that are the last of some pair), and there is no room for one \
+                 more; commit some of them together, or all pairs at once"
             );
             return Err(EngineError::BadValue { what: "commit of some pairs".to_owned(), cause });
         };
-        self.let_go_of_memory();
+        self.release_memory();
         let mut watch = self.clock.start();
-        let Self { sealed, memory, spares, frame, .. } = self;
+        let Self { sealed, memory, back_buffers, frame, .. } = self;
         let accepted = |group_pair: u32| accepts(sealed.group_pairs[group_pair as usize].pair);
         let mut left_out = 0;
-        take_turns(memory, spares, |old, next| {
+        write_and_swap(memory, back_buffers, |old, next| {
             let now = (&frame.poses[..], &states.enabled[..]);
-            next.poses.commit_some(&old.poses, now, moment, &accepts);
-            left_out =
-                old.accept_into(fresh(frame), (&frame.energy.pairs, &frame.energy.added), accepted, next);
+            next.poses.commit_some(&old.poses, now, epoch, &accepts);
+            left_out = old.merge_into(
+                new_records(frame),
+                (&frame.energy.pairs, &frame.energy.added),
+                accepted,
+                next,
+            );
         });
         if left_out > 0 {
             frame.report.status.set(StatusBits::CONTACT_LIMIT);
@@ -253,9 +253,9 @@ impl Runtime {
     /// Preloads the bristles of a pair of Objects after a commit of the last frame; returns the number of
     /// bristles. The energy that they gain is booked as work inserted by the host.
     pub fn preload(&mut self, scene: &Scene, pair: usize, preload: &FrictionPreload) -> usize {
-        self.let_go_of_memory();
+        self.release_memory();
         let preloaded = self.frame.preloaded(scene, &self.sealed, &self.memory, pair, preload);
-        take_turns(&mut self.memory, &mut self.spares, |old, next| {
+        write_and_swap(&mut self.memory, &mut self.back_buffers, |old, next| {
             next.copy_from(old);
             next.preload(&preloaded, scene.config.ledger);
         });
@@ -265,9 +265,9 @@ impl Runtime {
 
     /// Clears the contact history of some pairs of Objects.
     pub fn clear_history(&mut self, scene: &Scene, cleared: impl Fn(usize) -> bool) {
-        self.let_go_of_memory();
+        self.release_memory();
         let pairs = &self.sealed.group_pairs;
-        take_turns(&mut self.memory, &mut self.spares, |old, next| {
+        write_and_swap(&mut self.memory, &mut self.back_buffers, |old, next| {
             next.copy_from(old);
             next.clear_history(&cleared, |index| pairs[index as usize].pair, scene.config.ledger);
         });
@@ -311,14 +311,14 @@ impl Runtime {
     }
 
     pub fn restore_state(&mut self, scene: &Scene, block: &[u8]) -> Result<(), StateError> {
-        self.let_go_of_memory();
+        self.release_memory();
         let sealed = Arc::clone(&self.sealed);
         let exists = |key: &ContactKey| {
             let (body_a, _) = sealed.bodies_of(key.direction());
             (key.primitive_a as usize) < scene.body(body_a).primitives.len()
         };
         let mut outcome = Ok(());
-        take_turns(&mut self.memory, &mut self.spares, |old, next| {
+        write_and_swap(&mut self.memory, &mut self.back_buffers, |old, next| {
             next.copy_from(old);
             outcome = read_block(next, sealed.hash, block, exists);
         });
@@ -340,16 +340,16 @@ impl Runtime {
         if records > room {
             let least = records.div_ceil(2);
             return refused(format!(
-                "it remembers {records} contacts, and there is room for {room}; seal with a `contact_capacity` of {least} or \
+                "it has {records} contact records, and there is room for {room}; seal with a `contact_capacity` of {least} or \
                  more"
             ));
         }
-        let moments = from.memory.poses.moments_to_carry(counterparts.pairs);
+        let epochs = from.memory.poses.epochs_to_carry(counterparts.pairs);
         let room = self.memory.poses.capacity();
-        if moments > room {
+        if epochs > room {
             return refused(format!(
-                "its pairs were last committed at {moments} different moments, and there is room for {room}; commit all pairs \
-                 at once first"
+                "its pairs keep {epochs} commit epochs (commits that are the last of some pair), and there is room for {room}; \
+                 commit all pairs at once first"
             ));
         }
         Ok(())
@@ -365,13 +365,13 @@ impl Runtime {
         poses: &[Pose],
         keeps_ledger: bool,
     ) -> CarryOutcome {
-        self.let_go_of_memory();
+        self.release_memory();
         self.frame.begin(&self.sealed);
         self.frame.computed = false;
         self.frame.tunnelling = TunnellingEvents::default();
         let frame = self.frame.number;
         let mut carried = CarryOutcome::default();
-        take_turns(&mut self.memory, &mut self.spares, |old, next| {
+        write_and_swap(&mut self.memory, &mut self.back_buffers, |old, next| {
             next.copy_from(old);
             carried = next.carry(&from.memory, counterparts, (poses, frame), keeps_ledger);
         });
@@ -435,13 +435,13 @@ impl Runtime {
 
 /// Writes the next contact state into a free back buffer and swaps it with the committed one.
 #[inline]
-fn take_turns(
+fn write_and_swap(
     memory: &mut Arc<ContactMemory>,
-    spares: &mut [Arc<ContactMemory>],
+    back_buffers: &mut [Arc<ContactMemory>],
     write: impl FnOnce(&ContactMemory, &mut ContactMemory),
 ) {
-    let free = spares.iter_mut().find(|spare| Arc::strong_count(spare) == 1);
-    let spare = free.expect("at most one contact state is held by a worker that is stuck");
-    write(memory, Arc::get_mut(spare).expect("nobody else has it"));
-    std::mem::swap(memory, spare);
+    let free = back_buffers.iter_mut().find(|buffer| Arc::strong_count(buffer) == 1);
+    let buffer = free.expect("at most one contact state is held by a worker that is stuck");
+    write(memory, Arc::get_mut(buffer).expect("nobody else has it"));
+    std::mem::swap(memory, buffer);
 }

@@ -153,7 +153,7 @@ impl Stage {
             for vector in [&contact.point, &contact.normal, &contact.force, &contact.slip_velocity] {
                 bits.numbers(vector.iter().copied());
             }
-            for number in [contact.depth, contact.rate, contact.weight, contact.stored] {
+            for number in [contact.depth, contact.depth_rate, contact.weight, contact.stored] {
                 bits.number(number);
             }
             bits.word(u64::from(contact.end) << 1 | u64::from(contact.sticks));
@@ -165,7 +165,7 @@ impl Stage {
                 normal: contact.normal,
                 point: contact.point,
                 of: [contact.a.primitive, contact.b.primitive, contact.b.element],
-                feature: contact.feature,
+                feature: contact.feature.0,
                 end: contact.end,
                 sticks: contact.sticks,
             });

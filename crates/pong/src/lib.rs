@@ -182,6 +182,20 @@ pub use pong_engine::Contact;
 /// ```
 pub use pong_engine::ContactSide;
 
+/// Face, edge or vertex of B that pushes, with its index.
+///
+/// ```
+/// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/ball_on_ground.rs"));
+/// # fn main() -> Result<(), pong::Error> {
+/// # let (mut world, [ball, ground], pair) = ball_on_ground(pong::Config::default())?;
+/// world.step()?;
+/// let feature = world.contacts()[0].feature;
+/// assert_eq!((feature.kind(), feature.index()), (pong::FeatureKind::Face, 0));
+/// # Ok(())
+/// # }
+/// ```
+pub use pong_geometry::interference::{Feature, FeatureKind};
+
 /// Friction that exists before the first step of a run.
 ///
 /// ```

@@ -113,12 +113,11 @@ fn write(index: usize, contact: &Contact, row: &mut [u8]) {
     let mut to = Writer(row);
     to.counts(&[contact.pair.index() as u32, a.interface.index() as u32, b.interface.index() as u32]);
     to.counts(&[a.primitive, b.primitive, a.element, b.element]);
-    // The two highest bits hold the kind of the feature.
-    to.counts(&[contact.feature >> 30, contact.feature & 0x3fff_ffff, contact.end]);
+    to.counts(&[contact.feature.kind() as u32, contact.feature.index() as u32, contact.end]);
     to.counts(&[u32::from(contact.sticks), index as u32]);
     to.vector(&contact.point);
     to.vector(&contact.normal);
-    to.numbers(&[contact.depth, contact.rate, contact.weight, contact.normal_force]);
+    to.numbers(&[contact.depth, contact.depth_rate, contact.weight, contact.normal_force]);
     for vector in [contact.friction_force, contact.force, contact.slip_velocity, a.arm, b.arm] {
         to.vector(&vector);
     }

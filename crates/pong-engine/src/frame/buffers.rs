@@ -56,9 +56,9 @@ impl EvaluationBuffers {
     /// Allocates the buffers of a frame that this many workers may share.
     pub fn new(scene: &Scene, sealed: &Sealed, input: WorkerInput, workers: usize) -> Self {
         let bodies = scene.bodies.len();
-        // The search for the first hit of each ray needs all contacts in the caller's buffer.
-        let as_they_are = sealed.limits.threads_write_records && !sealed.rays_meet_groups;
-        let taken_over = if as_they_are { workers } else { 0 };
+        // Friction-law state, ledger and the first hit of each ray need all contacts in the caller's buffer.
+        let one_buffer = sealed.law_state_len > 0 || scene.config.ledger || sealed.rays_meet_groups;
+        let swapped = if one_buffer { 0 } else { workers };
         let contacts = sealed.limits.worker_contacts(workers + 1);
         let buffer = |thread| WorkerContext::buffer(sealed, thread, contacts);
         Self {
@@ -70,7 +70,7 @@ impl EvaluationBuffers {
             input,
             pending: PendingParts::for_tree(sealed.limits.tree_parts),
             caller: Box::new(WorkerContext::new(sealed, 0, sealed.limits.thread_contacts)),
-            workers: WorkerBuffers::new((1..=taken_over).map(buffer).collect()),
+            workers: WorkerBuffers::new((1..=swapped).map(buffer).collect()),
             order: Table::with_capacity(sealed.limits.thread_contacts, ContactRef::NOWHERE),
             tunnelling: TunnellingEvents::default(),
             energy: EnergyBuffers::new(scene, sealed),
@@ -103,8 +103,8 @@ impl EvaluationBuffers {
 
     /// Contacts that push, in summation order.
     pub fn pushing(&self) -> impl Iterator<Item = &FrameContact> {
-        let pushing = self.order.iter().filter(|place| place.pushes());
-        pushing.map(|place| self.found().contact(place))
+        let pushing = self.order.iter().filter(|reference| reference.pushes());
+        pushing.map(|reference| self.found().contact(reference))
     }
 
     /// Contacts found by all threads.

@@ -65,7 +65,7 @@ impl WorkerContext {
 
     /// Output buffer of thread number `thread`.
     pub fn buffer(sealed: &Sealed, thread: usize, contacts: usize) -> ContactBuffer {
-        ContactBuffer::new(thread, sealed.law_state_len, contacts, sealed.limits.thread_records())
+        ContactBuffer::new(thread, sealed.law_state_len, contacts)
     }
 }
 

@@ -3,10 +3,10 @@
 use crate::energy::contact::ContactEnergies;
 use crate::frame::load_sharing::solver::scratch_bytes;
 use crate::frame::narrow_phase::pair_table::most_contacts;
-use crate::frame::{ContactRef, FrameContact, WorkerContext, WrenchTerm, arena_bytes};
+use crate::frame::{ContactRef, FrameContact, Slot, WorkerContext, arena_bytes};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits};
-use crate::state::{Records, Slot};
+use crate::state::Records;
 use pong_model::Tree;
 use pong_threads::MAX_WORKERS;
 
@@ -18,12 +18,7 @@ const DEFAULT_CAPACITY_MAX: usize = 65_536;
 const DEFAULT_CAPACITY_MIN: usize = 256;
 
 /// Memory sizes of the frames of a scene.
-pub(super) fn limits(
-    scene: &Scene,
-    paired_bodies: &[usize],
-    record_capacity: usize,
-    law_state_len: usize,
-) -> Limits {
+pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: usize) -> Limits {
     /// Minimum capacity in candidates per chunk: a ball on a fine mesh has many before load sharing selects
     /// those that push.
     const FOUND_MIN: usize = 1024;
@@ -42,26 +37,21 @@ pub(super) fn limits(
     const GRAINS: usize = 64;
     let per_contact = size_of::<((usize, u32, usize, usize), f64)>();
     let scratch_bytes = scratch_bytes(SHARED).max(thread_contacts * per_contact) + GRAINS;
-    // Registered laws and the ledger add to the records after the threads have found their contacts.
-    let workers = scene.config.workers.as_ref().map_or(0, |settings| settings.workers);
-    let threads_write_records = workers > 0 && law_state_len == 0 && !scene.config.ledger;
-    Limits { thread_contacts, threads_write_records, found, tree_parts, arena_bytes, scratch_bytes }
+    Limits { thread_contacts, found, tree_parts, arena_bytes, scratch_bytes }
 }
-
-/// Copies of a thread's records: in the committed contact state, in the next one, in one that a stuck worker
-/// may still read, in the frame, and in the thread's own buffer.
-const RECORDS_OF_A_LANE: usize = 5;
 
 /// Copies of a worker's contacts: in its own buffer and, swapped in, in the frame.
 const BUFFERS_OF_A_WORKER: usize = 2;
 
 /// Minimum memory of a worker, independent of the capacity, bytes.
 pub(super) fn least_thread_bytes(limits: &Limits, law_state_len: usize) -> usize {
-    let contact = size_of::<FrameContact>() + 2 * size_of::<ContactRef>() + law_state_len * size_of::<f64>();
-    BUFFERS_OF_A_WORKER * limits.least_worker_contacts() * contact
-        + limits.thread_records()
-            * (Records::LANE_BYTES * RECORDS_OF_A_LANE + size_of::<WrenchTerm>() * BUFFERS_OF_A_WORKER)
+    BUFFERS_OF_A_WORKER * limits.least_worker_contacts() * buffer_bytes_per_contact(law_state_len)
         + WorkerContext::table_bytes(limits.found)
+}
+
+/// Size of a contact in a thread's buffer, bytes: the contact, its reference and its friction-law state.
+fn buffer_bytes_per_contact(law_state_len: usize) -> usize {
+    size_of::<FrameContact>() + size_of::<ContactRef>() + law_state_len * size_of::<f64>()
 }
 
 /// Maximum memory for contacts; a request for more is probably a typing error.
@@ -98,18 +88,20 @@ pub(super) fn bytes_per_contact(scene: &Scene, threads: usize, law_state_len: us
     // The committed contact state, the next one, and one that a stuck worker may still read.
     let states = if threads > 0 { 3 } else { 2 };
     let energies = ContactEnergies::bytes_each(scene.config.accounts);
-    let by_thread = if threads > 0 { size_of::<Slot>() } else { 0 };
-    let remembered = states * (Records::BYTES + by_thread + numbers + energies) + energies + energies / 8;
-    // A thread's contacts (an eighth more than records), their references, ranks and order, and the scratch
-    // for rays and ledger.
-    let per_contact =
-        size_of::<((usize, u32, usize, usize), f64)>() + 2 * size_of::<ContactRef>() + size_of::<u32>();
-    let thread = size_of::<FrameContact>() + numbers + per_contact;
-    let found = WorkerContext::BYTES_PER_FOUND;
-    // The buffers of all workers together hold twice the caller's.
-    let shared =
-        if threads > 0 { 2 * BUFFERS_OF_A_WORKER * (thread + thread / 8) + (threads - 1) * found } else { 0 };
-    RECORDS * (remembered + thread + thread / 8 + found + shared)
+    let records = states * (Records::BYTES + numbers + energies) + energies + energies / 8;
+    let buffer = buffer_bytes_per_contact(law_state_len);
+    // Rank by depth, reference in summation order, and the scratch for rays and ledger.
+    let caller_only =
+        size_of::<u32>() + size_of::<ContactRef>() + size_of::<((usize, u32, usize, usize), f64)>();
+    // Buffers hold an eighth more contacts than there are records.
+    let caller = buffer + caller_only;
+    let caller = caller + caller / 8 + WorkerContext::BYTES_PER_FOUND;
+    // The buffers of all workers together hold twice the contacts of the caller's.
+    let workers = match threads {
+        0 => 0,
+        _ => 2 * BUFFERS_OF_A_WORKER * (buffer + buffer / 8) + (threads - 1) * WorkerContext::BYTES_PER_FOUND,
+    };
+    RECORDS * (records + caller + workers)
 }
 
 /// Number of contacts if everything that can touch did, by the tester table.

@@ -102,7 +102,7 @@ pub(crate) fn seal(
     let record_capacity = 2 * contact_capacity;
     let hash = scene_hash(scene, contact_capacity, law_state_len);
     let paired_bodies = paired_bodies(scene, &group_pairs);
-    let limits = limits(scene, &paired_bodies, record_capacity, law_state_len);
+    let limits = limits(scene, &paired_bodies, record_capacity);
     let for_frames = memory::for_frames(scene, pair_count, &limits, contact_capacity, law_state_len);
     require_memory(
         "seal: the frames",

@@ -1,7 +1,6 @@
 //! Memory sizes of the frames.
 
-/// Minimum capacity in contacts of a worker's buffer (unless the caller's is smaller), and in records per
-/// thread.
+/// Minimum capacity in contacts of a worker's buffer, unless the caller's is smaller.
 const LEAST_WORKER_CONTACTS: usize = 4096;
 
 /// Memory sizes of the frames.
@@ -10,8 +9,6 @@ pub(crate) struct Limits {
     /// Capacity in contacts of the calling thread: all that a frame may keep, plus a reserve from which the
     /// deepest are selected.
     pub thread_contacts: usize,
-    /// True if each thread writes the records of its contacts, instead of the commit writing all.
-    pub threads_write_records: bool,
     /// Capacity in candidates of one chunk of A.
     pub found: usize,
     /// Most nodes and batches together in the tree of a movable group.
@@ -32,11 +29,5 @@ impl Limits {
     /// Minimum capacity in contacts of a worker.
     pub fn least_worker_contacts(&self) -> usize {
         self.thread_contacts.min(LEAST_WORKER_CONTACTS)
-    }
-
-    /// Records that each thread, including the caller, writes itself. With more contacts, the commit costs far
-    /// more than the cache-line transfers between cores that this saves.
-    pub fn thread_records(&self) -> usize {
-        if self.threads_write_records { self.least_worker_contacts() } else { 0 }
     }
 }

@@ -25,7 +25,7 @@ const MAGIC: [u8; 8] = *b"PONGSTAT";
 const VERSION: u32 = 3;
 const TOTALS_AT: usize = 8 + 4 + 4 + 8;
 const HEADER_LEN: usize = TOTALS_AT + 2 * 8;
-const MOMENTS_AT: usize = HEADER_LEN;
+const EPOCHS_AT: usize = HEADER_LEN;
 const POSE_LEN: usize = 7 * 8;
 const RECORD_LEN: usize = 8 * 4 + 2 * 4 + 4 * 3 * 8 + 3 * 8;
 const CHECKSUM_LEN: usize = 8;
@@ -77,8 +77,8 @@ pub(crate) fn largest_len(memory: &ContactMemory) -> usize {
 
 /// Length of the block of the current contents, bytes.
 pub(crate) fn needed_len(memory: &ContactMemory) -> usize {
-    let (_, moments) = memory.poses.numbered();
-    used_len(memory, usize::from(moments), memory.records.len()) + CHECKSUM_LEN
+    let (_, epochs) = memory.poses.numbered();
+    used_len(memory, usize::from(epochs), memory.records.len()) + CHECKSUM_LEN
 }
 
 fn accounts_len(memory: &ContactMemory) -> usize {
@@ -86,8 +86,8 @@ fn accounts_len(memory: &ContactMemory) -> usize {
 }
 
 /// Length of a block with this many epochs and records, without the checksum, bytes.
-fn used_len(memory: &ContactMemory, moments: usize, records: usize) -> usize {
-    let poses = 8 + moments * memory.poses.bodies().len() * POSE_LEN + padded(memory.poses.pairs());
+fn used_len(memory: &ContactMemory, epochs: usize, records: usize) -> usize {
+    let poses = 8 + epochs * memory.poses.bodies().len() * POSE_LEN + padded(memory.poses.pairs());
     let contacts = records * (RECORD_LEN + 8 * memory.numbers_each());
     HEADER_LEN + poses + accounts_len(memory) + contacts
 }
@@ -123,10 +123,10 @@ fn write_used(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> usize 
     writer.f64(memory.dissipated);
     writer.poses(&memory.poses);
     writer.pair_energies(&memory.pair_energies);
-    for remembered in memory.iter() {
-        writer.record(&remembered.record);
-        remembered.law_state.iter().for_each(|x| writer.f64(*x));
-        remembered.energy.iter().flat_map(ContactEnergyRef::numbers).for_each(|x| writer.f64(x));
+    for entry in memory.iter() {
+        writer.record(&entry.record);
+        entry.law_state.iter().for_each(|x| writer.f64(*x));
+        entry.energy.iter().flat_map(ContactEnergyRef::numbers).for_each(|x| writer.f64(x));
     }
     writer.at
 }
@@ -183,13 +183,13 @@ fn check(
     if count > like.records.capacity() {
         return Err(StateError::Damaged);
     }
-    reader.at = MOMENTS_AT;
-    let moments = if block.len() < MOMENTS_AT + 8 { 0 } else { reader.u64() as usize };
+    reader.at = EPOCHS_AT;
+    let epochs = if block.len() < EPOCHS_AT + 8 { 0 } else { reader.u64() as usize };
     // The same for the number of epochs.
-    if moments > like.poses.capacity() {
+    if epochs > like.poses.capacity() {
         return Err(StateError::Damaged);
     }
-    let used = used_len(like, moments, count);
+    let used = used_len(like, epochs, count);
     let (least, most) = (used + CHECKSUM_LEN, largest_len(like));
     if !(least..=most).contains(&block.len()) {
         return Err(StateError::Length { least, most, got: block.len() });
@@ -212,19 +212,17 @@ fn check(
 
 /// Returns true if all poses are valid host poses and every pair's epoch exists.
 fn poses_make_sense(like: &CommittedPoses, reader: &mut Reader<'_>) -> bool {
-    let moments = reader.u64();
+    let epochs = reader.u64();
     // Comparisons are false for NaN. No component of a unit quaternion exceeds 1 by more than rounding.
     let can_be = |pose: &Pose| {
         pose.position.iter().all(|x| x.abs() <= LARGEST)
             && pose.orientation.coords.iter().all(|x| x.abs() < 2.0)
     };
-    let count = moments as usize * like.bodies().len();
+    let count = epochs as usize * like.bodies().len();
     let poses_can_be = (0..count).fold(true, |all, _| can_be(&reader.pose()) && all);
-    let moments_of = reader.bytes(padded(like.pairs()));
-    let (pairs, behind) = moments_of.split_at(like.pairs());
-    poses_can_be
-        && pairs.iter().all(|moment| *moment == NEVER || u64::from(*moment) < moments)
-        && is_zero(behind)
+    let epochs_of = reader.bytes(padded(like.pairs()));
+    let (pairs, behind) = epochs_of.split_at(like.pairs());
+    poses_can_be && pairs.iter().all(|epoch| *epoch == NEVER || u64::from(*epoch) < epochs) && is_zero(behind)
 }
 
 fn is_finite_record(record: &ContactRecord) -> bool {
@@ -290,15 +288,15 @@ impl Writer<'_> {
         let (number, count) = poses.numbered();
         self.bytes(&u64::from(count).to_le_bytes());
         for wanted in 0..count {
-            let moment = number.iter().position(|number| *number == wanted).expect("as many as are numbered");
+            let epoch = number.iter().position(|number| *number == wanted).expect("as many as are numbered");
             for &body in poses.bodies() {
-                let pose = poses.pose(moment as u8, body);
+                let pose = poses.pose(epoch as u8, body);
                 self.vec3(&pose.position);
                 pose.orientation.coords.iter().for_each(|x| self.f64(*x));
             }
         }
         for pair in 0..poses.pairs() {
-            self.bytes(&[number[usize::from(poses.moment_of(pair))]]);
+            self.bytes(&[number[usize::from(poses.epoch_of(pair))]]);
         }
         for _ in poses.pairs()..padded(poses.pairs()) {
             self.bytes(&[0]);
@@ -375,14 +373,14 @@ impl Reader<'_> {
 
     fn poses(&mut self, poses: &mut CommittedPoses) {
         let count = self.u64() as u8;
-        for moment in 0..count {
+        for epoch in 0..count {
             for place in 0..poses.bodies().len() {
                 let body = poses.bodies()[place];
-                poses.put_pose(moment, body, self.pose());
+                poses.put_pose(epoch, body, self.pose());
             }
         }
-        let moments = self.bytes(padded(poses.pairs()));
-        poses.put_moments(count, moments.iter().copied());
+        let epochs = self.bytes(padded(poses.pairs()));
+        poses.put_epochs(count, epochs.iter().copied());
     }
 
     fn wrench(&mut self) -> Wrench {

@@ -1,6 +1,6 @@
 //! Transfer of contact state to another world that has some of the same Objects.
 
-use super::memory::{ContactMemory, Remembered};
+use super::memory::{ContactMemory, RecordEntry};
 use super::record::{ContactKey, ContactRecord, ContactRole};
 use crate::energy::episodes::PairEnergies;
 use pong_geometry::Pose;
@@ -47,11 +47,11 @@ impl ContactMemory {
         let mut carried = CarryOutcome::default();
         let pushes = |record: &ContactRecord| record.role == ContactRole::Active;
         self.clear_records();
-        self.records.expect(from.records.len());
+        self.records.size_hints(from.records.len());
         // Laws of new Objects may have more state values, and those of removed Objects may have had more.
         let mut law_state = vec![0.0; self.law_state_len];
         let shared = self.law_state_len.min(from.law_state_len);
-        for Remembered { record, law_state: earlier, energy } in from.iter() {
+        for RecordEntry { record, law_state: earlier, energy } in from.iter() {
             let Some(group_pair) = counterparts.group_pairs[record.key.group_pair as usize] else {
                 if pushes(&record) {
                     carried.contacts_left += 1;
@@ -62,7 +62,7 @@ impl ContactMemory {
             carried.contacts += usize::from(pushes(&record));
             law_state[..shared].copy_from_slice(&earlier[..shared]);
             let record = ContactRecord { key: ContactKey { group_pair, ..record.key }, ..record };
-            let pushed = self.push(&Remembered { record, law_state: &law_state, energy });
+            let pushed = self.push(&RecordEntry { record, law_state: &law_state, energy });
             pushed.expect("room was asked for before");
         }
         (self.work, self.dissipated) = (from.work, from.dissipated);

@@ -1,4 +1,4 @@
-//! Contact records by key, with everything else that is remembered.
+//! Contact state: contact records, committed poses and energies.
 
 use super::poses::CommittedPoses;
 use super::record::{ContactRecord, ContactRole};
@@ -7,11 +7,11 @@ use crate::energy::contact::{ContactEnergies, ContactEnergyRef};
 use crate::energy::episodes::PairEnergies;
 use pong_arena::{Full, Table};
 
-/// Everything that is remembered of one contact.
+/// Record of a contact, with its friction-law state and its energies.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Remembered<'a> {
+pub(crate) struct RecordEntry<'a> {
     pub record: ContactRecord,
-    /// State of its registered friction law.
+    /// State of its registered friction law; empty for other laws.
     pub law_state: &'a [f64],
     /// Its energies, if the world keeps accounts.
     pub energy: Option<ContactEnergyRef<'a>>,
@@ -61,11 +61,6 @@ impl ContactMemory {
         }
     }
 
-    /// Adds one record table of capacity `each` per thread.
-    pub fn with_threads(self, threads: usize, each: usize) -> Self {
-        Self { records: self.records.with_threads(threads, each), ..self }
-    }
-
     /// Adds the energies.
     pub fn with_energies(self, energies: ContactEnergies, pair_energies: PairEnergies) -> Self {
         Self { energies, pair_energies, ..self }
@@ -81,8 +76,8 @@ impl ContactMemory {
     /// # Errors
     /// [`Full`] if there is no room; the memory is unchanged.
     #[inline]
-    pub fn push(&mut self, remembered: &Remembered<'_>) -> Result<(), Full> {
-        let Remembered { record, law_state, energy } = remembered;
+    pub fn push(&mut self, entry: &RecordEntry<'_>) -> Result<(), Full> {
+        let RecordEntry { record, law_state, energy } = entry;
         self.push_with(law_state, *energy, |slot| *slot = *record)
     }
 
@@ -127,8 +122,8 @@ impl ContactMemory {
     }
 
     /// All records with their data, in order.
-    pub fn iter(&self) -> impl Iterator<Item = Remembered<'_>> + Clone {
-        self.records.iter().enumerate().map(|(index, record)| Remembered {
+    pub fn iter(&self) -> impl Iterator<Item = RecordEntry<'_>> + Clone {
+        self.records.iter().enumerate().map(|(index, record)| RecordEntry {
             record: *record,
             law_state: self.law_state_of(index),
             energy: self.energies.get(index),

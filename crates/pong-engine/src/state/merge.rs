@@ -4,22 +4,22 @@
 //! capacity. Then the records with the largest force are kept, ties in key order; contacts that do not push
 //! have zero force.
 
-use super::memory::{ContactMemory, Remembered};
+use super::memory::{ContactMemory, RecordEntry};
 use super::record::ContactRecord;
 use crate::energy::episodes::PairEnergies;
 use crate::energy::ledger::LedgerEntry;
 use std::iter::Peekable;
 
 impl ContactMemory {
-    /// Writes the contact state after a partial commit into `next`: `fresh` and `energies` for the pairs of
+    /// Writes the contact state after a partial commit into `next`: `new` and `energies` for the pairs of
     /// movable groups that `accepted` selects, the current state for all others. `added` holds the ledger
     /// entries per pair of movable groups (empty without a ledger); those of the accepted pairs enter the
     /// totals.
     ///
     /// Returns the number of records dropped because `next` is full.
-    pub fn accept_into<'a>(
+    pub fn merge_into<'a>(
         &'a self,
-        fresh: impl Iterator<Item = Remembered<'a>> + Clone,
+        new: impl Iterator<Item = RecordEntry<'a>> + Clone,
         (energies, added): (&PairEnergies, &[LedgerEntry]),
         accepted: impl Fn(u32) -> bool,
         next: &mut Self,
@@ -37,47 +37,47 @@ impl ContactMemory {
         (next.work, next.dissipated) = (total.work, total.dissipated);
         let is_accepted = |record: &ContactRecord| accepted(record.key.group_pair);
         let kept = self.iter().filter(|kept| !is_accepted(&kept.record)).peekable();
-        let fresh = fresh.filter(|fresh| is_accepted(&fresh.record)).peekable();
-        next.fill(InKeyOrder { kept, fresh })
+        let new = new.filter(|new| is_accepted(&new.record)).peekable();
+        next.fill(InKeyOrder { kept, new })
     }
 
     /// Replaces all records, keeping the strongest if there are too many. Returns the number dropped.
-    fn fill<'a>(&mut self, records: impl Iterator<Item = Remembered<'a>> + Clone) -> usize {
-        if self.take(records.clone()) {
+    fn fill<'a>(&mut self, records: impl Iterator<Item = RecordEntry<'a>> + Clone) -> usize {
+        if self.replace_by(records.clone()) {
             return 0;
         }
-        let ranks = records.clone().map(|remembered| rank(&remembered.record));
-        let mut bar = Bar::letting_in(self.records.capacity(), ranks);
-        self.take(records.clone().filter(|remembered| bar.lets_in(rank(&remembered.record))));
+        let ranks = records.clone().map(|entry| rank(&entry.record));
+        let mut limit = RankLimit::admitting(self.records.capacity(), ranks);
+        self.replace_by(records.clone().filter(|entry| limit.admits(rank(&entry.record))));
         records.count() - self.records.len()
     }
 
     /// Replaces all records; returns false when there is no more room.
-    fn take<'a>(&mut self, mut records: impl Iterator<Item = Remembered<'a>>) -> bool {
+    fn replace_by<'a>(&mut self, mut records: impl Iterator<Item = RecordEntry<'a>>) -> bool {
         self.clear_records();
-        records.all(|remembered| self.push(&remembered).is_ok())
+        records.all(|entry| self.push(&entry).is_ok())
     }
 }
 
 /// Merges two sources that share no pair of movable groups into one in key order.
 #[derive(Clone)]
-struct InKeyOrder<'a, K: Iterator<Item = Remembered<'a>>, F: Iterator<Item = Remembered<'a>>> {
+struct InKeyOrder<'a, K: Iterator<Item = RecordEntry<'a>>, N: Iterator<Item = RecordEntry<'a>>> {
     kept: Peekable<K>,
-    fresh: Peekable<F>,
+    new: Peekable<N>,
 }
 
-impl<'a, K, F> Iterator for InKeyOrder<'a, K, F>
+impl<'a, K, N> Iterator for InKeyOrder<'a, K, N>
 where
-    K: Iterator<Item = Remembered<'a>>,
-    F: Iterator<Item = Remembered<'a>>,
+    K: Iterator<Item = RecordEntry<'a>>,
+    N: Iterator<Item = RecordEntry<'a>>,
 {
-    type Item = Remembered<'a>;
+    type Item = RecordEntry<'a>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        match (self.kept.peek(), self.fresh.peek()) {
-            (Some(kept), Some(fresh)) if kept.record.key < fresh.record.key => self.kept.next(),
+        match (self.kept.peek(), self.new.peek()) {
+            (Some(kept), Some(new)) if kept.record.key < new.record.key => self.kept.next(),
             (Some(_), None) => self.kept.next(),
-            _ => self.fresh.next(),
+            _ => self.new.next(),
         }
     }
 }
@@ -88,16 +88,16 @@ fn rank(record: &ContactRecord) -> u64 {
 }
 
 /// Threshold that admits a given number of the highest ranks, ties in input order.
-struct Bar {
+struct RankLimit {
     rank: u64,
     /// Remaining number of records to admit at exactly this rank.
     ties: usize,
 }
 
-impl Bar {
+impl RankLimit {
     /// Threshold for `count` of more than `count` ranks: the highest rank that at least `count` reach, by
     /// bisection over bits.
-    fn letting_in(count: usize, ranks: impl Iterator<Item = u64> + Clone) -> Self {
+    fn admitting(count: usize, ranks: impl Iterator<Item = u64> + Clone) -> Self {
         let reach = |rank: u64| ranks.clone().filter(|other| *other >= rank).count();
         let mut rank = 0;
         for bit in (0..u64::BITS).rev() {
@@ -110,7 +110,7 @@ impl Bar {
         Self { rank, ties: count - above }
     }
 
-    fn lets_in(&mut self, rank: u64) -> bool {
+    fn admits(&mut self, rank: u64) -> bool {
         if rank == self.rank && self.ties > 0 {
             self.ties -= 1;
             return true;

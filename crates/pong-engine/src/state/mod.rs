@@ -8,7 +8,6 @@ mod merge;
 mod poses;
 mod record;
 mod records;
-mod slot;
 #[cfg(test)]
 mod tests;
 
@@ -16,8 +15,7 @@ pub use block::StateError;
 pub(crate) use block::{largest_len, needed_len, read_block, write_block};
 pub(crate) use carry::{CarryOutcome, Counterparts};
 pub(crate) use lookup::{RecordsOfKey, SAME_WAY_COSINE_MIN};
-pub(crate) use memory::{ContactMemory, Remembered};
+pub(crate) use memory::{ContactMemory, RecordEntry};
 pub(crate) use poses::{CommittedPoses, Past};
 pub(crate) use record::{ContactKey, ContactRecord, ContactRole, NO_FACE};
 pub(crate) use records::{RecordRange, Records};
-pub(crate) use slot::Slot;

@@ -1,8 +1,8 @@
 //! Poses of the movable groups at the last commits of the pairs.
 //!
 //! The motion of a pair since its last commit follows from the poses of its two movable groups then and now.
-//! A commit of all pairs is one *epoch* (`moment` in code): one pose per movable group, for any number of
-//! pairs. Several epochs must be kept only if some pairs are committed and others keep their history.
+//! A commit is one *commit epoch*, or epoch: one pose per movable group, for any number of pairs. A commit of
+//! all pairs leaves one epoch. Several are kept only if some pairs are committed and others keep their history.
 //! Relative poses of an epoch are computed on demand, by the same function and from the same numbers as in
 //! the committed frame.
 
@@ -12,11 +12,11 @@ use std::sync::Arc;
 /// Epoch of a pair without history.
 pub(crate) const NEVER: u8 = u8::MAX;
 
-/// Capacity in poses, where that allows more than [`LEAST_MOMENTS`] epochs.
+/// Capacity in poses, where that allows more than [`LEAST_EPOCHS`] epochs.
 const ROOM: usize = 1 << 14;
 
 /// Minimum capacity in epochs.
-const LEAST_MOMENTS: usize = 8;
+const LEAST_EPOCHS: usize = 8;
 
 /// Committed poses of the movable groups, per epoch.
 #[derive(Clone, Debug, Default)]
@@ -28,12 +28,12 @@ pub(crate) struct CommittedPoses {
     /// Poses, epoch by epoch, one per movable group of the world.
     poses: Box<[Pose]>,
     /// Epoch of the last commit of each pair of Objects, or [`NEVER`].
-    pub(super) moment_of: Box<[u8]>,
-    /// Version of `moment_of`: two states of one world with equal versions have equal epochs.
+    pub(super) epoch_of: Box<[u8]>,
+    /// Version of `epoch_of`: two states of one world with equal versions have equal epochs.
     version: u64,
     /// True if every enabled pair is in epoch 0 and every other pair has none; the next full commit then
     /// changes no epoch.
-    settled: bool,
+    uniform: bool,
     past: Past,
     /// Number of the frame whose commit of all pairs stored these poses, if nothing has changed them since; 0
     /// otherwise.
@@ -47,7 +47,7 @@ pub(crate) enum Past {
     #[default]
     Nothing,
     /// Only epoch 0, as every commit of the whole world leaves it.
-    OneMoment,
+    OneEpoch,
     /// Several epochs: some pairs were committed without the others.
     Several,
 }
@@ -55,27 +55,27 @@ pub(crate) enum Past {
 impl CommittedPoses {
     /// Empty state for this many pairs of Objects and `stride` movable groups; `bodies` are those in a pair.
     pub fn new(bodies: Arc<[usize]>, stride: usize, object_pairs: usize) -> Self {
-        let room = Self::moments(stride, object_pairs) * stride;
+        let room = Self::epochs(stride, object_pairs) * stride;
         Self {
             bodies,
             stride,
             poses: vec![Pose::identity(); room].into_boxed_slice(),
-            moment_of: vec![NEVER; object_pairs].into_boxed_slice(),
+            epoch_of: vec![NEVER; object_pairs].into_boxed_slice(),
             version: 0,
-            settled: false,
+            uniform: false,
             past: Past::Nothing,
             frame: 0,
         }
     }
 
     /// Capacity in epochs; small worlds have one for each pair, so that each pair can be committed alone.
-    fn moments(stride: usize, object_pairs: usize) -> usize {
-        object_pairs.min((ROOM / stride.max(1)).clamp(LEAST_MOMENTS, usize::from(NEVER)))
+    fn epochs(stride: usize, object_pairs: usize) -> usize {
+        object_pairs.min((ROOM / stride.max(1)).clamp(LEAST_EPOCHS, usize::from(NEVER)))
     }
 
     /// Size of the committed poses of a world, bytes.
     pub fn bytes(stride: usize, object_pairs: usize) -> usize {
-        Self::moments(stride, object_pairs) * stride * size_of::<Pose>() + object_pairs
+        Self::epochs(stride, object_pairs) * stride * size_of::<Pose>() + object_pairs
     }
 
     /// Capacity in epochs.
@@ -85,7 +85,7 @@ impl CommittedPoses {
 
     /// Number of pairs of Objects.
     pub fn pairs(&self) -> usize {
-        self.moment_of.len()
+        self.epoch_of.len()
     }
 
     /// Movable groups whose poses are stored.
@@ -94,25 +94,25 @@ impl CommittedPoses {
     }
 
     /// Epoch of the last commit of a pair of Objects, or [`NEVER`].
-    pub fn moment_of(&self, pair: usize) -> u8 {
-        self.moment_of[pair]
+    pub fn epoch_of(&self, pair: usize) -> u8 {
+        self.epoch_of[pair]
     }
 
     /// Returns true if any pair has a history.
     pub fn knows_any(&self) -> bool {
-        self.moment_of.iter().any(|moment| *moment != NEVER)
+        self.epoch_of.iter().any(|epoch| *epoch != NEVER)
     }
 
     /// Pose of a movable group in an epoch.
-    pub fn pose(&self, moment: u8, body: usize) -> &Pose {
-        &self.poses[usize::from(moment) * self.stride + body]
+    pub fn pose(&self, epoch: u8, body: usize) -> &Pose {
+        &self.poses[usize::from(epoch) * self.stride + body]
     }
 
     /// Pose of movable group `a` seen from `b` at the last commit of their pair of Objects, if there was one.
     #[inline]
     pub fn relative(&self, pair: usize, a: usize, b: usize) -> Option<Pose> {
-        let moment = self.moment_of[pair];
-        (moment != NEVER).then(|| Pose::relative(self.pose(moment, a), self.pose(moment, b)))
+        let epoch = self.epoch_of[pair];
+        (epoch != NEVER).then(|| Pose::relative(self.pose(epoch, a), self.pose(epoch, b)))
     }
 
     /// Class of the epochs in use.
@@ -126,8 +126,8 @@ impl CommittedPoses {
     }
 
     #[inline]
-    fn write(&mut self, moment: u8, poses: &[Pose]) {
-        let first = usize::from(moment) * self.stride;
+    fn write(&mut self, epoch: u8, poses: &[Pose]) {
+        let first = usize::from(epoch) * self.stride;
         for &body in &*self.bodies {
             self.poses[first + body] = poses[body];
         }
@@ -137,28 +137,28 @@ impl CommittedPoses {
     /// their history. Costs O(movable groups), except for the first full commit after a partial one.
     #[inline]
     pub fn commit(&mut self, before: &Self, (frame, poses): (u64, &[Pose]), enabled: &[bool]) {
-        if !before.settled {
-            for (moment, on) in self.moment_of.iter_mut().zip(enabled) {
-                *moment = if *on { 0 } else { NEVER };
+        if !before.uniform {
+            for (epoch, on) in self.epoch_of.iter_mut().zip(enabled) {
+                *epoch = if *on { 0 } else { NEVER };
             }
-            (self.version, self.settled) = (before.version + 1, true);
+            (self.version, self.uniform) = (before.version + 1, true);
         } else if self.version != before.version {
-            self.moment_of.copy_from_slice(&before.moment_of);
-            (self.version, self.settled) = (before.version, true);
+            self.epoch_of.copy_from_slice(&before.epoch_of);
+            (self.version, self.uniform) = (before.version, true);
         }
         if self.capacity() > 0 {
             self.write(0, poses);
         }
-        (self.past, self.frame) = (Past::OneMoment, frame);
+        (self.past, self.frame) = (Past::OneEpoch, frame);
     }
 
     /// An epoch that is free once the accepted pairs are committed; `None` if there is none.
-    pub fn free_moment(&self, accepted: impl Fn(usize) -> bool) -> Option<u8> {
+    pub fn free_epoch(&self, accepted: impl Fn(usize) -> bool) -> Option<u8> {
         let mut taken = [false; NEVER as usize + 1];
-        for (pair, moment) in self.moment_of.iter().enumerate() {
-            taken[usize::from(*moment)] |= !accepted(pair);
+        for (pair, epoch) in self.epoch_of.iter().enumerate() {
+            taken[usize::from(*epoch)] |= !accepted(pair);
         }
-        (0..self.capacity() as u8).find(|moment| !taken[usize::from(*moment)])
+        (0..self.capacity() as u8).find(|epoch| !taken[usize::from(*epoch)])
     }
 
     /// Commits the accepted pairs after `before` into a free epoch; the others are unchanged.
@@ -166,39 +166,39 @@ impl CommittedPoses {
         &mut self,
         before: &Self,
         (poses, enabled): (&[Pose], &[bool]),
-        moment: u8,
+        epoch: u8,
         accepted: impl Fn(usize) -> bool,
     ) {
         self.copy_from(before);
-        for (pair, known) in self.moment_of.iter_mut().enumerate().filter(|(pair, _)| accepted(*pair)) {
-            *known = if enabled[pair] { moment } else { NEVER };
+        for (pair, known) in self.epoch_of.iter_mut().enumerate().filter(|(pair, _)| accepted(*pair)) {
+            *known = if enabled[pair] { epoch } else { NEVER };
         }
-        self.write(moment, poses);
+        self.write(epoch, poses);
         self.past = Past::Several;
-        self.is_changed();
+        self.mark_changed();
     }
 
     /// Clears the history of some pairs of Objects.
     pub fn clear_history(&mut self, cleared: impl Fn(usize) -> bool) {
-        for (pair, moment) in self.moment_of.iter_mut().enumerate() {
+        for (pair, epoch) in self.epoch_of.iter_mut().enumerate() {
             if cleared(pair) {
-                *moment = NEVER;
+                *epoch = NEVER;
             }
         }
-        self.is_changed();
+        self.mark_changed();
     }
 
-    fn is_changed(&mut self) {
+    fn mark_changed(&mut self) {
         self.version += 1;
-        self.settled = false;
+        self.uniform = false;
     }
 
     /// Copies the poses of another state of the same world. Every change except a commit of all pairs starts
     /// with this.
     pub fn copy_from(&mut self, other: &Self) {
-        self.moment_of.copy_from_slice(&other.moment_of);
+        self.epoch_of.copy_from_slice(&other.epoch_of);
         self.poses.copy_from_slice(&other.poses);
-        (self.version, self.settled, self.past) = (other.version, other.settled, other.past);
+        (self.version, self.uniform, self.past) = (other.version, other.uniform, other.past);
         self.frame = 0;
     }
 
@@ -207,8 +207,8 @@ impl CommittedPoses {
     pub fn numbered(&self) -> ([u8; NEVER as usize + 1], u8) {
         let mut number = [NEVER; NEVER as usize + 1];
         let mut count = 0;
-        for moment in self.moment_of.iter().filter(|moment| **moment != NEVER) {
-            let known = &mut number[usize::from(*moment)];
+        for epoch in self.epoch_of.iter().filter(|epoch| **epoch != NEVER) {
+            let known = &mut number[usize::from(*epoch)];
             if *known == NEVER {
                 *known = count;
                 count += 1;
@@ -218,12 +218,12 @@ impl CommittedPoses {
     }
 
     /// Number of epochs among the pairs that exist in the other world.
-    pub fn moments_to_carry(&self, pairs: &[Option<usize>]) -> usize {
-        let mut moments: Vec<u8> = pairs.iter().flatten().map(|&pair| self.moment_of[pair]).collect();
-        moments.retain(|moment| *moment != NEVER);
-        moments.sort_unstable();
-        moments.dedup();
-        moments.len()
+    pub fn epochs_to_carry(&self, pairs: &[Option<usize>]) -> usize {
+        let mut epochs: Vec<u8> = pairs.iter().flatten().map(|&pair| self.epoch_of[pair]).collect();
+        epochs.retain(|epoch| *epoch != NEVER);
+        epochs.sort_unstable();
+        epochs.dedup();
+        epochs.len()
     }
 
     /// Replaces everything by the poses of another world; pairs that only this world has lose their history.
@@ -238,53 +238,53 @@ impl CommittedPoses {
         frame: u64,
     ) {
         let mut number = [NEVER; NEVER as usize + 1];
-        let mut moments = Vec::new();
+        let mut epochs = Vec::new();
         let mut is_known = vec![false; from.stride];
         from.bodies.iter().for_each(|&body| is_known[body] = true);
-        for (moment_of, pair) in self.moment_of.iter_mut().zip(pairs) {
-            let earlier = pair.map_or(NEVER, |pair| from.moment_of[pair]);
+        for (epoch_of, pair) in self.epoch_of.iter_mut().zip(pairs) {
+            let earlier = pair.map_or(NEVER, |pair| from.epoch_of[pair]);
             let numbered = &mut number[usize::from(earlier)];
             if earlier != NEVER && *numbered == NEVER {
-                *numbered = moments.len() as u8;
-                moments.push(earlier);
+                *numbered = epochs.len() as u8;
+                epochs.push(earlier);
             }
-            *moment_of = *numbered;
+            *epoch_of = *numbered;
         }
-        for (moment, earlier) in moments.iter().enumerate() {
+        for (epoch, earlier) in epochs.iter().enumerate() {
             for &body in &*Arc::clone(&self.bodies) {
                 let known = bodies[body].filter(|&body| is_known[body]);
                 let pose = known.map_or(&elsewhere[body], |body| from.pose(*earlier, body));
-                self.put_pose(moment as u8, body, *pose);
+                self.put_pose(epoch as u8, body, *pose);
             }
         }
-        self.put_count(moments.len());
-        self.frame = if from.frame > 0 && moments.len() == 1 { frame } else { 0 };
+        self.put_count(epochs.len());
+        self.frame = if from.frame > 0 && epochs.len() == 1 { frame } else { 0 };
     }
 
     /// Returns true if a pair of Objects has a history.
     pub fn knows(&self, pair: usize) -> bool {
-        self.moment_of[pair] != NEVER
+        self.epoch_of[pair] != NEVER
     }
 
     /// Stores a pose read from a block.
-    pub fn put_pose(&mut self, moment: u8, body: usize, pose: Pose) {
-        self.poses[usize::from(moment) * self.stride + body] = pose;
+    pub fn put_pose(&mut self, epoch: u8, body: usize, pose: Pose) {
+        self.poses[usize::from(epoch) * self.stride + body] = pose;
     }
 
     /// Stores the epochs of all pairs read from a block.
-    pub fn put_moments(&mut self, count: u8, moments: impl Iterator<Item = u8>) {
-        self.moment_of.iter_mut().zip(moments).for_each(|(known, moment)| *known = moment);
+    pub fn put_epochs(&mut self, count: u8, epochs: impl Iterator<Item = u8>) {
+        self.epoch_of.iter_mut().zip(epochs).for_each(|(known, epoch)| *known = epoch);
         self.put_count(usize::from(count));
     }
 
     /// Sets the number of epochs after the epochs of pairs have changed.
-    fn put_count(&mut self, moments: usize) {
-        self.past = match moments {
+    fn put_count(&mut self, epochs: usize) {
+        self.past = match epochs {
             0 => Past::Nothing,
-            1 => Past::OneMoment,
+            1 => Past::OneEpoch,
             _ => Past::Several,
         };
-        self.is_changed();
+        self.mark_changed();
     }
 }
 
@@ -292,7 +292,7 @@ impl CommittedPoses {
 impl PartialEq for CommittedPoses {
     fn eq(&self, other: &Self) -> bool {
         let (own, others) = (self.numbered(), other.numbered());
-        let pairs = self.moment_of.iter().zip(&other.moment_of);
+        let pairs = self.epoch_of.iter().zip(&other.epoch_of);
         self.pairs() == other.pairs()
             && own.1 == others.1
             && pairs.clone().all(|(a, b)| own.0[usize::from(*a)] == others.0[usize::from(*b)])

@@ -1,17 +1,12 @@
 //! Contact records in key order.
 
 use super::record::{ContactKey, ContactRecord};
-use super::slot::Slot;
 use pong_arena::{Full, Table};
 use std::num::NonZeroU32;
-use std::ops::{Index, IndexMut};
+use std::ops::{Deref, DerefMut};
 
-/// Contact records, indexed in key order. The high words of the keys are packed in a separate array, so that
+/// Contact records in key order. The high words of the keys are also packed in an array of their own, so that
 /// a search reads few cache lines.
-///
-/// The records are either stored in that order in one table, or stay in the tables where the threads of a
-/// frame wrote them. In the second case a commit moves no record, and a record is usually read by the core
-/// that wrote it.
 #[derive(Clone, Debug)]
 pub(crate) struct Records {
     /// High word of each record's key.
@@ -21,11 +16,7 @@ pub(crate) struct Records {
     hints: Box<[u16]>,
     /// Number of hints in use, a power of two.
     hints_used: usize,
-    /// Location of each record, if the threads' tables are used.
-    slots: Table<Slot>,
-    in_order: Table<ContactRecord>,
-    /// Records per thread.
-    threads: Vec<Table<ContactRecord>>,
+    records: Table<ContactRecord>,
 }
 
 /// Index range of the records of one key or high word. Compact, because each contact of a frame stores one or
@@ -71,15 +62,9 @@ fn hint_of(head: u64, used: usize) -> usize {
     ((head >> 32).wrapping_mul(DIRECTION_APART).wrapping_add(head)) as usize & (used - 1)
 }
 
-/// Thread index that denotes the table in key order.
-const IN_ORDER: usize = Slot::NO_LANE;
-
 impl Records {
     /// Bytes per record.
-    pub const BYTES: usize = Self::LANE_BYTES + size_of::<u64>();
-
-    /// Bytes per record in a thread's table.
-    pub const LANE_BYTES: usize = size_of::<ContactRecord>();
+    pub const BYTES: usize = size_of::<ContactRecord>() + size_of::<u64>();
 
     /// Room for this many records.
     pub fn with_capacity(capacity: usize) -> Self {
@@ -87,30 +72,13 @@ impl Records {
             heads: Table::with_capacity(capacity, 0),
             hints: vec![0; hints_for(capacity)].into(),
             hints_used: HINTS_MIN,
-            slots: Table::default(),
-            in_order: Table::with_capacity(capacity, ContactRecord::blank()),
-            threads: Vec::new(),
+            records: Table::with_capacity(capacity, ContactRecord::blank()),
         }
-    }
-
-    /// Adds record tables for `threads` threads, `each` records in each.
-    pub fn with_threads(mut self, threads: usize, each: usize) -> Self {
-        if threads > 0 && each > 0 {
-            self.slots = Table::with_capacity(self.capacity(), Slot::NOWHERE);
-            let thread = || Table::with_capacity(each, ContactRecord::blank());
-            self.threads.extend(std::iter::repeat_with(thread).take(threads));
-        }
-        self
     }
 
     /// Capacity in records.
     pub fn capacity(&self) -> usize {
         self.heads.capacity()
-    }
-
-    /// Number of records.
-    pub fn len(&self) -> usize {
-        self.heads.len()
     }
 
     /// High word of a record's key.
@@ -119,19 +87,9 @@ impl Records {
         self.heads[index]
     }
 
-    /// Returns true if the records are in the threads' tables.
-    pub fn by_thread(&self) -> bool {
-        !self.slots.is_empty()
-    }
-
-    /// Records in key order.
-    pub fn iter(&self) -> impl Iterator<Item = &ContactRecord> + Clone {
-        (0..self.len()).map(|index| &self[index])
-    }
-
     /// Sizes the hints for this many records; call before the first is written.
     #[inline]
-    pub fn expect(&mut self, records: usize) {
+    pub fn size_hints(&mut self, records: usize) {
         self.hints_used = hints_for(records).min(self.hints.len());
     }
 
@@ -141,23 +99,16 @@ impl Records {
     /// [`Full`] if there is no room; the records are unchanged.
     #[inline(always)]
     pub fn push_with(&mut self, write: impl FnOnce(&mut ContactRecord)) -> Result<(), Full> {
-        debug_assert!(!self.by_thread(), "records of threads are whole");
-        let record = self.in_order.slot()?;
+        let record = self.records.slot()?;
         write(record);
         let head = record.key.head();
-        self.hint(head);
-        self.heads.push(head)?;
-        debug_assert!(self.in_order.windows(2).last().is_none_or(|two| two[0].key <= two[1].key));
-        Ok(())
-    }
-
-    /// Sets the hint for the next record, if it is the first of its high word.
-    #[inline(always)]
-    fn hint(&mut self, head: u64) {
         if self.heads.last() != Some(&head) {
             // An index that does not fit is truncated; the search rejects such a hint.
             self.hints[hint_of(head, self.hints_used)] = self.heads.len() as u16;
         }
+        self.heads.push(head)?;
+        debug_assert!(self.records.windows(2).last().is_none_or(|two| two[0].key <= two[1].key));
+        Ok(())
     }
 
     /// Appends all records of another list.
@@ -168,52 +119,22 @@ impl Records {
         other.iter().try_for_each(|record| self.push_with(|slot| *slot = *record))
     }
 
-    /// Uses the records in the threads' tables, given their high words and slots in key order. Returns false,
-    /// and holds no record, if there are no such tables or if records of one high word are not contiguous.
-    /// The caller swaps the [tables](Self::thread_mut).
-    #[inline]
-    pub fn adopt(&mut self, written: impl Iterator<Item = (u64, Slot)>) -> bool {
-        self.clear();
-        if self.threads.is_empty() {
-            return false;
-        }
-        let mut last = None;
-        for (head, slot) in written {
-            let goes_on =
-                last.is_none_or(|(other, before): (u64, Slot)| other != head || slot == before.next());
-            self.hint(head);
-            if !goes_on || self.heads.push(head).and_then(|()| self.slots.push(slot)).is_err() {
-                self.clear();
-                return false;
-            }
-            last = Some((head, slot));
-        }
-        true
-    }
-
-    /// Record table of a thread.
-    pub fn thread_mut(&mut self, thread: usize) -> &mut Table<ContactRecord> {
-        &mut self.threads[thread]
-    }
-
     /// Drops all records.
     pub fn clear(&mut self) {
         self.heads.clear();
-        self.slots.clear();
-        self.in_order.clear();
+        self.records.clear();
     }
 
     /// Copies a record, with its key, over another one; the caller preserves the order.
     pub fn copy_within(&mut self, from: usize, to: usize) {
-        self[to] = self[from];
+        self.records[to] = self.records[from];
         self.heads[to] = self.heads[from];
     }
 
     /// Keeps the first `len` records.
     pub fn truncate(&mut self, len: usize) {
         self.heads.truncate(len);
-        self.slots.truncate(len);
-        self.in_order.truncate(len);
+        self.records.truncate(len);
     }
 
     /// Records of a key.
@@ -237,7 +158,7 @@ impl Records {
     /// Records with this high word.
     #[inline]
     pub fn of_head(&self, head: u64) -> RecordRange {
-        let first = self.place_of_head(head);
+        let first = self.first_of_head(head);
         let mut end = first;
         while self.heads.get(end) == Some(&head) {
             end += 1;
@@ -245,19 +166,15 @@ impl Records {
         RecordRange::new(first, end - first)
     }
 
-    /// Records of a range; those of one high word are contiguous in memory.
+    /// Records of a range.
     #[inline]
     pub fn in_range(&self, range: &RecordRange) -> &[ContactRecord] {
-        if range.count == 0 {
-            return &[];
-        }
-        let slot = self.slot(range.first());
-        &self.table(slot)[slot.index()..slot.index() + range.count as usize]
+        &self.records[range.first()..range.first() + range.count as usize]
     }
 
     /// Index of the first record with this high word, or of the position where it would be inserted.
     #[inline]
-    pub fn place_of_head(&self, head: u64) -> usize {
+    pub fn first_of_head(&self, head: u64) -> usize {
         let heads = &self.heads[..];
         if heads.len() >= WORTH_A_HINT {
             let hint = usize::from(self.hints[hint_of(head, self.hints_used)]);
@@ -273,44 +190,25 @@ impl Records {
     pub fn of_group_pair(&self, group_pair: u32) -> impl Iterator<Item = &ContactRecord> {
         let first_of = |group_pair| ContactKey { group_pair, ..ContactKey::default() }.head();
         let (first, next) = (first_of(group_pair), first_of(group_pair + 1));
-        (self.place_of_head(first)..self.place_of_head(next)).map(|index| &self[index])
-    }
-
-    /// Table that holds a slot.
-    #[inline]
-    fn table(&self, slot: Slot) -> &[ContactRecord] {
-        match slot.thread() {
-            IN_ORDER => &self.in_order,
-            thread => &self.threads[thread],
-        }
-    }
-
-    #[inline]
-    fn slot(&self, index: usize) -> Slot {
-        if self.by_thread() { self.slots[index] } else { Slot::new(IN_ORDER, index) }
+        self.records[self.first_of_head(first)..self.first_of_head(next)].iter()
     }
 }
 
-impl Index<usize> for Records {
-    type Output = ContactRecord;
+/// The records in key order.
+impl Deref for Records {
+    type Target = [ContactRecord];
 
     #[inline]
-    fn index(&self, index: usize) -> &ContactRecord {
-        let slot = self.slot(index);
-        &self.table(slot)[slot.index()]
+    fn deref(&self) -> &[ContactRecord] {
+        &self.records
     }
 }
 
 /// Mutable access; keys must not be changed.
-impl IndexMut<usize> for Records {
+impl DerefMut for Records {
     #[inline]
-    fn index_mut(&mut self, index: usize) -> &mut ContactRecord {
-        let slot = self.slot(index);
-        let table = match slot.thread() {
-            IN_ORDER => &mut self.in_order,
-            thread => &mut self.threads[thread],
-        };
-        &mut table[slot.index()]
+    fn deref_mut(&mut self) -> &mut [ContactRecord] {
+        &mut self.records
     }
 }
 
@@ -322,8 +220,8 @@ impl Default for Records {
 }
 
 impl PartialEq for Records {
-    /// Compares the records; storage and capacity do not matter.
+    /// Compares the records; hints and capacity do not matter.
     fn eq(&self, other: &Self) -> bool {
-        self.iter().eq(other.iter())
+        self.records[..] == other.records[..]
     }
 }

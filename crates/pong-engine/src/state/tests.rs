@@ -2,11 +2,10 @@
 
 use super::block::{StateError, largest_len, needed_len, write_block};
 use super::lookup::RecordsOfKey;
-use super::memory::{ContactMemory, Remembered};
+use super::memory::{ContactMemory, RecordEntry};
 use super::poses::{CommittedPoses, NEVER, Past};
 use super::record::{ContactKey, ContactRecord, ContactRole};
 use super::records::Records;
-use super::slot::Slot;
 use crate::energy::account::{EnergyAccount, WrenchCoupling};
 use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
 use crate::energy::episodes::PairEnergies;
@@ -21,7 +20,7 @@ const GROUP_PAIRS: usize = 5;
 /// Movable groups in pairs; group 2 has none.
 const BODIES: [usize; 3] = [0, 1, 3];
 const ALL_BODIES: usize = 4;
-const MOMENTS: u8 = 3;
+const EPOCHS: u8 = 3;
 const CAPACITY: usize = 24;
 const WORLD: u64 = 0x5eed;
 
@@ -41,11 +40,11 @@ fn poses_of_all(random: &mut Random) -> Vec<Pose> {
 
 fn poses_of(random: &mut Random) -> CommittedPoses {
     let mut poses = CommittedPoses::new(BODIES.into(), ALL_BODIES, GROUP_PAIRS);
-    for moment in 0..MOMENTS {
-        BODIES.iter().for_each(|&body| poses.put_pose(moment, body, pose_of(random)));
+    for epoch in 0..EPOCHS {
+        BODIES.iter().for_each(|&body| poses.put_pose(epoch, body, pose_of(random)));
     }
-    let moments = [0; GROUP_PAIRS].map(|_| [0, 1, 2, NEVER][random.below(4)]);
-    poses.put_moments(MOMENTS, moments.into_iter());
+    let epochs = [0; GROUP_PAIRS].map(|_| [0, 1, 2, NEVER][random.below(4)]);
+    poses.put_epochs(EPOCHS, epochs.into_iter());
     poses
 }
 
@@ -104,7 +103,7 @@ fn memory_with(
     for record in fresh {
         let law_state: Vec<f64> = (0..stride).map(|_| random.unit()).collect();
         let Some(coupling) = coupling else {
-            memory.push(&Remembered { record, law_state: &law_state, energy: None }).unwrap();
+            memory.push(&RecordEntry { record, law_state: &law_state, energy: None }).unwrap();
             continue;
         };
         let account = EnergyAccount {
@@ -116,20 +115,20 @@ fn memory_with(
         let wrench = |_| Wrench { force: random.vector(0.5), moment: random.vector(0.5) };
         let delayed: Vec<Wrench> = (0..coupling.delay()).map(wrench).collect();
         let energy = Some(ContactEnergyRef { energy: &energy, delayed: &delayed });
-        memory.push(&Remembered { record, law_state: &law_state, energy }).unwrap();
+        memory.push(&RecordEntry { record, law_state: &law_state, energy }).unwrap();
     }
     memory
 }
 /// Records as the slow reference model stores them.
 fn listed(memory: &ContactMemory) -> Vec<(ContactRecord, Vec<f64>)> {
-    let numbers = |remembered: &Remembered<'_>| {
+    let numbers = |remembered: &RecordEntry<'_>| {
         let energy = remembered.energy.iter().flat_map(ContactEnergyRef::numbers);
         remembered.law_state.iter().copied().chain(energy).collect()
     };
     memory.iter().map(|remembered| (remembered.record, numbers(&remembered))).collect()
 }
 
-fn fresh_of(memory: &ContactMemory) -> impl Iterator<Item = Remembered<'_>> + Clone {
+fn entries_of(memory: &ContactMemory) -> impl Iterator<Item = RecordEntry<'_>> + Clone {
     memory.iter()
 }
 
@@ -170,8 +169,8 @@ fn forgetting_keeps_all_else_in_order_with_its_numbers() {
 
 /// Poses at a pair's last commit, as the slow reference model stores them.
 fn past_of(poses: &CommittedPoses, pair: usize) -> Option<Vec<Pose>> {
-    let moment = poses.moment_of(pair);
-    (moment != NEVER).then(|| BODIES.iter().map(|&body| *poses.pose(moment, body)).collect())
+    let epoch = poses.epoch_of(pair);
+    (epoch != NEVER).then(|| BODIES.iter().map(|&body| *poses.pose(epoch, body)).collect())
 }
 
 /// Two states of a world are swapped as in frames, against a model that stores the poses of every pair.
@@ -201,15 +200,15 @@ fn the_past_of_every_pair_is_that_of_its_last_commit() {
                 (0..GROUP_PAIRS).filter(|&pair| is_chosen(pair)).for_each(|pair| expected[pair] = None);
             }
             2 | 3 if chosen > 0 => {
-                let moment = committed.free_moment(is_chosen).expect("a small world has room for every pair");
-                spare.commit_some(&committed, (&now, &enabled), moment, is_chosen);
+                let epoch = committed.free_epoch(is_chosen).expect("a small world has room for every pair");
+                spare.commit_some(&committed, (&now, &enabled), epoch, is_chosen);
                 for pair in (0..GROUP_PAIRS).filter(|&pair| is_chosen(pair)) {
                     expected[pair] = seen().filter(|_| enabled[pair]);
                 }
             }
             _ => {
                 spare.commit(&committed, (1, &now), &enabled);
-                assert_eq!(spare.past(), Past::OneMoment);
+                assert_eq!(spare.past(), Past::OneEpoch);
                 expected = enabled.map(|on| seen().filter(|_| on)).to_vec();
             }
         }
@@ -217,26 +216,26 @@ fn the_past_of_every_pair_is_that_of_its_last_commit() {
         let known: Vec<_> = (0..GROUP_PAIRS).map(|pair| past_of(&committed, pair)).collect();
         assert!(known == expected, "round {round}");
         assert_eq!(committed.knows_any(), expected.iter().any(Option::is_some));
-        let other = committed.moment_of.iter().any(|moment| *moment != NEVER && *moment != 0);
+        let other = committed.epoch_of.iter().any(|epoch| *epoch != NEVER && *epoch != 0);
         assert!(!other || committed.past() == Past::Several);
     }
 }
 
 /// A large world has room for few epochs; if all are in use, committing their pairs together frees some.
 #[test]
-fn a_large_world_tells_a_few_moments_apart() {
+fn a_large_world_has_room_for_few_epochs() {
     let bodies: Vec<usize> = (0..4096).collect();
     let mut poses = CommittedPoses::new(bodies.into(), 4096, 20);
     assert_eq!(poses.capacity(), 8);
     let (now, enabled) = (vec![Pose::identity(); 4096], [true; 20]);
     for pair in 0..8 {
-        let moment = poses.free_moment(|other| other == pair).unwrap();
+        let epoch = poses.free_epoch(|other| other == pair).unwrap();
         let before = poses.clone();
-        poses.commit_some(&before, (&now, &enabled), moment, |other| other == pair);
+        poses.commit_some(&before, (&now, &enabled), epoch, |other| other == pair);
     }
-    assert_eq!(poses.free_moment(|other| other == 8), None);
-    assert!(poses.free_moment(|other| other == 7).is_some());
-    assert!(poses.free_moment(|_| true).is_some());
+    assert_eq!(poses.free_epoch(|other| other == 8), None);
+    assert!(poses.free_epoch(|other| other == 7).is_some());
+    assert!(poses.free_epoch(|_| true).is_some());
 }
 
 #[test]
@@ -253,7 +252,7 @@ fn a_commit_of_some_pairs_replaces_theirs_and_keeps_the_rest() {
             .map(|_| LedgerEntry { work: random.between(-1.0, 1.0), dissipated: 0.5 })
             .collect();
         let left_out =
-            memory.accept_into(fresh_of(&trial), (&trial.pair_energies, &added), is_accepted, next);
+            memory.merge_into(entries_of(&trial), (&trial.pair_energies, &added), is_accepted, next);
 
         let mut expected = listed(&memory);
         expected.retain(|(record, _)| !is_accepted(record.key.group_pair));
@@ -285,7 +284,7 @@ fn a_commit_of_everything_takes_everything_over_but_the_totals() {
         let (mut memory, trial) = two_memories(&mut random, round);
         let totals = (memory.work, memory.dissipated);
         memory.clear_records();
-        fresh_of(&trial).for_each(|remembered| memory.push(&remembered).unwrap());
+        entries_of(&trial).for_each(|remembered| memory.push(&remembered).unwrap());
         assert_eq!(listed(&memory), listed(&trial));
         assert_eq!((memory.work, memory.dissipated), totals);
         let mut copy = memory_with_energies(&mut random, CAPACITY, memory.law_state_len);
@@ -305,7 +304,7 @@ fn records_of_one_key_are_found_together_whatever_was_done_before() {
         let mut copy = memory_of(&mut random, CAPACITY, 2);
         copy.copy_from(&memory);
         for memory in [&memory, &copy] {
-            for (index, Remembered { record, law_state, .. }) in memory.iter().enumerate() {
+            for (index, RecordEntry { record, law_state, .. }) in memory.iter().enumerate() {
                 let RecordsOfKey { range, records } = memory.under(&record.key);
                 assert!((range.first()..range.first() + records.len()).contains(&index));
                 assert!(records.iter().all(|other| other.key == record.key));
@@ -337,7 +336,7 @@ fn the_first_record_of_a_head_is_found_whatever_was_hinted_before() {
         let mut keys: Vec<ContactKey> = (0..random.below(60)).map(|_| some(&mut random)).collect();
         keys.sort();
         records.clear();
-        records.expect(random.below(5000));
+        records.size_hints(random.below(5000));
         for key in &keys {
             records.push_with(|record| *record = ContactRecord { key: *key, ..model }).unwrap();
         }
@@ -348,7 +347,7 @@ fn the_first_record_of_a_head_is_found_whatever_was_hinted_before() {
             records.truncate(keys.len());
         }
         for head in (0..100).map(|_| some(&mut random).head()) {
-            assert_eq!(records.place_of_head(head), keys.iter().filter(|key| key.head() < head).count());
+            assert_eq!(records.first_of_head(head), keys.iter().filter(|key| key.head() < head).count());
         }
     }
 }
@@ -366,7 +365,7 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
         (Vec3::z(), 0, ContactRole::Tracked),
     ] {
         memory
-            .push(&Remembered {
+            .push(&RecordEntry {
                 record: ContactRecord { normal_b: normal, feature, role, ..model },
                 law_state: &[],
                 energy: None,
@@ -388,63 +387,6 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
     assert_eq!(found(Vec3::new(0.0, 0.8, 0.6), ContactRole::Tracked), Some(3));
     let elsewhere = ContactKey { primitive_a: model.key.primitive_a + 1, ..model.key };
     assert_eq!(memory.under(&elsewhere).matching(&Vec3::z(), ContactRole::Tracked), None);
-}
-
-/// Each thread writes the contacts of some high words, in any order; some threads write none, and some
-/// records are left out.
-#[test]
-fn records_by_thread_equal_records_in_order() {
-    const LANES: usize = 3;
-    let mut random = Random(5);
-    for case in 0..100 {
-        let expected = memory_of(&mut random, CAPACITY, 0);
-        let mut memory = ContactMemory::with_capacity(poses_of(&mut random), GROUP_PAIRS, CAPACITY, 0)
-            .with_threads(LANES, 2 * CAPACITY);
-        let in_order: Vec<ContactRecord> = expected.records.iter().copied().collect();
-        let mut groups: Vec<&[ContactRecord]> =
-            in_order.chunk_by(|a, b| a.key.head() == b.key.head()).collect();
-        let mut threads = vec![Vec::new(); LANES];
-        let mut written = Vec::new();
-        while !groups.is_empty() {
-            let group = groups.swap_remove(random.below(groups.len()));
-            let thread = random.below(if case % 2 == 0 { LANES } else { 1 });
-            if random.below(4) == 0 {
-                threads[thread].push(record_of(&mut random));
-            }
-            for record in group {
-                written.push((record.key, Slot::new(thread, threads[thread].len())));
-                threads[thread].push(*record);
-            }
-        }
-        written.sort_by_key(|(key, _)| *key);
-        assert!(memory.records.adopt(written.iter().map(|(key, place)| (key.head(), *place))));
-        for (thread, records) in threads.iter().enumerate() {
-            records.iter().for_each(|record| memory.records.thread_mut(thread).push(*record).unwrap());
-        }
-
-        assert!(memory.records == expected.records);
-        let lookups = [&memory, &expected];
-        for record in &in_order {
-            let [found, same] = lookups.map(|lookup| lookup.under(&record.key));
-            assert!(found.range.first() == same.range.first() && found.records == same.records);
-            assert!(!found.records.is_empty() && memory.at(found.range).records == found.records);
-        }
-        for pair in 0..GROUP_PAIRS as u32 {
-            assert!(memory.records.of_group_pair(pair).eq(expected.records.of_group_pair(pair)));
-        }
-        assert_eq!(memory.records.place_of_head(u64::MAX), in_order.len());
-        // Every other change starts with a copy, which is in key order.
-        let mut copy = memory_of(&mut random, 3, 0);
-        copy.copy_from(&memory);
-        assert!(copy.records == expected.records && block_of(&copy) == block_of(&memory));
-
-        // Records of one high word that are not contiguous cannot stay in place.
-        if let Some(second) = written.windows(2).position(|two| two[0].0.head() == two[1].0.head()) {
-            written[second + 1].1 = Slot::new(LANES - 1, 2 * CAPACITY - 1);
-            assert!(!memory.records.adopt(written.iter().map(|(key, place)| (key.head(), *place))));
-            assert_eq!(memory.records.len(), 0);
-        }
-    }
 }
 
 /// A block in a buffer for the largest block.
@@ -474,21 +416,21 @@ fn the_block_is_laid_out_as_version_3_says() {
         put(&WORLD.to_le_bytes());
         put(&memory.work.to_le_bytes());
         put(&memory.dissipated.to_le_bytes());
-        let mut moments: Vec<u8> = Vec::new();
+        let mut epochs: Vec<u8> = Vec::new();
         for pair in 0..GROUP_PAIRS {
-            let moment = memory.poses.moment_of(pair);
-            if moment != NEVER && !moments.contains(&moment) {
-                moments.push(moment);
+            let epoch = memory.poses.epoch_of(pair);
+            if epoch != NEVER && !epochs.contains(&epoch) {
+                epochs.push(epoch);
             }
         }
-        put(&(moments.len() as u64).to_le_bytes());
-        for (moment, body) in moments.iter().flat_map(|moment| BODIES.map(|body| (*moment, body))) {
-            let pose = memory.poses.pose(moment, body);
+        put(&(epochs.len() as u64).to_le_bytes());
+        for (epoch, body) in epochs.iter().flat_map(|epoch| BODIES.map(|body| (*epoch, body))) {
+            let pose = memory.poses.pose(epoch, body);
             let numbers = pose.position.iter().chain(pose.orientation.coords.iter());
             numbers.for_each(|x| put(&x.to_le_bytes()));
         }
         for pair in 0..GROUP_PAIRS {
-            let place = moments.iter().position(|moment| *moment == memory.poses.moment_of(pair));
+            let place = epochs.iter().position(|epoch| *epoch == memory.poses.epoch_of(pair));
             put(&[place.map_or(255, |place| place as u8)]);
         }
         put(&[0; 3]);
@@ -576,14 +518,14 @@ const POSES: usize = 40;
 const PAIRS_BYTES: usize = 8;
 
 /// Offset of the pairs' epochs in the block.
-fn first_moment(memory: &ContactMemory) -> usize {
-    let (_, moments) = memory.poses.numbered();
-    POSES + 8 + usize::from(moments) * BODIES.len() * 56
+fn first_epoch(memory: &ContactMemory) -> usize {
+    let (_, epochs) = memory.poses.numbered();
+    POSES + 8 + usize::from(epochs) * BODIES.len() * 56
 }
 
 /// Offset of the records in the block.
 fn first_record(memory: &ContactMemory) -> usize {
-    first_moment(memory) + PAIRS_BYTES
+    first_epoch(memory) + PAIRS_BYTES
 }
 
 /// Index of the role among the words of a record in the block.
@@ -608,14 +550,14 @@ fn a_block_that_holds_nonsense_under_a_good_checksum_is_refused_and_changes_noth
     let mut memory = memory_of(&mut random, 5, 0);
     let before = memory.clone();
     let last = first_record(&saved) + 8 * RECORD_BYTES;
-    let (_, moments) = saved.poses.numbered();
+    let (_, epochs) = saved.poses.numbered();
     let nonsense = [
         ("a role that there is not", last + 4 * ROLE_WORD, 3),
         ("a pair that there is not", last, GROUP_PAIRS as u32),
         ("keys out of order", last, 0),
-        ("a moment that there is not", first_moment(&saved), u32::from_le_bytes([moments; 4])),
-        ("more moments than there is room for", POSES, GROUP_PAIRS as u32 + 1),
-        ("something behind the moments", first_moment(&saved) + 4, 0x0100_0000),
+        ("an epoch that there is not", first_epoch(&saved), u32::from_le_bytes([epochs; 4])),
+        ("more epochs than there is room for", POSES, GROUP_PAIRS as u32 + 1),
+        ("something behind the epochs", first_epoch(&saved) + 4, 0x0100_0000),
     ];
     assert!(saved.records[7].key.group_pair > 0);
     for (what, at, word) in nonsense {

@@ -19,7 +19,9 @@ impl World {
     /// cleared.
     pub fn has_contact_state(&self) -> bool {
         let memory = &self.runtime.memory;
-        memory.poses.knows_any() || memory.records.len() > 0 || (memory.work, memory.dissipated) != (0.0, 0.0)
+        memory.poses.knows_any()
+            || !memory.records.is_empty()
+            || (memory.work, memory.dissipated) != (0.0, 0.0)
     }
 
     /// Saves the committed contact state into a buffer of at least [`state_used`](Self::state_used) bytes.

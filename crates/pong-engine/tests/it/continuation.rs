@@ -29,7 +29,7 @@ fn told_of(stage: &Stage<'_>) -> Vec<u64> {
             put(vector.as_slice());
         }
         put(&[contact.depth, contact.weight, contact.stored, contact.work, contact.dissipated]);
-        put(&[contact.a.primitive, contact.a.element, contact.b.primitive, contact.feature].map(f64::from));
+        put(&[contact.a.primitive, contact.a.element, contact.b.primitive, contact.feature.0].map(f64::from));
     }
     let (account, all) = (world.account(), world.pair_accounts());
     put(&[account.work_in, account.inserted, account.friction_loss, account.hold_error, account.resolution]);
@@ -547,7 +547,10 @@ fn what_has_no_room_or_no_value_here_is_refused() {
     let config = Config { contact_capacity: Some(1), ..ledger() };
     let mut small = builder_of(config, &["floor", "tip_a", "tip_b", "tip_c"]).seal().unwrap().0;
     let refused = small.continue_from(&yard.world).unwrap_err().to_string();
-    assert!(refused.contains("3 contacts") && refused.contains("`contact_capacity` of 2"), "{refused}");
+    assert!(
+        refused.contains("3 contact records") && refused.contains("`contact_capacity` of 2"),
+        "{refused}"
+    );
 
     // One model for two Objects.
     let mut builder = WorldBuilder::new(ledger());
@@ -592,7 +595,7 @@ fn more_commit_epochs_than_there_is_room_for_are_refused() {
     (0..2_100).for_each(|number| _ = builder.create_object(newcomer, &format!("newcomer_{number}")).unwrap());
     let mut larger = builder.seal().unwrap().0;
     let refused = larger.continue_from(&yard.world).unwrap_err().to_string();
-    assert!(refused.contains("at 9 different moments") && refused.contains("room for 8"), "{refused}");
+    assert!(refused.contains("9 commit epochs") && refused.contains("room for 8"), "{refused}");
     assert!(refused.contains("commit all pairs at once first") && !larger.has_contact_state(), "{refused}");
 
     yard.step(&[]);

@@ -5,7 +5,6 @@
 use crate::common::mesh::{Mesh, SERIES, steel};
 use crate::common::*;
 use pong_engine::State;
-use pong_geometry::interference::Feature;
 use pong_geometry::{Quat, Vec3};
 use pong_testkit::Random;
 use std::collections::HashMap;
@@ -137,7 +136,7 @@ fn ball(semi_axes: &Vec3) -> String {
 
 /// Heights of the ball's centre above each face that pushes it, m.
 fn heights(rig: &Rig, center: &Vec3) -> Vec<f64> {
-    let faces = rig.world.contacts_iter().filter(|c| Feature(c.feature).is_face());
+    let faces = rig.world.contacts_iter().filter(|c| c.feature.is_face());
     faces.map(|c| c.normal.dot(&(center - c.point)) - 0.5 * c.depth).collect()
 }
 

@@ -52,7 +52,7 @@ fn damping_opposes_the_approach_and_never_pulls() {
         // At c = (0, 0.3, 0.197), by ω × r: A's point −0.5·spin along z, B's 0.3·tilt.
         let rate = closing + 0.5 * spin + 0.3 * tilt;
         let contact = rig.world.contacts()[0];
-        assert!((contact.rate - rate).abs() < 1e-12, "{} {rate}", contact.rate);
+        assert!((contact.depth_rate - rate).abs() < 1e-12, "{} {rate}", contact.depth_rate);
         let expected = (300.0 + damping * rate).max(0.0);
         assert!((contact.normal_force - expected).abs() < 1e-9, "{closing}: {}", contact.normal_force);
     }

@@ -122,7 +122,7 @@ fn pairs_committed_at_many_moments_keep_their_own() {
     let mut before = Vec::new();
     many.save_state_packed(&mut before);
     let refused = many.commit_pairs(&pairs[300..301]).unwrap_err().to_string();
-    for part in ["commit of some pairs", "255 different moments", "commit some of them together"] {
+    for part in ["commit of some pairs", "255 commit epochs", "commit some of them together"] {
         assert!(refused.contains(part), "{refused}");
     }
     let mut after = Vec::new();

@@ -68,15 +68,15 @@ pub struct Interference {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Feature(pub u32);
 
-/// Kind of a feature.
+/// Kind of a feature, with its number in C and in logs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FeatureKind {
     /// Face, triangle, or the whole primitive.
-    Face,
+    Face = 0,
     /// Edge.
-    Edge,
+    Edge = 1,
     /// Vertex.
-    Vertex,
+    Vertex = 2,
 }
 
 impl Feature {

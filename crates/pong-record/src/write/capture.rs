@@ -14,9 +14,6 @@ pub(crate) struct Capture {
     bytes: Vec<u8>,
 }
 
-/// Number of bits of a feature's index, below those of its kind.
-const FEATURE_INDEX_BITS: u32 = 30;
-
 impl Capture {
     pub fn new(world: &World, energies: bool) -> Result<Self, EngineError> {
         let mut bodies = Vec::new();
@@ -93,6 +90,7 @@ impl Capture {
         Ok(())
     }
 
+    /// Row of a contact in the log: the values of the contact, with indices in the log instead of ids.
     pub fn contact_row(&self, frame: u64, contact: &Contact) -> ContactRow {
         let primitive = |side: &ContactSide| self.first_primitive[side.interface.index()] + side.primitive;
         ContactRow {
@@ -102,14 +100,14 @@ impl Capture {
             primitive_b: primitive(&contact.b),
             element_a: contact.a.element,
             element_b: contact.b.element,
-            feature_kind: contact.feature >> FEATURE_INDEX_BITS,
-            feature_index: contact.feature & ((1 << FEATURE_INDEX_BITS) - 1),
+            feature_kind: contact.feature.kind() as u32,
+            feature_index: contact.feature.index() as u32,
             end: contact.end,
             sticks: u32::from(contact.sticks),
             point: contact.point.into(),
             normal: contact.normal.into(),
             depth: contact.depth,
-            depth_rate: contact.rate,
+            depth_rate: contact.depth_rate,
             weight: contact.weight,
             normal_force: contact.normal_force,
             friction_force: contact.friction_force.into(),

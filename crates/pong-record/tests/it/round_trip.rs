@@ -16,9 +16,9 @@ fn same_contact(row: &ContactRow, contact: &Contact) -> bool {
         && bits(row.friction_force) == bits(contact.friction_force.into())
         && bits(row.slip_velocity) == bits(contact.slip_velocity.into())
         && bits([row.depth, row.depth_rate, row.weight, row.normal_force, row.stored])
-            == bits([contact.depth, contact.rate, contact.weight, contact.normal_force, contact.stored])
+            == bits([contact.depth, contact.depth_rate, contact.weight, contact.normal_force, contact.stored])
         && (row.element_a, row.element_b, row.end) == (contact.a.element, contact.b.element, contact.end)
-        && row.feature_kind << 30 | row.feature_index == contact.feature
+        && row.feature_kind << 30 | row.feature_index == contact.feature.0
         && (row.sticks == 1) == contact.sticks
         && row.pair as usize == contact.pair.index()
 }

@@ -77,7 +77,7 @@ fn add(hash: &mut Fnv, contact: &Contact) {
         point,
         normal,
         depth,
-        rate,
+        depth_rate,
         weight,
         normal_force,
         friction_force,
@@ -95,11 +95,11 @@ fn add(hash: &mut Fnv, contact: &Contact) {
         hash.word(u64::from(*primitive) << 32 | u64::from(*element));
         hash.numbers(arm.iter().copied());
     }
-    hash.word(u64::from(*feature) << 32 | u64::from(*end) << 1 | u64::from(*sticks));
+    hash.word(u64::from(feature.0) << 32 | u64::from(*end) << 1 | u64::from(*sticks));
     for vector in [point, normal, friction_force, force, slip_velocity] {
         hash.numbers(vector.iter().copied());
     }
-    hash.numbers([*depth, *rate, *weight, *normal_force, *stored, *work, *dissipated]);
+    hash.numbers([*depth, *depth_rate, *weight, *normal_force, *stored, *work, *dissipated]);
 }
 
 #[cfg(test)]
@@ -107,6 +107,7 @@ mod tests {
     use super::*;
     use pong_engine::{ObjectId, PairId};
     use pong_geometry::Vec3;
+    use pong_geometry::interference::Feature;
 
     fn contact() -> Contact {
         let side = |bits| ContactSide {
@@ -120,12 +121,12 @@ mod tests {
             pair: PairId::from_bits(1),
             a: side(1),
             b: side(2),
-            feature: 3,
+            feature: Feature(3),
             end: 0,
             point: Vec3::x(),
             normal: Vec3::z(),
             depth: 1.0,
-            rate: 2.0,
+            depth_rate: 2.0,
             weight: 0.5,
             normal_force: 3.0,
             friction_force: Vec3::y(),
@@ -156,13 +157,13 @@ mod tests {
             |c| c.a.arm.y = 1e-300,
             |c| c.b.interface = InterfaceId::from_bits(7),
             |c| c.b.primitive = 7,
-            |c| c.feature = 1 << 31,
+            |c| c.feature = Feature(1 << 31),
             |c| c.end = 1,
             |c| c.sticks = true,
             |c| c.point.x = 1.0_f64.next_up(),
             |c| c.normal.x = -0.0,
             |c| c.depth = 1.0_f64.next_up(),
-            |c| c.rate = 2.0_f64.next_down(),
+            |c| c.depth_rate = 2.0_f64.next_down(),
             |c| c.weight = 0.25,
             |c| c.normal_force = 3.5,
             |c| c.friction_force.z = 1.0,

@@ -69,7 +69,7 @@ fn head_on() -> Outcome {
         sim.step()?;
         if let [contact] = sim.world().contacts().as_slice() {
             if touch.is_nan() {
-                touch = sim.time() - contact.depth / contact.rate;
+                touch = sim.time() - contact.depth / contact.depth_rate;
             }
             deepest = deepest.max(contact.depth);
         }

@@ -24,7 +24,7 @@ fn v7_two_spheres() {
     let (mut touch, mut deepest) = (None, 0.0_f64);
     let mut watch = |sim: &Simulation| {
         if let [contact] = sim.world().contacts().as_slice() {
-            touch.get_or_insert(sim.time() - contact.depth / contact.rate);
+            touch.get_or_insert(sim.time() - contact.depth / contact.depth_rate);
             deepest = deepest.max(contact.depth);
         }
     };

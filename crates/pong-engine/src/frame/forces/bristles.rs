@@ -35,7 +35,7 @@ pub(super) struct Bristle {
 // Aligned: eight f64 fill one cache line, and an unaligned load of them touches two.
 #[derive(Debug)]
 #[repr(C, align(64))]
-pub(super) struct WaitingBristles {
+pub(super) struct PendingBristles {
     normal: Lanes,
     carried: Lanes,
     slip: Lanes,
@@ -46,16 +46,16 @@ pub(super) struct WaitingBristles {
     static_limit: [f64; LANES],
     count: usize,
     /// Indices of the contacts in their buffer.
-    places: [u32; LANES],
+    indices: [u32; LANES],
     stuck: LaneBits,
 }
 
-impl WaitingBristles {
+impl PendingBristles {
     pub fn new() -> Self {
         const NOTHING: Lanes = [[0.0; LANES]; 3];
         Self {
             count: 0,
-            places: [0; LANES],
+            indices: [0; LANES],
             normal: NOTHING,
             carried: NOTHING,
             slip: NOTHING,
@@ -78,10 +78,10 @@ impl WaitingBristles {
 
     /// Adds a contact; the batch must not be full.
     #[inline(always)]
-    pub fn add(&mut self, place: usize, one: &Bristle) {
+    pub fn add(&mut self, index: usize, one: &Bristle) {
         let lane = self.count;
         self.count += 1;
-        self.places[lane] = place as u32;
+        self.indices[lane] = index as u32;
         put(&mut self.normal, lane, &one.normal_b);
         put(&mut self.carried, lane, &one.carried_b);
         put(&mut self.slip, lane, &one.slip_b);
@@ -93,19 +93,18 @@ impl WaitingBristles {
         self.stuck = self.stuck & !(1 << lane) | LaneBits::from(one.stuck) << lane;
     }
 
-    /// Computes the friction of all pending contacts, which are then complete, and returns their indices.
+    /// Computes the friction of all pending contacts, which are then complete.
     #[inline]
-    pub fn flush(&mut self, contacts: &mut [FrameContact]) -> &[u32] {
+    pub fn flush(&mut self, contacts: &mut [FrameContact]) {
         let count = std::mem::take(&mut self.count);
         if count > 0 {
             simd::run(ComputeFriction { bristles: self, count, contacts });
         }
-        &self.places[..count]
     }
 }
 
 struct ComputeFriction<'a> {
-    bristles: &'a WaitingBristles,
+    bristles: &'a PendingBristles,
     count: usize,
     contacts: &'a mut [FrameContact],
 }
@@ -115,24 +114,24 @@ impl Kernel for ComputeFriction<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { bristles: waiting, count, contacts } = self;
+        let Self { bristles: pending, count, contacts } = self;
         // Unused lanes hold earlier values or zeros.
         let forces = Bristles {
-            stiffness: Numbers::load(simd, &waiting.stiffness),
-            damping: Numbers::load(simd, &waiting.damping),
-            kinetic_limit: Numbers::load(simd, &waiting.kinetic_limit),
-            static_limit: Numbers::load(simd, &waiting.static_limit),
-            normal: Vectors::load(simd, &waiting.normal),
-            carried: Vectors::load(simd, &waiting.carried),
-            slip: Vectors::load(simd, &waiting.slip),
-            slip_velocity: Vectors::load(simd, &waiting.slip_velocity),
-            stuck: waiting.stuck | !(LaneBits::MAX >> (LANES - count)),
+            stiffness: Numbers::load(simd, &pending.stiffness),
+            damping: Numbers::load(simd, &pending.damping),
+            kinetic_limit: Numbers::load(simd, &pending.kinetic_limit),
+            static_limit: Numbers::load(simd, &pending.static_limit),
+            normal: Vectors::load(simd, &pending.normal),
+            carried: Vectors::load(simd, &pending.carried),
+            slip: Vectors::load(simd, &pending.slip),
+            slip_velocity: Vectors::load(simd, &pending.slip_velocity),
+            stuck: pending.stuck | !(LaneBits::MAX >> (LANES - count)),
         }
         .evaluate(simd);
         let BristleForces { force, bristle, stored, sticks } = forces;
         let (force, bristle, stored) = (force.store(), bristle.store(), stored.store());
         for lane in 0..count {
-            let contact = &mut contacts[waiting.places[lane] as usize];
+            let contact = &mut contacts[pending.indices[lane] as usize];
             contact.friction_force_b = get(&force, lane);
             contact.bristle_b = get(&bristle, lane);
             contact.stored += stored[lane];

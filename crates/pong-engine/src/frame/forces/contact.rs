@@ -55,6 +55,12 @@ impl FrameContact {
         self.found.normal_b * self.normal_force + self.friction_force_b
     }
 
+    /// Upper bound of the magnitudes of its force, N, and its stored energy, J, without cancellation.
+    #[inline]
+    pub fn size(&self) -> f64 {
+        self.normal_force + self.friction_force_b.abs().sum() + self.stored.abs()
+    }
+
     /// Contact record for the next commit.
     pub fn record(&self) -> ContactRecord {
         let mut record = ContactRecord::blank();

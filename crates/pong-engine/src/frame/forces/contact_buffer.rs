@@ -1,16 +1,15 @@
 //! Buffer of the contacts that one thread finds, unordered and of fixed capacity. It counts the demand beyond
 //! that.
 
-use super::bristles::WaitingBristles;
+use super::bristles::PendingBristles;
 use crate::frame::forces::contact::FrameContact;
-use crate::frame::forces::contact_ref::ContactRef;
-use crate::frame::forces::wrench_term::WrenchTerm;
+use crate::frame::forces::contact_ref::{ContactRef, Slot};
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::law::FrictionProps;
 use crate::law::friction::{FrictionInput, FrictionOutput, friction_alone};
 use crate::report::{FrameCounts, WorkTimes};
 use crate::sealed::Sealed;
-use crate::state::{ContactRecord, ContactRole, Slot};
+use crate::state::ContactRole;
 use pong_arena::Table;
 use std::mem::swap;
 
@@ -24,14 +23,9 @@ pub(crate) struct ContactBuffer {
     /// Contacts, unordered.
     pub contacts: Table<FrameContact>,
     /// References to the contacts, one each.
-    pub places: Table<ContactRef>,
-    /// Wrench contributions of the contacts that have a record. Workers' buffers only.
-    pub terms: Table<WrenchTerm>,
-    /// Records for the next commit, for the first contacts of the buffer as far as there is room. Written as
-    /// soon as a contact is complete, in parallel with other threads.
-    pub records: Table<ContactRecord>,
+    pub refs: Table<ContactRef>,
     /// Contacts whose friction is pending.
-    pub(super) bristles: WaitingBristles,
+    pub(super) bristles: PendingBristles,
     /// State of registered friction laws, `law_state_len` numbers per contact.
     pub law_state: Table<f64>,
     pub law_state_len: usize,
@@ -88,17 +82,15 @@ impl ContactBuffer {
     /// Phase of an empty buffer.
     pub const NO_PHASE: u64 = 0;
 
-    /// Allocates room for this many contacts and records. The caller's buffer also gets room to rank contacts
-    /// by depth, to keep the deepest if there are too many.
-    pub fn new(thread: usize, law_state_len: usize, contacts: usize, records: usize) -> Self {
+    /// Allocates room for this many contacts. The caller's buffer also gets room to rank contacts by depth, to
+    /// keep the deepest if there are too many.
+    pub fn new(thread: usize, law_state_len: usize, contacts: usize) -> Self {
         Self {
             thread,
             phase: Self::NO_PHASE,
             contacts: Table::with_capacity(contacts, FrameContact::blank()),
-            places: Table::with_capacity(contacts, ContactRef::NOWHERE),
-            terms: Table::with_capacity(if thread > 0 { records } else { 0 }, WrenchTerm::nothing()),
-            records: Table::with_capacity(records, ContactRecord::blank()),
-            bristles: WaitingBristles::new(),
+            refs: Table::with_capacity(contacts, ContactRef::NOWHERE),
+            bristles: PendingBristles::new(),
             law_state: Table::with_capacity(contacts * law_state_len, 0.0),
             law_state_len,
             ranked: Table::with_capacity(if thread == 0 { contacts } else { 0 }, 0),
@@ -118,9 +110,7 @@ impl ContactBuffer {
     pub fn begin(&mut self, phase: u64) {
         self.phase = phase;
         self.contacts.clear();
-        self.places.clear();
-        self.terms.clear();
-        self.records.clear();
+        self.refs.clear();
         self.shares = self.thread > 0;
         self.bristles.clear();
         self.law_state.clear();
@@ -160,9 +150,7 @@ impl ContactBuffer {
     /// Discards everything added since a checkpoint.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
         self.contacts.truncate(checkpoint.contacts);
-        self.places.truncate(checkpoint.contacts);
-        self.terms.truncate(checkpoint.contacts);
-        self.records.truncate(checkpoint.contacts);
+        self.refs.truncate(checkpoint.contacts);
         self.bristles.clear();
         self.law_state.truncate(checkpoint.contacts * self.law_state_len);
         self.demand = checkpoint.demand;
@@ -171,12 +159,7 @@ impl ContactBuffer {
 
     /// Computes all pending friction.
     pub fn flush(&mut self) {
-        let flushed = self.bristles.flush(&mut self.contacts);
-        if !self.records.is_empty() {
-            for &place in flushed {
-                remember(&self.contacts, &mut self.records, place as usize);
-            }
-        }
+        self.bristles.flush(&mut self.contacts);
     }
 
     /// Computes the pending friction if the batch is full.
@@ -187,50 +170,25 @@ impl ContactBuffer {
         }
     }
 
-    /// Computes all pending friction, then writes the wrench contributions of the new contacts. They are
-    /// written in one go: stores to consecutive cache lines last read by another core overlap their misses,
-    /// scattered stores do not.
-    pub fn finish(&mut self) {
-        self.flush();
-        for contact in &self.contacts[self.terms.len()..self.records.len()] {
-            self.terms.push(WrenchTerm::of(contact)).expect("as much room as for records");
-        }
-    }
-
-    /// Writes the record of a complete contact.
-    #[inline(always)]
-    pub fn remember(&mut self, place: usize) {
-        if !self.records.is_empty() {
-            remember(&self.contacts, &mut self.records, place);
-        }
-    }
-
-    /// Returns true if every contact of the buffer has a record.
-    pub fn remembers_all(&self) -> bool {
-        self.records.len() == self.contacts.len()
-    }
-
-    /// Moves everything except the counts out of another [finished](Self::finish) buffer of the same thread,
-    /// by swapping the tables.
+    /// Moves everything except the counts out of another [flushed](Self::flush) buffer of the same thread, by
+    /// swapping the tables.
     pub fn move_from(&mut self, other: &mut Self) {
         debug_assert!(self.thread == other.thread && self.law_state_len == 0);
         swap(&mut self.contacts, &mut other.contacts);
-        swap(&mut self.places, &mut other.places);
-        swap(&mut self.terms, &mut other.terms);
-        swap(&mut self.records, &mut other.records);
+        swap(&mut self.refs, &mut other.refs);
         self.demand = other.demand;
         (self.phase, other.phase) = (other.phase, Self::NO_PHASE);
     }
 
-    /// Copies everything from another [finished](Self::finish) buffer; returns false if there is not enough
+    /// Copies everything from another [flushed](Self::flush) buffer; returns false if there is not enough
     /// room.
     pub fn merge(&mut self, other: &Self) -> bool {
         let first = self.contacts.len();
         let room = self.contacts.extend_from_slice(&other.contacts).is_ok()
             && self.law_state.extend_from_slice(&other.law_state).is_ok();
         if room {
-            for (index, place) in (first..).zip(&*other.places) {
-                self.places.push(place.at(self.slot_of(index))).expect("as many as contacts");
+            for (index, contact) in (first..).zip(&*other.refs) {
+                self.refs.push(contact.at(self.slot_of(index))).expect("as many as contacts");
             }
         }
         self.demand.add(&other.demand);
@@ -254,43 +212,30 @@ impl ContactBuffer {
         for _ in 0..self.law_state_len {
             self.law_state.push(0.0).expect("as much room as for contacts");
         }
-        if self.shares && self.records.capacity() > 0 {
-            self.make_room_for_record();
-        }
         self.contacts.slot().expect("ranking makes room");
-        self.places.slot().expect("as many as contacts");
+        self.refs.slot().expect("as many as contacts");
         Some(self.contacts.len() - 1)
-    }
-
-    /// Adds a record for the new contact, if all contacts before it have one and there is room.
-    #[inline(never)]
-    fn make_room_for_record(&mut self) {
-        if self.remembers_all() && self.records.len() < self.records.capacity() {
-            self.records.slot().expect("asked before");
-        }
     }
 
     /// Computes the friction of a contact on its own, without a batch.
     #[inline(never)]
-    pub fn add_friction_alone(&mut self, place: usize, law: &FrictionProps, input: &FrictionInput<'_>) {
+    pub fn add_friction_alone(&mut self, index: usize, law: &FrictionProps, input: &FrictionInput<'_>) {
         let FrictionOutput { force_b, bristle_b, sticks, stored } =
-            friction_alone(law, input, self.law_state_mut(place));
-        let contact = &mut self.contacts[place];
+            friction_alone(law, input, self.law_state_mut(index));
+        let contact = &mut self.contacts[index];
         (contact.friction_force_b, contact.bristle_b, contact.sticks) = (force_b, bristle_b, sticks);
         contact.stored += stored;
-        self.remember(place);
     }
 
     /// Makes room: keeps the deepest `pushing` contacts that push and the deepest `others` of the rest; ties
     /// by summation order.
     pub fn keep_deepest(&mut self, pushing: usize, others: usize) {
         self.flush();
-        self.records.clear();
         let ranked = &mut self.ranked;
         ranked.clear();
         let counts = |contact: &FrameContact| contact.found.status != CandidateStatus::Culled;
         for (index, _) in self.contacts.iter().enumerate().filter(|(_, contact)| counts(contact)) {
-            ranked.push(index as u32).expect("as many places as contacts");
+            ranked.push(index as u32).expect("as many ranks as contacts");
         }
         let contacts = &self.contacts;
         ranked.sort_unstable_by(|&i, &j| {
@@ -310,21 +255,13 @@ impl ContactBuffer {
         ranked.sort_unstable();
         for (to, &from) in ranked.iter().enumerate() {
             self.contacts[to] = self.contacts[from as usize];
-            self.places[to] = self.places[from as usize].at(Slot::new(self.thread, to));
+            self.refs[to] = self.refs[from as usize].at(Slot::new(self.thread, to));
             let stride = self.law_state_len;
             let from = from as usize * stride;
             self.law_state.as_mut_slice().copy_within(from..from + stride, to * stride);
         }
         self.contacts.truncate(ranked.len());
-        self.places.truncate(ranked.len());
+        self.refs.truncate(ranked.len());
         self.law_state.truncate(ranked.len() * self.law_state_len);
-    }
-}
-
-/// Writes the record of a contact, if it has one.
-#[inline(never)]
-fn remember(contacts: &[FrameContact], records: &mut [ContactRecord], place: usize) {
-    if let Some(record) = records.get_mut(place) {
-        contacts[place].write_record(record);
     }
 }

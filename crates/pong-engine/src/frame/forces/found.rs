@@ -3,7 +3,6 @@
 use super::contact::FrameContact;
 use super::contact_buffer::ContactBuffer;
 use super::contact_ref::ContactRef;
-use super::wrench_term::WrenchTerm;
 use std::ops::{Deref, DerefMut};
 
 /// Contacts of a frame: the caller's buffer and the workers' buffers that were swapped in.
@@ -14,26 +13,14 @@ pub(crate) struct FoundContacts<'a> {
 }
 
 impl<'a> FoundContacts<'a> {
+    /// Contact of a reference.
     #[inline]
-    fn thread(&self, place: &ContactRef) -> &'a ContactBuffer {
-        match place.slot.thread() {
+    pub fn contact(&self, reference: &ContactRef) -> &'a FrameContact {
+        let buffer = match reference.slot.thread() {
             0 => self.caller,
             worker => &self.workers[worker - 1],
-        }
-    }
-
-    #[inline]
-    pub fn contact(&self, place: &ContactRef) -> &'a FrameContact {
-        &self.thread(place).contacts[place.slot.index()]
-    }
-
-    /// Wrench contribution of a contact.
-    #[inline]
-    pub fn term(&self, place: &ContactRef) -> WrenchTerm {
-        match place.slot.thread() {
-            0 => WrenchTerm::of(&self.caller.contacts[place.slot.index()]),
-            worker => self.workers[worker - 1].terms[place.slot.index()],
-        }
+        };
+        &buffer.contacts[reference.slot.index()]
     }
 
     /// Buffers of all threads, the caller's first.
@@ -42,8 +29,8 @@ impl<'a> FoundContacts<'a> {
     }
 }
 
-/// Buffers that are swapped with those of the workers. Frames that the caller runs alone see none of them,
-/// because even to check a buffer costs a cache miss.
+/// Back buffers that are swapped with the workers' buffers after a round. While they are not in use they read
+/// as an empty slice, because reading a buffer costs a frame of the caller alone a cache miss.
 #[derive(Debug)]
 pub(crate) struct WorkerBuffers {
     all: Vec<ContactBuffer>,

@@ -6,7 +6,6 @@ pub(crate) mod contact_buffer;
 pub(crate) mod contact_ref;
 pub(crate) mod found;
 pub(crate) mod reference_point;
-pub(crate) mod wrench_term;
 
 use crate::frame::broad_phase::chunk::Chunk;
 use crate::frame::buffers::EvaluationBuffers;
@@ -44,10 +43,10 @@ pub(crate) fn compute_forces(
     for group in found.chunk_by(|a, b| a.key == b.key) {
         let counts = || group.iter().filter(|contact| contact.status != CandidateStatus::Culled);
         for one in counts() {
-            if let Some(place) = out.slot(one.role, sealed) {
+            if let Some(index) = out.slot(one.role, sealed) {
                 // Most groups have one contact.
                 let share = if group.len() > 1 { bristle_share(one, counts()) } else { one.half_or_whole() };
-                context.compute_force((elements_a, one), share, place, out);
+                context.compute_force((elements_a, one), share, index, out);
             }
         }
     }
@@ -60,19 +59,22 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
     let EvaluationBuffers { input, caller, order, near, poses, twists, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     let out = &mut caller.out;
-    let key_of = |out: &ContactBuffer, place: &ContactRef| out.contacts[place.slot.index()].found.key;
+    let key_of = |out: &ContactBuffer, reference: &ContactRef| out.contacts[reference.slot.index()].found.key;
     let mut rest = order.as_slice();
     while let Some(first) = rest.first() {
         let key = key_of(out, first);
         let group;
-        (group, rest) = rest.split_at(rest.iter().take_while(|place| key_of(out, place) == key).count());
+        (group, rest) =
+            rest.split_at(rest.iter().take_while(|reference| key_of(out, reference) == key).count());
         let motion = motions.known(near, input, key.direction());
         let context = PairContext::new(&given.round(input), key.direction(), &motion);
-        for place in group {
-            let index = place.slot.index();
+        for reference in group {
+            let index = reference.slot.index();
             let found = out.contacts[index].found;
-            let share =
-                bristle_share(&found, group.iter().map(|place| &out.contacts[place.slot.index()].found));
+            let share = bristle_share(
+                &found,
+                group.iter().map(|reference| &out.contacts[reference.slot.index()].found),
+            );
             let kind = context.body_a.primitives[key.primitive_a as usize].kind;
             out.law_state_mut(index).fill(0.0);
             context.compute_force((ElementsOfA { kind, centers: None }, &found), share, index, out);
@@ -136,7 +138,7 @@ struct Slipping<'f> {
     /// Share of the tangential spring that the contact has.
     share: f64,
     /// Index in the buffer.
-    place: usize,
+    index: usize,
 }
 
 impl PairContext<'_> {
@@ -157,7 +159,7 @@ impl PairContext<'_> {
         &self,
         (elements_a, found): (ElementsOfA<'_>, &ContactCandidate),
         share: f64,
-        place: usize,
+        index: usize,
         out: &mut ContactBuffer,
     ) {
         let props = self.props(found);
@@ -165,11 +167,11 @@ impl PairContext<'_> {
         let velocity = self.motion.velocity_at(&point);
         let closing = -found.normal_b.dot(&velocity);
         let slip_velocity = velocity + found.normal_b * closing;
-        let remembered = match found.remembered {
+        let records = match found.remembered {
             Some(range) => self.memory.at(range),
             None => self.memory.under(&found.key),
         };
-        let continues = remembered.matching(&found.normal_b, ContactRole::Active);
+        let continues = records.matching(&found.normal_b, ContactRole::Active);
         let (mut pressed, mut stored) = (0.0, 0.0);
         if found.role == ContactRole::Active {
             let weight = found.full_weight();
@@ -177,7 +179,7 @@ impl PairContext<'_> {
             stored = stored_energy(props, weight, found.depth);
         }
         let rubs = pressed > 0.0;
-        let slot = out.slot_of(place);
+        let slot = out.slot_of(index);
         // No `..`: a new field of the contact must be handled here.
         let FrameContact {
             found: as_found,
@@ -191,22 +193,20 @@ impl PairContext<'_> {
             sticks,
             work,
             dissipated,
-        } = &mut out.contacts[place];
+        } = &mut out.contacts[index];
         *as_found = *found;
         (*point_b, *rate, *normal_force, *slip_velocity_b) = (point, closing, pressed, slip_velocity);
         (*friction_force_b, *bristle_b, *sticks) = (Vec3::zeros(), Vec3::zeros(), !rubs);
         *in_springs = stored;
         (*work, *dissipated) = (0.0, 0.0);
         let pushes = found.role == ContactRole::Active;
-        let continued = continues.map(|(index, _)| index as u32);
-        out.places[place] = ContactRef::new(found.key.head(), slot, pushes, continued);
+        let continued = continues.map(|(record, _)| record as u32);
+        out.refs[index] = ContactRef::new(found.key.head(), slot, pushes, continued);
         if rubs && !matches!(props.friction, FrictionProps::None) {
             let slipping =
-                Slipping { elements_a, found, point, slip_velocity, pressed, continues, share, place };
+                Slipping { elements_a, found, point, slip_velocity, pressed, continues, share, index };
             self.add_friction(&slipping, props, out);
             out.flush_if_full();
-        } else {
-            out.remember(place);
         }
     }
 
@@ -214,10 +214,10 @@ impl PairContext<'_> {
     #[inline(always)]
     fn add_friction(&self, contact: &Slipping<'_>, props: &PairProps, out: &mut ContactBuffer) {
         let record = contact.continues.map(|(_, record)| record);
-        if let Some((index, _)) = contact.continues
+        if let Some((record, _)) = contact.continues
             && out.has_law_state()
         {
-            out.law_state_mut(contact.place).copy_from_slice(self.memory.law_state_of(index));
+            out.law_state_mut(contact.index).copy_from_slice(self.memory.law_state_of(record));
         }
         let carried = record.map_or(Vec3::zeros(), |record| {
             carry_by_smallest_rotation(&record.bristle_b, &record.normal_b, &contact.found.normal_b)
@@ -225,7 +225,7 @@ impl PairContext<'_> {
         let stuck = record.is_none_or(|record| record.sticks);
         if let FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } = props.friction {
             return out.bristles.add(
-                contact.place,
+                contact.index,
                 &Bristle {
                     normal_b: contact.found.normal_b,
                     carried_b: carried,
@@ -252,7 +252,7 @@ impl PairContext<'_> {
             stuck,
             parameters: &[],
         };
-        out.add_friction_alone(contact.place, &props.friction, &input);
+        out.add_friction_alone(contact.index, &props.friction, &input);
     }
 
     /// Rotation vector φ of A relative to B since the last commit, rad; computed once per pair.

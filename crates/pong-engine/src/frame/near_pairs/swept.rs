@@ -162,7 +162,7 @@ impl SweptBounds {
         let Some(&first) = bodies.first() else { return };
         let pose_before = |body: usize| match committed.past() {
             Past::Nothing => &poses[body],
-            Past::OneMoment | Past::Several => committed.pose(0, body),
+            Past::OneEpoch | Past::Several => committed.pose(0, body),
         };
         let origins = [poses[first].position, pose_before(first).position];
         let (mut middle, mut middle_before) = (Vec3::zeros(), Vec3::zeros());

@@ -22,10 +22,10 @@ impl EvaluationBuffers {
 
     /// Energy accounts of the contacts that push, in key order.
     pub fn list_accounts(&self) -> impl Iterator<Item = EnergyAccount> {
-        let pushing = self.order.iter().filter(|place| place.pushes());
-        pushing.filter_map(|place| {
-            let energy = self.energy.contacts.get(place.slot.index())?.energy;
-            Some(EnergyAccount { stored: self.found().contact(place).stored, ..energy.account })
+        let pushing = self.order.iter().filter(|reference| reference.pushes());
+        pushing.filter_map(|reference| {
+            let energy = self.energy.contacts.get(reference.slot.index())?.energy;
+            Some(EnergyAccount { stored: self.found().contact(reference).stored, ..energy.account })
         })
     }
 
@@ -67,12 +67,12 @@ impl EvaluationBuffers {
             pair: PairId::new(scene.stamp, pair.pair),
             a: side(body_a, contact.found.key.primitive_a, contact.found.element_a, arm_a),
             b: side(body_b, contact.found.primitive_b, contact.found.element_b, arm_b),
-            feature: contact.found.feature.0,
+            feature: contact.found.feature,
             end: contact.found.key.end,
             point: x_wb.position + arm_b,
             normal: to_common(&contact.found.normal_b),
             depth: contact.found.depth,
-            rate: contact.rate,
+            depth_rate: contact.rate,
             weight: contact.found.full_weight(),
             normal_force: contact.normal_force,
             friction_force: to_common(&contact.friction_force_b),

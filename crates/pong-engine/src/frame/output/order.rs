@@ -55,7 +55,7 @@ fn list(frame: &mut EvaluationBuffers) {
     let found = FoundContacts { caller: &caller.out, workers };
     order.clear();
     for thread in found.threads() {
-        order.extend_from_slice(&thread.places).expect("as many places as contacts");
+        order.extend_from_slice(&thread.refs).expect("as many places as contacts");
     }
     // Contacts under one high word are few; only these are compared whole.
     order.sort_unstable_by_key(|place| place.head);

@@ -34,7 +34,7 @@ pub enum FrictionPreload {
 /// New state of one bristle.
 pub(crate) struct Preloaded {
     /// Index of the contact in the frame's order, and of its record after the commit.
-    place: usize,
+    index: usize,
     bristle_b: Vec3,
     sticks: bool,
     friction_force_b: Vec3,
@@ -44,7 +44,7 @@ pub(crate) struct Preloaded {
 
 /// A contact with normal force and a bristle.
 struct Held<'f> {
-    place: usize,
+    index: usize,
     contact: &'f FrameContact,
     /// Tangential stiffness K, N/m.
     stiffness: f64,
@@ -73,7 +73,7 @@ impl EvaluationBuffers {
             };
             let squared = bristle.norm_squared() - held.contact.bristle_b.norm_squared();
             Some(Preloaded {
-                place: held.place,
+                index: held.index,
                 bristle_b: bristle,
                 sticks,
                 friction_force_b: bristle * -held.stiffness,
@@ -86,18 +86,18 @@ impl EvaluationBuffers {
     fn held(&self, scene: &Scene, sealed: &Sealed, memory: &ContactMemory, pair: usize) -> Vec<Held<'_>> {
         let motions = self.motions(sealed, &memory.poses);
         let round = Round { scene, sealed, memory, input: &self.input };
-        let contact_at = |place: usize| self.found().contact(&self.order[place]);
-        let places: Vec<usize> = (0..self.order.len()).collect();
+        let contact_at = |index: usize| self.found().contact(&self.order[index]);
+        let indices: Vec<usize> = (0..self.order.len()).collect();
         let mut all = Vec::new();
-        for group in places.chunk_by(|a, b| contact_at(*a).found.key == contact_at(*b).found.key) {
+        for group in indices.chunk_by(|a, b| contact_at(*a).found.key == contact_at(*b).found.key) {
             let key = contact_at(group[0]).found.key;
             if sealed.group_pairs[key.group_pair as usize].pair != pair {
                 continue;
             }
             let motion = motions.known(&self.near, &self.input, key.direction());
             let context = PairContext::new(&round, key.direction(), &motion);
-            for place in group {
-                let contact = contact_at(*place);
+            for index in group {
+                let contact = contact_at(*index);
                 let props = context.props(&contact.found);
                 let FrictionProps::Bristle { stiffness, mu_kinetic, mu_static, .. } = props.friction else {
                     continue;
@@ -106,9 +106,9 @@ impl EvaluationBuffers {
                     continue;
                 }
                 let share =
-                    bristle_share(&contact.found, group.iter().map(|place| &contact_at(*place).found));
+                    bristle_share(&contact.found, group.iter().map(|index| &contact_at(*index).found));
                 all.push(Held {
-                    place: *place,
+                    index: *index,
                     contact,
                     stiffness: share * stiffness,
                     kinetic_limit: mu_kinetic * contact.normal_force,
@@ -162,7 +162,7 @@ impl ContactMemory {
     /// accounts.
     pub(crate) fn preload(&mut self, preloaded: &[Preloaded], keeps_ledger: bool) {
         for one in preloaded {
-            let record = &mut self.records[one.place];
+            let record = &mut self.records[one.index];
             record.force_b = record.normal_b * record.normal_b.dot(&record.force_b) + one.friction_force_b;
             (record.bristle_b, record.sticks) = (one.bristle_b, one.sticks);
             record.stored += one.stored_more;
@@ -171,7 +171,7 @@ impl ContactMemory {
                 self.dissipated -= one.stored_more;
             }
             let pair = record.key.group_pair as usize;
-            self.energies.insert_into_bristle(one.place, one.stored_more);
+            self.energies.insert_into_bristle(one.index, one.stored_more);
             self.pair_energies.insert(pair, one.stored_more);
         }
     }

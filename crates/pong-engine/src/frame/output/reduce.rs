@@ -8,7 +8,6 @@
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::forces::found::FoundContacts;
-use crate::frame::forces::wrench_term::WrenchTerm;
 use crate::frame::input::EvaluationInput;
 use crate::frame::input::relative::Motions;
 use crate::sealed::Sealed;
@@ -72,11 +71,12 @@ impl Sums {
     fn of(found: &FoundContacts<'_>, places: &[ContactRef], origin_a: &Vec3) -> Self {
         let mut sums = Self::of_nothing();
         for place in places.iter().filter(|place| place.pushes()) {
-            let WrenchTerm { force_b, point_b, size } = &found.term(place);
+            let contact = found.contact(place);
+            let (force_b, point_b) = (&contact.force(), &contact.point_b);
             sums.force += force_b;
             sums.about_a += (point_b - origin_a).cross(force_b);
             sums.about_b += point_b.cross(force_b);
-            sums.in_range &= holds(*size);
+            sums.in_range &= holds(contact.size());
         }
         sums
     }

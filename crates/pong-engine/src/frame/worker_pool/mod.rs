@@ -83,8 +83,8 @@ impl Job for Shared {
             context.out.begin(input.phase);
         }
         self.run_blocks((input, memory), blocks, &mut context);
-        // Finish on the worker: the data is in this core's cache, not in the caller's.
-        context.out.finish();
+        // On the worker, because its core's cache holds the contacts.
+        context.out.flush();
     }
 }
 
@@ -149,13 +149,13 @@ impl WorkerPool {
     }
 
     /// Runs the blocks of `input` on the caller and the first `workers` workers. Returns true if all results
-    /// are in `context` or, per worker, in `taken`; on false, the caller has to repeat everything alone.
+    /// are in `context` or, per worker, in `back_buffers`; on false, the caller has to repeat everything alone.
     pub fn run_parallel(
         &mut self,
         memory: &Arc<ContactMemory>,
         (input, workers): (&WorkerInput, usize),
         context: &mut WorkerContext,
-        taken: &mut [ContactBuffer],
+        back_buffers: &mut [ContactBuffer],
     ) -> bool {
         // A worker that has claimed blocks of an earlier round but not started them would run blocks of this
         // round.
@@ -180,13 +180,18 @@ impl WorkerPool {
             self.timeouts += 1;
             return false;
         }
-        self.gather(input.phase, context, taken)
+        self.gather(input.phase, context, back_buffers)
     }
 
-    /// Collects the workers' results of a complete phase; returns false if any are missing. If the limits are
-    /// not reached, buffers are swapped, because copying a contact costs more than anything else that the
-    /// caller does with it.
-    fn gather(&mut self, phase: u64, context: &mut WorkerContext, taken: &mut [ContactBuffer]) -> bool {
+    /// Collects the workers' results of a complete phase; returns false if any are missing. If the contacts are
+    /// within the capacity, buffers are swapped, because copying a contact costs more than anything else that
+    /// the caller does with it.
+    fn gather(
+        &mut self,
+        phase: u64,
+        context: &mut WorkerContext,
+        back_buffers: &mut [ContactBuffer],
+    ) -> bool {
         let out = &mut context.out;
         let (mut found, mut overflowed) = (out.contacts.len(), out.demand.overflowed);
         // Skip workers without blocks: even to look at their contexts costs a cache miss.
@@ -200,19 +205,19 @@ impl WorkerPool {
         if overflowed {
             return false;
         }
-        let as_they_are = found <= self.shared.sealed.contact_capacity;
-        let mut taken = taken.iter_mut();
+        let may_swap = found <= self.shared.sealed.contact_capacity;
+        let mut back_buffers = back_buffers.iter_mut();
         for ((times, other), at_work) in self.times.iter_mut().zip(&self.shared.contexts).zip(at_work()) {
-            let taken = taken.next();
+            let back_buffer = back_buffers.next();
             if !at_work {
                 continue;
             }
             let mut other = locked(other);
             times.add(&other.out.times);
-            match taken {
-                Some(taken) if as_they_are && other.out.remembers_all() => {
+            match back_buffer {
+                Some(back_buffer) if may_swap => {
                     out.counts.add(&other.out.counts);
-                    taken.move_from(&mut other.out);
+                    back_buffer.move_from(&mut other.out);
                 }
                 _ if out.merge(&other.out) => {}
                 _ => return false,

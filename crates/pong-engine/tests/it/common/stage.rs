@@ -330,13 +330,13 @@ impl Hash {
     }
 
     pub fn contact(&mut self, contact: &Contact) {
-        let Contact { pair, a, b, feature, end, point, normal, depth, rate, weight, .. } = contact;
+        let Contact { pair, a, b, feature, end, point, normal, depth, depth_rate, weight, .. } = contact;
         self.word(pair.to_bits() & 0xffff_ffff);
         self.side(a);
         self.side(b);
-        self.word(u64::from(*feature) << 32 | u64::from(*end));
+        self.word(u64::from(feature.0) << 32 | u64::from(*end));
         [point, normal].into_iter().for_each(|vector| self.vector(vector));
-        self.numbers(&[*depth, *rate, *weight]);
+        self.numbers(&[*depth, *depth_rate, *weight]);
         let Contact { normal_force, friction_force, force, slip_velocity, sticks, .. } = contact;
         self.numbers(&[*normal_force]);
         [friction_force, force, slip_velocity].into_iter().for_each(|vector| self.vector(vector));
