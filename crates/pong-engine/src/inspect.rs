@@ -8,8 +8,8 @@ use crate::error::EngineError;
 use crate::law::PairProps;
 use crate::runtime::Runtime;
 use crate::scene::Scene;
+pub use crate::seal::GroupPair;
 use crate::seal::can_be_tested;
-pub use crate::sealed::GroupPair;
 use pong_geometry::{Pose, Transform, Vec3};
 use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 

@@ -11,7 +11,7 @@ use crate::frame::{
 };
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
-use crate::sealed::{GroupPair, Sealed, SurfaceTable};
+use crate::seal::{GroupPair, Sealed, SurfaceTable};
 use crate::state::{
     CarryOutcome, CommittedPoses, ContactKey, ContactMemory, ContactRole, Counterparts, StateError,
     largest_len, needed_len, read_block, write_block,

@@ -18,7 +18,7 @@ use crate::frame::narrow_phase::testers::{Target, test_deferred};
 use crate::frame::worker_context::WorkerContext;
 use crate::frame::{forces, load_sharing};
 use crate::report::{FrameCounts, Laps, Work};
-use crate::sealed::{Direction, Plan, Sealed};
+use crate::seal::{Direction, Plan, Sealed};
 use pong_arena::{Arena, Table};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{Kernel, LANES, LaneBits, Simd};

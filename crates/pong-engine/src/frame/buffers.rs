@@ -13,7 +13,7 @@ use crate::frame::tunnelling::events::TunnellingEvents;
 use crate::frame::worker_context::WorkerContext;
 use crate::report::{FrameReport, StageTimes};
 use crate::scene::Scene;
-use crate::sealed::{Direction, Sealed};
+use crate::seal::{Direction, Sealed};
 use crate::state::CommittedPoses;
 use pong_arena::Table;
 use pong_geometry::{Pose, Twist, Wrench};

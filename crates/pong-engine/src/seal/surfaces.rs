@@ -3,9 +3,9 @@
 use super::filters::{apart, representatives};
 use super::testable::{can_be_tested, kind_name};
 use super::warnings::SetupNote;
+use super::{GroupPair, ObjectFilters, SurfaceTable};
 use crate::law::{FrictionProps, PairProps, combine, friction_name};
 use crate::scene::Scene;
-use crate::sealed::{GroupPair, ObjectFilters, SurfaceTable};
 use pong_model::{
     Filters, FrictionLaw, Model, MovableGroup, PairOverride, PrimitiveInfo, Surface, pair_entries,
 };

@@ -4,7 +4,7 @@ use super::World;
 use crate::error::EngineError;
 use crate::ids::{InterfaceId, PairId};
 use crate::runtime::Runtime;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use pong_geometry::Wrench;
 use std::sync::Arc;
 

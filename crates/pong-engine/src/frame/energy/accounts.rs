@@ -21,7 +21,7 @@ use crate::frame::input::WorkerInput;
 use crate::frame::input::relative::Motions;
 use crate::law::stored_energy;
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::{ContactMemory, ContactRecord, ContactRole};
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Pose, Vec3, Wrench};

@@ -5,7 +5,7 @@ use crate::energy::contact::ContactEnergies;
 use crate::energy::episodes::PairEnergies;
 use crate::energy::ledger::LedgerEntry;
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 
 /// Energies of a frame, as a commit would store them.
 pub(crate) struct EnergyBuffers {

@@ -1,6 +1,6 @@
 //! References to contacts, with the data that sorting and commit need of every contact.
 
-use crate::sealed::Direction;
+use crate::seal::Direction;
 use crate::state::{ContactKey, Slot};
 
 /// Reference to a contact, with the high word of its sort key and the flags that are needed before summation.

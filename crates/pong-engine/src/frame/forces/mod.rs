@@ -16,7 +16,7 @@ use crate::frame::input::{EvaluationInput, PairContext};
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::law::friction::{FrictionInput, shortened};
 use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::{ContactRecord, ContactRole};
 use bristles::Bristle;
 use contact::FrameContact;

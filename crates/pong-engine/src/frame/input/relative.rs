@@ -6,7 +6,7 @@
 use super::WorkerInput;
 use super::motion::{Motion, PairMotions, SinceCommit};
 use crate::frame::near_pairs::NearPairs;
-use crate::sealed::{Direction, Sealed};
+use crate::seal::{Direction, Sealed};
 use crate::state::CommittedPoses;
 use pong_geometry::{Pose, Quat, Transform, Twist};
 use std::borrow::Cow;

@@ -7,7 +7,7 @@ use crate::frame::forces::contact::FrameContact;
 use crate::ids::{InterfaceId, ObjectId, PairId};
 use crate::law::{NormalTangent, normal_tangent};
 use crate::scene::Scene;
-use crate::sealed::{Sealed, SurfaceTable};
+use crate::seal::{Sealed, SurfaceTable};
 use pong_geometry::{Pose, Vec3};
 
 impl EvaluationBuffers {

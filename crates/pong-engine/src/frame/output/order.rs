@@ -10,7 +10,7 @@ use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::frame::worker_context::WorkerContext;
 use crate::report::StatusBits;
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 
 /// Sorts the contacts of all threads.
 #[inline]

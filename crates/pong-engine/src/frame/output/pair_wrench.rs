@@ -3,7 +3,7 @@
 use super::reduce::Sums;
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::contact_ref::ContactRef;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use pong_geometry::{Pose, Wrench};
 
 impl EvaluationBuffers {
@@ -42,7 +42,7 @@ impl EvaluationBuffers {
     }
 
     /// Every pair of movable groups that touches, with the sum of the normal forces of its contacts, N, and the wrench on its first
-    /// [side](crate::sealed::GroupPair::sides) about the origin of that, along common axes.
+    /// [side](crate::seal::GroupPair::sides) about the origin of that, along common axes.
     pub fn for_each_touching(&self, sealed: &Sealed, mut visit: impl FnMut(u32, f64, Wrench)) {
         for places in self.order.chunk_by(|a, b| a.direction().group_pair == b.direction().group_pair) {
             let pushing = places.iter().filter(|place| place.pushes());

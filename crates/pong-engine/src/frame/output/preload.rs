@@ -16,7 +16,7 @@ use crate::frame::input::{PairContext, Round};
 use crate::law::FrictionProps;
 use crate::law::friction::shortened;
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::{ContactMemory, ContactRole};
 use pong_geometry::Vec3;
 

@@ -11,7 +11,7 @@ use crate::frame::forces::found::FoundContacts;
 use crate::frame::forces::wrench_term::WrenchTerm;
 use crate::frame::input::EvaluationInput;
 use crate::frame::input::relative::Motions;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use pong_geometry::{Transform, Vec3, Wrench};
 
 /// Adds every contact to both of its movable groups; contacts of one pair direction are first summed together

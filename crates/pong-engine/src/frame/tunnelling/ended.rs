@@ -8,7 +8,7 @@ use super::{solids, swept};
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::reference_point::reference_point;
 use crate::frame::input::EvaluationInput;
-use crate::sealed::Direction;
+use crate::seal::Direction;
 use crate::state::{ContactKey, ContactRecord, ContactRole, Records};
 use pong_arena::List;
 use pong_geometry::interference::ball_bore::is_behind_wall;

@@ -9,7 +9,7 @@ use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::input::motion::Motion;
 use crate::frame::input::{EvaluationInput, PairContext};
 use crate::frame::narrow_phase::candidate::ContactCandidate;
-use crate::sealed::{Direction, Plan};
+use crate::seal::{Direction, Plan};
 use crate::state::{ContactKey, ContactRecord, ContactRole};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;

@@ -1,7 +1,7 @@
 //! Tunnelling test by distance: the travel of a body since the last commit against the thinnest element.
 
 use crate::frame::input::motion::Motion;
-use crate::sealed::Plan;
+use crate::seal::Plan;
 use pong_geometry::primitive::{Primitive, PrimitiveKind};
 use pong_geometry::{Transform, Vec3};
 use pong_model::{Batch, MovableGroup, PrimitiveInfo};

@@ -2,10 +2,10 @@
 
 use super::filters::{apart, primitives_that_meet, representatives};
 use super::testable::{can_be_tested, kind_name};
+use super::{GroupPair, LeafFilter, NO_PLAN, ObjectFilters, Plan};
 use crate::frame::narrow_phase::pair_table::{REGISTERED, kind_pair};
 use crate::frame::{least_travel_m, reach_m};
 use crate::scene::Scene;
-use crate::sealed::{GroupPair, LeafFilter, NO_PLAN, ObjectFilters, Plan};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 use std::collections::BTreeMap;
