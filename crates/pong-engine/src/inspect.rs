@@ -120,7 +120,7 @@ impl<'w> Inspection<'w> {
             let cure = "evaluate or step a frame first";
             return Err(EngineError::WrongPhase { call: "ask what pushes", cure });
         }
-        Ok(frame.pushing().map(|contact| {
+        Ok(frame.contacts().pushing().map(|contact| {
             let key = &contact.found.key;
             let (pair, flipped) = (key.group_pair as usize, key.flipped as usize);
             let (group_a, group_b) = sealed.bodies_of(key.direction());

@@ -9,11 +9,9 @@ use crate::seal::Sealed;
 
 /// Energies of a frame, as a commit would store them.
 pub(crate) struct EnergyBuffers {
-    /// Work done on the bodies since the world began, J.
-    pub work: f64,
-    /// Energy dissipated or dropped since the world began, J.
-    pub dissipated: f64,
-    /// Contributions of the frame to both, per pair of movable groups, for partial commits; empty without a
+    /// Work and dissipation since the world began.
+    pub total: LedgerEntry,
+    /// Contributions of the frame to `total`, per pair of movable groups, for partial commits; empty without a
     /// ledger.
     pub added: Vec<LedgerEntry>,
     /// Energies of the contacts, by index in the caller's buffer; empty unless accounts are kept.
@@ -28,8 +26,7 @@ impl EnergyBuffers {
     pub fn new(scene: &Scene, sealed: &Sealed) -> Self {
         let pairs = if scene.config.ledger { sealed.group_pairs.len() } else { 0 };
         Self {
-            work: 0.0,
-            dissipated: 0.0,
+            total: LedgerEntry::default(),
             added: vec![LedgerEntry::default(); pairs],
             contacts: ContactEnergies::with_capacity(sealed.coupling, sealed.limits.thread_contacts),
             pairs: PairEnergies::new(sealed.account_pairs(), sealed.delay()),

@@ -16,10 +16,10 @@ mod displacement;
 pub(crate) mod interval;
 
 use crate::energy::ledger::LedgerEntry;
-use crate::frame::buffers::EvaluationBuffers;
+use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::forces::reference_point::reference_point;
-use crate::frame::input::EvaluationInput;
 use crate::frame::input::relative::Motions;
+use crate::frame::input::{EvaluationInput, WorkerInput};
 use crate::frame::worker_context::WorkerContext;
 use crate::state::{ContactRecord, ContactRole};
 use accounts::Accounts;
@@ -29,32 +29,27 @@ use pong_geometry::Vec3;
 
 /// Computes the energies of the contacts and the totals.
 #[inline]
-pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
+pub(crate) fn balance(
+    given: &EvaluationInput<'_>,
+    motions: &Motions<'_>,
+    input: &WorkerInput,
+    order: &[ContactRef],
+    caller: &mut WorkerContext,
+    energy: &mut EnergyBuffers,
+) {
     let EvaluationInput { scene, sealed, memory, .. } = *given;
     let enabled = &given.states.enabled;
-    frame.energy.work = memory.work;
-    frame.energy.dissipated = memory.dissipated;
+    energy.total = LedgerEntry { work: memory.work, dissipated: memory.dissipated };
     if !scene.config.ledger {
         return;
     }
-    let EvaluationBuffers { input, caller, order, energy, near, poses, twists, .. } = frame;
-    let motions = Motions { sealed, poses, twists, committed: &memory.poses };
-    let EnergyBuffers {
-        work: all_work,
-        dissipated: all_dissipated,
-        added,
-        contacts: energies,
-        pairs,
-        intervals,
-    } = energy;
+    let EnergyBuffers { total, added, contacts: energies, pairs, intervals } = energy;
     added.fill(LedgerEntry::default());
     let mut book = |group_pair: u32, entry: &LedgerEntry| {
-        *all_work += entry.work;
-        *all_dissipated += entry.dissipated;
+        total.add(entry);
         added[group_pair as usize].add(entry);
     };
-    let WorkerContext { scratch, out, .. } = &mut **caller;
-    let input = &*input;
+    let WorkerContext { scratch, out, .. } = caller;
     energies.reset(out.contacts.len());
     let mut accounts = sealed.coupling.map(|coupling| Accounts {
         scene,
@@ -75,7 +70,7 @@ pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers
         if found.role != ContactRole::Active {
             continue;
         }
-        let motion = motions.known(near, input, found.key.direction());
+        let motion = motions.known(input, found.key.direction());
         let mut before = Before::default();
         // If two contacts continue one record, the first gets its energy.
         let earlier = place.continues().filter(|&record| !continued[record]);
@@ -106,13 +101,13 @@ pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers
     let ended =
         memory.records.iter().enumerate().filter(|(i, r)| r.role == ContactRole::Active && !continued[*i]);
     for (index, earlier) in ended {
-        let displacement = displacement_of_ended(earlier, &motions);
+        let displacement = displacement_of_ended(earlier, motions);
         book(earlier.key.group_pair, &end_contact(earlier, displacement.as_ref()));
         if let Some(accounts) = &mut accounts {
             accounts.ended(index, displacement.as_ref());
         }
     }
-    accounts.iter_mut().for_each(|accounts| accounts.close(&motions, enabled));
+    accounts.iter_mut().for_each(|accounts| accounts.close(motions, enabled));
 }
 
 /// State of a contact at the last commit; zero for a new contact.

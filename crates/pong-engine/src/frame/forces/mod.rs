@@ -9,10 +9,9 @@ pub(crate) mod reference_point;
 pub(crate) mod wrench_term;
 
 use crate::frame::broad_phase::chunk::Chunk;
-use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::input::motion::SinceCommit;
 use crate::frame::input::relative::Motions;
-use crate::frame::input::{EvaluationInput, PairContext};
+use crate::frame::input::{EvaluationInput, PairContext, WorkerInput};
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::law::friction::{FrictionInput, shortened};
 use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
@@ -54,18 +53,20 @@ pub(crate) fn compute_forces(
 }
 
 /// Recomputes the forces after a limit has removed contacts: the remaining ones carry the whole bristle.
-pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
-    let EvaluationInput { sealed, memory, .. } = *given;
-    let EvaluationBuffers { input, caller, order, near, poses, twists, .. } = frame;
-    let motions = Motions { sealed, poses, twists, committed: &memory.poses };
-    let out = &mut caller.out;
+pub(crate) fn recompute_forces(
+    given: &EvaluationInput<'_>,
+    motions: &Motions<'_>,
+    input: &WorkerInput,
+    order: &[ContactRef],
+    out: &mut ContactBuffer,
+) {
     let key_of = |out: &ContactBuffer, place: &ContactRef| out.contacts[place.slot.index()].found.key;
-    let mut rest = order.as_slice();
+    let mut rest = order;
     while let Some(first) = rest.first() {
         let key = key_of(out, first);
         let group;
         (group, rest) = rest.split_at(rest.iter().take_while(|place| key_of(out, place) == key).count());
-        let motion = motions.known(near, input, key.direction());
+        let motion = motions.known(input, key.direction());
         let context = PairContext::new(&given.round(input), key.direction(), &motion);
         for place in group {
             let index = place.slot.index();

@@ -11,10 +11,14 @@ use crate::state::CommittedPoses;
 use pong_geometry::{Pose, Quat, Transform, Twist};
 use std::borrow::Cow;
 
-/// Input of the relative motion of any pair.
+/// Pairs of movable groups that a frame visits, and the relative motion of any pair.
 #[derive(Clone, Copy)]
 pub(crate) struct Motions<'a> {
     pub sealed: &'a Sealed,
+    /// Number of the frame.
+    pub frame: u64,
+    /// Pairs that the frame visits.
+    pub near: &'a NearPairs,
     /// Poses and twists of all movable groups.
     pub poses: &'a [Pose],
     pub twists: &'a [Twist],
@@ -23,10 +27,9 @@ pub(crate) struct Motions<'a> {
 }
 
 impl Motions<'_> {
-    /// Computes the motions of some pairs for a frame, in the directions that have tests. If an entry already
-    /// holds the motion of the committed frame, its pose becomes the committed pose without a new
-    /// computation.
-    pub fn relate(&self, pairs: &[u32], frame: u64, out: &mut Vec<PairMotions>) {
+    /// Computes the motions of some pairs, in the directions that have tests. If an entry already holds the
+    /// motion of the committed frame, its pose becomes the committed pose without a new computation.
+    pub fn relate(&self, pairs: &[u32], out: &mut Vec<PairMotions>) {
         // Reuse the entries: most frames have as many pairs as the one before. Unused directions keep their
         // old values.
         if out.len() < pairs.len() {
@@ -35,7 +38,7 @@ impl Motions<'_> {
         out.truncate(pairs.len());
         for (motions, &group_pair) in out.iter_mut().zip(pairs) {
             let is_known = motions.group_pair == group_pair && motions.frame == self.committed.frame();
-            (motions.group_pair, motions.frame) = (group_pair, frame);
+            (motions.group_pair, motions.frame) = (group_pair, self.frame);
             for (_, direction) in self.sealed.plans_of(group_pair) {
                 let motion = &mut motions.directions[direction.flipped as usize];
                 let earlier =
@@ -81,13 +84,8 @@ impl Motions<'_> {
     }
 
     /// Motion in a direction that has a contact: from the frame's input, or recomputed.
-    pub fn known<'i>(
-        &self,
-        near: &NearPairs,
-        input: &'i WorkerInput,
-        direction: Direction,
-    ) -> Cow<'i, Motion> {
-        match near.slot(direction.group_pair) {
+    pub fn known<'i>(&self, input: &'i WorkerInput, direction: Direction) -> Cow<'i, Motion> {
+        match self.near.slot(direction.group_pair) {
             Some(slot) => Cow::Borrowed(input.motions[slot].of(direction)),
             None => Cow::Owned(self.of(direction)),
         }

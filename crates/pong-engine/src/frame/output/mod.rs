@@ -3,7 +3,9 @@
 
 mod listing;
 pub(crate) mod order;
+pub(crate) mod ordered;
 mod pair_wrench;
 pub(crate) mod preload;
 pub(crate) mod reduce;
 pub(crate) mod remember;
+pub(crate) mod results;

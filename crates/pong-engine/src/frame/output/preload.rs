@@ -94,7 +94,7 @@ impl EvaluationBuffers {
             if sealed.group_pairs[key.group_pair as usize].pair != pair {
                 continue;
             }
-            let motion = motions.known(&self.near, &self.input, key.direction());
+            let motion = motions.known(&self.input, key.direction());
             let context = PairContext::new(&round, key.direction(), &motion);
             for place in group {
                 let contact = contact_at(*place);

@@ -4,11 +4,11 @@ use super::events::{TunnellingEvent, TunnellingEvents};
 use super::line::{Line, Met};
 use super::swept::{self, Swept};
 use super::{sheets, solids, travel};
-use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::input::motion::Motion;
-use crate::frame::input::{EvaluationInput, PairContext};
+use crate::frame::input::{PairContext, Round};
 use crate::frame::narrow_phase::candidate::ContactCandidate;
+use crate::frame::output::ordered::OrderedContacts;
 use crate::seal::{Direction, Plan};
 use crate::state::{ContactKey, ContactRecord, ContactRole};
 use pong_geometry::Vec3;
@@ -24,19 +24,18 @@ pub(super) const SAME_SIDE_COSINE_MIN: f64 = 0.5;
 pub(super) struct Seen<'a> {
     pub context: PairContext<'a>,
     bodies: (usize, usize),
-    frame: &'a EvaluationBuffers,
+    contacts: OrderedContacts<'a>,
 }
 
 impl<'a> Seen<'a> {
     pub fn new(
-        given: &EvaluationInput<'a>,
+        round: Round<'a>,
         direction: Direction,
         motion: &'a Motion,
-        frame: &'a EvaluationBuffers,
+        contacts: OrderedContacts<'a>,
     ) -> Self {
-        let bodies = given.sealed.bodies_of(direction);
-        let context = PairContext::new(&given.round(&frame.input), direction, motion);
-        Self { context, bodies, frame }
+        let bodies = round.sealed.bodies_of(direction);
+        Self { context: PairContext::new(&round, direction, motion), bodies, contacts }
     }
 
     /// Follows every point of every element of A that can touch something of B.
@@ -194,13 +193,13 @@ impl<'a> Seen<'a> {
     /// Normals of the contacts of a primitive of A with a shell of B.
     pub fn pushing(&self, primitive_a: u32, shell_b: u32) -> impl Iterator<Item = &'a Vec3> + use<'a> {
         let key = self.key(primitive_a, shell_b);
-        pushing(self.frame, same_head(self.frame, key), key)
+        pushing(self.contacts, self.contacts.with_head(key.head()), key)
     }
 
     /// Normals of the contacts of one end of a segment with a shell of B.
     pub fn pushing_at_end(&self, key: ContactKey) -> impl Iterator<Item = &'a Vec3> + use<'a> {
-        let same_head = same_head(self.frame, key);
-        let at_end = found(self.frame, same_head, key).filter(move |found| found.key.end == key.end);
+        let same_head = self.contacts.with_head(key.head());
+        let at_end = found(self.contacts, same_head, key).filter(move |found| found.key.end == key.end);
         at_end.map(|found| &found.normal_b)
     }
 
@@ -225,30 +224,23 @@ fn any_met(batch: &Batch, (low, high): &(Vec3, Vec3), holds: impl Fn(u32) -> boo
     any
 }
 
-/// References to the contacts whose keys have the same high word.
-fn same_head(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item = &ContactRef> + use<'_> {
-    let head = key.head();
-    let first = frame.order.partition_point(|place| place.head < head);
-    frame.order[first..].iter().take_while(move |place| place.head == head)
-}
-
 /// Normals of the contacts of a primitive of A with a shell of B, at any end of a segment, among those with
 /// the key's high word.
 pub(super) fn pushing<'a>(
-    frame: &'a EvaluationBuffers,
+    contacts: OrderedContacts<'a>,
     same_head: impl Iterator<Item = &'a ContactRef>,
     key: ContactKey,
 ) -> impl Iterator<Item = &'a Vec3> {
-    found(frame, same_head, key).map(|found| &found.normal_b)
+    found(contacts, same_head, key).map(|found| &found.normal_b)
 }
 
 /// Contacts that push for a primitive of A and a shell of B, among those with the key's high word.
 fn found<'a>(
-    frame: &'a EvaluationBuffers,
+    contacts: OrderedContacts<'a>,
     same_head: impl Iterator<Item = &'a ContactRef>,
     key: ContactKey,
 ) -> impl Iterator<Item = &'a ContactCandidate> {
     let pushing = same_head.filter(|place| place.pushes());
-    let found = pushing.map(|place| &frame.found().contact(place).found);
+    let found = pushing.map(move |place| &contacts.found.contact(place).found);
     found.filter(move |found| found.key.shell_b == key.shell_b)
 }
