@@ -1,7 +1,7 @@
 //! Buffers that a frame writes, grouped by stage.
 
+use crate::energy::buffers::EnergyBuffers;
 use crate::frame::broad_phase::blocks::PendingParts;
-use crate::frame::energy::buffers::EnergyBuffers;
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::forces::found::{FoundContacts, WorkerBuffers};

@@ -3,9 +3,8 @@
 mod block;
 mod broad_phase;
 mod buffers;
-mod energy;
-mod forces;
-mod input;
+pub(crate) mod forces;
+pub(crate) mod input;
 pub(crate) mod load_sharing;
 mod lone_blocks;
 pub(crate) mod narrow_phase;
@@ -13,13 +12,12 @@ mod near_pairs;
 mod output;
 mod run_blocks;
 mod tunnelling;
-mod worker_context;
+pub(crate) mod worker_context;
 mod worker_pool;
 
 pub(crate) use block::arena_bytes;
 pub(crate) use broad_phase::blocks::{PendingParts, ROUND};
 pub(crate) use buffers::EvaluationBuffers;
-pub(crate) use energy::interval::Interval;
 pub(crate) use forces::contact::FrameContact;
 pub(crate) use forces::contact_ref::ContactRef;
 pub(crate) use forces::wrench_term::WrenchTerm;
@@ -35,6 +33,7 @@ pub(crate) use tunnelling::travel::{least_travel_m, reach_m};
 pub(crate) use worker_context::WorkerContext;
 pub(crate) use worker_pool::WorkerPool;
 
+use crate::energy::balance::balance;
 use crate::report::{Stage, StatusBits, Work, WorkTimes};
 use broad_phase::blocks::Layout;
 use forces::found::{FoundContacts, WorkerBuffers};
@@ -80,7 +79,7 @@ pub(crate) fn evaluate(
     }
     watch.lap(Stage::Order, times);
 
-    energy::balance(given, &motions, input, order, caller, energy);
+    balance(given, &motions, input, order, caller, energy);
     watch.lap(Stage::Energy, times);
 
     let contacts = OrderedContacts::new(order, &caller.out, workers);

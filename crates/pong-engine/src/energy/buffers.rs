@@ -1,9 +1,9 @@
 //! Buffers of the energy stage.
 
-use super::interval::Interval;
-use crate::energy::contact::ContactEnergies;
-use crate::energy::episodes::PairEnergies;
-use crate::energy::ledger::LedgerEntry;
+use super::account::EnergyAccount;
+use super::contact::ContactEnergies;
+use super::episodes::PairEnergies;
+use super::ledger::LedgerEntry;
 use crate::scene::Scene;
 use crate::seal::Sealed;
 
@@ -20,6 +20,18 @@ pub(crate) struct EnergyBuffers {
     pub pairs: PairEnergies,
     /// Energies of each pair since the last commit.
     pub intervals: Vec<Interval>,
+}
+
+/// Energies of a pair of movable groups since the last commit.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Interval {
+    /// Sum of its contacts, without `work_in` and `work_out`.
+    pub sum: EnergyAccount,
+    /// Work of the wrench as the host applies it, J.
+    pub as_used: f64,
+    /// Work of forces that follow the motion, J.
+    pub along_motion: f64,
+    pub pushes: bool,
 }
 
 impl EnergyBuffers {

@@ -11,11 +11,11 @@
 //! constant in the axes of B. If they are constant in common axes instead, while B rotates by φ_B, the work
 //! differs by at most ½|F||x|φ_B².
 
+use super::account::{EnergyAccount, WrenchCoupling};
+use super::buffers::Interval;
+use super::contact::{ContactEnergies, ContactEnergy};
 use super::displacement::Displacement;
-use super::interval::Interval;
-use crate::energy::account::{EnergyAccount, WrenchCoupling};
-use crate::energy::contact::{ContactEnergies, ContactEnergy};
-use crate::energy::episodes::PairEnergies;
+use super::episodes::PairEnergies;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::input::WorkerInput;
 use crate::frame::input::relative::Motions;
@@ -101,7 +101,7 @@ impl Accounts<'_> {
         let begins = before.is_none();
         let before = before.unwrap_or_default();
         let record = earlier.map(|earlier| &self.memory.records[earlier]);
-        let done = self.work(delayed, record, (&before, Some(&now)), displacement);
+        let done = self.work(delayed, record, &before, Some(&now), displacement);
         let interval = &mut self.intervals[pair];
         interval.pushes = true;
         let mut one = self.entry(&before, &now, &done.along_motion, begins);
@@ -128,7 +128,7 @@ impl Accounts<'_> {
         let Some(committed) = self.memory.energies.get(earlier) else { return };
         let record = &self.memory.records[earlier];
         let before = ForceParts::before(record, committed.energy.bristle);
-        let done = self.work(committed.delayed, Some(record), (&before, None), displacement);
+        let done = self.work(committed.delayed, Some(record), &before, None, displacement);
         let one = self.entry(&before, &ForceParts::default(), &done.along_motion, true);
         self.note(record.key.group_pair as usize, &one, &done);
     }
@@ -139,7 +139,8 @@ impl Accounts<'_> {
         &self,
         delayed: &[Wrench],
         record: Option<&ContactRecord>,
-        (before, now): (&ForceParts, Option<&ForceParts>),
+        before: &ForceParts,
+        now: Option<&ForceParts>,
         displacement: Option<&Displacement>,
     ) -> Work {
         let Some(displacement) = displacement else { return Work::default() };
