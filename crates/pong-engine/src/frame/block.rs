@@ -60,7 +60,7 @@ pub(crate) fn finish_chunk(
         let shared = load_sharing::assign_weights(context, chunk.kind, found.list, shared, scratch);
         out.demand.unshared |= shared.is_err();
         laps.lap(Work::LoadSharing, &mut out.times);
-        forces::compute_forces(context, sealed, (ElementsOfA::of(chunk), found.list), out);
+        forces::compute_forces(context, sealed, ElementsOfA::of(chunk), found.list, out);
         found.clear();
         laps.lap(Work::Forces, &mut out.times);
     }

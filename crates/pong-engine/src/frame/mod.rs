@@ -29,7 +29,7 @@ pub use output::preload::FrictionPreload;
 pub(crate) use output::remember::{fresh, remember};
 pub(crate) use output::results::FrameResults;
 pub(crate) use tunnelling::events::{TunnellingEvent, TunnellingEvents};
-pub(crate) use tunnelling::travel::{least_travel_m, reach_m};
+pub(crate) use tunnelling::travel::{PrimitivesOf, least_travel_m, reach_m};
 pub(crate) use worker_context::WorkerContext;
 pub(crate) use worker_pool::WorkerPool;
 

@@ -37,7 +37,8 @@ const SHARED_BRISTLE_COSINE_MIN: f64 = 0.5;
 pub(crate) fn compute_forces(
     context: &PairContext<'_>,
     sealed: &Sealed,
-    (elements_a, found): (ElementsOfA<'_>, &[ContactCandidate]),
+    elements_a: ElementsOfA<'_>,
+    found: &[ContactCandidate],
     out: &mut ContactBuffer,
 ) {
     for group in found.chunk_by(|a, b| a.key == b.key) {
@@ -46,7 +47,7 @@ pub(crate) fn compute_forces(
             if let Some(place) = out.slot(one.role, sealed) {
                 // Most groups have one contact.
                 let share = if group.len() > 1 { bristle_share(one, counts()) } else { one.half_or_whole() };
-                context.compute_force((elements_a, one), share, place, out);
+                context.compute_force(elements_a, one, share, place, out);
             }
         }
     }
@@ -75,7 +76,8 @@ pub(crate) fn recompute_forces(
                 bristle_share(&found, group.iter().map(|place| &out.contacts[place.slot.index()].found));
             let kind = context.body_a.primitives[key.primitive_a as usize].kind;
             out.law_state_mut(index).fill(0.0);
-            context.compute_force((ElementsOfA { kind, centers: None }, &found), share, index, out);
+            let elements_a = ElementsOfA { kind, centers: None };
+            context.compute_force(elements_a, &found, share, index, out);
         }
     }
     out.flush();
@@ -154,7 +156,8 @@ impl PairContext<'_> {
     #[inline(always)]
     fn compute_force(
         &self,
-        (elements_a, found): (ElementsOfA<'_>, &ContactCandidate),
+        elements_a: ElementsOfA<'_>,
+        found: &ContactCandidate,
         share: f64,
         place: usize,
         out: &mut ContactBuffer,

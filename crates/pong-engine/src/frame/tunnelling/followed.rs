@@ -77,7 +77,7 @@ impl<'a> Seen<'a> {
         // A sphere also passes through a smaller sphere beside its centre.
         let beside = if batch.kind == PrimitiveKind::Sphere { self.radius(item_a) } else { 0.0 };
         let (low, high) = (line.from_b.inf(&line.to_b), line.from_b.sup(&line.to_b));
-        let bounds = (low.add_scalar(-beside), high.add_scalar(beside));
+        let bounds = [low.add_scalar(-beside), high.add_scalar(beside)];
         let went = any_met(batch, &bounds, |place| {
             let item_b = self.context.body_b.tree.items[(batch.items.start + place) as usize];
             self.goes_through(item_a, self.met(item_a, &line, batch.kind, item_b), item_b)
@@ -210,7 +210,7 @@ impl<'a> Seen<'a> {
 }
 
 /// Returns true if `holds` is true for any element of a batch whose box overlaps the given box.
-fn any_met(batch: &Batch, (low, high): &(Vec3, Vec3), holds: impl Fn(u32) -> bool) -> bool {
+fn any_met(batch: &Batch, [low, high]: &[Vec3; 2], holds: impl Fn(u32) -> bool) -> bool {
     let query = batch.boxes.narrowed(low, high);
     let mut any = false;
     if query.meets(&batch.boxes.around) {

@@ -24,11 +24,11 @@ pub(super) fn round(body: &MovableGroup, kind: PrimitiveKind, element: u32) -> O
 
 impl Swept {
     /// Box around the element's sweep.
-    pub fn bounds(&self) -> (Vec3, Vec3) {
+    pub fn bounds(&self) -> [Vec3; 2] {
         let all = [self.from_b, self.to_b].concat();
         let low = all.iter().fold(all[0], |low, place| low.inf(place));
         let high = all.iter().fold(all[0], |high, place| high.sup(place));
-        (low.add_scalar(-self.radius), high.add_scalar(self.radius))
+        [low.add_scalar(-self.radius), high.add_scalar(self.radius)]
     }
 
     /// Outcome `Through` if the element was outside a solid at both times, and in between was deeper in it
