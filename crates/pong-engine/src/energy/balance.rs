@@ -21,8 +21,7 @@ use crate::frame::input::motion::Motion;
 use crate::frame::input::relative::Motions;
 use crate::frame::input::{EvaluationInput, WorkerInput};
 use crate::frame::worker_context::WorkerContext;
-use crate::scene::Scene;
-use crate::state::{ContactMemory, ContactRecord, ContactRole};
+use crate::state::{ContactRecord, ContactRole};
 
 /// Computes the energies of the contacts and the totals. Contacts that push get their work and dissipation.
 #[inline]
@@ -60,8 +59,7 @@ pub(crate) fn balance(
 
 /// Ledger and accounts of one frame.
 struct Books<'a> {
-    scene: &'a Scene,
-    memory: &'a ContactMemory,
+    given: &'a EvaluationInput<'a>,
     motions: &'a Motions<'a>,
     input: &'a WorkerInput,
     /// Sums since the world began.
@@ -76,33 +74,25 @@ struct Books<'a> {
 impl<'a> Books<'a> {
     /// Begins a frame with empty sums.
     fn open(
-        given: &EvaluationInput<'a>,
+        given: &'a EvaluationInput<'a>,
         motions: &'a Motions<'a>,
         input: &'a WorkerInput,
         energy: &'a mut EnergyBuffers,
     ) -> Self {
-        let EvaluationInput { scene, sealed, memory, .. } = *given;
         let EnergyBuffers { total, added, contacts: energies, pairs, intervals } = energy;
         added.fill(LedgerEntry::default());
-        let mut accounts = sealed.coupling.map(|coupling| Accounts {
-            scene,
-            sealed,
-            memory,
-            input,
-            coupling,
-            pairs,
-            intervals,
-            energies,
-        });
+        let coupling = given.sealed.coupling;
+        let mut accounts =
+            coupling.map(|coupling| Accounts { given, input, coupling, pairs, intervals, energies });
         accounts.iter_mut().for_each(Accounts::begin);
-        Self { scene, memory, motions, input, total, added, accounts, nothing: ContactRecord::blank() }
+        Self { given, motions, input, total, added, accounts, nothing: ContactRecord::blank() }
     }
 
     /// Books a contact that pushes, with the index of the record that it continues.
     fn add_contact(&mut self, index: usize, contact: &mut FrameContact, earlier: Option<usize>) {
         let motion = self.motions.known(self.input, contact.found.key.direction());
         let displacement = self.displacement(contact, &motion);
-        let before = earlier.map_or(&self.nothing, |earlier| &self.memory.records[earlier]);
+        let before = earlier.map_or(&self.nothing, |earlier| &self.given.memory.records[earlier]);
         let work = displacement.as_ref().map_or(0.0, |displacement| {
             displacement.half_work(&before.point_b, &before.force_b, false)
                 + displacement.half_work(&contact.point_b, &contact.force(), true)
@@ -146,7 +136,7 @@ impl<'a> Books<'a> {
         let since = motion.since_commit.as_ref()?;
         let found = &contact.found;
         let (body_a, _) = self.motions.sealed.bodies_of(found.key.direction());
-        let body_a = self.scene.body(body_a);
+        let body_a = self.given.scene.body(body_a);
         let kind_a = body_a.primitives[found.key.primitive_a as usize].kind;
         let reference = reference_point((body_a, kind_a), &found.key, found.element_a);
         Some(Displacement::new(since, &motion.x_ba, &reference))

@@ -158,30 +158,15 @@ fn run_round(
         assert!(caller.out.merge(worker), "the caller's buffer has room for the contacts of the workers");
     }
     workers.empty();
-    let shared = pool.is_some_and(|pool| run_parallel(given, pool, input, cost_ns, caller, workers));
-    if !shared {
-        run_blocks(&given.round(input), 0..input.blocks.len(), caller);
+    if let Some(pool) = pool {
+        let asked = pool.worth_asking(given.memory.records.len(), input.blocks.len(), cost_ns);
+        if asked > 0 {
+            let before = caller.out.checkpoint();
+            if pool.run_parallel(given.memory, (input, asked), caller, workers.put_to_use()) {
+                return;
+            }
+            caller.out.restore(&before);
+        }
     }
-}
-
-/// Runs a round on the workers; `cost_ns` is its estimated cost. Returns false, with the buffers unchanged,
-/// if the caller has to run the round.
-fn run_parallel(
-    given: &EvaluationInput<'_>,
-    pool: &mut WorkerPool,
-    input: &WorkerInput,
-    cost_ns: u64,
-    caller: &mut WorkerContext,
-    workers: &mut WorkerBuffers,
-) -> bool {
-    let asked = pool.worth_asking(given.memory.records.len(), input.blocks.len(), cost_ns);
-    if asked == 0 {
-        return false;
-    }
-    let before = caller.out.checkpoint();
-    let done = pool.run_parallel(given.memory, (input, asked), caller, workers.put_to_use());
-    if !done {
-        caller.out.restore(&before);
-    }
-    done
+    run_blocks(&given.round(input), 0..input.blocks.len(), caller);
 }

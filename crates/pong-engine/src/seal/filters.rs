@@ -1,7 +1,8 @@
 //! Filters between groups: splits leaves that mix filtered groups with others, and drops pairs of movable
 //! groups that cannot touch.
 
-use super::{GroupPair, LeafFilter, ObjectFilters};
+use super::GroupPair;
+use super::leaf_filter::{LeafFilter, ObjectFilters};
 use crate::error::EngineError;
 use crate::scene::{GroupFilter, Scene};
 use pong_model::{Filters, MovableGroup, PrimitiveInfo};

@@ -3,8 +3,9 @@
 //! The sizes that follow from the scene are added up. This is done twice: for data per pair of movable groups, before they are listed, and for the
 //! frames, once their limits are known.
 
+use super::frame_limits::Limits;
 use super::sizes::{bytes_per_contact, least_thread_bytes};
-use super::{GroupPair, Limits, Plan};
+use super::{GroupPair, Plan};
 use crate::energy::account::WrenchCoupling;
 use crate::energy::buffers::Interval;
 use crate::energy::episodes::PairEnergy;

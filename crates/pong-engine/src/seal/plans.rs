@@ -1,8 +1,10 @@
 //! Test plans: kinds of primitives that are tested between two movable groups.
 
 use super::filters::{apart, primitives_that_meet, representatives};
+use super::leaf_filter::{LeafFilter, ObjectFilters};
+use super::sealed::NO_PLAN;
 use super::testable::{can_be_tested, kind_name};
-use super::{GroupPair, LeafFilter, NO_PLAN, ObjectFilters, Plan};
+use super::{GroupPair, Plan};
 use crate::frame::narrow_phase::pair_table::{REGISTERED, kind_pair};
 use crate::frame::{PrimitivesOf, least_travel_m, reach_m};
 use crate::scene::Scene;

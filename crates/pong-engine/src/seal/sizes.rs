@@ -1,6 +1,7 @@
 //! Computes the capacities of the buffers of a frame, and the memory per contact and per thread.
 
-use super::{GroupPair, Limits};
+use super::GroupPair;
+use super::frame_limits::Limits;
 use crate::energy::contact::ContactEnergies;
 use crate::frame::load_sharing::solver::scratch_bytes;
 use crate::frame::narrow_phase::pair_table::most_contacts;

@@ -1,9 +1,10 @@
 //! Combines pairs of surfaces, once when a scene is sealed or a surface is changed.
 
 use super::filters::{apart, representatives};
+use super::leaf_filter::ObjectFilters;
 use super::testable::{can_be_tested, kind_name};
 use super::warnings::SetupNote;
-use super::{GroupPair, ObjectFilters, SurfaceTable};
+use super::{GroupPair, SurfaceTable};
 use crate::law::{FrictionProps, PairProps, combine, friction_name};
 use crate::scene::Scene;
 use pong_model::{

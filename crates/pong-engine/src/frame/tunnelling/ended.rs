@@ -79,8 +79,8 @@ fn look_at(
             present = &present[passed..];
             let same_head = present.iter().take_while(|place| place.head == head);
             // Usual case: the neighbouring facet pushes to the same side.
-            let mut normals = pushing(contacts, same_head, record.key);
-            if !normals.any(|normal| normal.dot(&record.normal_b) > SAME_SIDE_COSINE_MIN)
+            let mut pushing = pushing(contacts, same_head, record.key);
+            if !pushing.any(|found| found.normal_b.dot(&record.normal_b) > SAME_SIDE_COSINE_MIN)
                 && seen.came_out_behind(record)
             {
                 events.note(seen.passed(record.key.primitive_a));

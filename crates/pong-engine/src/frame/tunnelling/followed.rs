@@ -3,7 +3,7 @@
 use super::events::{TunnellingEvent, TunnellingEvents};
 use super::line::{Line, Met};
 use super::swept::{self, Swept};
-use super::{sheets, solids, travel};
+use super::{solids, travel};
 use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::input::motion::Motion;
 use crate::frame::input::{PairContext, Round};
@@ -12,7 +12,8 @@ use crate::frame::output::ordered::OrderedContacts;
 use crate::seal::{Direction, Plan};
 use crate::state::{ContactKey, ContactRecord, ContactRole};
 use pong_geometry::Vec3;
-use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::interference::ray_triangle::ray_triangle;
+use pong_geometry::primitive::{PrimitiveKind, Ray};
 use pong_geometry::simd::Portable;
 use pong_model::box_tree::{Child, lanes};
 use pong_model::{Batch, Item};
@@ -125,7 +126,12 @@ impl<'a> Seen<'a> {
         let body = self.context.body_b;
         match kind_b {
             PrimitiveKind::Polyhedron => solids::meet(body, self.shell(item_b), item_b.element, line),
-            PrimitiveKind::Triangle => sheets::meet(&body.triangles, item_b.element, line),
+            // A path from behind is no tunnelling (docs/theory.md, 2.2).
+            PrimitiveKind::Triangle => {
+                let ray = Ray::between(&line.from_b, &line.to_b)?;
+                let hit = ray_triangle(&ray, &body.triangles, item_b.element, 0.0);
+                hit.map(|_| Met::Through(body.triangles.normal(item_b.element)))
+            }
             _ => {
                 let surface = body.element(kind_b, item_b.element).facts()?.curved()?;
                 surface.passed(&line.from_b, &line.to_b, self.radius(item_a)).map(Met::Through)
@@ -193,13 +199,13 @@ impl<'a> Seen<'a> {
     /// Normals of the contacts of a primitive of A with a shell of B.
     pub fn pushing(&self, primitive_a: u32, shell_b: u32) -> impl Iterator<Item = &'a Vec3> + use<'a> {
         let key = self.key(primitive_a, shell_b);
-        pushing(self.contacts, self.contacts.with_head(key.head()), key)
+        pushing(self.contacts, self.contacts.with_head(key.head()), key).map(|found| &found.normal_b)
     }
 
     /// Normals of the contacts of one end of a segment with a shell of B.
     pub fn pushing_at_end(&self, key: ContactKey) -> impl Iterator<Item = &'a Vec3> + use<'a> {
         let same_head = self.contacts.with_head(key.head());
-        let at_end = found(self.contacts, same_head, key).filter(move |found| found.key.end == key.end);
+        let at_end = pushing(self.contacts, same_head, key).filter(move |found| found.key.end == key.end);
         at_end.map(|found| &found.normal_b)
     }
 
@@ -224,18 +230,9 @@ fn any_met(batch: &Batch, [low, high]: &[Vec3; 2], holds: impl Fn(u32) -> bool) 
     any
 }
 
-/// Normals of the contacts of a primitive of A with a shell of B, at any end of a segment, among those with
-/// the key's high word.
+/// Contacts that push for a primitive of A and a shell of B, at any end of a segment, among those with the
+/// key's high word.
 pub(super) fn pushing<'a>(
-    contacts: OrderedContacts<'a>,
-    same_head: impl Iterator<Item = &'a ContactRef>,
-    key: ContactKey,
-) -> impl Iterator<Item = &'a Vec3> {
-    found(contacts, same_head, key).map(|found| &found.normal_b)
-}
-
-/// Contacts that push for a primitive of A and a shell of B, among those with the key's high word.
-fn found<'a>(
     contacts: OrderedContacts<'a>,
     same_head: impl Iterator<Item = &'a ContactRef>,
     key: ContactKey,

@@ -19,7 +19,6 @@ mod ended;
 pub(crate) mod events;
 mod followed;
 mod line;
-mod sheets;
 mod solids;
 mod swept;
 pub(crate) mod travel;
