@@ -86,7 +86,7 @@ impl Polyhedron {
         let reach = simd.load(reach);
         let points = Loaded::new(simd, points);
         let mut outside = 0;
-        for face in &self.planes().widest_first {
+        for face in &self.faces {
             outside |= simd.bits(simd.at_least(points.heights_above(face), reach));
             if outside == LaneBits::MAX {
                 break;
@@ -95,7 +95,7 @@ impl Polyhedron {
         outside
     }
 
-    /// Returns the lanes whose line segment (given by its two ends) is excluded by one of the 32 widest
+    /// Returns the lanes whose line segment (given by its two ends) is excluded by one of the first 32
     /// faces: bit `i` is set exactly if both ends lie in or above the plane of such a face. An internal face
     /// is raised by the wall tolerance.
     ///
@@ -109,13 +109,13 @@ impl Polyhedron {
     /// [`lanes_kept_out`](Self::lanes_kept_out) within a kernel.
     #[inline(always)]
     pub fn lanes_kept_out_in<S: Simd>(&self, simd: S, ends: &[Lanes; 2]) -> LaneBits {
-        const WIDEST: usize = 32;
+        const FACES: usize = 32;
         let ends = [Loaded::new(simd, &ends[0]), Loaded::new(simd, &ends[1])];
         // Positive even without a tolerance: a segment in the plane of a closed face may belong to this
         // piece.
         let slack = self.planes().wall_slack.max(f64::MIN_POSITIVE);
         let mut kept_out = 0;
-        for face in self.planes().widest_first.iter().take(WIDEST) {
+        for face in self.faces.iter().take(FACES) {
             let limit = simd.splat(if face.active && !face.closed { 0.0 } else { slack });
             let first = simd.at_least(ends[0].heights_above(face), limit);
             let second = simd.at_least(ends[1].heights_above(face), limit);
@@ -140,7 +140,7 @@ impl Polyhedron {
         let zero = simd.splat(0.0);
         let points = Loaded::new(simd, points);
         let mut inside = LaneBits::MAX;
-        for face in &self.planes().widest_first {
+        for face in &self.faces {
             let height = points.heights_above(face);
             let mut held = simd.bits(simd.below(height, zero));
             if face.closed {
@@ -160,7 +160,7 @@ impl Polyhedron {
         let (zero, slack) = (simd.splat(0.0), simd.splat(self.planes().wall_slack));
         let points = Loaded::new(simd, points);
         let mut inside = LaneBits::MAX;
-        for face in &self.planes().widest_first {
+        for face in &self.faces {
             let limit = if face.active { zero } else { slack };
             inside &= simd.bits(simd.below(points.heights_above(face), limit));
             if inside == 0 {
