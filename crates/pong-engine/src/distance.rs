@@ -4,7 +4,7 @@
 //! the nearest pair so far. It allocates nothing.
 
 use crate::scene::Scene;
-use crate::sealed::{Plan, Sealed};
+use crate::seal::{Plan, Sealed};
 use pong_geometry::distance::{Distance, Solid};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Pose, Transform, Vec3};

@@ -8,8 +8,8 @@ use crate::error::EngineError;
 use crate::law::PairProps;
 use crate::runtime::Runtime;
 use crate::scene::Scene;
+pub use crate::seal::GroupPair;
 use crate::seal::can_be_tested;
-pub use crate::sealed::GroupPair;
 use pong_geometry::{Pose, Transform, Vec3};
 use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 
@@ -120,7 +120,7 @@ impl<'w> Inspection<'w> {
             let cure = "evaluate or step a frame first";
             return Err(EngineError::WrongPhase { call: "ask what pushes", cure });
         }
-        Ok(frame.pushing().map(|contact| {
+        Ok(frame.contacts().pushing().map(|contact| {
             let key = &contact.found.key;
             let (pair, flipped) = (key.group_pair as usize, key.flipped as usize);
             let (group_a, group_b) = sealed.bodies_of(key.direction());

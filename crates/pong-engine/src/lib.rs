@@ -43,7 +43,6 @@ mod report;
 mod runtime;
 mod scene;
 mod seal;
-mod sealed;
 mod state;
 mod world;
 

@@ -2,7 +2,7 @@
 
 use crate::error::EngineError;
 use crate::ids::{InterfaceId, PairId, WorldStamp};
-use crate::sealed::{GroupPair, Sealed};
+use crate::seal::{GroupPair, Sealed};
 use crate::world::World;
 use pong_arena::require_memory;
 use pong_geometry::Wrench;

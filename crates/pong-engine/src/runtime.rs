@@ -4,6 +4,7 @@
 use crate::energy::account::EnergyAccount;
 use crate::energy::contact::ContactEnergies;
 use crate::energy::episodes::{PairEnergies, PairEnergy};
+use crate::energy::ledger::LedgerEntry;
 use crate::error::EngineError;
 use crate::frame::{
     self, EvaluationBuffers, EvaluationInput, FrictionPreload, MOTIONS_AT_ONCE, ROUND, TunnellingEvents,
@@ -11,7 +12,7 @@ use crate::frame::{
 };
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
-use crate::sealed::{GroupPair, Sealed, SurfaceTable};
+use crate::seal::{GroupPair, Sealed, SurfaceTable};
 use crate::state::{
     CarryOutcome, CommittedPoses, ContactKey, ContactMemory, ContactRole, Counterparts, StateError,
     largest_len, needed_len, read_block, write_block,
@@ -137,10 +138,10 @@ impl Runtime {
         (self.evaluated, self.current, self.frame.computed) = (false, false, false);
         let given =
             EvaluationInput { scene, sealed: &self.sealed, states, memory: &self.memory, clock: self.clock };
-        frame::evaluate(&given, self.pool.as_mut(), &mut self.frame);
+        let overflow = frame::evaluate(&given, self.pool.as_mut(), &mut self.frame);
         self.release_memory();
         self.contacts_peak = self.contacts_peak.max(self.frame.order.len());
-        if let Some(body) = self.frame.overflows(&self.sealed) {
+        if let Some(body) = overflow {
             // Discard the contacts of a frame whose wrench overflowed.
             self.frame.order.clear();
             self.frame.report = FrameReport::default();
@@ -180,7 +181,8 @@ impl Runtime {
         write_and_swap(memory, back_buffers, |old, next| {
             next.poses.commit(&old.poses, (frame.number, &frame.poses), &states.enabled);
             write_records(frame, next);
-            (next.work, next.dissipated) = (frame.energy.work, frame.energy.dissipated);
+            let LedgerEntry { work, dissipated } = frame.energy.total;
+            (next.work, next.dissipated) = (work, dissipated);
             next.pair_energies.copy_from(&frame.energy.pairs);
         });
         watch.lap(Stage::Commit, &mut frame.times);

@@ -87,7 +87,7 @@ impl Polyhedron {
         let reach = simd.load(reach);
         let points = Loaded::new(simd, points);
         let mut outside = 0;
-        for face in &self.planes().widest_first {
+        for face in &self.faces {
             outside |= simd.bits(simd.at_least(points.heights_above(face), reach));
             if outside == LaneBits::MAX {
                 break;
@@ -96,9 +96,9 @@ impl Polyhedron {
         outside
     }
 
-    /// Returns the lanes whose line segment, given by its two ends, is excluded by one of the 32 largest
-    /// faces. Bit `i` is set exactly if, for one such face, both ends are on or above its plane. An internal
-    /// face is raised by `wall_slack` for this comparison.
+    /// Returns the lanes whose line segment, given by its two ends, is excluded by one of the first 32 faces.
+    /// Bit `i` is set exactly if, for one such face, both ends are on or above its plane. An internal face is
+    /// raised by `wall_slack` for this comparison.
     ///
     /// An excluded segment has no contact with this piece. A segment that is not excluded may have none
     /// either: to test all faces for eight segments would cost more than to test the remaining segments one
@@ -112,13 +112,13 @@ impl Polyhedron {
     /// `S`.
     #[inline(always)]
     pub fn lanes_kept_out_in<S: Simd>(&self, simd: S, ends: &[Lanes; 2]) -> LaneBits {
-        const WIDEST: usize = 32;
+        const FACES: usize = 32;
         let ends = [Loaded::new(simd, &ends[0]), Loaded::new(simd, &ends[1])];
         // Positive even if the tolerance is zero, because a piece contains the points of its closed faces. So
         // it may contain a segment in the plane of a closed face.
         let slack = self.planes().wall_slack.max(f64::MIN_POSITIVE);
         let mut kept_out = 0;
-        for face in self.planes().widest_first.iter().take(WIDEST) {
+        for face in self.faces.iter().take(FACES) {
             let limit = simd.splat(if face.active && !face.closed { 0.0 } else { slack });
             let first = simd.at_least(ends[0].heights_above(face), limit);
             let second = simd.at_least(ends[1].heights_above(face), limit);
@@ -143,7 +143,7 @@ impl Polyhedron {
         let zero = simd.splat(0.0);
         let points = Loaded::new(simd, points);
         let mut inside = LaneBits::MAX;
-        for face in &self.planes().widest_first {
+        for face in &self.faces {
             let height = points.heights_above(face);
             let mut held = simd.bits(simd.below(height, zero));
             if face.closed {
@@ -163,7 +163,7 @@ impl Polyhedron {
         let (zero, slack) = (simd.splat(0.0), simd.splat(self.planes().wall_slack));
         let points = Loaded::new(simd, points);
         let mut inside = LaneBits::MAX;
-        for face in &self.planes().widest_first {
+        for face in &self.faces {
             let limit = if face.active { zero } else { slack };
             inside &= simd.bits(simd.below(points.heights_above(face), limit));
             if inside == 0 {

@@ -1,6 +1,6 @@
-//! Contributions of a frame to the totals of work and dissipation.
+//! Work and dissipation of a frame, or of all frames since the world began.
 
-/// Contribution of a frame to the ledger.
+/// Work and dissipation of all contacts, or of those of one pair of movable groups.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LedgerEntry {
     /// Work done on the bodies, J.

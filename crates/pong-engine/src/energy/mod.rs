@@ -1,6 +1,21 @@
-//! Energy accounts of contacts, of pairs and of the whole world.
+//! Energies: of a frame, and of all committed frames together (docs/theory.md, 6).
+//!
+//! | energy | computed in | when | from |
+//! |---|---|---|---|
+//! | stored, of a contact | `../frame/forces` | every frame | normal spring and bristle |
+//! | work and dissipation of a contact, and their sum: the *ledger* | `balance.rs` | every frame, if `Config::ledger` is set | force at the last commit and now, `displacement.rs` |
+//! | the same by cause, of a contact: an *account* | `accounts.rs` | every frame, if `Config::accounts` is set | as the ledger; and the wrench as the host applies it |
+//! | account of a pair of movable groups | `accounts.rs` | end of the frame | sum over its contacts, or its delayed wrench |
+//! | account and verdict of a *contact episode* | `episodes.rs` | end of the frame | account of the pair |
+//!
+//! The frame writes to `buffers.rs`; a commit copies them into the contact state, as `contact.rs` (contacts), `episodes.rs`
+//! (pairs) and `ledger.rs` (sums). `account.rs` is the public form of an account.
 
 pub mod account;
+mod accounts;
+pub(crate) mod balance;
+pub(crate) mod buffers;
 pub(crate) mod contact;
+mod displacement;
 pub(crate) mod episodes;
 pub(crate) mod ledger;

@@ -18,7 +18,7 @@ use crate::frame::narrow_phase::testers::{Target, test_deferred};
 use crate::frame::worker_context::WorkerContext;
 use crate::frame::{forces, load_sharing};
 use crate::report::{FrameCounts, Laps, Work};
-use crate::sealed::{Direction, Plan, Sealed};
+use crate::seal::{Direction, Plan, Sealed};
 use pong_arena::{Arena, Table};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{Kernel, LANES, LaneBits, Simd};
@@ -60,7 +60,7 @@ pub(crate) fn finish_chunk(
         let shared = load_sharing::assign_weights(context, chunk.kind, found.list, shared, scratch);
         out.demand.unshared |= shared.is_err();
         laps.lap(Work::LoadSharing, &mut out.times);
-        forces::compute_forces(context, sealed, (ElementsOfA::of(chunk), found.list), out);
+        forces::compute_forces(context, sealed, ElementsOfA::of(chunk), found.list, out);
         found.clear();
         laps.lap(Work::Forces, &mut out.times);
     }

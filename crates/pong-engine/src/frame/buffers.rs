@@ -1,19 +1,20 @@
 //! Buffers that a frame writes, grouped by stage.
 
+use crate::energy::buffers::EnergyBuffers;
 use crate::frame::broad_phase::blocks::PendingParts;
-use crate::frame::energy::buffers::EnergyBuffers;
-use crate::frame::forces::contact::FrameContact;
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::forces::found::{FoundContacts, WorkerBuffers};
 use crate::frame::input::WorkerInput;
 use crate::frame::input::relative::Motions;
 use crate::frame::near_pairs::NearPairs;
+use crate::frame::output::ordered::OrderedContacts;
+use crate::frame::output::results::FrameResults;
 use crate::frame::tunnelling::events::TunnellingEvents;
 use crate::frame::worker_context::WorkerContext;
 use crate::report::{FrameReport, StageTimes};
 use crate::scene::Scene;
-use crate::sealed::{Direction, Sealed};
+use crate::seal::Sealed;
 use crate::state::CommittedPoses;
 use pong_arena::Table;
 use pong_geometry::{Pose, Twist, Wrench};
@@ -46,8 +47,6 @@ pub(crate) struct EvaluationBuffers {
     pub energy: EnergyBuffers,
     // reduce
     pub wrenches: Vec<Wrench>,
-    /// Pair direction with a contact whose values come close to overflow, if any.
-    pub beyond_range: Option<Direction>,
     pub report: FrameReport,
     pub times: StageTimes,
 }
@@ -75,7 +74,6 @@ impl EvaluationBuffers {
             tunnelling: TunnellingEvents::default(),
             energy: EnergyBuffers::new(scene, sealed),
             wrenches: vec![Wrench::zero(); bodies],
-            beyond_range: None,
             report: FrameReport::default(),
             times: StageTimes::default(),
         }
@@ -91,20 +89,38 @@ impl EvaluationBuffers {
             self.wrenches[body] = Wrench::zero();
         }
         self.workers.empty();
-        self.beyond_range = None;
         self.report = FrameReport::default();
         self.times = StageTimes::default();
     }
 
     /// Motions of this frame relative to the committed poses.
     pub fn motions<'a>(&'a self, sealed: &'a Sealed, committed: &'a CommittedPoses) -> Motions<'a> {
-        Motions { sealed, poses: &self.poses, twists: &self.twists, committed }
+        Motions {
+            sealed,
+            frame: self.number,
+            near: &self.near,
+            poses: &self.poses,
+            twists: &self.twists,
+            committed,
+        }
     }
 
-    /// Contacts that push, in summation order.
-    pub fn pushing(&self) -> impl Iterator<Item = &FrameContact> {
-        let pushing = self.order.iter().filter(|reference| reference.pushes());
-        pushing.map(|reference| self.found().contact(reference))
+    /// Contacts of the frame, in summation order.
+    pub fn contacts(&self) -> OrderedContacts<'_> {
+        OrderedContacts { order: &self.order, found: self.found() }
+    }
+
+    /// Results of the frame.
+    #[inline]
+    pub fn results<'a>(&'a self, scene: &'a Scene, sealed: &'a Sealed) -> FrameResults<'a> {
+        FrameResults {
+            scene,
+            sealed,
+            poses: &self.poses,
+            contacts: self.contacts(),
+            wrenches: &self.wrenches,
+            energies: &self.energy.contacts,
+        }
     }
 
     /// Contacts found by all threads.

@@ -3,9 +3,8 @@
 mod block;
 mod broad_phase;
 mod buffers;
-mod energy;
-mod forces;
-mod input;
+pub(crate) mod forces;
+pub(crate) mod input;
 pub(crate) mod load_sharing;
 mod lone_blocks;
 pub(crate) mod narrow_phase;
@@ -13,13 +12,12 @@ mod near_pairs;
 mod output;
 mod run_blocks;
 mod tunnelling;
-mod worker_context;
+pub(crate) mod worker_context;
 mod worker_pool;
 
 pub(crate) use block::arena_bytes;
 pub(crate) use broad_phase::blocks::{PendingParts, ROUND};
 pub(crate) use buffers::EvaluationBuffers;
-pub(crate) use energy::interval::Interval;
 pub(crate) use forces::contact::FrameContact;
 pub(crate) use forces::contact_ref::{ContactRef, Slot};
 pub(crate) use input::motion::PairMotions;
@@ -28,68 +26,105 @@ pub(crate) use input::{Block, EvaluationInput, WorkerInput};
 pub(crate) use near_pairs::{MOTIONS_AT_ONCE, NearPairs};
 pub(crate) use output::commit::{new_records, write_records};
 pub use output::preload::FrictionPreload;
+pub(crate) use output::results::FrameResults;
 pub(crate) use tunnelling::events::{TunnellingEvent, TunnellingEvents};
-pub(crate) use tunnelling::travel::{least_travel_m, reach_m};
+pub(crate) use tunnelling::travel::{PrimitivesOf, least_travel_m, reach_m};
 pub(crate) use worker_context::WorkerContext;
 pub(crate) use worker_pool::WorkerPool;
 
-use crate::report::{Stage, Work, WorkTimes};
+use crate::energy::balance::balance;
+use crate::report::{Stage, StatusBits, Work, WorkTimes};
 use broad_phase::blocks::Layout;
-use forces::found::WorkerBuffers;
+use forces::found::{FoundContacts, WorkerBuffers};
 use input::relative::Motions;
 use input::states;
+use output::ordered::OrderedContacts;
 use output::{order, reduce};
 use run_blocks::run_blocks;
 
-/// Computes a frame from the current states and the committed contact state. Writes only `frame`.
+/// Computes a frame from the current states and the committed contact state. Writes only `frame`. Returns a
+/// movable group whose wrench or energies have overflowed, if any.
 #[inline]
 pub(crate) fn evaluate(
     given: &EvaluationInput<'_>,
     pool: Option<&mut WorkerPool>,
     frame: &mut EvaluationBuffers,
-) {
-    let EvaluationInput { sealed, states, memory, clock, .. } = *given;
+) -> Option<usize> {
+    let EvaluationInput { scene, sealed, states, memory, clock } = *given;
     frame.begin(sealed);
+    let EvaluationBuffers { poses, twists, near, input, pending, caller, workers, .. } = frame;
+    let EvaluationBuffers { order, tunnelling, energy, wrenches, report, times, .. } = frame;
     let mut watch = clock.start();
-    states::latch(sealed, states, &mut frame.poses, &mut frame.twists);
-    frame.near.find(sealed, &states.enabled, &frame.poses, &memory.poses);
-    watch.lap(Stage::Input, &mut frame.times);
-    find_contacts(given, pool, frame);
-    watch.lap(Stage::Contacts, &mut frame.times);
-    order::put_in_order(given, frame);
-    tunnelling::watch(given, frame);
-    watch.lap(Stage::Order, &mut frame.times);
-    energy::balance(given, frame);
-    watch.lap(Stage::Energy, &mut frame.times);
-    reduce::sum(given, frame);
-    watch.lap(Stage::Output, &mut frame.times);
+
+    states::latch(sealed, states, poses, twists);
+    near.find(sealed, &states.enabled, poses, &memory.poses);
+    let motions = Motions { sealed, frame: frame.number, near, poses, twists, committed: &memory.poses };
+    watch.lap(Stage::Input, times);
+
+    times.work = find_contacts(given, &motions, pool, Search { input, pending, caller, workers });
+    watch.lap(Stage::Contacts, times);
+
+    order::list(FoundContacts { caller: &caller.out, workers }, order);
+    if sealed.rays_meet_groups {
+        order::keep_first_ray_hits(scene, sealed, caller, order);
+    }
+    if order::keep_deepest(sealed, &mut caller.out, order, report) {
+        forces::recompute_forces(given, &motions, input, order, &mut caller.out);
+    }
+    let contacts = OrderedContacts::new(order, &caller.out, workers);
+    *tunnelling = tunnelling::watch(given, &motions, input, contacts, &mut caller.scratch);
+    if tunnelling.count > 0 {
+        report.status.set(StatusBits::TUNNELLED);
+    }
+    watch.lap(Stage::Order, times);
+
+    balance(given, &motions, input, order, caller, energy);
+    watch.lap(Stage::Energy, times);
+
+    let contacts = OrderedContacts::new(order, &caller.out, workers);
+    let beyond_range = reduce::sum(&motions, input, contacts, wrenches);
+    let overflow = reduce::overflow(sealed, wrenches, beyond_range, &energy.total);
+    watch.lap(Stage::Output, times);
+    overflow
+}
+
+/// Buffers of the search for contacts.
+struct Search<'f> {
+    /// Input of the workers; it receives the motions and the blocks of each round.
+    input: &'f mut WorkerInput,
+    /// Stack of the layout of the blocks.
+    pending: &'f mut PendingParts,
+    /// Context of the calling thread.
+    caller: &'f mut WorkerContext,
+    /// Contacts of the workers in the last round.
+    workers: &'f mut WorkerBuffers,
 }
 
 /// Finds all contacts: broad phase, narrow phase, load sharing and forces, block by block, on the workers or
-/// on the caller.
+/// on the caller. Returns the time of each kind of work on all threads.
 #[inline]
 fn find_contacts(
     given: &EvaluationInput<'_>,
+    motions: &Motions<'_>,
     mut pool: Option<&mut WorkerPool>,
-    frame: &mut EvaluationBuffers,
-) {
-    let EvaluationInput { scene, sealed, memory, clock, .. } = *given;
-    let EvaluationBuffers { input, caller, workers, times, near, poses, twists, number, pending, .. } = frame;
-    let motions = Motions { sealed, poses, twists, committed: &memory.poses };
+    search: Search<'_>,
+) -> WorkTimes {
+    let EvaluationInput { scene, sealed, clock, .. } = *given;
+    let Search { input, pending, caller, workers } = search;
     input.clock = clock;
     if let Some(pool) = &mut pool {
         pool.begin_frame();
     }
     // Time between the rounds is spent by the caller in the broad phase.
     let (mut laps, mut layout_times) = (clock.start(), WorkTimes::default());
-    for pairs in near.list().chunks(MOTIONS_AT_ONCE) {
-        motions.relate(pairs, *number, &mut input.motions);
+    for pairs in motions.near.list().chunks(MOTIONS_AT_ONCE) {
+        motions.relate(pairs, &mut input.motions);
         let mut layout = Layout::new(scene, sealed, pairs, pending);
         while let Some(cost_ns) = layout.next_round(&input.motions, &mut input.blocks, &mut caller.out.counts)
         {
             laps.lap_work(Work::BroadPhase, &mut layout_times);
             input.phase += 1;
-            run_round(given, pool.as_deref_mut(), (input, cost_ns), caller, workers);
+            run_round(given, pool.as_deref_mut(), input, cost_ns, caller, workers);
             laps = clock.start();
         }
     }
@@ -99,10 +134,11 @@ fn find_contacts(
     for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
         caller.out.demand.add(&worker.demand);
     }
-    times.work = caller.out.times;
+    let mut times = caller.out.times;
     if let Some(pool) = pool.filter(|pool| pool.has_worked()) {
-        pool.times().for_each(|worker| times.work.add(worker));
+        pool.times().for_each(|worker| times.add(worker));
     }
+    times
 }
 
 /// Runs a round on the workers or, if that does not pay or fails, on the caller; `cost_ns` is its estimated
@@ -110,7 +146,8 @@ fn find_contacts(
 fn run_round(
     given: &EvaluationInput<'_>,
     pool: Option<&mut WorkerPool>,
-    (input, cost_ns): (&WorkerInput, u64),
+    input: &WorkerInput,
+    cost_ns: u64,
     caller: &mut WorkerContext,
     workers: &mut WorkerBuffers,
 ) {
@@ -120,29 +157,15 @@ fn run_round(
         assert!(caller.out.merge(worker), "the caller's buffer has room for the contacts of the workers");
     }
     workers.empty();
-    let shared = pool.is_some_and(|pool| run_parallel(given, pool, (input, cost_ns), caller, workers));
-    if !shared {
-        run_blocks(&given.round(input), 0..input.blocks.len(), caller);
+    if let Some(pool) = pool {
+        let asked = pool.worth_asking(given.memory.records.len(), input.blocks.len(), cost_ns);
+        if asked > 0 {
+            let before = caller.out.checkpoint();
+            if pool.run_parallel(given.memory, (input, asked), caller, workers.put_to_use()) {
+                return;
+            }
+            caller.out.restore(&before);
+        }
     }
-}
-
-/// Runs a round on the workers; `cost_ns` is its estimated cost. Returns false, with the buffers unchanged,
-/// if the caller has to run the round.
-fn run_parallel(
-    given: &EvaluationInput<'_>,
-    pool: &mut WorkerPool,
-    (input, cost_ns): (&WorkerInput, u64),
-    caller: &mut WorkerContext,
-    workers: &mut WorkerBuffers,
-) -> bool {
-    let asked = pool.worth_asking(given.memory.records.len(), input.blocks.len(), cost_ns);
-    if asked == 0 {
-        return false;
-    }
-    let before = caller.out.checkpoint();
-    let done = pool.run_parallel(given.memory, (input, asked), caller, workers.put_to_use());
-    if !done {
-        caller.out.restore(&before);
-    }
-    done
+    run_blocks(&given.round(input), 0..input.blocks.len(), caller);
 }

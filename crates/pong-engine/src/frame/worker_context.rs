@@ -7,7 +7,7 @@ use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::load_sharing::solver::SharedContact;
 use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::frame::narrow_phase::element_pair::DeferredPairs;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use pong_arena::{Arena, Table};
 use std::fmt::Debug;
 

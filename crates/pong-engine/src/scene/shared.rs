@@ -2,7 +2,7 @@
 
 use super::{GroupInstance, Scene};
 use crate::error::EngineError;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use std::collections::BTreeMap;
 
 /// A sealed scene.

@@ -1,9 +1,10 @@
 //! Filters between groups: splits leaves that mix filtered groups with others, and drops pairs of movable
 //! groups that cannot touch.
 
+use super::GroupPair;
+use super::leaf_filter::{LeafFilter, ObjectFilters};
 use crate::error::EngineError;
 use crate::scene::{GroupFilter, Scene};
-use crate::sealed::{GroupPair, LeafFilter, ObjectFilters};
 use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;

@@ -118,8 +118,8 @@ pub(super) fn known_limits(scene: &Scene) -> Vec<SetupNote> {
         for (index, one) in bodies[0].iter().enumerate() {
             // A group never meets itself.
             for other in bodies[1].iter().skip(if itself { index + 1 } else { 0 }) {
-                for (bodies, models) in [((one, other), [first, second]), ((other, one), [second, first])] {
-                    for (kinds, text) in limits_between(bodies) {
+                for (a, b, models) in [(one, other, [first, second]), (other, one, [second, first])] {
+                    for (kinds, text) in limits_between(a, b) {
                         let names = models.map(|model| scene.models[model].name.clone());
                         met.entry((names, text)).or_default().insert(kinds);
                     }
@@ -136,7 +136,7 @@ pub(super) fn known_limits(scene: &Scene) -> Vec<SetupNote> {
 }
 
 /// Limits of primitives of one movable group against those of another, with the names of the two kinds.
-fn limits_between((a, b): (&MovableGroup, &MovableGroup)) -> Vec<([&'static str; 2], &'static str)> {
+fn limits_between(a: &MovableGroup, b: &MovableGroup) -> Vec<([&'static str; 2], &'static str)> {
     let [kinds_a, kinds_b] =
         [a, b].map(|body| body.primitives.iter().map(|info| info.kind).collect::<BTreeSet<_>>());
     let mut found = Vec::new();

@@ -3,13 +3,15 @@
 //! The sizes that follow from the scene are added up. This is done twice: for data per pair of movable groups, before they are listed, and for the
 //! frames, once their limits are known.
 
-use super::limits::{bytes_per_contact, least_thread_bytes};
+use super::frame_limits::Limits;
+use super::sizes::{bytes_per_contact, least_thread_bytes};
+use super::{GroupPair, Plan};
 use crate::energy::account::WrenchCoupling;
+use crate::energy::buffers::Interval;
 use crate::energy::episodes::PairEnergy;
 use crate::energy::ledger::LedgerEntry;
-use crate::frame::{Block, Interval, MOTIONS_AT_ONCE, NearPairs, PairMotions, PendingParts, ROUND};
+use crate::frame::{Block, MOTIONS_AT_ONCE, NearPairs, PairMotions, PendingParts, ROUND};
 use crate::scene::Scene;
-use crate::sealed::{GroupPair, Limits, Plan};
 use crate::state::CommittedPoses;
 use pong_geometry::{Pose, Twist, Wrench};
 use pong_threads::MAX_WORKERS;

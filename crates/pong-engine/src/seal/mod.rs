@@ -1,16 +1,36 @@
-//! Sealing: pairs of movable groups, combined surface values, and memory sizes.
+//! Sealing: turns a scene into the data that frames read and that no longer change.
+//!
+//! | data for frames | file | computed by |
+//! |---|---|---|
+//! | all of it; pairs of movable groups | `sealed.rs` | `mod.rs` |
+//! | filters between groups | `leaf_filter.rs` | `filters.rs` |
+//! | test plans | `test_plan.rs` | `plans.rs`, `testable.rs` |
+//! | combined surface values | `surface_table.rs` | `surfaces.rs` |
+//! | capacities of buffers | `frame_limits.rs` | `sizes.rs` |
+//!
+//! `memory.rs` checks that there is memory for all of it; `warnings.rs` and `known_limits.rs` tell what the author may not have
+//! intended.
 
 mod filters;
+mod frame_limits;
 mod known_limits;
-mod limits;
+mod leaf_filter;
 mod memory;
-mod plan;
+mod plans;
+mod sealed;
+mod sizes;
+mod surface_table;
 mod surfaces;
+mod test_plan;
 mod testable;
 mod warnings;
 
 pub(crate) use filters::part_groups;
-pub(crate) use surfaces::surface_tables;
+pub use sealed::GroupPair;
+pub(crate) use sealed::Sealed;
+pub(crate) use surface_table::SurfaceTable;
+pub(crate) use surfaces::{law_state_len, surface_tables};
+pub(crate) use test_plan::{Direction, Plan};
 pub(crate) use testable::{can_be_tested, kind_name};
 pub use warnings::{MetIn, SetupNote, SetupWarning};
 
@@ -18,19 +38,18 @@ use crate::energy::account::WrenchCoupling;
 use crate::energy::contact::ContactEnergies;
 use crate::error::EngineError;
 use crate::scene::{GroupFilter, ObjectPair, Scene};
-use crate::sealed::{GroupPair, NO_PLAN, Sealed, SurfaceTable};
 use filters::{drop_kept_apart, filter_count, filters_of_objects};
 use known_limits::known_limits;
-use limits::{limits, too_large, worst_case};
-use plan::plans;
+use plans::plans;
 use pong_arena::require_memory;
 use pong_geometry::bounding::VolumeTests;
 use pong_model::{Fnv, Surface};
 use pong_threads::WorkerStart;
+use sealed::NO_PLAN;
+use sizes::{limits, too_large, worst_case};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use surfaces::friction_lost;
-pub(crate) use surfaces::law_state_len;
 use warnings::{idle_filters, warnings};
 
 /// Result of a seal.

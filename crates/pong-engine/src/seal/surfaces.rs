@@ -1,11 +1,12 @@
 //! Combines pairs of surfaces, once when a scene is sealed or a surface is changed.
 
 use super::filters::{apart, representatives};
+use super::leaf_filter::ObjectFilters;
 use super::testable::{can_be_tested, kind_name};
 use super::warnings::SetupNote;
+use super::{GroupPair, SurfaceTable};
 use crate::law::{FrictionProps, PairProps, combine, friction_name};
 use crate::scene::Scene;
-use crate::sealed::{GroupPair, ObjectFilters, SurfaceTable};
 use pong_model::{
     Filters, FrictionLaw, Model, MovableGroup, PairOverride, PrimitiveInfo, Surface, pair_entries,
 };
@@ -34,17 +35,19 @@ pub(crate) fn surface_tables(
                 tables.push(SurfaceTable::empty(model_a, model_b, surfaces));
                 tables.len() - 1
             });
-            let bodies = (scene.body(a), scene.body(b));
-            fill_table((scene, surfaces), &mut tables[index], bodies, apart, &mut problems);
+            let bodies = [a, b].map(|body| scene.body(body));
+            fill_table(scene, surfaces, &mut tables[index], bodies, apart, &mut problems);
         }
     }
     if problems.is_empty() { Ok(tables) } else { Err(problems.into_iter().collect()) }
 }
 
+/// Combines the surfaces of a table that can meet in two movable groups.
 fn fill_table(
-    (scene, surfaces): (&Scene, &[Vec<Surface>]),
+    scene: &Scene,
+    surfaces: &[Vec<Surface>],
     table: &mut SurfaceTable,
-    (body_a, body_b): (&MovableGroup, &MovableGroup),
+    [body_a, body_b]: [&MovableGroup; 2],
     filters: Option<&Filters>,
     problems: &mut BTreeSet<String>,
 ) {

@@ -1,10 +1,10 @@
 //! Warnings and notes about a valid scene.
 
 use super::filters::{apart, is_paired, representatives};
+use super::leaf_filter::ObjectFilters;
 use super::testable::{can_be_tested, kind_name};
 use crate::frame::narrow_phase::pair_table::has_tester;
 use crate::scene::{GroupFilter, ObjectPair, Scene};
-use crate::sealed::ObjectFilters;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Filters, PrimitiveInfo};
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,6 +1,6 @@
 //! Contact records and their keys.
 
-use crate::sealed::Direction;
+use crate::seal::Direction;
 use pong_geometry::Vec3;
 
 /// Value of [`ContactRecord::entry_face`] if no side of entry is known.

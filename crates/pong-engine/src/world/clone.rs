@@ -5,7 +5,7 @@ use crate::error::EngineError;
 use crate::law::registry::Laws;
 use crate::scene::Scene;
 use crate::seal;
-use crate::sealed::SurfaceTable;
+use crate::seal::SurfaceTable;
 use std::sync::Arc;
 
 impl World {

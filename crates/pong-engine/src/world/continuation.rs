@@ -5,7 +5,7 @@ use crate::error::EngineError;
 use crate::report::Clock;
 use crate::scene::{Scene, Shared, States, Surfaces, refused};
 use crate::seal;
-use crate::sealed::SurfaceTable;
+use crate::seal::SurfaceTable;
 use crate::state::{CarryOutcome, Counterparts};
 
 /// Objects, pairs and contacts that continue from another world, and those left behind there.

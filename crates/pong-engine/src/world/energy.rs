@@ -17,7 +17,7 @@ impl World {
     /// Energy accounts of the contacts of the last frame, one for each of [`contacts`](Self::contacts) in the
     /// same order; empty unless [`Config::accounts`](crate::Config::accounts) is set.
     pub fn contact_accounts(&self) -> impl Iterator<Item = EnergyAccount> + '_ {
-        let kept = self.scene.config.accounts.map(|_| self.runtime.frame.list_accounts());
+        let kept = self.scene.config.accounts.map(|_| self.last_results().list_accounts());
         kept.into_iter().flatten()
     }
 

@@ -4,7 +4,7 @@ use super::World;
 use crate::error::EngineError;
 use crate::ids::{InterfaceId, PairId};
 use crate::runtime::Runtime;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use pong_geometry::Wrench;
 use std::sync::Arc;
 
@@ -19,9 +19,9 @@ impl World {
     /// paired.
     pub fn wrench_from(&self, on: InterfaceId, from: InterfaceId) -> Result<Wrench, EngineError> {
         let (on, from) = (self.scene.body_index(on)?, self.scene.body_index(from)?);
-        let runtime = self.framed()?;
-        match runtime.sealed.group_pair_of(on.min(from), on.max(from)) {
-            Some(group_pair) => Ok(runtime.frame.wrench_of_groups(&runtime.sealed, group_pair, on)),
+        let results = self.results()?;
+        match results.sealed.group_pair_of(on.min(from), on.max(from)) {
+            Some(group_pair) => Ok(results.wrench_of_groups(group_pair, on)),
             None => {
                 self.require_paired([on, from], |[on, from]| format!("wrench on `{on}` from `{from}`"))?;
                 Ok(Wrench::zero())
@@ -35,7 +35,7 @@ impl World {
     /// As [`wrench_from`](Self::wrench_from).
     pub fn wrench_from_common(&self, on: InterfaceId, from: InterfaceId) -> Result<Wrench, EngineError> {
         let wrench = self.wrench_from(on, from)?;
-        Ok(self.runtime.frame.along_common_axes(&wrench, self.scene.body_index(on)?))
+        Ok(self.results()?.along_common_axes(&wrench, self.scene.body_index(on)?))
     }
 
     /// Wrench of the last frame of a pair of Objects, N and N·m: the sum over all contacts of the pair, on the Object that was
@@ -64,8 +64,7 @@ impl World {
                 "`{group}` is of neither Object; give a movable group of one of the two as point of reference"
             ));
         }
-        let runtime = self.framed()?;
-        Ok(runtime.frame.wrench_of_objects(&runtime.sealed, pair, about))
+        Ok(self.results()?.wrench_of_objects(pair, about))
     }
 
     /// As [`pair_wrench`](Self::pair_wrench), about the same point and expressed along the axes of the common frame.
@@ -74,12 +73,12 @@ impl World {
     /// As [`pair_wrench`](Self::pair_wrench).
     pub fn pair_wrench_common(&self, pair: PairId, about: InterfaceId) -> Result<Wrench, EngineError> {
         let wrench = self.pair_wrench(pair, about)?;
-        Ok(self.runtime.frame.along_common_axes(&wrench, self.scene.body_index(about)?))
+        Ok(self.results()?.along_common_axes(&wrench, self.scene.body_index(about)?))
     }
 
     /// Visits every pair of movable groups that touches in the last frame, for a pair monitor.
     pub(crate) fn for_each_touching(&self, visit: impl FnMut(u32, f64, Wrench)) {
-        self.runtime.frame.for_each_touching(&self.runtime.sealed, visit);
+        self.last_results().for_each_touching(visit);
     }
 
     /// Number of the last frame, if it is committed.

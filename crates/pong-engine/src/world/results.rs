@@ -3,11 +3,10 @@
 use super::World;
 use crate::contact::Contact;
 use crate::error::EngineError;
-use crate::frame::TunnellingEvent;
+use crate::frame::{FrameResults, TunnellingEvent};
 use crate::ids::InterfaceId;
 use crate::law::NormalTangent;
 use crate::report::{FrameCounts, FrameReport, TunnellingReport};
-use crate::runtime::Runtime;
 use pong_geometry::Wrench;
 
 impl World {
@@ -18,7 +17,7 @@ impl World {
     #[inline]
     pub fn wrench(&self, interface: InterfaceId) -> Result<Wrench, EngineError> {
         let index = self.scene.body_index(interface)?;
-        Ok(self.framed()?.frame.wrenches[index])
+        Ok(self.results()?.wrenches[index])
     }
 
     /// As [`wrench`](Self::wrench), expressed along the axes of the common frame.
@@ -27,8 +26,8 @@ impl World {
     /// As [`wrench`](Self::wrench).
     pub fn wrench_common(&self, interface: InterfaceId) -> Result<Wrench, EngineError> {
         let index = self.scene.body_index(interface)?;
-        let frame = &self.framed()?.frame;
-        Ok(frame.along_common_axes(&frame.wrenches[index], index))
+        let results = self.results()?;
+        Ok(results.along_common_axes(&results.wrenches[index], index))
     }
 
     /// Contacts of the last frame, in summation order. Allocates; [`contacts_iter`](Self::contacts_iter) does
@@ -39,7 +38,7 @@ impl World {
 
     /// Contacts of the last frame one by one, without allocating.
     pub fn contacts_iter(&self) -> impl Iterator<Item = Contact> + '_ {
-        self.runtime.frame.list_contacts(&self.scene, &self.runtime.sealed)
+        self.last_results().list_contacts()
     }
 
     /// Derivatives of the normal force of each contact of the last frame with respect to its depth and depth
@@ -50,8 +49,7 @@ impl World {
     /// With r the vector from the mass centre to the contact point, a contact adds stiffness·(n, r × n)(n, r
     /// × n)ᵀ to the stiffness of a body; friction is not included. See docs/theory.md, 3.
     pub fn normal_tangents(&self) -> impl Iterator<Item = Option<NormalTangent>> + '_ {
-        let Runtime { frame, sealed, tables, .. } = &self.runtime;
-        frame.list_tangents(&self.scene, sealed, tables)
+        self.last_results().list_tangents(&self.runtime.tables)
     }
 
     /// Number of contacts of the last frame.
@@ -85,11 +83,21 @@ impl World {
         self.runtime.frame.caller.out.counts
     }
 
-    /// The runtime, if a frame has been computed.
-    pub(super) fn framed(&self) -> Result<&Runtime, EngineError> {
+    /// Results of the last frame.
+    ///
+    /// # Errors
+    /// [`EngineError::WrongPhase`] before the first frame.
+    #[inline]
+    pub(super) fn results(&self) -> Result<FrameResults<'_>, EngineError> {
         if self.runtime.frame.computed {
-            return Ok(&self.runtime);
+            return Ok(self.last_results());
         }
         Err(EngineError::WrongPhase { call: "get a wrench", cure: "evaluate or step a frame first" })
+    }
+
+    /// Results of the last frame; without contacts before the first.
+    #[inline]
+    pub(super) fn last_results(&self) -> FrameResults<'_> {
+        self.runtime.frame.results(&self.scene, &self.runtime.sealed)
     }
 }

@@ -1,7 +1,6 @@
 //! Planes of a polyhedron's faces as coordinate arrays.
 
 use super::polyhedron_parts::{PolyhedronFace, PolyhedronParts};
-use crate::Vec3;
 use crate::simd::{LANES, LaneBits, MODERATE, Simd, Splat, is_moderate};
 
 /// Face planes in blocks of eight, in face-index order.
@@ -9,9 +8,6 @@ use crate::simd::{LANES, LaneBits, MODERATE, Simd, Splat, is_moderate};
 pub struct FacePlanes {
     /// Blocks; the last one may have unused lanes.
     pub blocks: Vec<PlaneBlock>,
-    /// Faces by decreasing area; of equal ones, the lower index first. A point outside the solid is most
-    /// often above a large face, so a test of one plane after another ends sooner in this order.
-    pub widest_first: Vec<PolyhedronFace>,
     /// True if all numbers are moderate ([`is_moderate`]); heights of moderate points are then finite.
     pub moderate: bool,
     /// True if all faces are active.
@@ -120,23 +116,8 @@ impl FacePlanes {
         let simple = all_active && !faces.iter().any(|face| face.closed);
         let wall_slack = Self::WALL_TOLERANCE * parts.diameter;
         let blocks = (0..faces.len()).step_by(LANES).map(|first| block(parts, first)).collect();
-        Self { blocks, widest_first: widest_first(parts), moderate, all_active, simple, wall_slack }
+        Self { blocks, moderate, all_active, simple, wall_slack }
     }
-}
-
-fn widest_first(parts: &PolyhedronParts) -> Vec<PolyhedronFace> {
-    let mut faces: Vec<_> = parts.faces.iter().map(|face| (twice_the_area(parts, face), *face)).collect();
-    faces.sort_by(|(area, _), (other, _)| other.total_cmp(area));
-    faces.into_iter().map(|(_, face)| face).collect()
-}
-
-/// Returns twice the area of a face, m². The face is divided into triangles between the first corner of its
-/// outline and the edges not adjacent to that corner.
-fn twice_the_area(parts: &PolyhedronParts, face: &PolyhedronFace) -> f64 {
-    let mut from_first = parts.rims_of(face).iter().map(|rim| parts.vertices[rim.start as usize].position);
-    let Some(first) = from_first.next() else { return 0.0 };
-    let corners: Vec<Vec3> = from_first.map(|corner| corner - first).collect();
-    corners.windows(2).map(|pair| pair[0].cross(&pair[1])).sum::<Vec3>().norm()
 }
 
 /// Builds the block of the faces from `first` on.

@@ -6,7 +6,7 @@ use crate::frame::input::motion::PairMotions;
 use crate::frame::input::{Block, PairContext};
 use crate::report::FrameCounts;
 use crate::scene::Scene;
-use crate::sealed::{Direction, Plan, Sealed};
+use crate::seal::{Direction, Plan, Sealed};
 use pong_arena::Arena;
 use pong_geometry::bounding::{CarriedVolume, Volume};
 use pong_geometry::simd::LANES;

@@ -8,7 +8,7 @@ use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::law::FrictionProps;
 use crate::law::friction::{FrictionInput, FrictionOutput, friction_alone};
 use crate::report::{FrameCounts, WorkTimes};
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::ContactRole;
 use pong_arena::Table;
 use std::mem::swap;

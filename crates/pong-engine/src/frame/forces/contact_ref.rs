@@ -1,6 +1,6 @@
 //! References to contacts: sort key, location, and what the search for ended contacts needs.
 
-use crate::sealed::Direction;
+use crate::seal::Direction;
 use crate::state::ContactKey;
 use pong_threads::MAX_WORKERS;
 

@@ -8,14 +8,13 @@ pub(crate) mod found;
 pub(crate) mod reference_point;
 
 use crate::frame::broad_phase::chunk::Chunk;
-use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::input::motion::SinceCommit;
 use crate::frame::input::relative::Motions;
-use crate::frame::input::{EvaluationInput, PairContext};
+use crate::frame::input::{EvaluationInput, PairContext, WorkerInput};
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::law::friction::{FrictionInput, shortened};
 use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::{ContactRecord, ContactRole};
 use bristles::Bristle;
 use contact::FrameContact;
@@ -37,7 +36,8 @@ const SHARED_BRISTLE_COSINE_MIN: f64 = 0.5;
 pub(crate) fn compute_forces(
     context: &PairContext<'_>,
     sealed: &Sealed,
-    (elements_a, found): (ElementsOfA<'_>, &[ContactCandidate]),
+    elements_a: ElementsOfA<'_>,
+    found: &[ContactCandidate],
     out: &mut ContactBuffer,
 ) {
     for group in found.chunk_by(|a, b| a.key == b.key) {
@@ -46,7 +46,7 @@ pub(crate) fn compute_forces(
             if let Some(index) = out.slot(one.role, sealed) {
                 // Most groups have one contact.
                 let share = if group.len() > 1 { bristle_share(one, counts()) } else { one.half_or_whole() };
-                context.compute_force((elements_a, one), share, index, out);
+                context.compute_force(elements_a, one, share, index, out);
             }
         }
     }
@@ -54,19 +54,21 @@ pub(crate) fn compute_forces(
 
 /// Recomputes the forces after a limit has removed contacts: the remaining contacts share the whole
 /// tangential spring.
-pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
-    let EvaluationInput { sealed, memory, .. } = *given;
-    let EvaluationBuffers { input, caller, order, near, poses, twists, .. } = frame;
-    let motions = Motions { sealed, poses, twists, committed: &memory.poses };
-    let out = &mut caller.out;
+pub(crate) fn recompute_forces(
+    given: &EvaluationInput<'_>,
+    motions: &Motions<'_>,
+    input: &WorkerInput,
+    order: &[ContactRef],
+    out: &mut ContactBuffer,
+) {
     let key_of = |out: &ContactBuffer, reference: &ContactRef| out.contacts[reference.slot.index()].found.key;
-    let mut rest = order.as_slice();
+    let mut rest = order;
     while let Some(first) = rest.first() {
         let key = key_of(out, first);
         let group;
         (group, rest) =
             rest.split_at(rest.iter().take_while(|reference| key_of(out, reference) == key).count());
-        let motion = motions.known(near, input, key.direction());
+        let motion = motions.known(input, key.direction());
         let context = PairContext::new(&given.round(input), key.direction(), &motion);
         for reference in group {
             let index = reference.slot.index();
@@ -77,7 +79,8 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
             );
             let kind = context.body_a.primitives[key.primitive_a as usize].kind;
             out.law_state_mut(index).fill(0.0);
-            context.compute_force((ElementsOfA { kind, centers: None }, &found), share, index, out);
+            let elements_a = ElementsOfA { kind, centers: None };
+            context.compute_force(elements_a, &found, share, index, out);
         }
     }
     out.flush();
@@ -157,7 +160,8 @@ impl PairContext<'_> {
     #[inline(always)]
     fn compute_force(
         &self,
-        (elements_a, found): (ElementsOfA<'_>, &ContactCandidate),
+        elements_a: ElementsOfA<'_>,
+        found: &ContactCandidate,
         share: f64,
         index: usize,
         out: &mut ContactBuffer,

@@ -6,7 +6,7 @@ pub(crate) mod states;
 
 use crate::report::Clock;
 use crate::scene::{Scene, States};
-use crate::sealed::{Direction, Sealed, SurfaceTable};
+use crate::seal::{Direction, Sealed, SurfaceTable};
 use crate::state::ContactMemory;
 use motion::{Motion, PairMotions};
 use pong_geometry::Vec3;

@@ -1,6 +1,6 @@
 //! Relative motion of two movable groups.
 
-use crate::sealed::Direction;
+use crate::seal::Direction;
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Quat, Transform, Vec3};
 

@@ -6,15 +6,19 @@
 use super::WorkerInput;
 use super::motion::{Motion, PairMotions, SinceCommit};
 use crate::frame::near_pairs::NearPairs;
-use crate::sealed::{Direction, Sealed};
+use crate::seal::{Direction, Sealed};
 use crate::state::CommittedPoses;
 use pong_geometry::{Pose, Quat, Transform, Twist};
 use std::borrow::Cow;
 
-/// Data from which the relative motion of any pair is computed.
+/// Pairs of movable groups that a frame visits, and the relative motion of any pair.
 #[derive(Clone, Copy)]
 pub(crate) struct Motions<'a> {
     pub sealed: &'a Sealed,
+    /// Number of the frame.
+    pub frame: u64,
+    /// Pairs that the frame visits.
+    pub near: &'a NearPairs,
     /// Poses and twists of all movable groups.
     pub poses: &'a [Pose],
     pub twists: &'a [Twist],
@@ -23,10 +27,10 @@ pub(crate) struct Motions<'a> {
 }
 
 impl Motions<'_> {
-    /// Computes the motions of the given pairs for a frame, in the directions that have tests. An entry of
-    /// `out` may still hold the pair's motion of the last committed frame. Its relative pose is then the pose
-    /// at the last commit, and is not computed again.
-    pub fn relate(&self, pairs: &[u32], frame: u64, out: &mut Vec<PairMotions>) {
+    /// Computes the motions of the given pairs, in the directions that have tests. An entry of `out` may still
+    /// hold the pair's motion of the last committed frame. Its relative pose is then the pose at the last
+    /// commit, and is not computed again.
+    pub fn relate(&self, pairs: &[u32], out: &mut Vec<PairMotions>) {
         // Entries are reused: most frames have as many pairs as the frame before. Directions without tests
         // keep old values.
         if out.len() < pairs.len() {
@@ -35,7 +39,7 @@ impl Motions<'_> {
         out.truncate(pairs.len());
         for (motions, &group_pair) in out.iter_mut().zip(pairs) {
             let is_known = motions.group_pair == group_pair && motions.frame == self.committed.frame();
-            (motions.group_pair, motions.frame) = (group_pair, frame);
+            (motions.group_pair, motions.frame) = (group_pair, self.frame);
             for (_, direction) in self.sealed.plans_of(group_pair) {
                 let motion = &mut motions.directions[direction.flipped as usize];
                 let earlier =
@@ -82,13 +86,8 @@ impl Motions<'_> {
 
     /// Motion in a direction that has a contact: from the frame's input if it is stored there, otherwise
     /// recomputed.
-    pub fn known<'i>(
-        &self,
-        near: &NearPairs,
-        input: &'i WorkerInput,
-        direction: Direction,
-    ) -> Cow<'i, Motion> {
-        match near.slot(direction.group_pair) {
+    pub fn known<'i>(&self, input: &'i WorkerInput, direction: Direction) -> Cow<'i, Motion> {
+        match self.near.slot(direction.group_pair) {
             Some(slot) => Cow::Borrowed(input.motions[slot].of(direction)),
             None => Cow::Owned(self.of(direction)),
         }

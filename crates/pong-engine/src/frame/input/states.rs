@@ -2,7 +2,7 @@
 
 use crate::error::EngineError;
 use crate::scene::{Scene, States};
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use pong_geometry::{Pose, Twist};
 
 /// Returns an error if a movable group of an enabled pair has no state.

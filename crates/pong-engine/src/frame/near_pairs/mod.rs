@@ -15,7 +15,7 @@ mod tests;
 mod tree;
 
 use crate::scene::Scene;
-use crate::sealed::{GroupPair, Sealed};
+use crate::seal::{GroupPair, Sealed};
 use crate::state::{CommittedPoses, Past};
 use pong_geometry::Pose;
 use swept::{Bounds, SweptBounds};

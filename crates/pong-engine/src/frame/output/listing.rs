@@ -1,42 +1,36 @@
 //! Contacts of a frame for the host: ids, common frame.
 
+use super::results::FrameResults;
 use crate::contact::{Contact, ContactSide};
 use crate::energy::account::EnergyAccount;
-use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::contact::FrameContact;
 use crate::ids::{InterfaceId, ObjectId, PairId};
 use crate::law::{NormalTangent, normal_tangent};
-use crate::scene::Scene;
-use crate::sealed::{Sealed, SurfaceTable};
+use crate::seal::SurfaceTable;
 use pong_geometry::{Pose, Vec3};
 
-impl EvaluationBuffers {
+impl<'a> FrameResults<'a> {
     /// Contacts that push, in key order.
-    pub fn list_contacts<'a>(
-        &'a self,
-        scene: &'a Scene,
-        sealed: &'a Sealed,
-    ) -> impl Iterator<Item = Contact> + 'a {
-        self.pushing().map(move |contact| self.list_contact(contact, scene, sealed))
+    pub fn list_contacts(self) -> impl Iterator<Item = Contact> + use<'a> {
+        self.contacts.pushing().map(move |contact| self.list_contact(contact))
     }
 
     /// Energy accounts of the contacts that push, in key order.
-    pub fn list_accounts(&self) -> impl Iterator<Item = EnergyAccount> {
-        let pushing = self.order.iter().filter(|reference| reference.pushes());
-        pushing.filter_map(|reference| {
-            let energy = self.energy.contacts.get(reference.slot.index())?.energy;
-            Some(EnergyAccount { stored: self.found().contact(reference).stored, ..energy.account })
+    pub fn list_accounts(self) -> impl Iterator<Item = EnergyAccount> + use<'a> {
+        let pushing = self.contacts.order.iter().filter(|reference| reference.pushes());
+        pushing.filter_map(move |reference| {
+            let energy = self.energies.get(reference.slot.index())?.energy;
+            Some(EnergyAccount { stored: self.contacts.found.contact(reference).stored, ..energy.account })
         })
     }
 
     /// Normal-force tangents of the contacts that push, in key order.
-    pub fn list_tangents<'a>(
-        &'a self,
-        scene: &'a Scene,
-        sealed: &'a Sealed,
+    pub fn list_tangents(
+        self,
         tables: &'a [SurfaceTable],
-    ) -> impl Iterator<Item = Option<NormalTangent>> + 'a {
-        self.pushing().map(move |contact| {
+    ) -> impl Iterator<Item = Option<NormalTangent>> + use<'a> {
+        let Self { scene, sealed, .. } = self;
+        self.contacts.pushing().map(move |contact| {
             let found = &contact.found;
             let pair = &sealed.group_pairs[found.key.group_pair as usize];
             let (body_a, body_b) = sealed.bodies_of(found.key.direction());
@@ -48,7 +42,8 @@ impl EvaluationBuffers {
         })
     }
 
-    fn list_contact(&self, contact: &FrameContact, scene: &Scene, sealed: &Sealed) -> Contact {
+    fn list_contact(&self, contact: &FrameContact) -> Contact {
+        let Self { scene, sealed, .. } = *self;
         let pair = &sealed.group_pairs[contact.found.key.group_pair as usize];
         let (body_a, body_b) = sealed.bodies_of(contact.found.key.direction());
         let x_wb = &self.poses[body_b];

@@ -4,6 +4,8 @@
 pub(crate) mod commit;
 mod listing;
 pub(crate) mod order;
+pub(crate) mod ordered;
 mod pair_wrench;
 pub(crate) mod preload;
 pub(crate) mod reduce;
+pub(crate) mod results;

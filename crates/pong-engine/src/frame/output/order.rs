@@ -1,58 +1,19 @@
 //! Sorts the contacts into summation order and applies the limits: first hit per ray, and the deepest if
 //! there are too many.
 
-use crate::frame::buffers::EvaluationBuffers;
-use crate::frame::forces;
-use crate::frame::forces::contact_buffer::CapacityDemand;
+use crate::frame::forces::contact_buffer::{CapacityDemand, ContactBuffer};
+use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::forces::found::FoundContacts;
-use crate::frame::input::EvaluationInput;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::frame::worker_context::WorkerContext;
-use crate::report::StatusBits;
+use crate::report::{FrameReport, StatusBits};
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
+use pong_arena::Table;
 
-/// Sorts the contacts of all threads.
+/// Lists the contacts of all threads in summation order.
 #[inline]
-pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
-    let EvaluationInput { scene, sealed, .. } = *given;
-    let mut demand = frame.caller.out.demand;
-    list(frame);
-    if sealed.rays_meet_groups {
-        keep_first_ray_hits(scene, sealed, frame);
-        if !demand.overflowed {
-            demand.pushing = frame.pushing().count() as u64;
-            demand.remembered = frame.order.len() as u64 - demand.pushing;
-        }
-    }
-    let (capacity, spare) = (sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
-    let CapacityDemand { pushing, remembered, .. } = demand;
-    frame.report.contacts = pushing as u32;
-    frame.report.contacts_wanted = saturated(pushing);
-    if demand.overflowed || pushing > capacity as u64 || remembered > spare as u64 {
-        frame.report.status.set(StatusBits::CONTACT_LIMIT);
-        // Contacts only remembered have the same capacity as those that push, and chunk candidates at least
-        // that, so the largest of the three is enough.
-        frame.report.contacts_wanted = saturated(pushing.max(remembered).max(demand.at_once));
-        frame.caller.out.keep_deepest(capacity, spare);
-        list(frame);
-        frame.report.contacts = frame.pushing().count() as u32;
-        forces::recompute_forces(given, frame);
-    }
-    if demand.unshared {
-        frame.report.status.set(StatusBits::LOAD_SHARING_LIMIT);
-    }
-}
-
-fn saturated(count: u64) -> u32 {
-    count.try_into().unwrap_or(u32::MAX)
-}
-
-/// Lists all contacts in order.
-#[inline]
-fn list(frame: &mut EvaluationBuffers) {
-    let EvaluationBuffers { caller, workers, order, .. } = frame;
-    let found = FoundContacts { caller: &caller.out, workers };
+pub(crate) fn list(found: FoundContacts<'_>, order: &mut Table<ContactRef>) {
     order.clear();
     for thread in found.threads() {
         order.extend_from_slice(&thread.refs).expect("as many places as contacts");
@@ -64,10 +25,53 @@ fn list(frame: &mut EvaluationBuffers) {
     }
 }
 
-/// Keeps one contact per ray and opposing Object: the nearest, ties by summation order.
-fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuffers) {
-    let EvaluationBuffers { caller, order, .. } = frame;
-    let WorkerContext { scratch, out, .. } = &mut **caller;
+/// Applies the capacity of the world and reports the demand: if there are too many contacts, drops all but
+/// the deepest and returns true; the rest then have to carry the bristles of those dropped. Workers' buffers
+/// are in use only in frames within the capacity.
+#[inline]
+pub(crate) fn keep_deepest(
+    sealed: &Sealed,
+    out: &mut ContactBuffer,
+    order: &mut Table<ContactRef>,
+    report: &mut FrameReport,
+) -> bool {
+    let (capacity, spare) = (sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
+    let CapacityDemand { pushing, remembered, at_once, overflowed, unshared } = out.demand;
+    report.contacts = pushing as u32;
+    report.contacts_wanted = saturated(pushing);
+    if unshared {
+        report.status.set(StatusBits::LOAD_SHARING_LIMIT);
+    }
+    if !overflowed && pushing <= capacity as u64 && remembered <= spare as u64 {
+        return false;
+    }
+    report.status.set(StatusBits::CONTACT_LIMIT);
+    // Contacts only remembered have the same capacity as those that push, and chunk candidates at least
+    // that, so the largest of the three is enough.
+    report.contacts_wanted = saturated(pushing.max(remembered).max(at_once));
+    out.keep_deepest(capacity, spare);
+    list(FoundContacts { caller: out, workers: &[] }, order);
+    report.contacts = count_pushing(order) as u32;
+    true
+}
+
+fn count_pushing(order: &[ContactRef]) -> u64 {
+    order.iter().filter(|place| place.pushes()).count() as u64
+}
+
+fn saturated(count: u64) -> u32 {
+    count.try_into().unwrap_or(u32::MAX)
+}
+
+/// Keeps one contact per ray and opposing Object: the nearest, ties by summation order. All contacts must be
+/// in the caller's buffer.
+pub(crate) fn keep_first_ray_hits(
+    scene: &Scene,
+    sealed: &Sealed,
+    caller: &mut WorkerContext,
+    order: &mut Table<ContactRef>,
+) {
+    let WorkerContext { scratch, out, .. } = caller;
     scratch.reset();
     // (body of A, ray, Object of B, index in the order), sorted by these and distance, so that the first of
     // each ray and Object is the nearest.
@@ -92,4 +96,8 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuf
         }
     }
     order.retain(|place| out.contacts[place.slot.index()].found.status != CandidateStatus::Culled);
+    if !out.demand.overflowed {
+        out.demand.pushing = count_pushing(order);
+        out.demand.remembered = order.len() as u64 - out.demand.pushing;
+    }
 }

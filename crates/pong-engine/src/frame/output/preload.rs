@@ -16,7 +16,7 @@ use crate::frame::input::{PairContext, Round};
 use crate::law::FrictionProps;
 use crate::law::friction::shortened;
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::{ContactMemory, ContactRole};
 use pong_geometry::Vec3;
 
@@ -94,7 +94,7 @@ impl EvaluationBuffers {
             if sealed.group_pairs[key.group_pair as usize].pair != pair {
                 continue;
             }
-            let motion = motions.known(&self.near, &self.input, key.direction());
+            let motion = motions.known(&self.input, key.direction());
             let context = PairContext::new(&round, key.direction(), &motion);
             for index in group {
                 let contact = contact_at(*index);

@@ -5,35 +5,37 @@
 //! of the largest force. Therefore blocks of [`PART`] contacts are summed first, and then the block sums
 //! (docs/theory.md, 5).
 
-use crate::frame::buffers::EvaluationBuffers;
+use crate::energy::ledger::LedgerEntry;
 use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::forces::found::FoundContacts;
-use crate::frame::input::EvaluationInput;
+use crate::frame::input::WorkerInput;
 use crate::frame::input::relative::Motions;
-use crate::sealed::Sealed;
+use crate::frame::output::ordered::OrderedContacts;
+use crate::seal::{Direction, Sealed};
 use pong_geometry::{Transform, Vec3, Wrench};
 
-/// Adds every contact to both of its movable groups; contacts of one pair direction are first summed together
-/// in B's axes.
+/// Adds every contact to the wrenches of both of its movable groups; contacts of one pair direction are first
+/// summed together in B's axes. Returns a direction with a contact whose values come close to overflow, if any.
 #[inline]
-pub(crate) fn sum(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
-    let EvaluationInput { sealed, memory, .. } = *given;
-    let EvaluationBuffers {
-        input, caller, workers, order, near, poses, twists, wrenches, beyond_range, ..
-    } = frame;
-    let motions = Motions { sealed, poses, twists, committed: &memory.poses };
-    let found = FoundContacts { caller: &caller.out, workers };
-    for places in order.chunk_by(|a, b| a.direction() == b.direction()) {
+pub(crate) fn sum(
+    motions: &Motions<'_>,
+    input: &WorkerInput,
+    contacts: OrderedContacts<'_>,
+    wrenches: &mut [Wrench],
+) -> Option<Direction> {
+    let mut beyond_range = None;
+    for places in contacts.order.chunk_by(|a, b| a.direction() == b.direction()) {
         let direction = places[0].direction();
-        let x_ba = motions.known(near, input, direction).x_ba;
-        let sums = Sums::of_direction(&found, places, &x_ba.translation);
+        let x_ba = motions.known(input, direction).x_ba;
+        let sums = Sums::of_direction(&contacts.found, places, &x_ba.translation);
         if !sums.in_range {
             beyond_range.get_or_insert(direction);
         }
-        let (body_a, body_b) = sealed.bodies_of(direction);
+        let (body_a, body_b) = motions.sealed.bodies_of(direction);
         wrenches[body_a] += sums.on_a(&x_ba);
         wrenches[body_b] += sums.on_b();
     }
+    beyond_range
 }
 
 /// References per block sum, including contacts that do not push.
@@ -109,19 +111,22 @@ fn holds(sum: f64) -> bool {
     sum <= LARGEST
 }
 
-impl EvaluationBuffers {
-    /// A movable group whose wrench or energies have overflowed, if any; sums and products of finite values
-    /// can.
-    #[inline]
-    pub fn overflows(&self, sealed: &Sealed) -> Option<usize> {
-        let of_wrench = |wrench: &Wrench| wrench.force.abs().sum() + wrench.moment.abs().sum();
-        // Groups without pairs have no wrench.
-        let mut bodies = sealed.paired_bodies.iter().copied();
-        let body = bodies.find(|&body| !holds(of_wrench(&self.wrenches[body])));
-        body.or_else(|| {
-            let ledger = !holds(self.energy.work.abs() + self.energy.dissipated.abs());
-            // The ledger belongs to no group; report the first.
-            self.beyond_range.map(|direction| sealed.bodies_of(direction).0).or(ledger.then_some(0))
-        })
-    }
+/// Finds a movable group whose wrench or energies have overflowed: sums and products of finite values can.
+/// `beyond_range` is the result of [`sum`].
+#[inline]
+pub(crate) fn overflow(
+    sealed: &Sealed,
+    wrenches: &[Wrench],
+    beyond_range: Option<Direction>,
+    ledger: &LedgerEntry,
+) -> Option<usize> {
+    let of_wrench = |wrench: &Wrench| wrench.force.abs().sum() + wrench.moment.abs().sum();
+    // Groups without pairs have no wrench.
+    let mut bodies = sealed.paired_bodies.iter().copied();
+    let body = bodies.find(|&body| !holds(of_wrench(&wrenches[body])));
+    body.or_else(|| {
+        let beyond_ledger = !holds(ledger.work.abs() + ledger.dissipated.abs());
+        // The ledger belongs to no group; report the first.
+        beyond_range.map(|direction| sealed.bodies_of(direction).0).or(beyond_ledger.then_some(0))
+    })
 }

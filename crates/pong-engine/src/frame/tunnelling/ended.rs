@@ -6,12 +6,14 @@ use super::events::TunnellingEvents;
 use super::followed::{SAME_SIDE_COSINE_MIN, Seen, pushing};
 use super::line::Line;
 use super::{solids, swept};
-use crate::frame::buffers::EvaluationBuffers;
+use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::forces::reference_point::reference_point;
-use crate::frame::input::EvaluationInput;
-use crate::sealed::Direction;
+use crate::frame::input::relative::Motions;
+use crate::frame::input::{EvaluationInput, WorkerInput};
+use crate::frame::output::ordered::OrderedContacts;
+use crate::seal::Direction;
 use crate::state::{ContactKey, ContactRecord, ContactRole, Records};
-use pong_arena::List;
+use pong_arena::{Arena, List};
 use pong_geometry::interference::ball_bore::is_behind_wall;
 use pong_geometry::interference::ray_triangle::ray_triangle;
 use pong_geometry::interference::triangle_features::TriangleView;
@@ -33,12 +35,15 @@ const WORTH_FETCHING: usize = 4;
 #[inline]
 pub(super) fn look_at_ended(
     given: &EvaluationInput<'_>,
-    frame: &EvaluationBuffers,
+    motions: &Motions<'_>,
+    input: &WorkerInput,
+    contacts: OrderedContacts<'_>,
+    scratch: &Arena,
     events: &mut TunnellingEvents,
 ) {
-    let ended = ended(given, frame);
+    let ended = ended(&given.memory.records, contacts.order, scratch);
     if !ended.is_empty() {
-        look_at(&ended, given, frame, events);
+        look_at(&ended, given, motions, input, contacts, events);
     }
 }
 
@@ -48,12 +53,14 @@ pub(super) fn look_at_ended(
 fn look_at(
     ended: &[u32],
     given: &EvaluationInput<'_>,
-    frame: &EvaluationBuffers,
+    motions: &Motions<'_>,
+    input: &WorkerInput,
+    contacts: OrderedContacts<'_>,
     events: &mut TunnellingEvents,
 ) {
     let records = &given.memory.records;
     // Records and contacts are both in key order.
-    let mut present = frame.order.as_slice();
+    let mut present = contacts.order;
     for of_direction in ended.chunk_by(|&a, &b| direction(records, a) == direction(records, b)) {
         let direction = direction(records, of_direction[0]);
         let pair = &given.sealed.group_pairs[direction.group_pair as usize];
@@ -61,9 +68,8 @@ fn look_at(
             continue;
         }
         // The two groups may be far apart by now, and their pair not among the visited pairs.
-        let motion =
-            frame.motions(given.sealed, &given.memory.poses).known(&frame.near, &frame.input, direction);
-        let seen = Seen::new(given, direction, &motion, frame);
+        let motion = motions.known(input, direction);
+        let seen = Seen::new(given.round(input), direction, &motion, contacts);
         let of_direction = of_direction.iter().map(|&index| &records[index as usize]);
         if of_direction.len() >= WORTH_FETCHING {
             seen.fetch(of_direction.clone());
@@ -74,8 +80,8 @@ fn look_at(
             present = &present[passed..];
             let same_head = present.iter().take_while(|place| place.head == head);
             // Usual case: the neighbouring facet pushes to the same side.
-            let mut normals = pushing(frame, same_head, record.key);
-            if !normals.any(|normal| normal.dot(&record.normal_b) > SAME_SIDE_COSINE_MIN)
+            let mut pushing = pushing(contacts, same_head, record.key);
+            if !pushing.any(|found| found.normal_b.dot(&record.normal_b) > SAME_SIDE_COSINE_MIN)
                 && seen.came_out_behind(record)
             {
                 events.note(seen.passed(record.key.primitive_a));
@@ -86,11 +92,10 @@ fn look_at(
 
 /// Indices of the records with the role `Active` that no current contact continues, in key order.
 #[inline]
-fn ended<'a>(given: &EvaluationInput<'_>, frame: &'a EvaluationBuffers) -> List<'a, u32> {
-    let (records, scratch, room) =
-        (&given.memory.records, &frame.caller.scratch, "sealing has sized the scratch");
+fn ended<'a>(records: &Records, order: &[ContactRef], scratch: &'a Arena) -> List<'a, u32> {
+    let room = "sealing has sized the scratch";
     let (continued, mut left) = (scratch.slice(records.len(), false).expect(room), records.len());
-    for record in frame.order.iter().filter_map(|place| place.continues()) {
+    for record in order.iter().filter_map(|place| place.continues()) {
         left -= usize::from(!std::mem::replace(&mut continued[record], true));
     }
     let mut ended = scratch.list(left).expect(room);

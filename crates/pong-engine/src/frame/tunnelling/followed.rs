@@ -3,16 +3,17 @@
 use super::events::{TunnellingEvent, TunnellingEvents};
 use super::line::{Line, Met};
 use super::swept::{self, Swept};
-use super::{sheets, solids, travel};
-use crate::frame::buffers::EvaluationBuffers;
+use super::{solids, travel};
 use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::input::motion::Motion;
-use crate::frame::input::{EvaluationInput, PairContext};
+use crate::frame::input::{PairContext, Round};
 use crate::frame::narrow_phase::candidate::ContactCandidate;
-use crate::sealed::{Direction, Plan};
+use crate::frame::output::ordered::OrderedContacts;
+use crate::seal::{Direction, Plan};
 use crate::state::{ContactKey, ContactRecord, ContactRole};
 use pong_geometry::Vec3;
-use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::interference::ray_triangle::ray_triangle;
+use pong_geometry::primitive::{PrimitiveKind, Ray};
 use pong_geometry::simd::Portable;
 use pong_model::box_tree::{Child, lanes};
 use pong_model::{Batch, Item};
@@ -24,19 +25,18 @@ pub(super) const SAME_SIDE_COSINE_MIN: f64 = 0.5;
 pub(super) struct Seen<'a> {
     pub context: PairContext<'a>,
     bodies: (usize, usize),
-    frame: &'a EvaluationBuffers,
+    contacts: OrderedContacts<'a>,
 }
 
 impl<'a> Seen<'a> {
     pub fn new(
-        given: &EvaluationInput<'a>,
+        round: Round<'a>,
         direction: Direction,
         motion: &'a Motion,
-        frame: &'a EvaluationBuffers,
+        contacts: OrderedContacts<'a>,
     ) -> Self {
-        let bodies = given.sealed.bodies_of(direction);
-        let context = PairContext::new(&given.round(&frame.input), direction, motion);
-        Self { context, bodies, frame }
+        let bodies = round.sealed.bodies_of(direction);
+        Self { context: PairContext::new(&round, direction, motion), bodies, contacts }
     }
 
     /// Follows the points and axes of all elements of A through the batches of B that they can touch, and
@@ -80,7 +80,7 @@ impl<'a> Seen<'a> {
         // centre.
         let beside = if batch.kind == PrimitiveKind::Sphere { self.radius(item_a) } else { 0.0 };
         let (low, high) = (line.from_b.inf(&line.to_b), line.from_b.sup(&line.to_b));
-        let bounds = (low.add_scalar(-beside), high.add_scalar(beside));
+        let bounds = [low.add_scalar(-beside), high.add_scalar(beside)];
         let went = any_met(batch, &bounds, |place| {
             let item_b = self.context.body_b.tree.items[(batch.items.start + place) as usize];
             self.goes_through(item_a, self.met(item_a, &line, batch.kind, item_b), item_b)
@@ -129,7 +129,12 @@ impl<'a> Seen<'a> {
         let body = self.context.body_b;
         match kind_b {
             PrimitiveKind::Polyhedron => solids::meet(body, self.shell(item_b), item_b.element, line),
-            PrimitiveKind::Triangle => sheets::meet(&body.triangles, item_b.element, line),
+            // A path from behind is no tunnelling (docs/theory.md, 2.2).
+            PrimitiveKind::Triangle => {
+                let ray = Ray::between(&line.from_b, &line.to_b)?;
+                let hit = ray_triangle(&ray, &body.triangles, item_b.element, 0.0);
+                hit.map(|_| Met::Through(body.triangles.normal(item_b.element)))
+            }
             _ => {
                 let surface = body.element(kind_b, item_b.element).facts()?.curved()?;
                 surface.passed(&line.from_b, &line.to_b, self.radius(item_a)).map(Met::Through)
@@ -198,13 +203,13 @@ impl<'a> Seen<'a> {
     /// Normals of the contacts that push a primitive of A away from a shell of B.
     pub fn pushing(&self, primitive_a: u32, shell_b: u32) -> impl Iterator<Item = &'a Vec3> + use<'a> {
         let key = self.key(primitive_a, shell_b);
-        pushing(self.frame, same_head(self.frame, key), key)
+        pushing(self.contacts, self.contacts.with_head(key.head()), key).map(|found| &found.normal_b)
     }
 
     /// Normals of the contacts that push one end of a segment away from a shell of B.
     pub fn pushing_at_end(&self, key: ContactKey) -> impl Iterator<Item = &'a Vec3> + use<'a> {
-        let same_head = same_head(self.frame, key);
-        let at_end = found(self.frame, same_head, key).filter(move |found| found.key.end == key.end);
+        let same_head = self.contacts.with_head(key.head());
+        let at_end = pushing(self.contacts, same_head, key).filter(move |found| found.key.end == key.end);
         at_end.map(|found| &found.normal_b)
     }
 
@@ -216,7 +221,7 @@ impl<'a> Seen<'a> {
 
 /// Returns true if `holds` is true for any element of `batch` whose box overlaps the box from `low` to
 /// `high`.
-fn any_met(batch: &Batch, (low, high): &(Vec3, Vec3), holds: impl Fn(u32) -> bool) -> bool {
+fn any_met(batch: &Batch, [low, high]: &[Vec3; 2], holds: impl Fn(u32) -> bool) -> bool {
     let query = batch.boxes.narrowed(low, high);
     let mut any = false;
     if query.meets(&batch.boxes.around) {
@@ -230,31 +235,14 @@ fn any_met(batch: &Batch, (low, high): &(Vec3, Vec3), holds: impl Fn(u32) -> boo
     any
 }
 
-/// References to the contacts of the frame whose keys have the same high word as `key`
-/// ([`ContactKey::head`]).
-fn same_head(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item = &ContactRef> + use<'_> {
-    let head = key.head();
-    let first = frame.order.partition_point(|place| place.head < head);
-    frame.order[first..].iter().take_while(move |place| place.head == head)
-}
-
-/// Normals of the contacts that push a primitive of A away from a shell of B, at any end of a segment, among
-/// the contacts with the key's high word.
+/// Contacts that push a primitive of A away from a shell of B, at any end of a segment, among the contacts
+/// with the key's high word.
 pub(super) fn pushing<'a>(
-    frame: &'a EvaluationBuffers,
-    same_head: impl Iterator<Item = &'a ContactRef>,
-    key: ContactKey,
-) -> impl Iterator<Item = &'a Vec3> {
-    found(frame, same_head, key).map(|found| &found.normal_b)
-}
-
-/// Contacts that push a primitive of A away from a shell of B, among the contacts with the key's high word.
-fn found<'a>(
-    frame: &'a EvaluationBuffers,
+    contacts: OrderedContacts<'a>,
     same_head: impl Iterator<Item = &'a ContactRef>,
     key: ContactKey,
 ) -> impl Iterator<Item = &'a ContactCandidate> {
     let pushing = same_head.filter(|place| place.pushes());
-    let found = pushing.map(|place| &frame.found().contact(place).found);
+    let found = pushing.map(move |place| &contacts.found.contact(place).found);
     found.filter(move |found| found.key.shell_b == key.shell_b)
 }

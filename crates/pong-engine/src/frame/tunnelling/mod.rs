@@ -20,53 +20,57 @@ mod ended;
 pub(crate) mod events;
 mod followed;
 mod line;
-mod sheets;
 mod solids;
 mod swept;
 pub(crate) mod travel;
 
-use crate::frame::buffers::EvaluationBuffers;
-use crate::frame::input::EvaluationInput;
 use crate::frame::input::relative::Motions;
+use crate::frame::input::{EvaluationInput, WorkerInput};
 use crate::frame::near_pairs::MOTIONS_AT_ONCE;
-use crate::report::StatusBits;
+use crate::frame::output::ordered::OrderedContacts;
 use events::TunnellingEvents;
 use followed::Seen;
+use pong_arena::Arena;
 
-/// Detects tunnelling and sets the status.
+/// Detects tunnelling since the last commit. If the frame visits more pairs than `input` holds motions of, the
+/// motions of every pair are computed again and written to `input`.
 #[inline]
-pub(crate) fn watch(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
-    frame.caller.scratch.reset();
-    frame.tunnelling = follow(given, frame);
-    let mut events = frame.tunnelling;
-    ended::look_at_ended(given, frame, &mut events);
-    frame.tunnelling = events;
-    if frame.tunnelling.count > 0 {
-        frame.report.status.set(StatusBits::TUNNELLED);
+pub(crate) fn watch(
+    given: &EvaluationInput<'_>,
+    motions: &Motions<'_>,
+    input: &mut WorkerInput,
+    contacts: OrderedContacts<'_>,
+    scratch: &mut Arena,
+) -> TunnellingEvents {
+    let mut events = TunnellingEvents::default();
+    let several = motions.near.list().len() > MOTIONS_AT_ONCE;
+    for pairs in motions.near.list().chunks(MOTIONS_AT_ONCE) {
+        if several {
+            motions.relate(pairs, &mut input.motions);
+        }
+        follow(given, pairs, input, contacts, &mut events);
     }
+    scratch.reset();
+    ended::look_at_ended(given, motions, input, contacts, scratch, &mut events);
+    events
 }
 
-/// Follows the paths of all near pairs whose groups may have moved far enough, and returns the events.
+/// Follows the paths of the given pairs, whose motions `input` holds, if their groups may have moved far
+/// enough.
 #[inline]
-fn follow(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) -> TunnellingEvents {
-    let mut events = TunnellingEvents::default();
-    let rounds = frame.near.list().len().div_ceil(MOTIONS_AT_ONCE);
-    for round in 0..rounds {
-        let first = round * MOTIONS_AT_ONCE;
-        let end = frame.near.list().len().min(first + MOTIONS_AT_ONCE);
-        if rounds > 1 {
-            let EvaluationBuffers { near, input, poses, twists, number, .. } = &mut *frame;
-            let motions = Motions { sealed: given.sealed, poses, twists, committed: &given.memory.poses };
-            motions.relate(&near.list()[first..end], *number, &mut input.motions);
-        }
-        for (slot, &group_pair) in frame.near.list()[first..end].iter().enumerate() {
-            for (plan, direction) in given.sealed.plans_of(group_pair) {
-                let motion = frame.input.motions[slot].of(direction);
-                if travel::may_go_through(plan, motion) {
-                    Seen::new(given, direction, motion, frame).follow_lines(plan, &mut events);
-                }
+fn follow(
+    given: &EvaluationInput<'_>,
+    pairs: &[u32],
+    input: &WorkerInput,
+    contacts: OrderedContacts<'_>,
+    events: &mut TunnellingEvents,
+) {
+    for (motions, &group_pair) in input.motions.iter().zip(pairs) {
+        for (plan, direction) in given.sealed.plans_of(group_pair) {
+            let motion = motions.of(direction);
+            if travel::may_go_through(plan, motion) {
+                Seen::new(given.round(input), direction, motion, contacts).follow_lines(plan, events);
             }
         }
     }
-    events
 }

@@ -24,11 +24,11 @@ pub(super) fn round(body: &MovableGroup, kind: PrimitiveKind, element: u32) -> O
 
 impl Swept {
     /// Box around the element at the last commit and now, m.
-    pub fn bounds(&self) -> (Vec3, Vec3) {
+    pub fn bounds(&self) -> [Vec3; 2] {
         let all = [self.from_b, self.to_b].concat();
         let low = all.iter().fold(all[0], |low, place| low.inf(place));
         let high = all.iter().fold(all[0], |high, place| high.sup(place));
-        (low.add_scalar(-self.radius), high.add_scalar(self.radius))
+        [low.add_scalar(-self.radius), high.add_scalar(self.radius)]
     }
 
     /// Returns `Through` if the element was outside the solid at the last commit, is outside now, and in

@@ -2,10 +2,17 @@
 //! element has passed through nothing.
 
 use crate::frame::input::motion::Motion;
-use crate::sealed::Plan;
+use crate::seal::Plan;
 use pong_geometry::primitive::{Primitive, PrimitiveKind};
 use pong_geometry::{Transform, Vec3};
 use pong_model::{Batch, MovableGroup, PrimitiveInfo};
+
+/// Some primitives of a movable group.
+#[derive(Clone, Copy)]
+pub(crate) struct PrimitivesOf<'a> {
+    pub body: &'a MovableGroup,
+    pub infos: &'a [&'a PrimitiveInfo],
+}
 
 /// Least distance that A must move to pass through one of the given primitives of B, m: half the thickness of
 /// the thinnest one. Infinite if A can pass through none of them.
@@ -13,22 +20,22 @@ use pong_model::{Batch, MovableGroup, PrimitiveInfo};
 /// A triangle counts with the thickness up to which it pushes the smallest element of A. A ray against
 /// triangles counts with its length, if that is less.
 pub(crate) fn least_travel_m(
-    a: (&MovableGroup, &[&PrimitiveInfo]),
-    b: (&MovableGroup, &[&PrimitiveInfo]),
+    a: PrimitivesOf<'_>,
+    b: PrimitivesOf<'_>,
     tests: impl Fn(PrimitiveKind, PrimitiveKind) -> bool,
 ) -> f64 {
     let kinds = PrimitiveKind::ALL;
     let touched = |kind_b: PrimitiveKind| kinds.iter().any(|&kind_a| tests(kind_a, kind_b));
-    let passable = b.1.iter().copied().filter(|info| touched(info.kind));
-    let widths = facts((b.0, passable)).map(|facts| facts.least_width_m());
+    let passable = b.infos.iter().copied().filter(|info| touched(info.kind));
+    let widths = facts(b.body, passable).map(|facts| facts.least_width_m());
     let mut thinnest = widths.fold(f64::INFINITY, f64::min);
     if touched(PrimitiveKind::Triangle) {
-        let radii = facts((a.0, a.1.iter().copied())).filter_map(|facts| facts.smallest_radius_m());
+        let radii = facts(a.body, a.infos.iter().copied()).filter_map(|facts| facts.smallest_radius_m());
         let smallest = radii.fold(f64::INFINITY, f64::min);
-        let meshes = b.1.iter().filter(|info| info.kind == PrimitiveKind::Triangle);
+        let meshes = b.infos.iter().filter(|info| info.kind == PrimitiveKind::Triangle);
         thinnest = meshes.map(|info| info.thickness.unwrap_or(smallest)).fold(thinnest, f64::min);
-        let rays = a.1.iter().filter(|info| info.kind == PrimitiveKind::Ray);
-        let lengths = rays.map(|info| a.0.rays[info.elements.start as usize].length);
+        let rays = a.infos.iter().filter(|info| info.kind == PrimitiveKind::Ray);
+        let lengths = rays.map(|info| a.body.rays[info.elements.start as usize].length);
         thinnest = lengths.fold(thinnest, f64::min);
     }
     0.5 * thinnest
@@ -36,7 +43,8 @@ pub(crate) fn least_travel_m(
 
 /// Elements of the given primitives as [`Primitive`]; triangles and custom primitives are left out.
 fn facts<'a>(
-    (body, infos): (&'a MovableGroup, impl Iterator<Item = &'a PrimitiveInfo>),
+    body: &'a MovableGroup,
+    infos: impl Iterator<Item = &'a PrimitiveInfo>,
 ) -> impl Iterator<Item = &'a dyn Primitive> {
     let elements = infos.flat_map(|info| info.elements.clone().map(|element| (info.kind, element)));
     elements.filter_map(|(kind, element)| body.element(kind, element).facts())
@@ -61,8 +69,8 @@ pub(super) fn may_go_through(plan: &Plan, motion: &Motion) -> bool {
 }
 
 /// Greatest distance of a followed point of the given primitives of A from the origin of its movable group, m.
-pub(crate) fn reach_m((a, infos): (&MovableGroup, &[&PrimitiveInfo])) -> f64 {
-    let places = facts((a, infos.iter().copied())).flat_map(|facts| facts.followed()).flatten();
+pub(crate) fn reach_m(a: PrimitivesOf<'_>) -> f64 {
+    let places = facts(a.body, a.infos.iter().copied()).flat_map(|facts| facts.followed()).flatten();
     places.map(|place| place.norm()).fold(0.0, f64::max)
 }
 

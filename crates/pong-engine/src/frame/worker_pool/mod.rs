@@ -13,7 +13,7 @@ use crate::frame::run_blocks::run_blocks;
 use crate::frame::worker_context::WorkerContext;
 use crate::report::WorkTimes;
 use crate::scene::Scene;
-use crate::sealed::{Sealed, SurfaceTable};
+use crate::seal::{Sealed, SurfaceTable};
 use crate::state::ContactMemory;
 use pong_threads::{Job, Outcome, Pool, Settings, StartError};
 use std::ops::Range;

@@ -178,7 +178,7 @@ fn compare(change: impl Fn(Config) -> Config, rays: usize) -> SharedFrames {
         assert_eq!(found.frame.wrenches, expected.frame.wrenches, "frame {frame}");
         let reported = |frame: &EvaluationBuffers| -> Vec<String> {
             let values = |contact: &FrameContact| (contact.point_b, contact.force(), contact.sticks);
-            frame.pushing().map(|contact| format!("{:?}", values(contact))).collect()
+            frame.contacts().pushing().map(|contact| format!("{:?}", values(contact))).collect()
         };
         assert!(reported(&found.frame) == reported(&expected.frame), "frame {frame}");
         assert_eq!(found.frame.caller.out.counts, expected.frame.caller.out.counts, "frame {frame}");

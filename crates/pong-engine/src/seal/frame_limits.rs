@@ -1,9 +1,9 @@
-//! Memory sizes of the frames.
+//! Capacities of the buffers of a frame.
 
 /// Minimum capacity in contacts of a worker's buffer, unless the caller's is smaller.
 const LEAST_WORKER_CONTACTS: usize = 4096;
 
-/// Memory sizes of the frames.
+/// Capacities of the buffers of a frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
     /// Capacity in contacts of the calling thread: all that a frame may keep, plus a reserve from which the

@@ -1,11 +1,13 @@
 //! Test plans: kinds of primitives that are tested between two movable groups.
 
 use super::filters::{apart, primitives_that_meet, representatives};
+use super::leaf_filter::{LeafFilter, ObjectFilters};
+use super::sealed::NO_PLAN;
 use super::testable::{can_be_tested, kind_name};
+use super::{GroupPair, Plan};
 use crate::frame::narrow_phase::pair_table::{REGISTERED, kind_pair};
-use crate::frame::{least_travel_m, reach_m};
+use crate::frame::{PrimitivesOf, least_travel_m, reach_m};
 use crate::scene::Scene;
-use crate::sealed::{GroupPair, LeafFilter, NO_PLAN, ObjectFilters, Plan};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 use std::collections::BTreeMap;
@@ -13,7 +15,8 @@ use std::collections::BTreeMap;
 /// Test plan of A against B; `in_order` is true if A's Object was named first.
 fn plan(
     scene: &Scene,
-    (a, b): (&MovableGroup, &MovableGroup),
+    a: &MovableGroup,
+    b: &MovableGroup,
     in_order: bool,
     filters: Option<&Filters>,
 ) -> Plan {
@@ -32,9 +35,10 @@ fn plan(
     }
     let tests = |a: PrimitiveKind, b: PrimitiveKind| touched[a as usize] >> b as u16 & 1 == 1;
     let filter = filters.map(|filters| Box::new(LeafFilter::new(filters, [a, b])));
-    let (met_a, met_b) = (primitives_that_meet(filters, a, 0, b), primitives_that_meet(filters, b, 1, a));
-    let least_travel_m = least_travel_m((a, &met_a), (b, &met_b), tests);
-    let reach_a_m = reach_m((a, &met_a));
+    let met_a = PrimitivesOf { body: a, infos: &primitives_that_meet(filters, a, 0, b) };
+    let met_b = PrimitivesOf { body: b, infos: &primitives_that_meet(filters, b, 1, a) };
+    let least_travel_m = least_travel_m(met_a, met_b, tests);
+    let reach_a_m = reach_m(met_a);
     Plan { element_ns, touched, least_travel_m, reach_a_m, filter }
 }
 
@@ -56,7 +60,7 @@ pub(super) fn plans(scene: &Scene, group_pairs: &mut [GroupPair], filters: &Obje
             let apart = filters.between(object_a, object_b);
             pair.plans[flipped] = *known.entry((groups, in_order, apart)).or_insert_with(|| {
                 let [a, b] = bodies.map(|body| scene.body(body));
-                let plan = plan(scene, (a, b), in_order, apart);
+                let plan = plan(scene, a, b, in_order, apart);
                 if !plan.finds_something() {
                     return NO_PLAN;
                 }

@@ -1,11 +1,12 @@
-//! Memory sizes of the frames of a scene.
+//! Computes the capacities of the buffers of a frame, and the memory per contact and per thread.
 
+use super::GroupPair;
+use super::frame_limits::Limits;
 use crate::energy::contact::ContactEnergies;
 use crate::frame::load_sharing::solver::scratch_bytes;
 use crate::frame::narrow_phase::pair_table::most_contacts;
 use crate::frame::{ContactRef, FrameContact, Slot, WorkerContext, arena_bytes};
 use crate::scene::Scene;
-use crate::sealed::{GroupPair, Limits};
 use crate::state::Records;
 use pong_model::Tree;
 use pong_threads::MAX_WORKERS;
@@ -17,7 +18,7 @@ const DEFAULT_CAPACITY_MAX: usize = 65_536;
 /// than the worst case assumes.
 const DEFAULT_CAPACITY_MIN: usize = 256;
 
-/// Memory sizes of the frames of a scene.
+/// Capacities of the buffers of the frames of a scene.
 pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: usize) -> Limits {
     /// Minimum capacity in candidates per chunk: a ball on a fine mesh has many before load sharing selects
     /// those that push.

@@ -11,26 +11,22 @@
 //! constant in the axes of B. If they are constant in common axes instead, while B rotates by φ_B, the work
 //! differs by at most ½|F||x|φ_B².
 
+use super::account::{EnergyAccount, WrenchCoupling};
+use super::buffers::Interval;
+use super::contact::{ContactEnergies, ContactEnergy};
 use super::displacement::Displacement;
-use super::interval::Interval;
-use crate::energy::account::{EnergyAccount, WrenchCoupling};
-use crate::energy::contact::{ContactEnergies, ContactEnergy};
-use crate::energy::episodes::PairEnergies;
+use super::episodes::PairEnergies;
 use crate::frame::forces::contact::FrameContact;
-use crate::frame::input::WorkerInput;
 use crate::frame::input::relative::Motions;
+use crate::frame::input::{EvaluationInput, WorkerInput};
 use crate::law::stored_energy;
-use crate::scene::Scene;
-use crate::sealed::Sealed;
-use crate::state::{ContactMemory, ContactRecord, ContactRole};
+use crate::state::{ContactRecord, ContactRole};
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Pose, Vec3, Wrench};
 
 /// The energy accounts of one frame.
 pub(crate) struct Accounts<'a> {
-    pub scene: &'a Scene,
-    pub sealed: &'a Sealed,
-    pub memory: &'a ContactMemory,
+    pub given: &'a EvaluationInput<'a>,
     pub input: &'a WorkerInput,
     pub coupling: WrenchCoupling,
     /// Pair energies for the next commit.
@@ -79,7 +75,7 @@ impl ForceParts {
 impl Accounts<'_> {
     /// Begins a frame.
     pub fn begin(&mut self) {
-        self.pairs.copy_from(&self.memory.pair_energies);
+        self.pairs.copy_from(&self.given.memory.pair_energies);
         self.intervals.fill(Interval::default());
     }
 
@@ -92,16 +88,17 @@ impl Accounts<'_> {
         displacement: Option<&Displacement>,
     ) {
         let pair = contact.found.key.group_pair as usize;
-        let committed = earlier.and_then(|earlier| self.memory.energies.get(earlier));
+        let committed = earlier.and_then(|earlier| self.given.memory.energies.get(earlier));
         let mut energy = committed.map_or_else(ContactEnergy::default, |committed| *committed.energy);
         let delayed = committed.map_or(&[][..], |committed| committed.delayed);
-        let before = earlier.map(|earlier| ForceParts::before(&self.memory.records[earlier], energy.bristle));
+        let before =
+            earlier.map(|earlier| ForceParts::before(&self.given.memory.records[earlier], energy.bristle));
         let now = self.force_parts(contact);
         energy.bristle = now.stored[1];
         let begins = before.is_none();
         let before = before.unwrap_or_default();
-        let record = earlier.map(|earlier| &self.memory.records[earlier]);
-        let done = self.work(delayed, record, (&before, Some(&now)), displacement);
+        let record = earlier.map(|earlier| &self.given.memory.records[earlier]);
+        let done = self.work(delayed, record, &before, Some(&now), displacement);
         let interval = &mut self.intervals[pair];
         interval.pushes = true;
         let mut one = self.entry(&before, &now, &done.along_motion, begins);
@@ -112,7 +109,7 @@ impl Accounts<'_> {
             one.friction_loss += now.stored[1];
         }
         self.note(pair, &one, &done);
-        if begins && displacement.is_some() && self.memory.pair_energies.pairs[pair].episode.lasts {
+        if begins && displacement.is_some() && self.given.memory.pair_energies.pairs[pair].episode.lasts {
             // A new contact may take over energy that another contact of the pair had stored.
             one.inserted = (now.stored[0] + now.stored[1] + done.as_used).max(0.0);
             one.damping_loss += one.inserted;
@@ -125,10 +122,10 @@ impl Accounts<'_> {
 
     /// Adds a committed contact that has ended.
     pub fn ended(&mut self, earlier: usize, displacement: Option<&Displacement>) {
-        let Some(committed) = self.memory.energies.get(earlier) else { return };
-        let record = &self.memory.records[earlier];
+        let Some(committed) = self.given.memory.energies.get(earlier) else { return };
+        let record = &self.given.memory.records[earlier];
         let before = ForceParts::before(record, committed.energy.bristle);
-        let done = self.work(committed.delayed, Some(record), (&before, None), displacement);
+        let done = self.work(committed.delayed, Some(record), &before, None, displacement);
         let one = self.entry(&before, &ForceParts::default(), &done.along_motion, true);
         self.note(record.key.group_pair as usize, &one, &done);
     }
@@ -139,7 +136,8 @@ impl Accounts<'_> {
         &self,
         delayed: &[Wrench],
         record: Option<&ContactRecord>,
-        (before, now): (&ForceParts, Option<&ForceParts>),
+        before: &ForceParts,
+        now: Option<&ForceParts>,
         displacement: Option<&Displacement>,
     ) -> Work {
         let Some(displacement) = displacement else { return Work::default() };
@@ -185,10 +183,10 @@ impl Accounts<'_> {
     /// Force of a contact, split into normal and friction force.
     fn force_parts(&self, contact: &FrameContact) -> ForceParts {
         let found = &contact.found;
-        let (body_a, body_b) = self.sealed.bodies_of(found.key.direction());
-        let surface_a = self.scene.body(body_a).primitives[found.key.primitive_a as usize].surface;
-        let surface_b = self.scene.body(body_b).primitives[found.primitive_b as usize].surface;
-        let pair = &self.sealed.group_pairs[found.key.group_pair as usize];
+        let (body_a, body_b) = self.given.sealed.bodies_of(found.key.direction());
+        let surface_a = self.given.scene.body(body_a).primitives[found.key.primitive_a as usize].surface;
+        let surface_b = self.given.scene.body(body_b).primitives[found.primitive_b as usize].surface;
+        let pair = &self.given.sealed.group_pairs[found.key.group_pair as usize];
         let table = &self.input.tables[pair.tables[found.key.flipped as usize]];
         let spring = stored_energy(table.props(surface_a, surface_b), found.full_weight(), found.depth);
         ForceParts {
@@ -222,8 +220,8 @@ impl Accounts<'_> {
 
     /// Advances the delayed wrenches. The delayed wrench of a pair arrives even if its contacts have ended.
     fn exchange_wrenches(&mut self, motions: &Motions<'_>, enabled: &[bool]) {
-        let mut records = self.memory.records.iter().peekable();
-        for (pair, groups) in self.sealed.group_pairs.iter().enumerate() {
+        let mut records = self.given.memory.records.iter().peekable();
+        for (pair, groups) in self.given.sealed.group_pairs.iter().enumerate() {
             let before = motions.committed.relative(groups.pair, groups.first, groups.second);
             let seen = before.unwrap_or_else(Pose::identity);
             let mut sent = Wrench::zero();

@@ -1,4 +1,4 @@
-//! Filters between groups, in the form that frames use.
+//! Filters between groups, in the form that frames read.
 
 use pong_model::{Filters, MovableGroup};
 use std::collections::BTreeMap;

@@ -1,19 +1,17 @@
 //! Buffers of the energy stage.
 
-use super::interval::Interval;
-use crate::energy::contact::ContactEnergies;
-use crate::energy::episodes::PairEnergies;
-use crate::energy::ledger::LedgerEntry;
+use super::account::EnergyAccount;
+use super::contact::ContactEnergies;
+use super::episodes::PairEnergies;
+use super::ledger::LedgerEntry;
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 
 /// Energies of a frame, as a commit would store them.
 pub(crate) struct EnergyBuffers {
-    /// Work done on the bodies since the world began, J.
-    pub work: f64,
-    /// Energy dissipated or dropped since the world began, J.
-    pub dissipated: f64,
-    /// Contributions of the frame to both, per pair of movable groups, for partial commits; empty without a
+    /// Work and dissipation since the world began.
+    pub total: LedgerEntry,
+    /// Contributions of the frame to `total`, per pair of movable groups, for partial commits; empty without a
     /// ledger.
     pub added: Vec<LedgerEntry>,
     /// Energies of the contacts, by index in the caller's buffer; empty unless accounts are kept.
@@ -24,12 +22,23 @@ pub(crate) struct EnergyBuffers {
     pub intervals: Vec<Interval>,
 }
 
+/// Energies of a pair of movable groups since the last commit.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Interval {
+    /// Sum of its contacts, without `work_in` and `work_out`.
+    pub sum: EnergyAccount,
+    /// Work of the wrench as the host applies it, J.
+    pub as_used: f64,
+    /// Work of forces that follow the motion, J.
+    pub along_motion: f64,
+    pub pushes: bool,
+}
+
 impl EnergyBuffers {
     pub fn new(scene: &Scene, sealed: &Sealed) -> Self {
         let pairs = if scene.config.ledger { sealed.group_pairs.len() } else { 0 };
         Self {
-            work: 0.0,
-            dissipated: 0.0,
+            total: LedgerEntry::default(),
             added: vec![LedgerEntry::default(); pairs],
             contacts: ContactEnergies::with_capacity(sealed.coupling, sealed.limits.thread_contacts),
             pairs: PairEnergies::new(sealed.account_pairs(), sealed.delay()),

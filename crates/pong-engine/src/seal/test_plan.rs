@@ -1,6 +1,6 @@
 //! Test plans between movable groups.
 
-use super::LeafFilter;
+use super::leaf_filter::LeafFilter;
 use pong_geometry::primitive::PrimitiveKind;
 
 /// One direction of a pair of movable groups.

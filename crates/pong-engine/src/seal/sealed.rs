@@ -1,15 +1,8 @@
 //! Sealed scene: everything that frames read and that no longer changes.
 
-mod filters;
-mod limits;
-mod plan;
-mod surface_table;
-
-pub(crate) use filters::{LeafFilter, ObjectFilters};
-pub(crate) use limits::Limits;
-pub(crate) use plan::{Direction, Plan};
-pub(crate) use surface_table::SurfaceTable;
-
+use super::frame_limits::Limits;
+use super::leaf_filter::ObjectFilters;
+use super::test_plan::{Direction, Plan};
 use crate::energy::account::WrenchCoupling;
 use pong_geometry::bounding::VolumeTests;
 use std::sync::Arc;
