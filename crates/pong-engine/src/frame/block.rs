@@ -2,9 +2,7 @@
 //! movable group B.
 
 use crate::frame::broad_phase::blocks::batches_of_b;
-use crate::frame::broad_phase::candidate_pairs::{
-    CandidatePairs, Reach, SUPERCHUNK, Traversal, chunks_in_reach,
-};
+use crate::frame::broad_phase::candidate_pairs::{CandidatePairs, Reach, SUPERCHUNK, chunks_in_reach};
 use crate::frame::broad_phase::chunk::{Chunk, ChunksOfA};
 use crate::frame::broad_phase::lone_element::LoneElement;
 use crate::frame::forces::ElementsOfA;
@@ -99,20 +97,37 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
             let near =
                 chunks_in_reach(simd, &context, &block, group, &batches_b, &mut reach, &mut out.counts);
             let alone = near & lone_chunk(batch_a, group);
-            let whole = candidates.gather(simd, &reach, near & !alone, &mut out.counts);
-            laps.lap(Work::BroadPhase, &mut out.times);
-            let near = if whole { candidates.chunks() | alone } else { near };
-            for lane in lanes(near) {
-                let first = group * SUPERCHUNK + (lane * LANES) as u32;
-                let is_alone = alone >> lane & 1 == 1;
-                let chunk = chunks_of_a.carry(simd, (first, is_alone), carried);
-                let at = AtChunk { context: &context, chunk: &chunk, reach: &reach, lane };
-                if is_alone {
-                    at.test_element(simd, &mut lone[0], &mut found, out, &mut laps);
-                } else {
-                    at.test_all(simd, (candidates, whole), &mut found, out, &mut laps);
+            let (mut first, mut width) = (0, LANES);
+            while first < LANES {
+                let together = near & (LaneBits::MAX >> (LANES - width) << first);
+                candidates.begin(together & !alone);
+                let is_whole = candidates.gather(simd, &reach, &mut out.counts);
+                laps.lap(Work::BroadPhase, &mut out.times);
+                // Pairs that do not fit are gathered for half as many chunks, and those of a single chunk
+                // part by part.
+                if !is_whole && width > 1 {
+                    width /= 2;
+                    continue;
                 }
-                finish_chunk((&context, round.sealed), &chunk, &mut found, (scratch, shared, out), &mut laps);
+                first += width;
+                for lane in lanes(candidates.chunks() | (together & alone)) {
+                    let start = group * SUPERCHUNK + (lane * LANES) as u32;
+                    let is_alone = alone >> lane & 1 == 1;
+                    let chunk = chunks_of_a.carry(simd, (start, is_alone), carried);
+                    let at = AtChunk { context: &context, chunk: &chunk, reach: &reach, lane };
+                    if is_alone {
+                        at.test_element(simd, &mut lone[0], &mut found, out, &mut laps);
+                    } else {
+                        at.test_all(simd, (candidates, is_whole), &mut found, out, &mut laps);
+                    }
+                    finish_chunk(
+                        (&context, round.sealed),
+                        &chunk,
+                        &mut found,
+                        (scratch, shared, out),
+                        &mut laps,
+                    );
+                }
             }
         }
         laps.lap(Work::BroadPhase, &mut out.times);
@@ -138,29 +153,25 @@ struct AtChunk<'a> {
 }
 
 impl AtChunk<'_> {
-    /// Tests the chunk against the elements of B that it may touch: the candidates gathered for its group or,
-    /// unless all were gathered (`whole`), the candidates of a traversal for this chunk alone.
+    /// Tests the chunk against the candidates gathered and, unless these are all (`is_whole`), against the
+    /// rest.
     #[inline(always)]
     fn test_all<S: Simd>(
         &self,
         simd: S,
-        (candidates, whole): (&mut CandidatePairs, bool),
+        (candidates, mut is_whole): (&mut CandidatePairs, bool),
         found: &mut ChunkCandidates<'_>,
         out: &mut ContactBuffer,
         laps: &mut impl Laps,
     ) {
-        let mut traversal = Traversal::new(self.lane);
         loop {
-            let mut through = true;
-            if !whole {
-                through = candidates.go_on(simd, &mut traversal, self.reach, &mut out.counts);
-                laps.lap(Work::BroadPhase, &mut out.times);
-            }
             self.test_candidates(simd, candidates, found, &mut out.counts);
             laps.lap(Work::NarrowPhase, &mut out.times);
-            if through {
+            if is_whole {
                 break;
             }
+            is_whole = candidates.gather(simd, self.reach, &mut out.counts);
+            laps.lap(Work::BroadPhase, &mut out.times);
         }
     }
 

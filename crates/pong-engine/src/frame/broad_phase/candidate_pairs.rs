@@ -6,12 +6,12 @@ use crate::report::FrameCounts;
 use pong_arena::{List, Table};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::Batch;
-use pong_model::box_tree::{BoxNode, Child, NarrowBox, NarrowBoxes, lanes};
+use pong_model::box_tree::{BoxTree, Child, NarrowBox, NarrowBoxes, lanes};
 
 /// Elements whose boxes are transformed together: eight chunks of eight.
 pub(crate) const SUPERCHUNK: u32 = (LANES * LANES) as u32;
 
-/// Capacity for candidate pairs; beyond it each chunk of the group traverses the trees alone.
+/// Capacity for candidate pairs; beyond it the chunks of the group are gathered half by half.
 const CANDIDATE_PAIRS_MAX: usize = 1024;
 
 /// Number of mask words; each holds eight pairs.
@@ -108,6 +108,9 @@ pub(crate) struct CandidatePairs {
     waiting: [StackEntry; DEPTH_MAX],
     depth: usize,
     any: LaneBits,
+    /// Chunks whose pairs are gathered, and the index of the current batch in the reach list.
+    of: LaneBits,
+    next: usize,
 }
 
 impl CandidatePairs {
@@ -120,6 +123,8 @@ impl CandidatePairs {
             waiting: [StackEntry { node: 0, chunks: 0 }; DEPTH_MAX],
             depth: 0,
             any: 0,
+            of: 0,
+            next: 0,
         }
     }
 
@@ -158,62 +163,81 @@ impl CandidatePairs {
 
     /// Adds a pair for some chunks; the caller sets its box.
     #[inline(always)]
-    fn add(&mut self, reach: usize, element: u32, chunks: LaneBits) -> &mut CandidatePair {
+    fn add(&mut self, element: u32, chunks: LaneBits) -> &mut CandidatePair {
         let index = self.list.len();
         // Whole-word update: byte stores followed by a word load would stall (store forwarding).
         self.chunks[index / LANES] |= u64::from(chunks) << (index % LANES * LaneBits::BITS as usize);
         self.any |= chunks;
         let pair = self.list.slot().expect("room was asked for");
-        (pair.reach, pair.place) = (reach as u32, element);
+        (pair.reach, pair.place) = (self.next as u32, element);
         pair
     }
 
-    /// Gathers the candidate pairs of some chunks of a group. Returns false if there was no room for all.
+    /// Starts to gather the candidate pairs of some chunks of a group.
     #[inline(always)]
-    pub fn gather<S: Simd>(
-        &mut self,
-        simd: S,
-        reach: &[Reach<'_>],
-        chunks: LaneBits,
-        counts: &mut FrameCounts,
-    ) -> bool {
+    pub fn begin(&mut self, chunks: LaneBits) {
+        (self.of, self.next, self.depth) = (chunks, 0, 0);
+    }
+
+    /// Gathers candidate pairs until all are found or the list is full; returns true if all are found.
+    /// Earlier pairs are discarded.
+    #[inline(always)]
+    pub fn gather<S: Simd>(&mut self, simd: S, reach: &[Reach<'_>], counts: &mut FrameCounts) -> bool {
         self.clear();
-        for (index, Reach { batch, boxes, met }) in reach.iter().enumerate() {
-            let chunks = met & chunks;
-            if chunks == 0 || batch.boxes.nodes.is_empty() {
-                continue;
-            }
-            let around = if chunks.is_power_of_two() { NarrowBox::NOTHING } else { boxes.around() };
-            self.wait(0, chunks);
-            while let Some(StackEntry { node, chunks }) = self.next_waiting() {
-                let node = &batch.boxes.nodes[node as usize];
-                if !self.has_room_for_a_node() {
-                    self.depth = 0;
+        while let Some(Reach { batch, boxes, met }) = reach.get(self.next) {
+            let chunks = met & self.of;
+            if chunks != 0 && !batch.boxes.nodes.is_empty() {
+                if self.depth == 0 {
+                    self.wait(0, chunks);
+                }
+                let around = if chunks.is_power_of_two() { NarrowBox::NOTHING } else { boxes.around() };
+                if !self.visit_nodes(simd, &batch.boxes, (boxes, &around), counts) {
                     return false;
                 }
-                // One chunk: query with its own box. Several: query with the box around all, then with each
-                // box of B that it meets.
-                let lone = chunks.is_power_of_two();
-                let lone_box;
-                let query = if lone {
-                    lone_box = boxes.lane(chunks.trailing_zeros() as usize);
-                    &lone_box
-                } else {
-                    &around
-                };
-                let met = node.boxes.met_by(simd, query);
-                counts.boxes_tested += 1;
-                for lane_b in lanes(met) {
-                    let mut chunks = chunks;
-                    if !lone {
-                        chunks &= boxes.met_by(simd, &node.boxes.lane(lane_b));
-                        counts.boxes_tested += 1;
-                    }
-                    if chunks != 0
-                        && let Some(pair) = self.note(index, node.child(lane_b), chunks)
-                    {
-                        pair.box_b.set(&batch.boxes, &node.boxes, lane_b);
-                    }
+            }
+            self.next += 1;
+        }
+        true
+    }
+
+    /// Visits the pending nodes of a tree; returns false if there are some left when the list is full.
+    #[inline(always)]
+    fn visit_nodes<S: Simd>(
+        &mut self,
+        simd: S,
+        tree: &BoxTree,
+        (boxes, around): (&NarrowBoxes, &NarrowBox),
+        counts: &mut FrameCounts,
+    ) -> bool {
+        while self.depth > 0 {
+            if !self.has_room_for_a_node() {
+                return false;
+            }
+            self.depth -= 1;
+            let StackEntry { node, chunks } = self.waiting[self.depth];
+            let node = &tree.nodes[node as usize];
+            // One chunk: query with its own box. Several: query with the box around all, then with each box
+            // of B that it meets.
+            let is_one = chunks.is_power_of_two();
+            let own_box;
+            let query = if is_one {
+                own_box = boxes.lane(chunks.trailing_zeros() as usize);
+                &own_box
+            } else {
+                around
+            };
+            let met = node.boxes.met_by(simd, query);
+            counts.boxes_tested += 1;
+            for lane_b in lanes(met) {
+                let mut chunks = chunks;
+                if !is_one {
+                    chunks &= boxes.met_by(simd, &node.boxes.lane(lane_b));
+                    counts.boxes_tested += 1;
+                }
+                if chunks != 0
+                    && let Some(pair) = self.note(node.child(lane_b), chunks)
+                {
+                    pair.box_b.set(tree, &node.boxes, lane_b);
                 }
             }
         }
@@ -223,9 +247,9 @@ impl CandidatePairs {
     /// Handles a child that chunks reach: adds a pair for an element (the caller sets its box), or pushes a
     /// node.
     #[inline(always)]
-    fn note(&mut self, reach: usize, child: Child, chunks: LaneBits) -> Option<&mut CandidatePair> {
+    fn note(&mut self, child: Child, chunks: LaneBits) -> Option<&mut CandidatePair> {
         match child {
-            Child::Element(place) => Some(self.add(reach, place, chunks)),
+            Child::Element(place) => Some(self.add(place, chunks)),
             Child::Node(node) => {
                 self.wait(node, chunks);
                 None
@@ -238,48 +262,6 @@ impl CandidatePairs {
         // The stack has room for the deepest tree.
         self.waiting[self.depth] = StackEntry { node, chunks };
         self.depth += 1;
-    }
-
-    #[inline(always)]
-    fn next_waiting(&mut self) -> Option<StackEntry> {
-        self.depth = self.depth.checked_sub(1)?;
-        Some(self.waiting[self.depth])
-    }
-
-    /// Continues the traversal of one chunk until it ends or the list is full; returns true at the end.
-    /// Earlier pairs are discarded.
-    #[inline(always)]
-    pub fn go_on<S: Simd>(
-        &mut self,
-        simd: S,
-        traversal: &mut Traversal,
-        reach: &[Reach<'_>],
-        counts: &mut FrameCounts,
-    ) -> bool {
-        self.clear();
-        loop {
-            if !self.has_room_for_a_node() {
-                return false;
-            }
-            let Some(StackEntry { node, chunks }) = self.next_waiting() else {
-                let Some(next) = reach.get(traversal.next) else { return true };
-                traversal.next += 1;
-                if next.holds_for(traversal.lane) {
-                    traversal.query = next.boxes.lane(traversal.lane);
-                    self.wait(0, 1 << traversal.lane);
-                }
-                continue;
-            };
-            let tree = &reach[traversal.next - 1].batch.boxes;
-            let node: &BoxNode = &tree.nodes[node as usize];
-            let met = node.boxes.met_by(simd, &traversal.query);
-            counts.boxes_tested += 1;
-            for lane_b in lanes(met) {
-                if let Some(pair) = self.note(traversal.next - 1, node.child(lane_b), chunks) {
-                    pair.box_b.set(tree, &node.boxes, lane_b);
-                }
-            }
-        }
     }
 }
 
@@ -308,20 +290,5 @@ impl Iterator for NumbersOfChunk<'_> {
         let bit = self.bits.trailing_zeros() as usize;
         self.bits &= self.bits - 1;
         Some((self.next - 1) * LANES + bit / LaneBits::BITS as usize)
-    }
-}
-
-/// Progress of one chunk through the trees of B.
-pub(crate) struct Traversal {
-    lane: usize,
-    /// Index of the next batch.
-    next: usize,
-    query: NarrowBox,
-}
-
-impl Traversal {
-    /// A traversal from the start for chunk `lane` of a group.
-    pub fn new(lane: usize) -> Self {
-        Self { lane, next: 0, query: NarrowBox::NOTHING }
     }
 }
