@@ -3,9 +3,7 @@
 
 use crate::frame::broad_phase::blocks::batches_of_b;
 use crate::frame::broad_phase::chunk::{Chunk, ChunksOfA};
-use crate::frame::broad_phase::group_search::{
-    CandidatePairs, GroupSearch, Reach, SUPERCHUNK, chunks_in_reach,
-};
+use crate::frame::broad_phase::group_search::{GroupSearch, Reach, SUPERCHUNK, chunks_in_reach};
 use crate::frame::forces::ElementsOfA;
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::input::motion::Motion;
@@ -15,7 +13,7 @@ use crate::frame::narrow_phase::element_pair::ChunkCandidates;
 use crate::frame::narrow_phase::testers::{Target, test_deferred};
 use crate::frame::worker_context::WorkerContext;
 use crate::frame::{forces, load_sharing};
-use crate::report::{FrameCounts, Laps, Work};
+use crate::report::{Laps, Work};
 use crate::sealed::{Direction, Plan, Sealed};
 use pong_arena::{Arena, Table};
 use pong_geometry::primitive::PrimitiveKind;
@@ -108,11 +106,11 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                     continue;
                 }
                 first += width;
-                for lane in lanes(group_search.pairs.chunks()) {
+                for lane in lanes(group_search.pairs.chunks) {
                     let start = group * SUPERCHUNK + (lane * LANES) as u32;
                     let chunk = chunks_of_a.carry(simd, start, carried);
-                    let at = AtChunk { context: &context, chunk: &chunk, reach: &reach, lane };
-                    at.test_all(simd, (group_search, is_whole), &mut found, out, &mut laps);
+                    let (at, search) = ((&context, &chunk, lane), (&mut *group_search, is_whole));
+                    test_chunk(simd, at, &reach, search, &mut found, out, &mut laps);
                     let memory = (&mut *scratch, &mut *shared, &mut *out);
                     finish_chunk((&context, round.sealed), &chunk, &mut found, memory, &mut laps);
                 }
@@ -122,48 +120,20 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
     }
 }
 
-/// A chunk of A in B's frame, and the batches of B that its group reaches.
-struct AtChunk<'a> {
-    context: &'a PairContext<'a>,
-    chunk: &'a Chunk<'a>,
-    reach: &'a [Reach<'a>],
-    /// Index of the chunk in its group.
-    lane: usize,
-}
-
-impl AtChunk<'_> {
-    /// Tests the chunk against the candidates found last. Unless these are all (`is_whole`), continues the
-    /// search and tests the others.
-    #[inline(always)]
-    fn test_all<S: Simd>(
-        &self,
-        simd: S,
-        (search, mut is_whole): (&mut GroupSearch, bool),
-        found: &mut ChunkCandidates<'_>,
-        out: &mut ContactBuffer,
-        laps: &mut impl Laps,
-    ) {
-        loop {
-            self.test_candidates(simd, &search.pairs, found, &mut out.counts);
-            laps.lap(Work::NarrowPhase, &mut out.times);
-            if is_whole {
-                break;
-            }
-            is_whole = search.go_on(simd, self.reach, &mut out.counts);
-            laps.lap(Work::BroadPhase, &mut out.times);
-        }
-    }
-
-    #[inline(always)]
-    fn test_candidates<S: Simd>(
-        &self,
-        simd: S,
-        candidates: &CandidatePairs,
-        found: &mut ChunkCandidates<'_>,
-        counts: &mut FrameCounts,
-    ) {
-        let Self { context, chunk, reach, lane } = *self;
-        for candidate in candidates.of(lane) {
+/// Tests the chunk with index `lane` in its group against the candidates found last. Unless these are all
+/// (`is_whole`), continues the search and tests the others.
+#[inline(always)]
+fn test_chunk<S: Simd>(
+    simd: S,
+    (context, chunk, lane): (&PairContext<'_>, &Chunk<'_>, usize),
+    reach: &[Reach<'_>],
+    (search, mut is_whole): (&mut GroupSearch, bool),
+    found: &mut ChunkCandidates<'_>,
+    out: &mut ContactBuffer,
+    laps: &mut impl Laps,
+) {
+    loop {
+        for candidate in search.pairs.of(lane) {
             let batch = reach[candidate.reach as usize].batch;
             // Stops the compiler from loading all boxes of the chunk ahead of the loop: most chunks have one
             // or two candidates.
@@ -172,11 +142,17 @@ impl AtChunk<'_> {
             if near != 0 {
                 let item_b = context.body_b.tree.items[(batch.items.start + candidate.place) as usize];
                 let target = Target { context, item_b, kind_b: batch.kind };
-                target.test_lanes(simd, chunk, near, found, counts);
+                target.test_lanes(simd, chunk, near, found, &mut out.counts);
             }
         }
         if found.has_deferred() {
-            test_deferred(context, *chunk, found, counts);
+            test_deferred(context, *chunk, found, &mut out.counts);
         }
+        laps.lap(Work::NarrowPhase, &mut out.times);
+        if is_whole {
+            break;
+        }
+        is_whole = search.go_on(simd, reach, &mut out.counts);
+        laps.lap(Work::BroadPhase, &mut out.times);
     }
 }

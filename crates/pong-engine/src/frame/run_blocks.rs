@@ -17,15 +17,11 @@ pub(crate) fn arena_bytes(nodes: usize, batches: usize) -> usize {
 /// Runs blocks and writes the results to the worker's context. Single-element blocks run several at a time,
 /// and contiguous blocks run as one: starting a block costs as much as testing a few elements.
 pub(crate) fn run_blocks(round: &Round<'_>, blocks: Range<usize>, worker: &mut WorkerContext) {
-    let mut left = &round.input.blocks[blocks];
-    while let Some(first) = left.first() {
-        let alike = left.iter().take_while(|block| block.is_single == first.is_single).count();
-        let (now, later) = left.split_at(alike);
-        left = later;
-        if first.is_single {
-            run_single_elements(round, now, worker);
+    for alike in round.input.blocks[blocks].chunk_by(|a, b| a.is_single == b.is_single) {
+        if alike[0].is_single {
+            run_single_elements(round, alike, worker);
         } else {
-            joined(now).for_each(|block| run_block(round, block, worker));
+            joined(alike).for_each(|block| run_block(round, block, worker));
         }
     }
 }

@@ -15,9 +15,8 @@ use crate::frame::worker_context::WorkerContext;
 use crate::report::{FrameCounts, Laps, Work};
 use pong_arena::{Arena, List};
 use pong_geometry::primitive::PrimitiveKind;
-use pong_geometry::simd::{Kernel, LaneBits, Simd};
+use pong_geometry::simd::{Kernel, Simd};
 use pong_model::Batch;
-use pong_model::box_tree::lanes;
 
 /// Kernel that runs the first of some single-element blocks, together with as many of the next ones as there
 /// are searches for. Returns the number of blocks done.
@@ -145,19 +144,12 @@ impl<'a, 's> Elements<'a, 's> {
 
 /// Advances the searches of some pairs in turns until each has ended or has no room for more results.
 #[inline(always)]
-fn advance_in_turns<S: Simd>(
-    simd: S,
-    searches: &mut [ElementSearch; SEARCHES_MAX],
-    pairs: &[Option<ElementAndBatch<'_>>],
-) {
-    let mut going = LaneBits::MAX.checked_shr((SEARCHES_MAX - pairs.len()) as u32).unwrap_or(0);
-    while going != 0 {
-        for number in lanes(going) {
-            let goes = match &pairs[number] {
-                Some(pair) => searches[number].step(simd, &pair.batch.boxes),
-                None => false,
-            };
-            going &= !(LaneBits::from(!goes) << number);
+fn advance_in_turns<S: Simd>(simd: S, searches: &mut [ElementSearch], pairs: &[Option<ElementAndBatch<'_>>]) {
+    let mut goes_on = true;
+    while goes_on {
+        goes_on = false;
+        for (search, pair) in searches.iter_mut().zip(pairs) {
+            goes_on |= pair.is_some_and(|pair| search.step(simd, &pair.batch.boxes));
         }
     }
 }

@@ -15,9 +15,6 @@ pub(crate) const SUPERCHUNK: u32 = (LANES * LANES) as u32;
 /// Capacity for candidate pairs. If a group has more, the search is done for half of its chunks at a time.
 const CANDIDATE_PAIRS_MAX: usize = 1024;
 
-/// Number of mask words; each holds eight pairs.
-const WORDS: usize = CANDIDATE_PAIRS_MAX / LANES;
-
 /// A batch of B, with the boxes of eight chunks of A in the precision of its tree.
 #[derive(Clone, Copy)]
 pub(crate) struct Reach<'a> {
@@ -81,34 +78,37 @@ pub(crate) struct CandidatePair {
 pub(crate) struct CandidatePairs {
     list: Table<CandidatePair>,
     /// Eight bits per pair, one for each chunk; eight pairs per word, lowest byte first.
-    chunks: [u64; WORDS],
-    any: LaneBits,
+    words: [u64; CANDIDATE_PAIRS_MAX / LANES],
+    /// Chunks that have at least one pair.
+    pub chunks: LaneBits,
 }
 
 impl CandidatePairs {
-    /// Chunks that have at least one candidate pair.
-    pub fn chunks(&self) -> LaneBits {
-        self.any
-    }
-
-    /// Candidate pairs of a chunk.
+    /// Candidate pairs of a chunk, in order.
     #[inline(always)]
     pub fn of(&self, chunk: usize) -> impl Iterator<Item = &CandidatePair> {
+        /// Lowest bit of each byte of a word.
+        const LOWEST: u64 = 0x0101_0101_0101_0101;
         let pairs = &self.list[..];
-        NumbersOfChunk { words: &self.chunks[..self.words()], chunk, next: 0, bits: 0 }
-            .map(move |number| &pairs[number])
-    }
-
-    fn words(&self) -> usize {
-        self.list.len().div_ceil(LANES)
+        let mut words = self.words[..pairs.len().div_ceil(LANES)].iter();
+        // Remaining bits of the current word, and the index of the first pair of the next word.
+        let (mut bits, mut next) = (0, 0);
+        std::iter::from_fn(move || {
+            while bits == 0 {
+                bits = words.next()? >> chunk & LOWEST;
+                next += LANES;
+            }
+            let bit = bits.trailing_zeros() as usize;
+            bits &= bits - 1;
+            Some(&pairs[next - LANES + bit / LaneBits::BITS as usize])
+        })
     }
 
     #[inline(always)]
     fn clear(&mut self) {
-        let words = self.words();
-        self.chunks[..words].fill(0);
+        self.words[..self.list.len().div_ceil(LANES)].fill(0);
         self.list.clear();
-        self.any = 0;
+        self.chunks = 0;
     }
 
     /// Adds a pair for some chunks; the caller writes it.
@@ -116,8 +116,8 @@ impl CandidatePairs {
     fn add(&mut self, chunks: LaneBits) -> &mut CandidatePair {
         let index = self.list.len();
         // Whole-word update: byte stores followed by a word load would stall (store forwarding).
-        self.chunks[index / LANES] |= u64::from(chunks) << (index % LANES * LaneBits::BITS as usize);
-        self.any |= chunks;
+        self.words[index / LANES] |= u64::from(chunks) << (index % LANES * LaneBits::BITS as usize);
+        self.chunks |= chunks;
         self.list.slot().expect("room was asked for")
     }
 }
@@ -138,7 +138,7 @@ impl GroupSearch {
     pub fn new() -> Self {
         let nothing = CandidatePair { reach: 0, place: 0, box_b: WideBox::NOTHING };
         let list = Table::with_capacity(CANDIDATE_PAIRS_MAX, nothing);
-        let pairs = CandidatePairs { list, chunks: [0; WORDS], any: 0 };
+        let pairs = CandidatePairs { list, words: [0; CANDIDATE_PAIRS_MAX / LANES], chunks: 0 };
         Self { pairs, chunks: 0, current: 0, traversal: Traversal::ended(0) }
     }
 
@@ -260,33 +260,5 @@ impl Query for GroupQuery<'_> {
     #[inline(always)]
     fn room(&self) -> usize {
         (CANDIDATE_PAIRS_MAX - self.pairs.list.len()) / LANES
-    }
-}
-
-/// Indices of the candidate pairs of one chunk, in order.
-pub(crate) struct NumbersOfChunk<'a> {
-    words: &'a [u64],
-    chunk: usize,
-    /// Index of the next word.
-    next: usize,
-    /// Remaining bits of the current word: the lowest bit of each pair's byte.
-    bits: u64,
-}
-
-impl Iterator for NumbersOfChunk<'_> {
-    type Item = usize;
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<usize> {
-        /// Lowest bit of each byte of a word.
-        const LOWEST: u64 = 0x0101_0101_0101_0101;
-        while self.bits == 0 {
-            let word = self.words.get(self.next)?;
-            self.bits = *word >> self.chunk & LOWEST;
-            self.next += 1;
-        }
-        let bit = self.bits.trailing_zeros() as usize;
-        self.bits &= self.bits - 1;
-        Some((self.next - 1) * LANES + bit / LaneBits::BITS as usize)
     }
 }
