@@ -2,22 +2,18 @@
 //! movable group B.
 
 use crate::frame::broad_phase::blocks::batches_of_b;
-use crate::frame::broad_phase::candidate_pairs::{
-    CandidatePairs, Reach, SUPERCHUNK, Traversal, chunks_in_reach,
-};
 use crate::frame::broad_phase::chunk::{Chunk, ChunksOfA};
-use crate::frame::broad_phase::lone_element::LoneElement;
+use crate::frame::broad_phase::group_search::{GroupSearch, Reach, SUPERCHUNK, chunks_in_reach};
 use crate::frame::forces::ElementsOfA;
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::input::motion::Motion;
 use crate::frame::input::{Block, PairContext, Round};
 use crate::frame::load_sharing::solver::SharedContact;
 use crate::frame::narrow_phase::element_pair::ChunkCandidates;
-use crate::frame::narrow_phase::lone_pairs::{LonePair, narrow_down, test_lone};
 use crate::frame::narrow_phase::testers::{Target, test_deferred};
 use crate::frame::worker_context::WorkerContext;
 use crate::frame::{forces, load_sharing};
-use crate::report::{FrameCounts, Laps, Work};
+use crate::report::{Laps, Work};
 use crate::seal::{Direction, Plan, Sealed};
 use pong_arena::{Arena, Table};
 use pong_geometry::primitive::PrimitiveKind;
@@ -26,12 +22,13 @@ use pong_model::Batch;
 use pong_model::box_tree::lanes;
 use std::sync::atomic::{Ordering, compiler_fence};
 
+/// The arena rounds each piece up to a multiple of this, bytes.
+pub(crate) const GRAIN: usize = 16;
+
 /// Arena bytes that a block needs against trees with this many nodes and batches.
 pub(crate) fn arena_bytes(nodes: usize, batches: usize) -> usize {
-    /// Pieces taken from the arena; it rounds each up to `GRAIN`.
-    const PIECES: usize = 3;
-    const GRAIN: usize = 16;
-    batches * (size_of::<&Batch>() + size_of::<Reach<'_>>()) + nodes * size_of::<u32>() + PIECES * GRAIN
+    let pieces = batches * (size_of::<&Batch>() + size_of::<Reach<'_>>()) + nodes * size_of::<u32>();
+    pieces + 3 * GRAIN
 }
 
 /// Tester plan and relative motion of a block.
@@ -83,7 +80,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         let (plan, motion) = plan_of(round, &block);
         let context = PairContext::new(round, block.direction, motion);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
-        let WorkerContext { arena, scratch, candidates, lone, carried, deferred, found, shared, out, .. } =
+        let WorkerContext { arena, scratch, group_search, carried, deferred, found, shared, out, .. } =
             worker;
         let room = "sealing has sized the arena";
         let tree_b = &context.body_b.tree;
@@ -96,86 +93,47 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         let meets_triangles = batches_b.iter().any(|batch| batch.kind == PrimitiveKind::Triangle);
         let chunks_of_a = ChunksOfA::new(context.body_a, batch_a, &motion.x_ba, meets_triangles);
         for group in block.first / SUPERCHUNK..block.end.div_ceil(SUPERCHUNK) {
-            let near =
-                chunks_in_reach(simd, &context, &block, group, &batches_b, &mut reach, &mut out.counts);
-            let alone = near & lone_chunk(batch_a, group);
-            let whole = candidates.gather(simd, &reach, near & !alone, &mut out.counts);
-            laps.lap(Work::BroadPhase, &mut out.times);
-            let near = if whole { candidates.chunks() | alone } else { near };
-            for lane in lanes(near) {
-                let first = group * SUPERCHUNK + (lane * LANES) as u32;
-                let is_alone = alone >> lane & 1 == 1;
-                let chunk = chunks_of_a.carry(simd, (first, is_alone), carried);
-                let at = AtChunk { context: &context, chunk: &chunk, reach: &reach, lane };
-                if is_alone {
-                    at.test_element(simd, &mut lone[0], &mut found, out, &mut laps);
-                } else {
-                    at.test_all(simd, (candidates, whole), &mut found, out, &mut laps);
+            chunks_in_reach(simd, &context, &block, group, &batches_b, &mut reach, &mut out.counts);
+            let (mut first, mut width) = (0, LANES);
+            while first < LANES {
+                group_search.begin(LaneBits::MAX >> (LANES - width) << first);
+                let is_whole = group_search.go_on(simd, &reach, &mut out.counts);
+                laps.lap(Work::BroadPhase, &mut out.times);
+                // Candidates that do not fit in the list are searched for half as many chunks. Those of a
+                // single chunk are tested part by part.
+                if !is_whole && width > 1 {
+                    width /= 2;
+                    continue;
                 }
-                finish_chunk((&context, round.sealed), &chunk, &mut found, (scratch, shared, out), &mut laps);
+                first += width;
+                for lane in lanes(group_search.pairs.chunks) {
+                    let start = group * SUPERCHUNK + (lane * LANES) as u32;
+                    let chunk = chunks_of_a.carry(simd, start, carried);
+                    let (at, search) = ((&context, &chunk, lane), (&mut *group_search, is_whole));
+                    test_chunk(simd, at, &reach, search, &mut found, out, &mut laps);
+                    let memory = (&mut *scratch, &mut *shared, &mut *out);
+                    finish_chunk((&context, round.sealed), &chunk, &mut found, memory, &mut laps);
+                }
             }
         }
         laps.lap(Work::BroadPhase, &mut out.times);
     }
 }
 
-/// The chunk of `group` that has a single element, if any; it is the last chunk of its batch. A single
-/// element uses its own box in B's frame, which is much tighter than the rotated box of A's tree.
+/// Tests the chunk with index `lane` in its group against the candidates found last. Unless these are all
+/// (`is_whole`), continues the search and tests the others.
 #[inline(always)]
-fn lone_chunk(batch: &Batch, group: u32) -> LaneBits {
-    let last = batch.items.end - batch.items.start - 1;
-    let is_one = last.is_multiple_of(LANES as u32) && last / SUPERCHUNK == group;
-    LaneBits::from(is_one) << (last / LANES as u32 % LANES as u32)
-}
-
-/// A chunk of A in B's frame, and the batches of B that its group reaches.
-struct AtChunk<'a> {
-    context: &'a PairContext<'a>,
-    chunk: &'a Chunk<'a>,
-    reach: &'a [Reach<'a>],
-    /// Index of the chunk in its group.
-    lane: usize,
-}
-
-impl AtChunk<'_> {
-    /// Tests the chunk against the elements of B that it may touch: the candidates gathered for its group or,
-    /// unless all were gathered (`whole`), the candidates of a traversal for this chunk alone.
-    #[inline(always)]
-    fn test_all<S: Simd>(
-        &self,
-        simd: S,
-        (candidates, whole): (&mut CandidatePairs, bool),
-        found: &mut ChunkCandidates<'_>,
-        out: &mut ContactBuffer,
-        laps: &mut impl Laps,
-    ) {
-        let mut traversal = Traversal::new(self.lane);
-        loop {
-            let mut through = true;
-            if !whole {
-                through = candidates.go_on(simd, &mut traversal, self.reach, &mut out.counts);
-                laps.lap(Work::BroadPhase, &mut out.times);
-            }
-            self.test_candidates(simd, candidates, found, &mut out.counts);
-            laps.lap(Work::NarrowPhase, &mut out.times);
-            if through {
-                break;
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn test_candidates<S: Simd>(
-        &self,
-        simd: S,
-        candidates: &CandidatePairs,
-        found: &mut ChunkCandidates<'_>,
-        counts: &mut FrameCounts,
-    ) {
-        let Self { context, chunk, reach, lane } = *self;
-        let pairs = candidates.pairs();
-        for number in candidates.of(lane) {
-            let candidate = &pairs[number];
+fn test_chunk<S: Simd>(
+    simd: S,
+    (context, chunk, lane): (&PairContext<'_>, &Chunk<'_>, usize),
+    reach: &[Reach<'_>],
+    (search, mut is_whole): (&mut GroupSearch, bool),
+    found: &mut ChunkCandidates<'_>,
+    out: &mut ContactBuffer,
+    laps: &mut impl Laps,
+) {
+    loop {
+        for candidate in search.pairs.of(lane) {
             let batch = reach[candidate.reach as usize].batch;
             // Stops the compiler from loading all boxes of the chunk ahead of the loop: most chunks have one
             // or two candidates.
@@ -184,33 +142,17 @@ impl AtChunk<'_> {
             if near != 0 {
                 let item_b = context.body_b.tree.items[(batch.items.start + candidate.place) as usize];
                 let target = Target { context, item_b, kind_b: batch.kind };
-                target.test_lanes(simd, chunk, near, found, counts);
+                target.test_lanes(simd, chunk, near, found, &mut out.counts);
             }
         }
         if found.has_deferred() {
-            test_deferred(context, *chunk, found, counts);
+            test_deferred(context, *chunk, found, &mut out.counts);
         }
-    }
-
-    /// Tests the only element of a chunk against the elements of B found by its own tree traversal.
-    #[inline(always)]
-    fn test_element<S: Simd>(
-        &self,
-        simd: S,
-        lone: &mut LoneElement,
-        found: &mut ChunkCandidates<'_>,
-        out: &mut ContactBuffer,
-        laps: &mut impl Laps,
-    ) {
-        let Self { context, chunk, reach, lane } = *self;
-        for Reach { batch, .. } in reach.iter().filter(|reach| reach.holds_for(lane)) {
-            let pair = LonePair { context, chunk, batch };
-            lone.begin(chunk, &batch.boxes);
-            lone.go_on(simd, &batch.boxes);
-            laps.lap(Work::BroadPhase, &mut out.times);
-            let one = std::slice::from_mut(&mut *lone);
-            narrow_down(simd, &[Some(pair)], one, found.deferred, &mut out.counts);
-            test_lone(simd, pair, lone, found, out, laps);
+        laps.lap(Work::NarrowPhase, &mut out.times);
+        if is_whole {
+            break;
         }
+        is_whole = search.go_on(simd, reach, &mut out.counts);
+        laps.lap(Work::BroadPhase, &mut out.times);
     }
 }

@@ -1,26 +1,27 @@
 //! Runs blocks of work; single-element blocks run several at a time.
 
-use crate::frame::block::BlockWork;
+use crate::frame::block::{self, BlockWork};
 use crate::frame::broad_phase::blocks::joined;
 use crate::frame::input::{Block, Round};
-use crate::frame::lone_blocks::LoneBlocks;
+use crate::frame::single_element_blocks::{self, SingleElementBlocks};
 use crate::frame::worker_context::WorkerContext;
 use crate::report::{Timed, Untimed};
 use pong_geometry::simd;
 use std::ops::Range;
 
+/// Arena bytes that the blocks of a thread need against trees with this many nodes and batches.
+pub(crate) fn arena_bytes(nodes: usize, batches: usize) -> usize {
+    block::arena_bytes(nodes, batches).max(single_element_blocks::arena_bytes(nodes, batches))
+}
+
 /// Runs blocks and writes the results to the worker's context. Single-element blocks run several at a time,
 /// and contiguous blocks run as one: starting a block costs as much as testing a few elements.
 pub(crate) fn run_blocks(round: &Round<'_>, blocks: Range<usize>, worker: &mut WorkerContext) {
-    let mut left = &round.input.blocks[blocks];
-    while let Some(first) = left.first() {
-        let alike = left.iter().take_while(|block| block.is_lone == first.is_lone).count();
-        let (now, later) = left.split_at(alike);
-        left = later;
-        if first.is_lone && alike > 1 {
-            run_lone(round, now, worker);
+    for alike in round.input.blocks[blocks].chunk_by(|a, b| a.is_single == b.is_single) {
+        if alike[0].is_single {
+            run_single_elements(round, alike, worker);
         } else {
-            joined(now).for_each(|block| run_block(round, block, worker));
+            joined(alike).for_each(|block| run_block(round, block, worker));
         }
     }
 }
@@ -36,20 +37,14 @@ fn run_block(round: &Round<'_>, block: Block, worker: &mut WorkerContext) {
 }
 
 /// Runs blocks of one element each, several at a time.
-fn run_lone(round: &Round<'_>, blocks: &[Block], worker: &mut WorkerContext) {
-    let mut left = blocks;
-    while let Some((&first, rest)) = left.split_first() {
+fn run_single_elements(round: &Round<'_>, mut blocks: &[Block], worker: &mut WorkerContext) {
+    while !blocks.is_empty() {
         let worker = &mut *worker;
+        worker.arena.reset();
         let done = match round.input.clock.0 {
-            None => simd::run(LoneBlocks { round, blocks: left, worker, laps: Untimed }),
-            Some(now) => simd::run(LoneBlocks { round, blocks: left, worker, laps: Timed::start(now) }),
+            None => simd::run(SingleElementBlocks { round, blocks, worker, laps: Untimed }),
+            Some(now) => simd::run(SingleElementBlocks { round, blocks, worker, laps: Timed::start(now) }),
         };
-        left = match done {
-            0 => {
-                run_block(round, first, worker);
-                rest
-            }
-            _ => &left[done..],
-        };
+        blocks = &blocks[done..];
     }
 }

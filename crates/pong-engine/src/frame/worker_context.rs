@@ -1,8 +1,8 @@
 //! Buffers that the calling thread or a worker writes while it works.
 
-use crate::frame::broad_phase::candidate_pairs::CandidatePairs;
 use crate::frame::broad_phase::chunk::ChunkSpace;
-use crate::frame::broad_phase::lone_element::{LONE_MAX, LoneElement};
+use crate::frame::broad_phase::element_search::{ElementSearch, SEARCHES_MAX};
+use crate::frame::broad_phase::group_search::GroupSearch;
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::load_sharing::solver::SharedContact;
 use crate::frame::narrow_phase::candidate::ContactCandidate;
@@ -20,12 +20,12 @@ pub(crate) struct WorkerContext {
     pub arena: Arena,
     /// Solver memory for one load-sharing problem.
     pub scratch: Arena,
-    pub(crate) candidates: CandidatePairs,
-    /// Tree traversals of single elements. Boxed, as is the next field, because a context is built on the
+    pub(crate) group_search: GroupSearch,
+    /// Searches for single elements of A. Boxed, as is the next field, because a context is built on the
     /// stack.
-    pub(crate) lone: Box<[LoneElement; LONE_MAX]>,
-    /// Elements of these traversals, in B's frame.
-    pub(crate) lone_carried: Box<[ChunkSpace; LONE_MAX]>,
+    pub(crate) searches: Box<[ElementSearch; SEARCHES_MAX]>,
+    /// Elements of these searches, in B's frame.
+    pub(crate) spaces: Box<[ChunkSpace; SEARCHES_MAX]>,
     /// A chunk of A in B's frame. Not boxed: it is the most frequently used buffer of a block.
     pub(crate) carried: ChunkSpace,
     pub(crate) deferred: DeferredPairs,
@@ -40,8 +40,8 @@ impl WorkerContext {
     /// Bytes of the tables of a context, without arenas and contact buffers; `found` is the number of
     /// candidates per chunk.
     pub fn table_bytes(found: usize) -> usize {
-        let lone = size_of::<LoneElement>() + size_of::<ChunkSpace>() + ChunkSpace::BYTES;
-        LONE_MAX * lone + ChunkSpace::BYTES + found * Self::BYTES_PER_FOUND
+        let search = size_of::<ElementSearch>() + size_of::<ChunkSpace>() + ChunkSpace::BYTES;
+        SEARCHES_MAX * search + ChunkSpace::BYTES + found * Self::BYTES_PER_FOUND
     }
 
     /// Bytes per candidate of a chunk.
@@ -52,9 +52,9 @@ impl WorkerContext {
         Self {
             arena: Arena::with_capacity(sealed.limits.arena_bytes),
             scratch: Arena::with_capacity(sealed.limits.scratch_bytes),
-            candidates: CandidatePairs::new(),
-            lone: boxed(|| LoneElement::NONE),
-            lone_carried: boxed(ChunkSpace::new),
+            group_search: GroupSearch::new(),
+            searches: boxed(|| ElementSearch::IDLE),
+            spaces: boxed(ChunkSpace::new),
             carried: ChunkSpace::new(),
             deferred: DeferredPairs::default(),
             found: Table::with_capacity(sealed.limits.found, ContactCandidate::NOTHING),

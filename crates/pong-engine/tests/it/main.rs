@@ -3,6 +3,7 @@
 mod accounts;
 mod beyond_range;
 mod bores;
+mod broad_phase;
 mod clone;
 mod closed_paths;
 mod common;
@@ -21,7 +22,6 @@ mod invariance;
 mod known_answers;
 mod ledger;
 mod limits;
-mod lone_element;
 mod many_pairs;
 mod normal_tangents;
 mod other_descriptions;

@@ -1,7 +1,7 @@
 //! Trees of bounding volumes: splits the work into blocks, and finds the leaves of B that a leaf of A may
 //! touch.
 
-use crate::frame::broad_phase::candidate_pairs::{DEPTH_MAX, SUPERCHUNK};
+use crate::frame::broad_phase::group_search::SUPERCHUNK;
 use crate::frame::input::motion::PairMotions;
 use crate::frame::input::{Block, PairContext};
 use crate::report::FrameCounts;
@@ -16,6 +16,10 @@ use std::ops::Range;
 
 /// Blocks per round: a full round is run before further blocks are laid out.
 pub(crate) const ROUND: usize = 4096;
+
+/// Pending nodes of a box tree: a tree of 2³¹ elements has eleven levels, and each leaves at most seven nodes
+/// pending.
+const DEPTH_MAX: usize = 80;
 
 /// Cost of the elements below a box node above which its children are tested one by one, ns.
 const NODE_NS: u32 = 4000;
@@ -253,9 +257,9 @@ impl<'a> Layout<'a> {
     #[inline]
     fn add(&mut self, of: &OfDirection<'a>, of_a: BatchOfA, [first, end]: [u32; 2], out: &mut Out<'_>) {
         let BatchOfA { leaf, batch, element_ns } = of_a;
-        let is_lone = of.bodies.0.tree.batches[batch as usize].items.len() == 1;
+        let is_single = of.bodies.0.tree.batches[batch as usize].items.len() == 1;
         let (direction, slot, leads) = (of.direction, of.slot, std::mem::take(&mut self.leads));
-        out.blocks.push(Block { direction, slot, leaf, batch, first, end, leads, is_lone });
+        out.blocks.push(Block { direction, slot, leaf, batch, first, end, leads, is_single });
         out.cost_ns += u64::from(end - first) * u64::from(element_ns);
     }
 }
@@ -377,7 +381,7 @@ mod tests {
                         first,
                         end,
                         leads,
-                        is_lone: false,
+                        is_single: false,
                     });
                     first = if random.below(3) == 0 { end + LANES as u32 } else { end };
                 }

@@ -79,18 +79,14 @@ impl<'a> ChunksOfA<'a> {
     }
 
     /// Transforms the chunk that begins with element `first` of the batch (a multiple of eight) into B's
-    /// frame. With `alone`, the chunk is a single element; points and spheres then get no box.
+    /// frame. A point or a sphere that is the only element of its batch gets no box: its search uses the sphere.
     #[inline(always)]
-    pub fn carry<'l, S: Simd>(
-        &self,
-        simd: S,
-        (first, alone): (u32, bool),
-        space: &'l mut ChunkSpace,
-    ) -> Chunk<'l>
+    pub fn carry<'l, S: Simd>(&self, simd: S, first: u32, space: &'l mut ChunkSpace) -> Chunk<'l>
     where
         'a: 'l,
     {
         let Self { kind, body, batch, items, x_ba, meets_triangles } = *self;
+        let is_single = items.len() == 1;
         let items = &items[first as usize..];
         let items = &items[..items.len().min(LANES)];
         let ChunkSpace { centers, ends, boxes, spheres, carried } = space;
@@ -104,7 +100,7 @@ impl<'a> ChunksOfA<'a> {
                 spheres.centers.carry_in(simd, x_ba, centers);
                 radii = &spheres.radii;
                 own_centers = Some(&spheres.centers);
-                if !alone {
+                if !is_single {
                     boxes.set_to_balls(simd, centers, radii);
                 }
             }
@@ -126,7 +122,7 @@ impl<'a> ChunksOfA<'a> {
             }
         }
         let spheres = match kind {
-            PrimitiveKind::Sphere if meets_triangles && !alone => Some(spheres.set(centers, radii)),
+            PrimitiveKind::Sphere if meets_triangles && !is_single => Some(spheres.set(centers, radii)),
             PrimitiveKind::Ellipsoid if meets_triangles => Some(spheres.set_around(each)),
             _ => None,
         };
@@ -182,9 +178,9 @@ impl Chunk<'_> {
 
     /// Box around a single element, in the precision of the tree.
     #[inline(always)]
-    pub fn lone_box(&self, tree: &BoxTree) -> NarrowBox {
+    pub fn single_box(&self, tree: &BoxTree) -> NarrowBox {
         if self.is_of_balls() {
-            let (center, radius) = self.lone_sphere();
+            let (center, radius) = self.single_sphere();
             return tree.narrowed(&center.add_scalar(-radius), &center.add_scalar(radius));
         }
         let LaneBoxes { low: [x, y, z], high: [u, v, w] } = self.boxes;
@@ -194,9 +190,9 @@ impl Chunk<'_> {
     /// Bounding sphere of a single element, in the precision of the tree: for points, spheres, and ellipsoids
     /// that may meet triangles.
     #[inline(always)]
-    pub fn lone_ball(&self, tree: &BoxTree) -> Option<NarrowBall> {
+    pub fn single_ball(&self, tree: &BoxTree) -> Option<NarrowBall> {
         if self.is_of_balls() {
-            let (center, radius) = self.lone_sphere();
+            let (center, radius) = self.single_sphere();
             return Some(tree.narrowed_ball(&center, radius));
         }
         self.spheres.map(|spheres| spheres.first_narrowed(tree))
@@ -204,7 +200,7 @@ impl Chunk<'_> {
 
     /// Centre and radius with a rounding margin, m.
     #[inline(always)]
-    fn lone_sphere(&self) -> (Vec3, f64) {
+    fn single_sphere(&self) -> (Vec3, f64) {
         let Sphere { center, radius } = self.sphere(0);
         (center, radius_with_room(&center, radius))
     }

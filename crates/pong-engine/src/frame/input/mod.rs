@@ -56,7 +56,7 @@ pub(crate) struct Block {
     /// True for the first block of its batch; tests done once per batch are counted there.
     pub leads: bool,
     /// True if the batch has one element.
-    pub is_lone: bool,
+    pub is_single: bool,
 }
 
 impl<'a> EvaluationInput<'a> {

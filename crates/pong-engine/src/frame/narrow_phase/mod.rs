@@ -23,11 +23,11 @@
 
 pub(crate) mod candidate;
 pub(crate) mod element_pair;
-pub(crate) mod lone_pairs;
 mod nearest_side;
 mod on_triangle;
 pub(crate) mod pair_table;
 mod registered;
 mod side_of_bore;
 mod side_of_entry;
+pub(crate) mod single_element;
 pub(crate) mod testers;

@@ -1,5 +1,6 @@
-//! A single element traverses the trees of the other movable group on its own, in turns with other single
-//! elements. It finds what the same element finds among others, and in a world of its own, bit for bit.
+//! Searches of the trees of a movable group. The contacts of an element are the same, bit for bit, if it is
+//! the only one of its leaf, if other such elements are searched for in turns with it, and if it is one of a
+//! group whose candidates do not fit in one list.
 
 use crate::common::*;
 use pong_engine::{Config, State, StatusBits, WorldBuilder};
@@ -79,7 +80,7 @@ fn reach(name: &str) -> f64 {
 }
 
 #[test]
-fn an_element_by_itself_finds_what_it_finds_among_others() {
+fn a_single_element_finds_what_it_finds_among_others() {
     let mut random = Random::new(91, 0, 0);
     for (name, shape) in elements() {
         let (turn, shift) = (random.rotation(), random.vector(3.0));
@@ -115,7 +116,7 @@ fn an_element_by_itself_finds_what_it_finds_among_others() {
 
 /// Elements of every kind, three of each, against two grounds of two batches and one cut into many leaves:
 /// more elements than run together, of kinds with different queries, and one with more trees than there are
-/// traversals.
+/// searches.
 #[test]
 fn elements_together_find_what_each_finds_alone() {
     let mut random = Random::new(92, 0, 0);
@@ -182,4 +183,43 @@ fn elements_together_find_what_each_finds_alone() {
     }
     println!("{found} contacts, at most {busiest} in a frame");
     assert!(found > 1000);
+}
+
+/// Spheres on a ground of 6,800 elements, in a leaf of eight chunks. They reach more elements than a list of
+/// candidates holds, 1,024. The list has room for the elements that half of the chunks reach in the first
+/// case, for those of a quarter in the second, and not even for those of one chunk in the third. The same
+/// spheres in leaves of at most one chunk have the same contacts.
+#[test]
+fn candidates_beyond_the_list_are_searched_for_fewer_chunks() {
+    const SPHERES: usize = 64;
+    let mut random = Random::new(93, 0, 0);
+    let ground = ground(&mut random, &Quat::identity(), &Vec3::zeros());
+    let mut found = 0;
+    for (wide, radius) in [(0.8, 0.05), (1.2, 0.05), (0.5, 3.0)] {
+        let spheres = (0..SPHERES).map(|number| {
+            let [x, y] = [random.between(-wide, wide), random.between(-wide, wide)];
+            let center = format!("{x:?}, {y:?}, {radius:?}");
+            format!("Sphere(name: \"sphere {number}\", center: ({center}), radius: {radius:?}),\n")
+        });
+        let whole = model("spheres", &steel(), &spheres.collect::<String>());
+        let cut = whole.replacen("surface: \"s\",", "surface: \"s\", leaf_size: 8,", 1);
+        assert_ne!(whole, cut);
+        let config = || Config { contact_capacity: Some(20_000), ..Config::default() };
+        let mut rigs = [whole, cut].map(|spheres| Rig::with_config(config(), &spheres, &ground));
+        for frame in 0..5 {
+            let position = Vec3::new(random.between(-0.1, 0.1), random.between(-0.1, 0.1), -0.02);
+            let tilt = Quat::from_scaled_axis(random.vector(0.01));
+            let [mut together, mut apart] = rigs.each_mut().map(|rig| {
+                rig.place([at(position, tilt), State::identity()]);
+                let report = rig.world.step().unwrap();
+                assert!(!report.status.contains(StatusBits::CONTACT_LIMIT));
+                told(&rig.world)
+            });
+            together.sort();
+            apart.sort();
+            assert!(together == apart, "radius {radius} m, frame {frame}");
+            found += together.len();
+        }
+    }
+    assert!(found > 1000, "{found}");
 }

@@ -8,7 +8,7 @@ use super::on_triangle::thickness_for;
 use super::pair_table::balls::{ball_on_triangle, ellipsoid_on_triangle};
 use super::testers::{Target, is_deferred};
 use crate::frame::broad_phase::chunk::{Chunk, Ellipsoidal};
-use crate::frame::broad_phase::lone_element::{LoneElement, Near};
+use crate::frame::broad_phase::element_search::{ElementSearch, Near};
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::input::PairContext;
 use crate::report::{FrameCounts, Laps, Work};
@@ -22,7 +22,7 @@ use pong_model::{Batch, Item};
 
 /// A single element of A and a batch of B.
 #[derive(Clone, Copy)]
-pub(crate) struct LonePair<'a> {
+pub(crate) struct ElementAndBatch<'a> {
     pub context: &'a PairContext<'a>,
     /// Chunk with the element as its first.
     pub chunk: &'a Chunk<'a>,
@@ -33,28 +33,28 @@ pub(crate) struct LonePair<'a> {
 #[inline(always)]
 pub(crate) fn narrow_down<S: Simd>(
     simd: S,
-    pairs: &[Option<LonePair<'_>>],
-    ways: &mut [LoneElement],
+    pairs: &[Option<ElementAndBatch<'_>>],
+    searches: &mut [ElementSearch],
     deferred: &mut DeferredPairs,
     counts: &mut FrameCounts,
 ) {
-    let mut asked = Asked { of: None, from: [(0, 0); LANES] };
-    for (way, pair) in pairs.iter().enumerate() {
-        let Some(LonePair { context, chunk, batch }) = pair else { continue };
+    let mut queue = Queue { of: None, from: [(0, 0); LANES] };
+    for (number, pair) in pairs.iter().enumerate() {
+        let Some(ElementAndBatch { context, chunk, batch }) = pair else { continue };
         if !is_deferred(chunk.kind, batch.kind) {
             continue;
         }
         let of = (chunk.kind, &context.body_b.triangles);
-        if !asked.goes_with(of) {
-            asked.keep_near(ways, deferred);
+        if !queue.takes(of) {
+            queue.keep_near(searches, deferred);
         }
-        asked.of = Some(of);
+        queue.of = Some(of);
         let items = &context.body_b.tree.items[batch.items.start as usize..batch.items.end as usize];
         let element = Ellipsoidal::of(chunk, 0);
-        let found = ways[way].begin_keeping();
+        let found = searches[number].begin_keeping();
         let mut last = u32::MAX;
-        for number in 0..found {
-            let place = ways[way].place_of(number);
+        for candidate in 0..found {
+            let place = searches[number].place_of(candidate);
             let item = items[place as usize];
             // Most triangles are of the same mesh; the comparison avoids a lookup.
             if item.primitive != last {
@@ -62,104 +62,98 @@ pub(crate) fn narrow_down<S: Simd>(
                 deferred.begin(simd, &element, thickness_for(context, &element, item));
             }
             let lane = deferred.push(&element, item.element);
-            asked.from[lane] = (way as u32, place);
+            queue.from[lane] = (number as u32, place);
             if lane + 1 == LANES {
-                asked.keep_near(ways, deferred);
+                queue.keep_near(searches, deferred);
                 // The lanes have been taken; the next pair has to set its element again.
                 last = u32::MAX;
             }
         }
         counts.note_testers(chunk.kind, Triangle, found as u32, 0);
     }
-    asked.keep_near(ways, deferred);
+    queue.keep_near(searches, deferred);
 }
 
-/// Pairs of elements of one kind with triangles of one body, waiting to be filtered.
-struct Asked<'a> {
+/// Pairs of elements of one kind with triangles of one body, filtered when there are eight.
+struct Queue<'a> {
     of: Option<(PrimitiveKind, &'a TriangleSet)>,
-    /// Per pair: traversal index and the triangle's index in its batch.
+    /// Per pair: index of the element's search, and the triangle's index in its batch.
     from: [(u32, u32); LANES],
 }
 
-impl<'a> Asked<'a> {
+impl<'a> Queue<'a> {
     #[inline(always)]
-    fn goes_with(&self, (kind, set): (PrimitiveKind, &'a TriangleSet)) -> bool {
+    fn takes(&self, (kind, set): (PrimitiveKind, &'a TriangleSet)) -> bool {
         self.of.is_none_or(|of| of.0 == kind && std::ptr::eq(of.1, set))
     }
 
-    /// Filters the pairs and keeps those that may touch, in their order. No traversal keeps more than it had.
+    /// Filters the pairs and keeps those that may touch, in their order. No search keeps more than it had.
     #[inline(always)]
-    fn keep_near(&mut self, ways: &mut [LoneElement], deferred: &mut DeferredPairs) {
+    fn keep_near(&mut self, searches: &mut [ElementSearch], deferred: &mut DeferredPairs) {
         let Some((_, set)) = self.of else { return };
         let PairsTold { near, over_face } = deferred.tell(set);
         for lane in lanes(near) {
-            let (way, place) = self.from[lane];
-            ways[way as usize].keep(place, over_face >> lane & 1 == 1);
+            let (number, place) = self.from[lane];
+            searches[number as usize].keep(place, over_face >> lane & 1 == 1);
         }
     }
 }
 
-/// Tests a single element against the filtered candidates of a batch, then continues its traversal for the
-/// rest.
+/// Tests a single element against the filtered candidates of a batch, then continues its search and tests the
+/// others.
 #[inline(always)]
-pub(crate) fn test_lone<S: Simd>(
+pub(crate) fn test_element<S: Simd>(
     simd: S,
-    pair: LonePair<'_>,
-    way: &mut LoneElement,
+    pair: ElementAndBatch<'_>,
+    search: &mut ElementSearch,
     found: &mut ChunkCandidates<'_>,
     out: &mut ContactBuffer,
     laps: &mut impl Laps,
 ) {
+    let ElementAndBatch { context, chunk, batch } = pair;
+    let items = &context.body_b.tree.items[batch.items.start as usize..batch.items.end as usize];
     loop {
-        out.counts.boxes_tested += way.take_asked();
-        test_found(simd, pair, way, found, &mut out.counts);
+        out.counts.boxes_tested += search.take_tested();
+        if is_deferred(chunk.kind, batch.kind) {
+            let before = found.seen;
+            test_near(pair, (items, search), found);
+            out.counts.note_testers(chunk.kind, Triangle, 0, (found.seen - before) as u32);
+        } else {
+            for near in search.found() {
+                let target = Target { context, item_b: items[near.place()], kind_b: batch.kind };
+                target.test_lanes(simd, chunk, 1, found, &mut out.counts);
+            }
+        }
         laps.lap(Work::NarrowPhase, &mut out.times);
-        if way.is_through() {
+        if search.has_ended() {
             return;
         }
-        way.go_on(simd, &pair.batch.boxes);
+        search.go_on(simd, &batch.boxes);
         laps.lap(Work::BroadPhase, &mut out.times);
-        narrow_down(simd, &[Some(pair)], std::slice::from_mut(way), found.deferred, &mut out.counts);
-    }
-}
-
-#[inline(always)]
-fn test_found<S: Simd>(
-    simd: S,
-    pair: LonePair<'_>,
-    way: &LoneElement,
-    found: &mut ChunkCandidates<'_>,
-    counts: &mut FrameCounts,
-) {
-    let LonePair { context, chunk, batch } = pair;
-    let items = &context.body_b.tree.items[batch.items.start as usize..batch.items.end as usize];
-    if is_deferred(chunk.kind, batch.kind) {
-        let before = found.seen;
-        test_near(pair, (items, way), found);
-        return counts.note_testers(chunk.kind, Triangle, 0, (found.seen - before) as u32);
-    }
-    for near in way.found() {
-        let target = Target { context, item_b: items[near.place()], kind_b: batch.kind };
-        target.test_lanes(simd, chunk, 1, found, counts);
+        narrow_down(simd, &[Some(pair)], std::slice::from_mut(search), found.deferred, &mut out.counts);
     }
 }
 
 /// Tests a sphere or an ellipsoid against the triangles that it may touch.
 #[inline(always)]
-fn test_near(pair: LonePair<'_>, (items, way): (&[Item], &LoneElement), found: &mut ChunkCandidates<'_>) {
-    let LonePair { context, chunk, .. } = pair;
+fn test_near(
+    pair: ElementAndBatch<'_>,
+    (items, search): (&[Item], &ElementSearch),
+    found: &mut ChunkCandidates<'_>,
+) {
+    let ElementAndBatch { context, chunk, .. } = pair;
     let item_a = chunk.items[0];
     let pair_with =
         |near: Near| ElementPair { context, item_a, lane: 0, item_b: items[near.place()], kind_b: Triangle };
     match Ellipsoidal::of(chunk, 0) {
         Ellipsoidal::Sphere(sphere) => {
-            for near in way.found() {
+            for near in search.found() {
                 ball_on_triangle(&pair_with(near), &Ball::of(&sphere), near.over_face(), found);
             }
         }
         Ellipsoidal::Ellipsoid(ellipsoid) => {
             let mut ready: Option<EllipsoidOnTriangles> = None;
-            for near in way.found() {
+            for near in search.found() {
                 let ready = ready.get_or_insert_with(|| EllipsoidOnTriangles::new(ellipsoid));
                 ellipsoid_on_triangle(&pair_with(near), ready, found);
             }
