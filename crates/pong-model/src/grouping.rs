@@ -33,7 +33,7 @@ pub struct Group {
     pub path: String,
     /// Index of the group above; `None` for the root.
     pub above: Option<usize>,
-    /// True for a body of its own; the root is one.
+    /// True for a movable group; the root is one.
     pub movable: bool,
     /// Bounding volume.
     pub bound: Bound,
