@@ -240,9 +240,10 @@ fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
 ///
 /// Let h be the support function of the frustum and n a unit vector. When the segment is translated along n,
 /// an end p of it leaves the frustum after the length h(n) − n·p. The whole segment leaves after the larger
-/// of these lengths of its two ends. At the minimum over n there are two cases. Either one end leaves last,
-/// through an end face or through the nearest generator of the lateral surface; or both ends leave together,
-/// and then n is perpendicular to the segment.
+/// of these lengths of its two ends. At the minimum over n, one of two things holds:
+///
+/// * One end leaves last: through an end face, or through the nearest generator of the lateral surface.
+/// * Both ends leave together: then n is perpendicular to the segment.
 struct TranslationSearch<'a> {
     segment: &'a [Vec3; 2],
     frustum: &'a Frustum,
@@ -270,8 +271,8 @@ impl<'a> TranslationSearch<'a> {
             // Orthogonalised twice, because the rounding error of a short vector is relatively large.
             let across = across - axis * axis.dot(&across);
             let aside = across.norm();
-            // From a point on the axis, all directions through the lateral surface are equally long, so any
-            // of them is taken.
+            // From a point on the axis, the translation through the lateral surface has the same length in
+            // all directions, so any of them is taken.
             let [wall_along, wall_aside] = self.frustum.wall;
             let away = if aside > 0.0 {
                 across * (wall_aside / aside.max(f64::MIN_POSITIVE))

@@ -61,8 +61,8 @@ pub(super) struct Reach {
 /// Search over all directions perpendicular to the unit vector `about_b`.
 pub(super) struct Across {
     pub about_b: Vec3,
-    /// First of the directions that the search samples. It is fixed to the bodies, so that rotating both
-    /// bodies together changes no result.
+    /// First of the directions that the search samples. If possible, it follows from the two shapes, so that
+    /// rotating both shapes together changes no result.
     pub first_b: Vec3,
 }
 

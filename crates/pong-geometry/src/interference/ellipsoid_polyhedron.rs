@@ -188,7 +188,7 @@ impl Lead {
 
 /// Returns the active face of least overlap; of equal ones, the one of lowest index. Faces above which the
 /// height of the centre is at most `least_height` (m) may be skipped. `None` if the plane of a face that is
-/// not skipped separates the bodies, or if none of these faces is active.
+/// not skipped separates the ellipsoid from the polyhedron, or if none of these faces is active.
 #[inline(always)]
 fn least_overlap<S: Simd>(
     simd: S,
@@ -282,8 +282,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the candidate of least depth, and `true` if it is a fallback. `None` if the bodies do not
-    /// overlap.
+    /// Returns the candidate of least depth, and `true` if it is a fallback. `None` if ellipsoid and
+    /// polyhedron do not overlap.
     fn least(mut self, suspects: &Suspects) -> Option<(Candidate, bool)> {
         let mut witness = None;
         if !suspects.pierces {

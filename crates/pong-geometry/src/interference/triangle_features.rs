@@ -10,12 +10,12 @@
 //! * a concave or flat edge never pushes: it is called *silent*;
 //! * a free edge (one face only) pushes from the edge towards the centre, while the centre is in front.
 //!
-//! These regions of faces, edges and vertices partition the space in front of the surface. Each plane between
-//! two regions is computed once, from the same numbers for the features on both sides, so rounding opens no
-//! gap between the regions. A silent edge has no region of its own: a point that rounding puts outside both
-//! of its faces belongs to the face of lower index. Behind two faces that meet concavely there is a wedge
-//! that lies beyond their common edge as seen from either face. The wedge belongs to both faces, as does the
-//! space in front of the edge.
+//! These regions of faces, edges and vertices partition the space in front of the surface. The plane between
+//! two regions is computed from the same numbers for the features on both sides, so rounding opens no gap
+//! between the regions. A silent edge has no region of its own: a point that rounding puts outside both of
+//! its faces belongs to the face of lower index. Behind two faces that meet concavely there is a wedge that
+//! lies beyond their common edge as seen from either face. The wedge belongs to both faces, as does the space
+//! in front of the edge.
 
 use super::{Feature, FeatureKind, Interference};
 use crate::Vec3;
