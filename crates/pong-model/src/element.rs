@@ -17,8 +17,9 @@ pub struct Element<'b> {
 struct ThickTriangle {
     corners: [Vec3; 3],
     normal: Vec3,
-    /// Explicit thickness, m. The default thickness needs no extra region, because a shape that it lets the
-    /// triangle push still overlaps the triangle (an ellipsoid with its foot points: [`WithFeet`]).
+    /// Explicit thickness, m. The default thickness needs no extra region, because a shape whose centre lies
+    /// within it still overlaps the triangle itself (an ellipsoid together with its foot points:
+    /// [`WithFeet`]).
     thickness: f64,
 }
 

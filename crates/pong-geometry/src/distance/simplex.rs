@@ -180,7 +180,7 @@ impl Face {
 
     /// Returns `true` if the origin is between the plane of this face and the parallel plane through
     /// `corner`, the fourth corner. For a tetrahedron that is flat to rounding, only the parallel plane
-    /// excludes an origin that is not in it.
+    /// excludes an origin outside the tetrahedron.
     fn holds_origin_before(&self, corner: &Corner) -> bool {
         let normal = self.normal();
         let foot = self.corners[0].difference_b;

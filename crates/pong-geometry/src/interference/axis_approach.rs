@@ -383,7 +383,7 @@ impl<'a> TranslationSearch<'a> {
         // Clamped, so that the divisor is not zero even if a compiler divides before the check.
         let length = across.norm().max(ROUNDING);
         // If the axis is parallel to the segment, the end circles extend equally far in all directions or in
-        // none.
+        // none, so no two normals stand out.
         if length <= ROUNDING {
             return None;
         }
@@ -464,7 +464,7 @@ impl<'a> TranslationSearch<'a> {
         if distance > self.best.distance - rounding {
             let place = one + along * self.travelled(along, normal, rounding);
             // If the segment lies along the lateral surface, `normal` may equal the best direction up to
-            // rounding. The best direction is then kept.
+            // rounding. The best direction is then kept, so that it does not change by rounding.
             let is_known =
                 normal.dot(&self.best.normal_b) > 1.0 - SAME && distance <= self.best.distance + rounding;
             let normal_b = if is_known { self.best.normal_b } else { *normal };
