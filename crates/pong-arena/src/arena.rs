@@ -6,11 +6,10 @@ use crate::full::Full;
 use crate::list::List;
 use bumpalo::Bump;
 
-/// Memory of one frame, handed out as slices and lists. All of these end with the next
-/// [`reset`](Self::reset).
+/// Memory of one frame, handed out as slices and lists. The next [`reset`](Self::reset) releases all of them.
 ///
-/// The block is allocated with the arena and never grows. Each of its pages is written at once, so no page
-/// fault comes later.
+/// The memory is one block, which is allocated with the arena and never grows. Each of its pages is written
+/// when the arena is created, so no page fault comes later.
 #[derive(Debug)]
 pub struct Arena {
     bump: Bump,

@@ -1,7 +1,7 @@
 //! Size that an arena must have for given requests.
 
-/// Number of bytes to a multiple of which every request is rounded up, so that the padding for alignment does
-/// not depend on addresses. No element may need a larger alignment.
+/// Granularity of requests, bytes. Every request is rounded up to a multiple of it, so that the padding for
+/// alignment does not depend on addresses. No element may need a larger alignment.
 pub(crate) const GRAIN: usize = 16;
 
 /// Sum of the requests to an [`Arena`](crate::Arena), from which its capacity follows.

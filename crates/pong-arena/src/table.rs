@@ -5,8 +5,8 @@ use std::ops::{Deref, DerefMut};
 
 /// Table of fixed capacity, used as a slice.
 ///
-/// The memory is allocated when the table is made, and never grows or shrinks. Each of its pages is written
-/// at once, so no page fault comes later.
+/// The memory is allocated when the table is created, and never grows or shrinks. Each of its pages is
+/// written then, so no page fault comes later.
 #[derive(Debug)]
 pub struct Table<T: Copy> {
     /// Storage of the full capacity. Elements from `len` on do not belong to the table.

@@ -100,7 +100,7 @@ macro_rules! define_reference {
         #[derive(Clone, Copy, Debug)]
         pub enum PrimitiveRef<'a> {
             $($(#[$doc])+ $kind(&'a $shape),)*
-            /// Facet of a mesh, by its index.
+            /// Triangle of a mesh: the mesh, and the index of the triangle.
             Triangle(&'a TriangleSet, u32),
             /// Kind defined by the user.
             Custom(&'a dyn CustomPrimitive),

@@ -8,7 +8,7 @@ use pong_geometry::Vec3;
 use pong_geometry::bounding::BoundKind;
 use std::sync::Arc;
 
-/// Groups of a body's tree; 0 is the movable one.
+/// Groups of a movable group's tree; 0 is the movable one.
 pub(crate) fn arranged(body: &MovableGroup, authored: &[GroupDraft]) -> Vec<GroupDraft> {
     let mut groups = Vec::with_capacity(authored.len());
     arrange(body, authored, 0, &mut groups);

@@ -1,4 +1,4 @@
-//! Builds the finished model from the drafts of its bodies.
+//! Builds the finished model from the drafts of its movable groups.
 
 use crate::draft::{BodyDraft, ModelDraft};
 use crate::model::{Model, MovableGroup};
@@ -11,7 +11,7 @@ use crate::{arrange, hash, polyhedra, tree};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 
-/// Finishes every body; faults and warnings go to the reader. `None` if there was any fault.
+/// Finishes every movable group; faults and warnings go to the reader. `None` if there was any fault.
 pub(crate) fn finish(reader: &mut Reader<'_>, draft: ModelDraft) -> Option<Model> {
     let ModelDraft { name, entry_memory, surfaces, pair_overrides, filters, bodies: mut drafts } = draft;
     for draft in &mut drafts {
@@ -29,8 +29,8 @@ pub(crate) fn finish(reader: &mut Reader<'_>, draft: ModelDraft) -> Option<Model
     Some(model)
 }
 
-/// Finishes one body: neighbours, pieces, shells and tree. The tree is built last, and only if there is no
-/// fault so far, because it relies on valid elements.
+/// Finishes one movable group: neighbours, pieces, shells and tree. The tree is built last, and only if there
+/// is no fault so far, because it relies on valid elements.
 fn finish_body(reader: &mut Reader<'_>, draft: &mut BodyDraft) {
     draft.welder = Welder::default();
     let findings = connect_triangles(reader, draft);

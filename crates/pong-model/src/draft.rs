@@ -1,4 +1,4 @@
-//! Output of the reader for the builder: bodies with all their elements, without adjacency.
+//! Output of the reader for the builder: movable groups with all their elements, without adjacency.
 
 use crate::hull::Hull;
 use crate::model::{Item, MovableGroup};
@@ -17,7 +17,7 @@ pub(crate) struct ModelDraft {
     pub(crate) bodies: Vec<BodyDraft>,
 }
 
-/// Body as read: its elements are complete; topology, polyhedra, shells and tree are not built yet.
+/// Movable group as read: its elements are complete; topology, polyhedra, shells and tree are not built yet.
 #[derive(Default)]
 pub(crate) struct BodyDraft {
     pub(crate) body: MovableGroup,
@@ -30,7 +30,7 @@ pub(crate) struct BodyDraft {
     pub(crate) hulls: Vec<Hull>,
     /// Kind and parameters of each custom primitive as in the file, for the hash.
     pub(crate) custom_parameters: Vec<(String, Vec<f64>)>,
-    /// Groups of this body; 0 is the movable one.
+    /// Groups of this movable group; 0 is the movable one.
     pub(crate) groups: Vec<GroupDraft>,
 }
 

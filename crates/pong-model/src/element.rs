@@ -1,4 +1,4 @@
-//! Shape queries of a body's elements, for fitting bounding volumes.
+//! Shape queries of a movable group's elements, for fitting bounding volumes.
 
 use crate::model::{Item, MovableGroup};
 use pong_geometry::Vec3;
@@ -6,7 +6,7 @@ use pong_geometry::bounding::{Bounded, CustomBounds, PointCloud};
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::primitive::{Ellipsoid, PrimitiveKind};
 
-/// Element of a body, as a shape around which volumes can be fitted.
+/// Element of a movable group, as a shape around which volumes can be fitted.
 #[derive(Clone, Copy)]
 pub struct Element<'b> {
     body: &'b MovableGroup,
@@ -17,16 +17,17 @@ pub struct Element<'b> {
 struct ThickTriangle {
     corners: [Vec3; 3],
     normal: Vec3,
-    /// Explicit thickness, m. The default thickness needs no extra region: an element pushed within its own
-    /// smallest semi-axis still overlaps the triangle.
+    /// Explicit thickness, m. The default thickness needs no extra region, because a shape whose centre lies
+    /// within it still overlaps the triangle itself (an ellipsoid together with its foot points:
+    /// [`WithFeet`]).
     thickness: f64,
 }
 
-/// Ellipsoid and all points at which a triangle may push it.
+/// Ellipsoid together with all foot points at which a triangle may push it.
 struct WithFeet<'a>(&'a Ellipsoid);
 
 impl<'b> Element<'b> {
-    /// Element named by an item of the body's tree.
+    /// Element to which an item of the movable group's tree refers.
     pub fn new(body: &'b MovableGroup, item: Item) -> Self {
         Self { body, item }
     }
@@ -110,8 +111,9 @@ impl Bounded for Element<'_> {
 }
 
 impl Bounded for ThickTriangle {
-    /// Support of the triangle and the region behind it. The region is bounded by a half ball, which is
-    /// larger than the prism behind the triangle: a ray that still hits may start beside the prism.
+    /// Support of the triangle and the region behind it. The region is that of a half ball whose centre moves
+    /// over the triangle. The prism behind the triangle would be too small, because a ray that hits may start
+    /// beside the prism.
     fn support(&self, direction: &Vec3) -> f64 {
         let forward = direction.dot(&self.normal);
         let widest = if forward <= 0.0 { 1.0 } else { (1.0 - forward * forward).max(0.0).sqrt() };

@@ -82,8 +82,8 @@ impl Model {
         a.len() == 1 && a == b
     }
 
-    /// Model whose leaves each lie entirely inside or outside each of some groups; `None` if they already do.
-    /// Results do not change.
+    /// Model in which every leaf lies entirely inside or outside each of the given groups; `None` if this
+    /// model is such a model already. Results do not change.
     ///
     /// # Errors
     /// Cause and cure, if a volume cannot be fitted.

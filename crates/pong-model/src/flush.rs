@@ -1,17 +1,17 @@
 //! Detection of coplanar faces of different surfaces: a shape that touches both is pushed twice.
 //!
 //! Faces of one surface (triangles that share vertices, pieces that share an internal face) share a contact's
-//! load; faces of two surfaces do not (docs/theory.md, 2.2). Where two such faces overlap, a body on them
-//! feels both springs; where they only meet in a seam, it does so while it crosses. Meant for tools: the time
-//! grows with the number of faces.
+//! load; faces of two surfaces do not (docs/theory.md, 2.2). Where two such faces overlap, both push a shape
+//! that lies on them. Where they only meet in a seam, both push it while it crosses the seam. The search is
+//! meant for tools, because its time grows with the number of faces.
 
 use crate::model::MovableGroup;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Pose, Vec3};
 use std::collections::BTreeMap;
 
-/// Distance from a common plane, and length that counts as no overlap, relative to the size of the larger
-/// face.
+/// Distance up to which faces count as coplanar, and length of an overlap up to which it counts as none,
+/// relative to the size of the larger face.
 const IN_PLANE: f64 = 1e-6;
 /// Maximum number of pairs of faces compared: enough for parts of a scene, not for terrains on top of each
 /// other.

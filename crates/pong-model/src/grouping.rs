@@ -33,7 +33,7 @@ pub struct Group {
     pub path: String,
     /// Index of the group above; `None` for the root.
     pub above: Option<usize>,
-    /// True for a body of its own; the root is one.
+    /// True for a movable group; the root is one.
     pub movable: bool,
     /// Bounding volume.
     pub bound: Bound,
@@ -86,7 +86,7 @@ pub fn regrouped(text: &str, changes: &[Regrouped]) -> Result<String, String> {
 fn default_bounds(found: &[Places], named: impl Fn(&Places) -> Option<&Bound>) -> Vec<Bound> {
     let mut volume_below = vec![false; found.len()];
     let mut defaults = vec![Bound::Around(BoundKind::Aabb); found.len()];
-    // Groups below come after their group.
+    // Groups below come after their group, so in reverse order they are visited first.
     for index in (0..found.len()).rev() {
         let group = &found[index].group;
         if !group.movable && group.leaf_size.is_none() && !volume_below[index] {
@@ -164,8 +164,8 @@ struct Edit {
 }
 
 impl Places {
-    /// Edits that give the text the values of the group; none if it already has them. `default`: bounding volume of
-    /// the group if the text names none.
+    /// Edits that give the text the values of the group; none if it already has them. `default` is the
+    /// bounding volume of the group if the text names none.
     fn edits(&self, text: &str, default: &Bound) -> Vec<Edit> {
         let mut edits = Vec::new();
         let mut added = String::new();

@@ -1,10 +1,10 @@
 //! Model files: RON text → validated, flat, immutable [`Model`].
 //!
-//! Stages of reading: `ron_tree` (text to values with positions), `read` (values to drafts of bodies), `hull`
-//! (one convex piece), `pieces`, `polyhedra` and `triangle_topology` (surfaces), `arrange`, `tree` and
-//! `box_tree` (bounding volumes), `hash`. The format is described in `docs/model_format.md`. `grouping`
-//! changes bounding volumes and leaves in the text of a file. For authoring tools, [`authored`] returns a
-//! file as it is written, and [`shapes`] the faults of single shapes.
+//! Stages of reading: `ron_tree` (text to values with positions), `read` (values to drafts of movable
+//! groups), `hull` (one convex piece), `pieces`, `polyhedra` and `triangle_topology` (surfaces), `arrange`,
+//! `tree` and `box_tree` (bounding volumes), `hash`. The format is described in `docs/model_format.md`.
+//! `grouping` changes bounding volumes and leaves in the text of a file. For authoring tools, [`authored`]
+//! returns a file as it is written, and [`shapes`] the faults of single shapes.
 
 #![forbid(unsafe_code)]
 

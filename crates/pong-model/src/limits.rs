@@ -1,11 +1,12 @@
 //! Limits of the numbers in a model.
 
-/// Largest magnitude of a number in a model other than a rigid stiffness. Positions, lengths and factors of
-/// laws within it give finite products of any two of them with any stiffness.
+/// Largest magnitude of a number in a model other than a rigid stiffness. The product of any stiffness with
+/// two positions, lengths or factors of laws within it is finite.
 pub const LARGEST: f64 = 1e100;
 
-/// Maximum size of a primitive, m: a length, a radius, an edge, a thickness. Between the limits no product of
-/// lengths leaves the range of numbers, and single precision can hold the boxes around primitives.
+/// Maximum size of a primitive, m: a length, a radius, an edge, a thickness. Between the limits, the products
+/// of up to four lengths in the contact tests stay within the range of numbers, and single precision can hold
+/// the boxes around primitives.
 pub const LARGEST_SIZE: f64 = 1e30;
 
 /// Minimum size of a primitive, m: see [`LARGEST_SIZE`].

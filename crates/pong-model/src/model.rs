@@ -98,8 +98,8 @@ pub struct PrimitiveInfo {
     pub elements: Range<u32>,
     /// Shell; for triangles see [`pong_geometry::primitive::TriangleRecord::shell`] instead.
     pub shell: u32,
-    /// Thickness of triangles: distance behind the front up to which a centre is still pushed, m; `None`
-    /// takes the smallest semi-axis of the sphere or ellipsoid that touches.
+    /// Thickness of triangles: distance behind the front up to which a centre is still pushed, m. `None`
+    /// takes the radius of the sphere or capsule, or the smallest semi-axis of the ellipsoid, that touches.
     pub thickness: Option<f64>,
     /// First mirror image of a two-sided mesh of triangles; the elements from here on are mirror images.
     /// Equals `elements.end` for a one-sided mesh.
@@ -142,8 +142,8 @@ pub struct Batch {
     pub items: Range<u32>,
     /// Boxes around the elements. Element *i* of the tree is item `items.start + i`.
     pub boxes: BoxTree,
-    /// Boxes around eight elements each, eight boxes per entry; empty if the elements are unbounded, or of a
-    /// kind that is B in all of the engine's tests.
+    /// Boxes around eight elements each, eight boxes per entry. Empty if the elements are unbounded, or if
+    /// they are triangles, polyhedra or planes, which are B in all of the engine's tests.
     pub chunks: Vec<ChunkBoxes>,
     /// Centres and radii of points and spheres in lanes; entry *i* has the elements 8·i … 8·i + 7. Empty for
     /// other kinds.

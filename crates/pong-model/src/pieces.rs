@@ -40,7 +40,7 @@ struct Wall {
 }
 
 /// Joins pieces along their internal faces, and makes the planes of opposite internal faces exact opposites.
-/// Returns the lowest piece of each piece's surface, and the internal faces (piece, face) without a
+/// Returns, for each piece, the lowest piece of its surface; and the internal faces (piece, face) without a
 /// counterpart.
 pub(crate) fn join_walls(hulls: &mut [Hull]) -> (Vec<u32>, Vec<(u32, usize)>) {
     let walls = sorted_walls(hulls);
@@ -62,7 +62,7 @@ pub(crate) fn join_walls(hulls: &mut [Hull]) -> (Vec<u32>, Vec<(u32, usize)>) {
     ((0..hulls.len() as u32).map(|piece| pieces.find(piece)).collect(), lonely)
 }
 
-/// All inactive faces, sorted by x.
+/// All inactive faces, sorted by their least x coordinate.
 fn sorted_walls(hulls: &[Hull]) -> Vec<Wall> {
     let mut walls = Vec::new();
     for (piece, hull) in hulls.iter().enumerate() {
@@ -109,7 +109,8 @@ fn are_twins(hulls: &[Hull], a: &Wall, b: &Wall) -> bool {
             > OVERLAP_SHARE * area(&a.corners).min(area(&b.corners))
 }
 
-/// Gives all internal faces in one plane the plane of the lowest piece among them, reversed where necessary.
+/// Gives all internal faces in one plane the plane of the lowest piece among them, reversed where necessary,
+/// so that they agree to the bit.
 fn share_planes(hulls: &mut [Hull], walls: &[Wall], planes: &mut Sets) {
     let key = |wall: usize| (walls[wall].piece, walls[wall].face);
     let mut lowest: Vec<usize> = (0..walls.len()).collect();

@@ -12,8 +12,9 @@ use pong_geometry::primitive::{
 };
 use std::cmp::Ordering;
 
-/// Sine below which two faces count as flat, just above rounding: a nearly flat edge that `f32` rounding has
-/// made convex must keep its (tiny) range of normals, or a sphere could fall between its two faces.
+/// Sine of the angle between two faces up to which they count as flat. It is just above rounding:
+/// single-precision coordinates may make a flat edge slightly convex. Such an edge must keep its small range
+/// of normals, because otherwise a sphere could fall between the regions of its two faces.
 const FLAT_SINE: f64 = 1e-12;
 
 /// Number of rotations of a vertex's normal after which its cone counts as empty.
@@ -37,10 +38,10 @@ struct VertexStar {
     active_faces: u32,
 }
 
-/// Builds the polyhedra of a body; `surface_of` gives each piece the lowest piece of its surface.
+/// Builds the polyhedra of a movable group; `surface_of` gives each piece the lowest piece of its surface.
 ///
-/// Also returns an end point of each edge at which more than two active faces meet, with the index of a
-/// piece.
+/// Also returns, for each edge at which more than two active faces meet, the index of a piece that has the
+/// edge, and an end point of the edge.
 pub(crate) fn build(hulls: &[Hull], surface_of: &[u32]) -> (Vec<Polyhedron>, Vec<(usize, Vec3)>) {
     let mut polyhedra: Vec<PolyhedronParts> = hulls.iter().map(piece).collect();
     let edges = edges_of_surfaces(&polyhedra, surface_of);
@@ -230,12 +231,14 @@ fn set_cones(polyhedron: &mut PolyhedronParts, surface: u32, stars: &mut WordMap
 }
 
 impl VertexStar {
-    /// Returns `true` if some normal has a non-positive product with every edge direction. (Zero is allowed:
-    /// at a vertex in the middle of a straight edge, where an internal face ends, only normals perpendicular
-    /// to the edge remain, and rounding may put a centre between the two halves of the edge.)
+    /// Returns `true` if the vertex has a normal cone: at least three active faces meet, and some normal has
+    /// a non-positive product with every edge direction. (Zero is allowed: at a vertex in the middle of a
+    /// straight edge, where an internal face ends, only normals perpendicular to the edge remain, and
+    /// rounding may put a centre between the two halves of the edge.)
     ///
-    /// Where the surface is convex, the mean of its normals is such a normal. At the tip of a grooved spire
-    /// it may not be: the normal is then turned away from the worst edge until no product is positive.
+    /// The search starts with the mean of the face normals. Where the surface is convex, it is such a normal.
+    /// Elsewhere, as at the tip of a grooved spire, it may not be. It is then turned away from the worst edge
+    /// until no product is positive.
     fn has_cone(&self) -> bool {
         if self.active_faces < 3 {
             return false;
@@ -246,7 +249,7 @@ impl VertexStar {
             let worst = self.directions.iter().max_by(|a, b| height(a).total_cmp(&height(b)));
             match worst {
                 Some(away) if normal.dot(away) > FLAT_SINE * normal.norm() => normal -= away,
-                // The rotations have reduced the normal to zero.
+                // A normal that the rotations have reduced to zero does not count.
                 _ => return normal.norm() > FLAT_SINE,
             }
         }

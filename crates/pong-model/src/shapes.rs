@@ -25,8 +25,8 @@ pub struct PolyhedronFault {
     pub off: f64,
 }
 
-/// Faults of vertices and faces as a polyhedron: all that the first failing stage of the loader finds. Faces
-/// have their fronts outside; `inactive` are indices of faces.
+/// Faults of a polyhedron with these vertices and faces: all that the first failing stage of the loader
+/// finds. Faces have their fronts outside; `inactive` are indices of faces.
 pub fn check_polyhedron(vertices: &[Vec3], faces: &[&[u32]], inactive: &[usize]) -> Vec<PolyhedronFault> {
     let active: Vec<bool> = (0..faces.len()).map(|face| !inactive.contains(&face)).collect();
     let problems = hull::check(vertices, faces, &active).err().unwrap_or_default();
@@ -41,7 +41,7 @@ pub fn check_polyhedron(vertices: &[Vec3], faces: &[&[u32]], inactive: &[usize])
     problems.into_iter().map(told).collect()
 }
 
-/// Fault or warning about triangles of one body.
+/// Fault or warning about triangles of one movable group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriangleFault {
     /// True if the loader refuses them, false if it warns.
@@ -56,8 +56,9 @@ pub struct TriangleFault {
     pub triangles: Vec<u32>,
 }
 
-/// Faults and warnings of the triangles of a body, one entry per rule. Bit-equal corners are one vertex, in
-/// whatever mesh. If there are slivers, only these are reported: the topology is checked when there are none.
+/// Faults and warnings of the triangles of a movable group, one entry per rule. Bit-equal corners are one
+/// vertex. If there are slivers, only these are reported, because the topology is checked only without
+/// slivers.
 pub fn check_triangles(corners: &[[Vec3; 3]]) -> Vec<TriangleFault> {
     let thin = |corners: &[Vec3; 3]| {
         let share = smallest_height_share(corners);
@@ -118,7 +119,7 @@ fn fault((is_error, rule, cause, cure): Rule, mut triangles: Vec<u32>) -> Option
     (!triangles.is_empty()).then_some(TriangleFault { is_error, rule, cause, cure, triangles })
 }
 
-/// Body that consists of these triangles only.
+/// Movable group that consists of these triangles only.
 fn body_of(corners: &[[Vec3; 3]]) -> MovableGroup {
     let mut body = MovableGroup::default();
     let (mut welder, set) = (Welder::default(), &mut body.triangles);

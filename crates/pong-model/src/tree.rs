@@ -1,5 +1,5 @@
-//! Tree of bounding volumes of a body: the authored groups, each with a volume of its kind. The elements of a
-//! leaf lie in batches, one per kind, each with a [`BoxTree`] of its own.
+//! Tree of bounding volumes of a movable group: the authored groups, each with a volume of its kind. The
+//! elements of a leaf lie in batches, one per kind, each with a [`BoxTree`] of its own.
 
 use crate::box_tree::{BoxTree, Boxed};
 use crate::draft::GroupDraft;
@@ -34,7 +34,8 @@ struct Builder<'b> {
     faults: Vec<FitFault>,
 }
 
-/// Builds the tree of a body whose elements are complete. Returns the faults if a volume cannot be fitted.
+/// Builds the tree of a movable group whose elements are complete. Returns the faults if a volume cannot be
+/// fitted.
 pub(crate) fn build(
     body: &MovableGroup,
     groups: &[GroupDraft],
@@ -49,7 +50,7 @@ pub(crate) fn build(
 }
 
 impl Builder<'_> {
-    /// Adds an empty leaf, for a body without geometry of its own.
+    /// Adds an empty leaf, for a movable group without geometry of its own.
     fn nothing(&mut self) -> usize {
         let group = Arc::clone(&self.groups[0].path);
         let volume = Volume::Aabb { center: Vec3::zeros(), half: Vec3::zeros() };
@@ -101,8 +102,8 @@ impl Builder<'_> {
         fit(kind, &things, self.ext)
     }
 
-    /// Volume fitted around the items. If there are many, only the outermost determine its position, but all
-    /// of them determine its size.
+    /// Volume fitted around the items. If there are many, the outermost alone determine the centre of a
+    /// sphere or the axes of an oriented box; all of them determine the size.
     fn fitted_around_many(&self, kind: &BoundKind, items: &[Item]) -> Result<Volume, String> {
         if items.len() <= MANY || matches!(kind, BoundKind::Custom(_)) {
             return self.fitted(kind, items);

@@ -1,4 +1,4 @@
-//! Neighbours and shells of the triangles of one body, and warnings about them.
+//! Neighbours and shells of the triangles of one movable group, and warnings about them.
 //!
 //! Mirror images of two-sided meshes are neighbours only of mirror images. All searches work on sorted lists,
 //! so that none takes quadratic time.
@@ -29,7 +29,7 @@ pub(crate) struct TopologyReport {
     pub(crate) mesh_warnings: Vec<MeshWarning>,
     /// Triangles that repeat an earlier one: (repeated, earlier).
     pub(crate) duplicates: Vec<(u32, u32)>,
-    /// Lowest triangle of the shell of each triangle.
+    /// For each triangle, the triangle of lowest index in its shell.
     pub(crate) shell_leader: Vec<u32>,
 }
 
@@ -62,7 +62,8 @@ pub(crate) fn build_adjacency(body: &mut MovableGroup) -> TopologyReport {
     findings
 }
 
-/// Front triangles of a body or, if `mirrors` is true, the mirror images of two-sided meshes; in order.
+/// Front triangles of a movable group or, if `mirrors` is true, the mirror images of two-sided meshes; in
+/// order.
 fn triangles_of(body: &MovableGroup, mirrors: bool) -> Vec<u32> {
     let meshes = body.primitives.iter().filter(|info| info.kind == PrimitiveKind::Triangle);
     meshes
@@ -76,7 +77,8 @@ fn triangles_of(body: &MovableGroup, mirrors: bool) -> Vec<u32> {
 #[derive(Default)]
 struct Connections {
     mesh_warnings: Vec<MeshWarning>,
-    /// Triangles at crowded or inconsistently wound edges: only these can be duplicates.
+    /// Triangles at crowded or inconsistently wound edges. Only these can be duplicates, because both copies
+    /// run along their common edges in the same direction.
     suspects: BTreeSet<u32>,
     free_edges: Vec<[u32; 2]>,
     free_owner: Vec<u32>,
@@ -130,8 +132,8 @@ fn set_neighbor(set: &mut TriangleSet, half: &HalfEdge, neighbor: u32) {
     set.triangles[(half.1 / 3) as usize].neighbors[(half.1 % 3) as usize] = neighbor;
 }
 
-/// Finds the shells of the triangles in `part`, and sets the lowest triangle of the shell of each. Triangles
-/// that share a vertex belong to one shell.
+/// Sets, for each triangle in `part`, its `leader`: the triangle of lowest index in its shell. Triangles that
+/// share a vertex belong to one shell.
 fn lead_shells(set: &TriangleSet, part: &[u32], leader: &mut [u32]) {
     let mut vertices = Sets::new(set.vertices.len());
     for &triangle in part {
@@ -165,5 +167,6 @@ fn rotated(triangle: &TriangleRecord) -> [u32; 3] {
     }
 }
 
-/// Maximum number of triangles of one body: three times a triangle's index must fit into a [`HalfEdge`].
+/// Maximum number of triangles of one movable group: three times a triangle's index must fit into a
+/// [`HalfEdge`].
 pub(crate) const TRIANGLE_LIMIT: usize = u32::MAX as usize / 3;

@@ -18,8 +18,9 @@ use crossbeam_utils::CachePadded;
 use crate::sync::{AtomicU64, Thread, current, mutant};
 use crate::word::Word;
 
-/// Progress of one worker, written after each claim. Only that worker writes it, so plain stores are enough.
-/// `word` contains the epoch of the blocks, so blocks of an abandoned phase are not counted in a later one.
+/// Progress of one worker, written when it has run the blocks of a claim. Only that worker writes it, so no
+/// compare-and-swap is needed. `word` contains the epoch of the blocks, so blocks of an abandoned phase are
+/// not counted in a later one.
 struct Tally {
     word: AtomicU64,
     /// Blocks finished since the start, in all phases.
@@ -152,9 +153,9 @@ impl Board {
 
     // ---- tallies
 
-    /// Stores the tally of worker number `thread` after a claim: its work so far in phase `epoch`, and the
-    /// number of blocks that it has finished since the start. The release stores publish what the blocks
-    /// wrote.
+    /// Stores the tally of worker number `thread` after it has run the blocks of a claim: its work so far in
+    /// phase `epoch`, and the number of blocks that it has finished since the start. The release stores
+    /// publish what the blocks wrote.
     pub fn record(&self, thread: usize, epoch: u64, done: Done, finished: u64) {
         let tally = &self.tallies[thread - 1];
         tally.busy_ns.store(done.busy_ns, Relaxed);

@@ -150,7 +150,8 @@ impl Worker {
         alert != CALM && alert != PARK && self.shared.origin.elapsed_ns() < alert
     }
 
-    /// Parks until woken. Does not park if a phase, the end flag or an alert has come meanwhile.
+    /// Parks until woken. Does not park if a phase, the end flag or an alert has come since the worker last
+    /// looked.
     fn sleep(&self, seen: u64) {
         let board = &self.shared.board;
         board.lie_down(self.thread);

@@ -45,9 +45,9 @@ pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) ->
     !(edges(0) | edges(1) | edges(2))
 }
 
-/// Returns `true` if the point of B nearest to A's centre lies in A. This proves quickly that most
-/// overlapping boxes overlap. If the point lies in A only by rounding, every gap between the projections is
-/// below the margin, so the full test reports an overlap too.
+/// Returns `true` if the point of B nearest to A's centre lies in A, which proves an overlap. This quick test
+/// is enough for most overlapping boxes. If the point lies in A only by rounding, every gap between the
+/// projections is below the margin, so the full test reports an overlap too.
 #[inline(always)]
 fn have_common_point(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
     let nearest = t.zip_map(half_b, |t, half| {

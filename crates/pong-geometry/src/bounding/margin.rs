@@ -7,10 +7,14 @@ use crate::Vec3;
 /// fitted volume is grown.
 ///
 /// With this margin the pair tests need none for position errors. Let the volumes have the centres `c_A` and
-/// `c_B` in their frames and the extents `e_A` and `e_B`, and let the frames be `r` apart. The error of
-/// transforming a centre, or in the contact test the shape itself, is a few units of 1.1e-16 of
-/// `r + |c_A| + |c_B|`. The error of fitting is a few such units of `|c| + e`. If the volumes touch,
-/// `r ≤ |c_A| + e_A + |c_B| + e_B`. So the total error is below about ten units of 1.1e-16 of
+/// `c_B` in their frames and the extents `e_A` and `e_B`, and let the frames be `r` apart. Two errors occur,
+/// in units of 1.1e-16:
+///
+/// * the error of a transformed centre (in the contact test: of the transformed shape), a few units of `r +
+///   |c_A| + |c_B|`;
+/// * the error of fitting, a few units of `|c| + e`.
+///
+/// If the volumes touch, `r ≤ |c_A| + e_A + |c_B| + e_B`. So the total error is below about ten units of
 /// `|c_A| + e_A + |c_B| + e_B`, while the volumes are grown by 1e-12 of this sum: a thousand times more.
 pub const RELATIVE_MARGIN: f64 = 1e-12;
 

@@ -17,14 +17,14 @@ pub(super) fn principal_axes(points: &[Vec3]) -> Mat3 {
 /// Convergence is quadratic: a 3 × 3 matrix needs four or five sweeps, and further sweeps change nothing.
 fn diagonalising_rotation(mut s: Mat3) -> Mat3 {
     const SWEEPS: usize = 8;
-    /// 2⁻⁵¹¹: below it the square of the cotangent overflows, and a rotation by so small an angle changes no
-    /// number.
+    /// Smallest tangent of twice the angle, 2⁻⁵¹¹. Below it the square of the cotangent overflows, and a
+    /// rotation by so small an angle changes no number.
     const SMALLEST_TANGENT: f64 = f64::from_bits((1023 - 511) << 52);
     let mut rotation = Mat3::identity();
     for _ in 0..SWEEPS {
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
             let (apart, twice) = (s[(q, q)] - s[(p, p)], 2.0 * s[(p, q)]);
-            // The entry is zero, or so small that the square of the cotangent would overflow.
+            // No rotation: the entry is zero, or so small that the square of the cotangent would overflow.
             if twice.abs() <= apart.abs() * SMALLEST_TANGENT || twice == 0.0 {
                 continue;
             }

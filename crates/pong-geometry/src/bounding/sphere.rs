@@ -54,8 +54,8 @@ fn farthest_point<'a>(points: &'a [Vec3], from: &Vec3) -> Option<&'a Vec3> {
 }
 
 /// Returns the approximate centre of the minimum sphere around points. In step k the centre moves by 1/(k+1)
-/// of the way to the farthest point (Bădoiu and Clarkson 2003). The first steps are skipped because the start
-/// is close already.
+/// of the way to the farthest point (Bădoiu and Clarkson 2003). The first steps, which are large, are
+/// skipped, because the start is close already.
 fn drawn_to_farthest(points: &[Vec3], start: Vec3) -> Vec3 {
     (10..150).fold(start, |center, k| match farthest_point(points, &center) {
         Some(far) => center + (far - center) / f64::from(k + 1),

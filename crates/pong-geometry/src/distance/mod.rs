@@ -15,7 +15,8 @@ use crate::primitive::Plane;
 impl Solid<'_> {
     /// Returns the distance of this solid from another.
     pub fn to(&self, other: &Solid<'_>) -> Distance {
-        // The search gives `None` only for a distance above the limit, which is infinite here.
+        // The search gives `None` only for a distance above the limit. The limit is infinite, so the default
+        // below is not used.
         self.to_within(other, f64::INFINITY).unwrap_or(Distance {
             distance: f64::INFINITY,
             points_b: [self.member(), other.member()],

@@ -58,8 +58,8 @@ pub(super) fn search(a: &Solid<'_>, b: &Solid<'_>, limit: f64) -> Option<Distanc
         }
         let Some(found) = nearest.with(next) else { return Some(overlap(&best)) };
         idle = if found.distance < best.distance { 0 } else { idle + 1 };
-        // A later simplex of the same distance replaces the earlier one, because its direction is more
-        // accurate.
+        // A later simplex replaces the best one even if its distance is only equal within rounding, because
+        // its direction is more accurate.
         if found.distance <= best.distance + CLOSED * size {
             best = found;
         }

@@ -4,9 +4,9 @@
 //! face. The nearest candidate is the result. The weights of its corners are never negative and add up to
 //! one, so the result lies in the simplex whatever the rounding.
 //!
-//! This holds for slender faces too. Their axes come from Gram-Schmidt orthogonalisation, longest edge first,
-//! so the point is exact to the rounding of the coordinates, and the normal is perpendicular to the face to
-//! rounding.
+//! Slender faces are as accurate as others. Their axes come from Gram-Schmidt orthogonalisation, longest edge
+//! first, so the point is exact to the rounding of the coordinates, and the normal is perpendicular to the
+//! face to rounding.
 
 use crate::Vec3;
 
@@ -179,8 +179,8 @@ impl Face {
     }
 
     /// Returns `true` if the origin is between the plane of this face and the parallel plane through
-    /// `corner`, the fourth corner. In a tetrahedron that is flat to rounding, the parallel plane excludes
-    /// the origin.
+    /// `corner`, the fourth corner. For a tetrahedron that is flat to rounding, only the parallel plane
+    /// excludes an origin outside the tetrahedron.
     fn holds_origin_before(&self, corner: &Corner) -> bool {
         let normal = self.normal();
         let foot = self.corners[0].difference_b;

@@ -74,7 +74,8 @@ impl RoundSolid for Capsule {
 
 impl Capsule {
     /// Returns the point of the capsule's surface nearest to the point `place` of a segment. If `place` lies
-    /// on the capsule's axis, the normal is perpendicular to both the axis and the segment.
+    /// on the capsule's axis, all directions around the axis are equally near. The normal is then
+    /// perpendicular to both the axis and the segment, unless these are parallel.
     fn nearest_of(&self, place: &Vec3, segment: &[Vec3; 2]) -> Nearest {
         let nearest = of_capsule(place, self);
         let crosses = self.is_in_axis(nearest.distance + self.radius, place);
@@ -83,7 +84,7 @@ impl Capsule {
     }
 
     /// Returns `true` if a point at `distance` (m) from the axis lies on the axis up to rounding. The
-    /// direction from the axis to the point is then only rounding.
+    /// direction from the axis to the point is then only rounding, so it gives no normal.
     fn is_in_axis(&self, distance: f64, place: &Vec3) -> bool {
         distance <= 64.0 * f64::EPSILON * place.amax().max(self.ends[0].amax()).max(self.ends[1].amax())
     }
@@ -159,7 +160,8 @@ impl RoundSolid for Frustum {
             return None;
         }
         if one * other < 0.0 {
-            // Where the segment passes through the disc, the search in `approach` would converge slowly.
+            // Where the segment passes through the disc, `approach` would first search for a point in the
+            // disc, which converges slowly. So the minimum translation is searched at once.
             let through = segment[0] + (segment[1] - segment[0]) * (one / divisor(one - other));
             if (through - center).norm() < disc.radii[0] - slack {
                 return Some(TranslationSearch::new(segment, &disc).shortest());
@@ -173,9 +175,9 @@ impl RoundSolid for Frustum {
     }
 }
 
-/// Returns the point of a segment nearest to a convex solid. The distance along the segment is convex and has
-/// the derivative `normal_b·along`. The search stops at the first point whose distance is at most `enough`
-/// (m).
+/// Returns the point of a segment nearest to a convex solid, with the solid's surface point nearest to it.
+/// The distance along the segment is convex and has the derivative `normal_b·along`, so the zero of the
+/// derivative is searched. The search stops at the first point whose distance is at most `enough` (m).
 fn least_on_segment(segment: &[Vec3; 2], enough: f64, nearest: impl Fn(&Vec3) -> Nearest) -> (Vec3, Nearest) {
     /// Largest slope that counts as zero, relative to the length of the segment.
     const FLAT: f64 = 4.0 * f64::EPSILON;
@@ -238,9 +240,10 @@ fn sign_change([first, last]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
 ///
 /// Let h be the support function of the frustum and n a unit vector. When the segment is translated along n,
 /// an end p of it leaves the frustum after the length h(n) − n·p. The whole segment leaves after the larger
-/// of these lengths of its two ends. At the minimum over n there are two cases. Either one end leaves last,
-/// through an end face or through the nearest generator of the lateral surface; or both ends leave together,
-/// and then n is perpendicular to the segment.
+/// of these lengths of its two ends. At the minimum over n, one of two things holds:
+///
+/// * One end leaves last: through an end face, or through the nearest generator of the lateral surface.
+/// * Both ends leave together: then n is perpendicular to the segment.
 struct TranslationSearch<'a> {
     segment: &'a [Vec3; 2],
     frustum: &'a Frustum,
@@ -268,7 +271,8 @@ impl<'a> TranslationSearch<'a> {
             // Orthogonalised twice, because the rounding error of a short vector is relatively large.
             let across = across - axis * axis.dot(&across);
             let aside = across.norm();
-            // From a point on the axis all directions through the lateral surface are equivalent.
+            // From a point on the axis, the translation through the lateral surface has the same length in
+            // all directions, so any of them is taken.
             let [wall_along, wall_aside] = self.frustum.wall;
             let away = if aside > 0.0 {
                 across * (wall_aside / aside.max(f64::MIN_POSITIVE))
@@ -291,9 +295,9 @@ impl<'a> TranslationSearch<'a> {
         }
     }
 
-    /// Considers translations perpendicular to the segment. Seen along the segment, the frustum is the convex
-    /// hull of two ellipses (its end discs), and the segment is a point. The minimum translation leads out of
-    /// one ellipse, or is along a direction in which both ellipses extend equally far.
+    /// Tries translations perpendicular to the segment. Seen along the segment, the frustum is the convex
+    /// hull of two ellipses (its end discs), and the segment is a point. So the minimum translation leads out
+    /// of one ellipse, or is along a direction in which both ellipses extend equally far.
     fn offer_across(&mut self) {
         let along = (self.segment[1] - self.segment[0]).normalize();
         let first = self.first_across(&along);
@@ -313,11 +317,12 @@ impl<'a> TranslationSearch<'a> {
     /// directions perpendicular to the segment and within 90° of `toward`. `toward` is a direction of the
     /// ellipse's short axis. `None` if there is no minimum.
     ///
-    /// Let t be the tangent of the angle from `toward`, p and ρ the short and the long semi-axis, and (x, y)
-    /// the ellipse's centre relative to the segment, with x along `toward`. The derivative of the translation
-    /// has the sign of y + g(t) with g(t) = (ρ² − p²)·t/√(p² + ρ²t²) − x·t. The function g is odd, and
-    /// concave for t > 0. So Newton's method for g(t) = |y|, started at 0, never passes the first root. The
-    /// minimum is at this root, on the side opposite to y.
+    /// Let t be the tangent of the angle from `toward`, p (`short`) and ρ (`radius`) the short and the long
+    /// semi-axis, and (x, y) the ellipse's centre relative to the segment, with x along `toward`. The
+    /// derivative of the translation has the sign of y + g(t) with g(t) = (ρ² − p²)·t/√(p² + ρ²t²) − x·t,
+    /// where ρ² − p² is `stretch`. The function g is odd, and concave for t > 0. So Newton's method for g(t)
+    /// = |y|, started at 0, never passes the first root. The minimum is at this root, on the side opposite to
+    /// y.
     fn least_of_end(&self, end: usize, along: &Vec3, toward: &Vec3) -> Option<Vec3> {
         const STEPS: usize = 60;
         /// Tangent of a right angle, within rounding.
@@ -378,7 +383,7 @@ impl<'a> TranslationSearch<'a> {
         // Clamped, so that the divisor is not zero even if a compiler divides before the check.
         let length = across.norm().max(ROUNDING);
         // If the axis is parallel to the segment, the end circles extend equally far in all directions or in
-        // none.
+        // none, so no two normals stand out.
         if length <= ROUNDING {
             return None;
         }
@@ -459,7 +464,7 @@ impl<'a> TranslationSearch<'a> {
         if distance > self.best.distance - rounding {
             let place = one + along * self.travelled(along, normal, rounding);
             // If the segment lies along the lateral surface, `normal` may equal the best direction up to
-            // rounding. The best direction is then kept.
+            // rounding. The best direction is then kept, so that it does not change by rounding.
             let is_known =
                 normal.dot(&self.best.normal_b) > 1.0 - SAME && distance <= self.best.distance + rounding;
             let normal_b = if is_known { self.best.normal_b } else { *normal };

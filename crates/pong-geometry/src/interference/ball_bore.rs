@@ -25,7 +25,8 @@ pub(super) fn ball_mouth(ball: &Sphere, bore: &Bore, mouth: usize) -> Option<Int
 }
 
 /// Returns `true` if a point (m) is behind the wall of a bore, and its foot point on the wall lies between
-/// the ends of the wall. A shape that comes from such a point is not pushed into the hole.
+/// the ends of the wall. A shape that enters the hole from such a point comes through the wall from behind,
+/// so the wall must not push it into the hole.
 pub fn is_behind_wall(place: &Vec3, bore: &Bore) -> bool {
     let at = Meridian::new(place, &bore.hole);
     let beside = Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b };
@@ -82,9 +83,12 @@ impl Beside<'_> {
             .flatten()
     }
 
-    /// Returns the contact with the circular edge of a mouth. `None` if there is no overlap, if the mouth is
-    /// not convex, or if the centre is farther from the axis than the edge: then the sphere touches the face
-    /// around the hole instead.
+    /// Returns the contact with the circular edge of a mouth. `None` in these cases:
+    ///
+    /// * the sphere does not reach the edge;
+    /// * the mouth is not convex, or its radius is 0;
+    /// * the centre is farther from the axis than the edge, so that the sphere touches the face around the
+    ///   hole.
     fn touched_at_mouth(&self, ball: &Sphere, end: usize) -> Option<Interference> {
         let radius = self.hole().radii[end];
         let mouth_along = if end == 0 { 0.0 } else { self.hole().length };

@@ -23,7 +23,7 @@ use crate::Vec3;
 /// contains the nearest point.
 pub(super) fn has_behind(edges: &TriangleEdges<'_>, p: &Vec3, thickness: f64, slack: f64) -> bool {
     /// Largest cosine, between an edge and the direction from its vertex to `p`, at which the vertex counts
-    /// as nearest. It is not zero: if only rounding decides between vertex and edge, `p` belongs to both.
+    /// as nearest. It exceeds zero, so that rounding alone does not exclude the vertex.
     const ALONG_COSINE: f64 = 1e-12;
     let (set, view) = (edges.set, edges.view);
     let (square, place) = nearest_on_triangle(p, &view.corners);

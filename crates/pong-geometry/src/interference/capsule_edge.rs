@@ -28,11 +28,12 @@ pub struct ConvexEdge {
     pub feature: Feature,
 }
 
-/// Tests a capsule against an edge. `None` if they do not overlap, or if the point of the axis nearest to the
-/// edge is an end of the axis. The normal points from the edge to the axis.
+/// Tests a capsule against an edge. The normal points from the edge to the axis. `None` if they do not
+/// overlap, or if the point of the axis nearest to the edge is an end of the axis.
 ///
 /// If the axis has sunk below the edge, the normal points out of the solid and the depth exceeds the radius.
-/// There is then a contact only if the normal lies between the normals of the two faces.
+/// There is then a contact only if `outwards_b` is given and the normal lies between the normals of the two
+/// faces.
 pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference> {
     let axis = Segment::new(&capsule.ends);
     let of_edge = Segment::new(&edge.ends_b);
@@ -40,7 +41,7 @@ pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference
         return over(capsule, edge, &axis, &of_edge, at, on_edge);
     }
     // Without a crossing, an end of the axis or an end of the edge is nearest. Only the ends of the edge are
-    // tested here.
+    // tested here, because the ends of the axis belong to the capsule's end spheres.
     let tips =
         capsule.ends.map(|tip| (tip - of_edge.at(of_edge.nearest(&tip).clamp(0.0, 1.0))).norm_squared());
     let [one, other] = edge.ends_b.map(|corner| {
@@ -78,8 +79,8 @@ fn over(
     let outside = outside(edge, &across);
     let normal = if outside < 0.0 { -across } else { across };
     let height = normal.dot(&(axis.at(at) - of_edge.at(on_edge)));
-    // The tolerance is for an axis along a face: rounding puts the normal on either side of the face's
-    // normal.
+    // For an axis along a face, rounding puts the normal on either side of the face's normal. So a normal
+    // outside the range by no more than the tolerance also counts as between the two.
     let is_between = |outward: &Vec3| outward.dot(&normal) > -ROUNDING;
     let leaves_there = || edge.outwards_b.is_some_and(|outwards| outwards.iter().all(is_between));
     // Without `outwards_b`, an axis that has passed the edge by more than rounding is not pushed.
@@ -90,11 +91,13 @@ fn over(
     Some(touched(capsule, edge, normal, height, &axis.at(at)))
 }
 
-/// Returns the component of `across`, a unit vector perpendicular to the edge, that points out of the solid.
-/// Of two opposite vectors, the one with the positive component is the contact normal.
+/// Returns a positive number if `across`, a unit vector perpendicular to the edge, points out of the solid,
+/// and a negative number if it points into the solid. Of `across` and −`across`, the one that points out of
+/// the solid is the contact normal.
 fn outside(edge: &ConvexEdge, across: &Vec3) -> f64 {
     let in_front = edge.normals_b.iter().sum::<Vec3>().dot(across);
-    // For an axis perpendicular to the face of a free edge, only rounding decides the sign of `in_front`.
+    // For an axis perpendicular to the face of a free edge, only rounding decides the sign of `in_front`, so
+    // `free_outward_b` decides.
     edge.free_outward_b.filter(|_| in_front.abs() <= ROUNDING).map_or(in_front, |outward| outward.dot(across))
 }
 

@@ -185,8 +185,8 @@ fn near_in<S: Simd>(simd: S, query: &Query, polyhedron: &Polyhedron, first: &usi
     for (boxes, blocks) in edges.boxes.iter().zip(edges.blocks.chunks(LANES)) {
         let mut met = boxes.meet(simd, &around);
         while met != 0 {
-            // Unused lanes repeat the last box, for which no block is left, or the last edge, which is then
-            // marked twice.
+            // Unused lanes of `boxes` repeat the last box and have no block. Unused lanes of a block repeat
+            // its last edge, which is then marked twice.
             let Some(block) = blocks.get(met.trailing_zeros() as usize) else { break };
             let mut marked = axis.near(block);
             while marked != 0 {
@@ -260,7 +260,7 @@ impl<S: Simd> Axis<S> {
         let height = across.dot(apart);
         let reach = self.reach_square * square.all(WIDER) + apart.norm_squared() * square.all(NOISE);
         let inside = simd.and(self.is_inside(at), self.is_inside(on_edge));
-        // If the cross product is so short that the quotients are invalid, the edge counts as near.
+        // If `square` is subnormal, the quotients are inaccurate, so the edge counts as near.
         let least = square.all(f64::MIN_POSITIVE);
         let is_too_short = simd.and(square.all(0.0).below(square), square.below(least));
         simd.bits(simd.and(inside, (reach * square).at_least(height * height))) | simd.bits(is_too_short)

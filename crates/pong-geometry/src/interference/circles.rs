@@ -61,8 +61,8 @@ pub(super) struct Reach {
 /// Search over all directions perpendicular to the unit vector `about_b`.
 pub(super) struct Across {
     pub about_b: Vec3,
-    /// First of the directions that the search samples. It is fixed to the bodies, so that rotating both
-    /// bodies together changes no result.
+    /// First of the directions that the search samples. If possible, it follows from the two shapes, so that
+    /// rotating both shapes together changes no result.
     pub first_b: Vec3,
 }
 
@@ -99,9 +99,9 @@ impl Across {
         self.first_b * x + second * y
     }
 
-    /// Returns the directions in which the depth has its two greatest local maxima, the deepest first. Two
-    /// are enough for circles. If there is no maximum, all directions are equivalent, and the result is the
-    /// first direction alone.
+    /// Returns the directions of the two greatest local maxima of the depth, the deepest first. Each is
+    /// refined from a local maximum of sixteen samples; the shapes tested here have no more than two. If
+    /// there is no maximum, all directions are equivalent, so the result is the first direction alone.
     pub fn greatest(&self, reach: impl Fn(&Vec3) -> Reach) -> [Option<Vec3>; 2] {
         let directions: [Vec3; COUNT] = std::array::from_fn(|index| self.direction(index));
         let depths = directions.map(|direction| reach(&direction).depth);

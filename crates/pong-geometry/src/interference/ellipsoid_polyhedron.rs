@@ -44,9 +44,9 @@
 //! which sees the contacts of all pieces, decides which contacts count.
 //!
 //! A piece applies two rules. It drops minima deeper than the least overlap of its active faces, because the
-//! body's minimum is not deeper. If no feature of the piece contains its own foot, the piece returns its
-//! active face of least overlap as a [fallback](PieceContact::stands_in). The fallback counts only if no
-//! piece of the body finds anything else.
+//! body's minimum is not deeper. If for every feature of the piece the foot lies outside that feature, the
+//! piece returns its active face of least overlap as a [fallback](PieceContact::stands_in). The fallback
+//! counts only if no piece of the body finds anything else.
 
 use super::ellipsoid_math::{
     NormalFoot, nearest_on_ellipse, nearest_on_ellipsoid, second_nearest_on_ellipse,
@@ -75,8 +75,9 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 pub struct PieceContact {
     /// Depth, normal, point and feature.
     pub interference: Interference,
-    /// True for a fallback: no feature of the piece contains its own foot, and the contact is that of the
-    /// active face of least overlap. It counts only if no other piece of the body has a regular contact.
+    /// True for a fallback: for every feature of the piece, the ellipsoid's foot lies outside that feature,
+    /// so none has a regular contact. The contact is that of the active face of least overlap. It counts only
+    /// if no other piece of the body has a regular contact.
     pub stands_in: bool,
 }
 
@@ -187,7 +188,7 @@ impl Lead {
 
 /// Returns the active face of least overlap; of equal ones, the one of lowest index. Faces above which the
 /// height of the centre is at most `least_height` (m) may be skipped. `None` if the plane of a face that is
-/// not skipped separates the bodies, or if none of these faces is active.
+/// not skipped separates the ellipsoid from the polyhedron, or if none of these faces is active.
 #[inline(always)]
 fn least_overlap<S: Simd>(
     simd: S,
@@ -281,8 +282,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the candidate of least depth, and `true` if it is a fallback. `None` if the bodies do not
-    /// overlap.
+    /// Returns the candidate of least depth, and `true` if it is a fallback. `None` if ellipsoid and
+    /// polyhedron do not overlap.
     fn least(mut self, suspects: &Suspects) -> Option<(Candidate, bool)> {
         let mut witness = None;
         if !suspects.pierces {
@@ -309,9 +310,9 @@ impl<'a> Search<'a> {
     /// to the ellipsoid's centre, in the metric in which the ellipsoid is the unit ball.
     ///
     /// If the centre is inside the polyhedron, the point is the centre. Otherwise, the polyhedron's nearest
-    /// point in this metric lies on a face whose plane has the centre in front of it. There it is the
-    /// centre's projection onto the plane, or it lies on an edge of the face beyond which the projection
-    /// lies.
+    /// point in this metric lies on a face whose plane has the centre in front of it. It is the centre's
+    /// projection onto that plane, or it lies on an edge of the face beyond which the projection lies. So
+    /// only such points are tested.
     fn overlap_witness(&self) -> Option<Vec3> {
         let mut inside = true;
         let all = 0..self.polyhedron.faces.len();
@@ -345,8 +346,8 @@ impl<'a> Search<'a> {
         in_outline.then(|| widened * -share)
     }
 
-    /// Returns `true` if the overlap is only rounding. That is so if `witness` is barely inside the ellipsoid
-    /// and the overlap along its normal is no more than a rounding error.
+    /// Returns `true` if the overlap is only rounding: `witness` is barely inside the ellipsoid, and the
+    /// overlap along the direction in which `witness` pushes is no more than a rounding error.
     fn only_touches(&self, witness: &Vec3) -> bool {
         witness.norm_squared() > 1.0 - HARDLY_INSIDE
             && self.whole_depth(&self.direction_from(witness)) <= ROUNDING * self.size
@@ -375,8 +376,8 @@ impl<'a> Search<'a> {
 
     fn try_features_of(&mut self, suspects: &[u32]) {
         let polyhedron = self.polyhedron;
-        // Vertices already tested. Each would come once per suspect around it; beyond the capacity, some are
-        // tested again.
+        // Vertices already tested; several suspects may share a vertex. Beyond the capacity, some are tested
+        // again.
         let mut tried = [u32::MAX; Suspects::CAPACITY];
         let mut count = 0;
         for &face in suspects {
@@ -475,7 +476,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Tests the two fallbacks for the case that every feature lost its foot to rounding (see the module
+    /// Tests the two fallbacks for the case that rounding puts every foot outside its feature (see the module
     /// documentation).
     fn stand_in(&mut self, witness: Option<Vec3>) {
         self.offer(self.lead_face);

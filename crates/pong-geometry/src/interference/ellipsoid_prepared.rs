@@ -78,8 +78,9 @@ impl PreparedEllipsoid {
     ///
     /// Extended to vectors n of any length, D is convex. So between the two normals, D is no less than its
     /// linearisation at either normal. Along the arc a linearisation is a sine wave, concave where positive.
-    /// So the larger of the two linearisations is least at an end of the arc or where the two are equal. That
-    /// point is found on the chord, and its value is divided by its distance from the origin.
+    /// So the larger of the two linearisations is least at an end of the arc or where the two are equal. The
+    /// point where they are equal is found on the chord; the value there is divided by the point's distance
+    /// from the origin.
     pub(crate) fn arc_bound(&self, normals: &[Vec3; 2], heights: &[f64; 2]) -> f64 {
         let widened = normals.map(|n| self.widened(&n));
         let half_widths = widened.map(|w| w.norm());
@@ -119,8 +120,8 @@ impl Shadow {
     #[inline]
     pub(crate) fn new(e: &PreparedEllipsoid, u: &Vec3, v: &Vec3) -> Self {
         let (wide_u, wide_v) = (e.widened(u), e.widened(v));
-        /// Limit of `zeta`, 2⁵¹². The square of a larger value overflows, and the rotation would be zero
-        /// within rounding.
+        /// Limit of `zeta`, 2⁵¹². Above it, `zeta²` overflows and the rotation is zero within rounding, so
+        /// the axes are not rotated.
         const LARGEST_COTANGENT: f64 = f64::from_bits((1023 + 512) << 52);
         let (uu, vv, uv) = (wide_u.norm_squared(), wide_v.norm_squared(), wide_u.dot(&wide_v));
         if 2.0 * uv.abs() * LARGEST_COTANGENT <= (vv - uu).abs() || uv == 0.0 {

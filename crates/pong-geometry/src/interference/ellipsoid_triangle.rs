@@ -322,7 +322,8 @@ impl Tester<'_> {
             if on_rim.is_some_and(|mean| mean.dot(&normal) <= 0.0) {
                 return None;
             }
-            // Between nearly coplanar faces, `CONE_SLACK` would admit normals that point to the back.
+            // Between nearly coplanar faces, `CONE_SLACK` would admit normals that point to the back, so
+            // these are rejected here.
             if neighbor.is_some_and(|(other, _)| (self.view.normal + other).dot(&normal) <= 0.0) {
                 return None;
             }
@@ -348,11 +349,12 @@ impl Tester<'_> {
         ]
     }
 
-    /// Returns `true` if edge `k` certainly has no minimum. This is so if the edge is outside the ellipsoid,
-    /// and the overlap of the face is less than the smallest radius of curvature.
+    /// Returns `true` if edge `k` certainly has no minimum: the edge is outside the ellipsoid, and the
+    /// overlap of the face is less than the smallest radius of curvature.
     ///
-    /// With such an overlap the foot of a minimum on the edge would lie inside the ellipsoid: in the ball of
-    /// that radius which touches the ellipsoid from inside at the deepest point.
+    /// With such an overlap, the foot of a minimum would lie inside the ellipsoid, in the ball of that radius
+    /// that touches the ellipsoid from inside at the deepest point. So an edge outside the ellipsoid contains
+    /// no such foot.
     fn misses_edge(&self, k: usize) -> bool {
         /// Margin far above rounding, in the unit-ball metric.
         const SLACK: f64 = 1e-6;

@@ -36,7 +36,8 @@ pub type PieceContacts = [Option<(Interference, AtWall)>; 2];
 /// Role that the neighbouring pieces play in a contact of one piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AtWall {
-    /// No role. Exception: for a tip on an internal face the caller tests [`Polyhedron::containment`].
+    /// No role. Exception: if a tip may lie on an internal face, the caller must test
+    /// [`Polyhedron::containment`], because another piece may contain the tip too.
     No,
     /// Crossing of an edge at which an internal face ends. The piece behind that face may report the same
     /// crossing.
@@ -46,8 +47,9 @@ pub enum AtWall {
     /// Exit through an active face where an internal face ends. The piece behind the internal face may report
     /// this end as well.
     Exit,
-    /// Fallback for an exit as in `Exit` that rounding puts on the internal face. It counts if no other piece
-    /// reports this end, and no other piece contains the segment beyond the exit.
+    /// Fallback for an exit as in `Exit`, if rounding lets the segment leave through the internal face
+    /// instead of the active face. It counts if no other piece reports this end, and no other piece contains
+    /// the segment beyond the exit.
     ExitStandsIn,
 }
 
@@ -178,7 +180,8 @@ fn assign_exits(segment: &LineSegment, polyhedron: &Polyhedron, inside: &mut [In
 }
 
 /// Factor on the energy of one face: a face whose lower bound exceeds the product cannot be the one of least
-/// energy. The factor is far above rounding of the bounds and above any chain of ties.
+/// energy. The factor exceeds 1 by far more than the rounding of the bounds, and by far more than `TIE`
+/// allows even if many faces in a row count as equal.
 const BEYOND_ROUNDING: f64 = 1.0 + 1e-6;
 
 /// Search for the face that stores the least energy.
@@ -247,7 +250,8 @@ impl Search<'_> {
     /// Returns the energy stored by a face; `None` if the face takes no part.
     ///
     /// At an end that leaves through an internal face the depth is included, although the piece behind that
-    /// face carries this end. Without this depth, the energy of the face would be too low.
+    /// face carries this end. Otherwise the energy of the face would be too low, and the wrong face could
+    /// push.
     fn stored(&self, face: usize) -> Option<Stored> {
         let ends = [self.at_end(face, 0).measured()?, self.at_end(face, 1).measured()?];
         let square = |end: usize| ends[end].depth() * ends[end].depth();

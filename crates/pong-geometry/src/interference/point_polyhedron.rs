@@ -1,8 +1,8 @@
 //! Point (A) – polyhedron (B): contact with the face by which the point entered (docs/theory.md, 2.4).
 //!
 //! A point inside is pushed out through the face by which it entered, or through a neighbour of that face if
-//! the neighbour is nearer. The engine remembers the face of entry; the functions here answer its questions
-//! about one piece of a body.
+//! the neighbour is nearer. The engine remembers the face of entry. The functions here test the point against
+//! one piece of a body.
 //!
 //! Degenerate cases: a point on an active face is outside. A point on an internal face belongs to the piece
 //! whose face is `closed`. Of equally near faces, the one of lower index counts.
@@ -102,14 +102,17 @@ pub struct Reached {
     pub depth: f64,
 }
 
-/// Returns the face to remember next, and the face that pushes, for a point inside. `remembered` is the face
-/// remembered so far. It changes to its neighbour of least depth, again and again, while that lowers the
-/// depth below the remembered face.
+/// Returns, for a point inside, the face to remember next and the face that pushes. `remembered` is the face
+/// remembered so far. Step by step, it changes to its active neighbour of least depth, until one of these
+/// holds:
 ///
-/// It does not change across a sharp edge. It does not change either if that would increase the depth below
-/// the face that pushes: this face may be a sharp neighbour of the present face but not of the next. So the
-/// depth is at most that without a change, and between two commits it grows by no more than the point has
-/// moved. The heights above the faces must be finite, as for [`shallowest_face`].
+/// * no neighbour is less deep;
+/// * all less deep neighbours are across sharp edges;
+/// * the step would increase the depth below the face that pushes. This face may be a sharp neighbour of the
+///   present face but not of the next.
+///
+/// So the depth is at most that without a change, and between two commits it grows by no more than the point
+/// has moved. The heights above the faces must be finite, as for [`shallowest_face`].
 #[inline]
 pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> Reached {
     let mut here = Reached::at(p, polyhedron, remembered);

@@ -66,7 +66,7 @@ fn lean_of_edge(set: &TriangleSet, view: &TriangleView, k: usize) -> Option<Lean
 /// along u − s·n, with a unit vector u perpendicular to n and the slope of descent s, this means tan φ (w·u)
 /// ≤ s. If the edges go round the vertex counter-clockwise, w lies between the vectors u of two consecutive
 /// edges, and for one of them w·u is at least the cosine of half the angle between them. So tan φ is at most
-/// the largest s over the smallest such cosine.
+/// the largest s (`slope`) over the smallest such cosine (the root of `square`).
 fn lean_of_vertex(set: &TriangleSet, view: &TriangleView, corner: usize) -> Option<Lean> {
     /// Cosine of half the angle between two edges, seen along the normal, below which there is no useful
     /// bound.

@@ -89,8 +89,8 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
     }
 
     /// Clips the line to eight planes. `heights` are the heights of the origin above the planes, `climbs`
-    /// their rates along the line. Returns `false` if the line runs parallel to one of the planes and outside
-    /// it.
+    /// their rates along the line. Returns `false` if the line runs parallel to one of the planes and is not
+    /// below it; in the plane of a `closed` face the line counts as below.
     #[inline(always)]
     fn clip(&mut self, index: usize, block: &PlaneBlock, heights: S::Eight, climbs: S::Eight) -> bool {
         let simd = self.simd;

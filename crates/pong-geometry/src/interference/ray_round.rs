@@ -160,8 +160,8 @@ impl Line {
         if a > 0.0 {
             return if root > 0.0 { Some(roots(a, b, c, root)) } else { None };
         }
-        // The line is at a smaller angle to the axis than the lateral surface: on the side to which the cone
-        // opens, it stays inside once it has entered.
+        // The line is at no larger angle to the axis than the lateral surface. So on the side to which the
+        // cone opens, it stays inside once it has entered.
         if opening == 0.0 {
             return (c < 0.0).then_some(Inside { from: f64::NEG_INFINITY, to: f64::INFINITY });
         }

@@ -33,9 +33,9 @@ fn of_axis(Approach { distance, normal_b, .. }: Approach) -> Gap {
     Gap { distance, normal_b }
 }
 
-/// Returns the least distance, m, between two parallel planes that enclose a frustum. In that position the
-/// planes lie on the end faces, or one lies along the lateral surface. For directions in between, the width
-/// is a concave function of the angle and has no minimum.
+/// Returns the least distance, m, between two parallel planes that enclose a frustum. At the least distance
+/// the planes lie on the end faces, or one lies along the lateral surface: for directions in between, the
+/// distance is a concave function of the angle and has no minimum. So only these two distances are compared.
 fn width_of_frustum(frustum: &Frustum) -> f64 {
     let [along, aside] = frustum.wall;
     let normal = frustum.axis * along + crate::any_perpendicular(&frustum.axis) * aside;

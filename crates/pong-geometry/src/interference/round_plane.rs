@@ -1,5 +1,6 @@
-//! Capsule, cylinder and cone (A) – plane (B) (docs/theory.md, 2.8). Half a spring acts at each end sphere of
-//! a capsule, and at each end disc of a cylinder or a cone, there at the disc's lowest and highest points.
+//! Capsule, cylinder and cone (A) – plane (B) (docs/theory.md, 2.8). Half a spring acts at each end: at the
+//! end sphere of a capsule, or at the end disc of a cylinder or a cone, in equal parts at the disc's lowest
+//! and highest points.
 
 use super::Interference;
 use super::point_plane::point_plane;

@@ -1,13 +1,16 @@
 //! Ends of a line segment at an internal face of a piece (see
-//! [`line_segment_polyhedron`](super::line_segment_polyhedron)). The contact of such an end belongs to the
-//! piece behind the internal face, with two exceptions. If the internal face ends in a convex edge of the
-//! body, that edge pushes, once for all pieces at it. Where several internal faces meet, rounding may put a
-//! tip in none of the pieces.
+//! [`line_segment_polyhedron`](super::line_segment_polyhedron)): its tip lies there, or it leaves the piece
+//! there. The contact of such an end belongs to the next piece, on the other side of the internal face, with
+//! two exceptions:
+//!
+//! * If the internal face ends in a convex edge of the body, that edge pushes, once for all pieces at it.
+//! * Where several internal faces meet, rounding may put a tip in none of the pieces. Then a piece counts
+//!   that contains the tip within the tolerance of its internal faces.
 //!
 //! A segment may leave the body through the edge between an active face and an internal face. Rounding then
-//! decides by which of the two faces it leaves a piece, and whether the piece behind the internal face
-//! contains a part of it. So every such piece lets the segment leave by its active face, and load sharing
-//! chooses the piece whose contact counts ([`exit_at_wall`]).
+//! decides by which of the two faces it leaves a piece, and whether the next piece contains a part of it. So
+//! every such piece lets the segment leave by its active face, and load sharing chooses the piece whose
+//! contact counts ([`exit_at_wall`]).
 
 use super::Interference;
 use super::segment_ends::{InsideEnd, Wedge};
@@ -131,8 +134,8 @@ pub(super) fn leaves_at_wall(
     if polyhedron.faces[leaves_by].active {
         return polyhedron.walls_at(&place).next().is_some().then_some(*inside);
     }
-    // If `leaves_by` is the internal face, an exit through an active face must lie at the same place, within
-    // the tolerance along the segment.
+    // `leaves_by` is the internal face. The segment leaves at the edge only if it also leaves through an
+    // active face, at most the tolerance, measured along the segment, beyond `place`.
     let (length, slack) = ((to - from).norm(), polyhedron.planes().wall_slack);
     let exit = |other: usize| {
         let [before, beyond] = [from, to].map(|tip| polyhedron.height(other, tip));

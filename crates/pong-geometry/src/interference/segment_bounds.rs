@@ -1,6 +1,6 @@
 //! Part of a line segment inside a polyhedron, and lower bounds of the energies of the polyhedron's faces,
-//! eight faces at a time. That part of the segment has two ends, and the energy of a face is the sum of the
-//! squared depths of these ends below the face, m². The face of least energy pushes (docs/theory.md, 2.3).
+//! eight faces at a time. The energy of a face is the sum of the squared depths of the part's two ends below
+//! the face, m². The face of least energy pushes (docs/theory.md, 2.3).
 
 use super::segment_ends::InsideEnd;
 use crate::Vec3;
@@ -175,8 +175,9 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
     }
 
     /// Returns `true` if no point of the segment would be inside even if the internal faces were raised by
-    /// their tolerance. The result is bit-identical to that of
-    /// [`inside_of_wide_walls`](super::segment_at_walls::inside_of_wide_walls).
+    /// their tolerance. The numbers are bit-identical to those of
+    /// [`inside_of_wide_walls`](super::segment_at_walls::inside_of_wide_walls), so the two functions never
+    /// disagree.
     #[inline(always)]
     pub fn misses_wide_walls<const N: usize>(&self) -> bool {
         let (simd, zero) = (self.simd, self.simd.splat(0.0));
@@ -301,7 +302,8 @@ impl<S: Simd, const N: usize> Bounds<S, N> {
         let simd = self.simd;
         let nowhere = simd.splat(f64::NEG_INFINITY);
         self.of_block[block] = simd.select(own, bounds, simd.splat(f64::NAN));
-        // A comparison with NaN raises the invalid-operation exception, so NaN is replaced first.
+        // Lanes outside `own` may be NaN in `bounds`, and `larger` raises the invalid-operation exception for
+        // NaN. So they become −∞ first. (`at_least` in `up_to` accepts NaN.)
         self.top = simd.larger(simd.select(own, simd.sub(simd.splat(0.0), bounds), nowhere), self.top);
     }
 
@@ -395,7 +397,8 @@ impl<S: Simd> Leaving<S> {
         }
         let numerator = simd.mul(height, exit_slope);
         let square = simd.ratio(simd.mul(numerator, numerator), length_square);
-        // Applied by `larger`, because with a selection a compiler could drop the guard against 0/0.
+        // The infinity is applied by `larger`: with a selection, a compiler could drop the guard against 0/0
+        // in `ratio`.
         let least = simd.select(simd.equal(length_square, zero), simd.splat(f64::INFINITY), zero);
         let square = simd.larger(square, least);
         simd.select(simd.below(zero, height), zero, square)

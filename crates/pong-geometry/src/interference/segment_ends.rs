@@ -23,7 +23,7 @@ pub(super) struct AtEnd<'a> {
     pub tip_b: &'a Vec3,
 }
 
-/// Depth of an end of the part inside, below one face.
+/// Depth of one end of the part of the segment that is inside the solid, measured from the plane of one face.
 #[derive(Clone, Copy)]
 pub(super) enum Measured {
     /// No depth: the segment leaves through the face itself.
@@ -91,8 +91,8 @@ impl Wedge {
     /// through one plane and leaves through the other, that is the end whose tip extends farther out, or the
     /// first end if both extend equally far. Otherwise it is `end`.
     ///
-    /// While one tip is inside, the crossing belongs to the other end. So nothing changes when the first tip
-    /// comes out.
+    /// While one tip is inside, the crossing belongs to the other end, whose tip is out. When the first tip
+    /// comes out, the other one is still farther out, so the crossing does not change its end.
     pub fn farther_out(&self, segment: &LineSegment, end: usize) -> usize {
         let heights = |plane| (self.height(plane, &segment.ends[0]), self.height(plane, &segment.ends[1]));
         let ((first, second), (other_first, other_second)) = (heights(0), heights(1));

@@ -98,7 +98,7 @@ enum Rim {
 }
 
 /// Returns the convex edge or vertex of the triangle on which the centre lies, within rounding; otherwise
-/// `None`. All faces there have the centre in their planes; only the edge or the vertex pushes.
+/// `None`. The centre then lies in the planes of all faces there, but only the edge or the vertex pushes.
 fn on_convex_rim(sphere: &Sphere, edges: &TriangleEdges, height: f64) -> Option<Rim> {
     let (center, corners) = (&sphere.center, &edges.view.corners);
     let slack = foot_slack(center, edges);
@@ -177,7 +177,7 @@ fn emit_on_rim(sphere: &Sphere, mean: &Vec3, feature: Feature, emit: &mut dyn Fn
 
 /// Returns `true` if a centre behind a triangle is beyond some of its edges only by rounding, and these edges
 /// are concave or flat. Behind a vertex of a flat surface, rounding can put the centre beyond an edge of
-/// every triangle there. (A centre in front of the vertex is pushed by the vertex.)
+/// every triangle there, so that no face would push.
 fn hardly_beyond(sphere: &Sphere, edges: &TriangleEdges, beyond: [bool; 3]) -> bool {
     let slack = foot_slack(&sphere.center, edges);
     let is_silent = |k: usize| matches!(edges.class(k), EdgeClass::Silent { .. });

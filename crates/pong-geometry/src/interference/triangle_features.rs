@@ -1,8 +1,8 @@
 //! Features of a triangle surface and the normals along which they push: faces, edges, vertices
 //! (docs/theory.md, 2.2).
 //!
-//! A triangle surface is a set of one-sided facets joined at edges. Let *p* be the support point of a shape
-//! that has a centre:
+//! A triangle surface is a set of one-sided triangles joined at edges. Let *p* be the support point of a
+//! shape that has a centre:
 //!
 //! * a face pushes along its normal if *p* lies over it;
 //! * a convex edge pushes only along normals strictly between those of its two faces;
@@ -10,12 +10,12 @@
 //! * a concave or flat edge never pushes: it is called *silent*;
 //! * a free edge (one face only) pushes from the edge towards the centre, while the centre is in front.
 //!
-//! These regions of faces, edges and vertices partition the space in front of the surface. Each plane between
-//! two regions is computed once, from the same numbers for the features on both sides, so rounding opens no
-//! gap between the regions. A silent edge has no region of its own: a point that rounding puts outside both
-//! of its faces belongs to the face of lower index. Behind two faces that meet concavely there is a wedge
-//! that lies beyond their common edge as seen from either face. The wedge belongs to both faces, as does the
-//! space in front of the edge.
+//! These regions of faces, edges and vertices partition the space in front of the surface. The plane between
+//! two regions is computed from the same numbers for the features on both sides, so rounding opens no gap
+//! between the regions. A silent edge has no region of its own: a point that rounding puts outside both of
+//! its faces belongs to the face of lower index. Behind two faces that meet concavely there is a wedge that
+//! lies beyond their common edge as seen from either face. The wedge belongs to both faces, as does the space
+//! in front of the edge.
 
 use super::{Feature, FeatureKind, Interference};
 use crate::Vec3;
@@ -38,7 +38,8 @@ pub enum Standing {
     Spare,
     /// Fallback as `Spare`, for a face with the centre behind it.
     SpareBehind,
-    /// Fallback face whose foot point lies beyond a concave edge. It counts if no other contact is as deep.
+    /// Fallback for a face whose foot point lies beyond a concave edge. It counts if no other contact is as
+    /// deep.
     StandIn,
 }
 
@@ -85,8 +86,9 @@ pub enum EdgeClass {
     },
 }
 
-/// Sine of the angle between two faces above which they count as concave rather than flat. On a seam of a
-/// flat plate one face contains the foot point, and the other is a fallback.
+/// Sine of the angle between two faces above which they count as concave rather than flat. A foot point on
+/// the edge between them lies in both faces if they are concave. If they are flat, it lies in one, and the
+/// other gives a fallback.
 const CONCAVE_SINE_MIN: f64 = 1e-9;
 
 impl TriangleView {
@@ -332,8 +334,8 @@ pub fn vertex_pushes(
 ///
 /// The orientation of the polygon described at [`vertex_pushes`] decides, here for closed and open fans.
 pub fn vertex_is_seen_from_front(set: &TriangleSet, triangle: u32, corner: usize, direction: &Vec3) -> bool {
-    /// Lower limit of the cosine, because an edge perpendicular to the direction would meet that plane at
-    /// infinity.
+    /// Lower limit of the cosine, because an edge perpendicular to the direction would meet the polygon's
+    /// plane at infinity.
     const COSINE_MIN: f64 = 1e-12;
     let apex = set.corners(triangle)[corner];
     let length = direction.norm();

@@ -82,7 +82,8 @@ impl TriangleLanes {
     }
 
     /// Reads the data of the triangles: first all records, then all corners. Each read may miss the cache,
-    /// and the address of a corner depends on the record. In this order the cache misses overlap.
+    /// and the address of a corner depends on the record. So the reads of each kind follow one another, and
+    /// their cache misses overlap.
     #[inline(always)]
     pub fn fetch(&mut self, set: &TriangleSet) {
         // Unused lanes repeat a triangle that is read anyway, so that the loops have a fixed length.

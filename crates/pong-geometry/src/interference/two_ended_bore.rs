@@ -106,14 +106,16 @@ impl RodEnd<'_> {
     }
 
     /// Returns the contacts of this end, combined from those at the wall and at the mouth so that the energy
-    /// is continuous. The depth and the position are those of the point farthest beyond the wall:
+    /// is continuous. Which of them count depends on the point of this end that is farthest beyond the wall.
+    /// Its depth is its distance beyond the wall:
     ///
-    /// * past the mouth of the other end: no contact;
-    /// * in the hole: the contacts at the wall. But if the rod leans outward, the point is nearer to the
-    ///   mouth than its depth, and the mouth has a contact, then the less deep of wall and mouth counts;
-    /// * past the mouth of this end: the contacts at the mouth. But if the rod does not lean outward, the
-    ///   point is no farther from the mouth than its depth, and the mouth has a contact, then the deeper of
-    ///   wall and mouth counts.
+    /// * If it is past the mouth of the other end, there is no contact.
+    /// * If it is in the hole, the contacts at the wall count. Exception: if the rod leans outward, the point
+    ///   is nearer to the mouth than its depth, and the mouth has a contact, the less deep of wall and mouth
+    ///   counts.
+    /// * If it is past the mouth of this end, the contacts at the mouth count. Exception: if the rod does not
+    ///   lean outward, the point is no farther from the mouth than its depth, and the mouth has a contact,
+    ///   the deeper of wall and mouth counts.
     fn with_corner(&self, wall: &AtWall) -> BallContacts {
         let [own, other] = wall.inside;
         if self.bore.is_past(1 - self.mouth, other) {
@@ -147,7 +149,8 @@ impl RodEnd<'_> {
         let sides = self.sides(&across, &circle, reach);
         let pushed =
             |side: Vec3| self.wall.pushed(&side, &circle.farthest(&self.wall.outward(&side)), rod.skin);
-        // If the deepest point is too deep to be pushed, the opposite side has no contact either.
+        // If the point on the deepest side is too far behind the wall to be pushed, the other side has no
+        // contact either.
         let deepest_contact = sides[0].and_then(pushed);
         let contacts = [deepest_contact, sides[1].filter(|_| deepest_contact.is_some()).and_then(pushed)];
         let deepest = sides[0].unwrap_or(across.first_b);
@@ -301,8 +304,9 @@ impl RodEnd<'_> {
         self.bore.hole.axis * if mouth == 0 { -1.0 } else { 1.0 }
     }
 
-    /// Returns the contacts of a rod that may be barely in the hole: `contacts`, or that of the mouth by
-    /// which the rod leaves the hole with less energy.
+    /// Returns the contacts of least energy: `contacts`, or a single contact that pushes the whole rod out of
+    /// the hole by a convex mouth. So the energy goes to zero as a rod leaves the hole. The contacts of a
+    /// capsule stay as they are.
     fn limited(&self, contacts: BallContacts) -> BallContacts {
         if self.rod.skin > 0.0 || contacts == NOTHING {
             return contacts;

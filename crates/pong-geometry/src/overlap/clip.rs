@@ -1,21 +1,23 @@
-//! Closed surface of planar facets, and its cut by a half space.
+//! Closed surface of flat polygons (*facets*), and its cut by a half space.
 
 use super::moments::Moments;
 use crate::{Vec3, divisor};
 
-/// Closed surface of planar facets. A facet is a closed cycle of directed edges, counter-clockwise seen from
-/// outside, in any order: it may be concave, have holes or consist of several parts.
+/// Closed surface of facets: flat polygons with any number of corners. A facet is stored as directed edges in
+/// any order, which form one closed cycle or several. Seen from outside the solid, the edges run
+/// counter-clockwise around the facet and clockwise around a hole in it. So a facet may be concave, have
+/// holes or consist of several parts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
     vertices: Vec<Vec3>,
-    /// Start and end of each edge, facet after facet.
+    /// Start and end of each edge (indices into `vertices`), facet after facet.
     edges: Vec<[u32; 2]>,
-    /// End of each facet in `edges`.
+    /// For each facet, the index in `edges` after its last edge.
     ends: Vec<usize>,
 }
 
 impl Surface {
-    /// Makes an empty surface with room for a convex solid of so many facets.
+    /// Creates an empty surface with room for a convex solid of `facets` facets.
     pub fn with_capacity(facets: usize) -> Self {
         // A convex solid has at most 2·facets − 4 vertices and 3·facets − 6 edges, each in two facets.
         Self {
@@ -37,7 +39,7 @@ impl Surface {
         self.vertices.extend(vertices);
     }
 
-    /// Adds a facet by the indices of its corners, counter-clockwise seen from outside.
+    /// Adds a facet with one outline. `corners` are indices of vertices, counter-clockwise seen from outside.
     pub fn add_facet(&mut self, mut corners: impl Iterator<Item = u32>) {
         let Some(first) = corners.next() else { return };
         let mut start = first;
@@ -49,33 +51,34 @@ impl Surface {
         self.ends.push(self.edges.len());
     }
 
-    /// Vertices, m.
+    /// Returns the vertices, m.
     pub fn vertices(&self) -> &[Vec3] {
         &self.vertices
     }
 
-    /// Becomes a copy of another surface.
+    /// Replaces this surface by a copy of another, in the memory that it has.
     pub(super) fn copy_from(&mut self, other: &Self) {
         self.vertices.clone_from(&other.vertices);
         self.edges.clone_from(&other.edges);
         self.ends.clone_from(&other.ends);
     }
 
-    /// Facets.
+    /// Returns the edges of each facet.
     fn facets(&self) -> impl Iterator<Item = &[[u32; 2]]> {
         let firsts = std::iter::once(0).chain(self.ends.iter().copied());
         firsts.zip(&self.ends).map(|(first, &end)| &self.edges[first..end])
     }
 
-    /// Moments of the enclosed volume about a vertex: the sum over signed tetrahedra between the vertex and
-    /// triangles of the facets.
+    /// Returns the moments of the enclosed volume about the point `reference` (m). Each facet is divided into
+    /// triangles with its first vertex as a common corner. Each triangle forms a tetrahedron with
+    /// `reference`, and the moments are the sum over these tetrahedra, with signs.
     pub(super) fn moments(&self, reference: &Vec3) -> Moments {
         let mut moments = Moments::default();
         let from = |index: u32| self.vertices[index as usize] - reference;
         for facet in self.facets() {
             let [first, _] = facet[0];
             let apex = from(first);
-            // A facet that begins at the reference point adds nothing.
+            // The tetrahedra of a facet that begins at the reference point have no volume.
             if apex == Vec3::zeros() {
                 continue;
             }
@@ -86,7 +89,8 @@ impl Surface {
         moments
     }
 
-    /// Adds the edges of a facet; two edges there and back enclose no area and are left out.
+    /// Ends the facet of the edges from `first` on. A facet of at most two edges has no area, so it is
+    /// dropped.
     fn end_facet(&mut self, first: usize) {
         if self.edges.len() - first > 2 {
             self.ends.push(self.edges.len());
@@ -96,22 +100,23 @@ impl Surface {
     }
 }
 
-/// Workspace that cuts surfaces.
+/// Workspace for cutting surfaces. Its memory is used again for every cut.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cutter {
-    /// Depth of each vertex.
+    /// Depth of each vertex of the surface; negative outside the half space.
     depths: Vec<f64>,
-    /// Index of each vertex that is kept, in the result.
+    /// For each vertex that is kept, its index in `result`.
     kept: Vec<u32>,
-    /// Edges that the plane crosses, from their inner to their outer end, with the vertex at the crossing.
+    /// Edges that the plane crosses, from the end inside to the end outside, each with the index in `result`
+    /// of the vertex at the crossing.
     crossings: Vec<([u32; 2], u32)>,
-    /// Edges of the facet in the plane of the cut.
+    /// Edges of the facet that closes the cut (the *cap*).
     cap: Vec<[u32; 2]>,
     result: Surface,
 }
 
 impl Cutter {
-    /// Makes a workspace for convex solids of so many facets.
+    /// Creates a workspace for convex solids of up to `facets` facets.
     pub fn with_capacity(facets: usize) -> Self {
         Self {
             depths: Vec::with_capacity(2 * facets),
@@ -122,13 +127,16 @@ impl Cutter {
         }
     }
 
-    /// Keeps the part of a surface where an affine function is not negative. Returns false if it has no volume.
+    /// Cuts a surface by the half space in which the affine function `depth` is not negative, and keeps the
+    /// part inside. Returns `false`, and leaves `surface` as it is, if no vertex has a positive depth: the
+    /// part inside then has no volume. Exception: if all depths are zero, as between two faces in one plane,
+    /// the whole surface is kept.
     pub fn cut(&mut self, surface: &mut Surface, depth: impl Fn(&Vec3) -> f64) -> bool {
         self.depths.clear();
         self.depths.extend(surface.vertices.iter().map(depth));
         let least = self.depths.iter().copied().fold(f64::INFINITY, f64::min);
         let greatest = self.depths.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        // An empty surface has no greatest depth.
+        // For an empty surface `least` is +∞, so it is tested by `is_empty`.
         if greatest <= 0.0 && (least < 0.0 || surface.vertices.is_empty()) {
             return false;
         }
@@ -156,11 +164,13 @@ impl Cutter {
         }
     }
 
-    /// Adds the inner part of a facet. An edge along the cut goes from where the outline leaves the half space
-    /// to where it enters again; reversed, it belongs to the cap.
+    /// Adds the part of a facet inside the half space to the result. An edge along the cut runs from a place
+    /// where the outline leaves the half space to a place where it enters again; reversed, it belongs to the
+    /// cap.
     ///
-    /// An outline that is cut more than twice is closed by way of its first crossing. The signed edges along
-    /// the line of the cut then cover each part inside once and all others zero times.
+    /// The outline may cross the plane more than twice, and its edges may come in any order. So each exit is
+    /// joined to the first crossing (`pivot`), and the first crossing to each entry. Along the line of the
+    /// cut, these directed edges add up to one edge where the facet is inside, and cancel elsewhere.
     fn cut_facet(&mut self, vertices: &[Vec3], facet: &[[u32; 2]]) {
         let first = self.result.edges.len();
         let mut pivot = None;
@@ -183,7 +193,8 @@ impl Cutter {
         self.result.end_facet(first);
     }
 
-    /// Vertex where an edge crosses the plane; both facets of the edge get the same one.
+    /// Returns the index in `result` of the vertex where an edge crosses the plane. Both facets at the edge
+    /// get the same vertex, so the surface stays closed.
     fn crossing(&mut self, vertices: &[Vec3], inner: u32, outer: u32) -> u32 {
         let depth = self.depths[inner as usize];
         if depth == 0.0 {

@@ -1,9 +1,10 @@
 //! Volume that two solids share, divided by the nearest face of one of them (docs/theory.md, 2.11).
 //!
-//! Body B is convex: the intersection of half spaces. Its *field* at a point inside is the depth below the
-//! nearest of its faces. Solid A is any closed surface of planar facets, in B's frame. [`Overlap::cells`] cuts
-//! A by the planes of B and returns the moments of every *cell*: the part of the shared volume nearest to one
-//! face. From them follow the stored energy, its exact gradient, damping and friction.
+//! B is a convex solid: the intersection of half spaces. Its *field* at a point inside is the depth below the
+//! nearest of its faces. A is any solid, given by a closed surface of flat polygons in B's frame.
+//! [`Overlap::cells`] cuts A by the planes of B and returns the moments of every *cell*: the part of the
+//! shared volume nearest to one face. The stored energy, its exact gradient, damping and friction follow from
+//! these moments.
 
 mod clip;
 mod moments;
@@ -24,19 +25,19 @@ pub struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// Depth of a point below the plane (negative outside), m.
+    /// Returns the depth of a point below the plane, m; negative outside.
     #[inline]
     pub fn depth(&self, x: &Vec3) -> f64 {
         self.offset - self.normal_b.dot(x)
     }
 }
 
-/// Convex body with a field.
+/// Convex solid B, given by its planes.
 #[derive(Clone, Copy, Debug)]
 pub struct Field<'a> {
-    /// Planes of the faces that push. Coplanar faces of a body that was cut into pieces stand here once.
+    /// Planes of the faces that push. A plane is listed once even if it contains faces of several pieces.
     pub faces: &'a [HalfSpace],
-    /// Planes that bound the body but do not push: internal faces towards other pieces of one body.
+    /// Planes that bound B but do not push: internal faces towards other pieces of the same body.
     pub walls: &'a [HalfSpace],
 }
 
@@ -64,7 +65,7 @@ pub struct Overlap {
 }
 
 impl Overlap {
-    /// Makes a workspace for solids of `facets` planar facets in all, of A and B together.
+    /// Creates a workspace for solids A and B that have `facets` faces in total.
     pub fn with_capacity(facets: usize) -> Self {
         Self {
             shared: Surface::with_capacity(facets),
@@ -77,13 +78,14 @@ impl Overlap {
         }
     }
 
-    /// Point about which the moments of the last result are taken, m: a vertex of the shared volume.
+    /// Returns the point about which the moments of the last result are taken, m: a vertex of the shared
+    /// volume.
     pub fn reference_b(&self) -> Vec3 {
         self.reference_b
     }
 
-    /// Cells of the volume that a closed surface and a convex body share, by increasing face index; empty if
-    /// they share none. Both are in one frame.
+    /// Returns the cells of the volume that a closed surface and a convex solid share, by increasing face
+    /// index; empty if they share none. `a` and `b` are in one frame.
     pub fn cells(&mut self, a: &Surface, b: &Field<'_>) -> &[Cell] {
         self.cells.clear();
         self.shared.copy_from(a);
@@ -101,8 +103,9 @@ impl Overlap {
         &self.cells
     }
 
-    /// Lists the faces that may be the nearest of some point of the shared volume. The depth of the nearest
-    /// face is nowhere more than the greatest depth below any one face.
+    /// Lists the faces that may be the nearest of some point of the shared volume. Each face has a greatest
+    /// depth in this volume; the least of these is `bound`. So nowhere is the nearest face deeper than
+    /// `bound`, and a face that is deeper everywhere is left out.
     fn find_nearest(&mut self, faces: &[HalfSpace]) {
         let greatest =
             |face: &HalfSpace| self.shared.vertices().iter().map(|x| face.depth(x)).fold(0.0, f64::max);
@@ -115,10 +118,12 @@ impl Overlap {
         }
     }
 
-    /// Cuts the cell of a face out of the shared volume by the planes in which another face is as near.
+    /// Appends the cell of a face, if it has a volume. The cell is cut out of the shared volume by the planes
+    /// at which another face is equally near.
     fn push_cell(&mut self, faces: &[HalfSpace], face: usize) {
         self.cell.copy_from(&self.shared);
-        // Faces of similar normals first: they cut most, and most of the others then pass the cell by.
+        // Faces of similar normals come first, because they cut away most of the volume. Most of the later
+        // planes then miss the cell, so their cuts are quick.
         let Self { nearest, cutting, .. } = self;
         cutting.clear();
         cutting.extend(nearest.iter().filter(|other| **other != face));
@@ -128,7 +133,7 @@ impl Overlap {
             let normal_b = faces[other].normal_b - faces[face].normal_b;
             let offset = faces[other].offset - faces[face].offset;
             let farther = HalfSpace { normal_b, offset };
-            // Of two faces in one plane the one of lower index has the cell.
+            // Of two faces in one plane, the face of lower index has the cell.
             if normal_b == Vec3::zeros() && offset == 0.0 && other < face {
                 return;
             }
@@ -143,9 +148,10 @@ impl Overlap {
     }
 }
 
-/// Energy and wrench of cells for a foundation modulus of 1 N/m³: `∫ depth dV` in m⁴, and its gradient.
+/// Returns energy and wrench of cells for a foundation modulus of 1 N/m³: the energy is `∫ depth dV`, m⁴, and
+/// the wrench is its gradient.
 ///
-/// The wrench acts on A, about the origin of the frame (N and N·m per N/m³). B gets the opposite one.
+/// The wrench acts on A, about the origin of the frame (N and N·m per N/m³). The opposite wrench acts on B.
 pub fn energy_and_wrench(cells: &[Cell], reference_b: &Vec3, faces: &[HalfSpace]) -> (f64, Wrench) {
     let mut energy = 0.0;
     let mut wrench = Wrench::zero();

@@ -14,8 +14,9 @@ pub struct Moments {
 }
 
 impl Moments {
-    /// Adds a tetrahedron between the reference point and a triangle, by the positions of its corners from the
-    /// point, m; counter-clockwise seen from outside it counts positive.
+    /// Adds the tetrahedron of the reference point and a triangle. The corners of the triangle are positions
+    /// from the reference point, m. The tetrahedron counts positive if they run counter-clockwise, seen from
+    /// the side away from the reference point; otherwise negative.
     #[inline]
     pub(super) fn add(&mut self, [a, b, c]: [Vec3; 3]) {
         let volume = a.dot(&b.cross(&c)) / 6.0;
@@ -26,7 +27,7 @@ impl Moments {
         self.second += squares * (volume / 20.0);
     }
 
-    /// Centroid from the reference point, m.
+    /// Returns the centroid, as a position from the reference point, m.
     pub fn centroid(&self) -> Vec3 {
         self.first_b / self.volume
     }

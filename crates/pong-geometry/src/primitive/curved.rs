@@ -78,15 +78,19 @@ impl Ellipsoid {
         self.center + self.axes * scaled.component_mul(&self.semi_axes) / half_width
     }
 
-    /// Returns the distance from the centre within which a triangle may push the ellipsoid without
-    /// overlapping it, m.
+    /// Returns the radius, m, of a sphere around the centre. The convex hull of this sphere and the ellipsoid
+    /// contains every foot point of a face that may push the ellipsoid.
     ///
     /// A face pushes if it contains the foot point: the projection of the ellipsoid's deepest point onto the
-    /// plane of the face. For a slender, oblique ellipsoid most of that projection line is outside the
-    /// ellipsoid. If the centre lies in the plane, the foot point is at most the difference of the largest
-    /// and the smallest semi-axis away from the centre. If the centre lies behind the plane, its depth, at
-    /// most the thickness, adds at a right angle. The default thickness is the smallest semi-axis; the
-    /// bounding volume of the triangle covers a larger thickness.
+    /// plane of the face. The foot point of a slender, oblique ellipsoid may lie outside the ellipsoid, so
+    /// that a triangle pushes without touching it.
+    ///
+    /// * Centre in the plane: the foot point is at most the difference of the largest and the smallest
+    ///   semi-axis away from the centre.
+    /// * Centre behind the plane: its depth, at most the thickness, adds at a right angle. The default
+    ///   thickness is the smallest semi-axis; the bounding volume of the triangle covers a larger thickness.
+    /// * Centre in front of the plane: the foot point lies between the deepest point and the foot point of
+    ///   the first case.
     pub fn reach_of_feet(&self) -> f64 {
         let (smallest, largest) = (self.semi_axes.min(), self.semi_axes.max());
         ((largest - smallest) * (largest - smallest) + smallest * smallest).sqrt()

@@ -18,8 +18,8 @@ pub struct FacePlanes {
     pub wall_slack: f64,
 }
 
-/// Eight planes. Unused lanes repeat the last face. They change no result, because of lanes with equal values
-/// the lowest counts.
+/// Eight planes. Unused lanes repeat the last face. They change no result, because the lowest of several
+/// lanes with equal values counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct PlaneBlock {

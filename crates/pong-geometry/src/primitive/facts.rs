@@ -58,13 +58,12 @@ pub trait Primitive: Bounded {
     fn drawing(&self) -> Option<Drawing>;
 }
 
-/// Distance of another body from a round solid, with its direction.
+/// Distance of a segment from a round solid, with its direction.
 #[derive(Clone, Copy, Debug)]
 pub struct Gap {
     /// Distance, m; in overlap, minus the length of the minimum translation.
     pub distance: f64,
-    /// Unit vector from the round solid to the other body; in overlap, the direction of the minimum
-    /// translation.
+    /// Unit vector from the round solid to the segment; in overlap, the direction of the minimum translation.
     pub normal_b: Vec3,
 }
 

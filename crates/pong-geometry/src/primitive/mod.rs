@@ -89,7 +89,7 @@ macro_rules! define_kinds {
         #[repr(u8)]
         pub enum PrimitiveKind {
             $($(#[$doc])+ $kind = $number,)*
-            /// One-sided or two-sided facet.
+            /// One-sided or two-sided triangle.
             Triangle = 5,
             /// Kind defined by the user (see [`CustomPrimitive`]).
             Custom = 8,

@@ -46,8 +46,8 @@ pub struct Bore {
 
 impl Bore {
     /// Returns `true` if a point is past an end of the bore. `inside` is its signed distance from the end
-    /// (any unit), positive inside. A point exactly on the seam of two bores in line must belong to one of
-    /// them only: it is past end 1 of a bore, but not past end 0.
+    /// (any unit), positive inside. A point exactly at an end is past it only at end 1, and only if the hole
+    /// continues there as another bore. So a point on the seam of two bores in line belongs to one of them.
     #[inline]
     pub(crate) fn is_past(&self, end: usize, inside: f64) -> bool {
         inside < 0.0 || (inside == 0.0 && end == 1 && !self.mouths[end])

@@ -113,7 +113,7 @@ impl Ray {
 
     /// Returns the lowest and the highest corner of the box, along the axes of the frame, around everything
     /// that the ray can hit, m. A ray also hits surfaces up to `reach` behind its origin. If `reach` is
-    /// `None`, the default is not included here, but in the box of the triangle.
+    /// `None`, the bounding volume of the surface includes the default instead.
     #[inline]
     pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
         let start = self.origin - self.direction * self.reach.unwrap_or(0.0);
@@ -152,7 +152,7 @@ bounded_by_points! {
     Point: |point: &Point| [point.position];
     LineSegment: |segment: &LineSegment| segment.ends;
     // A ray also hits surfaces up to `reach` behind its origin. If `reach` is `None`, the bounding volume of
-    // the triangle is dilated by the default instead.
+    // the surface includes the default instead.
     Ray: |ray: &Ray| [ray.origin - ray.direction * ray.reach.unwrap_or(0.0), ray.tip()];
 }
 

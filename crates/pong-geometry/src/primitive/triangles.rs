@@ -19,7 +19,7 @@ pub struct TriangleSet {
     pub triangles: Vec<TriangleRecord>,
 }
 
-/// Facet; its front is the side from which its vertices run counter-clockwise.
+/// Triangle; its front is the side seen from which its vertices run counter-clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TriangleRecord {
     /// Indices into [`TriangleSet::vertices`].

@@ -23,8 +23,8 @@ pub trait Simd: BoxSimd {
     /// Returns `a / b`, and an arbitrary number where `b` is zero, so that an unused quotient raises no
     /// floating-point exception.
     ///
-    /// Where `b` is zero, it divides by 2 and not by 1: since a/1 = a, a compiler for AVX-512 would divide by
-    /// `b` before it selects.
+    /// Where `b` is zero, the divisor is 2. With a divisor of 1, a compiler for AVX-512 would divide by `b`
+    /// before it selects, because a/1 = a.
     #[inline(always)]
     fn ratio(self, a: Self::Eight, b: Self::Eight) -> Self::Eight {
         self.div(a, self.select(self.equal(b, self.splat(0.0)), self.splat(2.0), b))

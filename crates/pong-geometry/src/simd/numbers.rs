@@ -43,10 +43,10 @@ impl<S: Simd> Numbers<S> {
         Self::splat(self.simd, value)
     }
 
-    /// Returns `self / divisor` for non-negative divisors. A zero divisor is replaced by the smallest normal
-    /// number.
+    /// Returns `self / divisor` for non-negative divisors. A divisor below the smallest normal number is
+    /// replaced by that number.
     ///
-    /// This applies in lanes whose quotient is not used too, because a division by zero would raise a
+    /// Lanes whose quotient is not used are treated in the same way, because a division by zero would raise a
     /// floating-point exception there as well.
     #[inline(always)]
     pub fn over(self, divisor: Self) -> Self {
@@ -141,7 +141,7 @@ impl<S: Simd> Neg for Numbers<S> {
     }
 }
 
-/// Length below which a vector has no direction, because the squares of its coordinates lose precision.
+/// Length up to which a vector has no direction, because the squares of its coordinates lose precision.
 const SHORTEST: f64 = 1e-150;
 
 /// Eight vectors in registers.

@@ -18,7 +18,7 @@ impl<T> Boxed<T> {
         self.low.iter().chain(self.high.iter()).all(|x| x.is_finite())
     }
 
-    /// Twice the centre; 0 if the box is infinite on either side.
+    /// Twice the coordinate of the centre along an axis, m; 0 if the box is infinite on either side.
     fn center(&self, axis: usize) -> f64 {
         let (low, high) = (self.low[axis], self.high[axis]);
         if low.is_finite() && high.is_finite() { low + high } else { 0.0 }
@@ -94,8 +94,9 @@ fn root_up(bottoms: usize, levels: u32) -> usize {
     (1..).find(|width: &usize| width.pow(levels) >= bottoms).expect("numbers do not end")
 }
 
-/// Splits elements into `parts` parts of at most `most` bottom nodes each, and nearly equally many, by
-/// repeated halving across the longest side. Calls `take` with each part and the index of its first element.
+/// Splits elements into `parts` parts with nearly equal numbers of bottom nodes, at most `most` each. The
+/// elements are halved repeatedly, across the axis along which their centres extend farthest. Calls `take`
+/// with each part and the index of its first element.
 fn deal<T: Copy + Ord>(
     elements: &mut [Boxed<T>],
     (parts, most): (usize, usize),
@@ -104,8 +105,8 @@ fn deal<T: Copy + Ord>(
     deal_from(elements, (parts, most), 0, take);
 }
 
-/// Parts of at least this many bottom nodes begin at multiples of eight bottom nodes, so that eight chunks
-/// taken together belong to the same part.
+/// Number of bottom nodes per part from which parts begin at multiples of eight bottom nodes, if the limit
+/// `most` allows it. Eight chunks that are tested together then belong to the same part.
 const WHOLE_GROUPS_FROM: usize = 2 * WIDTH;
 
 fn deal_from<T: Copy + Ord>(

@@ -113,7 +113,8 @@ impl NarrowBall {
     /// Sphere about a centre given relative to the tree's origin, enlarged for rounding.
     #[inline]
     fn outward(center: &Vec3, radius: f64) -> Self {
-        /// Size of the coordinates above which a sphere counts as near everything: their squares overflow.
+        /// Size of the coordinates above which a sphere counts as near everything, because their squares
+        /// could overflow.
         const FAR: f64 = 1e18;
         /// Relative margin above the rounding of a coordinate, of a distance and of its square.
         const ROOM: f64 = 8.0 * f32::EPSILON as f64;
@@ -136,7 +137,7 @@ impl NarrowBall {
 #[allow(clippy::manual_clamp, reason = "NaN becomes the least finite number")]
 pub fn round_down(x: f64) -> f32 {
     const MOST: f64 = f32::MAX as f64;
-    // Infinity minus infinity would be NaN.
+    // Without this limit, +∞ would become ∞ − ∞, which is NaN.
     let x = if x > MOST { MOST } else { x };
     // Less than `x` by more than one single-precision unit in the last place; the constant term covers an
     // underflow of the product.
@@ -144,7 +145,8 @@ pub fn round_down(x: f64) -> f32 {
     below.max(-MOST).min(MOST) as f32
 }
 
-/// Finite single-precision number that is not less than `x`; NaN becomes the greatest number.
+/// Finite single-precision number that is not less than `x`. A number above the range, or NaN, becomes the
+/// greatest finite number.
 #[inline]
 pub fn round_up(x: f64) -> f32 {
     -round_down(-x)

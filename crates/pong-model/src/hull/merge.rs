@@ -1,4 +1,4 @@
-//! Merging of coplanar neighbouring faces: hulls from OBJ and STL files are triangulated.
+//! Merging of coplanar neighbouring faces, because hulls from OBJ and STL files are triangulated.
 //!
 //! Regions grow from the largest faces, whose normals are the most reliable. A face joins if every vertex of
 //! the region stays within the tolerance of the common plane. Area vectors are summed, so the arbitrary
@@ -286,8 +286,8 @@ impl Slab {
 }
 
 /// Drops the vertices at which only two faces meet, if that moves the edge between them by no more than the
-/// tolerance: rounding gives the short segments of a subdivided straight edge arbitrary directions, and lines
-/// along them would cut into the faces.
+/// tolerance. Rounding gives the short segments of a subdivided straight edge arbitrary directions, so that
+/// planes along them would cut into the faces.
 pub(super) fn straighten(vertices: &[Vec3], merged: &mut [Merged], tolerance: f64) {
     let mut faces: Vec<&mut HullFace> = merged.iter_mut().map(|merged| &mut merged.face).collect();
     let mut users = vec![0_u32; vertices.len()];
@@ -334,8 +334,8 @@ fn drop_between(vertices: &[Vec3], chain: &[u32], tolerance: f64, dropped: &mut 
 }
 
 /// Replaces the plane of a face if a vertex of the solid lies in front of it, or if it does not hold the
-/// face's own vertices: by the plane that comes nearest to supporting the solid and holding these vertices.
-/// (Rounding dominates the normal of a narrow face.) Returns `true` if the new plane does both.
+/// face's own vertices. The new plane is the one that comes nearest to supporting the solid and holding these
+/// vertices. (Rounding dominates the normal of a narrow face.) Returns `true` if the new plane does both.
 pub(super) fn support(vertices: &[Vec3], merged: &mut Merged, tree: &Places, tolerance: f64) -> bool {
     let face = &mut merged.face;
     let held: Vec<Vec3> = merged.held.iter().map(|&v| vertices[v as usize]).collect();

@@ -76,8 +76,8 @@ pub(super) fn dent(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Option<(f
 
 /// Sides of the convex hull of an outline that runs counter-clockwise about the normal: for each edge of the
 /// outline, the two corners of its side. `None` unless all corners lie within the tolerance of their side.
-/// (Rounding may give the short edges of a straight side any direction, but moves no corner farther than
-/// that.)
+/// (Rounding may give the short edges of a straight side any direction, but moves no corner by more than the
+/// tolerance.)
 pub(super) fn hull_sides(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Option<Vec<[usize; 2]>> {
     let first = corners[0];
     let across = unit(&(if normal.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() }).cross(normal));
