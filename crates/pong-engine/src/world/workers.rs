@@ -30,8 +30,9 @@ impl World {
     }
 
     /// Ends the workers, as dropping the world does, and returns the number that did not end in time: within
-    /// a second, or within the worker timeout if one is stuck in a block. Those end by themselves later and
-    /// keep the data that they read until then. From then on the caller computes frames alone.
+    /// a second, or within the worker timeout if a worker is stuck in a block. Workers that are late end by
+    /// themselves later, and keep the data that they read until then. From then on the caller computes frames
+    /// alone.
     pub fn end_workers(&mut self) -> usize {
         self.runtime.end()
     }

@@ -25,9 +25,9 @@ pub(crate) struct FrameContact {
     /// Energy stored in the normal spring and the bristle, J.
     pub stored: f64,
     pub sticks: bool,
-    /// Work on the bodies since the last commit, J; 0 unless energy accounts are kept.
+    /// Work done on the two bodies since the contact began, J; 0 unless the ledger is kept.
     pub work: f64,
-    /// Energy dissipated since the last commit, J; 0 unless energy accounts are kept.
+    /// Energy dissipated since the contact began, J; 0 unless the ledger is kept.
     pub dissipated: f64,
 }
 
