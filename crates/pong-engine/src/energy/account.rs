@@ -73,11 +73,11 @@ impl std::fmt::Display for WrenchCoupling {
 /// Outcome of an energy account.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// The contacts returned less energy than they received.
+    /// The contacts returned less energy than they received and the host inserted.
     Dissipated,
     /// The difference is below the accuracy of the accounts; see [`EnergyAccount::resolution`].
     Unresolved,
-    /// The contacts returned more energy than they received.
+    /// The contacts returned more energy than they received and the host inserted.
     Gained,
 }
 
@@ -167,7 +167,7 @@ impl EnergyAccount {
         self.work_out - self.work_in - self.inserted
     }
 
-    /// Compares the energy returned with the energy received.
+    /// Compares the energy returned with the energy received and inserted.
     pub fn verdict(&self) -> Verdict {
         let doubt = self.resolution + ROUNDING * (self.work_in + self.work_out + self.inserted.abs());
         match self.excess() {

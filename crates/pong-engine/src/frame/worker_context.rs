@@ -16,7 +16,8 @@ use std::fmt::Debug;
 pub(crate) struct WorkerContext {
     /// Broad-phase memory; reset for each block.
     pub arena: Arena,
-    /// Solver memory for one load-sharing problem.
+    /// Scratch memory: for one load-sharing problem, and on the calling thread also for ray hits, ledger and
+    /// ended contacts.
     pub scratch: Arena,
     pub(crate) group_search: GroupSearch,
     /// Searches for single elements of A. Boxed, because a context is built on the stack and this array is

@@ -69,7 +69,8 @@ impl World {
     /// Surface of a model with its current values.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if it has no such surface.
+    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if it has no
+    /// such surface.
     pub fn surface(&self, model: ModelId, name: &str) -> Result<&Surface, EngineError> {
         self.surfaces.named(self.scene.model_index(model)?, name)
     }

@@ -32,8 +32,8 @@ struct ElementQuery {
     tested: u32,
     /// Number of valid entries in `found`.
     count: u32,
-    /// Candidates found last, in test order; entries from `count` on are unused. A node's eight entries are
-    /// always written, so the array has eight more than [`FOUND_MAX`].
+    /// Candidates found last, in test order. Entries from `count` on are unused, because all eight entries of
+    /// a node are written, whatever their number of hits.
     found: [u32; FOUND_MAX + LANES],
 }
 

@@ -56,7 +56,7 @@ impl FrameContact {
     }
 
     /// Number that is at least as large as the magnitude of the force, N, and as that of the stored energy,
-    /// J. All its terms count as positive, so that infinite parts cannot cancel.
+    /// J. It is a sum of magnitudes, so that large parts cannot cancel.
     #[inline]
     pub fn size(&self) -> f64 {
         self.normal_force + self.friction_force_b.abs().sum() + self.stored.abs()

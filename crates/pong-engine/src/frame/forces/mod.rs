@@ -103,8 +103,8 @@ pub(crate) fn bristle_share<'f>(
         })
         .map(|other| other.weight)
         .sum();
-    // Otherwise no other contact counts and the share is exactly h; or the contact itself does not push, and
-    // its share is not used.
+    // If no other contact counts, `whole` is the weight itself and the share is exactly h. If the contact
+    // does not push, its share is not used.
     let half = contact.half_or_whole();
     if whole > contact.weight { half * contact.weight / whole } else { half }
 }

@@ -10,8 +10,8 @@ use pong_geometry::primitive::LineSegment;
 /// leaves at the same point. A piece with a shorter part is only touched.
 const SHARE_HELD: f64 = 0.5;
 
-/// Returns true for an exit at the boundary edge of an internal face if rounding has put it on the internal
-/// face instead of the active face.
+/// Returns true for an exit at the boundary edge of an internal face, if rounding lets the segment leave
+/// through the internal face instead of the active face.
 pub(super) fn is_exit_that_stands_in(contact: &ContactCandidate) -> bool {
     contact.half && contact.status == CandidateStatus::StandIn
 }

@@ -10,7 +10,8 @@ use pong_geometry::primitive::Polyhedron;
 /// Relative difference up to which two depths count as equal, so that rounding does not select the feature.
 const DEPTH_SLACK: f64 = 1e-12;
 /// Height above a plane up to which a point counts as in the plane, relative to its distance from the point
-/// that defines the plane. Folds that single precision can represent are steeper.
+/// that defines the plane. A fold that single precision can represent is steeper, so it does not count as
+/// flat.
 const PLANE_SLACK: f64 = 1e-9;
 /// Rounding error of a position, relative to the coordinates: some tens of units in the last place.
 const ROUNDING: f64 = 1e-14;

@@ -122,8 +122,8 @@ impl<S: Simd> Bristles<S> {
 
 /// Shortens a vector, whose length is `length`, to at most `limit`.
 ///
-/// If nothing is cut, the factor is exactly 1. Branchless: a compiler may hoist a division out of a branch,
-/// and 0/0 is an invalid operation.
+/// If nothing is cut, the factor is exactly 1. There is no branch, because a compiler may move a division in
+/// front of it, and 0/0 is an invalid operation.
 #[inline(always)]
 pub(crate) fn shortened(vector: Vec3, length: f64, limit: f64) -> Vec3 {
     let longer = if length > limit { length } else { limit };

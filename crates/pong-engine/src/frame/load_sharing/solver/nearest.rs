@@ -47,7 +47,7 @@ impl Shortest {
         let mut best =
             Self::at(contacts, deepest, HullPoint::of_one(QPoint::new(contacts, deepest, deepest)));
         let allowed = VIOLATION_MAX * contacts[deepest].depth;
-        // Iteration limit against endless exchange of contacts that differ by rounding.
+        // Limited, because contacts that differ only by rounding could replace each other endlessly.
         for _ in 0..8 * contacts.len() {
             let Some(worst) = best.most_violated(contacts, allowed) else { break };
             match best.exchange(contacts, worst, allowed) {
@@ -184,8 +184,8 @@ impl HullPoint {
     fn nearest(points: [QPoint; 3], count: usize) -> Option<Self> {
         let first = &points[0];
         let edge = |k: usize| points[k].offset - first.offset;
-        // −q·e for the first point q and an edge e: rate at which half the squared distance to the origin
-        // decreases along e.
+        // Rate at which half the squared distance to the origin decreases along an edge e from the first
+        // point q: −q·e. Scaled with δ_d, q = a + n_d, and n_d·e is the difference of the two points' rises.
         let gained = |k: usize, edge: &Vec3| first.rise - points[k].rise - first.offset.dot(edge);
         let parts = match count {
             1 => return Some(Self::of_one(*first)),
