@@ -1,10 +1,9 @@
-//! Energy accounts: energy that bodies gave to contacts and got back from them, and the losses.
+//! Energy accounts: energy that bodies gave to contacts and got back from them, and the losses. For each
+//! contact, for each pair of movable groups and for all of them together, to rounding:
 //!
 //! ```text
 //! work_in + inserted + hold_error = work_out + stored + damping_loss + friction_loss
 //! ```
-//!
-//! holds to rounding for each contact, for each pair of movable groups and for all of them together.
 
 use crate::ids::{InterfaceId, PairId};
 use std::fmt::Write as _;

@@ -11,8 +11,8 @@ pub(crate) struct Direction {
     pub flipped: u32,
 }
 
-/// Test plan of one movable group as A against another as B. Shared by all pairs with the same two groups of
-/// models and the same filters.
+/// Test plan of one movable group as A against another as B. One plan serves all pairs of the same two groups
+/// of models with the same filters, in which A's Object was named first in all or in none.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     /// Rough cost of an element of A per kind, ns; `None` for kinds that nothing of B can touch.

@@ -63,8 +63,8 @@ impl World {
         self.runtime.evaluate(&self.scene, &self.states)
     }
 
-    /// Returns true if the last frame was computed from the current states, so that a commit would accept it
-    /// as it is.
+    /// Returns true if the last frame was computed from the current states and is not committed yet, so that
+    /// a commit accepts it as it is.
     pub fn is_evaluated(&self) -> bool {
         self.runtime.evaluated
     }

@@ -11,7 +11,8 @@ use pong_geometry::Vec3;
 ///
 /// Let E be the square of the depth at the edge, and A and B the squares of the minimum translations of the
 /// two end spheres. With stiffness k, the stored energy is ¼k(E + A·B/E), or ¼k(A + B) if no edge counts. The
-/// weights are the derivatives of the stored energy.
+/// weights follow from its derivatives: 1 − A·B/E² at the edge; those at the two ends are multiplied by B/E
+/// and A/E.
 pub(super) fn couple(ends: &mut [ContactCandidate], middle: &mut [ContactCandidate]) {
     let squares = [0, 1].map(|end| square_moved(ends, end));
     let deeper = |a: usize, b: usize| if middle[b].depth > middle[a].depth { b } else { a };

@@ -7,7 +7,8 @@ use pong_geometry::interference::segment_at_walls::{ExitAtWall, exit_at_wall, pa
 use pong_geometry::primitive::LineSegment;
 
 /// Least part of the segment inside a piece, relative to the longest part among the pieces that the segment
-/// leaves at the same point. A piece with a shorter part is only touched.
+/// leaves at the same point. The segment only touches a piece with a shorter part, so the exit from it does
+/// not count.
 const SHARE_HELD: f64 = 0.5;
 
 /// Returns true for an exit at the boundary edge of an internal face, if rounding lets the segment leave
@@ -20,10 +21,13 @@ pub(super) fn is_exit_that_stands_in(contact: &ContactCandidate) -> bool {
 /// contacts of one end of a segment with the pieces of one body.
 ///
 /// Where a segment leaves the body at the boundary edge of an internal face, rounding may make both pieces at
-/// that face report an exit, or neither. Of the exits at one point, the first counts whose piece contains a
-/// large part of the segment ([`SHARE_HELD`]); exits through active faces come before exits through internal
-/// faces. An exit through an internal face is culled if a piece contains the segment past the exit. A segment
-/// end at the same point counts as an exit.
+/// that face report an exit, or neither. These rules choose one:
+///
+/// * Only exits count whose piece contains a large part of the segment ([`SHARE_HELD`]).
+/// * The first exit through an active face counts; if there is none, the first through an internal face.
+/// * An exit through an internal face is culled if a piece contains the segment past the exit.
+///
+/// A segment end at the same point counts as an exit, unless the segment ends at this point in all pieces.
 pub(super) fn keep_one_of_exits(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     let Some(first) = group.first() else { return };
     let local = &context.body_a.segments[first.element_a as usize];

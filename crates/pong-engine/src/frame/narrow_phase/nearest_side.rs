@@ -69,7 +69,7 @@ impl Nearby<'_> {
     }
 
     /// Returns true if a point is in front of the triangle's plane, or within rounding of it. A point within
-    /// rounding of a two-sided triangle is on its front side.
+    /// rounding of a two-sided triangle is on its front side, so it is not in front of its back.
     pub fn is_in_front_of_triangle(&self, p: &Vec3) -> bool {
         let view = TriangleView::new(&self.body.triangles, self.item.element);
         let rounding = ROUNDING * ((p - view.corners[0]).amax() + p.amax());

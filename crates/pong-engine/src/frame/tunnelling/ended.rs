@@ -177,9 +177,10 @@ impl Seen<'_> {
     fn came_out_of_solid(&self, record: &ContactRecord, line: &Line) -> bool {
         let (body, shell, primitive_a) = (self.context.body_b, record.key.shell_b, record.key.primitive_a);
         if solids::holds(body, shell, &line.to_b) {
-            // The point is still inside: it has passed if a contact at the same end of the segment now pushes
-            // the opposite way, and none pushes the earlier way. Contacts elsewhere on the segment, such as
-            // with an edge that it crosses, do not show that.
+            // The point is still inside. It has passed if a contact at the same end of the segment now pushes
+            // the opposite way, and no contact of the primitive pushes the earlier way. A contact elsewhere
+            // on the segment, such as with an edge that it crosses, may push the opposite way without a
+            // passage.
             let mut pushing = self.pushing_at_end(record.key);
             return pushing.any(|normal| are_both_sides(normal, &record.normal_b))
                 && !self.pushes_to(&record.normal_b, primitive_a, shell);
