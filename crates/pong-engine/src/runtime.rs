@@ -76,7 +76,8 @@ impl Runtime {
             blocks: Vec::with_capacity(ROUND),
             clock,
         };
-        // Allocate before the workers start: the allocator reserves address space for every thread.
+        // Allocated before the workers start: the allocator reserves address space for every thread, and this
+        // space may be limited.
         let committed = memory();
         let back_buffers = if scene.config.workers.is_some() { 2 } else { 1 };
         let back_buffers = (0..back_buffers).map(|_| memory()).collect();

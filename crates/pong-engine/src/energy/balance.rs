@@ -149,7 +149,7 @@ impl<'a> Books<'a> {
 fn displacement_of_ended(earlier: &ContactRecord, motions: &Motions<'_>) -> Option<Displacement> {
     let motion = motions.of(earlier.key.direction());
     let since = motion.since_commit.as_ref()?;
-    // Any point of A can be the reference point. The contact point needs no search.
+    // Any point of A can be the reference point; the contact point is at hand.
     let local = since.x_ba.inverse().point(&earlier.point_b);
     Some(Displacement::new(since, &motion.x_ba, &local))
 }

@@ -41,7 +41,7 @@ pub(crate) struct EvaluationBuffers {
     /// Contacts that the workers found in the last round, if their buffers were swapped in. Otherwise these
     /// contacts have been copied into the caller's buffer.
     pub workers: WorkerBuffers,
-    // order, limit: references to the active contacts, in summation order
+    // order, limit: references to the contacts, in summation order
     pub order: Table<ContactRef>,
     pub tunnelling: TunnellingEvents,
     // ledger

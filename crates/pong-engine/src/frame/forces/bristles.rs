@@ -114,7 +114,7 @@ impl Kernel for ComputeFriction<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { bristles: pending, count, contacts } = self;
-        // Unused lanes hold earlier values or zeros.
+        // Unused lanes hold earlier values or zeros; their results are not used.
         let forces = Bristles {
             stiffness: Numbers::load(simd, &pending.stiffness),
             damping: Numbers::load(simd, &pending.damping),

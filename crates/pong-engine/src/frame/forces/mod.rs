@@ -46,7 +46,7 @@ pub(crate) fn compute_forces(
         let counts = || group.iter().filter(|contact| contact.status != CandidateStatus::Culled);
         for one in counts() {
             if let Some(index) = out.slot(one.role, sealed) {
-                // Most groups have one contact.
+                // Most keys have one contact, which needs no sum over the others.
                 let share = if group.len() > 1 { bristle_share(one, counts()) } else { one.half_or_whole() };
                 context.compute_force(elements_a, one, share, index, out);
             }
@@ -250,7 +250,7 @@ impl PairContext<'_> {
                 },
             );
         }
-        // Coulomb's law needs only the velocity.
+        // Coulomb's law needs only the velocity, so the slip is not computed for it.
         let asks_slip = !matches!(props.friction, FrictionProps::Coulomb { .. });
         let input = FrictionInput {
             normal_force: contact.pressed,

@@ -53,7 +53,7 @@ impl Exits<'_> {
     fn of(&self, found: &ContactCandidate) -> Option<Exit> {
         let may_leave = found.status == CandidateStatus::AtWall || is_exit_that_stands_in(found);
         let piece = &self.context.body_b.polyhedra[found.element_b as usize];
-        // The exit may be at the other end of the segment.
+        // A contact of one end may come from an exit at the other end of the segment.
         let at = |end: usize| Some(Exit { end, at_wall: exit_at_wall(&self.segment, piece, end)? });
         if may_leave { at(self.end).or_else(|| at(1 - self.end)) } else { None }
     }

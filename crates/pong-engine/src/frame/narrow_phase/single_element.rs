@@ -56,7 +56,8 @@ pub(crate) fn narrow_down<S: Simd>(
         for candidate in 0..found {
             let place = searches[number].place_of(candidate);
             let item = items[place as usize];
-            // Most triangles are of the same mesh; the comparison avoids a lookup.
+            // Most consecutive triangles are of one mesh, so `begin` and the look-up of the thickness are
+            // rarely needed.
             if item.primitive != last {
                 last = item.primitive;
                 deferred.begin(simd, &element, thickness_for(context, &element, item));

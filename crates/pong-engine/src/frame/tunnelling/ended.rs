@@ -59,7 +59,7 @@ fn look_at(
     events: &mut TunnellingEvents,
 ) {
     let records = &given.memory.records;
-    // Records and contacts are both in key order.
+    // Records and contacts are both in key order, so one pass over the contacts is enough.
     let mut present = contacts.order;
     for of_direction in ended.chunk_by(|&a, &b| direction(records, a) == direction(records, b)) {
         let direction = direction(records, of_direction[0]);
@@ -67,7 +67,8 @@ fn look_at(
         if !given.states.enabled[pair.pair] {
             continue;
         }
-        // The two groups may be far apart by now, and their pair not among the visited pairs.
+        // The two groups may be far apart by now, so that the frame has not visited their pair and stores no
+        // motion of it.
         let motion = motions.known(input, direction);
         let seen = Seen::new(given.round(input), direction, &motion, contacts);
         let of_direction = of_direction.iter().map(|&index| &records[index as usize]);

@@ -85,8 +85,8 @@ impl Shortest {
             return contact.normal_b.dot(&self.t_b) - contact.depth;
         }
         // With d the deepest contact, a the offset of the hull point and s = `scale`: t = (n_d + a)·s and δ_d
-        // = s·(1 + 2·n_d·a + |a|²). So n·t − δ = (δ_d − δ) + s·((n − n_d)·a − (1 − n·n_d) − n_d·a − |a|²),
-        // without the difference of large numbers.
+        // = s·(1 + 2·n_d·a + |a|²). So n·t − δ = (δ_d − δ) + s·((n − n_d)·a − (1 − n·n_d) − n_d·a − |a|²).
+        // These differences are exact for nearly parallel normals.
         let HullPoint { offset, rise, .. } = &self.hull_point;
         let scale = base.depth / (1.0 + self.hull_point.gain());
         let turned = (contact.normal_b - base.normal_b).dot(offset) - coupling.gap;
