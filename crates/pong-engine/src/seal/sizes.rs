@@ -44,7 +44,7 @@ pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: us
 /// Copies of a worker's contacts: in its own buffer and, swapped in, in the frame.
 const BUFFERS_OF_A_WORKER: usize = 2;
 
-/// Minimum memory of a worker, independent of the capacity, bytes.
+/// Least memory of a thread for contacts and candidates, bytes.
 pub(super) fn least_thread_bytes(limits: &Limits, law_state_len: usize) -> usize {
     BUFFERS_OF_A_WORKER * limits.least_worker_contacts() * buffer_bytes_per_contact(law_state_len)
         + WorkerContext::table_bytes(limits.found)

@@ -50,7 +50,8 @@ impl ContactMemory {
         let pushes = |record: &ContactRecord| record.role == ContactRole::Active;
         self.clear_records();
         self.records.size_hints(from.records.len());
-        // Laws of new Objects may have more state values, and those of removed Objects may have had more.
+        // Laws of new Objects may have more state values, and those of removed Objects may have had more, so
+        // only as many as both worlds store are copied.
         let mut law_state = vec![0.0; self.law_state_len];
         let shared = self.law_state_len.min(from.law_state_len);
         for RecordEntry { record, law_state: earlier, energy } in from.iter() {

@@ -179,7 +179,7 @@ impl Chunk<'_> {
         self.own_centers.is_some()
     }
 
-    /// Box around a single element, in the precision of the tree.
+    /// Box around the only element of a chunk, in the precision of the tree.
     #[inline(always)]
     pub fn single_box(&self, tree: &BoxTree) -> NarrowBox {
         if self.is_of_balls() {

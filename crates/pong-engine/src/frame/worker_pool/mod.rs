@@ -150,7 +150,8 @@ impl WorkerPool {
     }
 
     /// Runs the blocks of `input` on the caller and the first `workers` workers. Returns true if all results
-    /// are in `context` or, per worker, in `back_buffers`; on false, the caller has to repeat everything alone.
+    /// are in `context` or, per worker, in `back_buffers`. If it returns false, the caller has to run all
+    /// blocks alone.
     pub fn run_parallel(
         &mut self,
         memory: &Arc<ContactMemory>,

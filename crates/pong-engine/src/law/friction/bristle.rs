@@ -84,8 +84,8 @@ impl<S: Simd> Bristles<S> {
         let limit = Numbers::select(is_held, static_limit, kinetic_limit);
         let pushed = bristle * stiffness + slip_velocity * self.damping;
         let length = pushed.norm();
-        // A slipping contact sticks again on two conditions: its motion has reversed or its deflection is
-        // inside the circle, and the static limit would not change its force.
+        // A slipping contact sticks again if its motion has reversed or its deflection is inside the circle,
+        // and if its force is also within the kinetic limit, so that the static limit would not change it.
         let turned_back = simd.bits(trial.dot(slip_velocity).below(Numbers::splat(simd, 0.0)));
         let within = simd.bits(pull.below(kinetic_limit * Numbers::splat(simd, 1.0 - LIMIT_ROUNDING)));
         let again = (turned_back | within) & simd.bits((kinetic_limit * slack).at_least(length));
