@@ -247,7 +247,8 @@ impl WorldBuilder {
     /// Surface of a model with its current values.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if it has no such surface.
+    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if it has no
+    /// such surface.
     pub fn surface(&self, model: ModelId, name: &str) -> Result<&Surface, EngineError> {
         self.surfaces.named(self.scene.model_index(model)?, name)
     }
@@ -269,8 +270,8 @@ impl WorldBuilder {
         self.states.of(&self.scene, interface)
     }
 
-    /// Makes the seal check that this much memory (bytes) is left for each pair of movable groups: for a host
-    /// that examines every pair right after it, as `pong_advise::step_report` does.
+    /// Makes the seal check that this much memory (bytes) is left for each pair of movable groups. For a host
+    /// that examines every pair right after the seal, as `pong_advise::step_report` does.
     pub fn leave_room_per_pair(&mut self, bytes: usize) {
         self.scene.room_per_pair = bytes;
     }

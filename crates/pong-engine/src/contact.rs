@@ -65,7 +65,8 @@ pub struct ContactSide {
     pub arm: Vec3,
 }
 
-/// Energies of all contacts. Valid if the world keeps the ledger ([`Config::ledger`](crate::Config)).
+/// Energies of all contacts. Work and dissipation are zero unless the world keeps the ledger
+/// ([`Config::ledger`](crate::Config)).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ledger {
     /// Energy stored in normal springs and bristles at the last commit, J.

@@ -1,7 +1,8 @@
-//! Distance of two movable groups: the nearest two primitives that have a contact test with each other (docs/theory.md, 2.10).
+//! Distance of two movable groups: the nearest two primitives that have a contact test with each other
+//! (docs/theory.md, 2.10).
 //!
-//! Every element of A goes down the trees of boxes of B, nearer boxes first, and leaves out those that are farther away than
-//! the nearest pair so far. It allocates nothing.
+//! Every element of A descends the trees of boxes of B, nearer boxes first, and leaves out boxes that are
+//! farther away than the nearest pair so far. The search allocates nothing.
 
 use crate::scene::Scene;
 use crate::seal::{Plan, Sealed};
@@ -16,13 +17,14 @@ use pong_model::{Batch, Item, MovableGroup};
 pub(crate) struct Nearest {
     /// Distance and points in the frame of the second side.
     pub found: Distance,
-    /// Movable groups.
+    /// The two movable groups: A and B of the direction in which the pair was found.
     pub bodies: [usize; 2],
     /// Elements of the two.
     pub items: [Item; 2],
 }
 
-/// First primitive of two movable groups that has a test with the other group, but no convex solid: its group and its index.
+/// First primitive of two movable groups that has a contact test with the other group, but no convex solid:
+/// the index of its group, and its index in the group.
 pub(crate) fn without_solid(scene: &Scene, sealed: &Sealed, group_pair: usize) -> Option<(usize, usize)> {
     for (plan, direction) in sealed.plans_of(group_pair as u32) {
         let bodies: [usize; 2] = sealed.bodies_of(direction).into();
@@ -38,7 +40,8 @@ pub(crate) fn without_solid(scene: &Scene, sealed: &Sealed, group_pair: usize) -
     None
 }
 
-/// Nearest primitives of a pair of movable groups at these poses; `None` if none of one has a test with one of the other.
+/// Nearest primitives of a pair of movable groups at these poses; `None` if no primitive of one group has a
+/// contact test with one of the other.
 pub(crate) fn nearest(scene: &Scene, sealed: &Sealed, group_pair: usize, poses: &[Pose]) -> Option<Nearest> {
     let mut best = None;
     for (plan, direction) in sealed.plans_of(group_pair as u32) {
@@ -106,7 +109,7 @@ impl Search<'_> {
         self.best.map_or(f64::INFINITY, |best| best.found.distance)
     }
 
-    /// Tests an element of A against those of a batch of B that may be nearer than the nearest so far.
+    /// Tests an element of A against the elements of a batch of B that may be nearer than the nearest so far.
     fn against(&mut self, solid: &Solid<'_>, item_a: Item, batch_b: &Batch) {
         /// A tree of 2³¹ elements has eleven levels, each of which leaves at most seven nodes waiting.
         const DEPTH_MAX: usize = 80;
@@ -124,7 +127,8 @@ impl Search<'_> {
             let node = &tree.nodes[node as usize];
             let (mut children, count) = farthest_first(tree, node, &ball);
             let children = &mut children[..count];
-            // Elements are tested nearest first; of nodes the last one pushed is next.
+            // Elements are tested at once, so the nearest comes first. Of nodes the last one pushed is
+            // visited first, so the nearest comes last.
             if node.is_bottom() {
                 children.reverse();
             }
@@ -159,7 +163,8 @@ impl Search<'_> {
     }
 }
 
-/// Contents of a node's boxes with their least distances from a ball, m, the farthest first, and their number.
+/// Contents of a node's boxes, the farthest first, each with its least distance from a ball, m; and their
+/// number.
 fn farthest_first(tree: &BoxTree, node: &BoxNode, ball: &(Vec3, f64)) -> ([(f64, Child); 8], usize) {
     let mut children = [(0.0, Child::Node(0)); 8];
     let mut count = 0;
@@ -174,7 +179,8 @@ fn farthest_first(tree: &BoxTree, node: &BoxNode, ball: &(Vec3, f64)) -> ([(f64,
     (children, count)
 }
 
-/// Least distance of a ball, given by centre and radius, from what is in a box, m; negative if they may overlap.
+/// Least distance of a ball, given by centre and radius, from what is in a box, m; negative if they may
+/// overlap.
 fn least_distance(tree: &BoxTree, narrow: &NarrowBox, (center, radius): &(Vec3, f64)) -> f64 {
     let (low, high) = tree.widened(narrow);
     let beyond = |k: usize| (low[k] - center[k]).max(center[k] - high[k]).max(0.0);

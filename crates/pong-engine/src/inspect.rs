@@ -25,11 +25,11 @@ pub struct Inspection<'w> {
 pub struct PushingContact {
     /// Index of its pair in [`Inspection::pairs`].
     pub pair: usize,
-    /// 0 if A is in the pair's first movable group, 1 if in the second.
+    /// 0 if A is the first movable group of the pair, 1 if it is the second.
     pub flipped: usize,
-    /// Index of the movable group that holds A.
+    /// Index of movable group A.
     pub group_a: usize,
-    /// Index of the movable group that holds B.
+    /// Index of movable group B.
     pub group_b: usize,
     /// Primitive of A: index into its movable group's list.
     pub primitive_a: u32,
@@ -83,8 +83,8 @@ impl<'w> Inspection<'w> {
         can_be_tested(&self.scene.extensions, (self.body(a.0), a.1), (self.body(b.0), b.1))
     }
 
-    /// Indices of the filters between two movable groups that contain a primitive of the first; equal for
-    /// primitives that are kept apart from the same others.
+    /// Indices of the filters between two movable groups that contain a primitive of the first. They are
+    /// equal for primitives that are kept apart from the same primitives of the other group.
     pub fn filters_that_hold(&self, (group, info): (usize, &PrimitiveInfo), other: usize) -> Vec<usize> {
         self.filters(group, other).map_or_else(Vec::new, |filters| filters.that_hold(0, &info.path))
     }

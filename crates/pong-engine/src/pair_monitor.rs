@@ -1,4 +1,4 @@
-//! Begin and end of contact, and peaks over several frames, for hosts that ask: an object of the host's beside the world.
+//! Begin and end of contact, and peaks over several frames, for hosts that make a monitor beside the world.
 
 use crate::error::EngineError;
 use crate::ids::{InterfaceId, PairId, WorldStamp};
@@ -9,31 +9,40 @@ use pong_geometry::Wrench;
 use pong_model::LARGEST;
 use std::sync::Arc;
 
-/// Observer of committed frames: between which movable groups contact begins and ends, and what their contacts amount to over a
-/// window of several frames. A host observes after each commit; a world that is not observed pays nothing.
+/// Observer of committed frames: it records between which movable groups contact begins and ends, and their
+/// peak forces and mean wrenches over a window of several frames. A host observes after each commit; a world
+/// that is not observed pays nothing.
 ///
-/// Two movable groups touch in a frame that lists a contact of theirs. What begins or ends is told by comparison with the frame
-/// observed before, whatever became of the contact state in between: begins and ends of two groups alternate. So the first frame
-/// begins all contacts that there are; a pair that is switched off ends with the next commit; a cleared history changes nothing
-/// where the groups go on touching; after a restored contact state the next frame is compared with the last one observed, from
-/// whichever time it was. To begin anew, make another monitor.
+/// Two movable groups touch in a frame that lists a contact between them. Begins and ends are found by
+/// comparison with the frame observed before, whatever happened to the contact state in between, so begins
+/// and ends of two groups alternate:
+///
+/// * In the first frame, all contacts that there are begin.
+/// * The contacts of a pair that is switched off end with the next commit.
+/// * A cleared history changes nothing where the groups go on touching.
+/// * After a contact state was restored, the next frame is compared with the last one observed, whatever its
+///   time was.
+///
+/// For a new start, make another monitor.
 pub struct PairMonitor {
     stamp: WorldStamp,
-    /// Sealed scene of the world that it was made for.
+    /// Sealed scene of the world that the monitor was made for.
     sealed: Arc<Sealed>,
     /// Rows of all pairs of movable groups.
     rows: Vec<Row>,
     /// Number of the frame last observed; 0 before the first.
     frame: u64,
-    /// Number of this observation and of the window.
+    /// Number of the last observation, and of the current window.
     observation: u64,
     window: u64,
     /// Length of the window, s.
     window_time: f64,
-    /// Pairs of movable groups that touch, in order of their numbers, and those of the frame before.
+    /// Pairs of movable groups that touch in the frame last observed, in order of their indices; and those of
+    /// the frame before.
     touching: Vec<u32>,
     before: Vec<u32>,
-    /// Pairs that began or ended, and those with a row in the window, in the order in which a host sees them.
+    /// Pairs whose contact began or ended in the frame last observed, and pairs with a row in the current
+    /// window; both in the order in which a host sees them.
     changed: Vec<u32>,
     windowed: Vec<u32>,
 }
@@ -43,7 +52,7 @@ pub struct PairMonitor {
 struct Row {
     /// Observation in which the two last touched.
     seen: u64,
-    /// Window that the numbers below are of.
+    /// Window in which the values below were summed.
     window: u64,
     begins: u32,
     ends: u32,
@@ -58,8 +67,8 @@ struct Row {
 pub struct ContactChange {
     /// The pair of Objects.
     pub pair: PairId,
-    /// The two movable groups: first that of the Object named first in the pair. In an Object paired with itself, the one with
-    /// the lower id.
+    /// The two movable groups; in front that of the Object named first in the pair. In an Object paired with
+    /// itself, the one with the lower id is in front.
     pub interfaces: [InterfaceId; 2],
     /// True if contact begins, false if it ends.
     pub begins: bool,
@@ -76,12 +85,12 @@ pub struct PairPeaks {
     pub touches: bool,
     /// Number of begins of contact in the window.
     pub begins: u32,
-    /// Number of its ends.
+    /// Number of ends of contact in the window.
     pub ends: u32,
-    /// Largest sum of the normal forces of all their contacts in a frame of the window, N.
+    /// Largest sum of the normal forces of all contacts between the two in a frame of the window, N.
     pub peak_normal_force: f64,
-    /// Mean over the window, frames without contact included, of the wrench on the first group from the second: about the
-    /// origin of the first group, wherever it was, along the axes of the common frame, N and N·m. Times
+    /// Mean wrench on the first group from the second over the window, frames without contact included, N and
+    /// N·m: about the origin of the first group in each frame, along the axes of the common frame. Times
     /// [`PairMonitor::window`], it is the impulse.
     pub mean: Wrench,
     /// Time of the frames in which they touched, s.
@@ -89,10 +98,11 @@ pub struct PairPeaks {
 }
 
 impl PairMonitor {
-    /// A monitor of a world that has observed nothing. Takes memory for every pair of movable groups, and none later.
+    /// Makes a monitor of a world, which has observed nothing yet. Allocates memory for every pair of movable
+    /// groups, so that no later call allocates.
     ///
     /// # Errors
-    /// [`EngineError::OutOfMemory`] if the system has not that much.
+    /// [`EngineError::OutOfMemory`] if the system does not have this memory.
     pub fn new(world: &World) -> Result<Self, EngineError> {
         let sealed = world.sealed();
         let pairs = sealed.group_pairs.len();
@@ -114,12 +124,14 @@ impl PairMonitor {
         })
     }
 
-    /// Takes in the frame that was committed last, which stands for `step`, the time since the commit before, s. Once after each
-    /// commit, before the next evaluation. After a commit of some pairs, all contacts of the frame count. Allocates nothing.
+    /// Observes the frame that was committed last. `step` is the time since the commit before, s. To be
+    /// called once after each commit, before the next evaluation. After a commit of some pairs, all contacts
+    /// of the frame count. Allocates nothing.
     ///
     /// # Errors
-    /// [`EngineError::WrongPhase`] if the last frame is not committed or was observed already, [`EngineError::BadValue`] for a
-    /// step that is not above zero or beyond [`State::LARGEST`](crate::State) and for a monitor of another world. Nothing is taken in then.
+    /// [`EngineError::WrongPhase`] if the last frame is not committed or was observed already,
+    /// [`EngineError::BadValue`] for a step that is not above zero or beyond [`State::LARGEST`](crate::State)
+    /// and for a monitor of another world. Nothing is observed then.
     pub fn observe(&mut self, world: &World, step: f64) -> Result<(), EngineError> {
         let refused = |cause: String| Err(EngineError::BadValue { what: "pair monitor".to_owned(), cause });
         if !(step > 0.0 && step <= LARGEST) {
@@ -151,7 +163,7 @@ impl PairMonitor {
         Ok(())
     }
 
-    /// Takes in a pair of movable groups that touches.
+    /// Adds a pair of movable groups that touches in the observed frame.
     fn touch(&mut self, pair: u32, normal_force: f64, wrench: &Wrench, step: f64) {
         let observation = self.observation;
         let row = self.row(pair);
@@ -168,7 +180,7 @@ impl PairMonitor {
         }
     }
 
-    /// The row of a pair in the present window.
+    /// Row of a pair, reset first if it is of an earlier window.
     fn row(&mut self, pair: u32) -> &mut Row {
         let row = &mut self.rows[pair as usize];
         if row.window != self.window {
@@ -178,7 +190,8 @@ impl PairMonitor {
         row
     }
 
-    /// Begins another window: peaks, means and counts are those of the frames observed from now on. What touches is kept.
+    /// Begins another window: peaks, means and counts are those of the frames observed from now on. Contacts
+    /// that last do not begin again.
     pub fn begin_window(&mut self) {
         self.window += 1;
         self.window_time = 0.0;
@@ -198,7 +211,8 @@ impl PairMonitor {
         })
     }
 
-    /// Peaks of all movable groups that touched in the window, or whose contact ended in it, by pair of Objects and groups.
+    /// Peaks of all pairs of movable groups that touched in the window, or whose contact ended in it, by pair
+    /// of Objects and groups.
     pub fn peaks(&self) -> impl ExactSizeIterator<Item = PairPeaks> {
         self.windowed.iter().map(|&index| {
             let (pair, interfaces) = self.named(index);

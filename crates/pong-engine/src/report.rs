@@ -12,8 +12,8 @@ impl StatusBits {
     /// More contacts than the world's capacity: the deepest were kept. Raise `Config::contact_capacity`.
     pub const CONTACT_LIMIT: Self = Self(1);
 
-    /// More contacts of one element with one surface, with normals more than 90° apart, than can be shared
-    /// exactly: only the deepest were. Raise `Config::contact_capacity`.
+    /// One element has more contacts with one surface, of which some normals are more than 90° apart, than
+    /// can be shared exactly: only the deepest were. Raise `Config::contact_capacity`.
     pub const LOAD_SHARING_LIMIT: Self = Self(2);
 
     /// Something passed through something else since the last commit, or came out on the far side of a
@@ -68,7 +68,9 @@ pub struct FrameReport {
     pub status: StatusBits,
     /// Contacts that push.
     pub contacts: u32,
-    /// Contacts that push, without [`StatusBits::CONTACT_LIMIT`].
+    /// Contact capacity that the frame needed: the number of contacts that push. With
+    /// [`StatusBits::CONTACT_LIMIT`] it is larger if contacts that are only remembered, or the candidates of
+    /// a chunk, need more room.
     pub contacts_wanted: u32,
 }
 
@@ -100,8 +102,8 @@ impl Tally {
     }
 }
 
-/// Tallies of the pairs of `KINDS` kinds. Most frames use a few, so the used ones are marked; adding or
-/// clearing a table then costs only those.
+/// Tallies of the pairs of `KINDS` kinds. Most frames use a few, so the used ones are marked, and adding or
+/// clearing a table costs only those.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct TallyTable<const KINDS: usize> {
     /// Bit per row with a non-zero tally, by number of A's kind.
@@ -169,9 +171,9 @@ const VOLUME_KINDS: usize = 5;
 /// Counts of one frame; equal for any number of workers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameCounts {
-    /// Pairs of leaves whose contents were tested, counted per direction of A and B.
+    /// Pairs of leaves of A and B that may touch, counted in each direction and once per batch of A's leaf.
     pub leaf_pairs: u64,
-    /// Comparisons of a box with the eight boxes of a node below a leaf.
+    /// Comparisons of one box with eight, in the trees of boxes of the leaves.
     pub boxes_tested: u64,
     volumes: TallyTable<VOLUME_KINDS>,
     testers: TallyTable<KINDS>,
@@ -304,8 +306,8 @@ impl Stage {
     }
 }
 
-/// A part of [`Stage::Contacts`], which all threads share. The clock is read between groups of 64 elements,
-/// not between tests.
+/// A part of [`Stage::Contacts`], which all threads share. The clock is read a few times per chunk of up to
+/// eight elements of A, not at every test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
 pub enum Work {
@@ -450,11 +452,11 @@ pub struct MemoryReport {
     pub contacts_peak: usize,
     /// Capacity in contacts.
     pub contacts_capacity: usize,
-    /// Peak arena use of the testers of one block, bytes.
+    /// Peak arena use of the broad phase of one block, bytes.
     pub arena_peak: usize,
     /// Arena capacity, bytes.
     pub arena_capacity: usize,
-    /// Peak scratch use of load sharing for one surface, bytes.
+    /// Peak use of the scratch memory, bytes: for load sharing, rays, ledger or ended contacts.
     pub scratch_peak: usize,
     /// Scratch capacity, bytes.
     pub scratch_capacity: usize,

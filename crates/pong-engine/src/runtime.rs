@@ -1,5 +1,5 @@
-//! Run-time part of a sealed world: its memory, its workers and its frames. [`World`](crate::World) checks
-//! the host's input and keeps the states; everything here has already been checked.
+//! Run-time part of a sealed world: its memory, its workers and its frames. [`World`](crate::World) keeps the
+//! states, and checks what the host hands in before it calls this part.
 
 use crate::energy::account::EnergyAccount;
 use crate::energy::contact::ContactEnergies;
@@ -76,7 +76,8 @@ impl Runtime {
             blocks: Vec::with_capacity(ROUND),
             clock,
         };
-        // Allocate before the workers start: the allocator reserves address space for every thread.
+        // Allocated before the workers start: the allocator reserves address space for every thread, and this
+        // space may be limited.
         let committed = memory();
         let back_buffers = if scene.config.workers.is_some() { 2 } else { 1 };
         let back_buffers = (0..back_buffers).map(|_| memory()).collect();
@@ -151,8 +152,8 @@ impl Runtime {
         Ok(self.frame.report)
     }
 
-    /// Makes the workers release the contact state. Afterwards only a stuck worker may still hold one, even
-    /// if a host's law panicked.
+    /// Makes the workers release the contact state, even after a host's law has panicked. Afterwards only a
+    /// stuck worker may still hold one.
     #[inline]
     fn release_memory(&mut self) {
         if let Some(pool) = &mut self.pool {
@@ -190,12 +191,8 @@ impl Runtime {
         self.evaluated = false;
     }
 
-    /// Commits some pairs of Objects; the others keep their contact state. If both together exceed the
-    /// capacity, the strongest contacts are kept and the status reports the limit.
-    ///
-    /// # Errors
-    /// [`EngineError::BadValue`] if there is no room for one more commit epoch beside those of the pairs that
-    /// are kept. Nothing is committed then.
+    /// Commits some pairs of Objects; the others keep their contact state. If the contacts of both together
+    /// exceed the capacity, those with the largest forces are kept and the status reports the limit.
     pub fn commit_pairs(
         &mut self,
         states: &States,
@@ -253,7 +250,8 @@ impl Runtime {
     }
 
     /// Preloads the bristles of a pair of Objects after a commit of the last frame; returns the number of
-    /// bristles. The energy that they gain is booked as work inserted by the host.
+    /// bristles. The accounts book the energy that the bristles gain as inserted by the host, the ledger as
+    /// negative dissipation.
     pub fn preload(&mut self, scene: &Scene, pair: usize, preload: &FrictionPreload) -> usize {
         self.release_memory();
         let preloaded = self.frame.preloaded(scene, &self.sealed, &self.memory, pair, preload);
@@ -276,8 +274,8 @@ impl Runtime {
         self.changed();
     }
 
-    /// Pairs of movable groups with their energies and accounts (stored energy included), and stiffness and
-    /// damping of their stiffest contact.
+    /// Pairs of movable groups, each with its energies, its account in all and of the episode (stored energy
+    /// included), and the result of [`stiffest`](Self::stiffest).
     pub fn pair_energies(
         &self,
     ) -> impl Iterator<Item = (&GroupPair, &PairEnergy, EnergyAccount, EnergyAccount, Option<(f64, f64)>)>
@@ -294,7 +292,8 @@ impl Runtime {
         })
     }
 
-    /// Stiffness and damping of the stiffest contact of a pair, if they do not depend on the depth.
+    /// Stiffness, N/m, and damping, N·s/m, of the stiffest two surfaces of a pair that can meet and whose
+    /// normal force is linear in the depth; `None` if there are none.
     pub fn stiffest(&self, pair: &GroupPair) -> Option<(f64, f64)> {
         let tables = pair.tables.iter().map(|&table| &self.tables[table]);
         tables.filter_map(SurfaceTable::stiffest).max_by(|a, b| a.0.total_cmp(&b.0))
@@ -385,7 +384,8 @@ impl Runtime {
     pub fn set_tables(&mut self, tables: Vec<SurfaceTable>) {
         self.tables = Arc::new(tables);
         self.frame.input.tables = Arc::clone(&self.tables);
-        // Update the workers now: the next frame would otherwise hand the old tables back.
+        // The workers get the tables now. Otherwise the next frame would replace theirs, and free the old
+        // ones within the frame.
         self.pool.iter().for_each(|pool| pool.set_tables(&self.tables));
         self.changed();
     }

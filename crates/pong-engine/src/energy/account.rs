@@ -1,10 +1,9 @@
-//! Energy accounts: energy that bodies gave to contacts and got back from them, and the losses.
+//! Energy accounts: energy that bodies gave to contacts and got back from them, and the losses. For each
+//! contact, for each pair of movable groups and for all of them together, to rounding:
 //!
 //! ```text
 //! work_in + inserted + hold_error = work_out + stored + damping_loss + friction_loss
 //! ```
-//!
-//! holds to rounding for each contact, for each pair of movable groups and for all of them together.
 
 use crate::ids::{InterfaceId, PairId};
 use std::fmt::Write as _;
@@ -12,15 +11,16 @@ use std::fmt::Write as _;
 /// Use of a wrench by the host. The engine cannot see it, and the work of a wrench depends on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum WrenchCoupling {
-    /// Evaluated again within every step, as in Runge-Kutta methods. Work by the trapezoidal rule, of second
-    /// order; its error bound is in [`EnergyAccount::resolution`].
+    /// Evaluated again within every step, as in Runge-Kutta methods. The work is computed by the trapezoidal
+    /// rule, which is of second order; [`EnergyAccount::resolution`] is its uncertainty where contact begins
+    /// or ends.
     #[default]
     Stages,
     /// Applied once a step to get the new velocities: semi-implicit Euler. The trapezoidal rule is then
     /// exact, because each force acts over half of the displacement before it and half of the one after.
     SemiImplicit,
     /// Held from one commit to the next, by a host that steps the world once a frame. The work is that of the
-    /// held wrench over the displacement, known at the next commit.
+    /// held wrench over the displacement, so it is known at the next commit.
     ZeroOrderHold {
         /// Number of whole frames by which the wrench is delayed; at most
         /// [`DELAY_FRAMES_MAX`](Self::DELAY_FRAMES_MAX).
@@ -72,11 +72,11 @@ impl std::fmt::Display for WrenchCoupling {
 /// Outcome of an energy account.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It returned less energy than it received.
+    /// The contacts returned less energy than they received and the host inserted.
     Dissipated,
     /// The difference is below the accuracy of the accounts; see [`EnergyAccount::resolution`].
     Unresolved,
-    /// It returned more energy than it received.
+    /// The contacts returned more energy than they received and the host inserted.
     Gained,
 }
 
@@ -87,9 +87,9 @@ pub struct EnergyAccount {
     pub work_in: f64,
     /// Energy returned to the bodies: work of the wrench on them, where positive.
     pub work_out: f64,
-    /// Energy stored without work: where the host placed bodies in contact (first frame, cleared contact
-    /// history), minus stored energy that was dropped. For a contact that began while the pair was already in
-    /// contact: energy that it may have taken over from another.
+    /// Energy stored without work, where the host placed bodies in contact (first frame, cleared contact
+    /// history), minus stored energy that was dropped. Of one contact that began while its pair was already
+    /// in contact: the energy that it may have taken over from another contact.
     pub inserted: f64,
     /// Energy created by holding the wrench: its work on the bodies minus that of a force that follows their
     /// motion.
@@ -166,7 +166,7 @@ impl EnergyAccount {
         self.work_out - self.work_in - self.inserted
     }
 
-    /// Compares the energy returned with the energy received.
+    /// Compares the energy returned with the energy received and inserted.
     pub fn verdict(&self) -> Verdict {
         let doubt = self.resolution + ROUNDING * (self.work_in + self.work_out + self.inserted.abs());
         match self.excess() {
@@ -185,9 +185,9 @@ impl EnergyAccount {
 
 /// Energy accounts of a pair of movable groups at the last commit.
 ///
-/// An *episode* lasts from the first contact of the pair until it has no contact and no delayed wrench any
-/// more. Verdicts apply to episodes, because energy may pass from one contact of a pair to another, as for a
-/// ball that rolls over facets.
+/// An *episode* lasts from the first contact of the pair until it has neither a contact nor a delayed wrench.
+/// Verdicts apply to episodes and not to contacts, because energy may pass from one contact of a pair to
+/// another, as for a sphere that rolls over triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairEnergyAccount {
     /// The pair of Objects.
@@ -210,8 +210,8 @@ pub struct PairEnergyAccount {
     pub excess: f64,
     /// Largest energy gained in one episode, J.
     pub worst_excess: f64,
-    /// Stiffness, N/m, and damping, N·s/m, of the stiffest contact of the pair, if they do not depend on the
-    /// depth.
+    /// Stiffness, N/m, and damping, N·s/m, of the stiffest two surfaces of the pair that can meet and whose
+    /// normal force is linear in the depth; `None` if there are none.
     pub stiffest: Option<(f64, f64)>,
     /// Use of wrenches by the host.
     pub coupling: WrenchCoupling,

@@ -1,15 +1,16 @@
 //! Energy accounts of contacts and of pairs of movable groups, on request (see [`EnergyAccount`]).
 //!
-//! The work of a wrench that the host holds from one commit to the next, with x the origin of A seen from B,
-//! is
+//! The work of a wrench that the host holds from one commit to the next is
 //!
 //! ```text
 //! W = F·Δx + M·φ
 //! ```
 //!
-//! F and M are those of the previous commit, or older by the number of delay frames. They are taken as
-//! constant in the axes of B. If they are constant in common axes instead, while B rotates by φ_B, the work
-//! differs by at most ½|F||x|φ_B².
+//! with x the origin of A seen from B, and φ the rotation vector of A relative to B between the two commits.
+//!
+//! F and M are those of the earlier commit, or older by the number of delay frames. They are taken as
+//! constant in the axes of B. If the host holds them constant in common axes instead, while B rotates by φ_B,
+//! the work differs by at most ½|F||x|φ_B².
 
 use super::account::{EnergyAccount, WrenchCoupling};
 use super::buffers::Interval;
@@ -37,7 +38,7 @@ pub(crate) struct Accounts<'a> {
     pub energies: &'a mut ContactEnergies,
 }
 
-/// Force of a contact on A, split by origin, and its contact point.
+/// Force of a contact on A, split into normal force and friction, and its contact point.
 #[derive(Default)]
 struct ForceParts {
     point_b: Vec3,
@@ -130,8 +131,8 @@ impl Accounts<'_> {
         self.note(record.key.group_pair as usize, &one, &done);
     }
 
-    /// Work since the last commit, of the wrench as the host applies it and for forces that follow the
-    /// motion; zero without an earlier pose.
+    /// Work since the last commit: of the wrench as the host applies it, and of forces that follow the
+    /// motion. Both are zero without an earlier pose.
     fn work(
         &self,
         delayed: &[Wrench],
@@ -156,7 +157,8 @@ impl Accounts<'_> {
         }
     }
 
-    /// Losses of a contact since the last commit.
+    /// Losses of a contact since the last commit, and their uncertainty. `at_an_end` is true if the contact
+    /// began or ended since then.
     fn entry(
         &self,
         before: &ForceParts,
@@ -218,7 +220,8 @@ impl Accounts<'_> {
         }
     }
 
-    /// Advances the delayed wrenches. The delayed wrench of a pair arrives even if its contacts have ended.
+    /// Queues the wrench of each pair, and computes the work of the wrench that arrives. A delayed wrench
+    /// arrives even if the contacts of its pair have ended.
     fn exchange_wrenches(&mut self, motions: &Motions<'_>, enabled: &[bool]) {
         let mut records = self.given.memory.records.iter().peekable();
         for (pair, groups) in self.given.sealed.group_pairs.iter().enumerate() {

@@ -1,14 +1,15 @@
 //! Energies of a frame: the ledger and, if they are kept, the accounts.
 //!
-//! Work of a contact's force on the two bodies, by the trapezoidal rule over the relative displacement since
-//! the last commit, with o the reference point of A:
+//! Work of the force F of a contact on the two bodies, by the trapezoidal rule over the relative displacement
+//! since the last commit:
 //!
 //! ```text
 //! W = Σ_{then, now} ½·(F·Δo + ((c − o) × F)·φ)
 //! ```
 //!
-//! and dissipated = −W − Δstored. An ended contact contributes the half for its last force, and its stored
-//! energy is lost.
+//! with c the contact point, o the reference point of A, Δo its displacement and φ the rotation vector of A.
+//! The dissipated energy is −W − Δstored. A contact that has ended contributes the half of its last force,
+//! and its stored energy is dissipated.
 
 use super::accounts::Accounts;
 use super::buffers::EnergyBuffers;
@@ -44,7 +45,8 @@ pub(crate) fn balance(
     scratch.reset();
     let continued = scratch.slice(records.len(), false).expect("sealing has sized the scratch");
     for place in order.iter().filter(|place| place.pushes()) {
-        // If two contacts continue one record, the first gets its energy.
+        // If two contacts continue one record, the first in summation order gets the energy of the record,
+        // and the other counts as new.
         let earlier = place.continues().filter(|&record| !std::mem::replace(&mut continued[record], true));
         let index = place.slot.index();
         books.add_contact(index, &mut out.contacts[index], earlier);
@@ -106,8 +108,8 @@ impl<'a> Books<'a> {
         }
     }
 
-    /// Books a committed contact that no contact continues: half of the work of its last force; its stored
-    /// energy is dissipated.
+    /// Books a committed contact that no contact continues: half of the trapezoidal work, with its last
+    /// force. Its stored energy is dissipated.
     fn end_contact(&mut self, index: usize, earlier: &ContactRecord) {
         let displacement = displacement_of_ended(earlier, self.motions);
         let half =
@@ -143,11 +145,11 @@ impl<'a> Books<'a> {
     }
 }
 
-/// Displacement at an ended contact.
+/// Displacement of A at an ended contact since the last commit; `None` without an earlier pose.
 fn displacement_of_ended(earlier: &ContactRecord, motions: &Motions<'_>) -> Option<Displacement> {
     let motion = motions.of(earlier.key.direction());
     let since = motion.since_commit.as_ref()?;
-    // Any point of A can serve as reference; take the contact point.
+    // Any point of A can be the reference point; the contact point is at hand.
     let local = since.x_ba.inverse().point(&earlier.point_b);
     Some(Displacement::new(since, &motion.x_ba, &local))
 }

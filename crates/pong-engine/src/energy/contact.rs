@@ -21,7 +21,7 @@ pub(crate) struct ContactEnergyRef<'a> {
     pub delayed: &'a [Wrench],
 }
 
-/// Energies of contacts, consecutive: of all contacts of a list, or empty if no accounts are kept.
+/// Energies of all contacts of a list, in its order; empty unless accounts are kept.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ContactEnergies {
     kept: bool,
@@ -93,8 +93,8 @@ impl ContactEnergies {
         }
     }
 
-    /// Replaces the energies of a contact. `sent` enters its queue of delayed wrenches, in place of the
-    /// wrench that has arrived.
+    /// Replaces the energies and the delayed wrenches of a contact. `sent` enters the queue of delayed
+    /// wrenches, and the wrench that has arrived leaves it.
     pub fn set(&mut self, index: usize, energy: ContactEnergy, delayed: &[Wrench], sent: Option<Wrench>) {
         self.energies[index] = energy;
         let waiting = &mut self.delayed[index * self.delay..(index + 1) * self.delay];

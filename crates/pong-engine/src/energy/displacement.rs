@@ -26,7 +26,8 @@ impl Displacement {
         }
     }
 
-    /// Half of the trapezoidal work of a force at `point` over the displacement, J.
+    /// Half of the trapezoidal work of a force at `point` over the displacement, J: the half of now if
+    /// `at_end`, otherwise that of the last commit.
     pub fn half_work(&self, point: &Vec3, force: &Vec3, at_end: bool) -> f64 {
         let arm = point - if at_end { self.now_b } else { self.before_b };
         0.5 * (force.dot(&(self.now_b - self.before_b)) + arm.cross(force).dot(&self.rotation_b))

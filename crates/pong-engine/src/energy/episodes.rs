@@ -119,7 +119,8 @@ impl PairEnergies {
         }
     }
 
-    /// Clears the history of the pair: ends the episode, drops delayed wrenches and the stored energy.
+    /// Clears the history of the pair: ends the episode without a verdict, and drops delayed wrenches and the
+    /// stored energy, J.
     pub fn clear_history(&mut self, pair: usize, stored: f64) {
         if let Some(energy) = self.pairs.get_mut(pair) {
             energy.total.inserted -= stored;
@@ -128,7 +129,7 @@ impl PairEnergies {
         }
     }
 
-    /// Queues a wrench and returns the one that arrives.
+    /// Queues a wrench and returns the one that arrives: `sent` itself without a delay.
     pub fn exchange(&mut self, pair: usize, sent: Wrench) -> Wrench {
         let delayed = &mut self.delayed[pair * self.delay..(pair + 1) * self.delay];
         let Some(first) = delayed.first_mut() else { return sent };

@@ -8,8 +8,8 @@
 //! | account of a pair of movable groups | `accounts.rs` | end of the frame | sum over its contacts, or its delayed wrench |
 //! | account and verdict of a *contact episode* | `episodes.rs` | end of the frame | account of the pair |
 //!
-//! The frame writes to `buffers.rs`; a commit copies them into the contact state, as `contact.rs` (contacts), `episodes.rs`
-//! (pairs) and `ledger.rs` (sums). `account.rs` is the public form of an account.
+//! The frame writes to `buffers.rs`. A commit copies the energies into the contact state: `contact.rs`
+//! (contacts), `episodes.rs` (pairs) and `ledger.rs` (sums). `account.rs` is the public form of an account.
 
 pub mod account;
 mod accounts;

@@ -40,7 +40,7 @@ pub(crate) fn plan_of<'a>(round: &Round<'a>, block: &Block) -> (&'a Plan, &'a Mo
     (&sealed.plans[plan as usize], input.motions[block.slot as usize].of(block.direction))
 }
 
-/// Computes load sharing and forces for the candidates of a chunk of A, then empties the candidates.
+/// Computes load sharing and forces for the candidates of a chunk of A, then empties the list of candidates.
 #[inline(always)]
 pub(crate) fn finish_chunk(
     (context, sealed): (&PairContext<'_>, &Sealed),
@@ -99,8 +99,8 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                 group_search.begin(LaneBits::MAX >> (LANES - width) << first);
                 let is_whole = group_search.go_on(simd, &reach, &mut out.counts);
                 laps.lap(Work::BroadPhase, &mut out.times);
-                // Candidates that do not fit in the list are searched for half as many chunks. Those of a
-                // single chunk are tested part by part.
+                // If the candidate pairs do not fit in the list, the search is repeated for half as many
+                // chunks. The pairs of a single chunk are tested part by part (`test_chunk`).
                 if !is_whole && width > 1 {
                     width /= 2;
                     continue;
@@ -120,8 +120,8 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
     }
 }
 
-/// Tests the chunk with index `lane` in its group against the candidates found last. Unless these are all
-/// (`is_whole`), continues the search and tests the others.
+/// Tests chunk number `lane` of its superchunk against the candidates that `search` holds. If these are not
+/// all candidates of the chunk (`is_whole` is false), continues the search and tests the others too.
 #[inline(always)]
 fn test_chunk<S: Simd>(
     simd: S,
@@ -135,8 +135,8 @@ fn test_chunk<S: Simd>(
     loop {
         for candidate in search.pairs.of(lane) {
             let batch = reach[candidate.reach as usize].batch;
-            // Stops the compiler from loading all boxes of the chunk ahead of the loop: most chunks have one
-            // or two candidates.
+            // Keeps the compiler from loading all boxes of the chunk before the loop: most chunks have one or
+            // two candidates, so that most of these loads would be in vain.
             compiler_fence(Ordering::SeqCst);
             let near = chunk.reach(simd, &candidate.box_b);
             if near != 0 {

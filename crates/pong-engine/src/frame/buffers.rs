@@ -32,15 +32,16 @@ pub(crate) struct EvaluationBuffers {
     pub near: NearPairs,
     // relative motion, broad phase
     pub input: WorkerInput,
-    /// Stack of the layout of the blocks.
+    /// Stack of the parts of A's trees that have not been laid out as blocks yet.
     pub pending: PendingParts,
     // narrow phase, load sharing, forces: unordered
-    /// Boxed, because a world is moved over the stack a few times while it is built or cloned.
+    /// Context of the calling thread. Boxed, because a world is moved on the stack several times while it is
+    /// built or cloned.
     pub caller: Box<WorkerContext>,
-    /// Contacts of the workers in the last round, if their buffers were swapped in; otherwise the caller's
-    /// context holds them.
+    /// Contacts that the workers found in the last round, if their buffers were swapped in. Otherwise these
+    /// contacts have been copied into the caller's buffer.
     pub workers: WorkerBuffers,
-    // order, limit: references to the active contacts, in summation order
+    // order, limit: references to the contacts, in summation order
     pub order: Table<ContactRef>,
     pub tunnelling: TunnellingEvents,
     // ledger
@@ -55,7 +56,8 @@ impl EvaluationBuffers {
     /// Allocates the buffers of a frame that this many workers may share.
     pub fn new(scene: &Scene, sealed: &Sealed, input: WorkerInput, workers: usize) -> Self {
         let bodies = scene.bodies.len();
-        // Friction-law state, ledger and the first hit of each ray need all contacts in the caller's buffer.
+        // Friction-law state, ledger and the first hit of each ray need all contacts in the caller's buffer,
+        // so that no worker's buffer is swapped in.
         let one_buffer = sealed.law_state_len > 0 || scene.config.ledger || sealed.rays_meet_groups;
         let swapped = if one_buffer { 0 } else { workers };
         let contacts = sealed.limits.worker_contacts(workers + 1);

@@ -42,8 +42,9 @@ use output::ordered::OrderedContacts;
 use output::{order, reduce};
 use run_blocks::run_blocks;
 
-/// Computes a frame from the current states and the committed contact state. Writes only `frame`. Returns a
-/// movable group whose wrench or energies have overflowed, if any.
+/// Computes a frame from the current states and the committed contact state, and writes it to `frame`.
+/// Returns the index of a movable group to name in an error, if a wrench, a contact or the ledger is out of
+/// range or close to it ([`reduce::overflow`]).
 #[inline]
 pub(crate) fn evaluate(
     given: &EvaluationInput<'_>,
@@ -92,7 +93,7 @@ pub(crate) fn evaluate(
 struct Search<'f> {
     /// Input of the workers; it receives the motions and the blocks of each round.
     input: &'f mut WorkerInput,
-    /// Stack of the layout of the blocks.
+    /// Stack of the parts of A's trees that have not been laid out as blocks yet.
     pending: &'f mut PendingParts,
     /// Context of the calling thread.
     caller: &'f mut WorkerContext,
@@ -100,8 +101,8 @@ struct Search<'f> {
     workers: &'f mut WorkerBuffers,
 }
 
-/// Finds all contacts: broad phase, narrow phase, load sharing and forces, block by block, on the workers or
-/// on the caller. Returns the time of each kind of work on all threads.
+/// Finds all contacts: broad phase, narrow phase, load sharing and forces, block by block. The caller works
+/// alone or together with workers. Returns the time of each kind of work, summed over all threads.
 #[inline]
 fn find_contacts(
     given: &EvaluationInput<'_>,
@@ -115,7 +116,7 @@ fn find_contacts(
     if let Some(pool) = &mut pool {
         pool.begin_frame();
     }
-    // Time between the rounds is spent by the caller in the broad phase.
+    // Between the rounds the caller lays out blocks; this time counts as broad phase.
     let (mut laps, mut layout_times) = (clock.start(), WorkTimes::default());
     for pairs in motions.near.list().chunks(MOTIONS_AT_ONCE) {
         motions.relate(pairs, &mut input.motions);
@@ -141,8 +142,8 @@ fn find_contacts(
     times
 }
 
-/// Runs a round on the workers or, if that does not pay or fails, on the caller; `cost_ns` is its estimated
-/// cost.
+/// Runs a round on the caller and the workers. If sharing the round would not pay, or has failed, runs it on
+/// the caller alone. `cost_ns` is the estimated cost of the round, ns.
 fn run_round(
     given: &EvaluationInput<'_>,
     pool: Option<&mut WorkerPool>,
@@ -151,8 +152,8 @@ fn run_round(
     caller: &mut WorkerContext,
     workers: &mut WorkerBuffers,
 ) {
-    // A frame may have several rounds: move the workers' contacts of the last round into the caller's buffer
-    // first.
+    // A frame may have several rounds, and each uses the workers' buffers. So the contacts that the workers
+    // found in the last round are copied into the caller's buffer first.
     for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
         assert!(caller.out.merge(worker), "the caller's buffer has room for the contacts of the workers");
     }

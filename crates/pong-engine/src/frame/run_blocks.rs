@@ -9,13 +9,15 @@ use crate::report::{Timed, Untimed};
 use pong_geometry::simd;
 use std::ops::Range;
 
-/// Arena bytes that the blocks of a thread need against trees with this many nodes and batches.
+/// Arena bytes that a thread needs for any of its blocks, against trees of B with this many nodes and
+/// batches.
 pub(crate) fn arena_bytes(nodes: usize, batches: usize) -> usize {
     block::arena_bytes(nodes, batches).max(single_element_blocks::arena_bytes(nodes, batches))
 }
 
-/// Runs blocks and writes the results to the worker's context. Single-element blocks run several at a time,
-/// and contiguous blocks run as one: starting a block costs as much as testing a few elements.
+/// Runs blocks and writes the results to the worker's context. Several single-element blocks run together.
+/// Other blocks that continue each other run as one, because starting a block costs as much as testing a few
+/// elements.
 pub(crate) fn run_blocks(round: &Round<'_>, blocks: Range<usize>, worker: &mut WorkerContext) {
     for alike in round.input.blocks[blocks].chunk_by(|a, b| a.is_single == b.is_single) {
         if alike[0].is_single {

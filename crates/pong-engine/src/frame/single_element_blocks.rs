@@ -1,8 +1,8 @@
-//! Blocks of one element each, such as the wheels of a rover: several at a time.
+//! Runs blocks of one element each, such as the wheels of a rover, several at a time.
 //!
-//! The steps of one element depend on each other (down a tree, from a triangle to its vertices, through the
-//! test whether the two may touch). Interleaving several elements hides these latencies, and their pairs
-//! together fill the SIMD lanes.
+//! Each step of an element needs the result of the step before: down a tree, from a triangle to its vertices,
+//! through the test whether the two may touch. So the steps of several elements alternate, and while one
+//! waits for memory, the others proceed. Their pairs together also fill the SIMD lanes.
 
 use crate::frame::block::{GRAIN, finish_chunk, plan_of};
 use crate::frame::broad_phase::blocks::batches_of_b;
@@ -18,8 +18,8 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{Kernel, Simd};
 use pong_model::Batch;
 
-/// Kernel that runs the first of some single-element blocks, together with as many of the next ones as there
-/// are searches for. Returns the number of blocks done.
+/// Kernel that runs the first of some single-element blocks, together with as many of the next ones as
+/// [`Elements::transform`] accepts. Returns the number of blocks done.
 pub(crate) struct SingleElementBlocks<'a, L> {
     pub round: &'a Round<'a>,
     pub blocks: &'a [Block],
@@ -36,7 +36,7 @@ struct TransformedElement<'a> {
 /// Batch of B that an element of A may touch.
 #[derive(Clone, Copy)]
 struct Reached<'a> {
-    /// Index of the element.
+    /// Index of the element in the list of elements.
     element: usize,
     batch: &'a Batch,
     /// True for the last batch of the element.
@@ -93,8 +93,9 @@ impl<L: Laps> Kernel for SingleElementBlocks<'_, L> {
 }
 
 impl<'a, 's> Elements<'a, 's> {
-    /// Transforms the element of the first block, and those of the next blocks as long as there are searches
-    /// for all their batches of B, and finds the batches that each may touch.
+    /// Transforms the elements of the first block and of the following blocks into B's frame, and finds the
+    /// batches of B that each of them may touch. Stops at [`SEARCHES_MAX`] elements, or before a block whose
+    /// tree of B has more batches than the list of batches has room for.
     #[inline(always)]
     fn transform<'l: 'a, S: Simd>(
         simd: S,

@@ -12,21 +12,21 @@ use pong_arena::{Arena, Table};
 use std::fmt::Debug;
 
 /// Working memory of the calling thread or of a worker.
-///
-/// Buffers that are filled once per chunk are preallocated tables.
 #[derive(Debug)]
 pub(crate) struct WorkerContext {
     /// Broad-phase memory; reset for each block.
     pub arena: Arena,
-    /// Solver memory for one load-sharing problem.
+    /// Scratch memory: for one load-sharing problem, and on the calling thread also for ray hits, ledger and
+    /// ended contacts.
     pub scratch: Arena,
     pub(crate) group_search: GroupSearch,
-    /// Searches for single elements of A. Boxed, as is the next field, because a context is built on the
-    /// stack.
+    /// Searches for single elements of A. Boxed, because a context is built on the stack and this array is
+    /// large.
     pub(crate) searches: Box<[ElementSearch; SEARCHES_MAX]>,
-    /// Elements of these searches, in B's frame.
+    /// Elements of these searches, in B's frame. Boxed for the same reason.
     pub(crate) spaces: Box<[ChunkSpace; SEARCHES_MAX]>,
-    /// A chunk of A in B's frame. Not boxed: it is the most frequently used buffer of a block.
+    /// A chunk of A in B's frame. Not boxed: a block uses no buffer more often, and a box would cost a load
+    /// each time.
     pub(crate) carried: ChunkSpace,
     pub(crate) deferred: DeferredPairs,
     /// Candidates that the contact testers find for one chunk.
@@ -63,7 +63,7 @@ impl WorkerContext {
         }
     }
 
-    /// Output buffer of thread number `thread`.
+    /// Output buffer of thread number `thread`, with room for this many contacts.
     pub fn buffer(sealed: &Sealed, thread: usize, contacts: usize) -> ContactBuffer {
         ContactBuffer::new(thread, sealed.law_state_len, contacts)
     }

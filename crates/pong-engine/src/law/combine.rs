@@ -57,9 +57,10 @@ pub fn combine(
     Ok(PairProps { share_a, stiffness, normal, friction })
 }
 
-/// Damping c_t, N·s/m, of a bristle of stiffness `k_t`, N/m, if the entry of the pair gives none. It keeps
-/// the damping ratio that the two surfaces' bristles have in series. If the entry names a normal law, or a
-/// surface has no bristle, it is `by_normal_law`.
+/// Damping c_t, N·s/m, of a bristle of stiffness `k_t`, N/m, if the entry of the pair gives none:
+///
+/// * `by_normal_law`, if the entry names a normal law or a surface has no bristle;
+/// * otherwise the damping with the damping ratio that the two surfaces' bristles have in series.
 fn entry_damping(
     (a, b): (&Surface, &Surface),
     entry: &PairOverride,
@@ -97,7 +98,7 @@ fn completed<'s>(own: &'s Surface, other: &Surface) -> Result<Cow<'s, Surface>, 
     }
     if own.friction == FrictionLaw::Inherited {
         full.to_mut().friction = match other.friction.clone() {
-            // The bristle of a rigid surface does not yield, so its stiffness is left out.
+            // The bristle of a rigid surface does not yield, so it takes no stiffness from the other surface.
             FrictionLaw::Bristle { mu, static_excess, damping, .. } => {
                 FrictionLaw::Bristle { mu, static_excess, stiffness: None, damping }
             }
@@ -309,7 +310,7 @@ fn table_friction(
         FrictionLaw::None => FrictionProps::None,
         FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => FrictionProps::Bristle {
             stiffness: stiffness.unwrap_or(default_tangential(pair_stiffness)),
-            // If not given, `combine` computes it.
+            // If the entry gives none, `combine` computes it later.
             damping: damping.unwrap_or(0.0),
             mu_kinetic: *mu,
             mu_static: (1.0 + static_excess) * mu,

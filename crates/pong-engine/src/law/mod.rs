@@ -20,7 +20,7 @@ pub use props::{CombineError, FrictionProps, NormalProps, PairProps};
 /// Normal force of a contact of weight `w`, N, never negative.
 pub(crate) fn normal_force(props: &PairProps, w: f64, depth: f64, rate: f64) -> f64 {
     let k = props.stiffness;
-    // The default law first: a `match` over all laws costs an indirect jump.
+    // The default law is tested first, because a `match` over all laws costs an indirect jump.
     let force = match &props.normal {
         NormalProps::Linear { damping, ramp } => linear::force(k, *damping, *ramp, depth, rate),
         other => force_of_other_law(other, k, depth, rate),

@@ -38,7 +38,7 @@ pub struct Config {
 pub(crate) struct Object {
     pub name: String,
     pub model: usize,
-    /// Index of its first body; its movable groups are consecutive bodies.
+    /// Index of its first movable group in the scene; all of them are consecutive.
     pub first_body: usize,
 }
 
@@ -48,7 +48,7 @@ pub(crate) struct GroupInstance {
     pub object: usize,
     /// The Object's model.
     pub model: usize,
-    /// Index into the model's bodies.
+    /// Index of the movable group in its model.
     pub body: usize,
 }
 
@@ -103,7 +103,7 @@ impl Scene {
         }
     }
 
-    /// The model's body of a movable group.
+    /// Movable group of the model, for an instance of it.
     #[inline]
     pub(crate) fn body(&self, instance: usize) -> &MovableGroup {
         let instance = &self.bodies[instance];
@@ -116,7 +116,8 @@ impl Scene {
         &self.models[self.bodies[instance].model]
     }
 
-    /// Indices of the model and of its body for a movable group; the same for all instances of the model.
+    /// Indices of the model, and of the movable group in the model, for an instance; the same for all
+    /// instances of the model.
     pub(crate) fn group_of_model(&self, instance: usize) -> (usize, usize) {
         let instance = &self.bodies[instance];
         (instance.model, instance.body)

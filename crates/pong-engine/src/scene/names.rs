@@ -189,7 +189,8 @@ impl Scene {
     /// Path of a primitive, given its index in the movable group's list, as used in contacts.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for an Interface that this scene did not give out, or an index beyond the list.
+    /// [`EngineError::UnknownId`] for an Interface that this scene did not give out, or an index beyond the
+    /// list.
     pub fn primitive_path(&self, interface: InterfaceId, primitive: u32) -> Result<&str, EngineError> {
         let body = self.body(self.body_index(interface)?);
         let info = body.primitives.get(primitive as usize);
@@ -228,8 +229,8 @@ impl Scene {
     }
 }
 
-/// Error for an unknown id. Made only when needed: an error made in advance would be dropped on every
-/// look-up.
+/// Error for an unknown id. Made only when needed, because an error made in advance would have to be dropped
+/// on every look-up.
 #[cold]
 fn unknown(what: &'static str) -> EngineError {
     EngineError::UnknownId { what }

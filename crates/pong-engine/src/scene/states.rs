@@ -124,8 +124,9 @@ impl State {
 
     /// Returns true if a frame can be computed from the state; see [`why_refused`].
     fn is_acceptable(&self) -> bool {
-        // Branchless: faster than stopping at the first component. Bits are compared, which grow with the
-        // magnitude and are largest for NaN: an ordered comparison with NaN is an invalid operation.
+        // Branchless, which is faster than stopping at the first component. The bits are compared instead of
+        // the numbers: without the sign they grow with the magnitude and are largest for NaN, and an ordered
+        // comparison with NaN would be an invalid operation.
         const SIZE: u64 = u64::MAX >> 1;
         let is_small = |value: &f64| (value.to_bits() & SIZE) as i64 <= Self::LARGEST.to_bits() as i64;
         let small = |values: &[f64]| values.iter().fold(true, |all, value| all & is_small(value));

@@ -1,5 +1,5 @@
-//! Filters between groups: splits leaves that mix filtered groups with others, and drops pairs of movable
-//! groups that cannot touch.
+//! Filters between groups: gives models leaves that each lie inside or outside of every filtered group, and
+//! drops pairs of movable groups that cannot touch.
 
 use super::GroupPair;
 use super::leaf_filter::{LeafFilter, ObjectFilters};
@@ -9,7 +9,7 @@ use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// Gives a finer tree to models whose leaves mix filtered groups with others.
+/// Gives a finer tree to models of which a leaf has primitives inside and outside of a filtered group.
 pub(crate) fn part_groups(scene: &mut Scene) -> Result<(), EngineError> {
     let mut named: BTreeMap<usize, BTreeSet<String>> = BTreeMap::new();
     for GroupFilter { objects, groups } in &scene.filters {
@@ -96,8 +96,8 @@ pub(super) fn apart(filters: Option<&Filters>, a: &PrimitiveInfo, b: &PrimitiveI
     filters.is_some_and(|filters| filters.keep_apart(&a.path, &b.path))
 }
 
-/// Primitives of a group that meet at least one of another, with the group's `side` of the filters; all of
-/// them without filters.
+/// Primitives of `body` that filters do not keep apart from all primitives of `other`; all of them without
+/// filters. `side` is the side of the filters, 0 or 1, that stands for `body`.
 pub(super) fn primitives_that_meet<'a>(
     filters: Option<&Filters>,
     body: &'a MovableGroup,

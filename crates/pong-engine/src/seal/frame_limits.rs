@@ -13,15 +13,16 @@ pub(crate) struct Limits {
     pub found: usize,
     /// Most nodes and batches together in the tree of a movable group.
     pub tree_parts: usize,
-    /// Arena of the testers of a block, bytes.
+    /// Arena for the broad phase of a block, bytes.
     pub arena_bytes: usize,
     /// Scratch memory for load sharing, ledger and rays, bytes.
     pub scratch_bytes: usize,
 }
 
 impl Limits {
-    /// Capacity in contacts of one of several threads. A thread that exceeds it leaves the frame to the
-    /// caller alone, so an uneven split of the work must be rare but is allowed.
+    /// Capacity in contacts of one of several threads: twice an even share, but at least
+    /// [`LEAST_WORKER_CONTACTS`]. A thread that finds more leaves the round to the caller alone, so this must
+    /// be rare but is allowed.
     pub fn worker_contacts(&self, threads: usize) -> usize {
         self.thread_contacts.min((2 * self.thread_contacts / threads).max(LEAST_WORKER_CONTACTS))
     }

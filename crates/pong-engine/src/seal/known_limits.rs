@@ -89,13 +89,14 @@ fn has_short_pin(a: &MovableGroup, _: &MovableGroup) -> bool {
     elements(a, Cylinder).any(|pin| a.frusta[pin].length < 0.5 * a.frusta[pin].radii[0])
 }
 
-/// Both are solids with corners or edges for the other, such as boxes that stack.
+/// True if both groups have polyhedra, and points or segments at their corners or edges, such as boxes that
+/// stack.
 fn both_are_solids_with_corners(a: &MovableGroup, b: &MovableGroup) -> bool {
     let has_corners = |body: &MovableGroup| !(body.points.is_empty() && body.segments.is_empty());
     [a, b].iter().all(|body| has_corners(body) && !body.polyhedra.is_empty())
 }
 
-/// A tip: a radius below a hundredth of the other end's.
+/// True if a cone of A has a tip: one of its radii is less than a hundredth of the other.
 fn has_tip(a: &MovableGroup, _: &MovableGroup) -> bool {
     elements(a, Cone)
         .map(|cone| a.frusta[cone].radii)
@@ -116,7 +117,7 @@ pub(super) fn known_limits(scene: &Scene) -> Vec<SetupNote> {
     for (first, second, itself) in paired {
         let bodies = [first, second].map(|model| &scene.models[model].bodies);
         for (index, one) in bodies[0].iter().enumerate() {
-            // A group never meets itself.
+            // A movable group never meets itself.
             for other in bodies[1].iter().skip(if itself { index + 1 } else { 0 }) {
                 for (a, b, models) in [(one, other, [first, second]), (other, one, [second, first])] {
                     for (kinds, text) in limits_between(a, b) {

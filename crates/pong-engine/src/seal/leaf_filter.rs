@@ -26,7 +26,8 @@ impl ObjectFilters {
     }
 }
 
-/// Leaves of A's tree that are not tested against leaves of B's tree.
+/// Leaves of A's tree that are not tested against leaves of B's tree. Leaves of one *class* lie in the same
+/// groups that filters name, so filters treat them alike.
 #[derive(Clone, Debug)]
 pub(crate) struct LeafFilter {
     /// Classes of the nodes of A's and B's trees; [`MIXED`] above leaves of several classes.
@@ -112,14 +113,14 @@ impl Classes {
         let class = if of.children.is_empty() {
             let first = body.tree.items[of.items.start as usize..of.items.end as usize].first();
             let path = first.map_or("", |item| &body.primitives[item.primitive as usize].path);
-            // Groups are nested or disjoint, so there are no more classes than filter entries, which are
-            // limited.
+            // Groups are nested or disjoint, so there is at most one class more than filter entries. Their
+            // number is limited, so that a class fits into 16 bits.
             let next = self.known.len() as u16;
             *self.known.entry(filters.that_hold(side, path)).or_insert(next)
         } else {
             let mut below = of.children.clone().map(|child| self.visit(filters, side, body, child));
             let first = below.next().unwrap_or(MIXED);
-            // `fold` visits all children.
+            // `fold` visits all children, where a search would stop early.
             below.fold(first, |class, other| if class == other { class } else { MIXED })
         };
         self.nodes[node as usize] = class;

@@ -1,7 +1,7 @@
 //! Memory demand of sealing, checked before any of it is allocated ([`pong_arena::require_memory`]).
 //!
-//! The sizes that follow from the scene are added up. This is done twice: for data per pair of movable groups, before they are listed, and for the
-//! frames, once their limits are known.
+//! It is computed from the scene in two parts: for the data per pair of movable groups, before the pairs are
+//! listed, and for the frames, when the capacities of their buffers are known.
 
 use super::frame_limits::Limits;
 use super::sizes::{bytes_per_contact, least_thread_bytes};
@@ -28,7 +28,7 @@ pub(super) fn for_pairs(scene: &Scene, pairs: usize) -> usize {
     const GROWING: usize = 3;
     /// Sorting allocates half a list.
     const SORTING: usize = 2;
-    /// Sets of bodies per pair, bytes.
+    /// Sets of movable groups per pair, bytes.
     const JUDGING: usize = 64;
     let listed = SORTING * size_of::<GroupPair>();
     // There are at most as many plans as pairs of the models' movable groups, in both orders.

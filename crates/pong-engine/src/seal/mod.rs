@@ -8,8 +8,8 @@
 //! | combined surface values | `surface_table.rs` | `surfaces.rs` |
 //! | capacities of buffers | `frame_limits.rs` | `sizes.rs` |
 //!
-//! `memory.rs` checks that there is memory for all of it; `warnings.rs` and `known_limits.rs` tell what the author may not have
-//! intended.
+//! `memory.rs` checks that there is memory for all of it. `warnings.rs` and `known_limits.rs` find what the
+//! author of the scene may not have intended.
 
 mod filters;
 mod frame_limits;
@@ -183,7 +183,7 @@ fn count_group_pairs(scene: &Scene) -> usize {
     scene.pairs.iter().map(pairs_of).fold(0, usize::saturating_add)
 }
 
-/// Every pair of movable groups of paired Objects, in the order of their bodies.
+/// Every pair of movable groups of paired Objects, in the order of the first group and then of the second.
 fn group_pairs(scene: &Scene, count: usize) -> Vec<GroupPair> {
     let bodies_of = |object: usize| {
         let object = &scene.objects[object];
@@ -208,7 +208,7 @@ fn group_pairs(scene: &Scene, count: usize) -> Vec<GroupPair> {
     found
 }
 
-/// Movable groups of all pairs, each once, in order.
+/// Indices of the movable groups that are in a pair, each once, in increasing order.
 fn paired_bodies(scene: &Scene, group_pairs: &[GroupPair]) -> Arc<[usize]> {
     let mut is_paired = vec![false; scene.bodies.len()];
     for pair in group_pairs {

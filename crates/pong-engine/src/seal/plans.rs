@@ -42,7 +42,7 @@ fn plan(
     Plan { element_ns, touched, least_travel_m, reach_a_m, filter }
 }
 
-/// Rough cost of an element of A against a body with elements of B, ns.
+/// Rough cost of an element of kind `a` against a movable group with elements of kind `b`, ns.
 fn rough_cost_ns(a: PrimitiveKind, b: PrimitiveKind) -> u32 {
     kind_pair(a, b).map_or(REGISTERED.0, |row| row.cost_ns)
 }

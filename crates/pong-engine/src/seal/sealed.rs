@@ -12,20 +12,21 @@ use std::sync::Arc;
 pub struct GroupPair {
     /// Index of the pair of Objects ([`PairId`](crate::PairId)).
     pub pair: usize,
-    /// The body of lower index, in any order of pairing.
+    /// The movable group of lower index, whichever Object was named first.
     pub first: usize,
-    /// The body of higher index.
+    /// The movable group of higher index.
     pub second: usize,
-    /// True if the first body's Object was named first; it is then A among two primitives of one kind.
+    /// True if the Object of `first` was named first in its pair. Between two primitives of one kind, A is
+    /// the one whose Object was named first.
     pub first_named_first: bool,
-    /// Indices of the tables of combined surface values: A in the first body, A in the second.
+    /// Indices of the tables of combined surface values: for `first` as A, and for `second` as A.
     pub tables: [usize; 2],
     /// Indices of the plans of the two directions; [`NO_PLAN`] for a direction without tests.
     pub(crate) plans: [u32; 2],
 }
 
 impl GroupPair {
-    /// The two bodies, the one of the Object that was named first in the pair first.
+    /// The two movable groups; in front that of the Object that was named first in the pair.
     pub(crate) fn sides(&self) -> [usize; 2] {
         if self.first_named_first { [self.first, self.second] } else { [self.second, self.first] }
     }
@@ -68,12 +69,13 @@ impl Sealed {
         self.coupling.map_or(0, WrenchCoupling::delay)
     }
 
-    /// Index of the pair of two movable groups, the lower index first; `None` if nothing of theirs can touch.
+    /// Index of the pair of two movable groups, of which `first` has the lower index. `None` if their Objects
+    /// are not paired, or if filters keep all of one apart from all of the other.
     pub fn group_pair_of(&self, first: usize, second: usize) -> Option<usize> {
         self.group_pairs.binary_search_by_key(&(first, second), |pair| (pair.first, pair.second)).ok()
     }
 
-    /// Bodies that hold A and B.
+    /// Movable groups A and B of a direction.
     pub fn bodies_of(&self, direction: Direction) -> (usize, usize) {
         let pair = &self.group_pairs[direction.group_pair as usize];
         if direction.flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) }

@@ -14,14 +14,14 @@ use pong_threads::MAX_WORKERS;
 /// Maximum default capacity in contacts; the worst case of the scene may be larger.
 const DEFAULT_CAPACITY_MAX: usize = 65_536;
 
-/// Minimum default capacity in contacts: a ball centred in a cone of many facets touches all of them, more
-/// than the worst case assumes.
+/// Minimum default capacity in contacts. A sphere centred in a cone of many triangles touches all of them,
+/// which is more than the worst case assumes.
 const DEFAULT_CAPACITY_MIN: usize = 256;
 
 /// Capacities of the buffers of the frames of a scene.
 pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: usize) -> Limits {
-    /// Minimum capacity in candidates per chunk: a ball on a fine mesh has many before load sharing selects
-    /// those that push.
+    /// Minimum capacity in candidates per chunk: a sphere on a fine mesh has many candidates before load
+    /// sharing selects those that push.
     const FOUND_MIN: usize = 1024;
     /// Contacts of one surface that are shared exactly if some normals are more than 90° apart.
     const SHARED: usize = 128;
@@ -44,7 +44,7 @@ pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: us
 /// Copies of a worker's contacts: in its own buffer and, swapped in, in the frame.
 const BUFFERS_OF_A_WORKER: usize = 2;
 
-/// Minimum memory of a worker, independent of the capacity, bytes.
+/// Least memory of a thread for contacts and candidates, bytes.
 pub(super) fn least_thread_bytes(limits: &Limits, law_state_len: usize) -> usize {
     BUFFERS_OF_A_WORKER * limits.least_worker_contacts() * buffer_bytes_per_contact(law_state_len)
         + WorkerContext::table_bytes(limits.found)
@@ -58,14 +58,15 @@ fn buffer_bytes_per_contact(law_state_len: usize) -> usize {
 /// Maximum memory for contacts; a request for more is probably a typing error.
 const ROOM_BYTES_MAX: usize = 8 << 30;
 
-/// A thread's buffer holds an eighth more contacts than there are records, and each record takes the memory
-/// of at least one contact and two records (committed and next).
+/// Every contact of a thread's buffer has an index that fits into a [`Slot`]. The buffer holds an eighth more
+/// contacts than there are records, and each record takes the memory of at least one contact and two records
+/// (committed and next).
 const _: () = {
     let records = ROOM_BYTES_MAX / (size_of::<FrameContact>() + 2 * Records::BYTES);
     assert!(records / 8 * 9 < Slot::INDICES);
 };
 
-/// Cause of the refusal if a capacity needs more memory than that; otherwise `None`.
+/// Cause of the refusal if a capacity needs more memory than [`ROOM_BYTES_MAX`]; otherwise `None`.
 pub(super) fn too_large(scene: &Scene, wanted: usize, law_state_len: usize) -> Option<String> {
     let threads = scene.config.workers.as_ref().map_or(0, |settings| settings.workers.min(MAX_WORKERS) + 1);
     let each = bytes_per_contact(scene, threads, law_state_len);
@@ -105,7 +106,8 @@ pub(super) fn bytes_per_contact(scene: &Scene, threads: usize, law_state_len: us
     RECORDS * (records + caller + workers)
 }
 
-/// Number of contacts if everything that can touch did, by the tester table.
+/// Number of contacts if everything that can touch did, by the tester table, within the limits of the default
+/// capacity.
 pub(super) fn worst_case(scene: &Scene, group_pairs: &[GroupPair]) -> usize {
     let movers = |body: usize| -> usize {
         scene.body(body).primitives.iter().map(|info| most_contacts(info.kind)).sum()

@@ -26,7 +26,7 @@ pub(crate) fn surface_tables(
         for (a, b) in [(pair.first, pair.second), (pair.second, pair.first)] {
             let groups = [a, b].map(|body| scene.group_of_model(body));
             let apart = filters.between(scene.bodies[a].object, scene.bodies[b].object);
-            // One pair of instances represents all.
+            // One pair of movable groups represents all pairs of the same models and filters.
             if !filled.insert((groups, apart)) {
                 continue;
             }
@@ -51,7 +51,7 @@ fn fill_table(
     filters: Option<&Filters>,
     problems: &mut BTreeSet<String>,
 ) {
-    // One representative per kind and surface: meshes of a thousand parts share a few.
+    // One primitive per kind and surface is enough: meshes of a thousand parts share a few surfaces.
     let distinct = |side: usize, body| {
         let kind = |info: &PrimitiveInfo| (kind_name(body, info).to_owned(), info.surface);
         representatives(filters, side, body, kind).collect::<Vec<_>>()
@@ -85,7 +85,7 @@ fn combined(
     let full = |model: &Model, surface: &Surface| format!("{}/{}", model.name, surface.name);
     let made = table_entry((model_a, a), (model_b, b)).and_then(|entry| {
         combine(a, b, entry, &scene.laws).map_err(|_| {
-            // Combine again, for the same message with names that are unique across models.
+            // Combined again for the message alone, with names that are unique across models.
             let [a, b] = [(model_a, a), (model_b, b)]
                 .map(|(model, surface)| Surface { name: full(model, surface), ..surface.clone() });
             let (a, b) = if a.name <= b.name { (a, b) } else { (b, a) };
@@ -100,8 +100,8 @@ fn combined(
     })
 }
 
-/// Pairs of surfaces of which only one has friction, so that there is none between them, without an entry in
-/// `pairs`.
+/// Pairs of surfaces of which only one has friction, so that there is none between them. Pairs whose friction
+/// is given in `pairs` are left out.
 pub(super) fn friction_lost(
     scene: &Scene,
     surfaces: &[Vec<Surface>],

@@ -7,12 +7,12 @@ use pong_geometry::primitive::PrimitiveKind;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Direction {
     pub group_pair: u32,
-    /// 0 if A is in the pair's first body, 1 if in the second.
+    /// 0 if A is the first movable group of the group pair, 1 if it is the second.
     pub flipped: u32,
 }
 
-/// Test plan of one movable group as A against another as B. Shared by all pairs with the same two groups of
-/// models and the same filters.
+/// Test plan of one movable group as A against another as B. One plan serves all pairs of the same two groups
+/// of models with the same filters, in which A's Object was named first in all or in none.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     /// Rough cost of an element of A per kind, ns; `None` for kinds that nothing of B can touch.
@@ -33,8 +33,9 @@ impl Plan {
         self.element_ns[kind as usize]
     }
 
-    /// Returns true if these two kinds in A and B are tested: by the tester table (for two primitives of one
-    /// kind, only if A's Object was named first) or by a registered test.
+    /// Returns true if primitives of `kind_a` in A and of `kind_b` in B are tested, by the tester table or by
+    /// a test that the host has registered. Two primitives of one kind are tested only in the direction in
+    /// which A's Object was named first.
     pub fn tests(&self, kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
         self.touched[kind_a as usize] >> kind_b as u16 & 1 == 1
     }

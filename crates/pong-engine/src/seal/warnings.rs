@@ -201,14 +201,15 @@ fn testable(scene: &Scene, models: [usize; 2]) -> Vec<(String, Vec<String>)> {
     kinds.into_iter().map(|(name, kind)| (name.to_owned(), partners(kind))).collect()
 }
 
-/// Pairs of kinds without a tester in the movable groups of two models; true if any pair has a tester.
+/// Pairs of kinds without a tester that meet in the movable groups of two models, and true if at least one
+/// pair that meets has a tester.
 fn kinds_that_meet(
     scene: &Scene,
     models: [usize; 2],
     itself: bool,
     filters: Option<&Filters>,
 ) -> (BTreeSet<[String; 2]>, bool) {
-    // One primitive of each kind.
+    // One primitive of each kind, and with filters one per kind and set of filter entries.
     let groups = |side: usize| {
         let bodies = scene.models[models[side]].bodies.iter();
         let kinds = |body| {
@@ -220,7 +221,7 @@ fn kinds_that_meet(
     let (first, second) = (groups(0), groups(1));
     let (mut ignored, mut anything) = (BTreeSet::new(), false);
     for (index, (body_a, kinds_a)) in first.iter().enumerate() {
-        // A group never meets itself.
+        // A movable group never meets itself.
         for (body_b, kinds_b) in second.iter().skip(if itself { index + 1 } else { 0 }) {
             for &a in kinds_a {
                 for &b in kinds_b.iter().filter(|b| !apart(filters, a, b)) {

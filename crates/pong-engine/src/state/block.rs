@@ -4,13 +4,13 @@
 //! magic 8 | version 4 | record count 4 | world hash 8 | ledger 2 × 8
 //! | epochs 8, poses of every epoch: 7 × 8 per movable group that is in a pair
 //! | epoch of every pair of Objects: 1 each, 255 without history; zeros up to a multiple of 8
-//! | accounts, if kept: PairEnergy::NUMBERS × 8, and 6 × 8 per delay frame of the wrenches, per pair
+//! | accounts, if kept, per pair of movable groups: PairEnergy::NUMBERS × 8, and 6 × 8 per delay frame of the wrenches
 //! | records: RECORD_LEN + 8 × (numbers of its friction law and of its energies) per contact
 //! | checksum 8 (FNV-1a of everything before)
 //! ```
 //!
-//! Little-endian. The block is as long as the recorded contacts require; its maximum length is a property of
-//! the sealed world. A longer buffer, up to the maximum, holds the block followed by zeros.
+//! All numbers are little-endian. The length depends on the number of epochs and records; the sealed world
+//! limits it. A longer buffer, up to that limit, holds the block followed by zeros.
 
 use super::memory::ContactMemory;
 use super::poses::{CommittedPoses, NEVER};
@@ -185,7 +185,7 @@ fn check(
     }
     reader.at = EPOCHS_AT;
     let epochs = if block.len() < EPOCHS_AT + 8 { 0 } else { reader.u64() as usize };
-    // The same for the number of epochs.
+    // Likewise for an impossible number of epochs.
     if epochs > like.poses.capacity() {
         return Err(StateError::Damaged);
     }
@@ -213,7 +213,7 @@ fn check(
 /// Returns true if all poses are valid host poses and every pair's epoch exists.
 fn poses_make_sense(like: &CommittedPoses, reader: &mut Reader<'_>) -> bool {
     let epochs = reader.u64();
-    // Comparisons are false for NaN. No component of a unit quaternion exceeds 1 by more than rounding.
+    // NaN fails both comparisons. No component of a unit quaternion exceeds 1 by more than rounding.
     let can_be = |pose: &Pose| {
         pose.position.iter().all(|x| x.abs() <= LARGEST)
             && pose.orientation.coords.iter().all(|x| x.abs() < 2.0)
@@ -254,7 +254,8 @@ fn records_make_sense(
     })
 }
 
-/// Returns true if all bytes are zero. Works in pieces of 64, because the padding can be a megabyte.
+/// Returns true if all bytes are zero. It compares pieces of 64 bytes at once, because there can be a
+/// megabyte of zeros.
 fn is_zero(bytes: &[u8]) -> bool {
     let (pieces, rest) = bytes.as_chunks::<64>();
     pieces.iter().all(|piece| piece.iter().fold(0, |any, byte| any | byte) == 0)
@@ -366,7 +367,8 @@ impl Reader<'_> {
     fn pose(&mut self) -> Pose {
         let position = self.vec3();
         let [x, y, z, w] = [self.f64(), self.f64(), self.f64(), self.f64()];
-        // Stored quaternions are unit already; normalising again would change their bits.
+        // Not normalised: stored quaternions are unit quaternions, and normalising again would change their
+        // bits.
         let orientation = nalgebra::Unit::new_unchecked(nalgebra::Quaternion::new(w, x, y, z));
         Pose { position, orientation }
     }

@@ -31,10 +31,12 @@ impl ContactMemory {
         self.records.iter().filter(|record| group_pairs[record.key.group_pair as usize].is_some()).count()
     }
 
-    /// Replaces everything by the contact state of another world, as far as its pairs exist here. There must
-    /// be room. `elsewhere` holds poses for movable groups without a pose in the other world; `frame` is the
-    /// frame number for poses from a commit of all pairs. With a ledger, the energy of contacts left behind
-    /// counts as dissipated.
+    /// Replaces everything by the contact state of another world, as far as its pairs exist here; there must
+    /// be room for it.
+    ///
+    /// `elsewhere` holds poses for movable groups without a pose in the other world. `frame` is the frame
+    /// number that the poses get if they are from a commit of all pairs. With a ledger, the energy of
+    /// contacts left behind counts as dissipated.
     pub fn carry(
         &mut self,
         from: &Self,
@@ -48,7 +50,8 @@ impl ContactMemory {
         let pushes = |record: &ContactRecord| record.role == ContactRole::Active;
         self.clear_records();
         self.records.size_hints(from.records.len());
-        // Laws of new Objects may have more state values, and those of removed Objects may have had more.
+        // Laws of new Objects may have more state values, and those of removed Objects may have had more, so
+        // only as many as both worlds store are copied.
         let mut law_state = vec![0.0; self.law_state_len];
         let shared = self.law_state_len.min(from.law_state_len);
         for RecordEntry { record, law_state: earlier, energy } in from.iter() {

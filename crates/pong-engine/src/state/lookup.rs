@@ -33,11 +33,13 @@ impl ContactMemory {
 }
 
 impl<'m> RecordsOfKey<'m> {
-    /// Record of the given role that a contact with this normal continues, with its index: the one with the
-    /// nearest normal, ties by feature, if the cosine exceeds [`SAME_WAY_COSINE_MIN`].
+    /// Record of the given role that a contact with this normal continues, with its index. It is the record
+    /// with the nearest normal, of equally near ones that with the lowest feature; `None` if no cosine
+    /// exceeds [`SAME_WAY_COSINE_MIN`].
     ///
-    /// Nearest in |n − n'|: cosines of normals less than 1e-8 apart all round to 1, and on a plate folded by
-    /// such an angle a contact would continue another one's bristle.
+    /// Nearness is measured by |n − n′|. Cosines would not do: those of normals less than 1e-8 apart all
+    /// round to 1, so that on a plate folded by such an angle a contact could continue the bristle of another
+    /// contact.
     #[inline(always)]
     pub fn matching(&self, normal: &Vec3, role: ContactRole) -> Option<(usize, &'m ContactRecord)> {
         let may =
@@ -59,8 +61,8 @@ impl<'m> RecordsOfKey<'m> {
         best.map(|(i, _)| (self.range.first() + i, &self.records[i]))
     }
 
-    /// Role of the record with the nearest normal, as in [`matching`](Self::matching) but for any role. Ties:
-    /// the contact's own feature first.
+    /// Role of the record with the nearest normal, as in [`matching`](Self::matching) but for any role. Of
+    /// equally near records, one of the given feature counts, otherwise that with the lowest feature.
     pub fn role_of_nearest(&self, normal: &Vec3, feature: Feature) -> Option<ContactRole> {
         let same_way = self.records.iter().filter(|record| record.normal_b.dot(normal) > SAME_WAY_COSINE_MIN);
         let apart = |record: &ContactRecord| (record.normal_b - normal).norm_squared();

@@ -1,8 +1,8 @@
 //! Merges the contacts of a commit into the next contact state.
 //!
-//! Records of committed pairs of movable groups are replaced, the others kept. Together they may exceed the
-//! capacity. Then the records with the largest force are kept, ties in key order; contacts that do not push
-//! have zero force.
+//! Records of committed pairs of movable groups are replaced, the others are kept. If together they exceed
+//! the capacity, those with the largest forces are kept, and of equal forces the first in key order. Contacts
+//! that do not push have zero force, so that they are dropped first.
 
 use super::memory::{ContactMemory, RecordEntry};
 use super::record::ContactRecord;
@@ -59,7 +59,7 @@ impl ContactMemory {
     }
 }
 
-/// Merges two sources that share no pair of movable groups into one in key order.
+/// Merges two sources of records into one in key order. No pair of movable groups has records in both.
 #[derive(Clone)]
 struct InKeyOrder<'a, K: Iterator<Item = RecordEntry<'a>>, N: Iterator<Item = RecordEntry<'a>>> {
     kept: Peekable<K>,

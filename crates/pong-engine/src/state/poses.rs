@@ -1,10 +1,12 @@
 //! Poses of the movable groups at the last commits of the pairs.
 //!
 //! The motion of a pair since its last commit follows from the poses of its two movable groups then and now.
-//! A commit is one *commit epoch*, or epoch: one pose per movable group, for any number of pairs. A commit of
-//! all pairs leaves one epoch. Several are kept only if some pairs are committed and others keep their history.
+//! A commit stores one pose per movable group, for all pairs that it commits: a *commit epoch*, or epoch. A
+//! commit of all pairs leaves one epoch. There are several only if some pairs were committed and others kept
+//! their history.
+//!
 //! Relative poses of an epoch are computed on demand, by the same function and from the same numbers as in
-//! the committed frame.
+//! the committed frame, so they have the same bits.
 
 use pong_geometry::Pose;
 use std::sync::Arc;
@@ -31,8 +33,8 @@ pub(crate) struct CommittedPoses {
     pub(super) epoch_of: Box<[u8]>,
     /// Version of `epoch_of`: two states of one world with equal versions have equal epochs.
     version: u64,
-    /// True if every enabled pair is in epoch 0 and every other pair has none; the next full commit then
-    /// changes no epoch.
+    /// True if every enabled pair is in epoch 0 and every other pair has none, so that the next commit of all
+    /// pairs changes no epoch.
     uniform: bool,
     past: Past,
     /// Number of the frame whose commit of all pairs stored these poses, if nothing has changed them since; 0
@@ -134,7 +136,8 @@ impl CommittedPoses {
     }
 
     /// Commits all pairs of a frame after the state `before`: enabled pairs get epoch 0, all others lose
-    /// their history. Costs O(movable groups), except for the first full commit after a partial one.
+    /// their history. The time grows with the number of movable groups only, except in the first commit of
+    /// all pairs after another change.
     #[inline]
     pub fn commit(&mut self, before: &Self, (frame, poses): (u64, &[Pose]), enabled: &[bool]) {
         if !before.uniform {
@@ -152,7 +155,8 @@ impl CommittedPoses {
         (self.past, self.frame) = (Past::OneEpoch, frame);
     }
 
-    /// An epoch that is free once the accepted pairs are committed; `None` if there is none.
+    /// Lowest epoch that is used by no pair, or only by accepted pairs, which leave it when they are
+    /// committed; `None` if there is none.
     pub fn free_epoch(&self, accepted: impl Fn(usize) -> bool) -> Option<u8> {
         let mut taken = [false; NEVER as usize + 1];
         for (pair, epoch) in self.epoch_of.iter().enumerate() {
@@ -161,7 +165,7 @@ impl CommittedPoses {
         (0..self.capacity() as u8).find(|epoch| !taken[usize::from(*epoch)])
     }
 
-    /// Commits the accepted pairs after `before` into a free epoch; the others are unchanged.
+    /// Commits the accepted pairs after `before` into a free epoch. All other pairs keep theirs.
     pub fn commit_some(
         &mut self,
         before: &Self,
@@ -202,8 +206,8 @@ impl CommittedPoses {
         self.frame = 0;
     }
 
-    /// Epoch numbers as written to a block, in the order of first use by a pair, so that they do not depend
-    /// on earlier epochs; and their count.
+    /// Epoch numbers as written to a block, and their count. They are in the order of first use by a pair, so
+    /// that they do not depend on earlier epochs.
     pub fn numbered(&self) -> ([u8; NEVER as usize + 1], u8) {
         let mut number = [NEVER; NEVER as usize + 1];
         let mut count = 0;
@@ -226,10 +230,12 @@ impl CommittedPoses {
         epochs.len()
     }
 
-    /// Replaces everything by the poses of another world; pairs that only this world has lose their history.
-    /// `bodies` and `pairs` hold the indices in the other world. There must be room for the epochs. Movable
-    /// groups without a pose in the other world get that in `elsewhere`, which no pair with a history reads.
-    /// `frame` is the frame number for poses from a commit of all pairs.
+    /// Replaces everything by the poses of another world; there must be room for its epochs. Pairs that only
+    /// this world has lose their history.
+    ///
+    /// `bodies` and `pairs` hold the indices in the other world. A movable group without a pose there gets
+    /// its pose from `elsewhere`, which no pair with a history reads. `frame` is the frame number that the
+    /// poses get if they are from a commit of all pairs.
     pub fn carry(
         &mut self,
         from: &Self,

@@ -17,7 +17,7 @@ pub(crate) struct ContactKey {
     pub primitive_a: u32,
     /// Shell of B.
     pub shell_b: u32,
-    /// End of a two-ended body, or 2 and above between its ends; 0 otherwise.
+    /// Place on A, if A has two ends: 0 and 1 at the ends, 2 and above elsewhere; 0 for all other kinds.
     pub end: u32,
 }
 
@@ -40,7 +40,7 @@ impl ContactKey {
         Direction { group_pair: (head >> 33) as u32, flipped: (head >> 32) as u32 & 1 }
     }
 
-    /// High word; shared by few contacts.
+    /// High word: everything but the shell and the end. Few contacts share it.
     #[inline]
     pub fn head(&self) -> u64 {
         u64::from(self.group_pair) << 33 | u64::from(self.flipped) << 32 | u64::from(self.primitive_a)
@@ -72,9 +72,9 @@ impl PartialOrd for ContactKey {
 pub(crate) enum ContactRole {
     /// It pushes.
     Active,
-    /// It overlaps, but its centre came through the surface from behind, so it is not pushed to the front.
+    /// A overlaps B, but A's centre came through the surface from behind, so it is not pushed to the front.
     WrongSide,
-    /// Its share of the spring is zero; only its side of entry matters.
+    /// The contact has no share of the spring; the next frame needs only its side of entry.
     Tracked,
 }
 
@@ -95,9 +95,9 @@ pub(crate) struct ContactRecord {
     pub key: ContactKey,
     /// Feature of B; breaks ties.
     pub feature: u32,
-    /// Primitive element of B (the piece of a shell).
+    /// Element of B: a piece or a triangle of the shell, or the primitive itself.
     pub element_b: u32,
-    /// Face reached by the walk from the side of entry, in that piece.
+    /// Current face of entry in that piece, or [`NO_FACE`].
     pub entry_face: u32,
     /// True if the bristle sticks.
     pub sticks: bool,

@@ -11,8 +11,8 @@ use std::ops::{Deref, DerefMut};
 pub(crate) struct Records {
     /// High word of each record's key.
     heads: Table<u64>,
-    /// Hash table from high word to the index of its first record. Entries may be stale or belong to another
-    /// word; they affect only the search time.
+    /// Hash table from high word to the index of its first record. A search checks the entry that it reads,
+    /// so entries that are stale or belong to another word cost only time.
     hints: Box<[u16]>,
     /// Number of hints in use, a power of two.
     hints_used: usize,

@@ -29,10 +29,8 @@ impl World {
         Ok(self.states.enabled[self.scene.pair_index(pair)?])
     }
 
-    /// Drops an Object's contact state, for use after a teleport or a reset.
-    ///
-    /// # Errors
-    /// [`EngineError::UnknownId`] for an Object of another world.
+    /// Drops the contact state of an Object. For use after a teleport, in which the host moves the Object in
+    /// one step, or after a reset.
     pub fn clear_contact_history(&mut self, object: ObjectId) -> Result<(), EngineError> {
         let object = self.scene.object_index(object)?;
         let pairs = &self.scene.pairs;
@@ -71,7 +69,8 @@ impl World {
     /// Surface of a model with its current values.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if it has no such surface.
+    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if it has no
+    /// such surface.
     pub fn surface(&self, model: ModelId, name: &str) -> Result<&Surface, EngineError> {
         self.surfaces.named(self.scene.model_index(model)?, name)
     }

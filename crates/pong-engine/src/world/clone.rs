@@ -10,10 +10,11 @@ use std::sync::Arc;
 
 impl World {
     /// Clones this world: the same sealed scene and ids, with the current states, pairs, surface values and
-    /// contact state. Afterwards both are independent; given the same calls, they give bit-identical results.
+    /// contact state. Afterwards both worlds are independent; given the same calls, they give bit-identical
+    /// results.
     ///
-    /// Both share everything immutable: models, laws and the results of the seal. The clone has its own
-    /// memory for frames, and its own workers, as many as the configuration asks for
+    /// Both share everything that does not change: models, laws and the results of the seal. The clone has
+    /// its own memory for frames, and its own workers, as many as the configuration asks for
     /// ([`worker_starts`](Self::worker_starts)). It has no wrenches and contacts before its first frame.
     ///
     /// # Errors

@@ -15,8 +15,8 @@ impl World {
         self.runtime.state_used()
     }
 
-    /// Returns true if there is any contact state; false before the first commit and after everything was
-    /// cleared.
+    /// Returns true if there is any contact state: the history of a pair, a contact record, or work or
+    /// dissipation in the ledger. False before the first commit.
     pub fn has_contact_state(&self) -> bool {
         let memory = &self.runtime.memory;
         memory.poses.knows_any()

@@ -29,10 +29,10 @@ pub struct Continuation {
 
 impl World {
     /// Continues the run of another world. Common Objects (those of equal name) and their pairs take over
-    /// states, switched pairs, surface values and contact state from there. Contacts between them continue as
-    /// if no Object had been added or removed: for the same states their wrenches are bit-identical, as long
-    /// as nothing else touches these Objects. The totals of the ledger and the accounts of these pairs
-    /// continue as well.
+    /// from it the states, the switches of the pairs, the surface values and the contact state. Contacts
+    /// between common Objects continue as if no Object had been added or removed: for the same states their
+    /// wrenches are bit-identical, as long as nothing else touches these Objects. The totals of the ledger
+    /// and the accounts of these pairs continue as well.
     ///
     /// Objects that only this world has keep their states, pairs and surfaces, and their contacts start
     /// without history. Objects that only the other world has are left behind, as counted in the result. All

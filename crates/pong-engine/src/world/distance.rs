@@ -10,35 +10,40 @@ use pong_geometry::Vec3;
 /// Distance of two movable groups.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroupDistance {
-    /// Smallest distance of two primitives that have a contact test with each other, one of each group, m. Zero if such overlap;
-    /// infinite if there are none.
+    /// Smallest distance, m, between a primitive of one group and a primitive of the other that have a
+    /// contact test with each other. Zero if two such primitives overlap; infinite if there are none.
     pub distance: f64,
-    /// The nearest primitives, that of the group named first in front; `None` if the distance is infinite.
+    /// The nearest primitives; in front that of the group named first. `None` if the distance is infinite.
     pub nearest: Option<[NearestPrimitive; 2]>,
 }
 
 /// Primitive of a movable group that is nearest to another group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestPrimitive {
-    /// Index of the primitive in its movable group's list (see [`Scene::primitive_path`](crate::Scene::primitive_path)).
+    /// Index of the primitive in its movable group's list (see
+    /// [`Scene::primitive_path`](crate::Scene::primitive_path)).
     pub primitive: u32,
     /// Index of the element within the primitive: a mesh's triangle, from 0; 0 for all other kinds.
     pub element: u32,
-    /// Nearest point, m, in the common frame. Of primitives that overlap, some point near; nothing else is promised of it.
+    /// Nearest point, m, in the common frame. If the primitives overlap, it is some point near them.
     pub point: Vec3,
 }
 
 impl World {
-    /// Distance of two movable groups at the states that were set last, whether a frame has been computed from them or not, with
-    /// the two nearest primitives. Those count that have a contact test with one of the other group and that no filter keeps
-    /// apart, so the distance is zero wherever the geometry of the two can be in contact; a pair that is switched off has a
-    /// distance too. A triangle counts without its thickness, a ray with its free length. Computed when it is asked for: a
-    /// frame pays nothing. Allocates nothing.
+    /// Distance of two movable groups, with the two nearest primitives, at the states that were set last,
+    /// whether a frame has been computed from them or not. Computed when it is asked for, so that a frame
+    /// pays nothing. Allocates nothing.
+    ///
+    /// * Two primitives count if they have a contact test with each other and no filter keeps them apart. So
+    ///   the distance is zero wherever the geometry of the two groups can be in contact.
+    /// * A pair that is switched off has a distance too.
+    /// * A triangle counts without its thickness, a ray with its free length.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for an Interface of another world, [`EngineError::UnsetState`] for a group without a state,
-    /// [`EngineError::BadValue`] for one and the same group, for groups whose Objects are not paired, and for a bore or a
-    /// primitive of a host's kind that the other group can touch: these have no convex solid.
+    /// [`EngineError::UnknownId`] for an Interface of another world, [`EngineError::UnsetState`] for a group
+    /// without a state, [`EngineError::BadValue`] for one and the same group, for groups whose Objects are
+    /// not paired, and for a bore or a primitive of a host's kind that the other group can touch: these have
+    /// no convex solid.
     pub fn distance(&self, a: InterfaceId, b: InterfaceId) -> Result<GroupDistance, EngineError> {
         let (a, b) = (self.scene.body_index(a)?, self.scene.body_index(b)?);
         let Some(group_pair) = self.sealed().group_pair_of(a.min(b), a.max(b)) else {

@@ -6,7 +6,8 @@ use crate::energy::account::{EnergyAccount, PairEnergyAccount};
 use crate::ids::{InterfaceId, PairId};
 
 impl World {
-    /// Energies at the last commit, J. Work and dissipation are zero unless [`Config::ledger`](crate::Config::ledger) is set.
+    /// Energies at the last commit, J. Work and dissipation are zero unless
+    /// [`Config::ledger`](crate::Config::ledger) is set.
     pub fn ledger(&self) -> Ledger {
         let memory = &self.runtime.memory;
         // Adding 0 turns the −0 of an empty sum into +0.

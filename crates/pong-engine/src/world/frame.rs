@@ -26,7 +26,8 @@ impl World {
     /// that is not finite or beyond [`State::LARGEST`], or a quaternion whose norm is off by more than 1e-3.
     #[inline]
     pub fn set_states(&mut self, states: &[(InterfaceId, State)]) -> Result<(), EngineError> {
-        // A host that sets the same states again for a commit does not pay for a second evaluation.
+        // States that do not differ leave the frame valid, so a host that sets them again for a commit does
+        // not pay for a second evaluation.
         if self.states.set(&self.scene, states)? {
             self.runtime.changed();
         }
@@ -62,8 +63,8 @@ impl World {
         self.runtime.evaluate(&self.scene, &self.states)
     }
 
-    /// Returns true if the last frame was computed from the current states, so that a commit would accept it
-    /// as it is.
+    /// Returns true if the last frame was computed from the current states and is not committed yet, so that
+    /// a commit accepts it as it is.
     pub fn is_evaluated(&self) -> bool {
         self.runtime.evaluated
     }
@@ -89,8 +90,8 @@ impl World {
     /// [`commit`](Self::commit).
     ///
     /// The world stores the poses of every epoch, that is, of every commit at which some pair was last
-    /// committed. There is room for as many epochs as there are pairs, up to 255, and up to 16,384 poses or 8
-    /// epochs, whichever is more.
+    /// committed. There is room for one epoch per pair, but for at most 255 epochs, and for at most 16,384
+    /// poses or 8 epochs, whichever is more.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate); [`EngineError::UnknownId`] for a pair of another world;
@@ -117,11 +118,12 @@ impl World {
     }
 
     /// Commits the current states as [`commit`](Self::commit) does, and then preloads the bristles between
-    /// two paired Objects: a contact present at the start of a run is not new, and its friction needs no
-    /// displacement to build up. For the first frame, and after
-    /// [`clear_contact_history`](Self::clear_contact_history). Returns the number of bristles set; contacts
-    /// without a bristle or without load have none. The energy stored in the bristles counts as inserted by
-    /// the host. Allocates.
+    /// two paired Objects, so that their friction needs no displacement to build up. For contacts that exist
+    /// at the start of a run: for the first frame, and after
+    /// [`clear_contact_history`](Self::clear_contact_history).
+    ///
+    /// Returns the number of bristles set. Contacts without a bristle or without normal force are left as
+    /// they are. The energy stored in the bristles counts as inserted by the host. Allocates.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate); [`EngineError::UnknownId`] for a pair of another world,

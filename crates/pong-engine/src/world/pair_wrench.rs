@@ -9,14 +9,15 @@ use pong_geometry::Wrench;
 use std::sync::Arc;
 
 impl World {
-    /// Wrench of the last frame on one movable group from the contacts with another alone, N and N·m: about the origin of `on`,
-    /// expressed in its frame, as [`wrench`](Self::wrench). The sum over all groups `from` that `on` can touch is that wrench, to
-    /// rounding. Zero where the two do not touch, their pair is off or a filter keeps them apart. It is summed when it is asked
-    /// for: a frame pays nothing.
+    /// Wrench of the last frame on one movable group from its contacts with another group alone, N and N·m:
+    /// about the origin of `on`, expressed in its frame, as [`wrench`](Self::wrench). Summed over all groups
+    /// `from` that `on` can touch, it gives the wrench of [`wrench`](Self::wrench), to rounding. It is zero
+    /// where the two groups do not touch, their pair is off or a filter keeps them apart. It is summed when
+    /// it is asked for, so that a frame pays nothing.
     ///
     /// # Errors
-    /// As [`wrench`](Self::wrench); [`EngineError::BadValue`] for one and the same group, and for groups whose Objects are not
-    /// paired.
+    /// As [`wrench`](Self::wrench); [`EngineError::BadValue`] for one and the same group, and for groups
+    /// whose Objects are not paired.
     pub fn wrench_from(&self, on: InterfaceId, from: InterfaceId) -> Result<Wrench, EngineError> {
         let (on, from) = (self.scene.body_index(on)?, self.scene.body_index(from)?);
         let results = self.results()?;
@@ -38,14 +39,16 @@ impl World {
         Ok(self.results()?.along_common_axes(&wrench, self.scene.body_index(on)?))
     }
 
-    /// Wrench of the last frame of a pair of Objects, N and N·m: the sum over all contacts of the pair, on the Object that was
-    /// named first in it from the other. It is about the origin of `about`, a movable group of either Object, and expressed in
-    /// the frame of that group. The Object named second receives the opposite about the same point. Zero where the two do not
-    /// touch or the pair is off. It is summed when it is asked for: a frame pays nothing.
+    /// Wrench of the last frame of a pair of Objects, N and N·m: the sum over all contacts of the pair, on
+    /// the Object that was named first in the pair. It is about the origin of `about`, a movable group of
+    /// either Object, and expressed in the frame of that group. The Object named second receives the opposite
+    /// wrench about the same point. It is zero where the two do not touch or the pair is off. It is summed
+    /// when it is asked for, so that a frame pays nothing.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for a pair or an Interface of another world, [`EngineError::WrongPhase`] before the first frame,
-    /// [`EngineError::BadValue`] for a group of neither Object and for an Object paired with itself, which has no two sides.
+    /// [`EngineError::UnknownId`] for a pair or an Interface of another world, [`EngineError::WrongPhase`]
+    /// before the first frame, [`EngineError::BadValue`] for a group of neither Object and for an Object
+    /// paired with itself, which has no two sides.
     pub fn pair_wrench(&self, pair: PairId, about: InterfaceId) -> Result<Wrench, EngineError> {
         let (pair, about) = (self.scene.pair_index(pair)?, self.scene.body_index(about)?);
         let objects = self.scene.pairs[pair];
@@ -67,7 +70,8 @@ impl World {
         Ok(self.results()?.wrench_of_objects(pair, about))
     }
 
-    /// As [`pair_wrench`](Self::pair_wrench), about the same point and expressed along the axes of the common frame.
+    /// As [`pair_wrench`](Self::pair_wrench), about the same point and expressed along the axes of the common
+    /// frame.
     ///
     /// # Errors
     /// As [`pair_wrench`](Self::pair_wrench).
@@ -76,7 +80,7 @@ impl World {
         Ok(self.results()?.along_common_axes(&wrench, self.scene.body_index(about)?))
     }
 
-    /// Visits every pair of movable groups that touches in the last frame, for a pair monitor.
+    /// Calls `visit` for every pair of movable groups that touches in the last frame, for a pair monitor.
     pub(crate) fn for_each_touching(&self, visit: impl FnMut(u32, f64, Wrench)) {
         self.last_results().for_each_touching(visit);
     }
@@ -92,7 +96,8 @@ impl World {
         &self.runtime.sealed
     }
 
-    /// Refuses two movable groups that no pair can bring together; `what` names what they were asked for, from their names.
+    /// Returns an error for two movable groups that are the same or whose Objects are not paired. `what`
+    /// makes the text that says what was asked for, from the names of the two groups.
     pub(super) fn require_paired(
         &self,
         groups: [usize; 2],

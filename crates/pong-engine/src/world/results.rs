@@ -10,10 +10,12 @@ use crate::report::{FrameCounts, FrameReport, TunnellingReport};
 use pong_geometry::Wrench;
 
 impl World {
-    /// Wrench on a movable group in the last frame, N and N·m: about the group's origin, expressed in the group's frame.
+    /// Wrench on a movable group in the last frame, N and N·m: about the group's origin, expressed in the
+    /// group's frame.
     ///
     /// # Errors
-    /// [`EngineError::UnknownId`] for an Interface of another world, [`EngineError::WrongPhase`] before the first frame.
+    /// [`EngineError::UnknownId`] for an Interface of another world, [`EngineError::WrongPhase`] before the
+    /// first frame.
     #[inline]
     pub fn wrench(&self, interface: InterfaceId) -> Result<Wrench, EngineError> {
         let index = self.scene.body_index(interface)?;
@@ -44,10 +46,11 @@ impl World {
     /// Derivatives of the normal force of each contact of the last frame with respect to its depth and depth
     /// rate, in the order of [`contacts_iter`](Self::contacts_iter), for a host that chooses its step by them
     /// or treats damping implicitly. They include the contact's weight, and are zero where the force is cut
-    /// at zero. `None` for a host's normal law.
+    /// off at zero. `None` for a host's normal law.
     ///
-    /// With r the vector from the mass centre to the contact point, a contact adds stiffness·(n, r × n)(n, r
-    /// × n)ᵀ to the stiffness of a body; friction is not included. See docs/theory.md, 3.
+    /// With r the vector from the mass centre of a body to the contact point and n the normal, a contact adds
+    /// stiffness·(n, r × n)(n, r × n)ᵀ to the stiffness matrix of the body; friction is not included. See
+    /// docs/theory.md, 3.
     pub fn normal_tangents(&self) -> impl Iterator<Item = Option<NormalTangent>> + '_ {
         self.last_results().list_tangents(&self.runtime.tables)
     }
@@ -63,9 +66,12 @@ impl World {
     }
 
     /// Tunnelling between the last commit and the last frame, if any
-    /// ([`StatusBits::TUNNELLED`](crate::StatusBits)). A point, the centre of a sphere or ellipsoid, the
-    /// origin of a ray, and the ends and the middle of a segment are followed along straight paths. A path
-    /// shorter than half of the thinnest part of the other movable group counts as passing through nothing.
+    /// ([`StatusBits::TUNNELLED`](crate::StatusBits)).
+    ///
+    /// It is found along the straight path of a point, of the centre of a sphere or ellipsoid, of the origin
+    /// of a ray, and of the ends and the middle of a segment or an axis; and from contacts that have ended on
+    /// the other side. A path shorter than half of the thinnest part of the other movable group counts as
+    /// passing through nothing.
     pub fn tunnelling(&self) -> Option<TunnellingReport> {
         let events = &self.runtime.frame.tunnelling;
         let TunnellingEvent { body_a, primitive_a, body_b } = events.first?;

@@ -10,13 +10,15 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl World {
     /// Movable groups in contact whose pose is bit-identical at the last two commits, although their velocity
-    /// would have moved them within `step`, the time between the two, s. For use right after a commit of all
-    /// pairs; empty otherwise.
+    /// would have moved them within `step`, the time between the two commits, s. For use right after a commit
+    /// of all pairs; empty otherwise.
     ///
     /// Bristle friction follows poses and is damped by velocities (docs/theory.md, 4). A host that keeps a
     /// pose and gives it a velocity, as for a conveyor belt, gets neither the friction of a moving body nor
     /// that of one at rest. It should move the pose, or choose `Coulomb` friction, which uses only
-    /// velocities. A frame that is committed twice without motion in between, as in a pause, is listed too.
+    /// velocities.
+    ///
+    /// A group that is committed twice at one pose, as in a pause, is listed too if its velocity is not zero.
     /// Allocates.
     ///
     /// # Errors

@@ -5,9 +5,9 @@ use crate::report::{Clock, MemoryReport, StageTimes, WorkTimes};
 use pong_threads::{ThreadWork, WorkerStart};
 
 impl World {
-    /// Gives the world another clock, in ns, for the stages of its frames
-    /// ([`stage_times`](Self::stage_times)); the workers keep the one they were started with
-    /// ([`WorldBuilder::set_clock`](crate::WorldBuilder::set_clock)).
+    /// Gives the world another clock, in ns, for the times of its frames ([`stage_times`](Self::stage_times),
+    /// [`thread_times`](Self::thread_times)). The workers measure [`thread_work`](Self::thread_work) with the
+    /// clock that they were started with ([`WorldBuilder::set_clock`](crate::WorldBuilder::set_clock)).
     pub fn set_clock(&mut self, now_ns: fn() -> u64) {
         self.runtime.clock = Clock(Some(now_ns));
     }
@@ -17,8 +17,9 @@ impl World {
         self.runtime.worker_starts()
     }
 
-    /// Wakes the workers shortly before a frame; they wait for its work until it comes or `at_most` has
-    /// passed. For hosts whose frames are further apart than the workers spin. Does nothing without workers.
+    /// Wakes the workers shortly before a frame. They wait for its work until it comes or `at_most` has
+    /// passed. For hosts whose frames are so far apart that the workers would fall asleep in between. Does
+    /// nothing without workers.
     pub fn prewake(&mut self, at_most: std::time::Duration) {
         self.runtime.prewake(at_most);
     }
@@ -30,8 +31,9 @@ impl World {
     }
 
     /// Ends the workers, as dropping the world does, and returns the number that did not end in time: within
-    /// a second, or within the worker timeout if one is stuck in a block. Those end by themselves later and
-    /// keep the data that they read until then. From then on the caller computes frames alone.
+    /// a second, or within the worker timeout if a worker is stuck in a block. Workers that are late end by
+    /// themselves later, and keep the data that they read until then. From then on the caller computes frames
+    /// alone.
     pub fn end_workers(&mut self) -> usize {
         self.runtime.end()
     }

@@ -1,5 +1,5 @@
-//! Trees of bounding volumes: splits the work into blocks, and finds the leaves of B that a leaf of A may
-//! touch.
+//! Splits the work of a frame into blocks, by the trees of bounding volumes of A, and finds the batches of B
+//! that the elements of a block may touch.
 
 use crate::frame::broad_phase::group_search::SUPERCHUNK;
 use crate::frame::input::motion::PairMotions;
@@ -14,21 +14,23 @@ use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBox};
 use pong_model::{Batch, MovableGroup, Node};
 use std::ops::Range;
 
-/// Blocks per round: a full round is run before further blocks are laid out.
+/// Blocks per round. When a round is full, it is run before further blocks are laid out.
 pub(crate) const ROUND: usize = 4096;
 
-/// Pending nodes of a box tree: a tree of 2³¹ elements has eleven levels, and each leaves at most seven nodes
-/// pending.
+/// Upper bound of the pending nodes of a box tree: the deepest tree, of 2³¹ elements, has eleven levels, and
+/// each leaves at most seven nodes pending.
 const DEPTH_MAX: usize = 80;
 
-/// Cost of the elements below a box node above which its children are tested one by one, ns.
+/// Cost of the elements below a box node, ns, above which the layout goes on to its children, and tests each
+/// child that costs more than this itself.
 const NODE_NS: u32 = 4000;
 
-/// Cost above which a block is split, ns: long compared with claiming a block, short compared with a frame. A
-/// thread runs the blocks of one claim as one, so small blocks cost little.
+/// Cost above which a block of several superchunks is split, ns: much more than claiming a block costs, and
+/// little of a frame. Small blocks cost little, because a thread runs neighbouring blocks of one claim as
+/// one.
 const BLOCK_NS: u32 = 1000;
 
-/// Elements of one batch of A, in a leaf of its tree.
+/// A batch of A, and the leaf of A's tree that has it.
 #[derive(Clone, Copy, Debug)]
 struct BatchOfA {
     leaf: u32,
@@ -53,13 +55,13 @@ enum Pending {
 pub(crate) struct PendingParts(Vec<Pending>);
 
 impl PendingParts {
-    /// Allocates the stack for a tree with at most this many nodes and batches together: each is pending at
-    /// most once, and beside them the box tree of one batch.
+    /// Allocates the stack for a tree with at most this many nodes and batches together. Each of them is
+    /// pending at most once, and besides them at most [`DEPTH_MAX`] box nodes of one batch.
     pub fn for_tree(nodes_and_batches: usize) -> Self {
         Self(Vec::with_capacity(nodes_and_batches + DEPTH_MAX))
     }
 
-    /// Memory of that stack, bytes.
+    /// Memory of the stack for such a tree, bytes.
     pub const fn bytes(nodes_and_batches: usize) -> usize {
         (nodes_and_batches + DEPTH_MAX) * size_of::<Pending>()
     }
@@ -71,7 +73,7 @@ pub(crate) struct Layout<'a> {
     sealed: &'a Sealed,
     /// Pairs of movable groups, and their motions in the same order.
     pairs: &'a [u32],
-    /// Next pair, and its next direction.
+    /// Index of the next pair in `pairs`, and number of its directions that have begun.
     next: (usize, usize),
     of: Option<OfDirection<'a>>,
     pending: &'a mut Vec<Pending>,
@@ -80,7 +82,7 @@ pub(crate) struct Layout<'a> {
     ended: bool,
 }
 
-/// Direction of a pair in progress.
+/// Direction whose blocks are being laid out.
 #[derive(Clone, Copy)]
 struct OfDirection<'a> {
     plan: &'a Plan,
@@ -107,7 +109,7 @@ impl<'a> Layout<'a> {
         pending: &'a mut PendingParts,
     ) -> Self {
         let pending = &mut pending.0;
-        // A panic may have left parts behind.
+        // An earlier layout that panicked may have left parts behind.
         pending.clear();
         Self { scene, sealed, pairs, next: (0, 0), of: None, pending, leads: true, ended: false }
     }
@@ -137,7 +139,8 @@ impl<'a> Layout<'a> {
         Some(out.cost_ns)
     }
 
-    /// Goes on to the next direction that has tests; returns false if there is none.
+    /// Begins the next direction of the current pair that has tests. If there is none, goes on to the next
+    /// pair. Returns false after the last pair.
     #[inline]
     fn begin_direction(&mut self) -> bool {
         let (slot, skipped) = self.next;
@@ -155,7 +158,7 @@ impl<'a> Layout<'a> {
         true
     }
 
-    /// Lays out one part: adds at most one block, and keeps the rest pending.
+    /// Lays out one pending part: adds at most one block, and makes the rest of the part pending.
     #[inline]
     fn lay_out(&mut self, of: &OfDirection<'a>, part: Pending, motions: &[PairMotions], out: &mut Out<'_>) {
         let tree = &of.bodies.0.tree;
@@ -163,7 +166,8 @@ impl<'a> Layout<'a> {
             Pending::Node(node) => self.visit(of, node, motions, out),
             Pending::Batch(of_a) => {
                 self.leads = true;
-                // A single element needs no split. (The split costs a measurable part of a one-element pair.)
+                // A single element needs no split, and `cut` would take a measurable part of the time of such
+                // a block.
                 match tree.batches[of_a.batch as usize].items.len() {
                     1 => self.add(of, of_a, [0, 1], out),
                     _ => self.cut(of, of_a, 0, motions, out),
@@ -174,7 +178,8 @@ impl<'a> Layout<'a> {
         }
     }
 
-    /// Makes the children and the batches of a node pending if it reaches B, the children first.
+    /// Makes the children and the batches of a node pending, if the node reaches B and no filter keeps it
+    /// from all of B. The children are laid out before the batches.
     #[inline]
     fn visit(&mut self, of: &OfDirection<'a>, node: u32, motions: &[PairMotions], out: &mut Out<'_>) {
         if let Some(filter) = &of.plan.filter
@@ -195,7 +200,7 @@ impl<'a> Layout<'a> {
         self.pending.extend(children.clone().rev().map(Pending::Node));
     }
 
-    /// Returns true if a volume of A overlaps the root volume of B's tree.
+    /// Returns true if a volume of A overlaps the root volume of B's tree, and counts the test.
     fn reaches_b(
         &self,
         of: &OfDirection<'a>,
@@ -210,8 +215,8 @@ impl<'a> Layout<'a> {
         meets
     }
 
-    /// Splits the elements below a box node into blocks, skipping children of a large node that do not reach
-    /// B.
+    /// Splits the elements below a box node into blocks. If they cost more than [`NODE_NS`], goes on to the
+    /// node's children instead, and skips each child that costs more than this itself and does not reach B.
     fn cut(
         &mut self,
         of: &OfDirection<'a>,
@@ -239,10 +244,11 @@ impl<'a> Layout<'a> {
         self.pending[first..].reverse();
     }
 
-    /// Makes a block of the first of some consecutive elements, up to a superchunk boundary.
+    /// Makes a block of the first of some consecutive elements, up to the superchunk boundary at which the
+    /// block costs about [`BLOCK_NS`] or has one superchunk. The remaining elements stay pending.
     fn slice(&mut self, of: &OfDirection<'a>, of_a: BatchOfA, [first, past]: [u32; 2], out: &mut Out<'_>) {
         let group = (first / SUPERCHUNK) * SUPERCHUNK;
-        // Most ranges lie within one superchunk, which is never split; skip the division for them.
+        // Most ranges lie within one superchunk, which is never split. They need no division.
         if past <= group + SUPERCHUNK {
             return self.add(of, of_a, [first, past], out);
         }
@@ -280,8 +286,8 @@ pub(crate) fn joined(blocks: &[Block]) -> impl Iterator<Item = Block> + '_ {
     })
 }
 
-/// True if `next` continues `block` at a superchunk boundary. The merged block then finds the same contacts
-/// by the same tests.
+/// True if `next` continues `block` at a superchunk boundary, so that the merged block finds the same
+/// contacts by the same tests.
 fn goes_on(block: &Block, next: &Block) -> bool {
     let of = |block: &Block| (block.direction, block.slot, block.leaf, block.batch);
     of(block) == of(next) && block.end == next.first && next.first.is_multiple_of(SUPERCHUNK)
@@ -293,9 +299,9 @@ fn as_volume(boxes: &BoxTree, narrow: &NarrowBox) -> Volume {
     if half.iter().all(|x| x.is_finite()) { Volume::Aabb { center, half } } else { Volume::Unbounded }
 }
 
-/// Passes to `take` the batches of B that kind A may touch, in leaves of B that overlap the leaf of A. Tests
-/// are counted only in the first block of a batch of A, because the counts must not depend on how threads
-/// merge blocks.
+/// Passes to `take` the batches of B that the plan tests against the block's kind, from all nodes of B that
+/// overlap the block's leaf of A. Tests of bounding volumes are counted only in the first block of a batch of
+/// A (`leads`), because the counts must not depend on how threads merge blocks.
 #[inline]
 pub(crate) fn batches_of_b<'a>(
     (context, plan): (&PairContext<'a>, &Plan),
@@ -313,7 +319,7 @@ pub(crate) fn batches_of_b<'a>(
             }
         }
     };
-    // The root was tested during the layout; most trees have no other node.
+    // The layout has already tested the root of B. Most trees have no other node.
     let root = &tree_b.nodes[0];
     take(root);
     if root.children.is_empty() {

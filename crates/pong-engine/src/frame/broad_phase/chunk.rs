@@ -1,5 +1,5 @@
-//! Up to eight elements of one kind as A, transformed into B's frame together, and the boxes around them
-//! there.
+//! Chunks: up to eight elements of one kind of A, transformed into B's frame together, and the boxes around
+//! them in B's frame.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use pong_arena::Table;
@@ -24,15 +24,15 @@ pub(crate) struct Chunk<'a> {
     pub ends: &'a [Lanes; 2],
     /// Points, spheres, line segments and capsules: radii, m.
     pub radii: &'a [f64; LANES],
-    /// Elements of all other kinds in the tester table, in B's frame. Empty for kinds with registered testers
-    /// only.
+    /// Elements of all other kinds that the tester table has as A, in B's frame. Empty for kinds that are A
+    /// only in testers registered by the host.
     carried: &'a [TransformedPrimitive],
     boxes: &'a LaneBoxes,
     /// Bounding spheres of spheres and ellipsoids that may meet triangles.
     spheres: Option<&'a SphereLaneSpace>,
 }
 
-/// Data shared by the chunks of a block, before the transformation into B's frame.
+/// Elements of a batch of A, and what their transformation into chunks in B's frame needs.
 #[derive(Clone, Copy)]
 pub(crate) struct ChunksOfA<'a> {
     kind: PrimitiveKind,
@@ -40,8 +40,8 @@ pub(crate) struct ChunksOfA<'a> {
     batch: &'a Batch,
     items: &'a [Item],
     x_ba: &'a Transform,
-    /// Triangles may be near. Many of them lie in the corners of a sphere's box, so bounding spheres are kept
-    /// as well.
+    /// True if B has triangles that may be near. Many triangles reach only into the corners of a sphere's
+    /// box, so bounding spheres are then stored beside the boxes.
     meets_triangles: bool,
 }
 
@@ -78,8 +78,9 @@ impl<'a> ChunksOfA<'a> {
         Self { kind: batch.kind, body, batch, items, x_ba, meets_triangles }
     }
 
-    /// Transforms the chunk that begins with element `first` of the batch (a multiple of eight) into B's
-    /// frame. A point or a sphere that is the only element of its batch gets no box: its search uses the sphere.
+    /// Transforms the chunk that begins with element `first` of the batch, a multiple of eight, into B's
+    /// frame. A point or a sphere that is the only element of its batch gets no box, because its search uses
+    /// the sphere itself.
     #[inline(always)]
     pub fn carry<'l, S: Simd>(&self, simd: S, first: u32, space: &'l mut ChunkSpace) -> Chunk<'l>
     where
@@ -93,7 +94,7 @@ impl<'a> ChunksOfA<'a> {
         let mut radii = &[0.0; LANES];
         let mut own_centers = None;
         let chunk = first as usize / LANES;
-        // Chunks stored in lanes leave the list of single elements untouched.
+        // Stays empty for elements stored in lanes: `carried` then still holds an earlier chunk.
         let mut each: &[TransformedPrimitive] = &[];
         match (batch.spheres.get(chunk), batch.segments.get(chunk)) {
             (Some(spheres), _) => {
@@ -130,7 +131,7 @@ impl<'a> ChunksOfA<'a> {
     }
 }
 
-/// Box of a tree element in B's frame, m; infinite where it is unbounded.
+/// Box of an element of B in B's frame, m, in double precision; infinite where it is unbounded.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WideBox {
     low: [f64; 3],
@@ -138,19 +139,20 @@ pub(crate) struct WideBox {
 }
 
 /// One bounding sphere per lane in B's frame: centres, m, and radii with a rounding margin.
-// Eight f64 fill one cache line; an unaligned array would need two loads.
+// Aligned, because eight f64 fill one cache line: a load from an unaligned array would touch two lines.
 #[derive(Debug)]
 #[repr(align(64))]
 struct SphereLaneSpace {
     centers: [[f64; LANES]; 3],
-    /// Squared radii, m². Stored, not computed on use: a compiler may hoist the squaring out of a branch,
-    /// where the values of a chunk without spheres could overflow.
+    /// Squared radii, m². Stored rather than computed when used: a compiler may move the squaring in front of
+    /// the branch that it belongs to, and the values left by a chunk without spheres could then overflow.
     squares: [f64; LANES],
     /// Radius of the first sphere, m.
     first_radius: f64,
 }
 
-/// One box per lane in B's frame, m. Results of unused lanes are masked; their boxes never widen a union.
+/// One box per lane in B's frame, m. Unused lanes hold an empty box or repeat another box, so that they never
+/// widen a union; test results of unused lanes are masked.
 // Aligned for the same reason as `SphereLaneSpace`.
 #[derive(Debug)]
 #[repr(align(64))]
@@ -160,7 +162,8 @@ pub(crate) struct LaneBoxes {
 }
 
 impl Chunk<'_> {
-    /// Returns the lanes whose elements reach an element of B.
+    /// Returns the lanes whose boxes reach the box of an element of B and, if the chunk has bounding spheres,
+    /// whose spheres reach it too.
     #[inline(always)]
     pub fn reach<S: Simd>(&self, simd: S, box_b: &WideBox) -> LaneBits {
         let near = self.boxes.met_by(simd, box_b) & self.used();
@@ -176,7 +179,7 @@ impl Chunk<'_> {
         self.own_centers.is_some()
     }
 
-    /// Box around a single element, in the precision of the tree.
+    /// Box around the only element of a chunk, in the precision of the tree.
     #[inline(always)]
     pub fn single_box(&self, tree: &BoxTree) -> NarrowBox {
         if self.is_of_balls() {
@@ -187,8 +190,8 @@ impl Chunk<'_> {
         tree.narrowed(&Vec3::new(x[0], y[0], z[0]), &Vec3::new(u[0], v[0], w[0]))
     }
 
-    /// Bounding sphere of a single element, in the precision of the tree: for points, spheres, and ellipsoids
-    /// that may meet triangles.
+    /// Bounding sphere of a single element, in the precision of the tree. `None` except for points, spheres,
+    /// and ellipsoids that may meet triangles.
     #[inline(always)]
     pub fn single_ball(&self, tree: &BoxTree) -> Option<NarrowBall> {
         if self.is_of_balls() {
@@ -198,7 +201,7 @@ impl Chunk<'_> {
         self.spheres.map(|spheres| spheres.first_narrowed(tree))
     }
 
-    /// Centre and radius with a rounding margin, m.
+    /// Centre of the first point or sphere, and its radius with a rounding margin, m.
     #[inline(always)]
     fn single_sphere(&self) -> (Vec3, f64) {
         let Sphere { center, radius } = self.sphere(0);
@@ -247,14 +250,15 @@ impl Chunk<'_> {
         }
     }
 
-    /// One element of any other kind; `None` for kinds that are never A in the tester table.
+    /// One element of a kind that is not stored in lanes; `None` for all others, and for kinds that are never
+    /// A in the tester table.
     #[inline(always)]
     pub fn carried(&self, lane: usize) -> Option<&TransformedPrimitive> {
         self.carried.get(lane)
     }
 }
 
-/// An element whose pairs with triangles are filtered eight at a time.
+/// Sphere or ellipsoid of A, whose pairs with triangles are filtered eight at a time.
 #[derive(Clone, Copy)]
 pub(crate) enum Ellipsoidal<'a> {
     Sphere(Sphere),
@@ -285,7 +289,7 @@ fn carry_each(
     }
 }
 
-/// Box in B's frame around the box that A's tree has for an element.
+/// Box in B's frame around the box that A's tree has for an element; infinite if that box is unbounded.
 fn carried_box(boxes: &BoxTree, element: u32, x_ba: &Transform) -> (Vec3, Vec3) {
     let (low, high) = boxes.bounds(element);
     if !low.iter().chain(high.iter()).all(|x| x.is_finite()) {
@@ -312,9 +316,9 @@ impl WideBox {
 }
 
 impl LaneBoxes {
-    /// Sets the boxes of spheres. Tree boxes already have a margin for rounding at their own coordinates and
-    /// sizes. A sphere centre near such a box adds at most the radius to that, so only the radius needs a
-    /// margin here.
+    /// Sets the boxes of points and spheres. Only the radius gets a rounding margin: a tree box has a margin
+    /// for rounding at its own coordinates, and the coordinates of a centre that touches it exceed those by
+    /// at most the radius.
     #[inline(always)]
     fn set_to_balls<S: Simd>(&mut self, simd: S, centers: &Lanes, radii: &[f64; LANES]) {
         let radius = Numbers::load(simd, radii);
@@ -349,7 +353,7 @@ impl LaneBoxes {
         self.high[axis] = (center + half).store();
     }
 
-    /// Boxes in B's frame around rotated boxes of A.
+    /// Boxes in B's frame around the eight boxes of a superchunk of A, which are rotated there.
     #[inline(always)]
     pub fn of_chunks<S: Simd>(simd: S, chunks: &ChunkBoxes, x_ba: &Transform) -> Self {
         let center = chunks.center.carried_in(simd, x_ba);
@@ -386,8 +390,9 @@ impl LaneBoxes {
         simd.bits(met)
     }
 
-    /// All boxes in the precision of the tree, rounded outward as [`BoxTree::narrowed`] does, eight at a
-    /// time. NaN becomes the least or the greatest value.
+    /// All eight boxes in the precision of the tree, rounded outward as [`BoxTree::narrowed`] does. A lower
+    /// bound that is NaN becomes the least finite number, and an upper bound the greatest, so that the box
+    /// rejects nothing.
     #[inline(always)]
     #[allow(clippy::manual_clamp, reason = "what is no number has to become one")]
     pub fn narrowed<S: Simd>(&self, simd: S, tree: &BoxTree) -> NarrowBoxes {
@@ -457,7 +462,8 @@ impl SphereLaneSpace {
     }
 }
 
-/// Bound of a tree box as f64; ±`f32::MAX` means unbounded, unless all boxes of the tree are bounded.
+/// Bound of a tree box in double precision. ±`f32::MAX` means unbounded and becomes ±∞, unless all boxes of
+/// the tree are bounded.
 #[inline(always)]
 fn widened(bound: f32, all_bounded: bool) -> f64 {
     if all_bounded || bound.abs() < f32::MAX {
@@ -520,8 +526,9 @@ mod tests {
         }
     }
 
-    /// A sphere that touches a point always reaches the point's box. Rounding of a large sphere may move it
-    /// off the point by more than the margin of the point's box.
+    /// A sphere that touches a point always reaches the point's box, whatever its size. Without a margin of
+    /// its own, rounding could move the surface of a large sphere off the point by more than the margin of
+    /// the point's box.
     #[test]
     fn a_ball_of_any_size_reaches_the_box_of_what_it_touches() {
         let mut random = Random::new(13, 0, 0);
@@ -542,7 +549,7 @@ mod tests {
         }
     }
 
-    /// Boxes of random capsules and line segments, computed eight at a time and one by one.
+    /// Boxes of random capsules and line segments are the same, computed eight at a time and one by one.
     #[test]
     fn boxes_of_eight_rods_are_those_of_each() {
         let mut random = Random::new(11, 0, 0);

@@ -1,15 +1,17 @@
-//! Search of a tree of B for the elements that a single element of A may touch. The query is the element's
-//! own box in B's frame, which is much tighter than the rotated box of its chunk, or its bounding sphere.
+//! Search of a tree of B for the elements that a single element of A may touch.
+//!
+//! The tree's boxes are compared with the element's own box in B's frame, with its bounding sphere, or with
+//! both. Both are much tighter than the rotated box of the element's chunk.
 
 use crate::frame::broad_phase::chunk::Chunk;
 use crate::frame::broad_phase::traversal::{Query, Traversal};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::box_tree::{BoxNode, BoxTree, NarrowBall, NarrowBox};
 
-/// Searches that run together: one per bit of `LaneBits`.
+/// Number of searches that run together.
 pub(crate) const SEARCHES_MAX: usize = LaneBits::BITS as usize;
 
-/// Capacity for elements of B; when it is used up they are tested before the search continues.
+/// Capacity for elements of B. When the list is full, its elements are tested before the search continues.
 const FOUND_MAX: usize = 32 * LANES;
 
 /// Search of one tree of B by one element of A.
@@ -21,7 +23,7 @@ pub(crate) struct ElementSearch {
 }
 
 /// Volume of an element of A, and the elements of B that it reaches.
-// Field order: the fields that most searches use share few cache lines.
+// The order of the fields keeps those that most searches use in few cache lines.
 #[derive(Debug)]
 #[repr(C, align(64))]
 struct ElementQuery {
@@ -30,7 +32,8 @@ struct ElementQuery {
     tested: u32,
     /// Number of valid entries in `found`.
     count: u32,
-    /// Candidates found last, in test order. Written eight at a time; entries beyond `count` are unused.
+    /// Candidates found last, in test order. Entries from `count` on are unused, because all eight entries of
+    /// a node are written, whatever their number of hits.
     found: [u32; FOUND_MAX + LANES],
 }
 
@@ -38,9 +41,10 @@ struct ElementQuery {
 #[derive(Clone, Copy, Debug)]
 enum ElementVolume {
     Box(NarrowBox),
-    /// Point or sphere; its box would not reject more.
+    /// For a point or a sphere, whose box would not reject more.
     Ball(NarrowBall),
-    /// Ellipsoid: inside both its box and its bounding sphere.
+    /// For an ellipsoid that may meet triangles: it lies in its box and in its bounding sphere. Also for an
+    /// unbounded sphere.
     BoxAndBall(NarrowBox, NarrowBall),
 }
 
@@ -51,7 +55,7 @@ pub(crate) struct Near(u32);
 impl Near {
     const OVER_FACE: u32 = 1 << 31;
 
-    /// Index in the batch. Trees are small enough that the top bit is free for the flag.
+    /// Index in the batch. A batch has at most 2³¹ elements, so the top bit is free for the flag.
     #[inline]
     pub fn place(self) -> usize {
         (self.0 & !Self::OVER_FACE) as usize
@@ -68,8 +72,8 @@ impl ElementVolume {
     #[inline(always)]
     fn new(chunk: &Chunk<'_>, tree: &BoxTree) -> Self {
         match chunk.single_ball(tree) {
-            // An unbounded sphere would also meet the empty boxes of unused lanes; such a query needs its box
-            // as well.
+            // An unbounded sphere would also meet the empty boxes of unused lanes, so its box is compared as
+            // well.
             Some(ball) if chunk.is_of_balls() && ball.is_bounded() => Self::Ball(ball),
             Some(ball) => Self::BoxAndBall(chunk.single_box(tree), ball),
             None => Self::Box(chunk.single_box(tree)),
@@ -99,7 +103,8 @@ impl Query for ElementQuery {
     ) -> usize {
         let met = self.volume.meets(simd, node);
         self.tested += 1;
-        // Always stores eight entries: a loop over the hits would be mispredicted.
+        // Stores eight entries, whatever the number of hits: the end of a loop over the hits would be
+        // mispredicted.
         children.copy_from_slice(&node.nodes_in(simd, met));
         met.count_ones() as usize
     }
@@ -170,13 +175,15 @@ impl ElementSearch {
         std::mem::take(&mut self.query.count) as usize
     }
 
-    /// Batch index of candidate `number`. Candidates before it may already have been overwritten by `keep`.
+    /// Index in the batch of candidate `number`. `keep` may already have overwritten the candidates before
+    /// it.
     #[inline(always)]
     pub fn place_of(&self, number: usize) -> u32 {
         self.query.found[number]
     }
 
-    /// Keeps an element by its batch index; `over_face`: only its face can push.
+    /// Keeps an element, given by its index in the batch. `over_face` is true if it is a triangle of which
+    /// only the face can push.
     #[inline(always)]
     pub fn keep(&mut self, place: u32, over_face: bool) {
         self.query.found[self.query.count as usize] = place | if over_face { Near::OVER_FACE } else { 0 };

@@ -9,22 +9,24 @@ use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::Batch;
 use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBox, NarrowBoxes, lanes};
 
-/// Elements whose boxes are transformed together: eight chunks of eight.
+/// Elements of a superchunk: eight chunks of eight, whose boxes are transformed together.
 pub(crate) const SUPERCHUNK: u32 = (LANES * LANES) as u32;
 
-/// Capacity for candidate pairs. If a group has more, the search is done for half of its chunks at a time.
+/// Capacity for candidate pairs. If a superchunk has more, it is searched for half as many chunks at a time.
 const CANDIDATE_PAIRS_MAX: usize = 1024;
 
-/// A batch of B, with the boxes of eight chunks of A in the precision of its tree.
+/// A batch of B, with the boxes of the eight chunks of a superchunk of A, in the precision of the batch's
+/// tree.
 #[derive(Clone, Copy)]
 pub(crate) struct Reach<'a> {
     pub batch: &'a Batch,
     boxes: NarrowBoxes,
-    /// Chunks that overlap the batch's root box.
+    /// Chunks of the block that overlap the batch's root box.
     met: LaneBits,
 }
 
-/// Lists the batches of B, each with the chunks of a group that reach it.
+/// Fills `reach` with the batches of B, each with the chunks of superchunk `group` that reach it. If A's
+/// batch has no boxes of superchunks (its tree is unbounded), all chunks of the block count as reaching.
 #[inline(always)]
 #[allow(
     clippy::manual_map,
@@ -72,8 +74,8 @@ pub(crate) struct CandidatePair {
     pub box_b: WideBox,
 }
 
-/// Candidate pairs of the chunks of a group. For each chunk they are in the order in which a search for it
-/// alone finds them.
+/// Candidate pairs of the chunks of a superchunk. The pairs of each chunk are in the order in which a search
+/// for this chunk alone would find them.
 #[derive(Debug)]
 pub(crate) struct CandidatePairs {
     list: Table<CandidatePair>,
@@ -111,18 +113,19 @@ impl CandidatePairs {
         self.chunks = 0;
     }
 
-    /// Adds a pair for some chunks; the caller writes it.
+    /// Adds a pair for some chunks, and returns its place in the list, which the caller fills.
     #[inline(always)]
     fn add(&mut self, chunks: LaneBits) -> &mut CandidatePair {
         let index = self.list.len();
-        // Whole-word update: byte stores followed by a word load would stall (store forwarding).
+        // Updates the whole word, because loading a word after storing one of its bytes would stall (store
+        // forwarding).
         self.words[index / LANES] |= u64::from(chunks) << (index % LANES * LaneBits::BITS as usize);
         self.chunks |= chunks;
         self.list.slot().expect("room was asked for")
     }
 }
 
-/// Search of the trees of B for the candidate pairs of the chunks of a group.
+/// Search of the trees of B for the candidate pairs of the chunks of a superchunk.
 #[derive(Debug)]
 pub(crate) struct GroupSearch {
     pub pairs: CandidatePairs,
@@ -142,15 +145,15 @@ impl GroupSearch {
         Self { pairs, chunks: 0, current: 0, traversal: Traversal::ended(0) }
     }
 
-    /// Starts a search for some chunks of a group.
+    /// Starts a search for some chunks of a superchunk.
     #[inline(always)]
     pub fn begin(&mut self, chunks: LaneBits) {
         (self.chunks, self.current) = (chunks, 0);
         self.traversal.end();
     }
 
-    /// Continues until the search ends or the list is full; returns true at the end. Earlier pairs are
-    /// discarded.
+    /// Discards the pairs found so far, and continues until the search ends or the list is full. Returns true
+    /// if the search has ended.
     #[inline(always)]
     pub fn go_on<S: Simd>(&mut self, simd: S, reach: &[Reach<'_>], counts: &mut FrameCounts) -> bool {
         let Self { pairs, chunks, current, traversal } = self;
@@ -176,23 +179,26 @@ impl GroupSearch {
     }
 }
 
-/// Boxes of the chunks of a group, and the candidate pairs with the elements of one tree of B.
+/// Boxes of the chunks of a superchunk, and the candidate pairs with the elements of one tree of B.
 struct GroupQuery<'q> {
     tree: &'q BoxTree,
     /// Index of the tree's batch in the reach list.
     reach: u32,
     boxes: &'q NarrowBoxes,
-    /// Box around all of them, if several chunks take part.
+    /// Box around all eight boxes; not set if only one chunk takes part.
     around: NarrowBox,
     pairs: &'q mut CandidatePairs,
-    /// Tests of a box with eight.
+    /// Number of tests of one box against eight.
     tested: u64,
 }
 
 impl GroupQuery<'_> {
-    /// Calls `take` with the lane of every box of the node that some of `chunks` reach, and with these chunks.
-    /// A single chunk is compared with the node by its own box. Several are compared by the box around all of
-    /// them, then with each of the node's boxes that this one meets.
+    /// Calls `take` with the lane of every box of the node that some of `chunks` reach, and with the chunks
+    /// that reach it.
+    ///
+    /// * A single chunk: its own box is compared with the node's boxes.
+    /// * Several chunks: the box around all of them is compared with the node's boxes, then each of the
+    ///   node's boxes that it meets with the boxes of the chunks.
     #[inline(always)]
     fn for_each_met<S: Simd>(
         &mut self,

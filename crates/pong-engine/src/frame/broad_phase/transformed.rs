@@ -29,8 +29,9 @@ macro_rules! transformed {
                 }
             }
 
-            /// Least and greatest coordinates of the region of contact, m. Triangles may push an ellipsoid at
-            /// foot points outside its own box.
+            /// Lowest and highest corner, along B's axes, of the box around everything that the primitive can
+            /// touch, m. With `meets_triangles` the box of an ellipsoid may be larger than its bounding box,
+            /// because triangles may push it at foot points outside.
             pub fn bounds(&self, meets_triangles: bool) -> (Vec3, Vec3) {
                 match self {
                     $(Self::$name(shape) => shape.region(meets_triangles),)*

@@ -1,7 +1,8 @@
 //! Traversal of a box tree of B by volumes of A.
 //!
-//! A step expands up to eight nodes of one level. It depends on the step before, because a node holds the
-//! indices of its children. Several traversals can therefore be advanced in turns, to hide the latency.
+//! A step expands up to eight nodes of one level. It cannot begin before the step above it has loaded the
+//! indices of these nodes. So several traversals are advanced in turns: while one waits for memory, the
+//! others proceed.
 
 use pong_geometry::simd::{LANES, Simd};
 use pong_model::box_tree::{BoxNode, BoxTree};
@@ -48,7 +49,7 @@ pub(crate) struct Traversal<V> {
     level: u32,
     bottom_level: u32,
     /// Ranges of pending nodes per level, from the root to the current level. Starts and ends are separate
-    /// arrays: a load that spans two earlier stores would stall.
+    /// arrays, because a load that spans two earlier stores would stall.
     starts: [u16; LEVELS_MAX],
     ends: [u16; LEVELS_MAX],
     /// Pending nodes, and the volumes that reach each of them.

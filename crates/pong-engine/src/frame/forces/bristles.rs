@@ -1,5 +1,4 @@
-//! Batch of up to eight bristle contacts, from any pairs of movable groups; their friction is computed
-//! together.
+//! Bristle friction of up to eight contacts at once, from any pairs of movable groups.
 
 use super::contact::FrameContact;
 use crate::law::friction::{BristleForces, Bristles};
@@ -32,7 +31,7 @@ pub(super) struct Bristle {
 }
 
 /// Up to eight contacts whose friction is pending.
-// Aligned: eight f64 fill one cache line, and an unaligned load of them touches two.
+// Aligned, because eight f64 fill one cache line: a load from an unaligned array would touch two lines.
 #[derive(Debug)]
 #[repr(C, align(64))]
 pub(super) struct PendingBristles {
@@ -76,7 +75,7 @@ impl PendingBristles {
         self.count == LANES
     }
 
-    /// Adds a contact; the batch must not be full.
+    /// Adds a contact; fewer than eight must be pending.
     #[inline(always)]
     pub fn add(&mut self, index: usize, one: &Bristle) {
         let lane = self.count;
@@ -115,7 +114,7 @@ impl Kernel for ComputeFriction<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { bristles: pending, count, contacts } = self;
-        // Unused lanes hold earlier values or zeros.
+        // Unused lanes hold earlier values or zeros; their results are not used.
         let forces = Bristles {
             stiffness: Numbers::load(simd, &pending.stiffness),
             damping: Numbers::load(simd, &pending.damping),

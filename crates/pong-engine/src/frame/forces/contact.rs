@@ -25,9 +25,9 @@ pub(crate) struct FrameContact {
     /// Energy stored in the normal spring and the bristle, J.
     pub stored: f64,
     pub sticks: bool,
-    /// Work on the bodies since the last commit, J; 0 unless energy accounts are kept.
+    /// Work done on the two bodies since the contact began, J; 0 unless the ledger is kept.
     pub work: f64,
-    /// Energy dissipated since the last commit, J; 0 unless energy accounts are kept.
+    /// Energy dissipated since the contact began, J; 0 unless the ledger is kept.
     pub dissipated: f64,
 }
 
@@ -55,7 +55,8 @@ impl FrameContact {
         self.found.normal_b * self.normal_force + self.friction_force_b
     }
 
-    /// Upper bound of the magnitudes of its force, N, and its stored energy, J, without cancellation.
+    /// Number that is at least as large as the magnitude of the force, N, and as that of the stored energy,
+    /// J. It is a sum of magnitudes, so that large parts cannot cancel.
     #[inline]
     pub fn size(&self) -> f64 {
         self.normal_force + self.friction_force_b.abs().sum() + self.stored.abs()
@@ -72,7 +73,7 @@ impl FrameContact {
     #[inline(always)]
     pub fn write_record(&self, record: &mut ContactRecord) {
         let found = &self.found;
-        // No `..`: a new field of the record must be handled here.
+        // No `..`, so that a new field of the record cannot be forgotten here.
         let ContactRecord {
             key,
             feature,

@@ -1,5 +1,5 @@
-//! Buffer of the contacts that one thread finds, unordered and of fixed capacity. It counts the demand beyond
-//! that.
+//! Buffer of the contacts that one thread finds, unordered and of fixed capacity. It also counts the contacts
+//! for which it has no room.
 
 use super::bristles::PendingBristles;
 use crate::frame::forces::contact::FrameContact;
@@ -18,7 +18,8 @@ use std::mem::swap;
 pub(crate) struct ContactBuffer {
     /// Thread index; 0 is the caller.
     thread: usize,
-    /// Phase of the contents, or [`Self::NO_PHASE`].
+    /// Phase ([`WorkerInput::phase`](crate::frame::input::WorkerInput)) whose contacts the buffer holds, or
+    /// [`Self::NO_PHASE`].
     pub phase: u64,
     /// Contacts, unordered.
     pub contacts: Table<FrameContact>,
@@ -31,8 +32,8 @@ pub(crate) struct ContactBuffer {
     pub law_state_len: usize,
     /// Scratch for ranking the contacts by depth. Caller's buffer only.
     ranked: Table<u32>,
-    /// True while other threads find contacts for the same frame. If the buffer overflows then, the round is
-    /// repeated by the caller.
+    /// True while other threads find contacts for the same frame. If the buffer overflows then, the caller
+    /// repeats the round alone.
     pub shares: bool,
     pub demand: CapacityDemand,
     pub counts: FrameCounts,
@@ -47,7 +48,7 @@ pub(crate) struct CapacityDemand {
     pub pushing: u64,
     /// Contacts that are only remembered.
     pub remembered: u64,
-    /// Largest candidate count of a chunk that overflowed.
+    /// Largest number of candidates of a chunk for which the list of candidates was too short.
     pub at_once: u64,
     /// True if any buffer was too small.
     pub overflowed: bool,
@@ -162,7 +163,7 @@ impl ContactBuffer {
         self.bristles.flush(&mut self.contacts);
     }
 
-    /// Computes the pending friction if the batch is full.
+    /// Computes the pending friction if eight contacts need it.
     #[inline(always)]
     pub fn flush_if_full(&mut self) {
         if self.bristles.is_full() {
@@ -170,8 +171,8 @@ impl ContactBuffer {
         }
     }
 
-    /// Moves everything except the counts out of another [flushed](Self::flush) buffer of the same thread, by
-    /// swapping the tables.
+    /// Moves the contacts and the demand out of another [flushed](Self::flush) buffer of the same thread, by
+    /// swapping the tables. Its counts and times stay there.
     pub fn move_from(&mut self, other: &mut Self) {
         debug_assert!(self.thread == other.thread && self.law_state_len == 0);
         swap(&mut self.contacts, &mut other.contacts);
@@ -180,8 +181,8 @@ impl ContactBuffer {
         (self.phase, other.phase) = (other.phase, Self::NO_PHASE);
     }
 
-    /// Copies everything from another [flushed](Self::flush) buffer; returns false if there is not enough
-    /// room.
+    /// Adds the contacts, the demand and the counts of another [flushed](Self::flush) buffer. Returns false
+    /// if there is not enough room, or if that buffer has overflowed.
     pub fn merge(&mut self, other: &Self) -> bool {
         let first = self.contacts.len();
         let room = self.contacts.extend_from_slice(&other.contacts).is_ok()
@@ -196,9 +197,11 @@ impl ContactBuffer {
         room && !other.demand.overflowed
     }
 
-    /// Index for one more contact of this role; the caller writes it. If the buffer is full, the caller's
-    /// buffer keeps the deepest contacts; any other buffer drops the new one (`None`), and the caller has to
-    /// repeat the phase.
+    /// Index for one more contact of this role, to be written by the calling function. If the buffer is full:
+    ///
+    /// * While other threads find contacts (`shares`), the contact is dropped (`None`), and the calling
+    ///   thread has to repeat the round alone.
+    /// * Otherwise the deepest contacts are kept to make room.
     #[inline]
     pub fn slot(&mut self, role: ContactRole, sealed: &Sealed) -> Option<usize> {
         self.demand.count(role);
@@ -217,7 +220,7 @@ impl ContactBuffer {
         Some(self.contacts.len() - 1)
     }
 
-    /// Computes the friction of a contact on its own, without a batch.
+    /// Computes the friction of one contact alone, by a law other than the bristle.
     #[inline(never)]
     pub fn add_friction_alone(&mut self, index: usize, law: &FrictionProps, input: &FrictionInput<'_>) {
         let FrictionOutput { force_b, bristle_b, sticks, stored } =
@@ -227,8 +230,8 @@ impl ContactBuffer {
         contact.stored += stored;
     }
 
-    /// Makes room: keeps the deepest `pushing` contacts that push and the deepest `others` of the rest; ties
-    /// by summation order.
+    /// Makes room: keeps the deepest `pushing` contacts that push, and the deepest `others` of those that do
+    /// not. Of equally deep contacts those first in summation order are kept. Culled contacts are dropped.
     pub fn keep_deepest(&mut self, pushing: usize, others: usize) {
         self.flush();
         let ranked = &mut self.ranked;

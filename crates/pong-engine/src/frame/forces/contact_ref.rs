@@ -4,8 +4,8 @@ use crate::seal::Direction;
 use crate::state::ContactKey;
 use pong_threads::MAX_WORKERS;
 
-/// Reference to a contact, with the high word of its sort key and the flags that are needed before summation.
-/// Most passes then need not read the contacts themselves.
+/// Reference to a contact, with the high word of its sort key and the flags that are needed before summation,
+/// so that most passes over the contacts need not read the contacts themselves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContactRef {
     pub head: u64,

@@ -29,8 +29,8 @@ impl<'a> FoundContacts<'a> {
     }
 }
 
-/// Back buffers that are swapped with the workers' buffers after a round. While they are not in use they read
-/// as an empty slice, because reading a buffer costs a frame of the caller alone a cache miss.
+/// A second contact buffer for each worker, swapped with the worker's own after a round. Buffers not in use
+/// read as an empty slice: in a frame without workers, each look at a buffer would cost a cache miss.
 #[derive(Debug)]
 pub(crate) struct WorkerBuffers {
     all: Vec<ContactBuffer>,

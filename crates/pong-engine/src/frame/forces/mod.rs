@@ -27,11 +27,13 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::LANES;
 use reference_point::reference_point;
 
-/// Contacts of one key share the tangential stiffness if the cosine between their normals exceeds this (60°).
+/// Contacts of one key share the tangential stiffness if the cosine of the angle between their normals
+/// exceeds this (60°).
 const SHARED_BRISTLE_COSINE_MIN: f64 = 0.5;
 
-/// Computes the forces of the candidates of a chunk of A, in summation order, and adds the contacts to the
-/// buffer. Friction of bristles stays pending there until a batch is full.
+/// Computes the forces of the candidates of a chunk of A that were not culled, and adds the contacts to the
+/// buffer. `found` is in summation order. Bristle friction stays pending in the buffer until eight contacts
+/// need it.
 #[inline(always)]
 pub(crate) fn compute_forces(
     context: &PairContext<'_>,
@@ -44,7 +46,7 @@ pub(crate) fn compute_forces(
         let counts = || group.iter().filter(|contact| contact.status != CandidateStatus::Culled);
         for one in counts() {
             if let Some(index) = out.slot(one.role, sealed) {
-                // Most groups have one contact.
+                // Most keys have one contact, which needs no sum over the others.
                 let share = if group.len() > 1 { bristle_share(one, counts()) } else { one.half_or_whole() };
                 context.compute_force(elements_a, one, share, index, out);
             }
@@ -52,8 +54,8 @@ pub(crate) fn compute_forces(
     }
 }
 
-/// Recomputes the forces after a limit has removed contacts: the remaining contacts share the whole
-/// tangential spring.
+/// Recomputes the forces after the contact capacity has removed contacts, because the remaining contacts then
+/// share the whole tangential spring.
 pub(crate) fn recompute_forces(
     given: &EvaluationInput<'_>,
     motions: &Motions<'_>,
@@ -86,8 +88,9 @@ pub(crate) fn recompute_forces(
     out.flush();
 }
 
-/// Share h·w/Σw of the tangential spring that a contact has: w is its weight, h one half or one, and Σw runs
-/// over the contacts of the key with nearly the same normal.
+/// Share h·w/Σw of the tangential spring that a contact has: w is its weight, h is one half or one
+/// (`half_or_whole`), and Σw is the sum of the weights of the pushing contacts of its key whose normals are
+/// less than 60° from its own.
 #[inline(always)]
 pub(crate) fn bristle_share<'f>(
     contact: &ContactCandidate,
@@ -100,7 +103,8 @@ pub(crate) fn bristle_share<'f>(
         })
         .map(|other| other.weight)
         .sum();
-    // A single contact has exactly its own weight, even if n·n is not exactly 1.
+    // If no other contact counts, `whole` is the weight itself and the share is exactly h. If the contact
+    // does not push, its share is not used.
     let half = contact.half_or_whole();
     if whole > contact.weight { half * contact.weight / whole } else { half }
 }
@@ -109,8 +113,8 @@ pub(crate) fn bristle_share<'f>(
 #[derive(Clone, Copy)]
 pub(crate) struct ElementsOfA<'c> {
     kind: PrimitiveKind,
-    /// Points and spheres of the current chunk: their centres in A's frame and in B's frame. The chunk is in
-    /// the cache, the model is not.
+    /// Centres of the points or spheres of the current chunk, in A's frame and in B's frame; `None` for other
+    /// kinds. Borrowed from the chunk, which is in the cache, while the model is not.
     centers: Option<[&'c Lanes; 2]>,
 }
 
@@ -154,9 +158,11 @@ impl PairContext<'_> {
     }
 
     /// Writes a contact with its forces, except for bristle friction, which stays pending in the buffer. The
-    /// state of a registered law starts at zero.
+    /// contact's state of a registered friction law must be zero before the call: a new contact starts from
+    /// zero.
     ///
-    /// Each field is written once and not read back: avoids a store-forwarding stall.
+    /// Each field is written once and not read back, because a read right after the write would stall (store
+    /// forwarding).
     #[inline(always)]
     fn compute_force(
         &self,
@@ -184,7 +190,7 @@ impl PairContext<'_> {
         }
         let rubs = pressed > 0.0;
         let slot = out.slot_of(index);
-        // No `..`: a new field of the contact must be handled here.
+        // No `..`, so that a new field of the contact cannot be forgotten here.
         let FrameContact {
             found: as_found,
             point_b,
@@ -214,7 +220,8 @@ impl PairContext<'_> {
         }
     }
 
-    /// Adds friction to a contact whose normal force is written. Bristle friction stays pending in the batch.
+    /// Adds friction to a contact whose normal force is written. Bristle friction stays pending in the
+    /// buffer.
     #[inline(always)]
     fn add_friction(&self, contact: &Slipping<'_>, props: &PairProps, out: &mut ContactBuffer) {
         let record = contact.continues.map(|(_, record)| record);
@@ -243,7 +250,7 @@ impl PairContext<'_> {
                 },
             );
         }
-        // Coulomb's law needs only the velocity.
+        // Coulomb's law needs only the velocity, so the slip is not computed for it.
         let asks_slip = !matches!(props.friction, FrictionProps::Coulomb { .. });
         let input = FrictionInput {
             normal_force: contact.pressed,
@@ -259,9 +266,10 @@ impl PairContext<'_> {
         out.add_friction_alone(contact.index, &props.friction, &input);
     }
 
-    /// Rotation vector φ of A relative to B since the last commit, rad; computed once per pair.
+    /// Rotation vector φ of A relative to B since the last commit, rad; computed once for all contacts of
+    /// this context.
     fn rotation(&self, since: &SinceCommit) -> &Vec3 {
-        // Set in place: avoids a store-forwarding stall.
+        // Set and then read in place, which avoids a store-forwarding stall.
         if self.rotation_b.get().is_none() {
             _ = self.rotation_b.set(since.rotation());
         }
@@ -277,9 +285,10 @@ impl PairContext<'_> {
     /// where o is the reference point of A, c the contact point, φ the rotation vector of A, and the indices
     /// 0 and 1 stand for the last commit and now.
     ///
-    /// The lever c − o is the mean of its two values: with c₀ − o₀ alone, a ball that rolls and spins would
-    /// slip by its spin times the distance that the contact has moved. A new contact has only c₁ − o₁. Only
-    /// the part of its displacement since first touch counts, computed for a uniform approach.
+    /// The lever c − o is the mean of its two values: with c₀ − o₀ alone, a sphere that rolls and spins would
+    /// slip by its spin times the distance that the contact has moved. For a new contact there is no c₀, so
+    /// the lever is c₁ − o₁. Only the part of its displacement after the first touch counts; the time of the
+    /// first touch follows from the depth if A has approached uniformly.
     #[inline(always)]
     fn slip(&self, contact: &Slipping<'_>, earlier: Option<&ContactRecord>) -> Vec3 {
         let Some(since) = &self.motion.since_commit else { return Vec3::zeros() };

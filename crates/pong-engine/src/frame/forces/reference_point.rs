@@ -6,8 +6,8 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_model::MovableGroup;
 use std::borrow::Cow;
 
-/// Point o of A whose displacement deflects the bristle, in A's frame, m. Borrowed from the model where
-/// possible.
+/// Point o of A whose displacement deflects the bristle, in A's frame, m; borrowed from the model where the
+/// model stores it.
 pub(crate) fn reference_point<'a>(
     (body_a, kind_a): (&'a MovableGroup, PrimitiveKind),
     key: &ContactKey,

@@ -73,7 +73,7 @@ impl WorkerInput {
         self.clock = other.clock;
         self.motions.clear();
         self.motions.extend_from_slice(&other.motions);
-        // Only if changed: a clone writes the reference count, which other cores read.
+        // Cloned only if changed: a clone writes the reference count, which other cores read.
         if !Arc::ptr_eq(&self.tables, &other.tables) {
             self.tables = Arc::clone(&other.tables);
         }
@@ -96,7 +96,7 @@ pub(crate) struct Round<'a> {
 pub(crate) struct PairContext<'a> {
     pub scene: &'a Scene,
     pub group_pair: u32,
-    /// 0 if A is in the pair's first body, 1 if in the second.
+    /// 0 if A is the first movable group of the group pair, 1 if it is the second.
     pub flipped: u32,
     pub body_a: &'a MovableGroup,
     pub body_b: &'a MovableGroup,

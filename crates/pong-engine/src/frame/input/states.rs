@@ -28,7 +28,8 @@ pub(crate) fn latch(sealed: &Sealed, states: &States, poses: &mut [Pose], twists
     for &body in &*sealed.paired_bodies {
         if let Some(state) = &states.bodies[body] {
             poses[body] = states.poses[body];
-            // Field-wise: a struct copy right after narrow stores would stall (store forwarding).
+            // Copied field by field, because copying the struct right after writing its fields would stall
+            // (store forwarding).
             let twist = &mut twists[body];
             twist.linear.copy_from_slice(&state.linear_velocity);
             twist.angular.copy_from_slice(&state.angular_velocity);

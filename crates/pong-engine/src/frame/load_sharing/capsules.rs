@@ -6,12 +6,13 @@ use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use pong_geometry::Vec3;
 
 /// Assigns the weights of the contacts of a capsule's end spheres (`ends`) and of its axis with edges
-/// (`middle`). Only the deepest edge contact counts, and only if it is deeper than both end spheres; all
-/// other edge contacts are culled.
+/// (`middle`). Only the deepest edge contact counts, and only if its depth exceeds the minimum translations
+/// of both end spheres; all other edge contacts are culled.
 ///
 /// Let E be the square of the depth at the edge, and A and B the squares of the minimum translations of the
 /// two end spheres. With stiffness k, the stored energy is ¼k(E + A·B/E), or ¼k(A + B) if no edge counts. The
-/// weights are the derivatives of the stored energy.
+/// weights follow from its derivatives: 1 − A·B/E² at the edge; those at the two ends are multiplied by B/E
+/// and A/E.
 pub(super) fn couple(ends: &mut [ContactCandidate], middle: &mut [ContactCandidate]) {
     let squares = [0, 1].map(|end| square_moved(ends, end));
     let deeper = |a: usize, b: usize| if middle[b].depth > middle[a].depth { b } else { a };

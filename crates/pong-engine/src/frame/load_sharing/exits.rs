@@ -7,11 +7,12 @@ use pong_geometry::interference::segment_at_walls::{ExitAtWall, exit_at_wall, pa
 use pong_geometry::primitive::LineSegment;
 
 /// Least part of the segment inside a piece, relative to the longest part among the pieces that the segment
-/// leaves at the same point. A piece with a shorter part is only touched.
+/// leaves at the same point. The segment only touches a piece with a shorter part, so the exit from it does
+/// not count.
 const SHARE_HELD: f64 = 0.5;
 
-/// Returns true for an exit at the boundary edge of an internal face if rounding has put it on the internal
-/// face instead of the active face.
+/// Returns true for an exit at the boundary edge of an internal face, if rounding lets the segment leave
+/// through the internal face instead of the active face.
 pub(super) fn is_exit_that_stands_in(contact: &ContactCandidate) -> bool {
     contact.half && contact.status == CandidateStatus::StandIn
 }
@@ -20,10 +21,13 @@ pub(super) fn is_exit_that_stands_in(contact: &ContactCandidate) -> bool {
 /// contacts of one end of a segment with the pieces of one body.
 ///
 /// Where a segment leaves the body at the boundary edge of an internal face, rounding may make both pieces at
-/// that face report an exit, or neither. Of the exits at one point, the first counts whose piece contains a
-/// large part of the segment ([`SHARE_HELD`]); exits through active faces come before exits through internal
-/// faces. An exit through an internal face is culled if a piece contains the segment past the exit. A segment
-/// end at the same point counts as an exit.
+/// that face report an exit, or neither. These rules choose one:
+///
+/// * Only exits count whose piece contains a large part of the segment ([`SHARE_HELD`]).
+/// * The first exit through an active face counts; if there is none, the first through an internal face.
+/// * An exit through an internal face is culled if a piece contains the segment past the exit.
+///
+/// A segment end at the same point counts as an exit, unless the segment ends at this point in all pieces.
 pub(super) fn keep_one_of_exits(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     let Some(first) = group.first() else { return };
     let local = &context.body_a.segments[first.element_a as usize];
@@ -49,7 +53,7 @@ impl Exits<'_> {
     fn of(&self, found: &ContactCandidate) -> Option<Exit> {
         let may_leave = found.status == CandidateStatus::AtWall || is_exit_that_stands_in(found);
         let piece = &self.context.body_b.polyhedra[found.element_b as usize];
-        // The exit may be at the other end of the segment.
+        // A contact of one end may come from an exit at the other end of the segment.
         let at = |end: usize| Some(Exit { end, at_wall: exit_at_wall(&self.segment, piece, end)? });
         if may_leave { at(self.end).or_else(|| at(1 - self.end)) } else { None }
     }

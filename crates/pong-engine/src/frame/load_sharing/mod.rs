@@ -34,8 +34,8 @@ const FALLBACK_DEPTH_SLACK: f64 = 1e-9;
 /// count. All elements of the chunk are of one kind, and all candidates with one key are in one chunk.
 ///
 /// # Errors
-/// [`Full`] if the scratch memory was too small for the contacts of one surface. Then only as many of them as
-/// fit have been shared exactly, the deepest first; the others have weight zero.
+/// [`Full`] if the scratch memory was too small for the contacts of one surface. Then only the deepest of
+/// them, as many as fit, have been shared exactly; the others have weight zero.
 pub(crate) fn assign_weights(
     context: &PairContext<'_>,
     kind_a: PrimitiveKind,
@@ -46,8 +46,8 @@ pub(crate) fn assign_weights(
     if let [alone] = &mut found[..]
         && !is_under_capsule(alone)
     {
-        // A single candidate keeps weight 1. If it is `BeyondWall`, the body has no piece on the other side
-        // of the internal face, so there is no contact.
+        // A single candidate keeps the weight that its tester gave. If it is `BeyondWall`, B has no piece on
+        // the other side of the internal face, so there is no contact.
         if alone.status == CandidateStatus::BeyondWall {
             alone.status = CandidateStatus::Culled;
         }
@@ -265,8 +265,8 @@ fn find_shares(
     outcome
 }
 
-/// Makes contacts with zero weight `Tracked` if they have a face of entry or are `BackFace`, because the next
-/// frame needs them; culls the other contacts with zero weight.
+/// Makes a contact with zero weight `Tracked` if it has a face of entry or is `BackFace`, because the next
+/// frame needs it. Culls all other contacts with zero weight.
 fn drop_idle(group: &mut [ContactCandidate]) {
     for contact in group.iter_mut().filter(|contact| contact.takes_part()) {
         if contact.weight > 0.0 {
@@ -283,8 +283,8 @@ fn drop_idle(group: &mut [ContactCandidate]) {
 /// Makes a fallback candidate regular if no regular contact of at least the same depth touches the same
 /// point: rounding has then made the regular contact miss. Culls all other fallback candidates.
 ///
-/// For an ellipsoid the depths must be equal, because a deeper contact at the same point is another local
-/// minimum of the depth.
+/// For an ellipsoid, only a regular contact of the same depth culls a fallback, because a deeper contact at
+/// the same point is another local minimum of the depth.
 fn resolve_fallbacks(group: &mut [ContactCandidate], kind_a: PrimitiveKind) {
     let is_fallback = |contact: &ContactCandidate| {
         matches!(contact.status, CandidateStatus::Fallback | CandidateStatus::BackFaceFallback)

@@ -10,7 +10,8 @@ use pong_geometry::primitive::Polyhedron;
 /// Relative difference up to which two depths count as equal, so that rounding does not select the feature.
 const DEPTH_SLACK: f64 = 1e-12;
 /// Height above a plane up to which a point counts as in the plane, relative to its distance from the point
-/// that defines the plane. Folds that single precision can represent are steeper.
+/// that defines the plane. A fold that single precision can represent is steeper, so it does not count as
+/// flat.
 const PLANE_SLACK: f64 = 1e-9;
 /// Rounding error of a position, relative to the coordinates: some tens of units in the last place.
 const ROUNDING: f64 = 1e-14;
@@ -66,16 +67,16 @@ pub(crate) fn pushes_before(contact: &ContactCandidate, other: &ContactCandidate
 /// Returns true if the features of two contacts meet convexly.
 fn meet_convexly(contact: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhedron]) -> bool {
     if contact.status == CandidateStatus::StandIn && other.status == CandidateStatus::StandIn {
-        // The foot points of `StandIn` candidates lie outside their faces and show nothing: compare the faces
-        // themselves.
+        // The foot points of `StandIn` candidates lie outside their faces and show nothing, so the faces
+        // themselves are compared.
         return lies_below(contact, other, pieces) && lies_below(other, contact, pieces);
     }
     if contact.feature.is_face()
         && other.feature.is_face()
         && are_one_place(&touched(contact), &touched(other))
     {
-        // Equal contact points, where pieces meet, show nothing about the angle between two faces: compare
-        // the faces themselves.
+        // Equal contact points, where pieces meet, show nothing about the angle between two faces, so the
+        // faces themselves are compared.
         return lies_below(contact, other, pieces) && lies_below(other, contact, pieces);
     }
     is_part_of(contact, other, pieces) || is_part_of(other, contact, pieces) || touch_convexly(contact, other)

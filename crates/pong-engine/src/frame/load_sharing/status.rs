@@ -42,12 +42,15 @@ pub(crate) enum CandidateStatus {
     /// Fallback with the centre behind the face.
     BackFaceFallback,
     /// Fallback for a face whose foot point lies outside the face: on triangles used only if no regular
-    /// contact is as deep, on a polyhedron only if there is no regular contact. For a segment: an exit at the
-    /// boundary edge of an internal face that rounding has put on the internal face.
+    /// contact is as deep, on a polyhedron only if there is no regular contact.
+    ///
+    /// For a segment: fallback for an exit at the boundary edge of an internal face, if rounding lets the
+    /// segment leave through the internal face instead of the active face. Used if no other piece reports
+    /// this end, and none contains the segment beyond the exit.
     StandIn,
     /// Point or segment end in a piece, on an internal face or on the boundary edge of an internal face; used
     /// unless a piece of lower index has the same contact. Also an exit of a segment next to an internal
-    /// face: only one piece may have it.
+    /// face, of which only one piece may have a contact.
     AtWall,
     /// Point or segment end outside a piece, on the far side of an internal face within its tolerance; used
     /// only if rounding leaves the point in no piece.

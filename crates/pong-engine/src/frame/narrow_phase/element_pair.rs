@@ -30,7 +30,7 @@ pub(crate) struct ChunkCandidates<'m> {
 }
 
 /// Pairs of a sphere or ellipsoid and a triangle whose tests are deferred until there are eight pairs, or
-/// until the batch of B ends. The pairs are all of one kind, that of the chunk.
+/// until the search has found no more. The pairs are all of one kind, that of the chunk.
 #[derive(Debug)]
 pub(crate) struct DeferredPairs {
     pub spheres: SphereTrianglePairs,

@@ -1,8 +1,8 @@
 //! Narrow phase: pairs of primitives give contact candidates.
 //!
-//! Predicates about the side of a triangle, or of a surface of triangles, on which a point lies. The last column tells whether
-//! the region of the predicate contains its own boundary; tolerances are in code. The first eight predicates are in
-//! `pong_geometry::interference`, the others in this folder.
+//! Predicates about the side of a triangle, or of a surface of triangles, on which a point lies. The last
+//! column tells whether the region of the predicate contains its own boundary; tolerances are in code. The
+//! first eight predicates are in `pong_geometry::interference`, the others in this folder.
 //!
 //! | predicate | question | used by | boundary |
 //! |---|---|---|---|
@@ -19,7 +19,8 @@
 //! | `nearest_side::Nearby::is_in_front` | Is the centre in front of the whole surface? | `on_triangle`, `TriangleEntry` | in, by `ROUNDING` |
 //! | `side_of_entry::TriangleEntry::role` | Does the contact push, by the side from which the centre came? | `on_triangle` | – |
 //!
-//! A two-sided triangle is two triangles, a front and a *back*; a centre in their plane is in front of the front.
+//! A two-sided triangle is two triangles, a front and a *back*; a centre in their plane is in front of the
+//! front.
 
 pub(crate) mod candidate;
 pub(crate) mod element_pair;

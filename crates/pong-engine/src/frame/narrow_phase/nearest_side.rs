@@ -1,5 +1,5 @@
-//! Side of a triangle surface on which a centre lies, if the centre has no earlier position: decided at the
-//! nearest point of the surface.
+//! Side of a surface of triangles on which a centre lies that has no earlier position. The point of the
+//! surface nearest to the centre decides.
 
 use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
@@ -13,10 +13,11 @@ use pong_model::{Item, MovableGroup};
 /// Relative widening of the search box around the centre, so that rounding excludes no triangle.
 const REACH_SLACK: f64 = 1e-6;
 
-/// Distance from a plane, relative to the lengths involved, below which a centre counts as in the plane.
+/// Distance from a plane, relative to the coordinates and distances in the computation, below which a centre
+/// counts as in the plane.
 pub(crate) const ROUNDING: f64 = 1e-12;
 
-/// A triangle of a body, and the centre of a sphere or ellipsoid.
+/// A triangle of a movable group, and the centre of a sphere or ellipsoid.
 pub(crate) struct Nearby<'a> {
     pub body: &'a MovableGroup,
     pub item: Item,
@@ -68,23 +69,23 @@ impl Nearby<'_> {
     }
 
     /// Returns true if a point is in front of the triangle's plane, or within rounding of it. A point within
-    /// rounding of a two-sided triangle is on its front side.
+    /// rounding of a two-sided triangle is on its front side, so it is not in front of its back.
     pub fn is_in_front_of_triangle(&self, p: &Vec3) -> bool {
         let view = TriangleView::new(&self.body.triangles, self.item.element);
         let rounding = ROUNDING * ((p - view.corners[0]).amax() + p.amax());
         if self.is_mirror() { view.height(p) > rounding } else { view.height(p) >= -rounding }
     }
 
-    /// Shell that the triangle belongs to; for a back, that of its front.
+    /// Shell of the triangle, or of its front triangle if it is the back of a two-sided one.
     pub fn surface(&self) -> u32 {
         self.shell(self.front())
     }
 
     /// Returns true if the centre is in front of the surface at the surface point nearest to it; always true
-    /// for two-sided triangles.
+    /// if this point is on a two-sided triangle.
     ///
-    /// The nearest triangle of the whole surface decides, ties by model order, so the result does not depend
-    /// on bounding volumes, leaves or blocks.
+    /// The nearest triangle of the whole surface decides, and of equally near ones the first of the model. So
+    /// the result does not depend on bounding volumes, leaves or blocks.
     pub fn is_in_front(&self) -> bool {
         let set = &self.body.triangles;
         let (front, shell) = (self.front(), self.surface());
@@ -108,7 +109,7 @@ impl Nearby<'_> {
             || is_in_front_at(&self.center_b, set, nearest.element, place)
     }
 
-    /// The triangle itself or, for a back, its front.
+    /// Returns the index of the triangle, or of its front triangle if it is the back of a two-sided one.
     fn front(&self) -> u32 {
         let info = &self.body.primitives[self.item.primitive as usize];
         let element = self.item.element;

@@ -1,5 +1,5 @@
-//! Common part of the sphere and ellipsoid tests against a triangle: side from which the centre came, and
-//! thickness.
+//! Common part of the tests of a sphere or an ellipsoid against a triangle: the side from which the centre
+//! came, and the thickness of the triangle.
 
 use super::candidate::CandidateStatus;
 use super::element_pair::{ChunkCandidates, ElementPair};

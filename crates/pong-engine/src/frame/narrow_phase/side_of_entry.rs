@@ -17,8 +17,8 @@ use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray};
 use pong_model::{Item, MovableGroup};
 use std::num::NonZeroU32;
 
-/// Current face of entry of a polyhedron, and the face that pushes. It is packed so that an `Option` of it
-/// fits into one register.
+/// Current face of entry of a polyhedron, and the face that pushes. The index has no zero, so that an
+/// `Option` of both fits into one register.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EntryFace {
     /// Index of the current face of entry plus one.
@@ -48,7 +48,7 @@ pub(crate) struct PolyhedronEntry<'a> {
     pub records: &'a [ContactRecord],
     pub body: &'a MovableGroup,
     pub shell: u32,
-    /// Index of the polyhedron in the body.
+    /// Index of the polyhedron in B's movable group.
     pub piece: u32,
     /// The point in A's frame. Its earlier position in B's frame is computed only if needed.
     pub point_a: &'a Vec3,
@@ -184,15 +184,18 @@ impl TriangleEntry<'_> {
     }
 
     /// Returns true if a feature that has the centre behind it pushes the centre back to the front, because
-    /// the centre came from there. One of these conditions must hold:
-    /// - at the last commit, a contact with nearly the same normal held the centre from behind;
-    /// - at the last commit, the centre was in front of a face at this feature, and it has not passed the
-    ///   face's plane beside the face;
-    /// - since the last commit, the path of the centre crossed the surface from the front, and the centre
+    /// the centre came from there. Without an earlier position it pushes. Otherwise one of these conditions
+    /// must hold:
+    ///
+    /// * At the last commit, a contact with nearly the same normal held the centre from behind.
+    /// * At the last commit, the centre was in front of a face at this feature, and it has not passed the
+    ///   face's plane beside the face.
+    /// * Since the last commit, the path of the centre crossed the surface from the front, and the centre
     ///   lies below this feature by no more than its distance from the crossing.
     ///
-    /// Otherwise the feature belongs to a farther sheet of the surface, and the centre has been behind that
-    /// sheet all the time.
+    /// If none holds, the feature belongs to a farther sheet of the surface, and the centre has been behind
+    /// that sheet all the time. A remembered `WrongSide` contact with nearly the same normal excludes the
+    /// last two conditions.
     fn pushes_from_behind(&self, contact: &TriangleContact) -> bool {
         let Some(earlier) = self.earlier_b else { return true };
         let Interference { depth, normal_b, deepest_b, feature } = &contact.interference;
@@ -287,7 +290,7 @@ impl TriangleEntry<'_> {
         loop {
             let last = self.last_crossings_before(earlier, shell, skipped);
             let LastCrossings { from_behind, from_front } = last;
-            // `are_any` excludes two infinities, whose difference would be NaN.
+            // Without a crossing both are infinite, and the comparison alone would never end the loop.
             if !last.are_any() || from_behind.max(from_front) > from_behind.min(from_front) + rounding {
                 return last;
             }

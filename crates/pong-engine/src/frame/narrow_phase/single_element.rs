@@ -1,7 +1,7 @@
-//! Single elements of A against their candidates of B.
+//! Tests single elements of A against their candidates of B.
 //!
-//! Few of the triangles whose boxes a wheel reaches push. The pairs are filtered eight at a time for several
-//! wheels together, so that the lanes are filled across wheels.
+//! A wheel reaches the boxes of many triangles, but few of these push. So its pairs are filtered first, eight
+//! at a time; the pairs of several wheels together fill the lanes.
 
 use super::element_pair::{Ball, ChunkCandidates, DeferredPairs, ElementPair};
 use super::on_triangle::thickness_for;
@@ -56,7 +56,8 @@ pub(crate) fn narrow_down<S: Simd>(
         for candidate in 0..found {
             let place = searches[number].place_of(candidate);
             let item = items[place as usize];
-            // Most triangles are of the same mesh; the comparison avoids a lookup.
+            // Most consecutive triangles are of one mesh, so `begin` and the look-up of the thickness are
+            // rarely needed.
             if item.primitive != last {
                 last = item.primitive;
                 deferred.begin(simd, &element, thickness_for(context, &element, item));
@@ -65,7 +66,8 @@ pub(crate) fn narrow_down<S: Simd>(
             queue.from[lane] = (number as u32, place);
             if lane + 1 == LANES {
                 queue.keep_near(searches, deferred);
-                // The lanes have been taken; the next pair has to set its element again.
+                // `keep_near` has emptied `deferred`. The next pair must call `begin` again, even for the
+                // same primitive.
                 last = u32::MAX;
             }
         }
@@ -74,7 +76,7 @@ pub(crate) fn narrow_down<S: Simd>(
     queue.keep_near(searches, deferred);
 }
 
-/// Pairs of elements of one kind with triangles of one body, filtered when there are eight.
+/// Pairs of elements of one kind with triangles of one movable group, filtered when there are eight.
 struct Queue<'a> {
     of: Option<(PrimitiveKind, &'a TriangleSet)>,
     /// Per pair: index of the element's search, and the triangle's index in its batch.
@@ -87,7 +89,8 @@ impl<'a> Queue<'a> {
         self.of.is_none_or(|of| of.0 == kind && std::ptr::eq(of.1, set))
     }
 
-    /// Filters the pairs and keeps those that may touch, in their order. No search keeps more than it had.
+    /// Filters the pairs and keeps those that may touch, in their order. No search keeps more candidates than
+    /// it had, so that none is overwritten before it is read.
     #[inline(always)]
     fn keep_near(&mut self, searches: &mut [ElementSearch], deferred: &mut DeferredPairs) {
         let Some((_, set)) = self.of else { return };

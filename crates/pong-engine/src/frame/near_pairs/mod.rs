@@ -157,7 +157,7 @@ impl ManyPairs {
 }
 
 /// Index of the pair with `second` among the pairs of one movable group; `None` if there is no such pair. If
-/// that group is paired with every group after it, the index follows from the group indices.
+/// that group is paired with every group after it, the index follows from the group indices without a search.
 fn place_of(second: usize, of_first: &[GroupPair]) -> Option<usize> {
     let guess = second.checked_sub(of_first.first()?.second)?;
     if of_first.get(guess).is_some_and(|pair| pair.second == second) {

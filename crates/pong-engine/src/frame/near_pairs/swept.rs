@@ -1,15 +1,15 @@
 //! Bounds of the volume that movable groups may have swept since the last commit (docs/theory.md, 2.7).
 //!
-//! Movable group *i* lies in a ball of radius rᵢ. P and P′ are the positions of the ball's centre now and at
-//! the last commit, along the common axes and relative to the mean of all centres; sᵢ = |P − P′|. θ is the
+//! Movable group *i* lies in a bounding sphere of radius rᵢ. P and P′ are the positions of its centre now and
+//! at the last commit, along the common axes and relative to the mean of all centres; sᵢ = |P − P′|. θ is the
 //! largest chord 2·sin(φ/2) of the rotations φ of the groups since the last commit. Then
 //!
 //! ```text
 //! box of i = box around P and P′, grown by Rᵢ = (rᵢ + θ·sᵢ/4)/(1 − θ)
 //! ```
 //!
-//! If two boxes are disjoint, the balls are apart now, and the path of every point of one group, seen from
-//! the other group, has stayed outside that group's ball.
+//! If two boxes are disjoint, the two spheres are apart now, and the path of every point of one group, seen
+//! from the other group, has stayed outside the other group's sphere.
 
 use crate::scene::Scene;
 use crate::state::{CommittedPoses, Past};
@@ -29,9 +29,9 @@ const RELATIVE_MARGIN: f64 = 1e-12;
 /// many frames.
 const FRAMES_AHEAD: f64 = 8.0;
 
-/// Least and greatest widening, in units of the radius of the ball; the greatest is at least the motion since
-/// the last commit. A group soon leaves a box that is too small, and a box that is too large overlaps boxes
-/// of groups that are not near.
+/// Least and greatest widening, in units of the radius of the bounding sphere; the greatest is at least the
+/// motion since the last commit. A group soon leaves a box that is too small, and a box that is too large
+/// overlaps boxes of groups that are not near.
 const WIDENED_BY: [f64; 2] = [0.125, 1.0];
 
 /// A box in common axes, m.
@@ -83,7 +83,7 @@ impl Bounds {
     }
 }
 
-/// Bounding ball of a movable group, in its frame, m.
+/// Bounding sphere of a movable group, in its frame, m.
 #[derive(Clone, Copy, Debug)]
 struct Ball {
     center: Vec3,
@@ -92,7 +92,7 @@ struct Ball {
 }
 
 impl Ball {
-    /// Bounding ball of a movable group: the ball around its root volume, or a smaller ball about the same
+    /// Bounding sphere of a movable group: the sphere around its root volume, or a smaller one about the same
     /// centre that contains all its primitives.
     fn around(body: &MovableGroup) -> Self {
         let (center, radius) = match &body.tree.nodes[0].volume {
@@ -100,7 +100,8 @@ impl Ball {
             Volume::Sphere { center, radius } => (*center, *radius),
             Volume::Custom(_) | Volume::Unbounded => (Vec3::zeros(), f64::INFINITY),
         };
-        // The corners of a box around spheres lie outside of them: measure the spheres instead.
+        // The corners of a box around spheres lie outside the spheres, so the spheres themselves are
+        // measured.
         let plain = |info: &PrimitiveInfo| {
             matches!(info.kind, PrimitiveKind::Point | PrimitiveKind::LineSegment | PrimitiveKind::Sphere)
         };
@@ -115,12 +116,12 @@ impl Ball {
     }
 
     fn center_in(&self, pose: &Pose, origin: &Vec3) -> Vec3 {
-        // Difference of positions first: a far origin costs no precision.
+        // The positions are subtracted first, so that a far origin costs no precision.
         (pose.position - origin) + pose.orientation * self.center
     }
 }
 
-/// Motion of the centre of a movable group's ball since the last commit, m.
+/// Motion of the centre of a movable group's bounding sphere since the last commit, m.
 #[derive(Clone, Copy, Debug)]
 struct Sweep {
     now: Vec3,

@@ -250,9 +250,9 @@ fn a_far_origin_and_a_common_drift_change_nothing() {
     assert!(2 * near < all, "{near} of {all}: a drift of all is no motion");
 }
 
-/// In one frame no pair is visited: the second ball has moved away from the first, and all other bodies are
-/// far apart. When the two balls meet again, their motion counts from the commit of that frame, not from the
-/// last frame that visited them.
+/// In one frame no pair is visited: the second ball has moved away from the first, and all other movable
+/// groups are far apart. When the two balls meet again, their motion counts from the commit of that frame,
+/// not from the last frame that visited them.
 #[test]
 fn after_a_frame_without_any_pair_the_way_counts_from_there() {
     /// Index of the second ball; group 0 is the first.

@@ -27,8 +27,8 @@ pub(crate) fn new_records(frame: &EvaluationBuffers) -> impl Iterator<Item = Rec
     })
 }
 
-/// Friction-law state and energies of a contact. A world that has either keeps all contacts in the caller's
-/// buffer.
+/// Friction-law state and energies of a contact. In a world that has any of them, all contacts are in the
+/// caller's buffer, so the index of the contact is enough.
 fn law_state_and_energy<'a>(
     frame: &'a EvaluationBuffers,
     reference: &ContactRef,

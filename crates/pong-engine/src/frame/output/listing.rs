@@ -1,4 +1,4 @@
-//! Contacts of a frame for the host: ids, common frame.
+//! Contacts of a frame as the host sees them: with ids, in the common frame.
 
 use super::results::FrameResults;
 use crate::contact::{Contact, ContactSide};

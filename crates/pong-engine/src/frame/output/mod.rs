@@ -1,5 +1,5 @@
-//! Results of a frame: ordered contacts, wrenches, the host's contact list, wrenches of single pairs, records for the
-//! commit, and preloaded bristles.
+//! Results of a frame: ordered contacts, wrenches, the host's contact list, wrenches of single pairs, records
+//! for the commit, and preloaded bristles.
 
 pub(crate) mod commit;
 mod listing;

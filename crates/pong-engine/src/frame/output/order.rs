@@ -18,16 +18,17 @@ pub(crate) fn list(found: FoundContacts<'_>, order: &mut Table<ContactRef>) {
     for thread in found.threads() {
         order.extend_from_slice(&thread.refs).expect("as many places as contacts");
     }
-    // Contacts under one high word are few; only these are compared whole.
+    // Few contacts have the same high word, so only these are compared by their whole order.
     order.sort_unstable_by_key(|place| place.head);
     for ties in order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
         ties.sort_unstable_by_key(|place| found.contact(place).found.order());
     }
 }
 
-/// Applies the capacity of the world and reports the demand: if there are too many contacts, drops all but
-/// the deepest and returns true; the rest then have to carry the bristles of those dropped. Workers' buffers
-/// are in use only in frames within the capacity.
+/// Applies the contact capacity of the world, and reports the demand. If there are too many contacts, drops
+/// all but the deepest and returns true; the forces must then be recomputed, because the remaining contacts
+/// take over the tangential springs of those dropped. It need not look at the workers' buffers: they are in
+/// use only if all contacts are within the capacity.
 #[inline]
 pub(crate) fn keep_deepest(
     sealed: &Sealed,
@@ -46,8 +47,8 @@ pub(crate) fn keep_deepest(
         return false;
     }
     report.status.set(StatusBits::CONTACT_LIMIT);
-    // Contacts only remembered have the same capacity as those that push, and chunk candidates at least
-    // that, so the largest of the three is enough.
+    // There is room for as many remembered contacts as for pushing ones, and for at least as many candidates
+    // of a chunk. So a contact capacity of the largest of the three counts would be enough.
     report.contacts_wanted = saturated(pushing.max(remembered).max(at_once));
     out.keep_deepest(capacity, spare);
     list(FoundContacts { caller: out, workers: &[] }, order);
@@ -63,8 +64,8 @@ fn saturated(count: u64) -> u32 {
     count.try_into().unwrap_or(u32::MAX)
 }
 
-/// Keeps one contact per ray and opposing Object: the nearest, ties by summation order. All contacts must be
-/// in the caller's buffer.
+/// Keeps one contact per ray and opposing Object: the nearest, or the first in summation order of equally
+/// near ones. All contacts must be in the caller's buffer.
 pub(crate) fn keep_first_ray_hits(
     scene: &Scene,
     sealed: &Sealed,
@@ -73,8 +74,9 @@ pub(crate) fn keep_first_ray_hits(
 ) {
     let WorkerContext { scratch, out, .. } = caller;
     scratch.reset();
-    // (body of A, ray, Object of B, index in the order), sorted by these and distance, so that the first of
-    // each ray and Object is the nearest.
+    // Each hit is (movable group of A, ray, Object of B, index in `order`) with its distance. They are sorted
+    // by group, ray and Object, then by distance, so that the first hit of each ray and Object is the
+    // nearest.
     let mut hits = scratch.list(order.len()).expect("sealing has sized the scratch");
     for (place, found) in order.iter().map(|place| &out.contacts[place.slot.index()].found).enumerate() {
         if found.ray_distance < f64::INFINITY {

@@ -1,4 +1,4 @@
-//! Wrench of one pair alone, summed from the contacts of the last frame when somebody asks for it.
+//! Wrench of one pair alone, summed from the contacts of the last frame on request.
 
 use super::reduce::Sums;
 use super::results::FrameResults;
@@ -6,8 +6,8 @@ use crate::frame::forces::contact_ref::ContactRef;
 use pong_geometry::{Pose, Wrench};
 
 impl FrameResults<'_> {
-    /// Wrench of a pair of movable groups on `on`, one of the two: about and along the frame of that group, by the sums of
-    /// [`reduce`](super::reduce).
+    /// Wrench on `on`, one of the two movable groups of a pair, from the contacts of this pair: about the
+    /// origin and along the axes of `on`. Summed as in [`reduce`](super::reduce).
     pub fn wrench_of_groups(&self, group_pair: usize, on: usize) -> Wrench {
         let of = |reference: &ContactRef| reference.direction().group_pair as usize;
         let start = self.contacts.order.partition_point(|reference| of(reference) < group_pair);
@@ -27,7 +27,8 @@ impl FrameResults<'_> {
         wrench
     }
 
-    /// Wrench of a pair of Objects on the one that was named first, about and along the frame of the movable group `about`.
+    /// Wrench of a pair of Objects on the one that was named first, about the origin and along the axes of
+    /// the movable group `about`.
     pub fn wrench_of_objects(&self, pair: usize, about: usize) -> Wrench {
         let mut wrench = Wrench::zero();
         for refs in self.contacts.order.chunk_by(|a, b| a.direction().group_pair == b.direction().group_pair)
@@ -41,8 +42,9 @@ impl FrameResults<'_> {
         wrench
     }
 
-    /// Every pair of movable groups that touches, with the sum of the normal forces of its contacts, N, and the wrench on its first
-    /// [side](crate::seal::GroupPair::sides) about the origin of that, along common axes.
+    /// Calls `visit` for every pair of movable groups with a contact that pushes, with the index of the pair,
+    /// the sum of the normal forces of its contacts, N, and the wrench on its first
+    /// [side](crate::seal::GroupPair::sides): about the origin of that side, along common axes.
     pub fn for_each_touching(&self, mut visit: impl FnMut(u32, f64, Wrench)) {
         for refs in self.contacts.order.chunk_by(|a, b| a.direction().group_pair == b.direction().group_pair)
         {
@@ -61,7 +63,7 @@ impl FrameResults<'_> {
 
     /// Wrench on `group`, moved to the origin and axes of the movable group `about`.
     fn seen_from(&self, wrench: Wrench, group: usize, about: usize) -> Wrench {
-        // The same group: no further rounding.
+        // For the same group the wrench stays as it is, without further rounding.
         if group == about {
             return wrench;
         }

@@ -53,7 +53,7 @@ struct Held<'f> {
 }
 
 impl EvaluationBuffers {
-    /// New bristles of a pair of Objects, after a commit of this frame.
+    /// New states of the bristles between two paired Objects, to be written after the commit of this frame.
     pub fn preloaded(
         &self,
         scene: &Scene,

@@ -14,8 +14,9 @@ use crate::frame::output::ordered::OrderedContacts;
 use crate::seal::{Direction, Sealed};
 use pong_geometry::{Transform, Vec3, Wrench};
 
-/// Adds every contact to the wrenches of both of its movable groups; contacts of one pair direction are first
-/// summed together in B's axes. Returns a direction with a contact whose values come close to overflow, if any.
+/// Adds every contact to the wrenches of both of its movable groups. Contacts of one direction are summed
+/// together in B's axes first. Returns the first direction with a contact whose values are beyond the range
+/// of f64 or close to it, if any.
 #[inline]
 pub(crate) fn sum(
     motions: &Motions<'_>,
@@ -111,8 +112,9 @@ fn holds(sum: f64) -> bool {
     sum <= LARGEST
 }
 
-/// Finds a movable group whose wrench or energies have overflowed: sums and products of finite values can.
-/// `beyond_range` is the result of [`sum`].
+/// Returns a movable group to name in an error, if its wrench, a contact of its (`beyond_range`, from
+/// [`sum`]) or the ledger is beyond the range of f64 or close to it. Sums and products of finite values can
+/// be.
 #[inline]
 pub(crate) fn overflow(
     sealed: &Sealed,
@@ -126,7 +128,7 @@ pub(crate) fn overflow(
     let body = bodies.find(|&body| !holds(of_wrench(&wrenches[body])));
     body.or_else(|| {
         let beyond_ledger = !holds(ledger.work.abs() + ledger.dissipated.abs());
-        // The ledger belongs to no group; report the first.
+        // The ledger belongs to no group, so the first is named.
         beyond_range.map(|direction| sealed.bodies_of(direction).0).or(beyond_ledger.then_some(0))
     })
 }

@@ -6,8 +6,8 @@ use crate::scene::Scene;
 use crate::seal::Sealed;
 use pong_geometry::{Pose, Wrench};
 
-/// Results of a frame, read-only. The files of this folder list contacts (`listing.rs`) and sum the wrenches of single pairs
-/// (`pair_wrench.rs`).
+/// Results of a frame, read-only. `listing.rs` lists the contacts for the host, and `pair_wrench.rs` sums the
+/// wrenches of single pairs.
 #[derive(Clone, Copy)]
 pub(crate) struct FrameResults<'a> {
     pub scene: &'a Scene,
@@ -22,7 +22,7 @@ pub(crate) struct FrameResults<'a> {
 }
 
 impl FrameResults<'_> {
-    /// A wrench along the axes of a movable group, along those of the common frame.
+    /// Rotates a wrench from the axes of a movable group to those of the common frame; its origin stays.
     pub fn along_common_axes(&self, wrench: &Wrench, group: usize) -> Wrench {
         let orientation = self.poses[group].orientation;
         Wrench { force: orientation * wrench.force, moment: orientation * wrench.moment }

@@ -1,6 +1,6 @@
 //! Tunnelling found from ended contacts: a contact pushed an element to one side, and the element is now on
-//! the other side. This finds slow motion through a surface that is too soft: in each frame the path is too
-//! short to show it.
+//! the other side. This also finds an element that is pressed slowly through a surface that is too soft: its
+//! path in one frame is too short to show it.
 
 use super::events::TunnellingEvents;
 use super::followed::{SAME_SIDE_COSINE_MIN, Seen, pushing};
@@ -28,7 +28,7 @@ use std::borrow::Cow;
 /// smaller angle they form a wedge, and an element pressed on one face may slide round the edge to the other.
 const BOTH_SIDES_COSINE_MAX: f64 = -0.866;
 
-/// Number of ended contacts from which prefetching pays.
+/// Least number of ended contacts for which [`Seen::fetch`] pays.
 const WORTH_FETCHING: usize = 4;
 
 /// Checks every committed contact that no current contact continues, and records tunnelling events.
@@ -59,7 +59,7 @@ fn look_at(
     events: &mut TunnellingEvents,
 ) {
     let records = &given.memory.records;
-    // Records and contacts are both in key order.
+    // Records and contacts are both in key order, so one pass over the contacts is enough.
     let mut present = contacts.order;
     for of_direction in ended.chunk_by(|&a, &b| direction(records, a) == direction(records, b)) {
         let direction = direction(records, of_direction[0]);
@@ -67,7 +67,8 @@ fn look_at(
         if !given.states.enabled[pair.pair] {
             continue;
         }
-        // The two groups may be far apart by now, and their pair not among the visited pairs.
+        // The two groups may be far apart by now, so that the frame has not visited their pair and stores no
+        // motion of it.
         let motion = motions.known(input, direction);
         let seen = Seen::new(given.round(input), direction, &motion, contacts);
         let of_direction = of_direction.iter().map(|&index| &records[index as usize]);
@@ -79,7 +80,7 @@ fn look_at(
             let passed = present.iter().take_while(|place| place.head < head).count();
             present = &present[passed..];
             let same_head = present.iter().take_while(|place| place.head == head);
-            // Usual case: the neighbouring facet pushes to the same side.
+            // Usual case: a neighbouring face pushes to the same side.
             let mut pushing = pushing(contacts, same_head, record.key);
             if !pushing.any(|found| found.normal_b.dot(&record.normal_b) > SAME_SIDE_COSINE_MIN)
                 && seen.came_out_behind(record)
@@ -102,8 +103,9 @@ fn ended<'a>(records: &Records, order: &[ContactRef], scratch: &'a Arena) -> Lis
     if left == 0 {
         return ended;
     }
-    // Records that a contact continues are not read; most were written by another core. Of the other records
-    // only the role is read, so that the cache misses overlap.
+    // A record whose contact continues is not read: another core wrote most of these, so that each read would
+    // be a cache miss. Of the remaining records only the role is read. These reads do not depend on each
+    // other, so their cache misses overlap.
     for index in (0..records.len()).filter(|&index| !continued[index]) {
         if records[index].role == ContactRole::Active {
             ended.push(index as u32).expect(room);
@@ -121,8 +123,8 @@ fn are_both_sides(one: &Vec3, other: &Vec3) -> bool {
 }
 
 impl Seen<'_> {
-    /// Loads the start points of the paths of ended contacts into the cache, with overlapping misses: their
-    /// data is rarely cached.
+    /// Loads the start points of the paths of ended contacts into the cache. They are rarely there, and
+    /// loaded together their cache misses overlap.
     fn fetch<'r>(&self, records: impl Iterator<Item = &'r ContactRecord> + Clone) {
         let body_a = self.context.body_a;
         let info = |record: &ContactRecord| &body_a.primitives[record.key.primitive_a as usize];
@@ -176,9 +178,10 @@ impl Seen<'_> {
     fn came_out_of_solid(&self, record: &ContactRecord, line: &Line) -> bool {
         let (body, shell, primitive_a) = (self.context.body_b, record.key.shell_b, record.key.primitive_a);
         if solids::holds(body, shell, &line.to_b) {
-            // The point is still inside: it has passed if a contact at the same end of the segment now pushes
-            // the opposite way, and none pushes the earlier way. Contacts elsewhere on the segment, such as
-            // with an edge that it crosses, do not show that.
+            // The point is still inside. It has passed if a contact at the same end of the segment now pushes
+            // the opposite way, and no contact of the primitive pushes the earlier way. A contact elsewhere
+            // on the segment, such as with an edge that it crosses, may push the opposite way without a
+            // passage.
             let mut pushing = self.pushing_at_end(record.key);
             return pushing.any(|normal| are_both_sides(normal, &record.normal_b))
                 && !self.pushes_to(&record.normal_b, primitive_a, shell);
@@ -197,8 +200,8 @@ impl Seen<'_> {
     }
 
     /// Returns true if the element was behind its triangle, is now farther behind, and did not go round the
-    /// rim. The push ends where the element is as far behind as the thickness; if the sheet lies in front of
-    /// the element at this point, it did not go round the rim.
+    /// rim. The triangle stops pushing where the element is as far behind as the thickness. If the sheet lies
+    /// in front of the element at this point, the element did not go round the rim.
     fn came_out_of_sheet(&self, record: &ContactRecord, line: &Line) -> bool {
         let body = self.context.body_b;
         let view = TriangleView::new(&body.triangles, record.element_b);

@@ -3,7 +3,7 @@
 /// Tunnelling events of a frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TunnellingEvents {
-    /// Number of events; at most one per followed point of an element of A and batch of B, and one per ended
+    /// Number of events: at most one per batch of B for each followed point or axis of A, and one per ended
     /// contact.
     pub count: u32,
     /// First event, in the order of pairs and directions.

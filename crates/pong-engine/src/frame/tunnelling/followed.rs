@@ -76,8 +76,8 @@ impl<'a> Seen<'a> {
     /// Follows one point of an element of A through one batch of B; adds at most one event.
     fn follow(&self, item_a: Item, place: &Vec3, batch: &Batch, events: &mut TunnellingEvents) {
         let Some(line) = self.line(place) else { return };
-        // The box includes the radius of the element: a sphere may pass through a smaller sphere beside its
-        // centre.
+        // Against spheres the box includes the radius of the element, because a sphere may pass through a
+        // smaller one beside its own centre.
         let beside = if batch.kind == PrimitiveKind::Sphere { self.radius(item_a) } else { 0.0 };
         let (low, high) = (line.from_b.inf(&line.to_b), line.from_b.sup(&line.to_b));
         let bounds = [low.add_scalar(-beside), high.add_scalar(beside)];

@@ -1,20 +1,20 @@
 //! Tunnelling: elements that pass through something between two commits. A frame knows only poses, not the
-//! motion between them; a fast point may be in front of a wall in one frame and behind it in the next without
-//! any force. The forces are not changed, but the status reports every passage.
+//! motion between them, so a fast point may be in front of a wall in one frame and behind it in the next
+//! without any force. The forces are not changed, but the status reports every passage.
 //!
 //! The *points* of an element of A are followed along straight paths since the last commit, in B's frame: a
 //! point, the centre of a sphere or ellipsoid, the origin of a ray, the ends and the middle of a segment,
 //! capsule or cylinder. Against a capsule, a cylinder or a cone, the whole axis is followed. An element has
 //! tunnelled in one of two cases:
 //!
-//! * its path or axis enters a solid of B and leaves it again, or passes a sheet from the front, and no
-//!   contact pushes the element back to the side that it came from;
-//! * a contact that pushed the element to one side has ended, and the element is now on the other side or is
+//! * Its path or axis enters a solid of B and leaves it again, or passes a sheet from the front, and no
+//!   contact pushes the element back to the side that it came from.
+//! * A contact that pushed the element to one side has ended, and the element is now on the other side or is
 //!   pushed to it.
 //!
-//! Paths are followed only if the body may have moved farther than half the thickness of the thinnest element
-//! of B ([`travel::least_travel_m`]). A shorter path may cut an edge or a corner, but passes through no wall.
-//! In all other frames only ended contacts are checked.
+//! Paths are followed only if A may have moved farther than half the thickness of the thinnest element of B
+//! ([`travel::least_travel_m`]). A shorter path may cut an edge or a corner, but passes through no wall. In
+//! all other frames only ended contacts are checked.
 
 mod ended;
 pub(crate) mod events;

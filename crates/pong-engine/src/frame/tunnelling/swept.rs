@@ -32,7 +32,7 @@ impl Swept {
     }
 
     /// Returns `Through` if the element was outside the solid at the last commit, is outside now, and in
-    /// between the middle of the thinner of the two was inside the other. Otherwise `None`.
+    /// between the middle of the thinner of the two was inside the thicker one. Otherwise `None`.
     pub fn meet(&self, solid: &dyn Round) -> Option<Met> {
         let beside = self.beside(solid);
         let (first, last) = (beside.gap(0.0), beside.gap(1.0));
@@ -82,8 +82,9 @@ impl Beside<'_> {
         Gap { distance: gap.distance - self.skin, ..gap }
     }
 
-    /// A time at which the axis is inside the solid; `None` if there is none. Without rotation the gap is
-    /// convex in time, with one minimum.
+    /// Searches for a time at which the axis is inside the solid: first at equally spaced times, then by
+    /// [`least`](Self::least) around those at which the gap is a local minimum. Without rotation the gap is
+    /// convex in time and has one minimum; with rotation the search may miss a short overlap.
     fn inside(&self) -> Option<f64> {
         let time = |index: usize| index as f64 / TIMES as f64;
         let gaps: [f64; TIMES + 1] = std::array::from_fn(|index| self.gap(time(index)).distance);

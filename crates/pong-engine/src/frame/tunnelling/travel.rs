@@ -1,5 +1,5 @@
-//! Rejects tunnelling by distance: a body that has moved by less than half the thickness of the thinnest
-//! element has passed through nothing.
+//! Rejects tunnelling by distance: if A has moved by less than half the thickness of the thinnest element of
+//! B, it has passed through nothing.
 
 use crate::frame::input::motion::Motion;
 use crate::seal::Plan;
@@ -63,7 +63,8 @@ pub(super) fn may_go_through(plan: &Plan, motion: &Motion) -> bool {
     // The Frobenius norm bounds the displacement of any point at a distance of 1 m.
     let turn_square = (motion.x_ba.rotation - since.x_ba.rotation).norm_squared();
     let (reach, least) = (plan.reach_a_m, plan.least_travel_m);
-    // Cheap test without roots: (a + b)² ≤ 2·(a² + b²); the factor 4 adds a margin for rounding.
+    // The first comparison needs no roots and decides most cases: (a + b)² ≤ 2·(a² + b²), and the factor 4
+    // adds a margin for rounding.
     4.0 * (shift_square + turn_square * (reach * reach)) > least * least
         && shift_square.sqrt() + turn_square.sqrt() * reach > least
 }

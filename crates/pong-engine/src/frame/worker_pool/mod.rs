@@ -1,8 +1,8 @@
 //! Runs the blocks of a frame on the calling thread and the workers.
 //!
 //! Workers read a copy of the frame's input and write into their own contexts, under locks that are normally
-//! free. A stuck worker keeps its context and the input that it reads. The frame is then computed by the
-//! caller alone, with the same results, until that worker has released them.
+//! free. A stuck worker keeps the locks of its context and of the input. Until it has released them, the
+//! caller computes the frames alone, with the same results.
 
 #[cfg(test)]
 mod tests;
@@ -31,7 +31,8 @@ const WORTH_WAKING_NS: u64 = 60_000;
 /// saves.
 const WORTH_A_WORKER_NS: u64 = 4_000;
 
-/// Upper bound of the time to lay out the blocks of a round.
+/// Time for which workers that were woken before the layout of a round stay awake: longer than a layout
+/// should take.
 const LONGEST_LAYOUT: Duration = Duration::from_micros(200);
 
 /// Cost of a contact besides its tests, ns.
@@ -83,7 +84,7 @@ impl Job for Shared {
             context.out.begin(input.phase);
         }
         self.run_blocks((input, memory), blocks, &mut context);
-        // On the worker, because its core's cache holds the contacts.
+        // Friction is computed here, on the worker, because its core's cache holds the contacts.
         context.out.flush();
     }
 }
@@ -107,14 +108,14 @@ impl Shared {
     }
 }
 
-/// Locks a context. One whose owner panicked stays usable, since its contents are discarded at the next
-/// phase.
+/// Locks a context, even if a thread has panicked while it held the lock: the contents are discarded at the
+/// next phase.
 fn locked(context: &Mutex<Box<WorkerContext>>) -> MutexGuard<'_, Box<WorkerContext>> {
     context.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl WorkerPool {
-    /// Starts the workers.
+    /// Starts the workers. `nothing` is an empty contact state, which they hold outside frames.
     pub fn start(
         scene: &Arc<Scene>,
         sealed: &Arc<Sealed>,
@@ -149,7 +150,8 @@ impl WorkerPool {
     }
 
     /// Runs the blocks of `input` on the caller and the first `workers` workers. Returns true if all results
-    /// are in `context` or, per worker, in `back_buffers`; on false, the caller has to repeat everything alone.
+    /// are in `context` or, per worker, in `back_buffers`. If it returns false, the caller has to run all
+    /// blocks alone.
     pub fn run_parallel(
         &mut self,
         memory: &Arc<ContactMemory>,
@@ -157,8 +159,8 @@ impl WorkerPool {
         context: &mut WorkerContext,
         back_buffers: &mut [ContactBuffer],
     ) -> bool {
-        // A worker that has claimed blocks of an earlier round but not started them would run blocks of this
-        // round.
+        // A worker may have claimed blocks of an earlier round and not started them. It would run blocks of
+        // this round in their place, so the pool must be quiet first.
         if !self.pool.is_quiet() {
             self.timeouts += 1;
             return false;
@@ -183,9 +185,9 @@ impl WorkerPool {
         self.gather(input.phase, context, back_buffers)
     }
 
-    /// Collects the workers' results of a complete phase; returns false if any are missing. If the contacts are
-    /// within the capacity, buffers are swapped, because copying a contact costs more than anything else that
-    /// the caller does with it.
+    /// Collects the workers' results of a complete phase; returns false if there was no room for all of them.
+    /// If the contacts are within the capacity, buffers are swapped where there are back buffers, because
+    /// copying a contact costs more than anything else that the caller does with it.
     fn gather(
         &mut self,
         phase: u64,
@@ -226,9 +228,9 @@ impl WorkerPool {
         true
     }
 
-    /// Resets the times. If the last round was worth waking workers for and all are asleep, wakes them now,
-    /// so that they are up when the blocks are laid out. Workers that the host has woken stay awake for the
-    /// host's time.
+    /// Resets the times. If the last round was worth waking workers for and all of them sleep, wakes them
+    /// now, so that they are awake when the blocks have been laid out. Workers that are awake are left alone,
+    /// because the host may have woken them for longer.
     pub fn begin_frame(&mut self) {
         if self.last_cost_ns >= WORTH_WAKING_NS && !self.pool.has_awake_workers() {
             self.pool.prewake(LONGEST_LAYOUT);

@@ -1,4 +1,5 @@
-//! Tests of workers that need private access: frames with and without a worker, and a worker that starts too late.
+//! Tests of workers that need private access: frames with and without a worker, and a worker that starts too
+//! late.
 
 use super::*;
 use crate::frame::{EvaluationBuffers, FrameContact};
@@ -72,8 +73,8 @@ fn one_worker() -> Settings {
     Settings { workers: 1, oversubscribe: true, worker_timeout, ..Settings::default() }
 }
 
-/// Lets the worker claim blocks of the last round again and abandons that round before it has started them.
-/// Returns true if it was abandoned.
+/// Shares the blocks of the last round again, and abandons the round after the worker has claimed blocks and
+/// before it has started them. Returns true if the round was abandoned.
 fn leave_a_worker_behind(pool: &mut WorkerPool) -> bool {
     let shared = Arc::clone(&pool.shared);
     let held = shared.lent.write().unwrap_or_else(PoisonError::into_inner);

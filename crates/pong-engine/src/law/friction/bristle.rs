@@ -84,8 +84,8 @@ impl<S: Simd> Bristles<S> {
         let limit = Numbers::select(is_held, static_limit, kinetic_limit);
         let pushed = bristle * stiffness + slip_velocity * self.damping;
         let length = pushed.norm();
-        // A slipping contact sticks again on two conditions: its motion has reversed or its deflection is
-        // inside the circle, and the static limit would not change its force.
+        // A slipping contact sticks again if its motion has reversed or its deflection is inside the circle,
+        // and if its force is also within the kinetic limit, so that the static limit would not change it.
         let turned_back = simd.bits(trial.dot(slip_velocity).below(Numbers::splat(simd, 0.0)));
         let within = simd.bits(pull.below(kinetic_limit * Numbers::splat(simd, 1.0 - LIMIT_ROUNDING)));
         let again = (turned_back | within) & simd.bits((kinetic_limit * slack).at_least(length));
@@ -122,8 +122,8 @@ impl<S: Simd> Bristles<S> {
 
 /// Shortens a vector, whose length is `length`, to at most `limit`.
 ///
-/// If nothing is cut, the factor is exactly 1. Branchless: a compiler may hoist a division out of a branch,
-/// and 0/0 is an invalid operation.
+/// If nothing is cut, the factor is exactly 1. There is no branch, because a compiler may move a division in
+/// front of it, and 0/0 is an invalid operation.
 #[inline(always)]
 pub(crate) fn shortened(vector: Vec3, length: f64, limit: f64) -> Vec3 {
     let longer = if length > limit { length } else { limit };

@@ -47,7 +47,7 @@ impl Shortest {
         let mut best =
             Self::at(contacts, deepest, HullPoint::of_one(QPoint::new(contacts, deepest, deepest)));
         let allowed = VIOLATION_MAX * contacts[deepest].depth;
-        // Iteration limit against endless exchange of contacts that differ by rounding.
+        // Limited, because contacts that differ only by rounding could replace each other endlessly.
         for _ in 0..8 * contacts.len() {
             let Some(worst) = best.most_violated(contacts, allowed) else { break };
             match best.exchange(contacts, worst, allowed) {
@@ -85,7 +85,8 @@ impl Shortest {
             return contact.normal_b.dot(&self.t_b) - contact.depth;
         }
         // With d the deepest contact, a the offset of the hull point and s = `scale`: t = (n_d + a)·s and δ_d
-        // = s·(1 + 2·n_d·a + |a|²).
+        // = s·(1 + 2·n_d·a + |a|²). So n·t − δ = (δ_d − δ) + s·((n − n_d)·a − (1 − n·n_d) − n_d·a − |a|²).
+        // These differences are exact for nearly parallel normals.
         let HullPoint { offset, rise, .. } = &self.hull_point;
         let scale = base.depth / (1.0 + self.hull_point.gain());
         let turned = (contact.normal_b - base.normal_b).dot(offset) - coupling.gap;
@@ -184,8 +185,8 @@ impl HullPoint {
     fn nearest(points: [QPoint; 3], count: usize) -> Option<Self> {
         let first = &points[0];
         let edge = |k: usize| points[k].offset - first.offset;
-        // −q·e for the first point q and an edge e: rate at which half the squared distance to the origin
-        // decreases along e.
+        // Rate at which half the squared distance to the origin decreases along an edge e from the first
+        // point q: −q·e. Scaled with δ_d, q = a + n_d, and n_d·e is the difference of the two points' rises.
         let gained = |k: usize, edge: &Vec3| first.rise - points[k].rise - first.offset.dot(edge);
         let parts = match count {
             1 => return Some(Self::of_one(*first)),

@@ -59,7 +59,7 @@ struct Tableau<'a> {
 impl<'a> Tableau<'a> {
     fn new(contacts: &[SharedContact], unit: f64, scratch: &'a Arena) -> Result<Self, Full> {
         let n = contacts.len();
-        // Request all slices before checking any, so that the arena's peak shows the total demand.
+        // All slices are requested before any is checked, so that the arena's peak shows the total demand.
         let (basis, zero) = (scratch.slice(n, 0), scratch.slice(n + 1, 0));
         let cells = scratch.slice(n * (n + 2), Twofold::default());
         let mut tableau = Self { n, cells: cells?, basis: basis?, zero: zero? };
@@ -103,7 +103,7 @@ impl<'a> Tableau<'a> {
             }
         }
         let mut column = self.n;
-        // Iteration limit against cycling among contacts that differ by rounding.
+        // Limited, because contacts that differ only by rounding could replace each other endlessly.
         for _ in 0..64 * (self.n + 1) {
             let leaving = self.basis[row];
             self.pivot(row, column);

@@ -1,4 +1,4 @@
-//! Testers of bodies with two ends: line segments, capsules, cylinders and cones.
+//! Testers of primitives with two ends: line segments, capsules, cylinders and cones.
 
 use super::balls::{ball_on_piece, ball_on_triangle, emit_in_bore};
 use crate::frame::broad_phase::transformed::TransformedPrimitive;

@@ -56,8 +56,8 @@ pub(crate) struct KindPair {
     pub a: PrimitiveKind,
     pub b: PrimitiveKind,
     pub test: Test,
-    /// Rough time to test an element of A against a body with elements of B, ns. Used only to split the work
-    /// into blocks, and to choose between workers and the calling thread.
+    /// Rough time to test an element of A against a movable group with elements of B, ns. Used only to split
+    /// the work into blocks, and to choose between workers and the calling thread.
     pub cost_ns: u32,
     /// Number of contacts per primitive of A and shell of B in the default capacity.
     pub contacts: usize,
