@@ -152,8 +152,9 @@ impl Caller {
         }
     }
 
-    /// Returns the payload of a worker's panic in this phase; `None` unless `panicked`. The payload of a
-    /// panic in an abandoned phase is kept until a later phase panics.
+    /// Returns the payload of a worker's panic in this phase, or a text in its place if another panicking
+    /// worker holds the lock; `None` unless `panicked`. The payload of a panic in an abandoned phase is never
+    /// returned: it stays until the panic of a later phase replaces it.
     fn take_panic(&self, panicked: bool) -> Option<Payload> {
         if !panicked {
             return None;

@@ -106,7 +106,8 @@ pub(super) fn bytes_per_contact(scene: &Scene, threads: usize, law_state_len: us
     RECORDS * (records + caller + workers)
 }
 
-/// Number of contacts if everything that can touch did, by the tester table, within the limits of the default
+/// Estimate of the number of contacts: every primitive touches every shell of the groups paired with its own,
+/// with the most contacts that the tester table gives its kind. Clamped to the limits of the default
 /// capacity.
 pub(super) fn worst_case(scene: &Scene, group_pairs: &[GroupPair]) -> usize {
     let movers = |body: usize| -> usize {

@@ -114,9 +114,11 @@ pub(crate) struct Shadow {
 impl Shadow {
     /// Computes the outline in the plane spanned by the orthonormal vectors `u` and `v`.
     ///
-    /// The half width along a direction of the plane is the length of its scaled normal. So the principal
-    /// axes are two perpendicular directions whose scaled normals are perpendicular too. One Jacobi rotation
-    /// finds them; the error of the small semi-axis is no more than the rounding of the large one.
+    /// The half width along a unit vector of the plane is the length of its scaled normal
+    /// ([`widened`](PreparedEllipsoid::widened)), so the squared half width is a quadratic form. Its
+    /// principal axes, which are those of the outline, are the two perpendicular directions whose scaled
+    /// normals are perpendicular too. One Jacobi rotation finds them; the error of the smaller semi-axis is
+    /// no more than the rounding of the larger one.
     #[inline]
     pub(crate) fn new(e: &PreparedEllipsoid, u: &Vec3, v: &Vec3) -> Self {
         let (wide_u, wide_v) = (e.widened(u), e.widened(v));

@@ -135,7 +135,8 @@ pub(super) fn leaves_at_wall(
         return polyhedron.walls_at(&place).next().is_some().then_some(*inside);
     }
     // `leaves_by` is the internal face. The segment leaves at the edge only if it also leaves through an
-    // active face, at most the tolerance, measured along the segment, beyond `place`.
+    // active face, and that exit is not farther beyond `place` than the tolerance, measured along the
+    // segment.
     let (length, slack) = ((to - from).norm(), polyhedron.planes().wall_slack);
     let exit = |other: usize| {
         let [before, beyond] = [from, to].map(|tip| polyhedron.height(other, tip));

@@ -111,9 +111,10 @@ impl Ray {
         Self { origin: x.point(&self.origin), direction: x.vector(&self.direction), ..*self }
     }
 
-    /// Returns the lowest and the highest corner of the box, along the axes of the frame, around everything
-    /// that the ray can hit, m. A ray also hits surfaces up to `reach` behind its origin. If `reach` is
-    /// `None`, the bounding volume of the surface includes the default instead.
+    /// Returns the lowest and the highest corner of the axis-aligned box around everything that the ray can
+    /// hit, m. This includes surfaces up to `reach` behind its origin. If `reach` is `None`, the thickness of
+    /// the surface takes its place; the bounding volume of the surface includes it, so the box starts at the
+    /// origin.
     #[inline]
     pub fn region(&self, _meets_triangles: bool) -> (Vec3, Vec3) {
         let start = self.origin - self.direction * self.reach.unwrap_or(0.0);

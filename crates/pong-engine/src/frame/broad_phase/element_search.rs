@@ -136,7 +136,7 @@ impl ElementSearch {
         },
     };
 
-    /// Starts at the root of a non-empty tree with the first element of a chunk.
+    /// Starts the search of a chunk of one element, at the root of a non-empty tree.
     #[inline(always)]
     pub fn begin(&mut self, chunk: &Chunk<'_>, tree: &BoxTree) {
         self.query.volume = ElementVolume::new(chunk, tree);

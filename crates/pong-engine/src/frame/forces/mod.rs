@@ -157,9 +157,9 @@ impl PairContext<'_> {
         self.table.props(surface_a, surface_b)
     }
 
-    /// Writes a contact with its forces, except for bristle friction, which stays pending in the buffer. The
-    /// contact's state of a registered friction law must be zero before the call: a new contact starts from
-    /// zero.
+    /// Writes a contact with its forces, except for bristle friction, which stays pending in the buffer. If a
+    /// friction law of the host has state values, those of this contact must be zero before the call: only
+    /// those of a continued contact are written here, and a new contact has to start from zero.
     ///
     /// Each field is written once and not read back, because a read right after the write would stall (store
     /// forwarding).

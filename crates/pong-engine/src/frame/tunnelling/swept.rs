@@ -59,9 +59,10 @@ impl Swept {
     }
 
     fn beside<'a>(&'a self, solid: &'a dyn Round) -> Beside<'a> {
-        // The axis of an element thinner than the solid must enter the solid. If the element is thicker, the
-        // middle of the solid must enter the element: its axis then enters a solid with its surface `skin`
-        // farther out.
+        // Something has passed through only if the middle of the thinner of the two was inside the thicker
+        // one. If the element is the thinner one, its axis must have been inside the solid: no `skin`. If the
+        // solid is thinner, its middle must have been inside the element. That is so if the axis was inside a
+        // solid whose surface lies `skin` farther out.
         let skin = (self.radius - 0.5 * solid.width_m()).max(0.0);
         Beside { swept: self, solid, skin }
     }
@@ -124,7 +125,7 @@ impl Beside<'_> {
 
     /// Gap where the axis crosses the surface, by bisection between an outside and an inside time.
     fn crossing(&self, outside: f64, inside: f64) -> Gap {
-        /// Half the bits of an `f64`; a normal needs no more.
+        /// Bisection finds the time to 2⁻²⁶, half the digits of an `f64`; the normal there needs no more.
         const STEPS: usize = 26;
         let (mut outside, mut inside) = (outside, inside);
         for _ in 0..STEPS {

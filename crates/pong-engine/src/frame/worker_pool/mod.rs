@@ -268,7 +268,8 @@ impl WorkerPool {
         }
     }
 
-    /// Peak use of the workers' arenas and scratch memories, bytes; busy contexts are skipped.
+    /// Peak use of an arena and of a scratch memory, bytes: the largest of all workers. Contexts in use are
+    /// skipped.
     pub fn peaks(&self) -> (usize, usize) {
         let free = self.shared.contexts.iter().filter_map(|context| context.try_lock().ok());
         free.fold((0, 0), |(arena, scratch), context| {
