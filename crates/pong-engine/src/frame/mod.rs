@@ -124,7 +124,9 @@ fn find_contacts(
         {
             laps.lap_work(Work::BroadPhase, &mut layout_times);
             input.phase += 1;
-            run_round(given, pool.as_deref_mut(), input, cost_ns, caller, workers);
+            if !run_on_workers(given, pool.as_deref_mut(), input, cost_ns, caller, workers) {
+                run_blocks(&given.round(input), 0..input.blocks.len(), caller);
+            }
             laps = clock.start();
         }
     }
@@ -141,31 +143,31 @@ fn find_contacts(
     times
 }
 
-/// Runs a round on the workers or, if that does not pay or fails, on the caller; `cost_ns` is its estimated
-/// cost.
-fn run_round(
+/// Runs a round on the caller and the workers, if that pays; `cost_ns` is the estimated cost of the round.
+/// Returns false if it does not pay or fails; the caller then runs the whole round alone.
+fn run_on_workers(
     given: &EvaluationInput<'_>,
     pool: Option<&mut WorkerPool>,
     input: &WorkerInput,
     cost_ns: u64,
     caller: &mut WorkerContext,
     workers: &mut WorkerBuffers,
-) {
+) -> bool {
+    let Some(pool) = pool else { return false };
     // A frame may have several rounds: move the workers' contacts of the last round into the caller's buffer
     // first.
     for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
         assert!(caller.out.merge(worker), "the caller's buffer has room for the contacts of the workers");
     }
     workers.empty();
-    if let Some(pool) = pool {
-        let asked = pool.worth_asking(given.memory.records.len(), input.blocks.len(), cost_ns);
-        if asked > 0 {
-            let before = caller.out.checkpoint();
-            if pool.run_parallel(given.memory, (input, asked), caller, workers.put_to_use()) {
-                return;
-            }
-            caller.out.restore(&before);
-        }
+    let asked = pool.worth_asking(given.memory.records.len(), input.blocks.len(), cost_ns);
+    if asked == 0 {
+        return false;
     }
-    run_blocks(&given.round(input), 0..input.blocks.len(), caller);
+    let before = caller.out.checkpoint();
+    let is_complete = pool.run_parallel(given.memory, (input, asked), caller, workers.put_to_use());
+    if !is_complete {
+        caller.out.restore(&before);
+    }
+    is_complete
 }
