@@ -10,13 +10,12 @@
 //! and dissipated = −W − Δstored. An ended contact contributes the half for its last force, and its stored
 //! energy is lost.
 
+use super::LedgerEntry;
 use super::accounts::Accounts;
 use super::buffers::EnergyBuffers;
 use super::displacement::Displacement;
-use super::ledger::LedgerEntry;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::forces::contact_ref::ContactRef;
-use crate::frame::forces::reference_point::reference_point;
 use crate::frame::input::motion::Motion;
 use crate::frame::input::relative::Motions;
 use crate::frame::input::{EvaluationInput, WorkerInput};
@@ -138,7 +137,7 @@ impl<'a> Books<'a> {
         let (body_a, _) = self.motions.sealed.bodies_of(found.key.direction());
         let body_a = self.given.scene.body(body_a);
         let kind_a = body_a.primitives[found.key.primitive_a as usize].kind;
-        let reference = reference_point((body_a, kind_a), &found.key, found.element_a);
+        let reference = body_a.element(kind_a, found.element_a).reference_point(found.key.end);
         Some(Displacement::new(since, &motion.x_ba, &reference))
     }
 }

@@ -20,14 +20,13 @@ pub(crate) use buffers::EvaluationBuffers;
 pub(crate) use forces::contact::FrameContact;
 pub(crate) use forces::contact_ref::{ContactRef, Slot};
 pub(crate) use input::motion::PairMotions;
-pub(crate) use input::states::require_states;
-pub(crate) use input::{Block, EvaluationInput, WorkerInput};
+pub(crate) use input::{Block, EvaluationInput, WorkerInput, require_states};
 pub(crate) use near_pairs::{MOTIONS_AT_ONCE, NearPairs};
+pub(crate) use output::FrameResults;
 pub(crate) use output::commit::{new_records, write_records};
 pub use output::preload::FrictionPreload;
-pub(crate) use output::results::FrameResults;
 pub(crate) use run_blocks::arena_bytes;
-pub(crate) use tunnelling::events::{TunnellingEvent, TunnellingEvents};
+pub(crate) use tunnelling::followed::{TunnellingEvent, TunnellingEvents};
 pub(crate) use tunnelling::travel::{PrimitivesOf, least_travel_m, reach_m};
 pub(crate) use worker_context::WorkerContext;
 pub(crate) use worker_pool::WorkerPool;
@@ -36,9 +35,9 @@ use crate::energy::balance::balance;
 use crate::report::{Stage, StatusBits, Work, WorkTimes};
 use broad_phase::blocks::Layout;
 use forces::found::{FoundContacts, WorkerBuffers};
+use input::latch_states;
 use input::relative::Motions;
-use input::states;
-use output::ordered::OrderedContacts;
+use output::order::OrderedContacts;
 use output::{order, reduce};
 use run_blocks::run_blocks;
 
@@ -56,7 +55,7 @@ pub(crate) fn evaluate(
     let EvaluationBuffers { order, tunnelling, energy, wrenches, report, times, .. } = frame;
     let mut watch = clock.start();
 
-    states::latch(sealed, states, poses, twists);
+    latch_states(sealed, states, poses, twists);
     near.find(sealed, &states.enabled, poses, &memory.poses);
     let motions = Motions { sealed, frame: frame.number, near, poses, twists, committed: &memory.poses };
     watch.lap(Stage::Input, times);

@@ -1,6 +1,6 @@
 //! Contacts of a frame for the host: ids, common frame.
 
-use super::results::FrameResults;
+use super::FrameResults;
 use crate::contact::{Contact, ContactSide};
 use crate::energy::account::EnergyAccount;
 use crate::frame::forces::contact::FrameContact;

@@ -1,7 +1,7 @@
 //! Wrench of one pair alone, summed from the contacts of the last frame when somebody asks for it.
 
+use super::FrameResults;
 use super::reduce::Sums;
-use super::results::FrameResults;
 use crate::frame::forces::contact_ref::ContactRef;
 use pong_geometry::{Pose, Wrench};
 
@@ -30,8 +30,7 @@ impl FrameResults<'_> {
     /// Wrench of a pair of Objects on the one that was named first, about and along the frame of the movable group `about`.
     pub fn wrench_of_objects(&self, pair: usize, about: usize) -> Wrench {
         let mut wrench = Wrench::zero();
-        for refs in
-            self.contacts.order.chunk_by(|a, b| a.direction().group_pair == b.direction().group_pair)
+        for refs in self.contacts.order.chunk_by(|a, b| a.direction().group_pair == b.direction().group_pair)
         {
             let groups = &self.sealed.group_pairs[refs[0].direction().group_pair as usize];
             if groups.pair == pair {
@@ -45,15 +44,15 @@ impl FrameResults<'_> {
     /// Every pair of movable groups that touches, with the sum of the normal forces of its contacts, N, and the wrench on its first
     /// [side](crate::seal::GroupPair::sides) about the origin of that, along common axes.
     pub fn for_each_touching(&self, mut visit: impl FnMut(u32, f64, Wrench)) {
-        for refs in
-            self.contacts.order.chunk_by(|a, b| a.direction().group_pair == b.direction().group_pair)
+        for refs in self.contacts.order.chunk_by(|a, b| a.direction().group_pair == b.direction().group_pair)
         {
             let pushing = refs.iter().filter(|reference| reference.pushes());
             if pushing.clone().next().is_none() {
                 continue;
             }
             let group_pair = refs[0].direction().group_pair;
-            let normal_force = pushing.map(|reference| self.contacts.found.contact(reference).normal_force).sum();
+            let normal_force =
+                pushing.map(|reference| self.contacts.found.contact(reference).normal_force).sum();
             let [on, _] = self.sealed.group_pairs[group_pair as usize].sides();
             let wrench = self.wrench_of_refs(refs, on);
             visit(group_pair, normal_force, self.along_common_axes(&wrench, on));
