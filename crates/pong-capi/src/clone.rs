@@ -1,9 +1,8 @@
 //! Cloning of a sealed world.
 
-use crate::counters::Counters;
 use crate::failure::Outcome;
 use crate::guard::get;
-use crate::handle::{Inner, pong_world};
+use crate::handle::{Counters, Inner, pong_world};
 use crate::law_adapters::LawFaults;
 use crate::memory;
 use crate::phase::Phase;

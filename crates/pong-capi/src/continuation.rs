@@ -1,10 +1,9 @@
 //! Continuation of a run in a world of more or fewer Objects.
 
 use crate::advice::Advice;
-use crate::counters::Counters;
 use crate::failure::{Failure, Outcome};
-use crate::guard::{get, locked, setting_up};
-use crate::handle::{Inner, pong_world};
+use crate::guard::{get, lock, setting_up};
+use crate::handle::{Counters, Inner, pong_world};
 use crate::law_adapters::LawFaults;
 use crate::memory;
 use crate::phase::Phase;
@@ -90,10 +89,9 @@ pub unsafe extern "C" fn pong_continue_from(
         }
         let call = "continue from another world";
         let engine = inner.phase.frames_mut(call)?;
-        locked(from, "from", |other| {
-            out.set((&engine.continue_from(other.phase.frames(call)?)?).into());
-            Ok(())
-        })
+        let other = lock(from, "from")?;
+        out.set((&engine.continue_from(other.phase.frames(call)?)?).into());
+        Ok(())
     })
 }
 

@@ -8,30 +8,28 @@ use crate::pointers::Out;
 use crate::status::pong_status;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::TryLockError;
+use std::sync::{MutexGuard, TryLockError};
 
 /// Runs an entry that has no world: sets the engine's floating-point environment, catches panics, and turns
 /// the outcome into a status and a message (empty on success).
 pub(crate) fn guarded(call: impl FnOnce() -> Outcome) -> pong_status {
-    pong_fpenv::guarded(|| caught(call))
-}
-
-fn caught(call: impl FnOnce() -> Outcome) -> pong_status {
-    let failure = match catch_unwind(AssertUnwindSafe(call)) {
-        Ok(Ok(())) => {
-            // Cleared at the end, not at the beginning: a law called meanwhile may have called Pong and left
-            // a message.
-            message::clear();
-            return pong_status::Ok;
+    pong_fpenv::guarded(|| {
+        let failure = match catch_unwind(AssertUnwindSafe(call)) {
+            Ok(Ok(())) => {
+                // Cleared at the end, not at the beginning: a law called meanwhile may have called Pong and left
+                // a message.
+                message::clear();
+                return pong_status::Ok;
+            }
+            Ok(Err(failure)) => failure,
+            Err(payload) => fault(payload),
+        };
+        match failure.why {
+            Why::Text(text) => message::set(&text),
+            Why::Error(error) => message::set_short(format_args!("{error}")),
         }
-        Ok(Err(failure)) => failure,
-        Err(payload) => fault(payload),
-    };
-    match failure.why {
-        Why::Text(text) => message::set(&text),
-        Why::Error(error) => message::set_short(format_args!("{error}")),
-    }
-    failure.status
+        failure.status
+    })
 }
 
 /// As [`guarded`], with the world: one call at a time. A panic poisons the world's lock, and so the world.
@@ -42,34 +40,29 @@ pub(crate) unsafe fn with_world(
     world: *const pong_world,
     call: impl FnOnce(&mut Inner) -> Outcome,
 ) -> pong_status {
-    guarded(|| locked(world, "world", call))
+    guarded(|| call(&mut *lock(world, "world")?))
 }
 
-/// Calls a function with the data that a world's lock guards. `name` is that of the argument.
+/// Locks a world and returns its data, until the guard is dropped. `name` is that of the argument.
 ///
 /// # Safety
-/// As [`with_world`].
-pub(crate) unsafe fn locked(
-    world: *const pong_world,
-    name: &str,
-    call: impl FnOnce(&mut Inner) -> Outcome,
-) -> Outcome {
+/// As [`with_world`]; the world lives as long as the guard.
+pub(crate) unsafe fn lock<'w>(world: *const pong_world, name: &str) -> Outcome<MutexGuard<'w, Inner>> {
     // SAFETY: by the contract of this function; shared access is enough, the lock guards the rest.
     let Some(world) = (unsafe { world.as_ref() }) else {
         let message = format!("`{name}` is NULL; give a world made by pong_create_world()");
         return Err(Failure::new(pong_status::NullArgument, message));
     };
-    match world.inner.try_lock() {
-        Ok(mut inner) => call(&mut inner),
-        Err(TryLockError::WouldBlock) => Err(Failure::new(
+    world.inner.try_lock().map_err(|refused| match refused {
+        TryLockError::WouldBlock => Failure::new(
             pong_status::Busy,
             "the world is in another call; call it from one thread at a time and never from inside a law",
-        )),
-        Err(TryLockError::Poisoned(_)) => Err(Failure::new(
+        ),
+        TryLockError::Poisoned(_) => Failure::new(
             pong_status::Panic,
             "the world is unusable after an earlier fault inside the library; destroy it",
-        )),
-    }
+        ),
+    })
 }
 
 /// As [`with_world`], for calls that return one value: written to `pointer`, the argument `name` of messages.

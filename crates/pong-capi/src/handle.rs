@@ -1,14 +1,13 @@
 //! Handle of a world, and the data of the C interface for it.
 
 use crate::advice::Advice;
-use crate::counters::Counters;
-use crate::host_data::UserData;
 use crate::law_adapters::{Callback, LawFaults};
 use crate::names::Names;
 use crate::phase::Phase;
 use crate::worker::Started;
-use pong_engine::{InterfaceId, PairId, PairMonitor, State};
+use pong_engine::{FrameReport, InterfaceId, PairId, PairMonitor, State};
 use pong_record::{ModelSource, Recorder};
+use std::collections::HashMap;
 use std::ffi::CString;
 use std::sync::Mutex;
 
@@ -46,4 +45,29 @@ pub(crate) struct Inner {
     pub sources: Vec<ModelSource>,
     pub log: Option<Recorder>,
     pub monitor: Option<PairMonitor>,
+}
+
+/// User data of Objects and primitives that were set; all others are 0.
+#[derive(Clone, Default)]
+pub(crate) struct UserData {
+    pub objects: HashMap<u64, u64>,
+    pub primitives: HashMap<(u64, u32), u64>,
+}
+
+/// Counters and times of the C interface.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counters {
+    /// Most contacts of a frame, fixed when the world is sealed.
+    pub contact_capacity: u64,
+    pub evaluations: u64,
+    pub commits: u64,
+    pub peak_contacts_wanted: u32,
+    pub evaluate_ns: u64,
+    pub commit_ns: u64,
+}
+
+impl Counters {
+    pub fn note_wanted(&mut self, report: &FrameReport) {
+        self.peak_contacts_wanted = self.peak_contacts_wanted.max(report.contacts_wanted);
+    }
 }

@@ -1,8 +1,7 @@
 //! Report and energies.
 
-use crate::counters::Counters;
 use crate::guard::{get, with_world};
-use crate::handle::pong_world;
+use crate::handle::{Counters, pong_world};
 use crate::phase::Phase;
 use crate::pointers::Out;
 use crate::status::pong_status;

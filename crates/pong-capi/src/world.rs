@@ -3,12 +3,10 @@
 use crate::advice::Advice;
 use crate::clock;
 use crate::config::pong_config;
-use crate::counters::Counters;
 use crate::failure::Failure;
 use crate::guard::guarded;
-use crate::handle::Inner;
 pub use crate::handle::pong_world;
-use crate::host_data::UserData;
+use crate::handle::{Counters, Inner, UserData};
 use crate::instructions;
 use crate::law_adapters::LawFaults;
 use crate::memory;

@@ -5,7 +5,7 @@
 //!
 //! | stage of a frame | file | from → to |
 //! |---|---|---|
-//! | state in | `frame/input/states.rs` | host's states → checked states of the movable groups |
+//! | state in | `frame/input/mod.rs` | host's states → checked states of the movable groups |
 //! | relative | `frame/input/relative.rs` | states → relative motion of every pair of movable groups |
 //! | broad phase | `frame/broad_phase/` | trees of bounding volumes → pairs of leaves that may touch |
 //! | narrow phase | `frame/narrow_phase/` | pairs of primitives → contact candidates |

@@ -1,10 +1,10 @@
 //! Run-time part of a sealed world: its memory, its workers and its frames. [`World`](crate::World) keeps the
 //! states, and checks what the host hands in before it calls this part.
 
+use crate::energy::LedgerEntry;
 use crate::energy::account::EnergyAccount;
 use crate::energy::contact::ContactEnergies;
 use crate::energy::episodes::{PairEnergies, PairEnergy};
-use crate::energy::ledger::LedgerEntry;
 use crate::error::EngineError;
 use crate::frame::{
     self, EvaluationBuffers, EvaluationInput, FrictionPreload, MOTIONS_AT_ONCE, ROUND, TunnellingEvents,

@@ -11,13 +11,12 @@
 //! The dissipated energy is −W − Δstored. A contact that has ended contributes the half of its last force,
 //! and its stored energy is dissipated.
 
+use super::LedgerEntry;
 use super::accounts::Accounts;
 use super::buffers::EnergyBuffers;
 use super::displacement::Displacement;
-use super::ledger::LedgerEntry;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::forces::contact_ref::ContactRef;
-use crate::frame::forces::reference_point::reference_point;
 use crate::frame::input::motion::Motion;
 use crate::frame::input::relative::Motions;
 use crate::frame::input::{EvaluationInput, WorkerInput};
@@ -140,7 +139,7 @@ impl<'a> Books<'a> {
         let (body_a, _) = self.motions.sealed.bodies_of(found.key.direction());
         let body_a = self.given.scene.body(body_a);
         let kind_a = body_a.primitives[found.key.primitive_a as usize].kind;
-        let reference = reference_point((body_a, kind_a), &found.key, found.element_a);
+        let reference = body_a.element(kind_a, found.element_a).reference_point(found.key.end);
         Some(Displacement::new(since, &motion.x_ba, &reference))
     }
 }

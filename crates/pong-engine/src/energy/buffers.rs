@@ -1,9 +1,9 @@
 //! Buffers of the energy stage.
 
+use super::LedgerEntry;
 use super::account::EnergyAccount;
 use super::contact::ContactEnergies;
 use super::episodes::PairEnergies;
-use super::ledger::LedgerEntry;
 use crate::scene::Scene;
 use crate::seal::Sealed;
 

@@ -9,7 +9,7 @@
 //! | account and verdict of a *contact episode* | `episodes.rs` | end of the frame | account of the pair |
 //!
 //! The frame writes to `buffers.rs`. A commit copies the energies into the contact state: `contact.rs`
-//! (contacts), `episodes.rs` (pairs) and `ledger.rs` (sums). `account.rs` is the public form of an account.
+//! (contacts), `episodes.rs` (pairs) and `LedgerEntry` (sums). `account.rs` is the public form of an account.
 
 pub mod account;
 mod accounts;
@@ -18,4 +18,20 @@ pub(crate) mod buffers;
 pub(crate) mod contact;
 mod displacement;
 pub(crate) mod episodes;
-pub(crate) mod ledger;
+
+/// Work and dissipation of a frame, or of all frames since the world began: of all contacts, or of those of one
+/// pair of movable groups.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct LedgerEntry {
+    /// Work done on the bodies, J.
+    pub work: f64,
+    /// Energy dissipated or dropped, J.
+    pub dissipated: f64,
+}
+
+impl LedgerEntry {
+    pub fn add(&mut self, other: &Self) {
+        self.work += other.work;
+        self.dissipated += other.dissipated;
+    }
+}

@@ -20,14 +20,13 @@ pub(crate) use buffers::EvaluationBuffers;
 pub(crate) use forces::contact::FrameContact;
 pub(crate) use forces::contact_ref::{ContactRef, Slot};
 pub(crate) use input::motion::PairMotions;
-pub(crate) use input::states::require_states;
-pub(crate) use input::{Block, EvaluationInput, WorkerInput};
+pub(crate) use input::{Block, EvaluationInput, WorkerInput, require_states};
 pub(crate) use near_pairs::{MOTIONS_AT_ONCE, NearPairs};
+pub(crate) use output::FrameResults;
 pub(crate) use output::commit::{new_records, write_records};
 pub use output::preload::FrictionPreload;
-pub(crate) use output::results::FrameResults;
 pub(crate) use run_blocks::arena_bytes;
-pub(crate) use tunnelling::events::{TunnellingEvent, TunnellingEvents};
+pub(crate) use tunnelling::followed::{TunnellingEvent, TunnellingEvents};
 pub(crate) use tunnelling::travel::{PrimitivesOf, least_travel_m, reach_m};
 pub(crate) use worker_context::WorkerContext;
 pub(crate) use worker_pool::WorkerPool;
@@ -36,9 +35,9 @@ use crate::energy::balance::balance;
 use crate::report::{Stage, StatusBits, Work, WorkTimes};
 use broad_phase::blocks::Layout;
 use forces::found::{FoundContacts, WorkerBuffers};
+use input::latch_states;
 use input::relative::Motions;
-use input::states;
-use output::ordered::OrderedContacts;
+use output::order::OrderedContacts;
 use output::{order, reduce};
 use run_blocks::run_blocks;
 
@@ -57,7 +56,7 @@ pub(crate) fn evaluate(
     let EvaluationBuffers { order, tunnelling, energy, wrenches, report, times, .. } = frame;
     let mut watch = clock.start();
 
-    states::latch(sealed, states, poses, twists);
+    latch_states(sealed, states, poses, twists);
     near.find(sealed, &states.enabled, poses, &memory.poses);
     let motions = Motions { sealed, frame: frame.number, near, poses, twists, committed: &memory.poses };
     watch.lap(Stage::Input, times);
@@ -125,7 +124,9 @@ fn find_contacts(
         {
             laps.lap_work(Work::BroadPhase, &mut layout_times);
             input.phase += 1;
-            run_round(given, pool.as_deref_mut(), input, cost_ns, caller, workers);
+            if !run_on_workers(given, pool.as_deref_mut(), input, cost_ns, caller, workers) {
+                run_blocks(&given.round(input), 0..input.blocks.len(), caller);
+            }
             laps = clock.start();
         }
     }
@@ -142,31 +143,31 @@ fn find_contacts(
     times
 }
 
-/// Runs a round on the caller and the workers. If sharing the round would not pay, or has failed, runs it on
-/// the caller alone. `cost_ns` is the estimated cost of the round, ns.
-fn run_round(
+/// Runs a round on the caller and the workers. Returns false if sharing the round would not pay, or has
+/// failed; the caller then runs the whole round alone. `cost_ns` is the estimated cost of the round, ns.
+fn run_on_workers(
     given: &EvaluationInput<'_>,
     pool: Option<&mut WorkerPool>,
     input: &WorkerInput,
     cost_ns: u64,
     caller: &mut WorkerContext,
     workers: &mut WorkerBuffers,
-) {
+) -> bool {
+    let Some(pool) = pool else { return false };
     // A frame may have several rounds, and each uses the workers' buffers. So the contacts that the workers
     // found in the last round are copied into the caller's buffer first.
     for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
         assert!(caller.out.merge(worker), "the caller's buffer has room for the contacts of the workers");
     }
     workers.empty();
-    if let Some(pool) = pool {
-        let asked = pool.worth_asking(given.memory.records.len(), input.blocks.len(), cost_ns);
-        if asked > 0 {
-            let before = caller.out.checkpoint();
-            if pool.run_parallel(given.memory, (input, asked), caller, workers.put_to_use()) {
-                return;
-            }
-            caller.out.restore(&before);
-        }
+    let asked = pool.worth_asking(given.memory.records.len(), input.blocks.len(), cost_ns);
+    if asked == 0 {
+        return false;
     }
-    run_blocks(&given.round(input), 0..input.blocks.len(), caller);
+    let before = caller.out.checkpoint();
+    let is_complete = pool.run_parallel(given.memory, (input, asked), caller, workers.put_to_use());
+    if !is_complete {
+        caller.out.restore(&before);
+    }
+    is_complete
 }

@@ -7,7 +7,7 @@
 use crate::frame::block::{GRAIN, finish_chunk, plan_of};
 use crate::frame::broad_phase::blocks::batches_of_b;
 use crate::frame::broad_phase::chunk::{Chunk, ChunkSpace, ChunksOfA};
-use crate::frame::broad_phase::element_search::{ElementSearch, SEARCHES_MAX};
+use crate::frame::broad_phase::element_search::SEARCHES_MAX;
 use crate::frame::input::{Block, PairContext, Round};
 use crate::frame::narrow_phase::element_pair::ChunkCandidates;
 use crate::frame::narrow_phase::single_element::{ElementAndBatch, narrow_down, test_element};
@@ -75,7 +75,14 @@ impl<L: Laps> Kernel for SingleElementBlocks<'_, L> {
                 }
             }
             let pairs = &pairs[..reached.len()];
-            advance_in_turns(simd, searches, pairs);
+            // One step of each search in turn, until each has ended or has no room for more results.
+            let mut goes_on = true;
+            while goes_on {
+                goes_on = false;
+                for (search, pair) in searches.iter_mut().zip(pairs) {
+                    goes_on |= pair.is_some_and(|pair| search.step(simd, &pair.batch.boxes));
+                }
+            }
             laps.lap(Work::BroadPhase, &mut out.times);
             narrow_down(simd, pairs, searches, found.deferred, &mut out.counts);
             laps.lap(Work::NarrowPhase, &mut out.times);
@@ -140,17 +147,5 @@ impl<'a, 's> Elements<'a, 's> {
     fn pair(&self, reached: &Reached<'a>) -> Option<ElementAndBatch<'_>> {
         let TransformedElement { context, chunk } = self.list[reached.element].as_ref()?;
         Some(ElementAndBatch { context, chunk, batch: reached.batch })
-    }
-}
-
-/// Advances the searches of some pairs in turns until each has ended or has no room for more results.
-#[inline(always)]
-fn advance_in_turns<S: Simd>(simd: S, searches: &mut [ElementSearch], pairs: &[Option<ElementAndBatch<'_>>]) {
-    let mut goes_on = true;
-    while goes_on {
-        goes_on = false;
-        for (search, pair) in searches.iter_mut().zip(pairs) {
-            goes_on |= pair.is_some_and(|pair| search.step(simd, &pair.batch.boxes));
-        }
     }
 }

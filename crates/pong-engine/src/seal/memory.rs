@@ -6,10 +6,10 @@
 use super::frame_limits::Limits;
 use super::sizes::{bytes_per_contact, least_thread_bytes};
 use super::{GroupPair, Plan};
+use crate::energy::LedgerEntry;
 use crate::energy::account::WrenchCoupling;
 use crate::energy::buffers::Interval;
 use crate::energy::episodes::PairEnergy;
-use crate::energy::ledger::LedgerEntry;
 use crate::frame::{Block, MOTIONS_AT_ONCE, NearPairs, PairMotions, PendingParts, ROUND};
 use crate::scene::Scene;
 use crate::state::CommittedPoses;

@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | all of it; pairs of movable groups | `sealed.rs` | `mod.rs` |
 //! | filters between groups | `leaf_filter.rs` | `filters.rs` |
-//! | test plans | `test_plan.rs` | `plans.rs`, `testable.rs` |
+//! | test plans | `test_plan.rs` | `plans.rs` |
 //! | combined surface values | `surface_table.rs` | `surfaces.rs` |
 //! | capacities of buffers | `frame_limits.rs` | `sizes.rs` |
 //!
@@ -22,16 +22,15 @@ mod sizes;
 mod surface_table;
 mod surfaces;
 mod test_plan;
-mod testable;
 mod warnings;
 
 pub(crate) use filters::part_groups;
+pub(crate) use plans::{can_be_tested, kind_name};
 pub use sealed::GroupPair;
 pub(crate) use sealed::Sealed;
 pub(crate) use surface_table::SurfaceTable;
 pub(crate) use surfaces::{law_state_len, surface_tables};
 pub(crate) use test_plan::{Direction, Plan};
-pub(crate) use testable::{can_be_tested, kind_name};
 pub use warnings::{MetIn, SetupNote, SetupWarning};
 
 use crate::energy::account::WrenchCoupling;

@@ -3,14 +3,31 @@
 use super::filters::{apart, primitives_that_meet, representatives};
 use super::leaf_filter::{LeafFilter, ObjectFilters};
 use super::sealed::NO_PLAN;
-use super::testable::{can_be_tested, kind_name};
 use super::{GroupPair, Plan};
-use crate::frame::narrow_phase::pair_table::{REGISTERED, kind_pair};
+use crate::frame::narrow_phase::pair_table::{REGISTERED, has_tester, kind_pair};
 use crate::frame::{PrimitivesOf, least_travel_m, reach_m};
 use crate::scene::Scene;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Filters, MovableGroup, PrimitiveInfo};
+use pong_model::{Extensions, Filters, MovableGroup, PrimitiveInfo};
 use std::collections::BTreeMap;
+
+/// Name of a primitive's kind; a custom kind has its own name.
+pub(crate) fn kind_name<'a>(body: &'a MovableGroup, info: &PrimitiveInfo) -> &'a str {
+    match info.kind {
+        PrimitiveKind::Custom => body.customs[info.elements.start as usize].kind_name(),
+        kind => kind.name(),
+    }
+}
+
+/// Returns true if a primitive can be tested as A against another as B.
+pub(crate) fn can_be_tested(
+    extensions: &Extensions,
+    a: (&MovableGroup, &PrimitiveInfo),
+    b: (&MovableGroup, &PrimitiveInfo),
+) -> bool {
+    has_tester(a.1.kind, b.1.kind)
+        || extensions.contact_test(kind_name(a.0, a.1), kind_name(b.0, b.1)).is_some()
+}
 
 /// Test plan of A against B; `in_order` is true if A's Object was named first.
 fn plan(

@@ -2,7 +2,7 @@
 
 use super::filters::{apart, representatives};
 use super::leaf_filter::ObjectFilters;
-use super::testable::{can_be_tested, kind_name};
+use super::plans::{can_be_tested, kind_name};
 use super::warnings::SetupNote;
 use super::{GroupPair, SurfaceTable};
 use crate::law::{FrictionProps, PairProps, combine, friction_name};

@@ -2,7 +2,7 @@
 
 use super::filters::{apart, is_paired, representatives};
 use super::leaf_filter::ObjectFilters;
-use super::testable::{can_be_tested, kind_name};
+use super::plans::{can_be_tested, kind_name};
 use crate::frame::narrow_phase::pair_table::has_tester;
 use crate::scene::{GroupFilter, ObjectPair, Scene};
 use pong_geometry::primitive::PrimitiveKind;

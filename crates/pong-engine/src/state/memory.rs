@@ -1,8 +1,8 @@
 //! Contact state: contact records, committed poses and energies.
 
 use super::poses::CommittedPoses;
-use super::record::{ContactRecord, ContactRole};
-use super::records::Records;
+use super::record::{ContactKey, ContactRecord, ContactRole};
+use super::records::{RecordRange, Records, RecordsOfKey};
 use crate::energy::contact::{ContactEnergies, ContactEnergyRef};
 use crate::energy::episodes::PairEnergies;
 use pong_arena::{Full, Table};
@@ -128,6 +128,19 @@ impl ContactMemory {
             law_state: self.law_state_of(index),
             energy: self.energies.get(index),
         })
+    }
+
+    /// Records of a key.
+    #[inline]
+    pub fn under(&self, key: &ContactKey) -> RecordsOfKey<'_> {
+        let range = self.records.of_key(key);
+        self.at(range)
+    }
+
+    /// Records of a range from an earlier search.
+    #[inline(always)]
+    pub fn at(&self, range: RecordRange) -> RecordsOfKey<'_> {
+        RecordsOfKey { range, records: self.records.in_range(&range) }
     }
 
     /// Friction-law state of a record.

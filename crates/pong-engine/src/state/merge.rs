@@ -6,8 +6,8 @@
 
 use super::memory::{ContactMemory, RecordEntry};
 use super::record::ContactRecord;
+use crate::energy::LedgerEntry;
 use crate::energy::episodes::PairEnergies;
-use crate::energy::ledger::LedgerEntry;
 use std::iter::Peekable;
 
 impl ContactMemory {

@@ -2,7 +2,6 @@
 
 mod block;
 mod carry;
-mod lookup;
 mod memory;
 mod merge;
 mod poses;
@@ -14,8 +13,7 @@ mod tests;
 pub use block::StateError;
 pub(crate) use block::{largest_len, needed_len, read_block, write_block};
 pub(crate) use carry::{CarryOutcome, Counterparts};
-pub(crate) use lookup::{RecordsOfKey, SAME_WAY_COSINE_MIN};
 pub(crate) use memory::{ContactMemory, RecordEntry};
 pub(crate) use poses::{CommittedPoses, Past};
 pub(crate) use record::{ContactKey, ContactRecord, ContactRole, NO_FACE};
-pub(crate) use records::{RecordRange, Records};
+pub(crate) use records::{RecordRange, Records, RecordsOfKey, SAME_WAY_COSINE_MIN};

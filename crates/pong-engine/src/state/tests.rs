@@ -1,15 +1,15 @@
 //! Contact memory against slow reference models, and blocks that must be refused.
 
 use super::block::{StateError, largest_len, needed_len, write_block};
-use super::lookup::RecordsOfKey;
 use super::memory::{ContactMemory, RecordEntry};
 use super::poses::{CommittedPoses, NEVER, Past};
 use super::record::{ContactKey, ContactRecord, ContactRole};
 use super::records::Records;
+use super::records::RecordsOfKey;
+use crate::energy::LedgerEntry;
 use crate::energy::account::{EnergyAccount, WrenchCoupling};
 use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
 use crate::energy::episodes::PairEnergies;
-use crate::energy::ledger::LedgerEntry;
 use pong_geometry::{Pose, Quat, Vec3, Wrench};
 use pong_model::Fnv;
 use pong_testkit::Random;

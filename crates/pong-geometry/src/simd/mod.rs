@@ -122,15 +122,22 @@ pub fn run<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
     {
         let most = LEVEL.load(Ordering::Relaxed);
+        // The closures are always inlined, so that the kernel is compiled with the instructions of the level.
         if most >= Level::Avx512 as u8
             && let Some(v4) = pulp::x86::V4::try_new()
         {
-            return v4.vectorize(x86::With(kernel, x86::Avx512(v4)));
+            return v4.vectorize(
+                #[inline(always)]
+                || kernel.run(x86::Avx512(v4)),
+            );
         }
         if most >= Level::Avx2 as u8
             && let Some(v3) = pulp::x86::V3::try_new()
         {
-            return v3.vectorize(x86::With(kernel, x86::Avx2(v3)));
+            return v3.vectorize(
+                #[inline(always)]
+                || kernel.run(x86::Avx2(v3)),
+            );
         }
     }
     run_portable(kernel)

@@ -1,23 +1,11 @@
 //! Levels of x86-64: one register of eight numbers (AVX-512) or two registers of four (AVX2). `pulp` returns
 //! a token only if the machine has the instructions, which makes their use safe.
 
-use super::arithmetic::{Kernel, Simd};
+use super::arithmetic::Simd;
 use super::lanes::{LANES, LaneBits};
 use pulp::cast;
 use pulp::x86::{V3, V4};
 use std::arch::x86_64::{__m128d, __m256d, __m256i, __m512d, _CMP_EQ_OQ, _CMP_GE_OQ, _CMP_LT_OQ};
-
-/// Kernel together with the level at which it runs.
-pub(super) struct With<K, S>(pub K, pub S);
-
-impl<K: Kernel, S: Simd> pulp::NullaryFnOnce for With<K, S> {
-    type Output = K::Output;
-
-    #[inline(always)]
-    fn call(self) -> K::Output {
-        self.0.run(self.1)
-    }
-}
 
 /// AVX-512 level: eight numbers per instruction.
 #[derive(Clone, Copy, Debug)]

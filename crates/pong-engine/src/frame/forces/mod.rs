@@ -5,7 +5,6 @@ pub(crate) mod contact;
 pub(crate) mod contact_buffer;
 pub(crate) mod contact_ref;
 pub(crate) mod found;
-pub(crate) mod reference_point;
 
 use crate::frame::broad_phase::chunk::Chunk;
 use crate::frame::input::motion::SinceCommit;
@@ -25,7 +24,6 @@ use pong_geometry::lanes::Lanes;
 use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::LANES;
-use reference_point::reference_point;
 
 /// Contacts of one key share the tangential stiffness if the cosine of the angle between their normals
 /// exceeds this (60°).
@@ -300,8 +298,8 @@ impl PairContext<'_> {
                 (since.x_ba.point(&own.get(lane)), centers.get(lane))
             }
             None => {
-                let body = (self.body_a, contact.elements_a.kind);
-                let reference = reference_point(body, &found.key, found.element_a);
+                let element = self.body_a.element(contact.elements_a.kind, found.element_a);
+                let reference = element.reference_point(found.key.end);
                 (since.x_ba.point(&reference), self.motion.x_ba.point(&reference))
             }
         };

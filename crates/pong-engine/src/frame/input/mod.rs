@@ -1,16 +1,16 @@
-//! Input of the parallel stages; constant while they run.
+//! Input of a frame: the states of the movable groups, and the input of the parallel stages, constant while they run.
 
 pub(crate) mod motion;
 pub(crate) mod relative;
-pub(crate) mod states;
 
+use crate::error::EngineError;
 use crate::report::Clock;
 use crate::scene::{Scene, States};
 use crate::seal::{Direction, Sealed, SurfaceTable};
 use crate::state::ContactMemory;
 use motion::{Motion, PairMotions};
-use pong_geometry::Vec3;
 use pong_geometry::bounding::VolumeTests;
+use pong_geometry::{Pose, Twist, Vec3};
 use pong_model::MovableGroup;
 use std::cell::OnceCell;
 use std::sync::Arc;
@@ -133,6 +133,38 @@ impl<'a> PairContext<'a> {
             in_order: (flipped == 0) == pair.first_named_first,
             remembers_entry: scene.model_of_body(b).entry_memory,
             rotation_b: OnceCell::new(),
+        }
+    }
+}
+
+/// Returns an error if a movable group of an enabled pair has no state.
+#[inline]
+pub(crate) fn require_states(scene: &Scene, sealed: &Sealed, states: &States) -> Result<(), EngineError> {
+    // Fast path: usually all groups have a state, and there may be many more pairs than groups.
+    if sealed.paired_bodies.iter().all(|&body| states.bodies[body].is_some()) {
+        return Ok(());
+    }
+    for pair in sealed.group_pairs.iter().filter(|pair| states.enabled[pair.pair]) {
+        for body in [pair.first, pair.second] {
+            if states.bodies[body].is_none() {
+                return Err(EngineError::UnsetState { interface: scene.body_name(body) });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Copies the states, validated when they were set, into the poses and twists of the frame.
+#[inline]
+pub(crate) fn latch_states(sealed: &Sealed, states: &States, poses: &mut [Pose], twists: &mut [Twist]) {
+    for &body in &*sealed.paired_bodies {
+        if let Some(state) = &states.bodies[body] {
+            poses[body] = states.poses[body];
+            // Copied field by field, because copying the struct right after writing its fields would stall
+            // (store forwarding).
+            let twist = &mut twists[body];
+            twist.linear.copy_from_slice(&state.linear_velocity);
+            twist.angular.copy_from_slice(&state.angular_velocity);
         }
     }
 }

@@ -3,9 +3,8 @@
 pub(crate) use crate::frame::load_sharing::status::CandidateStatus;
 use crate::state::{ContactKey, ContactRole, NO_FACE, RecordRange};
 use pong_geometry::Vec3;
-use pong_geometry::interference::{Feature, Interference};
+use pong_geometry::interference::Feature;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::Item;
 
 /// Summation order: by key, then by primitive, element and feature of B.
 pub(crate) type ContactOrder = (ContactKey, u32, u32, Feature);
@@ -65,30 +64,6 @@ impl ContactCandidate {
         ray_distance: f64::INFINITY,
         weight: 1.0,
     };
-
-    /// Candidate with a whole spring for the interference `found` between an element of A and an element of
-    /// B.
-    #[inline(always)]
-    pub fn new(
-        key: ContactKey,
-        (item_a, lane): (Item, u8),
-        (item_b, kind_b): (Item, PrimitiveKind),
-        found: &Interference,
-    ) -> Self {
-        Self {
-            key,
-            primitive_b: item_b.primitive,
-            element_a: item_a.element,
-            element_b: item_b.element,
-            feature: found.feature,
-            kind_b,
-            lane,
-            depth: found.depth,
-            normal_b: found.normal_b,
-            deepest_b: found.deepest_b,
-            ..Self::NOTHING
-        }
-    }
 
     /// Marks the candidate as one that shares a spring with the others of its key; `half` for half a spring.
     pub fn share(&mut self, half: bool) {

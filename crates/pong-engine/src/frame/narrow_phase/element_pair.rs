@@ -237,37 +237,21 @@ impl<'a> ElementPair<'a> {
         }
     }
 
-    pub fn whole(&self, contact: Option<Interference>, found: &mut ChunkCandidates<'_>) {
-        if let Some(contact) = contact {
-            self.emit(&contact, found, |_| ());
-        }
-    }
-
     /// Adds the contact of a sphere, which shares its spring with the other contacts of the sphere with the
     /// same surface.
     pub fn sharing(&self, ball: &Ball<'_>, contact: &Interference, found: &mut ChunkCandidates<'_>) {
         let key = self.key_at(ball.end.unwrap_or(0));
-        self.emit_under(key, contact, found, |out| out.share(ball.end.is_some()));
+        self.emit(key, contact, found, |out| out.share(ball.end.is_some()));
     }
 
     /// Adds the contact of a capsule's axis with an edge between its ends.
     pub fn between_ends(&self, crossing: &Interference, found: &mut ChunkCandidates<'_>) {
-        self.emit_under(self.key_at(BETWEEN_ENDS), crossing, found, |out| out.share(true));
+        self.emit(self.key_at(BETWEEN_ENDS), crossing, found, |out| out.share(true));
     }
 
-    pub fn emit(
-        &self,
-        contact: &Interference,
-        found: &mut ChunkCandidates<'_>,
-        adjust: impl FnOnce(&mut ContactCandidate),
-    ) {
-        self.emit_under(self.key(), contact, found, adjust);
-    }
-
-    /// Adds a candidate under a key that the caller has computed; `adjust` sets the fields that depend on the
-    /// tester.
+    /// Adds the candidate of a contact under `key`; `adjust` sets the fields that depend on the tester.
     #[inline]
-    pub fn emit_under(
+    pub fn emit(
         &self,
         key: ContactKey,
         contact: &Interference,
@@ -275,7 +259,19 @@ impl<'a> ElementPair<'a> {
         adjust: impl FnOnce(&mut ContactCandidate),
     ) {
         let out = found.slot();
-        *out = ContactCandidate::new(key, (self.item_a, self.lane), (self.item_b, self.kind_b), contact);
+        *out = ContactCandidate {
+            key,
+            primitive_b: self.item_b.primitive,
+            element_a: self.item_a.element,
+            element_b: self.item_b.element,
+            feature: contact.feature,
+            kind_b: self.kind_b,
+            lane: self.lane,
+            depth: contact.depth,
+            normal_b: contact.normal_b,
+            deepest_b: contact.deepest_b,
+            ..ContactCandidate::NOTHING
+        };
         adjust(out);
     }
 }

@@ -50,7 +50,7 @@ pub(crate) fn on_triangle(
         touched_behind: &|feature| touched_triangle_behind(pair, center.end, feature),
     };
     let Some(role) = entry.role(&contact) else { return };
-    pair.emit_under(key, &contact.interference, found, |out| {
+    pair.emit(key, &contact.interference, found, |out| {
         out.remembered = Some(remembered.range);
         out.share(center.end.is_some());
         out.role = role;

@@ -15,7 +15,9 @@ pub(super) fn test(pair: &ElementPair<'_>, _: &TransformedPrimitive, found: &mut
         return;
     }
     let Some(test) = extensions.contact_test(kind_a, kind_b) else { return };
-    pair.whole(test(a, b, &pair.motion().x_ba), found);
+    if let Some(contact) = test(a, b, &pair.motion().x_ba) {
+        pair.emit(pair.key(), &contact, found, |_| ());
+    }
 }
 
 fn element(body: &MovableGroup, item: Item) -> PrimitiveRef<'_> {

@@ -4,7 +4,7 @@
 use super::element_pair::{Ball, ChunkCandidates, ElementPair};
 use super::on_triangle::thickness_for;
 use super::pair_table::balls::{ball_on_triangle, ellipsoid_on_triangle};
-use super::pair_table::{Test, test_of};
+use super::pair_table::test_of;
 use crate::frame::broad_phase::chunk::{Chunk, Ellipsoidal};
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
@@ -46,7 +46,17 @@ impl<'a> Target<'a> {
         if near != 0 {
             let test = test_of(chunk.kind, self.kind_b);
             for lane in lanes(near) {
-                self.test_one(test, chunk, lane, found);
+                let pair = ElementPair {
+                    context: self.context,
+                    item_a: chunk.items[lane],
+                    lane: lane as u8,
+                    item_b: self.item_b,
+                    kind_b: self.kind_b,
+                };
+                let of_lane = chunk.of_lane(lane);
+                let a = of_lane.as_ref().or_else(|| chunk.carried(lane));
+                // Kinds without a transformed copy are tested only by registered tests, which read the model.
+                test(&pair, a.unwrap_or(&TransformedPrimitive::NOTHING), found);
             }
         }
         counts.note_testers(chunk.kind, self.kind_b, tested, (found.seen - before) as u32);
@@ -68,27 +78,6 @@ impl<'a> Target<'a> {
             }
             _ => near,
         }
-    }
-
-    #[inline(always)]
-    fn test_one(&self, test: Test, chunk: &Chunk<'_>, lane: usize, found: &mut ChunkCandidates<'_>) {
-        let pair = ElementPair {
-            context: self.context,
-            item_a: chunk.items[lane],
-            lane: lane as u8,
-            item_b: self.item_b,
-            kind_b: self.kind_b,
-        };
-        let of_lane;
-        let a = match chunk.of_lane(lane) {
-            Some(one) => {
-                of_lane = one;
-                &of_lane
-            }
-            // Kinds without a transformed copy are tested only by registered tests, which read the model.
-            None => chunk.carried(lane).unwrap_or(&TransformedPrimitive::NOTHING),
-        };
-        test(&pair, a, found);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Contacts of a frame as the host sees them: with ids, in the common frame.
 
-use super::results::FrameResults;
+use super::FrameResults;
 use crate::contact::{Contact, ContactSide};
 use crate::energy::account::EnergyAccount;
 use crate::frame::forces::contact::FrameContact;

@@ -1,7 +1,7 @@
 //! Wrench of one pair alone, summed from the contacts of the last frame on request.
 
+use super::FrameResults;
 use super::reduce::Sums;
-use super::results::FrameResults;
 use crate::frame::forces::contact_ref::ContactRef;
 use pong_geometry::{Pose, Wrench};
 

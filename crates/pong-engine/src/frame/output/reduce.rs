@@ -5,12 +5,12 @@
 //! of the largest force. Therefore blocks of [`PART`] contacts are summed first, and then the block sums
 //! (docs/theory.md, 5).
 
-use crate::energy::ledger::LedgerEntry;
+use crate::energy::LedgerEntry;
 use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::forces::found::FoundContacts;
 use crate::frame::input::WorkerInput;
 use crate::frame::input::relative::Motions;
-use crate::frame::output::ordered::OrderedContacts;
+use crate::frame::output::order::OrderedContacts;
 use crate::seal::{Direction, Sealed};
 use pong_geometry::{Transform, Vec3, Wrench};
 

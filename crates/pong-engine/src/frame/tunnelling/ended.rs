@@ -2,15 +2,13 @@
 //! the other side. This also finds an element that is pressed slowly through a surface that is too soft: its
 //! path in one frame is too short to show it.
 
-use super::events::TunnellingEvents;
-use super::followed::{SAME_SIDE_COSINE_MIN, Seen, pushing};
-use super::line::Line;
-use super::{solids, swept};
+use super::followed::{SAME_SIDE_COSINE_MIN, Seen, TunnellingEvents, pushing};
+use super::solids::{self, Line};
+use super::swept;
 use crate::frame::forces::contact_ref::ContactRef;
-use crate::frame::forces::reference_point::reference_point;
 use crate::frame::input::relative::Motions;
 use crate::frame::input::{EvaluationInput, WorkerInput};
-use crate::frame::output::ordered::OrderedContacts;
+use crate::frame::output::order::OrderedContacts;
 use crate::seal::Direction;
 use crate::state::{ContactKey, ContactRecord, ContactRole, Records};
 use pong_arena::{Arena, List};
@@ -138,7 +136,7 @@ impl Seen<'_> {
         let body_a = self.context.body_a;
         let info = &body_a.primitives[record.key.primitive_a as usize];
         let is_followed = info.kind != PrimitiveKind::Custom;
-        is_followed.then(|| reference_point((body_a, info.kind), &record.key, info.elements.start))
+        is_followed.then(|| body_a.element(info.kind, info.elements.start).reference_point(record.key.end))
     }
 
     /// Returns true if the element of an ended contact, which pushed it to one side, is now on the other side

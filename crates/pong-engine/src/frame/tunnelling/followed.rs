@@ -1,14 +1,13 @@
 //! Follows elements of A along their paths, and checks whether contacts push them back.
 
-use super::events::{TunnellingEvent, TunnellingEvents};
-use super::line::{Line, Met};
+use super::solids::{self, Line, Met};
 use super::swept::{self, Swept};
-use super::{solids, travel};
+use super::travel;
 use crate::frame::forces::contact_ref::ContactRef;
 use crate::frame::input::motion::Motion;
 use crate::frame::input::{PairContext, Round};
 use crate::frame::narrow_phase::candidate::ContactCandidate;
-use crate::frame::output::ordered::OrderedContacts;
+use crate::frame::output::order::OrderedContacts;
 use crate::seal::{Direction, Plan};
 use crate::state::{ContactKey, ContactRecord, ContactRole};
 use pong_geometry::Vec3;
@@ -20,6 +19,32 @@ use pong_model::{Batch, Item};
 
 /// Cosine between the normals of a contact and of a side above which the contact pushes to that side (60°).
 pub(super) const SAME_SIDE_COSINE_MIN: f64 = 0.5;
+
+/// Tunnelling events of a frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct TunnellingEvents {
+    /// Number of events: at most one per batch of B for each followed point or axis of A, and one per ended
+    /// contact.
+    pub count: u32,
+    /// First event, in the order of pairs and directions.
+    pub first: Option<TunnellingEvent>,
+}
+
+/// An element of A that passed through B.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TunnellingEvent {
+    pub body_a: usize,
+    pub primitive_a: u32,
+    pub body_b: usize,
+}
+
+impl TunnellingEvents {
+    /// Records one event.
+    pub fn note(&mut self, passed: TunnellingEvent) {
+        self.count = self.count.saturating_add(1);
+        self.first.get_or_insert(passed);
+    }
+}
 
 /// One direction of a pair of movable groups, with the contacts of the frame.
 pub(super) struct Seen<'a> {

@@ -17,9 +17,7 @@
 //! all other frames only ended contacts are checked.
 
 mod ended;
-pub(crate) mod events;
-mod followed;
-mod line;
+pub(crate) mod followed;
 mod solids;
 mod swept;
 pub(crate) mod travel;
@@ -27,9 +25,8 @@ pub(crate) mod travel;
 use crate::frame::input::relative::Motions;
 use crate::frame::input::{EvaluationInput, WorkerInput};
 use crate::frame::near_pairs::MOTIONS_AT_ONCE;
-use crate::frame::output::ordered::OrderedContacts;
-use events::TunnellingEvents;
-use followed::Seen;
+use crate::frame::output::order::OrderedContacts;
+use followed::{Seen, TunnellingEvents};
 use pong_arena::Arena;
 
 /// Detects tunnelling since the last commit. If the frame visits more pairs than `input` holds motions of, the

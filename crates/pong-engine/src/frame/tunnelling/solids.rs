@@ -1,10 +1,24 @@
-//! Paths through polyhedra. The pieces of a shell, joined at internal faces, form one solid.
+//! Straight paths of points of A since the last commit, and their outcome for polyhedra of B. The pieces of a
+//! shell, joined at internal faces, form one solid.
 
-use super::line::{Line, Met};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::entry_of_line;
 use pong_geometry::primitive::{Polyhedron, PrimitiveKind};
 use pong_model::MovableGroup;
+
+/// Path of a point of an element of A since the last commit, in B's frame, m.
+pub(super) struct Line {
+    pub from_b: Vec3,
+    pub to_b: Vec3,
+}
+
+/// Outcome of a path for one shell of B, with the normal of the side through which the path enters.
+pub(super) enum Met {
+    /// The path enters and leaves the solid, or passes through the sheet.
+    Through(Vec3),
+    /// The path enters the solid and ends there.
+    Into(Vec3),
+}
 
 /// Outcome of a path that enters a piece through an active (not internal) face: it leaves the whole solid
 /// again, or ends in it. `None` if the path does not enter in this way, or if it starts in the solid:

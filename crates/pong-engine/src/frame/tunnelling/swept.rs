@@ -1,6 +1,6 @@
 //! Points and axes of A that sweep through the round solids of B (docs/theory.md, 2.9).
 
-use super::line::Met;
+use super::solids::Met;
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{Gap, PrimitiveKind, Round};
 use pong_model::MovableGroup;

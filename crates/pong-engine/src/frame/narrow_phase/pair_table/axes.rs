@@ -69,8 +69,7 @@ pub(super) fn line_segment_polyhedron(
     for (end, found_there) in line_segment_piece(segment, polyhedron).iter().enumerate() {
         let Some((contact, at_wall)) = found_there else { continue };
         let status = status_of_end(contact, *at_wall, polyhedron);
-        pair.emit(contact, found, |out| {
-            out.key.end = end as u32;
+        pair.emit(pair.key_at(end as u32), contact, found, |out| {
             out.half = true;
             out.status = status;
         });
@@ -126,10 +125,7 @@ pub(super) fn emit_halves<A>(
 ) {
     for (end, contact) in contacts.as_ref().iter().enumerate() {
         let Some(contact) = contact else { continue };
-        pair.emit(contact, found, |out| {
-            out.key.end = end as u32;
-            out.half = true;
-        });
+        pair.emit(pair.key_at(end as u32), contact, found, |out| out.half = true);
     }
 }
 
@@ -143,8 +139,7 @@ pub(super) fn emit_shares<A>(
 ) {
     for (end, contact) in contacts.iter().enumerate() {
         let Some(contact) = contact else { continue };
-        pair.emit(&contact.interference, found, |out| {
-            out.key.end = end as u32;
+        pair.emit(pair.key_at(end as u32), &contact.interference, found, |out| {
             out.half = true;
             out.weight = contact.share;
         });

@@ -8,7 +8,6 @@ use crate::frame::narrow_phase::on_triangle::{
 };
 use crate::frame::narrow_phase::side_of_bore::role_in_bore;
 use pong_geometry::Vec3;
-use pong_geometry::interference::Interference;
 use pong_geometry::interference::ball_bore::{BallContacts, ball_bore};
 use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_piece;
 use pong_geometry::interference::ellipsoid_triangle::EllipsoidOnTriangles;
@@ -38,7 +37,7 @@ pub(super) fn point_polyhedron(
     let Some(face) = pair.entry_face(&remembered, local, &point.position) else { return };
     let contact = point_below_face(&point.position, polyhedron, face.pushes());
     if let Some(contact) = contact {
-        pair.emit_under(key, &contact, found, |out| {
+        pair.emit(key, &contact, found, |out| {
             (out.entry_face, out.remembered) = (face.reached(), Some(remembered.range));
             out.status = status;
         });
@@ -74,7 +73,7 @@ pub(super) fn ball_on_piece(pair: &ElementPair<'_>, ball: &Ball<'_>, found: &mut
     let remembered = pair.context.memory.under(&key);
     let Some(face) = pair.entry_face(&remembered, center_a, &sphere.center) else { return };
     let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes());
-    pair.emit_under(key, &contact, found, |out| {
+    pair.emit(key, &contact, found, |out| {
         out.share(ball.end.is_some());
         out.status = status_of(containment);
         (out.entry_face, out.remembered) = (face.reached(), Some(remembered.range));
@@ -121,7 +120,7 @@ pub(super) fn ellipsoid_polyhedron(
     else {
         return;
     };
-    pair.emit(&contact.interference, found, |out| {
+    pair.emit(pair.key(), &contact.interference, found, |out| {
         out.shares = true;
         out.status = if contact.stands_in { CandidateStatus::StandIn } else { CandidateStatus::Front };
     });
@@ -185,7 +184,7 @@ pub(super) fn emit_in_bore(
         let key = pair.key_at(end.unwrap_or(0));
         let remembered = pair.context.memory.under(&key);
         let role = role_in_bore(pair, &remembered, local, contact);
-        pair.emit_under(key, contact, found, |out| {
+        pair.emit(key, contact, found, |out| {
             out.share(end.is_some());
             (out.role, out.remembered) = (role, Some(remembered.range));
         });
@@ -212,16 +211,6 @@ pub(super) fn emit_hit(
     found: &mut ChunkCandidates<'_>,
 ) {
     if let Some(hit) = hit {
-        pair.emit(&ray_contact(ray, &hit), found, |out| out.ray_distance = hit.distance);
+        pair.emit(pair.key(), &ray_contact(ray, &hit), found, |out| out.ray_distance = hit.distance);
     }
-}
-
-/// Adds the contact of a pair of kinds that has at most one.
-pub(super) fn emit_whole<A>(
-    pair: &ElementPair<'_>,
-    _: &A,
-    contact: Option<Interference>,
-    found: &mut ChunkCandidates<'_>,
-) {
-    pair.whole(contact, found);
 }
