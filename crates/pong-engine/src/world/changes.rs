@@ -31,6 +31,9 @@ impl World {
 
     /// Drops the contact state of an Object. For use after a teleport, in which the host moves the Object in
     /// one step, or after a reset.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an Object of another world.
     pub fn clear_contact_history(&mut self, object: ObjectId) -> Result<(), EngineError> {
         let object = self.scene.object_index(object)?;
         let pairs = &self.scene.pairs;

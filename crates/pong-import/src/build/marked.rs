@@ -189,7 +189,7 @@ impl Build<'_, '_> {
             movable: mark.movable,
             // A box is the default of movable groups.
             bound: Some(mark.bound.clone())
-                .filter(|bound| !bound.is_empty() && !(mark.movable && bound == "Aabb")),
+                .filter(|bound| !(bound.is_empty() || mark.movable && bound == "Aabb")),
             surface: Some(mark.surface.clone()).filter(|surface| !surface.is_empty()),
             ..Group::default()
         };
