@@ -128,7 +128,7 @@ class Overlays(unittest.TestCase):
         arm = s.group(
             "arm", movable=True, location=(1.0, 0.0, 0.0), rotation_mode="XYZ", rotation=(0.0, 0.0, math.pi / 2)
         )
-        hand = s.group("hand", above=arm, location=(0.0, 0.0, 1.0))
+        hand = s.group("hand", above=arm, bound="Aabb", location=(0.0, 0.0, 1.0))
         s.mesh("block", "Polyhedron", box((2.0, 2.0, 2.0)), above=hand, inactive_faces=[0])
         s.primitive("ray", "Ray", above=hand, length=0.5, reach=0.1)
         return built(s)

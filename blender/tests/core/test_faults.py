@@ -6,7 +6,7 @@ import re
 import unittest
 
 from support import ROOT, build, rules, scene
-from faulty_scenes import FAULTY, good, one
+from faulty_scenes import FAULTY, good, one, part
 from core.author import box, changed, mesh
 from core.finding import FIXES
 
@@ -66,6 +66,7 @@ class LoaderWarnings(unittest.TestCase):
     def test_a_leaf_size_without_effect_is_told_at_its_group(self):
         grouped = good()
         changed(grouped.objects[0], leaf_size=4)
+        changed(part(grouped, "arm"), bound="Aabb")
         self.assertEqual(self.told(grouped.snapshot()), [("loader-warning", "warning", "model", [])])
 
     def test_triangles_are_told_once(self):
