@@ -47,6 +47,12 @@ pub(crate) struct GroupDraft {
     pub(crate) items: Vec<Item>,
 }
 
+/// Tests whether a group that names no bounding volume has none of its own, so that its elements count to the
+/// leaf above. `volume_below` tells whether a group below it in the same movable group has one.
+pub(crate) fn is_above_by_default(movable: bool, leaf_size: Option<usize>, volume_below: bool) -> bool {
+    !movable && leaf_size.is_none() && !volume_below
+}
+
 impl BodyDraft {
     /// Path of an element for messages, in which a triangle of a mesh is named by its index.
     pub(crate) fn triangle_path(&self, triangle: u32) -> (u32, String) {

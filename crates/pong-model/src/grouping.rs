@@ -4,6 +4,7 @@
 //! Only the necessary parts of a text change: comments, order and numbers stay, byte for byte. Names stay
 //! too, because a group without its own volume is still a group: paths of primitives do not change.
 
+use crate::draft::is_above_by_default;
 use crate::ron_tree::{self, Field, Node, Value};
 use pong_geometry::bounding::BoundKind;
 
@@ -89,7 +90,7 @@ fn default_bounds(found: &[Places], named: impl Fn(&Places) -> Option<&Bound>) -
     // Groups below come after their group, so in reverse order they are visited first.
     for index in (0..found.len()).rev() {
         let group = &found[index].group;
-        if !group.movable && group.leaf_size.is_none() && !volume_below[index] {
+        if is_above_by_default(group.movable, group.leaf_size, volume_below[index]) {
             defaults[index] = Bound::Above;
         }
         if let Some(above) = group.above.filter(|_| !group.movable) {

@@ -43,11 +43,12 @@ pub(crate) fn balance(
     let mut books = Books::open(given, motions, input, energy);
     scratch.reset();
     let continued = scratch.slice(records.len(), false).expect("sealing has sized the scratch");
-    for place in order.iter().filter(|place| place.pushes()) {
+    for reference in order.iter().filter(|reference| reference.pushes()) {
         // If two contacts continue one record, the first in summation order gets the energy of the record,
         // and the other counts as new.
-        let earlier = place.continues().filter(|&record| !std::mem::replace(&mut continued[record], true));
-        let index = place.slot.index();
+        let earlier =
+            reference.continues().filter(|&record| !std::mem::replace(&mut continued[record], true));
+        let index = reference.slot.index();
         books.add_contact(index, &mut out.contacts[index], earlier);
     }
     for (index, record) in records.iter().enumerate() {

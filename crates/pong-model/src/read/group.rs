@@ -4,7 +4,7 @@ use super::fields::Fields;
 use super::place::{GroupReader, Place, authored_name, read_name, surface_index};
 use super::primitive::read_primitive;
 use super::reader::Reader;
-use crate::draft::{BodyDraft, GroupDraft};
+use crate::draft::{BodyDraft, GroupDraft, is_above_by_default};
 use crate::model::MovableGroup;
 use crate::ron_tree::{Node, Value};
 use crate::schema;
@@ -64,7 +64,8 @@ fn read_group(
     let above = match bound {
         Some(given) => given.is_none(),
         None => {
-            !movable && leaf_size.is_none() && !holds_volume(&groups.bodies[place.body].groups, place.group)
+            let volume_below = holds_volume(&groups.bodies[place.body].groups, place.group);
+            is_above_by_default(movable, leaf_size, volume_below)
         }
     };
     groups.bodies[place.body].groups[place.group].above = above;

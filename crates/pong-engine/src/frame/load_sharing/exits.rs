@@ -20,8 +20,8 @@ pub(super) fn is_exit_that_stands_in(contact: &ContactCandidate) -> bool {
 /// Keeps one of the exits that several pieces report at one point, and culls the others. `group` has the
 /// contacts of one end of a segment with the pieces of one body.
 ///
-/// Where a segment leaves the body at the boundary edge of an internal face, rounding may make both pieces at
-/// that face report an exit, or neither. These rules choose one:
+/// At the boundary edge of an internal face, rounding may make both pieces at that face report an exit of the
+/// segment, or neither. These rules choose one:
 ///
 /// * Only exits count whose piece contains a large part of the segment ([`SHARE_HELD`]).
 /// * The first exit through an active face counts; if there is none, the first through an internal face.

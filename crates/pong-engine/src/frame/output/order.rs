@@ -29,13 +29,16 @@ impl<'a> OrderedContacts<'a> {
     /// Contacts that push.
     pub fn pushing(&self) -> impl Iterator<Item = &'a FrameContact> + use<'a> {
         let found = self.found;
-        self.order.iter().filter(|place| place.pushes()).map(move |place| found.contact(place))
+        self.order
+            .iter()
+            .filter(|reference| reference.pushes())
+            .map(move |reference| found.contact(reference))
     }
 
     /// References to the contacts whose keys have this high word.
     pub fn with_head(&self, head: u64) -> impl Iterator<Item = &'a ContactRef> + use<'a> {
-        let first = self.order.partition_point(|place| place.head < head);
-        self.order[first..].iter().take_while(move |place| place.head == head)
+        let first = self.order.partition_point(|reference| reference.head < head);
+        self.order[first..].iter().take_while(move |reference| reference.head == head)
     }
 }
 
@@ -44,12 +47,12 @@ impl<'a> OrderedContacts<'a> {
 pub(crate) fn list(found: FoundContacts<'_>, order: &mut Table<ContactRef>) {
     order.clear();
     for thread in found.threads() {
-        order.extend_from_slice(&thread.refs).expect("as many places as contacts");
+        order.extend_from_slice(&thread.refs).expect("as many references as contacts");
     }
     // Few contacts have the same high word, so only these are compared by their whole order.
-    order.sort_unstable_by_key(|place| place.head);
+    order.sort_unstable_by_key(|reference| reference.head);
     for ties in order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
-        ties.sort_unstable_by_key(|place| found.contact(place).found.order());
+        ties.sort_unstable_by_key(|reference| found.contact(reference).found.order());
     }
 }
 
@@ -85,7 +88,7 @@ pub(crate) fn keep_deepest(
 }
 
 fn count_pushing(order: &[ContactRef]) -> u64 {
-    order.iter().filter(|place| place.pushes()).count() as u64
+    order.iter().filter(|reference| reference.pushes()).count() as u64
 }
 
 fn saturated(count: u64) -> u32 {
@@ -106,18 +109,20 @@ pub(crate) fn keep_first_ray_hits(
     // by group, ray and Object, then by distance, so that the first hit of each ray and Object is the
     // nearest.
     let mut hits = scratch.list(order.len()).expect("sealing has sized the scratch");
-    for (place, found) in order.iter().map(|place| &out.contacts[place.slot.index()].found).enumerate() {
+    for (index, found) in
+        order.iter().map(|reference| &out.contacts[reference.slot.index()].found).enumerate()
+    {
         if found.ray_distance < f64::INFINITY {
             let (a, b) = sealed.bodies_of(found.key.direction());
-            let hit = (a, found.key.primitive_a, scene.bodies[b].object, place);
+            let hit = (a, found.key.primitive_a, scene.bodies[b].object, index);
             hits.push((hit, found.ray_distance)).expect("as much room as contacts");
         }
     }
-    hits.sort_unstable_by(|((a, ray, object, place), distance), (other, further)| {
+    hits.sort_unstable_by(|((a, ray, object, index), distance), (other, further)| {
         (a, ray, object)
             .cmp(&(&other.0, &other.1, &other.2))
             .then(distance.total_cmp(further))
-            .then(place.cmp(&other.3))
+            .then(index.cmp(&other.3))
     });
     for later in hits.windows(2) {
         let [(first, _), (second, _)] = [later[0], later[1]];
@@ -125,7 +130,7 @@ pub(crate) fn keep_first_ray_hits(
             out.contacts[order[second.3].slot.index()].found.status = CandidateStatus::Culled;
         }
     }
-    order.retain(|place| out.contacts[place.slot.index()].found.status != CandidateStatus::Culled);
+    order.retain(|reference| out.contacts[reference.slot.index()].found.status != CandidateStatus::Culled);
     if !out.demand.overflowed {
         out.demand.pushing = count_pushing(order);
         out.demand.remembered = order.len() as u64 - out.demand.pushing;

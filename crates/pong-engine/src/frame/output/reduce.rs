@@ -25,10 +25,10 @@ pub(crate) fn sum(
     wrenches: &mut [Wrench],
 ) -> Option<Direction> {
     let mut beyond_range = None;
-    for places in contacts.order.chunk_by(|a, b| a.direction() == b.direction()) {
-        let direction = places[0].direction();
+    for refs in contacts.order.chunk_by(|a, b| a.direction() == b.direction()) {
+        let direction = refs[0].direction();
         let x_ba = motions.known(input, direction).x_ba;
-        let sums = Sums::of_direction(&contacts.found, places, &x_ba.translation);
+        let sums = Sums::of_direction(&contacts.found, refs, &x_ba.translation);
         if !sums.in_range {
             beyond_range.get_or_insert(direction);
         }
@@ -61,9 +61,9 @@ impl Sums {
 
     /// Sums over all contacts of a direction, part by part; `origin_a` is A's origin in B's frame, m.
     #[inline]
-    pub fn of_direction(found: &FoundContacts<'_>, places: &[ContactRef], origin_a: &Vec3) -> Self {
+    pub fn of_direction(found: &FoundContacts<'_>, refs: &[ContactRef], origin_a: &Vec3) -> Self {
         let mut sums = Self::of_nothing();
-        for part in places.chunks(PART) {
+        for part in refs.chunks(PART) {
             sums.add(&Self::of(found, part, origin_a));
         }
         sums
@@ -71,10 +71,10 @@ impl Sums {
 
     /// Sums over some contacts; `origin_a` is A's origin in B's frame, m.
     #[inline]
-    fn of(found: &FoundContacts<'_>, places: &[ContactRef], origin_a: &Vec3) -> Self {
+    fn of(found: &FoundContacts<'_>, refs: &[ContactRef], origin_a: &Vec3) -> Self {
         let mut sums = Self::of_nothing();
-        for place in places.iter().filter(|place| place.pushes()) {
-            let contact = found.contact(place);
+        for reference in refs.iter().filter(|reference| reference.pushes()) {
+            let contact = found.contact(reference);
             let (force_b, point_b) = (&contact.force(), &contact.point_b);
             sums.force += force_b;
             sums.about_a += (point_b - origin_a).cross(force_b);
