@@ -132,6 +132,8 @@ fn rigid() -> Surface {
     Surface {
         name: "rigid".to_owned(),
         stiffness: f64::INFINITY,
+        foundation: None,
+        area: None,
         normal: NormalLaw::Inherited,
         friction: FrictionLaw::Inherited,
     }

@@ -42,6 +42,7 @@ pub mod restitution;
 mod ron_tree;
 pub mod schema;
 pub mod shapes;
+mod solid;
 pub mod surface;
 pub mod t_junctions;
 mod tree;
@@ -61,6 +62,7 @@ pub use model::{
 };
 pub use pair_table::pair_entries;
 pub use printable::{printable, printable_lines};
+pub use solid::{Solid, SolidBox, SolidField, SolidPart};
 pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 
 use read::Reader;

@@ -1,6 +1,7 @@
 //! Flat, immutable model as the engine reads it.
 
 use crate::box_tree::{BoxNode, BoxTree};
+use crate::solid::Solid;
 use crate::surface::{PairOverride, Surface};
 use pong_geometry::bounding::Volume;
 use pong_geometry::lanes::Lanes;
@@ -79,6 +80,8 @@ pub struct MovableGroup {
     /// Number of shells: connected surfaces of triangles, or of polyhedra joined by internal faces; every other
     /// primitive is a shell of its own.
     pub shell_count: u32,
+    /// Parts that touch by overlapped volume.
+    pub solids: Vec<Solid>,
     /// Tree of bounding volumes.
     pub tree: Tree,
 }

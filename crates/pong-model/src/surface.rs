@@ -10,6 +10,11 @@ pub struct Surface {
     /// Normal stiffness: N/m, or N/m^1.5 with the exponent 3/2; infinite means rigid. If finite, within
     /// [`SOFTEST`](Self::SOFTEST) and [`STIFFEST`](Self::STIFFEST).
     pub stiffness: f64,
+    /// Foundation modulus K of solids, N/m³; `None` takes stiffness over area.
+    pub foundation: Option<f64>,
+    /// Area over which a solid's contact has the stiffness, m²; `None` takes that of each solid
+    /// ([`Solid::reference_area`](crate::Solid::reference_area)).
+    pub area: Option<f64>,
     /// Normal force law and its damping.
     pub normal: NormalLaw,
     /// Friction law.

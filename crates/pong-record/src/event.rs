@@ -125,7 +125,7 @@ impl SurfaceValues {
     /// The surface with these values.
     pub fn surface(&self, name: &str) -> Surface {
         let Self { stiffness, normal, friction } = self.clone();
-        Surface { name: name.to_owned(), stiffness, normal, friction }
+        Surface { name: name.to_owned(), stiffness, foundation: None, area: None, normal, friction }
     }
 }
 

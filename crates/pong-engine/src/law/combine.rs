@@ -356,6 +356,8 @@ mod tests {
         Surface {
             name: format!("k{stiffness}"),
             stiffness,
+            foundation: None,
+            area: None,
             normal: NormalLaw::Linear { damping, ramp: 0.0 },
             friction: FrictionLaw::None,
         }

@@ -154,7 +154,7 @@ fn surface(stiffness: f64, exponent: Exponent) -> Surface {
     };
     let friction =
         FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: Some(stiffness), damping: None };
-    Surface { name: "s".to_owned(), stiffness, normal, friction }
+    Surface { name: "s".to_owned(), stiffness, foundation: None, area: None, normal, friction }
 }
 
 /// Two springs in series are softer than either, and at least half as stiff as the softer one, for any

@@ -42,6 +42,8 @@ fn surface(reader: &mut Reader<'_>, node: &Node, name: String, path: &str) -> Su
     let mut surface = Surface {
         name,
         stiffness: 1.0,
+        foundation: None,
+        area: None,
         normal: NormalLaw::Linear { damping: 0.0, ramp: 0.0 },
         friction: FrictionLaw::None,
     };

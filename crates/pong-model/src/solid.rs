@@ -1,0 +1,69 @@
+//! Solids: closed parts of a rigid body that touch by the volume they share with others (docs/theory.md, 2.11).
+
+use pong_geometry::Vec3;
+use pong_geometry::overlap::{HalfSpace, Surface};
+
+/// Closed part of a movable group whose interior counts: a polyhedron, several joined by internal faces, or a
+/// closed mesh of triangles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solid {
+    /// Lowest of its primitives (index into [`MovableGroup::primitives`](crate::MovableGroup::primitives)).
+    pub primitive: u32,
+    /// Shell of that primitive.
+    pub shell: u32,
+    /// Index into [`Model::surfaces`](crate::Model::surfaces).
+    pub surface: u32,
+    /// Node of the group's tree that has its lowest primitive.
+    pub leaf: u32,
+    /// Box around the solid.
+    pub bound: SolidBox,
+    /// Area of its outer surface, m².
+    pub area: f64,
+    /// Closed parts without common volume, of any shape; together they are the solid.
+    pub parts: Vec<SolidPart>,
+    /// Convex solids that together are the solid, each with its faces and walls. One if the solid is convex,
+    /// however it is divided; empty if it is a mesh that is not convex.
+    pub fields: Vec<SolidField>,
+}
+
+/// Closed part of a solid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolidPart {
+    /// Box around the part.
+    pub bound: SolidBox,
+    /// Surface of the part in the group frame, internal faces included.
+    pub surface: Surface,
+}
+
+/// Convex part of a solid by its planes in the group frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolidField {
+    /// Box around the part.
+    pub bound: SolidBox,
+    /// Planes of the outer faces; a plane is listed once.
+    pub faces: Vec<HalfSpace>,
+    /// Planes of the internal faces.
+    pub walls: Vec<HalfSpace>,
+}
+
+/// Box along the axes of the group frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolidBox {
+    /// Centre, m.
+    pub center: Vec3,
+    /// Half extents, m.
+    pub half: Vec3,
+}
+
+impl Solid {
+    /// Returns `true` if one field describes the whole solid, which is then convex.
+    pub fn is_convex(&self) -> bool {
+        self.fields.len() == 1
+    }
+
+    /// Area that takes the place of a surface's `area` where the file gives none, m²: a sixth of the outer
+    /// surface, which is one face if the solid is a cube.
+    pub fn reference_area(&self) -> f64 {
+        self.area / 6.0
+    }
+}
