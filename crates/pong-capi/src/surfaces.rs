@@ -228,6 +228,8 @@ mod tests {
             let with = |normal| Surface {
                 name: "s".to_owned(),
                 stiffness: 1e6,
+                foundation: None,
+                area: None,
                 normal,
                 friction: FrictionLaw::None,
             };
