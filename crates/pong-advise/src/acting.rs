@@ -105,7 +105,7 @@ struct Acting {
 
 impl Acting {
     /// Makes it; `None` if the contact cannot be judged.
-    fn new(setting: &Setting<'_>, contact: &PushingContact) -> Option<Self> {
+    fn new(setting: &Setting<'_>, contact: &PushingContact<'_>) -> Option<Self> {
         let (a, b) = (contact.group_a, contact.group_b);
         if setting.masses[a].is_none() || setting.masses[b].is_none() {
             return None;
@@ -117,7 +117,7 @@ impl Acting {
 }
 
 /// The axes of B's frame, at a contact, as forces on the movable groups that yield.
-pub(crate) fn rows_of(setting: &Setting<'_>, contact: &PushingContact) -> Vec<(usize, [Vec6; 3])> {
+pub(crate) fn rows_of(setting: &Setting<'_>, contact: &PushingContact<'_>) -> Vec<(usize, [Vec6; 3])> {
     let x_ba = contact.x_ba;
     let at_a = x_ba.rotation.tr_mul(&(contact.point_b - x_ba.translation));
     let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
@@ -131,7 +131,7 @@ pub(crate) fn rows_of(setting: &Setting<'_>, contact: &PushingContact) -> Vec<(u
 }
 
 /// Inverse of the effective mass at a contact along the normal, 1/kg, and its largest value along the surface.
-pub(crate) fn compliances_at(setting: &Setting<'_>, contact: &PushingContact) -> [f64; 2] {
+pub(crate) fn compliances_at(setting: &Setting<'_>, contact: &PushingContact<'_>) -> [f64; 2] {
     let mut sum = pong_geometry::Mat3::zeros();
     for (_, rows) in rows_of(setting, contact) {
         sum += pong_geometry::Mat3::from_fn(|i, j| rows[i].dot(&rows[j]));

@@ -45,7 +45,7 @@ pub fn pressed_report(
 }
 
 /// Springs of a contact; `None` if masses are unknown, or the law is the host's.
-fn known_of(setting: &Setting<'_>, contact: &PushingContact) -> Option<Known> {
+fn known_of(setting: &Setting<'_>, contact: &PushingContact<'_>) -> Option<Known> {
     if setting.masses[contact.group_a].is_none() || setting.masses[contact.group_b].is_none() {
         return None;
     }

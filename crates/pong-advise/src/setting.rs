@@ -120,14 +120,13 @@ impl<'w> Setting<'w> {
     }
 
     /// The springs of a contact at its depth and normal force; `None` for laws of the host's.
-    pub(crate) fn pressed_springs(&self, contact: &PushingContact) -> Option<ContactSprings> {
-        pressed_springs(self.props(contact), contact.depth, contact.normal_force).ok()
+    pub(crate) fn pressed_springs(&self, contact: &PushingContact<'_>) -> Option<ContactSprings> {
+        pressed_springs(contact.props, contact.depth, contact.normal_force).ok()
     }
 
     /// The combined values of a contact's two surfaces.
-    pub(crate) fn props(&self, contact: &PushingContact) -> &'w PairProps {
-        let table = self.scene.pairs()[contact.pair].tables[contact.flipped];
-        self.scene.surface_values(table, contact.surfaces(&self.scene))
+    pub(crate) fn props(&self, contact: &PushingContact<'w>) -> &'w PairProps {
+        contact.props
     }
 
     /// Effective mass 1/(1/m₁ + 1/m₂), kg; `None` if neither yields.

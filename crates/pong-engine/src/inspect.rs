@@ -9,7 +9,7 @@ use crate::law::PairProps;
 use crate::runtime::Runtime;
 use crate::scene::Scene;
 pub use crate::seal::GroupPair;
-use crate::seal::can_be_tested;
+use crate::seal::{can_be_tested, values_of};
 use pong_geometry::{Pose, Transform, Vec3};
 use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 
@@ -22,7 +22,7 @@ pub struct Inspection<'w> {
 
 /// A contact of the last frame that pushes, in B's frame.
 #[derive(Clone, Copy, Debug)]
-pub struct PushingContact {
+pub struct PushingContact<'w> {
     /// Index of its pair in [`Inspection::pairs`].
     pub pair: usize,
     /// 0 if A is the first movable group of the pair, 1 if it is the second.
@@ -35,7 +35,10 @@ pub struct PushingContact {
     pub primitive_a: u32,
     /// Primitive of B.
     pub primitive_b: u32,
-    /// Active share of the contact's spring, 0…1; half of it at each end of a line segment.
+    /// Combined values of the two surfaces; per unit area for solids.
+    pub props: &'w PairProps,
+    /// Active share of the contact's spring, 0…1; half of it at each end of a line segment. For a cell of two
+    /// solids, its effective area, m².
     pub weight: f64,
     /// Depth, m.
     pub depth: f64,
@@ -110,17 +113,18 @@ impl<'w> Inspection<'w> {
         [full(table.model_a, a), full(table.model_b, b)]
     }
 
-    /// Contacts of the last frame that push, in summation order.
+    /// Contacts of the last frame that push, in summation order; not those that carry the friction of solids.
     ///
     /// # Errors
     /// [`EngineError::WrongPhase`] before the first frame.
-    pub fn pushing(&self) -> Result<impl Iterator<Item = PushingContact>, EngineError> {
-        let Runtime { sealed, frame, .. } = self.runtime;
+    pub fn pushing(&self) -> Result<impl Iterator<Item = PushingContact<'w>> + use<'w>, EngineError> {
+        let Self { scene, runtime: Runtime { sealed, frame, tables, .. } } = *self;
         if !frame.computed {
             let cure = "evaluate or step a frame first";
             return Err(EngineError::WrongPhase { call: "ask what pushes", cure });
         }
-        Ok(frame.contacts().pushing().map(|contact| {
+        let springs = frame.contacts().pushing().filter(|contact| contact.found.weight > 0.0);
+        Ok(springs.map(move |contact| {
             let key = &contact.found.key;
             let (pair, flipped) = (key.group_pair as usize, key.flipped as usize);
             let (group_a, group_b) = sealed.bodies_of(key.direction());
@@ -131,6 +135,7 @@ impl<'w> Inspection<'w> {
                 group_b,
                 primitive_a: key.primitive_a,
                 primitive_b: contact.found.primitive_b,
+                props: values_of(scene, sealed, tables, &contact.found),
                 weight: contact.found.full_weight(),
                 depth: contact.found.depth,
                 normal_force: contact.normal_force,
@@ -142,7 +147,7 @@ impl<'w> Inspection<'w> {
     }
 }
 
-impl PushingContact {
+impl PushingContact<'_> {
     /// Surface indices of A and B in their models.
     pub fn surfaces(&self, scene: &Inspection<'_>) -> (u32, u32) {
         let surface = |group: usize, primitive: u32| scene.body(group).primitives[primitive as usize].surface;

@@ -29,6 +29,11 @@ pub struct Solid {
 /// Closed part of a solid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidPart {
+    /// Primitive that the part belongs to (index into
+    /// [`MovableGroup::primitives`](crate::MovableGroup::primitives)).
+    pub primitive: u32,
+    /// Index into the array of the primitive's kind: the polyhedron, or a triangle of the part.
+    pub element: u32,
     /// Box around the part.
     pub bound: SolidBox,
     /// Surface of the part in the group frame, internal faces included.

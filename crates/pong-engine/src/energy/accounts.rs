@@ -21,6 +21,7 @@ use crate::frame::forces::contact::FrameContact;
 use crate::frame::input::relative::Motions;
 use crate::frame::input::{EvaluationInput, WorkerInput};
 use crate::law::stored_energy;
+use crate::seal::values_of;
 use crate::state::{ContactRecord, ContactRole};
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Pose, Vec3, Wrench};
@@ -185,12 +186,8 @@ impl Accounts<'_> {
     /// Force of a contact, split into normal and friction force.
     fn force_parts(&self, contact: &FrameContact) -> ForceParts {
         let found = &contact.found;
-        let (body_a, body_b) = self.given.sealed.bodies_of(found.key.direction());
-        let surface_a = self.given.scene.body(body_a).primitives[found.key.primitive_a as usize].surface;
-        let surface_b = self.given.scene.body(body_b).primitives[found.primitive_b as usize].surface;
-        let pair = &self.given.sealed.group_pairs[found.key.group_pair as usize];
-        let table = &self.input.tables[pair.tables[found.key.flipped as usize]];
-        let spring = stored_energy(table.props(surface_a, surface_b), found.full_weight(), found.depth);
+        let props = values_of(self.given.scene, self.given.sealed, &self.input.tables, found);
+        let spring = stored_energy(props, found.full_weight(), found.depth);
         ForceParts {
             point_b: contact.point_b,
             normal_b: found.normal_b * contact.normal_force,

@@ -2,8 +2,9 @@
 
 use crate::frame::block::{self, BlockWork};
 use crate::frame::broad_phase::blocks::joined;
-use crate::frame::input::Round;
+use crate::frame::input::{BlockKind, Round};
 use crate::frame::single_element_blocks::{self, SingleElementBlocks};
+use crate::frame::solids::run_solids;
 use crate::frame::worker_context::WorkerContext;
 use crate::report::{Timed, Untimed};
 use pong_geometry::simd;
@@ -20,28 +21,37 @@ pub(crate) fn arena_bytes(nodes: usize, batches: usize) -> usize {
 /// block costs as much as testing a few elements.
 pub(crate) fn run_blocks(round: &Round<'_>, blocks: Range<usize>, worker: &mut WorkerContext) {
     let clock = round.input.clock.0;
-    for alike in round.input.blocks[blocks].chunk_by(|a, b| a.is_single == b.is_single) {
-        if alike[0].is_single {
-            let mut blocks = alike;
-            while !blocks.is_empty() {
-                let worker = &mut *worker;
-                worker.arena.reset();
-                let done = match clock {
-                    None => simd::run(SingleElementBlocks { round, blocks, worker, laps: Untimed }),
-                    Some(now) => {
-                        simd::run(SingleElementBlocks { round, blocks, worker, laps: Timed::start(now) })
-                    }
-                };
-                blocks = &blocks[done..];
-            }
-        } else {
-            for block in joined(alike) {
-                worker.arena.reset();
-                match clock {
-                    None => simd::run(BlockWork { round, block, worker, laps: Untimed }),
-                    Some(now) => simd::run(BlockWork { round, block, worker, laps: Timed::start(now) }),
+    for alike in round.input.blocks[blocks].chunk_by(|a, b| a.kind == b.kind) {
+        match alike[0].kind {
+            BlockKind::Single => {
+                let mut blocks = alike;
+                while !blocks.is_empty() {
+                    let worker = &mut *worker;
+                    worker.arena.reset();
+                    let done = match clock {
+                        None => simd::run(SingleElementBlocks { round, blocks, worker, laps: Untimed }),
+                        Some(now) => {
+                            simd::run(SingleElementBlocks { round, blocks, worker, laps: Timed::start(now) })
+                        }
+                    };
+                    blocks = &blocks[done..];
                 }
             }
+            BlockKind::Elements => {
+                for block in joined(alike) {
+                    worker.arena.reset();
+                    match clock {
+                        None => simd::run(BlockWork { round, block, worker, laps: Untimed }),
+                        Some(now) => simd::run(BlockWork { round, block, worker, laps: Timed::start(now) }),
+                    }
+                }
+            }
+            BlockKind::Solids => match clock {
+                None => alike.iter().for_each(|block| run_solids(round, block, worker, &mut Untimed)),
+                Some(now) => {
+                    alike.iter().for_each(|block| run_solids(round, block, worker, &mut Timed::start(now)));
+                }
+            },
         }
     }
 }

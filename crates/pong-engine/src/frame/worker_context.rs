@@ -7,6 +7,7 @@ use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::load_sharing::solver::SharedContact;
 use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::frame::narrow_phase::element_pair::DeferredPairs;
+use crate::frame::solids::SolidScratch;
 use crate::seal::Sealed;
 use pong_arena::{Arena, Table};
 use std::fmt::Debug;
@@ -33,6 +34,8 @@ pub(crate) struct WorkerContext {
     pub(crate) found: Table<ContactCandidate>,
     /// Contacts that share a spring.
     pub(crate) shared: Table<SharedContact>,
+    /// Working memory for solids.
+    pub(crate) solids: SolidScratch,
     pub out: ContactBuffer,
 }
 
@@ -59,6 +62,7 @@ impl WorkerContext {
             deferred: DeferredPairs::default(),
             found: Table::with_capacity(sealed.limits.found, ContactCandidate::NOTHING),
             shared: Table::with_capacity(sealed.limits.found, SharedContact::NOTHING),
+            solids: SolidScratch::with_capacity(sealed.limits.facets, sealed.limits.faces),
             out: Self::buffer(sealed, thread, contacts),
         }
     }

@@ -17,6 +17,9 @@ pub(crate) struct Limits {
     pub arena_bytes: usize,
     /// Scratch memory for load sharing, ledger and rays, bytes.
     pub scratch_bytes: usize,
+    /// Most facets of a part of a solid, and most planes of a field.
+    pub facets: usize,
+    pub faces: usize,
 }
 
 impl Limits {

@@ -6,6 +6,7 @@
 //! | filters between groups | `leaf_filter.rs` | `filters.rs` |
 //! | test plans | `test_plan.rs` | `plans.rs` |
 //! | combined surface values | `surface_table.rs` | `surfaces.rs` |
+//! | solids that may touch | `solids.rs` | `solids.rs` |
 //! | capacities of buffers | `frame_limits.rs` | `sizes.rs` |
 //!
 //! `memory.rs` checks that there is memory for all of it. `warnings.rs` and `known_limits.rs` find what the
@@ -19,6 +20,7 @@ mod memory;
 mod plans;
 mod sealed;
 mod sizes;
+mod solids;
 mod surface_table;
 mod surfaces;
 mod test_plan;
@@ -28,6 +30,7 @@ pub(crate) use filters::part_groups;
 pub(crate) use plans::{can_be_tested, kind_name};
 pub use sealed::GroupPair;
 pub(crate) use sealed::Sealed;
+pub(crate) use solids::{Partner, SolidPair, field_shares, values_of};
 pub(crate) use surface_table::SurfaceTable;
 pub(crate) use surfaces::{law_state_len, surface_tables};
 pub(crate) use test_plan::{Direction, Plan};

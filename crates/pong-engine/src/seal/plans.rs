@@ -3,6 +3,7 @@
 use super::filters::{apart, primitives_that_meet, representatives};
 use super::leaf_filter::{LeafFilter, ObjectFilters};
 use super::sealed::NO_PLAN;
+use super::solids::solid_pairs;
 use super::{GroupPair, Plan};
 use crate::frame::narrow_phase::pair_table::{REGISTERED, has_tester, kind_pair};
 use crate::frame::{PrimitivesOf, least_travel_m, reach_m};
@@ -56,7 +57,8 @@ fn plan(
     let met_b = PrimitivesOf { body: b, infos: &primitives_that_meet(filters, b, 1, a) };
     let least_travel_m = least_travel_m(met_a, met_b, tests);
     let reach_a_m = reach_m(met_a);
-    Plan { element_ns, touched, least_travel_m, reach_a_m, filter }
+    let solids = solid_pairs([a, b], in_order, filters);
+    Plan { element_ns, touched, least_travel_m, reach_a_m, solids, filter }
 }
 
 /// Rough cost of an element of kind `a` against a movable group with elements of kind `b`, ns.

@@ -8,7 +8,7 @@ use crate::frame::narrow_phase::pair_table::most_contacts;
 use crate::frame::{ContactRef, FrameContact, Slot, WorkerContext, arena_bytes};
 use crate::scene::Scene;
 use crate::state::Records;
-use pong_model::Tree;
+use pong_model::{MovableGroup, Tree};
 use pong_threads::MAX_WORKERS;
 
 /// Maximum default capacity in contacts; the worst case of the scene may be larger.
@@ -17,6 +17,9 @@ const DEFAULT_CAPACITY_MAX: usize = 65_536;
 /// Minimum default capacity in contacts. A sphere centred in a cone of many triangles touches all of them,
 /// which is more than the worst case assumes.
 const DEFAULT_CAPACITY_MIN: usize = 256;
+
+/// Contacts of two solids that the worst case assumes: a few cells of both fields, friction, side of entry.
+const SOLID_CONTACTS: usize = 8;
 
 /// Capacities of the buffers of the frames of a scene.
 pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: usize) -> Limits {
@@ -38,7 +41,12 @@ pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: us
     const GRAINS: usize = 64;
     let per_contact = size_of::<((usize, u32, usize, usize), f64)>();
     let scratch_bytes = scratch_bytes(SHARED).max(thread_contacts * per_contact) + GRAINS;
-    Limits { thread_contacts, found, tree_parts, arena_bytes, scratch_bytes }
+    let solids = || paired_bodies.iter().flat_map(|&body| &scene.body(body).solids);
+    let parts = solids().flat_map(|solid| &solid.parts);
+    let facets = parts.map(|part| part.surface.facet_count()).max().unwrap_or(0);
+    let fields = solids().flat_map(|solid| &solid.fields);
+    let faces = fields.map(|field| field.faces.len() + field.walls.len()).max().map_or(0, |most| most + 1);
+    Limits { thread_contacts, found, tree_parts, arena_bytes, scratch_bytes, facets, faces }
 }
 
 /// Copies of a worker's contacts: in its own buffer and, swapped in, in the frame.
@@ -116,6 +124,11 @@ pub(super) fn worst_case(scene: &Scene, group_pairs: &[GroupPair]) -> usize {
     let movers: Vec<usize> = (0..scene.bodies.len()).map(movers).collect();
     let mut total = 0_usize;
     for pair in group_pairs {
+        let [a, b] = [pair.first, pair.second].map(|body| scene.body(body));
+        let partners = |body: &MovableGroup| body.solids.len() + body.planes.len();
+        let pairs =
+            a.solids.len().saturating_mul(partners(b)) + a.planes.len().saturating_mul(b.solids.len());
+        total = total.saturating_add(pairs.saturating_mul(SOLID_CONTACTS));
         for (a, b) in [(pair.first, pair.second), (pair.second, pair.first)] {
             total = total.saturating_add(movers[a].saturating_mul(scene.body(b).shell_count as usize));
         }

@@ -1,7 +1,9 @@
 //! Combined surface values of two models.
 
+use super::solids::FoundationKey;
 use crate::law::{NormalProps, PairProps};
 use pong_model::{Exponent, Surface};
+use std::collections::BTreeMap;
 
 /// Combined values of all pairs of surfaces of two models, A's model first.
 pub(crate) struct SurfaceTable {
@@ -11,13 +13,16 @@ pub(crate) struct SurfaceTable {
     pub columns: usize,
     /// Combined values in row-major order, one row per surface of A's model.
     pub props: Vec<Option<PairProps>>,
+    /// Combined values per unit area of solids and planes that may meet.
+    pub foundations: BTreeMap<FoundationKey, PairProps>,
 }
 
 impl SurfaceTable {
     /// Empty table for two models.
     pub fn empty(model_a: usize, model_b: usize, surfaces: &[Vec<Surface>]) -> Self {
         let columns = surfaces[model_b].len();
-        Self { model_a, model_b, columns, props: vec![None; surfaces[model_a].len() * columns] }
+        let props = vec![None; surfaces[model_a].len() * columns];
+        Self { model_a, model_b, columns, props, foundations: BTreeMap::new() }
     }
 
     /// Values of a pair of surfaces that can meet.

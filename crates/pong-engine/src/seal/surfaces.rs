@@ -3,6 +3,7 @@
 use super::filters::{apart, representatives};
 use super::leaf_filter::ObjectFilters;
 use super::plans::{can_be_tested, kind_name};
+use super::solids::{Partner, SolidPair, entry_per_area, field_shares, per_area, solid_pairs, unfit};
 use super::warnings::SetupNote;
 use super::{GroupPair, SurfaceTable};
 use crate::law::{FrictionProps, PairProps, combine, friction_name};
@@ -37,6 +38,8 @@ pub(crate) fn surface_tables(
             });
             let bodies = [a, b].map(|body| scene.body(body));
             fill_table(scene, surfaces, &mut tables[index], bodies, apart, &mut problems);
+            let of_models = groups.map(|(_, group)| group);
+            fill_foundations(scene, surfaces, &mut tables[index], (bodies, of_models), apart, &mut problems);
         }
     }
     if problems.is_empty() { Ok(tables) } else { Err(problems.into_iter().collect()) }
@@ -76,14 +79,93 @@ fn fill_table(
     }
 }
 
-/// Combined values of a pair of surfaces of two models, or the reason why there are none.
-fn combined(
+/// Combines the surfaces of the solids and planes of two movable groups that may meet, per unit area.
+/// `groups` are the indices of the groups in their models.
+fn fill_foundations(
+    scene: &Scene,
+    surfaces: &[Vec<Surface>],
+    table: &mut SurfaceTable,
+    (bodies, groups): ([&MovableGroup; 2], [usize; 2]),
+    filters: Option<&Filters>,
+    problems: &mut BTreeSet<String>,
+) {
+    let [body_a, body_b] = bodies;
+    let models = [table.model_a, table.model_b].map(|model| &*scene.models[model]);
+    for SolidPair { a, b } in solid_pairs(bodies, true, filters) {
+        let solid_a = &body_a.solids[a as usize];
+        let (solid_b, surface_b) = match b {
+            Partner::Solid(index) => {
+                let solid = &body_b.solids[index as usize];
+                (Some(solid), solid.surface)
+            }
+            Partner::Plane(index) => (None, body_b.primitives[index as usize].surface),
+        };
+        let name = |side: usize, primitive: u32| {
+            format!("{}/{}", models[side].name, bodies[side].primitives[primitive as usize].path)
+        };
+        if let Some(solid_b) = solid_b
+            && field_shares(solid_a, Some(solid_b), 0.5).is_none()
+        {
+            let [one, other] = [name(0, solid_a.primitive), name(1, solid_b.primitive)];
+            problems.insert(format!(
+                "solids `{one}` and `{other}`: neither is convex, and neither is divided into convex pieces; divide \
+                 one with `pong decompose`, or filter the pair"
+            ));
+            continue;
+        }
+        // A plane has no area; the area of the solid on it counts for both.
+        let areas = [solid_a.reference_area(), solid_b.unwrap_or(solid_a).reference_area()];
+        let a_surface = &surfaces[table.model_a][solid_a.surface as usize];
+        let b_surface = &surfaces[table.model_b][surface_b as usize];
+        match combined_per_area(scene, (models[0], a_surface), (models[1], b_surface), areas) {
+            Ok(props) => _ = table.foundations.insert((groups[0], a, groups[1], b), props),
+            Err(problem) => _ = problems.insert(problem),
+        }
+    }
+}
+
+/// Combined values per unit area of a pair of surfaces of two models, or the reason why there are none.
+fn combined_per_area(
     scene: &Scene,
     (model_a, a): (&Model, &Surface),
     (model_b, b): (&Model, &Surface),
+    areas: [f64; 2],
 ) -> Result<PairProps, String> {
-    let full = |model: &Model, surface: &Surface| format!("{}/{}", model.name, surface.name);
+    let own = [a.area.unwrap_or(areas[0]), b.area.unwrap_or(areas[1])];
+    let least = own[0].min(own[1]);
+    let entry = |entry: &PairOverride| entry_per_area(entry, least);
+    let [scaled_a, scaled_b] = [per_area(a, areas[0]), per_area(b, areas[1])];
+    let props = combined_by(scene, (model_a, &scaled_a), (model_b, &scaled_b), entry)?;
+    match unfit(&props) {
+        None => Ok(props),
+        Some(cause) => {
+            let mut names = [full_name(model_a, a), full_name(model_b, b)];
+            names.sort();
+            Err(format!("surfaces `{}` and `{}`: {cause}", names[0], names[1]))
+        }
+    }
+}
+
+fn full_name(model: &Model, surface: &Surface) -> String {
+    format!("{}/{}", model.name, surface.name)
+}
+
+/// Combined values of a pair of surfaces of two models, or the reason why there are none.
+fn combined(scene: &Scene, a: (&Model, &Surface), b: (&Model, &Surface)) -> Result<PairProps, String> {
+    combined_by(scene, a, b, Clone::clone)
+}
+
+/// The same with an entry of the pair changed by `of_entry`.
+fn combined_by(
+    scene: &Scene,
+    (model_a, a): (&Model, &Surface),
+    (model_b, b): (&Model, &Surface),
+    of_entry: impl Fn(&PairOverride) -> PairOverride,
+) -> Result<PairProps, String> {
+    let full = full_name;
     let made = table_entry((model_a, a), (model_b, b)).and_then(|entry| {
+        let entry = entry.map(&of_entry);
+        let entry = entry.as_ref();
         combine(a, b, entry, &scene.laws).map_err(|_| {
             // Combined again for the message alone, with names that are unique across models.
             let [a, b] = [(model_a, a), (model_b, b)]
@@ -163,7 +245,9 @@ fn table_entry<'m>(
 
 /// Largest number of state values per contact of any registered friction law in the tables.
 pub(crate) fn law_state_len(tables: &[SurfaceTable]) -> usize {
-    let lens = tables.iter().flat_map(|table| &table.props).flatten().map(|props| match &props.friction {
+    let elements = tables.iter().flat_map(|table| &table.props).flatten();
+    let solids = tables.iter().flat_map(|table| table.foundations.values());
+    let lens = elements.chain(solids).map(|props| match &props.friction {
         FrictionProps::Custom { law, .. } => law.state_len(),
         _ => 0,
     });

@@ -1,6 +1,7 @@
 //! Test plans between movable groups.
 
 use super::leaf_filter::LeafFilter;
+use super::solids::SolidPair;
 use pong_geometry::primitive::PrimitiveKind;
 
 /// One direction of a pair of movable groups.
@@ -23,6 +24,8 @@ pub(crate) struct Plan {
     pub least_travel_m: f64,
     /// Greatest distance of anything of A from the origin of its movable group, m.
     pub reach_a_m: f64,
+    /// Solids of A and what they may touch.
+    pub solids: Vec<SolidPair>,
     /// Leaves that are not tested against each other.
     pub filter: Option<Box<LeafFilter>>,
 }
@@ -52,6 +55,11 @@ impl Plan {
 
     /// Returns true if anything of B can touch anything of A.
     pub fn finds_something(&self) -> bool {
+        self.tests_elements() || !self.solids.is_empty()
+    }
+
+    /// Returns true if any contact tester applies to elements of A and B.
+    pub fn tests_elements(&self) -> bool {
         self.element_ns.iter().any(Option::is_some)
     }
 }

@@ -15,5 +15,5 @@ pub(crate) use block::{largest_len, needed_len, read_block, write_block};
 pub(crate) use carry::{CarryOutcome, Counterparts};
 pub(crate) use memory::{ContactMemory, RecordEntry};
 pub(crate) use poses::{CommittedPoses, Past};
-pub(crate) use record::{ContactKey, ContactRecord, ContactRole, NO_FACE};
+pub(crate) use record::{ContactKey, ContactRecord, ContactRole, NO_FACE, SolidContactPart};
 pub(crate) use records::{RecordRange, Records, RecordsOfKey, SAME_WAY_COSINE_MIN};

@@ -17,11 +17,43 @@ pub(crate) struct ContactKey {
     pub primitive_a: u32,
     /// Shell of B.
     pub shell_b: u32,
-    /// Place on A, if A has two ends: 0 and 1 at the ends, 2 and above elsewhere; 0 for all other kinds.
+    /// Place on A, if A has two ends: 0 and 1 at the ends, 2 and above elsewhere. For solids, see
+    /// [`of_solids`](Self::of_solids). 0 for all other kinds.
     pub end: u32,
 }
 
+/// Part of the contact of two solids.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SolidContactPart {
+    /// Cell of B's field: volume nearest to one face of B.
+    CellOfB = 0,
+    /// Cell of A's field.
+    CellOfA = 1,
+    /// Two contacts with the friction, 0 and 1 as features.
+    Friction = 2,
+    /// Sides of entry. The record has the direction in B's frame as its normal, and that in A's frame in
+    /// place of a bristle.
+    Entry = 3,
+}
+
 impl ContactKey {
+    /// Bit of `end` that marks contacts of solids.
+    const SOLID: u32 = 1 << 31;
+    const PART_SHIFT: u32 = 29;
+
+    /// The same key with the `end` of a part of the contact of two solids. `unit_a` is the index of the part
+    /// of A.
+    pub fn of_solids(self, part: SolidContactPart, unit_a: u32) -> Self {
+        let unit_a = unit_a & ((1 << Self::PART_SHIFT) - 1);
+        Self { end: Self::SOLID | (part as u32) << Self::PART_SHIFT | unit_a, ..self }
+    }
+
+    /// Returns true if the contact is one of two solids.
+    #[inline]
+    pub fn is_of_solids(&self) -> bool {
+        self.end & Self::SOLID != 0
+    }
+
     /// Fields packed into two words, which compare faster than five fields.
     #[inline]
     fn rank(&self) -> (u64, u64) {

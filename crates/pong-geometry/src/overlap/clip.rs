@@ -56,6 +56,15 @@ impl Surface {
         &self.vertices
     }
 
+    /// Returns the number of facets.
+    pub fn facet_count(&self) -> usize {
+        self.ends.len()
+    }
+
+    pub(super) fn carry(&mut self, x: &crate::Transform) {
+        self.vertices.iter_mut().for_each(|vertex| *vertex = x.point(vertex));
+    }
+
     /// Replaces this surface by a copy of another, in the memory that it has.
     pub(super) fn copy_from(&mut self, other: &Self) {
         self.vertices.clone_from(&other.vertices);

@@ -13,7 +13,7 @@ use clip::Cutter;
 pub use clip::Surface;
 pub use moments::Moments;
 
-use crate::{Vec3, Wrench};
+use crate::{Transform, Twist, Vec3, Wrench};
 
 /// Half space: `normal_b · x ≤ offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +48,8 @@ pub struct Cell {
     pub face: usize,
     /// Moments about [`Overlap::reference_b`].
     pub moments: Moments,
+    /// Least depth rate −n·v over the vertices of the cell, m/s.
+    pub least_rate: f64,
 }
 
 /// Workspace for the overlap of two solids, and its result.
@@ -84,11 +86,24 @@ impl Overlap {
         self.reference_b
     }
 
+    /// Returns the cells of the last call of [`cells`](Self::cells).
+    pub fn found(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// Returns `true` if a closed surface and a convex solid share volume.
+    pub fn share_volume(&mut self, a: &Surface, x_ba: &Transform, b: &Field<'_>) -> bool {
+        self.shared.copy_from(a);
+        self.shared.carry(x_ba);
+        b.faces.iter().chain(b.walls).all(|face| self.cutter.cut(&mut self.shared, |x| face.depth(x)))
+    }
+
     /// Returns the cells of the volume that a closed surface and a convex solid share, by increasing face
     /// index; empty if they share none. `a` and `b` are in one frame.
-    pub fn cells(&mut self, a: &Surface, b: &Field<'_>) -> &[Cell] {
+    pub fn cells(&mut self, a: &Surface, x_ba: &Transform, b: &Field<'_>, velocity: &Twist) -> &[Cell] {
         self.cells.clear();
         self.shared.copy_from(a);
+        self.shared.carry(x_ba);
         for half_space in b.faces.iter().chain(b.walls) {
             if !self.cutter.cut(&mut self.shared, |x| half_space.depth(x)) {
                 return &self.cells;
@@ -98,7 +113,7 @@ impl Overlap {
         self.reference_b = *reference_b;
         self.find_nearest(b.faces);
         for at in 0..self.nearest.len() {
-            self.push_cell(b.faces, self.nearest[at]);
+            self.push_cell(b.faces, self.nearest[at], velocity);
         }
         &self.cells
     }
@@ -120,7 +135,7 @@ impl Overlap {
 
     /// Appends the cell of a face, if it has a volume. The cell is cut out of the shared volume by the planes
     /// at which another face is equally near.
-    fn push_cell(&mut self, faces: &[HalfSpace], face: usize) {
+    fn push_cell(&mut self, faces: &[HalfSpace], face: usize, velocity: &Twist) {
         self.cell.copy_from(&self.shared);
         // Faces of similar normals come first, because they cut away most of the volume. Most of the later
         // planes then miss the cell, so their cuts are quick.
@@ -143,7 +158,9 @@ impl Overlap {
         }
         let moments = self.cell.moments(&self.reference_b);
         if moments.volume > 0.0 {
-            self.cells.push(Cell { face, moments });
+            let rate = |x: &Vec3| -faces[face].normal_b.dot(&velocity.at(x));
+            let least_rate = self.cell.vertices().iter().map(rate).fold(f64::INFINITY, f64::min);
+            self.cells.push(Cell { face, moments, least_rate });
         }
     }
 }
@@ -155,7 +172,7 @@ impl Overlap {
 pub fn energy_and_wrench(cells: &[Cell], reference_b: &Vec3, faces: &[HalfSpace]) -> (f64, Wrench) {
     let mut energy = 0.0;
     let mut wrench = Wrench::zero();
-    for Cell { face, moments } in cells {
+    for Cell { face, moments, .. } in cells {
         let face = &faces[*face];
         energy += face.depth(reference_b) * moments.volume - face.normal_b.dot(&moments.first_b);
         wrench.force += face.normal_b * moments.volume;

@@ -31,4 +31,24 @@ impl Moments {
     pub fn centroid(&self) -> Vec3 {
         self.first_b / self.volume
     }
+
+    /// Returns the moments of the same volume about another point. `from` is the position of the present
+    /// reference point, seen from the new one, m.
+    pub fn about(&self, from: &Vec3) -> Self {
+        let mixed = from * self.first_b.transpose();
+        Self {
+            volume: self.volume,
+            first_b: self.first_b + from * self.volume,
+            second: self.second + mixed + mixed.transpose() + from * from.transpose() * self.volume,
+        }
+    }
+}
+
+impl std::ops::AddAssign for Moments {
+    /// Adds the moments of another volume about the same point.
+    fn add_assign(&mut self, other: Self) {
+        self.volume += other.volume;
+        self.first_b += other.first_b;
+        self.second += other.second;
+    }
 }

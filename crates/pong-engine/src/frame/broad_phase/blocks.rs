@@ -3,7 +3,7 @@
 
 use crate::frame::broad_phase::group_search::SUPERCHUNK;
 use crate::frame::input::motion::PairMotions;
-use crate::frame::input::{Block, PairContext};
+use crate::frame::input::{Block, BlockKind, PairContext};
 use crate::report::FrameCounts;
 use crate::scene::Scene;
 use crate::seal::{Direction, Plan, Sealed};
@@ -30,6 +30,12 @@ const NODE_NS: u32 = 4000;
 /// one.
 const BLOCK_NS: u32 = 1000;
 
+/// Pairs of solids per block.
+const SOLIDS_AT_ONCE: u32 = 4;
+
+/// Rough cost of a pair of solids, ns.
+const SOLIDS_NS: u32 = 1000;
+
 /// A batch of A, and the leaf of A's tree that has it.
 #[derive(Clone, Copy, Debug)]
 struct BatchOfA {
@@ -49,6 +55,8 @@ enum Pending {
     Boxes(BatchOfA, u32),
     /// Elements of a batch: the first, and one past the last.
     Elements(BatchOfA, [u32; 2]),
+    /// Pairs of solids of the plan, from this one on.
+    Solids(u32),
 }
 
 /// Stack of pending parts.
@@ -56,14 +64,14 @@ pub(crate) struct PendingParts(Vec<Pending>);
 
 impl PendingParts {
     /// Allocates the stack for a tree with at most this many nodes and batches together. Each of them is
-    /// pending at most once, and besides them at most [`DEPTH_MAX`] box nodes of one batch.
+    /// pending at most once, and besides them at most [`DEPTH_MAX`] box nodes of one batch, and the solids.
     pub fn for_tree(nodes_and_batches: usize) -> Self {
-        Self(Vec::with_capacity(nodes_and_batches + DEPTH_MAX))
+        Self(Vec::with_capacity(nodes_and_batches + DEPTH_MAX + 1))
     }
 
     /// Memory of the stack for such a tree, bytes.
     pub const fn bytes(nodes_and_batches: usize) -> usize {
-        (nodes_and_batches + DEPTH_MAX) * size_of::<Pending>()
+        (nodes_and_batches + DEPTH_MAX + 1) * size_of::<Pending>()
     }
 }
 
@@ -152,7 +160,12 @@ impl<'a> Layout<'a> {
                 let bodies = (self.scene.body(body_a), self.scene.body(body_b));
                 self.next = (slot, skipped + 1);
                 self.of = Some(OfDirection { plan, bodies, direction, slot: slot as u32 });
-                self.pending.push(Pending::Node(0));
+                if !plan.solids.is_empty() {
+                    self.pending.push(Pending::Solids(0));
+                }
+                if plan.tests_elements() {
+                    self.pending.push(Pending::Node(0));
+                }
             }
         }
         true
@@ -175,6 +188,7 @@ impl<'a> Layout<'a> {
             }
             Pending::Boxes(of_a, node) => self.cut(of, of_a, node, motions, out),
             Pending::Elements(of_a, elements) => self.slice(of, of_a, elements, out),
+            Pending::Solids(first) => self.add_solids(of, first, motions, out),
         }
     }
 
@@ -264,9 +278,27 @@ impl<'a> Layout<'a> {
     fn add(&mut self, of: &OfDirection<'a>, of_a: BatchOfA, [first, end]: [u32; 2], out: &mut Out<'_>) {
         let BatchOfA { leaf, batch, element_ns } = of_a;
         let is_single = of.bodies.0.tree.batches[batch as usize].items.len() == 1;
+        let kind = if is_single { BlockKind::Single } else { BlockKind::Elements };
         let (direction, slot, leads) = (of.direction, of.slot, std::mem::take(&mut self.leads));
-        out.blocks.push(Block { direction, slot, leaf, batch, first, end, leads, is_single });
+        out.blocks.push(Block { direction, slot, leaf, batch, first, end, leads, kind });
         out.cost_ns += u64::from(end - first) * u64::from(element_ns);
+    }
+
+    /// Makes a block of pairs of solids from `first` on, unless A does not reach B. The remaining pairs stay
+    /// pending.
+    fn add_solids(&mut self, of: &OfDirection<'a>, first: u32, motions: &[PairMotions], out: &mut Out<'_>) {
+        if first == 0 && !self.reaches_b(of, &of.bodies.0.tree.nodes[0].volume, motions, out) {
+            return;
+        }
+        let count = of.plan.solids.len() as u32;
+        let end = count.min(first + SOLIDS_AT_ONCE);
+        let (direction, slot) = (of.direction, of.slot);
+        let kind = BlockKind::Solids;
+        out.blocks.push(Block { direction, slot, leaf: 0, batch: 0, first, end, leads: false, kind });
+        out.cost_ns += u64::from(end - first) * u64::from(SOLIDS_NS);
+        if end < count {
+            self.pending.push(Pending::Solids(end));
+        }
     }
 }
 
@@ -387,7 +419,7 @@ mod tests {
                         first,
                         end,
                         leads,
-                        is_single: false,
+                        kind: BlockKind::Elements,
                     });
                     first = if random.below(3) == 0 { end + LANES as u32 } else { end };
                 }

@@ -68,6 +68,10 @@ pub(crate) fn recompute_forces(
         let group;
         (group, rest) =
             rest.split_at(rest.iter().take_while(|reference| key_of(out, reference) == key).count());
+        // The forces of solids share no springs.
+        if key.is_of_solids() {
+            continue;
+        }
         let motion = motions.known(input, key.direction());
         let context = PairContext::new(&given.round(input), key.direction(), &motion);
         for reference in group {
@@ -266,7 +270,7 @@ impl PairContext<'_> {
 
     /// Rotation vector φ of A relative to B since the last commit, rad; computed once for all contacts of
     /// this context.
-    fn rotation(&self, since: &SinceCommit) -> &Vec3 {
+    pub(crate) fn rotation(&self, since: &SinceCommit) -> &Vec3 {
         // Set and then read in place, which avoids a store-forwarding stall.
         if self.rotation_b.get().is_none() {
             _ = self.rotation_b.set(since.rotation());

@@ -39,8 +39,8 @@ pub(crate) struct WorkerInput {
     pub clock: Clock,
 }
 
-/// Work item: some elements of one leaf of A against all of one movable group B. All contacts of one key are
-/// found in one block.
+/// Work item: some elements of one leaf of A against all of one movable group B, or some pairs of solids. All
+/// contacts of one key are found in one block.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
     pub direction: Direction,
@@ -50,13 +50,23 @@ pub(crate) struct Block {
     pub leaf: u32,
     /// Batch of that leaf (index into the tree's batches).
     pub batch: u32,
-    /// First element, a multiple of eight; `end` is one past the last element.
+    /// First element, a multiple of eight, or first pair of solids of the plan; `end` is one past the last.
     pub first: u32,
     pub end: u32,
     /// True for the first block of its batch; tests done once per batch are counted there.
     pub leads: bool,
-    /// True if the batch has one element.
-    pub is_single: bool,
+    pub kind: BlockKind,
+}
+
+/// Content of a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum BlockKind {
+    /// Elements of a batch.
+    Elements,
+    /// The only element of a batch.
+    Single,
+    /// Pairs of solids; the block has no leaf and no batch.
+    Solids,
 }
 
 impl<'a> EvaluationInput<'a> {
@@ -108,8 +118,9 @@ pub(crate) struct PairContext<'a> {
     /// True if A's Object was named first when the pair was made. A contact test that the host has registered
     /// for two primitives of the same kind runs only in this direction, so that no contact is reported twice.
     pub in_order: bool,
-    /// True if B's model remembers the side of entry.
+    /// True if B's model remembers the side of entry; the same for A's.
     pub remembers_entry: bool,
+    pub a_remembers_entry: bool,
     /// Rotation vector φ of A relative to B since the last commit, rad; computed on first use.
     pub rotation_b: OnceCell<Vec3>,
 }
@@ -132,6 +143,7 @@ impl<'a> PairContext<'a> {
             volume_tests: &sealed.volume_tests,
             in_order: (flipped == 0) == pair.first_named_first,
             remembers_entry: scene.model_of_body(b).entry_memory,
+            a_remembers_entry: scene.model_of_body(a).entry_memory,
             rotation_b: OnceCell::new(),
         }
     }

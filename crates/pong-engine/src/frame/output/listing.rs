@@ -6,7 +6,7 @@ use crate::energy::account::EnergyAccount;
 use crate::frame::forces::contact::FrameContact;
 use crate::ids::{InterfaceId, ObjectId, PairId};
 use crate::law::{NormalTangent, normal_tangent};
-use crate::seal::SurfaceTable;
+use crate::seal::{SurfaceTable, values_of};
 use pong_geometry::{Pose, Vec3};
 
 impl<'a> FrameResults<'a> {
@@ -32,12 +32,7 @@ impl<'a> FrameResults<'a> {
         let Self { scene, sealed, .. } = self;
         self.contacts.pushing().map(move |contact| {
             let found = &contact.found;
-            let pair = &sealed.group_pairs[found.key.group_pair as usize];
-            let (body_a, body_b) = sealed.bodies_of(found.key.direction());
-            let surface =
-                |body: usize, primitive: u32| scene.body(body).primitives[primitive as usize].surface;
-            let (a, b) = (surface(body_a, found.key.primitive_a), surface(body_b, found.primitive_b));
-            let props = tables[pair.tables[found.key.flipped as usize]].props(a, b);
+            let props = values_of(scene, sealed, tables, found);
             normal_tangent(props, found.full_weight(), found.depth, contact.rate)
         })
     }

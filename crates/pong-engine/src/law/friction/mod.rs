@@ -4,10 +4,12 @@
 mod bristle;
 mod coulomb;
 mod force;
+mod patch_bristle;
 mod slip_path;
 
 pub(crate) use bristle::{BristleForces, Bristles, shortened};
 pub use force::{FrictionForce, FrictionInput, FrictionOutput};
+pub(crate) use patch_bristle::PatchBristle;
 
 use super::props::FrictionProps;
 

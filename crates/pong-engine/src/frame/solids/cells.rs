@@ -1,0 +1,160 @@
+//! Cells of the two fields of a pair of sides: the volume that both share, divided by the nearest faces of B,
+//! and by those of A.
+
+use super::Relative;
+use super::entry::Entry;
+use super::side::Side;
+use pong_geometry::overlap::{Cell, Field, HalfSpace, Moments, Overlap};
+use pong_geometry::{Transform, Twist, Vec3};
+
+/// Working memory for solids.
+#[derive(Debug, Default)]
+pub(crate) struct SolidScratch {
+    overlap: Overlap,
+    /// Faces of B and of A that push.
+    pub(super) faces_b: Vec<HalfSpace>,
+    pub(super) faces_a: Vec<HalfSpace>,
+    /// Planes that bound the volume but do not push, for the field that is being evaluated.
+    walls: Vec<HalfSpace>,
+    /// Cells of B's field in B's frame, and of A's field in A's frame, by increasing face.
+    pub(super) of_b: FieldCells,
+    pub(super) of_a: FieldCells,
+    /// Contacts of the patch.
+    pub(super) forces: Vec<super::patch::CellForce>,
+}
+
+/// Cells of one field.
+#[derive(Debug, Default)]
+pub(super) struct FieldCells {
+    /// Cells with their moments about `reference`.
+    pub cells: Vec<Cell>,
+    /// Reference point in the frame of the field's owner, m.
+    pub reference: Vec3,
+}
+
+impl FieldCells {
+    /// Adds cells with moments about the reference point of `overlap`.
+    fn add(&mut self, cells: &[Cell], reference: &Vec3) {
+        if self.cells.is_empty() {
+            self.reference = *reference;
+        }
+        let from = reference - self.reference;
+        for cell in cells {
+            let moments = cell.moments.about(&from);
+            match self.cells.iter_mut().find(|earlier| earlier.face == cell.face) {
+                Some(earlier) => {
+                    earlier.moments += moments;
+                    earlier.least_rate = earlier.least_rate.min(cell.least_rate);
+                }
+                None => self.cells.push(Cell { moments, ..*cell }),
+            }
+        }
+    }
+
+    /// Moments of the whole shared volume.
+    pub fn sum(&self) -> Moments {
+        let mut sum = Moments::default();
+        self.cells.iter().for_each(|cell| sum += cell.moments);
+        sum
+    }
+}
+
+impl SolidScratch {
+    /// Memory for two sides with at most this many facets in a part, and this many faces in a field.
+    pub fn with_capacity(facets: usize, faces: usize) -> Self {
+        let list = || Vec::with_capacity(faces);
+        let cells = || FieldCells { cells: Vec::with_capacity(faces), reference: Vec3::zeros() };
+        Self {
+            overlap: Overlap::with_capacity(facets + 2 * faces),
+            faces_b: list(),
+            faces_a: list(),
+            walls: Vec::with_capacity(2 * faces),
+            of_b: cells(),
+            of_a: cells(),
+            forces: Vec::with_capacity(2 * faces),
+        }
+    }
+
+    /// Returns true if two sides share volume.
+    pub(super) fn share_volume(&mut self, relative: &Relative, a: &Side<'_>, b: &Side<'_>) -> bool {
+        // One part of a side without a field is compared with the field of the other.
+        let x = (&relative.x_ba, &relative.x_ab);
+        if !b.faces.is_empty() {
+            let field = Field { faces: b.faces, walls: b.walls };
+            return a.parts.iter().any(|part| self.overlap.share_volume(&part.surface, x.0, &field));
+        }
+        let field = Field { faces: a.faces, walls: a.walls };
+        b.parts.iter().any(|part| self.overlap.share_volume(&part.surface, x.1, &field))
+    }
+
+    /// Lists the faces of both sides that push.
+    pub(super) fn choose_faces(&mut self, (a, b): (&Side<'_>, &Side<'_>), entry: Option<&Entry>) {
+        let choose = |faces: &mut Vec<HalfSpace>, side: &Side<'_>, entry: Option<&Vec3>| {
+            faces.clear();
+            let pushes = |face: &&HalfSpace| entry.is_none_or(|entry| Entry::pushes(face, entry));
+            faces.extend(side.faces.iter().filter(pushes));
+        };
+        choose(&mut self.faces_b, b, entry.map(|entry| &entry.in_b));
+        choose(&mut self.faces_a, a, entry.map(|entry| &entry.in_a));
+    }
+}
+
+/// Fields of a pair of sides to be evaluated.
+pub(super) struct Cells<'a> {
+    pub relative: &'a Relative,
+    /// Shares of A's and B's field in the energy.
+    pub shares: [f64; 2],
+    pub sides: (&'a Side<'a>, &'a Side<'a>),
+}
+
+impl Cells<'_> {
+    /// Finds the cells of both fields that have a share.
+    pub fn find(&self, scratch: &mut SolidScratch) {
+        let Self { relative, shares, sides: (a, b) } = *self;
+        let SolidScratch { overlap, faces_b, faces_a, walls, of_b, of_a, .. } = scratch;
+        of_b.cells.clear();
+        of_a.cells.clear();
+        if shares[1] > 0.0 {
+            let field = Field { faces: faces_b, walls: b.walls };
+            find(overlap, a, &relative.x_ba, &relative.a_in_b, &field, of_b);
+        }
+        if shares[0] > 0.0 {
+            if b.parts.is_empty() {
+                // A plane has no surface that could be cut: A's surface is cut by the plane instead.
+                walls.clear();
+                walls.extend(a.walls.iter().chain(b.faces).copied());
+                let last = walls.len() - 1;
+                walls[last] = in_frame_of_a(&b.faces[0], &relative.x_ba);
+                let field = Field { faces: faces_a, walls };
+                find(overlap, a, &Transform::identity(), &relative.b_in_a, &field, of_a);
+            } else {
+                let field = Field { faces: faces_a, walls: a.walls };
+                find(overlap, b, &relative.x_ab, &relative.b_in_a, &field, of_a);
+            }
+        }
+        of_b.cells.sort_by_key(|cell| cell.face);
+        of_a.cells.sort_by_key(|cell| cell.face);
+    }
+}
+
+/// Cells of a field in the parts of the other side. `x` transforms from the frame of these parts to that of
+/// the field; `velocity` is the velocity of the other side in that frame.
+fn find(
+    overlap: &mut Overlap,
+    side: &Side<'_>,
+    x: &Transform,
+    velocity: &Twist,
+    field: &Field<'_>,
+    found: &mut FieldCells,
+) {
+    for part in side.parts {
+        overlap.cells(&part.surface, x, field, velocity);
+        found.add(overlap.found(), &overlap.reference_b());
+    }
+}
+
+/// Half space of B's plane in A's frame.
+fn in_frame_of_a(plane: &HalfSpace, x_ba: &Transform) -> HalfSpace {
+    let normal = x_ba.rotation.tr_mul(&plane.normal_b);
+    HalfSpace { normal_b: normal, offset: plane.offset - plane.normal_b.dot(&x_ba.translation) }
+}

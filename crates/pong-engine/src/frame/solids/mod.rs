@@ -1,0 +1,130 @@
+//! Contact of solids by overlapped volume (docs/theory.md, 2.11 and 2.12).
+//!
+//! | step | file |
+//! |---|---|
+//! | sides of a pair, and which of their parts are near each other | `mod.rs`, `side.rs` |
+//! | faces that push, by the side of entry | `entry.rs` |
+//! | cells of both fields | `cells.rs` |
+//! | normal forces, friction, contacts | `patch.rs` |
+
+mod cells;
+mod entry;
+mod patch;
+mod side;
+
+use crate::frame::block::plan_of;
+use crate::frame::input::motion::Motion;
+use crate::frame::input::{Block, PairContext, Round};
+use crate::frame::worker_context::WorkerContext;
+use crate::report::{Laps, Work};
+use crate::seal::{Partner, SolidPair, field_shares};
+use cells::Cells;
+pub(crate) use cells::SolidScratch;
+use patch::Patch;
+use pong_geometry::{Transform, Twist};
+use side::Side;
+
+/// Poses and velocity of two solids, seen from both.
+struct Relative {
+    /// From A's frame to B's, and back.
+    x_ba: Transform,
+    x_ab: Transform,
+    /// Velocity of A relative to B in B's frame, and of B relative to A in A's frame, as fields of position.
+    a_in_b: Twist,
+    b_in_a: Twist,
+}
+
+impl Relative {
+    fn new(motion: &Motion) -> Self {
+        let (x_ba, x_ab) = (motion.x_ba, motion.x_ba.inverse());
+        let angular = motion.omega_a_b - motion.omega_b_b;
+        let linear = motion.linear_b - motion.omega_a_b.cross(&x_ba.translation);
+        let a_in_b = Twist { linear, angular };
+        let back = |v| -x_ab.vector(&v);
+        let b_in_a = Twist { linear: back(a_in_b.at(&x_ba.translation)), angular: back(angular) };
+        Self { x_ba, x_ab, a_in_b, b_in_a }
+    }
+}
+
+/// Finds and computes the contacts of some pairs of solids, and writes them to the worker's context.
+pub(crate) fn run_solids(round: &Round<'_>, block: &Block, worker: &mut WorkerContext, laps: &mut impl Laps) {
+    let (plan, motion) = plan_of(round, block);
+    let context = PairContext::new(round, block.direction, motion);
+    let relative = Relative::new(motion);
+    let bodies = round.sealed.bodies_of(block.direction);
+    for pair in &plan.solids[block.first as usize..block.end as usize] {
+        touch(round, &context, bodies, &relative, pair, worker, laps);
+    }
+}
+
+/// Computes the contacts of a pair of solids: one patch for each of its parts that are near each other.
+fn touch(
+    round: &Round<'_>,
+    context: &PairContext<'_>,
+    (body_a, body_b): (usize, usize),
+    relative: &Relative,
+    pair: &SolidPair,
+    worker: &mut WorkerContext,
+    laps: &mut impl Laps,
+) {
+    let solid_a = &context.body_a.solids[pair.a as usize];
+    let plane;
+    let (bound_b, solid_b) = match pair.b {
+        Partner::Solid(index) => {
+            let solid = &context.body_b.solids[index as usize];
+            (Some(&solid.bound), Some(solid))
+        }
+        Partner::Plane(_) => (None, None),
+    };
+    if bound_b.is_some_and(|bound| !side::boxes_meet(relative, &solid_a.bound, bound)) {
+        return;
+    }
+    let groups = [body_a, body_b].map(|body| round.scene.group_of_model(body).1);
+    let props = &context.table.foundations[&(groups[0], pair.a, groups[1], pair.b)];
+    let shares = field_shares(solid_a, solid_b, props.share_a).expect("sealing has checked it");
+    let sides_b = match pair.b {
+        Partner::Solid(_) => None,
+        Partner::Plane(primitive) => {
+            plane = side::half_space(context.body_b, primitive);
+            Some(Side::plane(context.body_b, primitive, &plane))
+        }
+    };
+    for unit_a in 0..side::unit_count(solid_a) {
+        let a = Side::unit(solid_a, unit_a);
+        let mut with = |b: &Side<'_>| {
+            if side::sides_meet(relative, &a, b) {
+                touch_units(round, context, relative, (&a, b), shares, props, worker);
+            }
+        };
+        match (&sides_b, solid_b) {
+            (Some(plane), _) => with(plane),
+            (None, Some(solid_b)) => {
+                (0..side::unit_count(solid_b)).for_each(|unit_b| with(&Side::unit(solid_b, unit_b)));
+            }
+            (None, None) => {}
+        }
+    }
+    laps.lap(Work::Forces, &mut worker.out.times);
+}
+
+/// Computes the contacts of two convex bodies, or of two parts of bodies.
+fn touch_units(
+    round: &Round<'_>,
+    context: &PairContext<'_>,
+    relative: &Relative,
+    (a, b): (&Side<'_>, &Side<'_>),
+    shares: [f64; 2],
+    props: &crate::law::PairProps,
+    worker: &mut WorkerContext,
+) {
+    let WorkerContext { solids, out, .. } = worker;
+    if !solids.share_volume(relative, a, b) {
+        return;
+    }
+    let entry = entry::side_of_entry(context, relative, (a, b));
+    solids.choose_faces((a, b), entry.as_ref());
+    let cells = Cells { relative, shares, sides: (a, b) };
+    cells.find(solids);
+    let patch = Patch { context, sealed: round.sealed, relative, sides: (a, b), shares, props };
+    patch.add_contacts(solids, entry.as_ref(), out);
+}
