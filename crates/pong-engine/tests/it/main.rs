@@ -33,6 +33,7 @@ mod scene;
 mod seams;
 mod seams_turned;
 mod side_of_entry;
+mod solids;
 mod sums;
 mod surface_pairs;
 mod symptoms;

@@ -8,5 +8,6 @@ mod exchange;
 mod free_flight;
 mod scene_faults;
 mod scene_format;
+mod solids;
 mod springs;
 mod step_sums;

@@ -1,0 +1,325 @@
+//! Solids that touch by overlapped volume: the wrench is the derivative of the stored energy in every pose, continuous,
+//! opposite on both bodies, the same for cut bodies, and that of a punch where a flat face presses.
+
+use pong_engine::{Config, Contact, State, World, Wrench};
+use pong_geometry::{Pose, Quat, Twist, Vec3};
+use pong_testkit::Random;
+use pong_testkit::ron::{box_polyhedron, place_of};
+use pong_testkit::samples::samples;
+use pong_testkit::worlds::paired_with_first;
+
+const SOFT: &str = "stiffness: 1e5, foundation: 2e7, friction: None";
+const STIFF: &str = "stiffness: 1e5, foundation: 5e7, friction: None";
+const RIGID: &str = "stiffness: inf, friction: None";
+
+fn solid(surface: &str, primitives: &str) -> String {
+    format!(
+        r#"(format: "pong-model", version: 1, name: "solid", entry_memory: false, surfaces: {{ "s": ({surface}) }},
+            root: (name: "solid", surface: "s", contact: Solid, primitives: [{primitives}]))"#
+    )
+}
+
+fn remembering(text: &str) -> String {
+    text.replace("entry_memory: false, ", "")
+}
+
+fn block(surface: &str, half: [f64; 3]) -> String {
+    solid(surface, &box_polyhedron("box", [0.0; 3], half, "[]"))
+}
+
+fn floor(surface: &str) -> String {
+    format!(
+        r#"(format: "pong-model", version: 1, name: "floor", surfaces: {{ "s": ({surface}) }},
+            root: (name: "floor", surface: "s", primitives: [
+                Plane(name: "plane", normal: (0.0, 0.0, 1.0), offset: 0.0)]))"#
+    )
+}
+
+/// Two Objects, of which the second is at the origin.
+struct Pair {
+    world: World,
+    roots: Vec<pong_engine::InterfaceId>,
+}
+
+impl Pair {
+    fn new(a: &str, b: &str) -> Self {
+        let (world, _, roots) = paired_with_first(Config::default(), &[a, b]);
+        Self { world, roots }
+    }
+
+    /// Evaluates with A at a pose, moving with a twist. Returns A's wrench about its origin and the stored energy.
+    fn evaluate(&mut self, pose: &Pose, twist: &Twist) -> (Wrench, f64) {
+        let state = |pose: &Pose, twist: &Twist| State {
+            position: pose.position.into(),
+            orientation: [pose.orientation.w, pose.orientation.i, pose.orientation.j, pose.orientation.k],
+            linear_velocity: twist.linear.into(),
+            angular_velocity: twist.angular.into(),
+        };
+        let still = state(&Pose::identity(), &Twist::zero());
+        self.world.set_state(self.roots[0], &state(pose, twist)).unwrap();
+        self.world.set_state(self.roots[1], &still).unwrap();
+        self.world.evaluate().unwrap();
+        let wrench = self.world.wrench_common(self.roots[0]).unwrap();
+        (wrench, self.contacts().iter().map(|contact| contact.stored).sum())
+    }
+
+    fn at(&mut self, pose: &Pose) -> (Wrench, f64) {
+        self.evaluate(pose, &Twist::zero())
+    }
+
+    fn contacts(&self) -> Vec<Contact> {
+        self.world.contacts()
+    }
+}
+
+fn pose(position: [f64; 3], turn: [f64; 3]) -> Pose {
+    Pose { position: position.into(), orientation: Quat::from_scaled_axis(Vec3::from(turn)) }
+}
+
+/// Pose moved by a small twist about its own origin.
+fn moved(from: &Pose, by: &Twist) -> Pose {
+    Pose {
+        position: from.position + by.linear,
+        orientation: Quat::from_scaled_axis(by.angular) * from.orientation,
+    }
+}
+
+fn random_vector(random: &mut Random, size: f64) -> Vec3 {
+    Vec3::from_fn(|_, _| random.between(-size, size))
+}
+
+/// Six unit twists.
+fn directions() -> Vec<Twist> {
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let zero = Vec3::zeros();
+    let linear = axes.iter().map(|axis| Twist { linear: *axis, angular: zero });
+    linear.chain(axes.iter().map(|axis| Twist { linear: zero, angular: *axis })).collect()
+}
+
+fn power(wrench: &Wrench, along: &Twist) -> f64 {
+    wrench.force.dot(&along.linear) + wrench.moment.dot(&along.angular)
+}
+
+/// Model pairs over all shares: both soft, one rigid, on a plane, cut, concave against convex.
+fn pairs() -> Vec<(&'static str, Pair)> {
+    let half = [0.1, 0.08, 0.06];
+    let l = |surface: &str| {
+        let lower = box_polyhedron("lower", [0.0, 0.0, -0.03], [0.1, 0.08, 0.03], "[]");
+        let upper = box_polyhedron("upper", [-0.05, 0.0, 0.03], [0.05, 0.08, 0.03], "[]");
+        solid(surface, &format!("{lower}, {upper}"))
+    };
+    vec![
+        ("soft and stiff", Pair::new(&block(SOFT, half), &block(STIFF, half))),
+        ("rigid on soft", Pair::new(&block(RIGID, half), &block(SOFT, half))),
+        ("soft on rigid", Pair::new(&block(SOFT, half), &block(RIGID, half))),
+        ("soft on a plane", Pair::new(&block(SOFT, half), &floor(STIFF))),
+        ("two of L on a box", Pair::new(&l(RIGID), &block(SOFT, half))),
+    ]
+}
+
+/// The wrench is the negative derivative of the energy, deep overlaps and aligned faces included.
+#[test]
+fn wrench_is_the_derivative_of_the_energy() {
+    let mut random = Random::new(12, 0, 0);
+    for (name, mut pair) in pairs() {
+        let (mut worst, mut met) = (0.0_f64, 0);
+        for number in 0..samples(20_000) {
+            let turn = if number % 3 == 0 { Vec3::zeros() } else { random_vector(&mut random, 2.0) };
+            let mut position = random_vector(&mut random, 0.15);
+            if name.contains("plane") {
+                position.z = random.between(-0.05, 0.12);
+            }
+            let pose = Pose { position, orientation: Quat::from_scaled_axis(turn) };
+            let (wrench, energy) = pair.at(&pose);
+            if energy == 0.0 {
+                continue;
+            }
+            met += 1;
+            let size = wrench.force.norm() + wrench.moment.norm() / 0.1;
+            for along in directions() {
+                let step = 1e-6;
+                let shifted = |sign: f64| {
+                    moved(
+                        &pose,
+                        &Twist {
+                            linear: along.linear * (sign * step),
+                            angular: along.angular * (sign * step),
+                        },
+                    )
+                };
+                let (plus, minus) = (pair.at(&shifted(1.0)).1, pair.at(&shifted(-1.0)).1);
+                let slope = (plus - minus) / (2.0 * step);
+                worst = worst.max((power(&wrench, &along) + slope).abs() / (size + energy / 0.1));
+            }
+        }
+        println!("{name}: {met} overlaps, worst {worst:.1e}");
+        assert!(met > samples(20_000) / 10 && worst < 1e-4, "{name}: {worst}");
+    }
+}
+
+/// A flat face of area a at the depth δ carries K·a·δ through its centre; tilted by θ it has the moment K·I·θ.
+#[test]
+fn flat_and_tilted_punch() {
+    let half = [0.1, 0.06, 0.05];
+    let (area, inertia) = (0.2 * 0.12, 0.2_f64.powi(3) * 0.12 / 12.0);
+    for (share, surface, modulus) in [("rigid", RIGID, 2e7), ("equal", SOFT, 1e7)] {
+        let mut pair = Pair::new(&block(surface, half), &block(SOFT, [0.5, 0.5, 0.2]));
+        let depth = 1e-5;
+        let flat = pose([0.03, -0.02, 0.25 - depth], [0.0; 3]);
+        let (wrench, _) = pair.at(&flat);
+        let force = modulus * area * depth;
+        assert!((wrench.force.z / force - 1.0).abs() < 5e-4, "{share}: {wrench:?} for {force}");
+        assert!(wrench.moment.norm() < 1e-9 * force && wrench.force.xy().norm() < 1e-9 * force, "{wrench:?}");
+        let angle = 2e-5;
+        let (tilted, _) = pair.at(&pose([0.03, -0.02, 0.25 - depth], [0.0, angle, 0.0]));
+        // The tilt about the box's centre moves the face by angle·0.05 along x, without any moment.
+        let moment = modulus * inertia * angle;
+        let lever = 0.05 * angle * force;
+        println!("{share}: {} for {moment}", tilted.moment.y);
+        assert!(
+            (tilted.moment.y + moment).abs() < 2e-3 * moment + 2.0 * lever,
+            "{share}: {tilted:?} {moment}"
+        );
+    }
+}
+
+/// Both bodies get opposite wrenches about one point.
+#[test]
+fn wrenches_are_opposite() {
+    let mut random = Random::new(4, 0, 0);
+    for (name, mut pair) in pairs() {
+        for _ in 0..samples(1000) {
+            let pose = Pose {
+                position: random_vector(&mut random, 0.12),
+                orientation: Quat::from_scaled_axis(random_vector(&mut random, 1.0)),
+            };
+            let (on_a, _) = pair.at(&pose);
+            let on_b = pair.world.wrench_common(pair.roots[1]).unwrap();
+            let moment = on_a.moment + pose.position.cross(&on_a.force);
+            let size = on_a.force.norm().max(1e-9);
+            assert!((on_a.force + on_b.force).norm() < 1e-12 * size, "{name}");
+            assert!((moment + on_b.moment).norm() < 1e-12 * size, "{name}");
+        }
+    }
+}
+
+/// Equal boxes with coincident faces, edges and corners: moved by T, the wrench changes by no more than a
+/// constant times T.
+#[test]
+fn wrench_is_continuous_at_aligned_faces_and_edges() {
+    let half = 0.1;
+    let mut pair = Pair::new(&block(SOFT, [half; 3]), &block(SOFT, [half; 3]));
+    let mut random = Random::new(7, 0, 0);
+    let mut worst = 0.0_f64;
+    for _ in 0..samples(3000) {
+        let places = [-0.2, -0.1, 0.0, 0.1, 0.2, 0.199, 0.05];
+        let mut pick = || places[random.below(places.len() as u64) as usize];
+        let position = [pick(), pick(), pick()];
+        let turns = [0.0, 0.25, 0.5].map(|turn| turn * std::f64::consts::PI);
+        let turn = Vec3::z() * turns[random.below(3) as usize];
+        let start = Pose { position: position.into(), orientation: Quat::from_scaled_axis(turn) };
+        let (here, _) = pair.at(&start);
+        let size = 1e-9;
+        let by =
+            Twist { linear: random_vector(&mut random, size), angular: random_vector(&mut random, size) };
+        let (there, _) = pair.at(&moved(&start, &by));
+        let change = (there.force - here.force).norm() + (there.moment - here.moment).norm() / half;
+        worst = worst.max(change / (1e7 * half * half * 4.0 * 2.0 * size));
+    }
+    println!("worst change over K·a·T: {worst}");
+    assert!(worst < 4.0, "{worst}");
+}
+
+/// A box cut into four pieces has the wrench of the whole box.
+#[test]
+fn cut_body_has_the_wrench_of_the_whole() {
+    let piece = |name: &str, x: f64, y: f64, inactive: &str| {
+        box_polyhedron(name, [x, y, 0.0], [0.05, 0.04, 0.06], inactive)
+    };
+    // Faces in the order −z, +z, −y, +y, −x, +x.
+    let pieces = [
+        piece("a", -0.05, -0.04, "[3, 5]"),
+        piece("b", 0.05, -0.04, "[3, 4]"),
+        piece("c", -0.05, 0.04, "[2, 5]"),
+        piece("d", 0.05, 0.04, "[2, 4]"),
+    ];
+    let cut = |surface: &str| solid(surface, &pieces.join(", "));
+    let whole = |surface: &str| block(surface, [0.1, 0.08, 0.06]);
+    let other = block(STIFF, [0.07, 0.09, 0.05]);
+    let mut random = Random::new(21, 0, 0);
+    for surface in [SOFT, RIGID] {
+        let mut one = Pair::new(&whole(surface), &other);
+        let mut four = Pair::new(&cut(surface), &other);
+        let mut back = Pair::new(&other, &cut(surface));
+        let mut worst = 0.0_f64;
+        for _ in 0..samples(3000) {
+            let pose = Pose {
+                position: random_vector(&mut random, 0.12),
+                orientation: Quat::from_scaled_axis(random_vector(&mut random, 1.5)),
+            };
+            let (expected, _) = one.at(&pose);
+            let (got, _) = four.at(&pose);
+            let size = expected.force.norm() + expected.moment.norm() / 0.1 + 1.0;
+            let apart = |got: &Wrench, expected: &Wrench| {
+                ((got.force - expected.force).norm() + (got.moment - expected.moment).norm() / 0.1) / size
+            };
+            worst = worst.max(apart(&got, &expected));
+            // The other way round: the cut body is fixed, and the other has the inverse pose.
+            let inverse = pose.inverse();
+            back.at(&inverse);
+            let on_cut = back.world.wrench_common(back.roots[1]).unwrap();
+            let turned = pose.orientation;
+            let carried = Wrench { force: turned * on_cut.force, moment: turned * on_cut.moment };
+            worst = worst.max(apart(&carried, &expected));
+        }
+        println!("{surface}: worst {worst:.1e}");
+        assert!(worst < 1e-9, "{worst}");
+    }
+}
+
+/// Damping never pulls and does positive work against any motion of overlapping boxes.
+#[test]
+fn damping_resists_and_never_pulls() {
+    let damped = "stiffness: 1e5, foundation: 2e7, normal: HuntCrossley(dissipation: 2.0), friction: None";
+    let mut pair = Pair::new(&block(damped, [0.1; 3]), &block(damped, [0.1; 3]));
+    let mut random = Random::new(9, 0, 0);
+    for _ in 0..samples(5000) {
+        let pose = Pose {
+            position: random_vector(&mut random, 0.2),
+            orientation: Quat::from_scaled_axis(random_vector(&mut random, 1.0)),
+        };
+        let (still, energy) = pair.at(&pose);
+        if energy == 0.0 {
+            continue;
+        }
+        let twist =
+            Twist { linear: random_vector(&mut random, 3.0), angular: random_vector(&mut random, 20.0) };
+        let (moving, _) = pair.evaluate(&pose, &twist);
+        assert!(pair.contacts().iter().all(|contact| contact.normal_force >= 0.0));
+        let lost = power(&still, &twist) - power(&moving, &twist);
+        assert!(lost >= -1e-9 * still.force.norm() * 3.0, "{lost}");
+    }
+}
+
+/// With the side of entry, a plate pushes back to the side of entry however deep the other body is, and
+/// without it to the nearest side.
+#[test]
+fn plate_pushes_back_to_the_side_of_entry() {
+    let plate = remembering(&block(SOFT, [0.5, 0.5, 0.001]));
+    let cube = remembering(&block(SOFT, [0.05; 3]));
+    let mut pair = Pair::new(&cube, &plate);
+    pair.at(&pose([0.01, 0.02, 0.06], [0.0; 3]));
+    pair.world.commit().unwrap();
+    let mut last = 0.0;
+    for step in 0..40 {
+        let height = 0.051 - 1e-3 * f64::from(step);
+        let (wrench, _) = pair.at(&pose([0.01, 0.02, height], [0.0; 3]));
+        pair.world.commit().unwrap();
+        if step > 0 {
+            assert!(wrench.force.z > last, "{height}: {wrench:?}");
+            last = wrench.force.z;
+        }
+    }
+    let place = place_of(&Vec3::zeros());
+    assert!(!place.is_empty());
+}
