@@ -4,10 +4,11 @@ use crate::draft::{BodyDraft, ModelDraft};
 use crate::model::{Model, MovableGroup};
 use crate::pieces::join_walls;
 use crate::read::{LISTED_PER_MESH, Reader, group_paths};
+use crate::surface::Surface;
 use crate::triangle_topology::{self, MeshWarning, TopologyReport};
 use crate::weld::Welder;
 use crate::weld::WordMap;
-use crate::{arrange, hash, polyhedra, tree};
+use crate::{arrange, hash, polyhedra, solids, tree};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 
@@ -15,7 +16,7 @@ use pong_geometry::primitive::PrimitiveKind;
 pub(crate) fn finish(reader: &mut Reader<'_>, draft: ModelDraft) -> Option<Model> {
     let ModelDraft { name, entry_memory, surfaces, pair_overrides, filters, bodies: mut drafts } = draft;
     for draft in &mut drafts {
-        finish_body(reader, draft);
+        finish_body(reader, draft, &surfaces);
     }
     if reader.fault_count() > 0 {
         return None;
@@ -31,11 +32,14 @@ pub(crate) fn finish(reader: &mut Reader<'_>, draft: ModelDraft) -> Option<Model
 
 /// Finishes one movable group: neighbours, pieces, shells and tree. The tree is built last, and only if there
 /// is no fault so far, because it relies on valid elements.
-fn finish_body(reader: &mut Reader<'_>, draft: &mut BodyDraft) {
+fn finish_body(reader: &mut Reader<'_>, draft: &mut BodyDraft, surfaces: &[Surface]) {
     draft.welder = Welder::default();
     let findings = connect_triangles(reader, draft);
     let surface_of = join_pieces(reader, draft);
     set_shells(&mut draft.body, &findings, &surface_of);
+    if reader.fault_count() == 0 {
+        solids::fill(reader, draft, surfaces);
+    }
     if reader.fault_count() > 0 {
         return;
     }
@@ -46,7 +50,10 @@ fn finish_body(reader: &mut Reader<'_>, draft: &mut BodyDraft) {
     }
     let groups = arrange::arranged(&draft.body, &draft.groups);
     match tree::build(&draft.body, &groups, reader.ext) {
-        Ok(tree) => draft.body.tree = tree,
+        Ok(tree) => {
+            draft.body.tree = tree;
+            solids::set_leaves(&mut draft.body);
+        }
         Err(faults) => {
             for (group, reason) in faults {
                 let group = &groups[group];

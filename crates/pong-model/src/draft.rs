@@ -23,6 +23,8 @@ pub(crate) struct BodyDraft {
     pub(crate) body: MovableGroup,
     /// Byte offset of each primitive in the file.
     pub(crate) primitive_at: Vec<u32>,
+    /// For each primitive, true if its group has `contact: Solid`.
+    pub(crate) is_solid: Vec<bool>,
     /// For each primitive, true if it is a `Triangle`, which is named by its path alone, without an index.
     pub(crate) lone_triangle: Vec<bool>,
     pub(crate) welder: Welder,

@@ -8,7 +8,7 @@ use crate::fnv::Fnv;
 use crate::model::{Model, MovableGroup, PrimitiveInfo};
 use crate::surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 use pong_geometry::Vec3;
-use pong_geometry::primitive::{Frustum, Polyhedron, RayResponse, TriangleSet};
+use pong_geometry::primitive::{Frustum, Polyhedron, PrimitiveKind, RayResponse, TriangleSet};
 
 /// Hash being computed for a model.
 struct ModelHash(Fnv);
@@ -30,6 +30,10 @@ pub(crate) fn hash(model: &Model, drafts: &[BodyDraft]) -> u64 {
     // Without filters nothing is added, so models from before filters existed keep their hash.
     for pair in model.filters_within().pairs() {
         pair.iter().for_each(|group| hash.text(group));
+    }
+    // As for filters, nothing is added without solids.
+    for (body, draft) in (0..).zip(drafts) {
+        hash.solids(body, &model.bodies[body], &draft.is_solid);
     }
     hash.0.value()
 }
@@ -169,6 +173,16 @@ impl ModelHash {
             self.frustum(&bore.hole);
             self.number(bore.thickness);
             bore.mouths.iter().for_each(|&pushes| self.word(u64::from(pushes)));
+        }
+    }
+
+    /// Adds the solids of a movable group by the polyhedra and meshes that they consist of.
+    fn solids(&mut self, number: usize, body: &MovableGroup, is_solid: &[bool]) {
+        for (index, info) in body.primitives.iter().enumerate() {
+            if is_solid[index] && matches!(info.kind, PrimitiveKind::Polyhedron | PrimitiveKind::Triangle) {
+                self.text("solid");
+                self.word((number as u64) << 32 | index as u64);
+            }
         }
     }
 

@@ -43,6 +43,7 @@ mod ron_tree;
 pub mod schema;
 pub mod shapes;
 mod solid;
+mod solids;
 pub mod surface;
 pub mod t_junctions;
 mod tree;

@@ -3,7 +3,7 @@
 use crate::draft::GroupDraft;
 use crate::extensions::Extensions;
 use crate::model::{Model, MovableGroup};
-use crate::{arrange, tree};
+use crate::{arrange, solids, tree};
 use pong_geometry::bounding::{BoundKind, Volume};
 
 impl Model {
@@ -52,6 +52,7 @@ impl Model {
                     body.path
                 )
             })?;
+            solids::set_leaves(body);
         }
         Ok(model)
     }

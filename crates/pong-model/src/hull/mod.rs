@@ -18,13 +18,13 @@ mod support;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use places::Places;
 pub(crate) use polygon::{area, overlap_area};
 pub(crate) use problem::Problem;
 pub(crate) use solid::{Hull, HullFace, PLANE_TOLERANCE};
 
 use crate::weld::Welder;
 use merge::Merged;
-use places::Places;
 use pong_geometry::Vec3;
 use std::borrow::Cow;
 

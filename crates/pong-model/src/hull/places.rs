@@ -26,7 +26,7 @@ struct Node {
 }
 
 /// Vertices and the tree over them.
-pub(super) struct Places {
+pub(crate) struct Places {
     /// Positions in leaf order.
     places: Vec<Vec3>,
     /// Original index of each vertex.
@@ -50,7 +50,7 @@ impl Node {
 }
 
 impl Places {
-    pub(super) fn new(points: &[Vec3]) -> Self {
+    pub(crate) fn new(points: &[Vec3]) -> Self {
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
         let mut nodes = Vec::new();
         grow(points, &mut order, 0, &mut nodes);
@@ -96,7 +96,7 @@ impl Places {
     }
 
     /// Returns `true` if a vertex lies more than `floor` above a plane.
-    pub(super) fn any_above(&self, (normal, offset): (&Vec3, f64), floor: f64) -> bool {
+    pub(crate) fn any_above(&self, (normal, offset): (&Vec3, f64), floor: f64) -> bool {
         let mut open = vec![(0, self.nodes[0].bound(normal, offset))];
         while let Some((index, bound)) = open.pop() {
             let node = &self.nodes[index];

@@ -22,11 +22,14 @@ pub(super) struct Above {
     /// Pose of the group above in the frame of that body.
     x_bg: Pose,
     surface: Option<u32>,
+    /// True if the group above has `contact: Solid`.
+    solid: bool,
 }
 
 /// Reads the root group with everything below it.
 pub(super) fn read_root(groups: &mut GroupReader<'_, '_>, node: &Node) {
-    let above = Above { path: String::new(), owner: None, x_bg: Pose::identity(), surface: None };
+    let above =
+        Above { path: String::new(), owner: None, x_bg: Pose::identity(), surface: None, solid: false };
     read_group(groups, node, &above, "root", &mut HashSet::new());
 }
 
@@ -47,6 +50,8 @@ fn read_group(
         Some(node) => surface_index(groups.reader, groups.surfaces, node, &path),
         None => above.surface,
     };
+    let contact =
+        fields.optional("contact").and_then(|node| groups.reader.variant(node, &path, schema::CONTACTS));
     let bound = read_bound(groups.reader, &fields, &path, movable);
     let leaf_size = read_leaf_size(groups.reader, &fields, &path);
     let x_bg = above.x_bg.compose(&x_pg);
@@ -56,6 +61,7 @@ fn read_group(
         same_body(groups, above, path, x_bg)
     };
     place.surface = surface;
+    place.solid = contact.map_or(above.solid, |contact| contact == "Solid");
     let draft = &mut groups.bodies[place.body].groups[place.group];
     draft.bound = bound.clone().flatten().unwrap_or(BoundKind::Aabb);
     draft.leaf_size = leaf_size;
@@ -96,7 +102,14 @@ fn new_body(
         ..MovableGroup::default()
     };
     groups.bodies.push(BodyDraft { body, groups: vec![empty_group(&path)], ..BodyDraft::default() });
-    Place { path, body: groups.bodies.len() - 1, group: 0, x_bg: Pose::identity(), surface: None }
+    Place {
+        path,
+        body: groups.bodies.len() - 1,
+        group: 0,
+        x_bg: Pose::identity(),
+        surface: None,
+        solid: false,
+    }
 }
 
 fn same_body(groups: &mut GroupReader<'_, '_>, above: &Above, path: String, x_bg: Pose) -> Place {
@@ -105,7 +118,7 @@ fn same_body(groups: &mut GroupReader<'_, '_>, above: &Above, path: String, x_bg
     draft.push(empty_group(&path));
     let group = draft.len() - 1;
     draft[parent].children.push(group);
-    Place { path, body, group, x_bg, surface: None }
+    Place { path, body, group, x_bg, surface: None, solid: false }
 }
 
 fn empty_group(path: &str) -> GroupDraft {
@@ -134,6 +147,7 @@ fn read_contents(groups: &mut GroupReader<'_, '_>, fields: &Fields<'_>, place: &
             owner: Some((place.body, place.group)),
             x_bg: place.x_bg,
             surface: place.surface,
+            solid: place.solid,
         };
         for (index, item) in items.iter().enumerate() {
             read_group(groups, item, &above, &format!("groups[{index}]"), &mut siblings);

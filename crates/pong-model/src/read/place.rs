@@ -23,6 +23,8 @@ pub(super) struct Place {
     pub(super) group: usize,
     pub(super) x_bg: Pose,
     pub(super) surface: Option<u32>,
+    /// True for `contact: Solid`.
+    pub(super) solid: bool,
 }
 
 /// Name of a group or primitive, if it has a usable one, so that all its faults carry its path.

@@ -57,6 +57,7 @@ pub(super) fn read_primitive(
         draft.body.surfaces.push(info.surface);
         draft.body.primitives.push(info);
         draft.primitive_at.push(node.at);
+        draft.is_solid.push(place.solid);
         draft.lone_triangle.push(kind.tag == Shape::Triangle);
     }
 }

@@ -1,5 +1,6 @@
 //! Fields of a model, its surfaces, pairs of surfaces and groups.
 
+use super::kinds::CONTACTS;
 use super::types::{Field, FieldDefault, Type};
 
 /// Required field.
@@ -65,6 +66,7 @@ pub const GROUP: &[Field] = &[
     described("bound", Type::Bound, "", "`Aabb` if movable, limited or above a volume, otherwise `Above`"),
     described("leaf_size", Type::Whole, "", "no limit"),
     described("surface", Type::Text, "", "that of the group above"),
+    described("contact", Type::Word(CONTACTS), "", "that of the group above; root: `Marked`"),
     described("groups", Type::Groups, "", "none: the group holds primitives"),
     described("primitives", Type::Primitives, "", "none: the group holds groups"),
 ];

@@ -13,5 +13,6 @@ mod rejects;
 mod round_bounds;
 mod round_parts;
 mod schema;
+mod solids;
 mod topology;
 mod written;

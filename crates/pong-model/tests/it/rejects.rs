@@ -599,7 +599,7 @@ fn every_rule_of_the_source_is_described_in_the_format() {
     }
 }
 
-/// Every rule is tested here or in the tests of meshes, extensions and authored files.
+/// Every rule is tested here or in the tests of meshes, extensions, authored files and solids.
 #[test]
 fn every_rule_of_the_source_has_a_test() {
     let tests = [
@@ -607,6 +607,7 @@ fn every_rule_of_the_source_has_a_test() {
         include_str!("meshes.rs"),
         include_str!("extensions.rs"),
         include_str!("authored.rs"),
+        include_str!("solids.rs"),
     ]
     .concat();
     for rule in rules_of_the_source().into_iter().filter(|rule| !UNTESTED.contains(&rule.as_str())) {

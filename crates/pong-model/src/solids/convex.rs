@@ -1,0 +1,116 @@
+//! Faces of a solid, merged where they lie in one plane, and the test whether the solid is convex.
+
+use crate::hull::{PLANE_TOLERANCE, Places, area};
+use crate::solid::{SolidBox, SolidField};
+use crate::weld::WordMap;
+use pong_geometry::Vec3;
+use pong_geometry::overlap::HalfSpace;
+
+/// Distance of two unit normals above which two faces are never merged. Two normals within this distance lie in
+/// the same cell or in neighbouring cells of a grid.
+const NORMAL_CELL: f64 = 0.02;
+
+/// Difference of the areas of internal faces on the two sides of a plane up to which they count as equal,
+/// relative to the square of the diameter: moving the outline of a face by [`PLANE_TOLERANCE`] changes its area
+/// by about this much.
+const AREA_TOLERANCE: f64 = 4.0 * PLANE_TOLERANCE;
+
+/// Flat face of a solid.
+pub(super) struct Facet {
+    pub(super) plane: HalfSpace,
+    pub(super) corners: Vec<Vec3>,
+}
+
+/// Facets in one plane.
+struct Merged {
+    plane: HalfSpace,
+    /// Sum of the areas of the facets, m².
+    area: f64,
+    /// Lowest index of the facets.
+    lowest: usize,
+}
+
+/// Merges facets that lie in one plane within the tolerance. Each plane is that of the largest of its facets, and
+/// the planes are in the order of their lowest facets.
+fn merged(facets: &[Facet], tolerance: f64) -> Vec<Merged> {
+    let areas: Vec<f64> = facets.iter().map(|facet| area(&facet.corners)).collect();
+    let mut largest_first: Vec<usize> = (0..facets.len()).collect();
+    largest_first.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]).then(a.cmp(&b)));
+    let mut found: Vec<Merged> = Vec::new();
+    let mut cells: WordMap<[i32; 3], Vec<usize>> = WordMap::default();
+    for index in largest_first {
+        let facet = &facets[index];
+        let same = around(&cell_of(&facet.plane.normal_b)).find_map(|cell| {
+            let there = cells.get(&cell)?;
+            there.iter().copied().find(|&at| lies_in(facet, &found[at].plane, tolerance))
+        });
+        match same {
+            Some(at) => {
+                found[at].area += areas[index];
+                found[at].lowest = found[at].lowest.min(index);
+            }
+            None => {
+                cells.entry(cell_of(&facet.plane.normal_b)).or_default().push(found.len());
+                found.push(Merged { plane: facet.plane, area: areas[index], lowest: index });
+            }
+        }
+    }
+    found.sort_by_key(|merged| merged.lowest);
+    found
+}
+
+/// Tests whether a facet lies in a plane and faces the same way.
+fn lies_in(facet: &Facet, plane: &HalfSpace, tolerance: f64) -> bool {
+    (facet.plane.normal_b - plane.normal_b).norm() <= NORMAL_CELL
+        && facet.corners.iter().all(|corner| plane.depth(corner).abs() <= tolerance)
+}
+
+fn cell_of(normal: &Vec3) -> [i32; 3] {
+    [0, 1, 2].map(|axis| (normal[axis] / NORMAL_CELL).floor() as i32)
+}
+
+/// The cell and its 26 neighbours.
+fn around(cell: &[i32; 3]) -> impl Iterator<Item = [i32; 3]> {
+    let [x, y, z] = *cell;
+    (0..27).map(move |number| [x + number % 3 - 1, y + number / 3 % 3 - 1, z + number / 9 - 1])
+}
+
+/// Planes of the faces, each once.
+pub(super) fn planes(facets: &[Facet], diameter: f64) -> Vec<HalfSpace> {
+    merged(facets, PLANE_TOLERANCE * diameter).into_iter().map(|merged| merged.plane).collect()
+}
+
+/// Field of a solid given by its outer faces, by the internal faces between its pieces (twice each, once per side)
+/// and by its vertices; `None` if the solid is not convex.
+///
+/// A convex solid lies below the planes of all its faces. An internal face with nothing behind it bounds the solid
+/// as well, so the plane of such a face is a wall of the field.
+pub(super) fn field(
+    outer: &[Facet],
+    internal: &[Facet],
+    vertices: &[Vec3],
+    diameter: f64,
+) -> Option<SolidField> {
+    let tolerance = PLANE_TOLERANCE * diameter;
+    let places = Places::new(vertices);
+    let holds_all = |plane: &HalfSpace| !places.any_above((&plane.normal_b, plane.offset), tolerance);
+    let faces = planes(outer, diameter);
+    if !faces.iter().all(holds_all) {
+        return None;
+    }
+    let internal = merged(internal, tolerance);
+    let (walls, between): (Vec<_>, Vec<_>) = internal.iter().partition(|merged| holds_all(&merged.plane));
+    let is_matched = |one: &&Merged| {
+        let opposite = |other: &&&Merged| {
+            let sum = one.plane.offset + other.plane.offset;
+            (one.plane.normal_b + other.plane.normal_b).norm() <= PLANE_TOLERANCE && sum.abs() <= tolerance
+        };
+        let behind: f64 = between.iter().filter(opposite).map(|other| other.area).sum();
+        (one.area - behind).abs() <= AREA_TOLERANCE * diameter * diameter
+    };
+    if !between.iter().all(is_matched) {
+        return None;
+    }
+    let walls = walls.iter().map(|merged| merged.plane).collect();
+    Some(SolidField { bound: SolidBox::around(vertices), faces, walls })
+}

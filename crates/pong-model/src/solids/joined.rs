@@ -1,0 +1,122 @@
+//! Solids of polyhedra: a polyhedron, or several joined by internal faces.
+
+use super::Refusal;
+use super::convex::{self, Facet};
+use crate::draft::BodyDraft;
+use crate::hull::area;
+use crate::solid::{Solid, SolidBox, SolidField, SolidPart};
+use crate::surface::Surface;
+use pong_geometry::Vec3;
+use pong_geometry::overlap::{HalfSpace, Surface as ClosedSurface};
+use pong_geometry::primitive::{Polyhedron, PrimitiveKind};
+use std::collections::BTreeMap;
+
+/// Solids of the polyhedra of a movable group.
+pub(super) fn solids(draft: &BodyDraft, surfaces: &[Surface], refusals: &mut Vec<Refusal>) -> Vec<Solid> {
+    let mut shells: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for (index, info) in draft.body.primitives.iter().enumerate() {
+        if info.kind == PrimitiveKind::Polyhedron {
+            shells.entry(info.shell).or_default().push(index);
+        }
+    }
+    shells.retain(|_, pieces| pieces.iter().any(|&piece| draft.is_solid[piece]));
+    for pieces in shells.values() {
+        check(draft, surfaces, pieces, refusals);
+    }
+    if !refusals.is_empty() {
+        return Vec::new();
+    }
+    shells.iter().map(|(shell, pieces)| solid(draft, *shell, pieces)).collect()
+}
+
+/// Reports pieces of one solid that differ in `contact` or surface from the first piece.
+fn check(draft: &BodyDraft, surfaces: &[Surface], pieces: &[usize], refusals: &mut Vec<Refusal>) {
+    let first = pieces[0];
+    let info = |piece: usize| &draft.body.primitives[piece];
+    for &piece in &pieces[1..] {
+        if draft.is_solid[piece] != draft.is_solid[first] {
+            let [solid, marked] = if draft.is_solid[piece] { [piece, first] } else { [first, piece] };
+            refusals.push(Refusal {
+                primitive: solid,
+                rule: "solid-contact",
+                cause: format!(
+                    "a solid is joined by an internal face to {}, which is not one",
+                    info(marked).path
+                ),
+                cure: "give the groups of both pieces the same `contact`",
+            });
+        } else if info(piece).surface != info(first).surface {
+            let [own, other] = [piece, first].map(|piece| &surfaces[info(piece).surface as usize].name);
+            let other_path = &info(first).path;
+            refusals.push(Refusal {
+                primitive: piece,
+                rule: "solid-surfaces",
+                cause: format!(
+                    "the surface is \"{own}\", but \"{other}\" at {other_path}, a piece of the same solid"
+                ),
+                cure: "give all pieces of a solid one surface, or remove the internal faces between them",
+            });
+        }
+    }
+}
+
+/// Solid of the polyhedra of one shell.
+fn solid(draft: &BodyDraft, shell: u32, pieces: &[usize]) -> Solid {
+    let body = &draft.body;
+    let polyhedra: Vec<&Polyhedron> =
+        pieces.iter().map(|&piece| &body.polyhedra[body.primitives[piece].elements.start as usize]).collect();
+    let vertices: Vec<Vec3> = polyhedra.iter().flat_map(|polyhedron| places(polyhedron)).collect();
+    let bound = SolidBox::around(&vertices);
+    let facets = |active| polyhedra.iter().flat_map(move |polyhedron| facets(polyhedron, active));
+    let outer: Vec<Facet> = facets(true).collect();
+    let internal: Vec<Facet> = facets(false).collect();
+    let merged = convex::field(&outer, &internal, &vertices, 2.0 * bound.half.norm());
+    Solid {
+        primitive: pieces[0] as u32,
+        shell,
+        surface: body.primitives[pieces[0]].surface,
+        leaf: 0,
+        bound,
+        area: outer.iter().map(|facet| area(&facet.corners)).sum(),
+        parts: polyhedra.iter().map(|polyhedron| part(polyhedron)).collect(),
+        fields: merged
+            .map_or_else(|| polyhedra.iter().map(|piece| field(piece)).collect(), |field| vec![field]),
+    }
+}
+
+fn places(polyhedron: &Polyhedron) -> impl Iterator<Item = Vec3> {
+    polyhedron.vertices.iter().map(|vertex| vertex.position)
+}
+
+/// Faces of a polyhedron that may push, or its internal faces.
+fn facets(polyhedron: &Polyhedron, active: bool) -> impl Iterator<Item = Facet> {
+    let faces = polyhedron.faces.iter().filter(move |face| face.active == active);
+    faces.map(|face| Facet {
+        plane: HalfSpace { normal_b: face.normal, offset: face.offset },
+        corners: polyhedron
+            .rims_of(face)
+            .iter()
+            .map(|rim| polyhedron.vertices[rim.start as usize].position)
+            .collect(),
+    })
+}
+
+fn part(polyhedron: &Polyhedron) -> SolidPart {
+    let mut surface = ClosedSurface::with_capacity(polyhedron.faces.len());
+    surface.add_vertices(places(polyhedron));
+    for face in &polyhedron.faces {
+        surface.add_facet(polyhedron.rims_of(face).iter().map(|rim| rim.start));
+    }
+    SolidPart { bound: SolidBox::around(surface.vertices()), surface }
+}
+
+/// Field of one piece of a solid that is not convex.
+fn field(polyhedron: &Polyhedron) -> SolidField {
+    let vertices: Vec<Vec3> = places(polyhedron).collect();
+    let bound = SolidBox::around(&vertices);
+    let planes = |active| {
+        let facets: Vec<Facet> = facets(polyhedron, active).collect();
+        convex::planes(&facets, 2.0 * bound.half.norm())
+    };
+    SolidField { bound, faces: planes(true), walls: planes(false) }
+}
