@@ -1,12 +1,12 @@
 //! Solids that touch by overlapped volume: the wrench is the derivative of the stored energy in every pose, continuous,
 //! opposite on both bodies, the same for cut bodies, and that of a punch where a flat face presses.
 
-use pong_engine::{Config, Contact, State, World, Wrench};
-use pong_geometry::{Pose, Quat, Twist, Vec3};
+use super::common::Rig;
+use pong_engine::{Config, Contact, State, World};
+use pong_geometry::{Pose, Quat, Twist, Vec3, Wrench};
 use pong_testkit::Random;
-use pong_testkit::ron::{box_polyhedron, place_of};
+use pong_testkit::ron::box_polyhedron;
 use pong_testkit::samples::samples;
-use pong_testkit::worlds::paired_with_first;
 
 const SOFT: &str = "stiffness: 1e5, foundation: 2e7, friction: None";
 const STIFF: &str = "stiffness: 1e5, foundation: 5e7, friction: None";
@@ -24,7 +24,7 @@ fn remembering(text: &str) -> String {
 }
 
 fn block(surface: &str, half: [f64; 3]) -> String {
-    solid(surface, &box_polyhedron("box", [0.0; 3], half, "[]"))
+    solid(surface, &box_polyhedron("box", [0.0; 3], half, ""))
 }
 
 fn floor(surface: &str) -> String {
@@ -38,12 +38,12 @@ fn floor(surface: &str) -> String {
 /// Two Objects, of which the second is at the origin.
 struct Pair {
     world: World,
-    roots: Vec<pong_engine::InterfaceId>,
+    roots: [pong_engine::InterfaceId; 2],
 }
 
 impl Pair {
     fn new(a: &str, b: &str) -> Self {
-        let (world, _, roots) = paired_with_first(Config::default(), &[a, b]);
+        let Rig { world, interfaces: roots, .. } = Rig::with_config(Config::default(), a, b);
         Self { world, roots }
     }
 
@@ -104,8 +104,8 @@ fn power(wrench: &Wrench, along: &Twist) -> f64 {
 fn pairs() -> Vec<(&'static str, Pair)> {
     let half = [0.1, 0.08, 0.06];
     let l = |surface: &str| {
-        let lower = box_polyhedron("lower", [0.0, 0.0, -0.03], [0.1, 0.08, 0.03], "[]");
-        let upper = box_polyhedron("upper", [-0.05, 0.0, 0.03], [0.05, 0.08, 0.03], "[]");
+        let lower = box_polyhedron("lower", [0.0, 0.0, -0.03], [0.1, 0.08, 0.03], "");
+        let upper = box_polyhedron("upper", [-0.05, 0.0, 0.03], [0.05, 0.08, 0.03], "");
         solid(surface, &format!("{lower}, {upper}"))
     };
     vec![
@@ -137,7 +137,7 @@ fn wrench_is_the_derivative_of_the_energy() {
             met += 1;
             let size = wrench.force.norm() + wrench.moment.norm() / 0.1;
             for along in directions() {
-                let step = 1e-6;
+                let step = 1e-7;
                 let shifted = |sign: f64| {
                     moved(
                         &pose,
@@ -149,11 +149,13 @@ fn wrench_is_the_derivative_of_the_energy() {
                 };
                 let (plus, minus) = (pair.at(&shifted(1.0)).1, pair.at(&shifted(-1.0)).1);
                 let slope = (plus - minus) / (2.0 * step);
-                worst = worst.max((power(&wrench, &along) + slope).abs() / (size + energy / 0.1));
+                // Within a step the wrench changes by up to K·a·step.
+                let error = (power(&wrench, &along) + slope).abs();
+                worst = worst.max(error / (1e-6 * size + 5e7 * 0.04 * step));
             }
         }
         println!("{name}: {met} overlaps, worst {worst:.1e}");
-        assert!(met > samples(20_000) / 10 && worst < 1e-4, "{name}: {worst}");
+        assert!(met > samples(20_000) / 10 && worst < 1.0, "{name}: {worst}");
     }
 }
 
@@ -213,10 +215,10 @@ fn wrench_is_continuous_at_aligned_faces_and_edges() {
     let mut worst = 0.0_f64;
     for _ in 0..samples(3000) {
         let places = [-0.2, -0.1, 0.0, 0.1, 0.2, 0.199, 0.05];
-        let mut pick = || places[random.below(places.len() as u64) as usize];
+        let mut pick = || places[random.below(places.len())];
         let position = [pick(), pick(), pick()];
         let turns = [0.0, 0.25, 0.5].map(|turn| turn * std::f64::consts::PI);
-        let turn = Vec3::z() * turns[random.below(3) as usize];
+        let turn = Vec3::z() * turns[random.below(3)];
         let start = Pose { position: position.into(), orientation: Quat::from_scaled_axis(turn) };
         let (here, _) = pair.at(&start);
         let size = 1e-9;
@@ -238,10 +240,10 @@ fn cut_body_has_the_wrench_of_the_whole() {
     };
     // Faces in the order −z, +z, −y, +y, −x, +x.
     let pieces = [
-        piece("a", -0.05, -0.04, "[3, 5]"),
-        piece("b", 0.05, -0.04, "[3, 4]"),
-        piece("c", -0.05, 0.04, "[2, 5]"),
-        piece("d", 0.05, 0.04, "[2, 4]"),
+        piece("a", -0.05, -0.04, "3, 5"),
+        piece("b", 0.05, -0.04, "3, 4"),
+        piece("c", -0.05, 0.04, "2, 5"),
+        piece("d", 0.05, 0.04, "2, 4"),
     ];
     let cut = |surface: &str| solid(surface, &pieces.join(", "));
     let whole = |surface: &str| block(surface, [0.1, 0.08, 0.06]);
@@ -280,7 +282,7 @@ fn cut_body_has_the_wrench_of_the_whole() {
 /// Damping never pulls and does positive work against any motion of overlapping boxes.
 #[test]
 fn damping_resists_and_never_pulls() {
-    let damped = "stiffness: 1e5, foundation: 2e7, normal: HuntCrossley(dissipation: 2.0), friction: None";
+    let damped = "stiffness: 1e5, foundation: 2e7, normal: HuntCrossley(dissipation: 2.0, exponent: 1.0), friction: None";
     let mut pair = Pair::new(&block(damped, [0.1; 3]), &block(damped, [0.1; 3]));
     let mut random = Random::new(9, 0, 0);
     for _ in 0..samples(5000) {
@@ -320,6 +322,4 @@ fn plate_pushes_back_to_the_side_of_entry() {
             last = wrench.force.z;
         }
     }
-    let place = place_of(&Vec3::zeros());
-    assert!(!place.is_empty());
 }
