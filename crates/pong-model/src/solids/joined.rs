@@ -1,7 +1,7 @@
 //! Solids of polyhedra: a polyhedron, or several joined by internal faces.
 
-use super::Refusal;
 use super::convex::{self, Facet};
+use super::refusal::Refusal;
 use crate::draft::BodyDraft;
 use crate::hull::area;
 use crate::solid::{Solid, SolidBox, SolidField, SolidPart};

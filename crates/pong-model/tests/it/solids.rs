@@ -143,3 +143,42 @@ fn the_leaf_is_the_node_of_the_lowest_primitive() {
     has_leaves(&model.with_leaves(8, &pong_model::Extensions::new()).expect("fits"), 3);
     assert_ne!(model.hash, load(&text.replace("contact: Solid,", "")).hash);
 }
+
+/// Model with one surface.
+fn surface_model(surface: &str) -> String {
+    format!(
+        "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{ \"s\": {surface} }},\n\
+         root: (name: \"m\", surface: \"s\", primitives: [Point(name: \"p\", position: (0.0, 0.0, 0.0))]))"
+    )
+}
+
+#[test]
+fn a_surface_gives_a_foundation_or_an_area() {
+    let values = |surface: &str| {
+        let model = load(&surface_model(surface));
+        (model.surfaces[0].foundation, model.surfaces[0].area, model.hash)
+    };
+    let (none, nothing, hash) = values("(stiffness: 1e6)");
+    assert_eq!((none, nothing), (None, None));
+    let (foundation, area, other) = values("(stiffness: 1e6, foundation: 3e9)");
+    assert_eq!((foundation, area), (Some(3e9), None));
+    assert_ne!(other, hash);
+    let (foundation, area, third) = values("(stiffness: 1e6, area: Some(0.25))");
+    assert_eq!((foundation, area), (None, Some(0.25)));
+    assert!(third != hash && third != other);
+    values("(stiffness: 1e6, foundation: 3e9, normal: HuntCrossley(exponent: 1.0, dissipation: 0.2))");
+}
+
+#[test]
+fn foundations_of_no_linear_spring_are_refused() {
+    let rule = |surface: &str| faults(&surface_model(surface)).0[0].rule;
+    assert_eq!(rule("(stiffness: inf, foundation: 3e9)"), "foundation-law");
+    assert_eq!(rule("(stiffness: inf, area: 0.1)"), "foundation-law");
+    assert_eq!(rule("(stiffness: 1e6, area: 0.1, normal: HuntCrossley(exponent: 1.5))"), "foundation-law");
+    assert_eq!(rule("(stiffness: 1e6, area: 0.1, normal: Custom(name: \"mine\"))"), "foundation-law");
+    assert_eq!(rule("(stiffness: 1e6, area: 0.1, foundation: 1e7)"), "either-or");
+    assert_eq!(rule("(stiffness: 1e6, area: 0.0)"), "not-positive");
+    assert_eq!(rule("(stiffness: 1e6, foundation: -1.0)"), "not-positive");
+    assert_eq!(rule("(stiffness: 1e6, foundation: 1e-101)"), "foundation-range");
+    assert_eq!(rule("(stiffness: 1e6, area: 1e-99)"), "foundation-range");
+}
