@@ -1,8 +1,13 @@
 //! Fills [`MovableGroup::solids`] from the primitives in groups with `contact: Solid` (docs/theory.md, 2.11).
 
 mod convex;
+mod corners;
+mod facets;
 mod joined;
+mod meshes;
+mod parts;
 mod refusal;
+mod thickened;
 
 use crate::draft::BodyDraft;
 use crate::model::MovableGroup;
@@ -20,6 +25,8 @@ pub(crate) fn fill(reader: &mut Reader<'_>, draft: &mut BodyDraft, surfaces: &[S
     }
     let mut refusals = Vec::new();
     let mut solids = joined::solids(draft, surfaces, &mut refusals);
+    solids.extend(meshes::solids(draft, surfaces, &mut refusals));
+    corners::check(draft, &solids, &mut refusals);
     solids.sort_by_key(|solid| (solid.primitive, solid.shell));
     draft.body.solids = solids;
     for Refusal { primitive, rule, cause, cure } in refusals {
