@@ -31,7 +31,8 @@ pub(crate) fn hash(model: &Model, drafts: &[BodyDraft]) -> u64 {
     for pair in model.filters_within().pairs() {
         pair.iter().for_each(|group| hash.text(group));
     }
-    // As for filters, nothing is added without solids.
+    // As for filters, nothing is added without foundations and solids.
+    hash.foundations(&model.surfaces);
     for (body, draft) in (0..).zip(drafts) {
         hash.solids(body, &model.bodies[body], &draft.is_solid);
     }
@@ -71,6 +72,16 @@ impl ModelHash {
         self.number(surface.stiffness);
         self.normal_law(&surface.normal);
         self.friction_law(&surface.friction);
+    }
+
+    /// Adds the surfaces that have a foundation or an area.
+    fn foundations(&mut self, surfaces: &[Surface]) {
+        for surface in surfaces.iter().filter(|surface| surface.foundation.or(surface.area).is_some()) {
+            self.text("foundation");
+            self.text(&surface.name);
+            self.option(surface.foundation);
+            self.option(surface.area);
+        }
     }
 
     fn pair(&mut self, pair: &PairOverride) {

@@ -5,8 +5,8 @@ mod fields;
 mod kinds;
 mod types;
 
-pub use fields::{FILTERS, GROUP, MODEL, PAIR, POSE, PRIMITIVE, SURFACE};
-pub use kinds::{BOUNDS, CONTACTS, FRICTION_LAWS, Friction, NORMAL_LAWS, Normal, PRIMITIVES, Shape};
+pub use fields::{CONTACTS, FILTERS, GROUP, MODEL, PAIR, POSE, PRIMITIVE, SURFACE};
+pub use kinds::{BOUNDS, FRICTION_LAWS, Friction, NORMAL_LAWS, Normal, PRIMITIVES, Shape};
 pub use types::{Field, FieldDefault, Kind, Type};
 
 /// Field of that name, wherever it stands in a file: a name has one type, except for `stiffness`, `damping`

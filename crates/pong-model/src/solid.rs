@@ -72,3 +72,15 @@ impl Solid {
         self.area / 6.0
     }
 }
+
+impl SolidBox {
+    /// Box around points; around the origin if there are none.
+    pub(crate) fn around<'p>(points: impl IntoIterator<Item = &'p Vec3>) -> Self {
+        let mut points = points.into_iter();
+        let Some(first) = points.next() else {
+            return Self { center: Vec3::zeros(), half: Vec3::zeros() };
+        };
+        let (low, high) = points.fold((*first, *first), |(low, high), p| (low.inf(p), high.sup(p)));
+        Self { center: 0.5 * (low + high), half: 0.5 * (high - low) }
+    }
+}

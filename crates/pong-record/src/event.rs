@@ -71,6 +71,12 @@ pub struct SurfaceValues {
     /// Stiffness, N/m, or N/m^1.5; may be infinite.
     #[serde(with = "number")]
     stiffness: f64,
+    /// Foundation modulus, N/m³, if the surface gives one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    foundation: Option<f64>,
+    /// Area of the stiffness, m², if the surface gives one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    area: Option<f64>,
     #[serde(with = "Normal")]
     normal: NormalLaw,
     #[serde(with = "Friction")]
@@ -116,16 +122,16 @@ enum Friction {
 
 impl From<&Surface> for SurfaceValues {
     fn from(surface: &Surface) -> Self {
-        let Surface { stiffness, normal, friction, .. } = surface.clone();
-        Self { stiffness, normal, friction }
+        let Surface { name: _, stiffness, foundation, area, normal, friction } = surface.clone();
+        Self { stiffness, foundation, area, normal, friction }
     }
 }
 
 impl SurfaceValues {
     /// The surface with these values.
     pub fn surface(&self, name: &str) -> Surface {
-        let Self { stiffness, normal, friction } = self.clone();
-        Surface { name: name.to_owned(), stiffness, foundation: None, area: None, normal, friction }
+        let Self { stiffness, foundation, area, normal, friction } = self.clone();
+        Surface { name: name.to_owned(), stiffness, foundation, area, normal, friction }
     }
 }
 
@@ -218,8 +224,14 @@ mod tests {
                 FrictionLaw::None,
             ),
         ];
-        for ((normal, friction), stiffness) in laws.into_iter().zip([f64::INFINITY, 1e5 / 3.0, 1.0, 1e9]) {
-            let surface = Surface { name: "s".to_owned(), stiffness, normal, friction };
+        let numbers = [
+            (f64::INFINITY, None, None),
+            (1e5 / 3.0, Some(1e8 / 3.0), None),
+            (1.0, None, Some(0.1 + 0.2)),
+            (1e9, None, None),
+        ];
+        for ((normal, friction), (stiffness, foundation, area)) in laws.into_iter().zip(numbers) {
+            let surface = Surface { name: "s".to_owned(), stiffness, foundation, area, normal, friction };
             let event = Event::Surface { model: 0, name: "s".to_owned(), values: (&surface).into() };
             let text = serde_json::to_string(&LoggedEvent { frame: 3, event }).unwrap();
             let read: LoggedEvent = serde_json::from_str(&text).unwrap();

@@ -5,6 +5,7 @@ mod custom;
 mod document;
 mod fields;
 mod filters;
+mod foundation;
 mod group;
 mod inward;
 mod law_values;

@@ -2,6 +2,7 @@
 
 use super::bristle::{Beside, bristle};
 use super::fields::Fields;
+use super::foundation::foundation;
 use super::law_values::{either_or, exponent, not_rigid, restitution};
 use super::power_law::power_law;
 use super::reader::Reader;
@@ -60,6 +61,7 @@ fn surface(reader: &mut Reader<'_>, node: &Node, name: String, path: &str) -> Su
     if let Some(node) = normal {
         surface.normal = normal_law(reader, node, path, stiffness).unwrap_or(surface.normal);
     }
+    foundation(reader, &fields, path, &mut surface);
     if let Some(node) = fields.literal("friction") {
         let beside = Beside { stiffness: Some(surface.stiffness), normal };
         surface.friction = friction_law(reader, node, path, beside).unwrap_or(FrictionLaw::None);

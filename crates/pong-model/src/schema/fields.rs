@@ -1,6 +1,5 @@
 //! Fields of a model, its surfaces, pairs of surfaces and groups.
 
-use super::kinds::CONTACTS;
 use super::types::{Field, FieldDefault, Type};
 
 /// Required field.
@@ -46,6 +45,8 @@ pub const FILTERS: Type = Type::Filters;
 /// Fields of a surface.
 pub const SURFACE: &[Field] = &[
     required("stiffness", Type::Stiffness, "N/m or N/m^1.5"),
+    described("foundation", Type::FiniteStiffness, "N/m^3", "`stiffness` over `area`"),
+    described("area", Type::Positive, "m^2", "a sixth of the outer area of each solid"),
     described("normal", Type::NormalLaw, "", "`Linear`; rigid: that of the other surface"),
     described("friction", Type::FrictionLaw, "", "`None`; rigid: that of the other surface"),
 ];
@@ -57,6 +58,10 @@ pub const PAIR: &[Field] = &[
     described("normal", Type::NormalLaw, "", "that of the two surfaces"),
     described("friction", Type::FrictionLaw, "", "that of the two surfaces"),
 ];
+
+/// Kinds of contact of a group: `Solid` shapes touch by the volume that they share, `Marked` ones where points,
+/// segments and round parts meet faces.
+pub const CONTACTS: &[&str] = &["Marked", "Solid"];
 
 /// Fields of a group.
 pub const GROUP: &[Field] = &[

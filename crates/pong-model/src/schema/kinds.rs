@@ -46,10 +46,6 @@ pub enum Friction {
 /// Names of bounding volumes. `Custom` holds the name of a registered kind; `Above` is no volume of its own.
 pub const BOUNDS: &[&str] = &["Aabb", "Sphere", "Obb", "Above", "Custom"];
 
-/// Kinds of contact of a group: `Solid` parts touch by the volume that they share, `Marked` ones by their points
-/// and faces.
-pub const CONTACTS: &[&str] = &["Marked", "Solid"];
-
 /// Primitives, in the order of their tables in tools.
 pub const PRIMITIVES: &[Kind<Shape>] = &[
     kind(Shape::Point, "Point", &[required("position", Type::Vector, "m")]),

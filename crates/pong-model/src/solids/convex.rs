@@ -1,25 +1,20 @@
-//! Faces of a solid, merged where they lie in one plane, and the test whether the solid is convex.
+//! Planes of a solid, merged where faces lie in one plane, and the test whether the solid is convex.
 
+use super::facets::Facet;
 use crate::hull::{PLANE_TOLERANCE, Places, area};
 use crate::solid::{SolidBox, SolidField};
 use crate::weld::WordMap;
 use pong_geometry::Vec3;
 use pong_geometry::overlap::HalfSpace;
 
-/// Distance of two unit normals above which two faces are never merged. Two normals within this distance lie in
-/// the same cell or in neighbouring cells of a grid.
+/// Distance of two unit normals above which faces of different pieces are never merged. Two normals within this
+/// distance lie in the same cell or in neighbouring cells of a grid.
 const NORMAL_CELL: f64 = 0.02;
 
 /// Difference of the areas of internal faces on the two sides of a plane up to which they count as equal,
 /// relative to the square of the diameter: moving the outline of a face by [`PLANE_TOLERANCE`] changes its area
 /// by about this much.
 const AREA_TOLERANCE: f64 = 4.0 * PLANE_TOLERANCE;
-
-/// Flat face of a solid.
-pub(super) struct Facet {
-    pub(super) plane: HalfSpace,
-    pub(super) corners: Vec<Vec3>,
-}
 
 /// Facets in one plane.
 struct Merged {
@@ -75,18 +70,19 @@ fn around(cell: &[i32; 3]) -> impl Iterator<Item = [i32; 3]> {
     (0..27).map(move |number| [x + number % 3 - 1, y + number / 3 % 3 - 1, z + number / 9 - 1])
 }
 
-/// Planes of the faces, each once.
+/// Planes of the facets, each once.
 pub(super) fn planes(facets: &[Facet], diameter: f64) -> Vec<HalfSpace> {
     merged(facets, PLANE_TOLERANCE * diameter).into_iter().map(|merged| merged.plane).collect()
 }
 
-/// Field of a solid given by its outer faces, by the internal faces between its pieces (twice each, once per side)
-/// and by its vertices; `None` if the solid is not convex.
+/// Field of a solid given by the planes of its outer faces, by the internal faces of its pieces and by its
+/// vertices; `None` if the solid is not convex.
 ///
 /// A convex solid lies below the planes of all its faces. An internal face with nothing behind it bounds the solid
-/// as well, so the plane of such a face is a wall of the field.
+/// as well, so the plane of such a face is a wall of the field. The other internal faces lie between two pieces:
+/// on both sides of their plane they have the same area.
 pub(super) fn field(
-    outer: &[Facet],
+    faces: Vec<HalfSpace>,
     internal: &[Facet],
     vertices: &[Vec3],
     diameter: f64,
@@ -94,17 +90,14 @@ pub(super) fn field(
     let tolerance = PLANE_TOLERANCE * diameter;
     let places = Places::new(vertices);
     let holds_all = |plane: &HalfSpace| !places.any_above((&plane.normal_b, plane.offset), tolerance);
-    let faces = planes(outer, diameter);
     if !faces.iter().all(holds_all) {
         return None;
     }
-    let internal = merged(internal, tolerance);
-    let (walls, between): (Vec<_>, Vec<_>) = internal.iter().partition(|merged| holds_all(&merged.plane));
+    let all = merged(internal, tolerance);
+    let (walls, between): (Vec<_>, Vec<_>) = all.iter().partition(|merged| holds_all(&merged.plane));
     let is_matched = |one: &&Merged| {
-        let opposite = |other: &&&Merged| {
-            let sum = one.plane.offset + other.plane.offset;
-            (one.plane.normal_b + other.plane.normal_b).norm() <= PLANE_TOLERANCE && sum.abs() <= tolerance
-        };
+        let reversed = HalfSpace { normal_b: -one.plane.normal_b, offset: -one.plane.offset };
+        let opposite = |other: &&&Merged| lies_in(&internal[other.lowest], &reversed, 2.0 * tolerance);
         let behind: f64 = between.iter().filter(opposite).map(|other| other.area).sum();
         (one.area - behind).abs() <= AREA_TOLERANCE * diameter * diameter
     };

@@ -1,9 +1,9 @@
 //! Solids of polyhedra: a polyhedron, or several joined by internal faces.
 
-use super::Refusal;
-use super::convex::{self, Facet};
+use super::convex;
+use super::facets::{Facet, total_area};
+use super::refusal::{self, Refusal};
 use crate::draft::BodyDraft;
-use crate::hull::area;
 use crate::model::MovableGroup;
 use crate::solid::{Solid, SolidBox, SolidField, SolidPart};
 use crate::surface::Surface;
@@ -21,44 +21,8 @@ pub(super) fn solids(draft: &BodyDraft, surfaces: &[Surface], refusals: &mut Vec
         }
     }
     shells.retain(|_, pieces| pieces.iter().any(|&piece| draft.is_solid[piece]));
-    for pieces in shells.values() {
-        check(draft, surfaces, pieces, refusals);
-    }
-    if !refusals.is_empty() {
-        return Vec::new();
-    }
+    shells.retain(|_, pieces| refusal::is_uniform(draft, surfaces, pieces, refusals));
     shells.iter().map(|(shell, pieces)| solid(draft, *shell, pieces)).collect()
-}
-
-/// Reports pieces of one solid that differ in `contact` or surface from the first piece.
-fn check(draft: &BodyDraft, surfaces: &[Surface], pieces: &[usize], refusals: &mut Vec<Refusal>) {
-    let first = pieces[0];
-    let info = |piece: usize| &draft.body.primitives[piece];
-    for &piece in &pieces[1..] {
-        if draft.is_solid[piece] != draft.is_solid[first] {
-            let [solid, marked] = if draft.is_solid[piece] { [piece, first] } else { [first, piece] };
-            refusals.push(Refusal {
-                primitive: solid,
-                rule: "solid-contact",
-                cause: format!(
-                    "a solid is joined by an internal face to {}, which is not one",
-                    info(marked).path
-                ),
-                cure: "give the groups of both pieces the same `contact`",
-            });
-        } else if info(piece).surface != info(first).surface {
-            let [own, other] = [piece, first].map(|piece| &surfaces[info(piece).surface as usize].name);
-            let other_path = &info(first).path;
-            refusals.push(Refusal {
-                primitive: piece,
-                rule: "solid-surfaces",
-                cause: format!(
-                    "the surface is \"{own}\", but \"{other}\" at {other_path}, a piece of the same solid"
-                ),
-                cure: "give all pieces of a solid one surface, or remove the internal faces between them",
-            });
-        }
-    }
 }
 
 /// Solid of the polyhedra of one shell.
@@ -71,14 +35,15 @@ fn solid(draft: &BodyDraft, shell: u32, pieces: &[usize]) -> Solid {
     let facets = |active| polyhedra.iter().flat_map(move |polyhedron| facets(polyhedron, active));
     let outer: Vec<Facet> = facets(true).collect();
     let internal: Vec<Facet> = facets(false).collect();
-    let merged = convex::field(&outer, &internal, &vertices, 2.0 * bound.half.norm());
+    let diameter = 2.0 * bound.half.norm();
+    let merged = convex::field(convex::planes(&outer, diameter), &internal, &vertices, diameter);
     Solid {
         primitive: pieces[0] as u32,
         shell,
         surface: body.primitives[pieces[0]].surface,
         leaf: 0,
         bound,
-        area: outer.iter().map(|facet| area(&facet.corners)).sum(),
+        area: total_area(&outer),
         parts: pieces.iter().map(|&piece| part(body, piece)).collect(),
         fields: merged
             .map_or_else(|| polyhedra.iter().map(|piece| field(piece)).collect(), |field| vec![field]),

@@ -1,24 +1,21 @@
 //! Fills [`MovableGroup::solids`] from the primitives in groups with `contact: Solid` (docs/theory.md, 2.11).
 
 mod convex;
+mod corners;
+mod facets;
 mod joined;
+mod meshes;
+mod parts;
+mod refusal;
+mod thickened;
 
 use crate::draft::BodyDraft;
 use crate::model::MovableGroup;
 use crate::read::Reader;
-use crate::solid::SolidBox;
 use crate::surface::Surface;
 use crate::weld::WordMap;
-use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
-
-/// Reason why a primitive cannot be a solid or part of one.
-pub(crate) struct Refusal {
-    primitive: usize,
-    rule: &'static str,
-    cause: String,
-    cure: &'static str,
-}
+use refusal::Refusal;
 
 /// Fills the solids of a movable group whose shells are numbered, except for their leaves; faults go to the
 /// reader.
@@ -28,6 +25,8 @@ pub(crate) fn fill(reader: &mut Reader<'_>, draft: &mut BodyDraft, surfaces: &[S
     }
     let mut refusals = Vec::new();
     let mut solids = joined::solids(draft, surfaces, &mut refusals);
+    solids.extend(meshes::solids(draft, surfaces, &mut refusals));
+    corners::check(draft, &solids, &mut refusals);
     solids.sort_by_key(|solid| (solid.primitive, solid.shell));
     draft.body.solids = solids;
     for Refusal { primitive, rule, cause, cure } in refusals {
@@ -57,17 +56,5 @@ pub(crate) fn set_leaves(body: &mut MovableGroup) {
         if let Some((_, leaf)) = leaves.get(&(solid.primitive, solid.shell)) {
             solid.leaf = *leaf;
         }
-    }
-}
-
-impl SolidBox {
-    /// Box around points; around the origin if there are none.
-    fn around<'p>(points: impl IntoIterator<Item = &'p Vec3>) -> Self {
-        let mut points = points.into_iter();
-        let Some(first) = points.next() else {
-            return Self { center: Vec3::zeros(), half: Vec3::zeros() };
-        };
-        let (low, high) = points.fold((*first, *first), |(low, high), p| (low.inf(p), high.sup(p)));
-        Self { center: 0.5 * (low + high), half: 0.5 * (high - low) }
     }
 }

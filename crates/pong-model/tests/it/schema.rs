@@ -14,6 +14,8 @@ fn sample(field: &Field) -> String {
         ("surfaces", Type::TextPair) => "(\"s\", \"s\")",
         ("vertices", Type::VectorTriple) => "((0, 0, 0), (1, 0, 0), (0, 1, 0))",
         ("vertices", _) => "[(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]",
+        // A group of solids has no points.
+        ("contact", _) => "Marked",
         ("faces", _) => "[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]",
         ("triangles", _) => "[(0, 1, 2)]",
         (_, Type::Restitution) => "0.5",
@@ -36,8 +38,13 @@ fn sample(field: &Field) -> String {
 }
 
 /// Fields that exclude each other.
-const EITHER_OR: [(&str, &str); 4] =
-    [("damping", "mass"), ("damping", "restitution"), ("dissipation", "restitution"), ("vertices", "file")];
+const EITHER_OR: [(&str, &str); 5] = [
+    ("damping", "mass"),
+    ("damping", "restitution"),
+    ("dissipation", "restitution"),
+    ("vertices", "file"),
+    ("foundation", "area"),
+];
 
 /// Struct with all fields but those left out. Of two fields that exclude each other, the first is written.
 fn struct_of(name: &str, fields: &[Field], left_out: &[&str]) -> String {

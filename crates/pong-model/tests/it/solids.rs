@@ -1,8 +1,10 @@
 //! Solids of groups with `contact: Solid`: their parts, fields and areas.
 
-use crate::common::{cube, faults, load};
+use crate::common::families::FAMILIES;
+use crate::common::{cube, cube_vertices, faults, load};
 use pong_geometry::Vec3;
 use pong_model::{Model, Solid};
+use pong_testkit::{Random, samples};
 
 /// Model whose root has `contact: Solid` and these primitives.
 fn solid_model(primitives: &str) -> String {
@@ -142,4 +144,289 @@ fn the_leaf_is_the_node_of_the_lowest_primitive() {
     has_leaves(&model, 1);
     has_leaves(&model.with_leaves(8, &pong_model::Extensions::new()).expect("fits"), 3);
     assert_ne!(model.hash, load(&text.replace("contact: Solid,", "")).hash);
+}
+
+/// Model with one surface.
+fn surface_model(surface: &str) -> String {
+    format!(
+        "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{ \"s\": {surface} }},\n\
+         root: (name: \"m\", surface: \"s\", primitives: [Point(name: \"p\", position: (0.0, 0.0, 0.0))]))"
+    )
+}
+
+#[test]
+fn a_surface_gives_a_foundation_or_an_area() {
+    let values = |surface: &str| {
+        let model = load(&surface_model(surface));
+        (model.surfaces[0].foundation, model.surfaces[0].area, model.hash)
+    };
+    let (none, nothing, hash) = values("(stiffness: 1e6)");
+    assert_eq!((none, nothing), (None, None));
+    let (foundation, area, other) = values("(stiffness: 1e6, foundation: 3e9)");
+    assert_eq!((foundation, area), (Some(3e9), None));
+    assert_ne!(other, hash);
+    let (foundation, area, third) = values("(stiffness: 1e6, area: Some(0.25))");
+    assert_eq!((foundation, area), (None, Some(0.25)));
+    assert!(third != hash && third != other);
+    values("(stiffness: 1e6, foundation: 3e9, normal: HuntCrossley(exponent: 1.0, dissipation: 0.2))");
+}
+
+#[test]
+fn foundations_of_no_linear_spring_are_refused() {
+    let rule = |surface: &str| faults(&surface_model(surface)).0[0].rule;
+    assert_eq!(rule("(stiffness: inf, foundation: 3e9)"), "foundation-law");
+    assert_eq!(rule("(stiffness: inf, area: 0.1)"), "foundation-law");
+    assert_eq!(rule("(stiffness: 1e6, area: 0.1, normal: HuntCrossley(exponent: 1.5))"), "foundation-law");
+    assert_eq!(rule("(stiffness: 1e6, area: 0.1, normal: Custom(name: \"mine\"))"), "foundation-law");
+    assert_eq!(rule("(stiffness: 1e6, area: 0.1, foundation: 1e7)"), "either-or");
+    assert_eq!(rule("(stiffness: 1e6, area: 0.0)"), "not-positive");
+    assert_eq!(rule("(stiffness: 1e6, foundation: -1.0)"), "not-positive");
+    assert_eq!(rule("(stiffness: 1e6, foundation: 1e-101)"), "foundation-range");
+    assert_eq!(rule("(stiffness: 1e6, area: 1e-99)"), "foundation-range");
+}
+
+/// Triangles of a box, two for each face, counter-clockwise seen from outside.
+const BOX_TRIANGLES: &str = "[(0,3,2), (0,2,1), (4,5,6), (4,6,7), (0,1,5), (0,5,4), (1,2,6), (1,6,5), (2,3,7), \
+                             (2,7,6), (3,0,4), (3,4,7)]";
+
+fn mesh(name: &str, vertices: &str, triangles: &str, more: &str) -> String {
+    format!("TriangleMesh(name: \"{name}\", vertices: {vertices}, triangles: {triangles}{more})")
+}
+
+fn box_mesh() -> String {
+    mesh("box", &cube_vertices([0.0; 3], [2.0, 1.0, 1.0]), BOX_TRIANGLES, "")
+}
+
+/// A mesh of indexed triangles.
+fn mesh_of(vertices: &[Vec3], triangles: &[[u32; 3]], more: &str) -> String {
+    let rows = |rows: Vec<String>| format!("[{}]", rows.join(", "));
+    let places = vertices.iter().map(|v| format!("({:?}, {:?}, {:?})", v.x, v.y, v.z)).collect();
+    let corners = triangles.iter().map(|[a, b, c]| format!("({a}, {b}, {c})")).collect();
+    mesh("mesh", &rows(places), &rows(corners), more)
+}
+
+/// A torus of `around` rings of `across` quads, each of two triangles.
+fn torus(around: u32, across: u32) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    let turn = |k: u32, of: u32| f64::from(k) / f64::from(of) * std::f64::consts::TAU;
+    let vertex = |i: u32, j: u32| {
+        let (u, v) = (turn(i, around), turn(j, across));
+        let radius = 1.0 + 0.3 * v.cos();
+        Vec3::new(radius * u.cos(), radius * u.sin(), 0.3 * v.sin())
+    };
+    let vertices = (0..around).flat_map(|i| (0..across).map(move |j| vertex(i, j))).collect();
+    let number = |i: u32, j: u32| i % around * across + j % across;
+    let quads = (0..around).flat_map(|i| (0..across).map(move |j| (i, j)));
+    let triangles = quads.flat_map(|(i, j)| {
+        let [a, b, c, d] = [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    });
+    (vertices, triangles.collect())
+}
+
+#[test]
+fn a_closed_mesh_of_a_box_has_six_faces() {
+    let solid = only(&box_mesh());
+    assert_eq!(counts(&solid), [[6, 0]]);
+    assert_eq!(solid.area, 10.0);
+    let normals: Vec<Vec3> = solid.fields[0].faces.iter().map(|face| face.normal_b).collect();
+    let expected = [-Vec3::z(), Vec3::z(), -Vec3::y(), Vec3::x(), Vec3::y(), -Vec3::x()];
+    assert_eq!(normals, expected);
+}
+
+#[test]
+fn a_tetrahedral_mesh_has_four_faces() {
+    let vertices = "[(0,0,0), (1,0,0), (0,1,0), (0,0,1)]";
+    let solid = only(&mesh("t", vertices, "[(0,2,1), (0,1,3), (1,2,3), (2,0,3)]", ""));
+    assert_eq!(counts(&solid), [[4, 0]]);
+    assert!((solid.area - 1.5 - 0.75_f64.sqrt()).abs() < 1e-15, "{}", solid.area);
+}
+
+#[test]
+fn a_torus_is_a_solid_without_fields() {
+    let (vertices, triangles) = torus(24, 12);
+    let solid = only(&mesh_of(&vertices, &triangles, ""));
+    assert!(solid.fields.is_empty() && !solid.is_convex());
+    let exact = std::f64::consts::TAU * std::f64::consts::TAU * 0.3;
+    assert!((solid.area / exact - 1.0).abs() < 0.03, "{} {exact}", solid.area);
+}
+
+#[test]
+fn separate_shells_of_a_mesh_are_solids_of_their_own() {
+    let eight = cube_vertices([0.0; 3], [1.0; 3]);
+    let far = cube_vertices([3.0, 0.0, 0.0], [4.0, 1.0, 1.0]);
+    let vertices = format!("{}, {}", eight.trim_end_matches(']'), far.trim_start_matches('['));
+    let second = (0..8)
+        .rev()
+        .fold(BOX_TRIANGLES.to_owned(), |text, k| text.replace(&k.to_string(), &format!("<{k}>")));
+    let second = (0..8).fold(second, |text, k| text.replace(&format!("<{k}>"), &(k + 8).to_string()));
+    let both = format!("{}, {}", BOX_TRIANGLES.trim_end_matches(']'), second.trim_start_matches('['));
+    let found = solids(&mesh("two", &vertices, &both, ""));
+    assert_eq!(
+        found.iter().map(|solid| (solid.primitive, solid.shell)).collect::<Vec<_>>(),
+        [(0, 0), (0, 1)]
+    );
+    assert_eq!(found[1].bound.center, Vec3::new(3.5, 0.5, 0.5));
+}
+
+/// Every place of the box is moved and rounded to single precision.
+#[test]
+fn boxes_in_single_precision_keep_their_faces() {
+    let mut random = Random::new(7, 0, 0);
+    for _ in 0..samples(100) {
+        let (turn, to) = (random.rotation_matrix(), random.vector(2.0));
+        let grid = |n: u32| (0..=n).map(move |k| f64::from(k) / f64::from(n));
+        // Each face of the box is a grid of 4 × 4 quads.
+        let mut vertices: Vec<Vec3> = Vec::new();
+        let mut triangles = Vec::new();
+        for axis in 0..3 {
+            for side in [0.0, 1.0] {
+                let start = vertices.len() as u32;
+                for (u, v) in grid(4).flat_map(|u| grid(4).map(move |v| (u, v))) {
+                    let mut place = Vec3::zeros();
+                    (place[axis], place[(axis + 1) % 3], place[(axis + 2) % 3]) = (side, u, v);
+                    vertices.push((turn * place + to).map(|x| f64::from(x as f32)));
+                }
+                for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
+                    let at = start + 5 * i + j;
+                    let [a, b, c, d] = [at, at + 5, at + 6, at + 1];
+                    let two = [[a, b, c], [a, c, d]];
+                    triangles.extend(two.map(|[a, b, c]| if side == 1.0 { [a, b, c] } else { [a, c, b] }));
+                }
+            }
+        }
+        let solid = only(&mesh_of(&vertices, &triangles, ""));
+        assert_eq!(counts(&solid), [[6, 0]]);
+    }
+}
+
+#[test]
+fn an_inward_mesh_is_refused() {
+    let (vertices, triangles) = torus(8, 6);
+    let turned: Vec<_> = triangles.iter().map(|[a, b, c]| [*a, *c, *b]).collect();
+    assert_eq!(rule(&mesh_of(&vertices, &turned, "")), "solid-volume");
+}
+
+#[test]
+fn a_sheet_of_two_sides_is_refused() {
+    let sheet = mesh("sheet", "[(0,0,0), (1,0,0), (0,1,0)]", "[(0,1,2), (0,2,1)]", "");
+    assert_eq!(rule(&sheet), "solid-volume");
+}
+
+#[test]
+fn an_open_mesh_is_refused_at_its_first_open_edge() {
+    let faults =
+        faults(&solid_model(&mesh("quad", "[(0,0,0), (1,0,0), (1,1,0), (0,1,0)]", "[(0,1,2), (0,2,3)]", "")));
+    assert_eq!(faults.0[0].rule, "open-solid");
+    assert!(faults.0[0].cause.contains("from (0, 0, 0) to (1, 0, 0)"), "{}", faults.0[0].cause);
+}
+
+#[test]
+fn a_two_sided_mesh_is_refused() {
+    let sheet =
+        mesh("sheet", "[(0,0,0), (1,0,0), (0,1,0)]", "[(0,1,2)]", ", two_sided: true, thickness: 0.1");
+    assert_eq!(rule(&sheet), "solid-two-sided");
+}
+
+/// The layer behind a flat sheet is a plate; only the face of the sheet pushes.
+#[test]
+fn a_flat_sheet_with_a_thickness_is_a_plate() {
+    let sheet =
+        mesh("sheet", "[(0,0,0), (2,0,0), (2,1,0), (0,1,0)]", "[(0,1,2), (0,2,3)]", ", thickness: 0.5");
+    let solid = only(&sheet);
+    assert_eq!(counts(&solid), [[1, 5]]);
+    assert_eq!(solid.area, 2.0);
+    assert_eq!(
+        (solid.bound.center, solid.bound.half),
+        (Vec3::new(1.0, 0.5, -0.25), Vec3::new(1.0, 0.5, 0.25))
+    );
+}
+
+/// Ridges thinner than twice the layer leave no room for it.
+#[test]
+fn a_layer_that_turns_over_is_refused() {
+    let ridge = |thickness: f64| {
+        let vertices = "[(0,0,0), (0,1,0), (0.1,0,1), (0.1,1,1), (0.2,0,0), (0.2,1,0)]";
+        let triangles = "[(0,2,3), (0,3,1), (2,4,5), (2,5,3)]";
+        mesh("ridge", vertices, triangles, &format!(", thickness: {thickness:?}"))
+    };
+    assert!(only(&ridge(0.01)).fields.is_empty());
+    assert_eq!(rule(&ridge(2.0)), "solid-thickness");
+}
+
+#[test]
+fn joined_meshes_of_unlike_thickness_are_refused() {
+    let [one, other] = [("a", "(1,0,0)", 0.1), ("b", "(-1,0,0)", 0.2)].map(|(name, x, thickness)| {
+        let vertices = format!("[(0,0,0), {x}, (0,1,0)]");
+        let triangle = if name == "a" { "[(0,1,2)]" } else { "[(0,2,1)]" };
+        mesh(name, &vertices, triangle, &format!(", thickness: {thickness:?}"))
+    });
+    assert_eq!(rule(&format!("{one},\n{other}")), "solid-thickness");
+}
+
+#[test]
+fn points_and_segments_in_a_group_of_solids_are_refused() {
+    let box_ = cube("a", [0.0; 3], [1.0; 3], "[]");
+    assert_eq!(rule(&format!("{box_}, Point(name: \"p\", position: (9.0, 0.0, 0.0))")), "solid-corner");
+    let segment = "LineSegment(name: \"s\", ends: ((9.0, 0.0, 0.0), (8.0, 0.0, 0.0)))";
+    assert_eq!(rule(&format!("{box_}, {segment}")), "solid-corner");
+    solids(&format!("{box_}, Sphere(name: \"b\", center: (0.0, 0.0, 0.0), radius: 0.1)"));
+}
+
+/// Points of a `Marked` group beside solids of the same rigid body: inside, on a face, and outside.
+#[test]
+fn points_on_or_in_a_solid_are_refused() {
+    let model = |solid: &str, point: [f64; 3]| {
+        let [x, y, z] = point;
+        format!(
+            "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{ \"s\": (stiffness: 1e6) }},\n\
+             root: (name: \"m\", surface: \"s\", groups: [(name: \"a\", contact: Solid, primitives: [{solid}]),\n\
+             (name: \"b\", primitives: [LineSegment(name: \"p\", ends: (({x:?}, {y:?}, {z:?}), (99.0, 9.0, 9.0)))])]))"
+        )
+    };
+    let (vertices, triangles) = torus(24, 12);
+    let torus = mesh_of(&vertices, &triangles, "");
+    let corner = vertices[0] + Vec3::new(1e-8, 0.0, 0.0);
+    let bad = [
+        (quarters(), [1.0, 0.5, 0.5]),
+        (quarters(), [2.0, 1.0, 1.0 + 1e-7]),
+        (box_mesh(), [0.1, 0.1, 0.0]),
+        (torus.clone(), [1.0, 0.0, 0.0]),
+        (torus.clone(), corner.into()),
+    ];
+    for (solid, point) in bad {
+        assert_eq!(faults(&model(&solid, point)).0[0].rule, "solid-corner", "{point:?}");
+    }
+    for (solid, point) in
+        [(quarters(), [2.0, 1.0, 1.001]), (torus.clone(), [0.0; 3]), (torus, [1.2, 0.0, 0.29])]
+    {
+        load(&model(&solid, point));
+    }
+}
+
+/// The overlap needs closed parts: each edge of a face runs the other way in another face, also in pieces whose
+/// faces rounding has merged.
+#[test]
+fn faces_of_rounded_polyhedra_are_closed() {
+    for family in FAMILIES {
+        for index in 0..samples(100) as u64 {
+            let mut random = Random::new(11, 0, index);
+            let Some(solid) = (family.make)(&mut random) else { continue };
+            let size = random.log_between(1e-4, 1e4);
+            let solid = solid.posed(random.rotation_matrix(), random.vector(size), size);
+            let text = solid_model(&solid.text("a"));
+            let Ok(model) = pong_model::parse(&text, "m", None, &pong_model::Extensions::new()) else {
+                continue;
+            };
+            let polyhedron = &model.bodies[0].polyhedra[0];
+            let mut edges = std::collections::BTreeSet::new();
+            for face in 0..polyhedron.faces.len() {
+                let starts: Vec<u32> = polyhedron.rim(face).iter().map(|rim| rim.start).collect();
+                let ends = starts.iter().cycle().skip(1);
+                starts.iter().zip(ends).for_each(|(from, to)| assert!(edges.insert([*from, *to])));
+            }
+            let single = edges.iter().filter(|[from, to]| !edges.contains(&[*to, *from]));
+            assert_eq!(single.count(), 0, "{} {index}", family.name);
+            assert_eq!(model.bodies[0].solids[0].fields.len(), 1, "{} {index}", family.name);
+        }
+    }
 }
