@@ -11,7 +11,7 @@ mod near_pairs;
 mod output;
 mod run_blocks;
 mod single_element_blocks;
-mod solids;
+pub(crate) mod solids;
 mod tunnelling;
 pub(crate) mod worker_context;
 mod worker_pool;

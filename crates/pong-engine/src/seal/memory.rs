@@ -10,6 +10,7 @@ use crate::energy::LedgerEntry;
 use crate::energy::account::WrenchCoupling;
 use crate::energy::buffers::Interval;
 use crate::energy::episodes::PairEnergy;
+use crate::frame::solids::SolidScratch;
 use crate::frame::{Block, MOTIONS_AT_ONCE, NearPairs, PairMotions, PendingParts, ROUND};
 use crate::scene::Scene;
 use crate::state::CommittedPoses;
@@ -71,7 +72,8 @@ pub(super) fn for_frames(
     let workers = scene.config.workers.as_ref().map_or(0, |settings| settings.workers.min(MAX_WORKERS));
     let threads = scene.config.workers.as_ref().map_or(0, |_| workers + 1);
     let contacts = capacity.saturating_mul(bytes_per_contact(scene, threads, stride));
-    let scratch = limits.arena_bytes + limits.scratch_bytes + least_thread_bytes(limits, stride);
+    let solids = SolidScratch::bytes(limits.facets, limits.faces);
+    let scratch = limits.arena_bytes + limits.scratch_bytes + least_thread_bytes(limits, stride) + solids;
     let blocks = 2 * ROUND * size_of::<Block>() + PendingParts::bytes(limits.tree_parts);
     let bodies = scene.bodies.len() * (size_of::<(Pose, Twist)>() + size_of::<Wrench>());
     let committed =

@@ -6,7 +6,7 @@ use super::plans::{can_be_tested, kind_name};
 use crate::frame::narrow_phase::pair_table::has_tester;
 use crate::scene::{GroupFilter, ObjectPair, Scene};
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Filters, PrimitiveInfo};
+use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Aspect of a scene that the author may not have intended.
@@ -203,8 +203,8 @@ fn testable(scene: &Scene, models: [usize; 2]) -> Vec<(String, Vec<String>)> {
 
 /// Pairs of kinds without a tester that meet in the movable groups of two models, and true if at least one
 /// pair that meets has a tester.
-fn kinds_that_meet(
-    scene: &Scene,
+fn kinds_that_meet<'m>(
+    scene: &'m Scene,
     models: [usize; 2],
     itself: bool,
     filters: Option<&Filters>,
@@ -212,8 +212,8 @@ fn kinds_that_meet(
     // One primitive of each kind, and with filters one per kind and set of filter entries.
     let groups = |side: usize| {
         let bodies = scene.models[models[side]].bodies.iter();
-        let kinds = |body| {
-            let kind = |info: &PrimitiveInfo| kind_name(body, info).to_owned();
+        let kinds = |body: &'m MovableGroup| {
+            let kind = |info: &PrimitiveInfo| (kind_name(body, info).to_owned(), body.is_solid(info));
             (body, representatives(filters, side, body, kind).collect::<Vec<_>>())
         };
         bodies.map(kinds).collect::<Vec<_>>()
@@ -226,7 +226,9 @@ fn kinds_that_meet(
             for &a in kinds_a {
                 for &b in kinds_b.iter().filter(|b| !apart(filters, a, b)) {
                     let (a, b) = ((*body_a, a), (*body_b, b));
-                    if can_be_tested(&scene.extensions, a, b) || can_be_tested(&scene.extensions, b, a) {
+                    let tested =
+                        can_be_tested(&scene.extensions, a, b) || can_be_tested(&scene.extensions, b, a);
+                    if tested || solids_touch(a, b) || solids_touch(b, a) {
                         anything = true;
                     } else {
                         let mut kinds = [a, b].map(|(body, info)| kind_name(body, info).to_owned());
@@ -238,4 +240,9 @@ fn kinds_that_meet(
         }
     }
     (ignored, anything)
+}
+
+/// Returns true if the first primitive belongs to a solid, and the second to a solid or is a plane.
+fn solids_touch(a: (&MovableGroup, &PrimitiveInfo), b: (&MovableGroup, &PrimitiveInfo)) -> bool {
+    a.0.is_solid(a.1) && (b.1.kind == PrimitiveKind::Plane || b.0.is_solid(b.1))
 }

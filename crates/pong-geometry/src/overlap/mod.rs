@@ -80,6 +80,13 @@ impl Overlap {
         }
     }
 
+    /// Returns the memory that [`with_capacity`](Self::with_capacity) takes, bytes.
+    pub fn bytes(facets: usize) -> usize {
+        /// Three surfaces, lists of the cutter, and lists of faces and cells.
+        const BYTES_PER_FACET: usize = 3 * 104 + 52 + 2 * size_of::<usize>() + size_of::<Cell>();
+        facets * BYTES_PER_FACET
+    }
+
     /// Returns the point about which the moments of the last result are taken, m: a vertex of the shared
     /// volume.
     pub fn reference_b(&self) -> Vec3 {

@@ -75,6 +75,13 @@ impl SolidScratch {
         }
     }
 
+    /// Memory that [`with_capacity`](Self::with_capacity) takes, bytes.
+    pub fn bytes(facets: usize, faces: usize) -> usize {
+        let per_face =
+            5 * size_of::<HalfSpace>() + 2 * size_of::<Cell>() + 2 * size_of::<super::patch::CellForce>();
+        Overlap::bytes(facets + 2 * faces) + faces * per_face
+    }
+
     /// Returns true if two sides share volume.
     pub(super) fn share_volume(&mut self, relative: &Relative, a: &Side<'_>, b: &Side<'_>) -> bool {
         // One part of a side without a field is compared with the field of the other.
