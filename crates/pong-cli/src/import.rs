@@ -10,7 +10,8 @@ use std::process::ExitCode;
 /// Makes a model file of a mesh file: glTF (.glb, .gltf), Collada (.dae), OBJ or STL.
 ///
 /// Nodes of a glTF file become groups and primitives as `extras.pong` says, which the modelling toolkit writes. Without
-/// it every node becomes a group, convex solids become polyhedra and other surfaces meshes of triangles.
+/// it every node becomes a group, convex solids become polyhedra and other surfaces meshes of triangles. If all are
+/// closed, they touch by the volume that they share (`contact: Solid`).
 /// docs/importing.md has the whole of it.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
@@ -25,6 +26,9 @@ pub(crate) struct Arguments {
     /// Puts meshes of more than this many faces into OBJ files beside the model.
     #[arg(long, value_name = "FACES", num_args = 0..=1, default_missing_value = "1000")]
     mesh_files: Option<usize>,
+    /// Writes no `contact: Solid`: unmarked shapes touch where points, segments and round parts meet faces.
+    #[arg(long)]
+    marked: bool,
     /// Makes unmarked parts that are not convex their convex hulls: hulls of CoACD, which rounding has dented.
     #[arg(long)]
     hull: bool,
@@ -189,6 +193,7 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
         faces_max: arguments.faces_max,
         inline_max: arguments.mesh_files.unwrap_or(usize::MAX),
         round_m: arguments.round,
+        marked: arguments.marked,
         hull: arguments.hull.then_some(pong_decompose::hull_of_mesh),
         ..arguments.mesh.options()
     };

@@ -11,6 +11,18 @@ pub fn write_checked(
     mesh_files: Vec<(String, Vec<u8>)>,
     findings: &mut Findings,
 ) -> Option<Vec<PathBuf>> {
+    write_checked_or(output, text, || None, mesh_files, findings)
+}
+
+/// Writes files like [`write_checked`]. If the loader refuses shapes as solids, and `instead` gives a text in which
+/// they are none, that text is written, and a note gives the reason.
+pub fn write_checked_or(
+    output: &Path,
+    text: String,
+    instead: impl FnOnce() -> Option<String>,
+    mesh_files: Vec<(String, Vec<u8>)>,
+    findings: &mut Findings,
+) -> Option<Vec<PathBuf>> {
     let folder = match output.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
@@ -33,7 +45,19 @@ pub fn write_checked(
         let _ = std::fs::remove_dir_all(&staging);
         return None;
     }
-    check(&staging.join(&name), output, findings);
+    let mut checked = check(&staging.join(&name), output);
+    if let Some(fault) = checked.faults.iter().find(|fault| is_of_solids(fault.rule)).cloned()
+        && let Some(text) = instead()
+    {
+        match pong_model::files::replace(&staging.join(&name), text.as_bytes()) {
+            Ok(()) => checked = check(&staging.join(&name), output),
+            Err(reason) => unwritable(findings, reason),
+        }
+        let cause = format!("its shapes have `contact: Marked`, because one is no solid: {}", fault.cause);
+        findings.note(&fault.path, "not-solid", cause, "");
+    }
+    findings.faults.append(&mut checked.faults);
+    findings.notes.append(&mut checked.notes);
     let mut written = Vec::new();
     if findings.faults.is_empty() {
         match move_all(&staging, folder, &files) {
@@ -68,8 +92,14 @@ fn move_all(staging: &Path, folder: &Path, files: &[(String, Vec<u8>)]) -> std::
     Ok(written)
 }
 
+/// Tests whether a rule of the loader is about `contact: Solid`.
+fn is_of_solids(rule: &str) -> bool {
+    rule.starts_with("solid-") || rule == "open-solid"
+}
+
 /// Reads the staged model with the engine's loader; messages give its final path.
-fn check(staged: &Path, output: &Path, findings: &mut Findings) {
+fn check(staged: &Path, output: &Path) -> Findings {
+    let mut findings = Findings::default();
     let (staged_name, name) = (staged.display().to_string(), output.display().to_string());
     match pong_model::load(staged, &Extensions::new()) {
         Ok(model) => {
@@ -90,4 +120,5 @@ fn check(staged: &Path, output: &Path, findings: &mut Findings) {
             }
         }
     }
+    findings
 }

@@ -1,7 +1,7 @@
 //! Import of a mesh file as a model file, complete or not at all.
 
 use crate::affine::Up;
-use crate::build::{self, Building};
+use crate::build::{self, Building, Built};
 use crate::files;
 use crate::findings::Findings;
 use crate::laws::DefaultSurface;
@@ -44,6 +44,8 @@ pub struct Options {
     pub round_m: Option<f64>,
     /// Most triangles that a file may create by instancing its meshes.
     pub triangles_max: usize,
+    /// True if unmarked closed meshes and polyhedra keep `contact: Marked`; otherwise they are solids.
+    pub marked: bool,
     /// Folders, besides that of the mesh file, from which referenced files (glTF buffers) may be read.
     pub allowed: Vec<PathBuf>,
 }
@@ -65,6 +67,7 @@ impl Default for Options {
             hull: None,
             round_m: None,
             triangles_max: 2_000_000,
+            marked: false,
             allowed: Vec::new(),
         }
     }
@@ -133,12 +136,18 @@ pub fn import(
     let built = convert(input, options, progress, &mut findings);
     let Some(built) = built.filter(|_| findings.faults.is_empty()) else { return Err(findings) };
     progress("writing");
-    let primitives = kinds_of(&built.model.root);
-    let text = write::text(&built.model);
-    let (vertices, triangles) = (built.vertices, built.triangles);
-    drop(built.model);
+    let Built { mut model, mesh_files, vertices, triangles, by_marks } = built;
+    let primitives = kinds_of(&model.root);
+    let has = |kind: &str| primitives.iter().any(|(other, _)| *other == kind);
+    let solid = !options.marked && !by_marks && (has("Polyhedron") || has("TriangleMesh"));
+    model.root.solid = solid;
+    let text = write::text(&model);
+    model.root.solid = false;
+    // Kept only if another text may be needed.
+    let model = solid.then_some(model);
+    let instead = || model.as_ref().map(write::text);
     progress("checking");
-    let files = files::write_checked(output, text, built.mesh_files, &mut findings);
+    let files = files::write_checked_or(output, text, instead, mesh_files, &mut findings);
     match files {
         Some(files) => Ok(Imported { files, vertices, triangles, primitives, findings }),
         None => Err(findings),

@@ -28,6 +28,8 @@ pub struct Group {
     /// `None` for the default of the format; `Custom:` and the name of a registered kind.
     pub bound: Option<String>,
     pub surface: Option<String>,
+    /// True for `contact: Solid`.
+    pub solid: bool,
     pub groups: Vec<Group>,
     pub primitives: Vec<Primitive>,
 }

@@ -48,6 +48,9 @@ fn group(node: &Group) -> Value {
     if let Some(surface) = &node.surface {
         fields.push(("surface", Value::text(surface)));
     }
+    if node.solid {
+        fields.push(("contact", Value::name("Solid")));
+    }
     if !node.groups.is_empty() {
         fields.push(("groups", Value::list(node.groups.iter().map(group))));
     }

@@ -4,6 +4,7 @@ mod bristles;
 mod doubled;
 mod named;
 mod pairs;
+mod solids;
 mod stiffness;
 mod tree;
 
@@ -44,9 +45,11 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
     let mut text = String::new();
     for Named { name, model } in &named {
         text += &tree::description(name, model);
+        text += &solids::description(model);
         let warnings = model.warnings.iter().cloned().chain(doubled::warnings(model));
         warnings.for_each(|warning| text += &format!("  warning: {}\n", printable(&warning)));
-        bristles::notes(model).iter().for_each(|note| text += &format!("  note: {}\n", printable(note)));
+        let notes = bristles::notes(model).into_iter().chain(solids::notes(model));
+        notes.for_each(|note| text += &format!("  note: {}\n", printable(&note)));
     }
     if !arguments.alone {
         for (a, b) in meetings(&named) {

@@ -180,7 +180,12 @@ fn surface_line(surface: &Surface) -> String {
         Exponent::One => "N/m",
         Exponent::ThreeHalves => "N/m^1.5",
     };
-    format!("`{}`: k {} {unit}, {normal}, {friction}", surface.name, number(surface.stiffness))
+    let foundation = match (surface.foundation, surface.area) {
+        (Some(modulus), _) => format!(", K {} N/m³", number(modulus)),
+        (None, Some(area)) => format!(", K {} N/m³ from the area", number(surface.stiffness / area)),
+        (None, None) => String::new(),
+    };
+    format!("`{}`: k {} {unit}{foundation}, {normal}, {friction}", surface.name, number(surface.stiffness))
 }
 
 fn exponent_text(exponent: Exponent) -> &'static str {

@@ -11,6 +11,7 @@ mod import;
 mod left_out;
 mod man_pages;
 mod replay;
+mod solids;
 mod step_warnings;
 mod terminal;
 mod trade;

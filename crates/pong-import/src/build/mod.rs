@@ -29,6 +29,8 @@ pub struct Built {
     /// Number of vertices and triangles read.
     pub vertices: usize,
     pub triangles: usize,
+    /// True if marks say what becomes of the nodes.
+    pub by_marks: bool,
 }
 
 pub fn build(source: Source, building: &mut Building<'_>, findings: &mut Findings) -> Option<Built> {
@@ -53,7 +55,7 @@ pub fn build(source: Source, building: &mut Building<'_>, findings: &mut Finding
         return None;
     }
     let mesh_files = mesh_files::split_off(&mut model, building.inline_max, findings);
-    findings.faults.is_empty().then_some(Built { model, mesh_files, vertices, triangles })
+    findings.faults.is_empty().then_some(Built { model, mesh_files, vertices, triangles, by_marks: marked })
 }
 
 /// Largest coordinate, m; it sets the number of digits.

@@ -562,7 +562,8 @@ fn surfaces_that_face_the_wrong_way_are_told_and_turned_if_asked() {
             let notes = &imported.findings.notes;
             assert_eq!(imported.primitives, [("TriangleMesh", 1)]);
             assert_eq!(notes.iter().filter(|note| note.rule == rule).count(), 1, "{}", imported.findings);
-            assert!(notes.iter().all(|note| [rule, "loader"].contains(&note.rule)), "{}", imported.findings);
+            let expected = [rule, "loader", "not-solid"];
+            assert!(notes.iter().all(|note| expected.contains(&note.rule)), "{}", imported.findings);
             let told =
                 if rule == "winding" { "1 of 12 triangles run against the others" } else { "8.000e0 m³" };
             assert!(notes[0].cause.contains(told) && notes[0].cure.contains("--outward"), "{}", notes[0]);
@@ -605,4 +606,26 @@ fn holes_are_closed_if_asked_and_missing_sides_are_not() {
         assert_eq!(rules(&findings), ["not-closed"], "{findings}");
         assert!(findings.faults[0].cause.contains("more than a quarter"), "{findings}");
     }
+}
+
+/// Closed meshes and polyhedra become solids; a file with an open mesh keeps `contact: Marked` with a note.
+#[test]
+fn closed_shapes_become_solids() {
+    let folder = folder("contact");
+    let cube_text = obj(&cube());
+    let path = write(&folder, "cube.obj", &cube_text);
+    let (imported, model) = run(&path, &options()).unwrap();
+    assert_eq!(note_rules(&imported), [""; 0]);
+    assert!(model.bodies[0].solids[0].is_convex());
+    let (_, model) = run(&path, &Options { marked: true, ..options() }).unwrap();
+    assert!(model.bodies[0].solids.is_empty());
+    let text = std::fs::read_to_string(path.with_extension("ron")).unwrap();
+    assert!(!text.contains("contact"), "{text}");
+    // The last face is missing.
+    let open = cube_text.trim_end().rsplit_once('\n').expect("lines").0;
+    let (imported, model) = run(&write(&folder, "open.obj", open), &options()).unwrap();
+    assert_eq!(note_rules(&imported), ["not-solid"]);
+    let note = &imported.findings.notes[0];
+    assert!(note.cause.contains("the mesh is open") && !note.path.contains(".open"), "{note}");
+    assert!(model.bodies[0].solids.is_empty());
 }

@@ -79,7 +79,7 @@ fn without_marks_every_node_becomes_a_group() {
         "scene/a_b/a_b_1",
     ];
     assert_eq!(paths, expected);
-    assert_eq!(note_rules(&imported), ["renamed", "renamed"]);
+    assert_eq!(note_rules(&imported), ["renamed", "renamed", "not-solid"]);
     assert_eq!(imported.primitives, [("LineSegment", 2), ("TriangleMesh", 1), ("Polyhedron", 2)]);
 }
 
@@ -347,7 +347,7 @@ fn meshes_are_mended_where_nothing_is_lost() {
     let (imported, model) = run(&path, &options()).unwrap();
     assert_eq!(
         note_rules(&imported),
-        ["sliver-triangle", "duplicate-triangle", "t-junction"],
+        ["sliver-triangle", "duplicate-triangle", "t-junction", "not-solid"],
         "{}",
         imported.findings
     );
@@ -357,14 +357,17 @@ fn meshes_are_mended_where_nothing_is_lost() {
     let both = [[a, b, c], [a, c, b]];
     std::fs::write(&path, binary_stl(&both)).unwrap();
     let (imported, model) = run(&path, &options()).unwrap();
-    assert_eq!(note_rules(&imported), ["two-sided"]);
+    assert_eq!(note_rules(&imported), ["two-sided", "not-solid"]);
     assert_eq!(model.bodies[0].triangles.triangles.len(), 2);
     // Corners a micrometre apart are welded only on request.
     let near = [[a, b, c], [[2.0, 1e-6, 0.0], d, c]];
     std::fs::write(&path, binary_stl(&near)).unwrap();
     assert_eq!(run(&path, &options()).unwrap().1.bodies[0].triangles.vertices.len(), 5);
     let (imported, model) = run(&path, &Options { weld_m: Some(1e-5), ..options() }).unwrap();
-    assert_eq!((note_rules(&imported), model.bodies[0].triangles.vertices.len()), (vec!["welded"], 4));
+    assert_eq!(
+        (note_rules(&imported), model.bodies[0].triangles.vertices.len()),
+        (vec!["welded", "not-solid"], 4)
+    );
 }
 
 #[test]
@@ -376,7 +379,7 @@ fn hollow_solids_stay_surfaces_and_a_placeholder_stands_in_for_a_surface() {
     std::fs::write(&path, binary_stl(&[cube(), inner, beside].concat())).unwrap();
     let (imported, model) = run(&path, &Options { surface: None, ..options() }).unwrap();
     assert_eq!(imported.primitives, [("TriangleMesh", 1), ("Polyhedron", 1)]);
-    assert_eq!(note_rules(&imported), ["placeholder-surface"]);
+    assert_eq!(note_rules(&imported), ["placeholder-surface", "not-solid"]);
     assert_eq!(model.surfaces[0].name, "placeholder");
     assert_eq!(model.bodies[0].triangles.triangles.len(), 24);
 }

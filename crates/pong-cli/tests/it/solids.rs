@@ -1,0 +1,38 @@
+//! `pong check` of models with solids.
+
+use crate::common;
+use crate::common::pong;
+
+/// Two boxes of 1 m and 2 m, and a mesh of a box of 2 m with a hole through it along z.
+const MODEL: &str = r#"(format: "pong-model", version: 1, name: "parts",
+    surfaces: { "steel": (stiffness: 1e6), "foam": (stiffness: 1e4, area: 0.01), "oak": (stiffness: 1e5, foundation: 1e8) },
+    root: (name: "parts", surface: "steel", contact: Solid, primitives: [
+        Polyhedron(name: "small", vertices: [(0,0,0), (1,0,0), (1,1,0), (0,1,0), (0,0,1), (1,0,1), (1,1,1), (0,1,1)],
+            faces: [[0,3,2,1], [4,5,6,7], [0,1,5,4], [1,2,6,5], [2,3,7,6], [3,0,4,7]]),
+        Polyhedron(name: "large", vertices: [(2,0,0), (4,0,0), (4,2,0), (2,2,0), (2,0,2), (4,0,2), (4,2,2), (2,2,2)],
+            faces: [[0,3,2,1], [4,5,6,7], [0,1,5,4], [1,2,6,5], [2,3,7,6], [3,0,4,7]]),
+        TriangleMesh(name: "frame", surface: "foam", vertices: [
+                (6,0,0), (8,0,0), (8,2,0), (6,2,0), (6.5,0.5,0), (7.5,0.5,0), (7.5,1.5,0), (6.5,1.5,0),
+                (6,0,2), (8,0,2), (8,2,2), (6,2,2), (6.5,0.5,2), (7.5,0.5,2), (7.5,1.5,2), (6.5,1.5,2)],
+            triangles: [
+                (0,4,1), (1,4,5), (1,5,2), (2,5,6), (2,6,3), (3,6,7), (3,7,0), (0,7,4),
+                (8,9,12), (9,13,12), (9,10,13), (10,14,13), (10,11,14), (11,15,14), (11,8,15), (8,12,15),
+                (0,1,9), (0,9,8), (1,2,10), (1,10,9), (2,3,11), (2,11,10), (3,0,8), (3,8,11),
+                (5,4,12), (5,12,13), (6,5,13), (6,13,14), (7,6,14), (7,14,15), (4,7,15), (4,15,12)])]))"#;
+
+#[test]
+fn check_lists_solids_and_their_foundations() {
+    let folder = common::folder("solids/check", &[("parts.ron", MODEL)]);
+    let (code, out, err) = pong(&folder, &["check", "parts.ron"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    for line in [
+        "  solids of parts: 3, 2 of them convex, ",
+        "  surface `steel` gives no `foundation` and no `area`: area 1 … 4 m², K 250000 … 1000000 N/m³ at its solids\n",
+        "`foam`: k 10000 N/m, K 1000000 N/m³ from the area, linear",
+        "`oak`: k 100000 N/m, K 1e8 N/m³, linear",
+        "  note: parts/frame is a solid that is not convex: it can touch planes and convex solids only",
+    ] {
+        assert!(out.contains(line), "no `{line}` in:\n{out}");
+    }
+    assert_eq!(out.matches("gives no `foundation`").count(), 1, "{out}");
+}
