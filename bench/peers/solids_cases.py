@@ -126,19 +126,13 @@ def box_pose(kind, random):
     elif kind == "apart":
         rotation = random_rotation(random)
     if kind == "edge on edge":
-        # An edge along x at the upper right of the target (y = z = HALF), crossed by one of the mover.
+        # The target's edge at y = z = HALF, crossed by the mover's opposite edge.
         normal = np.array([0, 1, 1]) / np.sqrt(2)
-        rotation = turn(normal, random.uniform(0.3, np.pi - 0.3)) @ lowest_edge(normal)
+        rotation = turn(normal, random.uniform(0.3, np.pi - 0.3))
         offset, up, z = np.array([random.uniform(-LATERAL, LATERAL), 0, 0]), HALF * np.sqrt(2), normal
     lowest = (box()["vertices"] @ rotation.T @ z).min()
     height = up - lowest + (GAP if kind == "apart" else -DEPTH)
     return offset + height * z, rotation
-
-
-def lowest_edge(normal):
-    """Rotation of a box after which an edge along x is its lowest feature against `normal`, which is square to x."""
-    angle = np.arctan2(normal[2], normal[1]) - np.pi / 4
-    return turn((1, 0, 0), angle)
 
 
 def hull_pose(kind, shape, random):

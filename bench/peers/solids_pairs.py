@@ -78,7 +78,7 @@ class MuJoCo:
         return time_of(lambda: self.mujoco.mj_collision(self.model, self.data))
 
     def contacts(self):
-        """Pair and number of contacts with a depth, and the mean depth of the deepest."""
+        """Number of contacts of each pair, and the depth of its deepest one, m."""
         contact = self.data.contact
         below = contact.dist < 0
         pair = contact.geom.min(axis=1)[below] // 2
@@ -124,7 +124,7 @@ class Bullet:
         return time_of(self.bullet.performCollisionDetection)
 
     def contacts(self):
-        """As of `MuJoCo`."""
+        """Number of contacts of each pair, and the depth of its deepest one, m."""
         counts, depths = np.zeros(PAIRS, dtype=int), np.zeros(PAIRS)
         for i in range(PAIRS):
             points = self.bullet.getContactPoints(self.bodies[2 * i], self.bodies[2 * i + 1])
@@ -175,7 +175,7 @@ class Ode:
         return self.library.collide(pointer(self.poses), len(self.poses), pointer(self.found))
 
     def contacts(self):
-        """As of `MuJoCo`, without depths."""
+        """Number of contacts of each pair; depths are not read."""
         return self.found, np.full(PAIRS, np.nan)
 
     def close(self):
