@@ -113,7 +113,7 @@ def face(shape, index):
 
 
 def box_pose(kind, random):
-    """Pose of a box in the frame of an equal box: the lowest feature is `DEPTH` below the upper face, or `GAP` above."""
+    """Pose of a box in the frame of an equal one: its lowest feature is `DEPTH` below the upper face, or `GAP` above."""
     z, up = np.array([0.0, 0, 1]), HALF
     rotation = np.eye(3)
     offset = np.append(random.uniform(-LATERAL, LATERAL, 2), 0)
