@@ -48,6 +48,12 @@ impl ContactKey {
         Self { end: Self::SOLID | (part as u32) << Self::PART_SHIFT | unit_a, ..self }
     }
 
+    /// The same key with another part of the contact of two solids.
+    pub fn with_part(self, part: SolidContactPart) -> Self {
+        let unit_a = self.end & ((1 << Self::PART_SHIFT) - 1);
+        self.of_solids(part, unit_a)
+    }
+
     /// Returns true if the contact is one of two solids.
     #[inline]
     pub fn is_of_solids(&self) -> bool {

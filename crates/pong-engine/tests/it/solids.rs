@@ -323,3 +323,30 @@ fn plate_pushes_back_to_the_side_of_entry() {
         }
     }
 }
+
+/// A body that tumbles all the way round on another in unbroken contact has the wrench that it has without the
+/// memory of the side of entry.
+#[test]
+fn tumbling_body_forgets_the_side_on_which_it_began() {
+    let half = 0.05;
+    for other in [block(SOFT, [0.5, 0.5, 0.1]), floor(SOFT)] {
+        let lift = if other.contains("Plane") { 0.0 } else { 0.1 };
+        let mut plain = Pair::new(&block(SOFT, [half; 3]), &other);
+        let mut with_memory = Pair::new(&remembering(&block(SOFT, [half; 3])), &remembering(&other));
+        let mut deepest = 0.0_f64;
+        for step in 0..=400 {
+            let angle = 2.0 * std::f64::consts::PI * f64::from(step) / 400.0;
+            // Lowest corner at a constant depth of 1 mm.
+            let reach = half * (angle.sin().abs() + angle.cos().abs());
+            let depth = if step == 0 { -1e-3 } else { 1e-3 };
+            let pose = pose([0.0, 0.0, lift + reach - depth], [0.0, angle, 0.0]);
+            let (expected, _) = plain.at(&pose);
+            let (got, _) = with_memory.at(&pose);
+            with_memory.world.commit().unwrap();
+            let apart = (got.force - expected.force).norm() + (got.moment - expected.moment).norm() / half;
+            assert!(apart <= 1e-9 * expected.force.norm(), "{step}: {got:?} for {expected:?}");
+            deepest = deepest.max(expected.force.z);
+        }
+        assert!(deepest > 0.0);
+    }
+}

@@ -297,3 +297,39 @@ fn thin_plate_throws_a_fast_block_back() {
     assert!(lowest < -0.005, "{lowest}");
     assert!((back / 20.0 - 1.0).abs() < 1e-3, "{back}");
 }
+
+/// A box on a slope whose friction is preloaded to hold its weight does not slide to load its bristle.
+#[test]
+fn preloaded_friction_holds_from_the_first_step() {
+    let (mu, modulus, half, mass) = (0.5, 1e7, 0.1, 1.0);
+    let angle = 0.2_f64;
+    let down = Quat::from_scaled_axis(Vec3::y() * angle);
+    let sink = mass * G * angle.cos() / (modulus * 4.0 * half * half);
+    let position = down * Vec3::new(0.0, 0.0, half - sink);
+    let surface = rough(modulus, mu);
+    let mut parts = vec![
+        fixed(ground("stiffness: inf")),
+        of_block(&surface, mass, [half; 3], Pose { position, orientation: down }),
+    ];
+    parts[0].pose.orientation = down;
+    let drift = |preload: bool| {
+        let (mut simulation, bodies) = simulate(&parts, Integrator::RungeKutta4, 2e-4);
+        if preload {
+            let (pair, _) = simulation.world().scene().pairs().next().expect("one pair");
+            let weight = Vec3::new(0.0, 0.0, mass * G);
+            let preload = pong_engine::FrictionPreload::Holding(-weight);
+            simulation.preload_friction(pair, &preload).unwrap();
+        }
+        // The box pitches under the moment of the friction, so its lower face is watched.
+        let foot = |simulation: &Simulation| {
+            let pose = simulation.pose(bodies[1]);
+            down.inverse() * (pose.position + pose.orientation * Vec3::new(0.0, 0.0, -half))
+        };
+        let start = foot(&simulation);
+        simulation.run_for(0.3).unwrap();
+        (foot(&simulation) - start).x.abs()
+    };
+    let (without, with) = (drift(false), drift(true));
+    println!("moved {with:e} m with preload, {without:e} m without");
+    assert!(with < 0.25 * without, "{with} {without}");
+}

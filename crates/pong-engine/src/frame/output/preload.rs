@@ -16,8 +16,8 @@ use crate::frame::input::{PairContext, Round};
 use crate::law::FrictionProps;
 use crate::law::friction::shortened;
 use crate::scene::Scene;
-use crate::seal::Sealed;
-use crate::state::{ContactMemory, ContactRole};
+use crate::seal::{Sealed, values_of};
+use crate::state::{ContactMemory, ContactRole, SolidContactPart};
 use pong_geometry::Vec3;
 
 /// State to which the bristles of a pair of Objects are preloaded.
@@ -32,6 +32,7 @@ pub enum FrictionPreload {
 }
 
 /// New state of one bristle.
+#[derive(Clone, Copy)]
 pub(crate) struct Preloaded {
     /// Index of the contact in the frame's order, and of its record after the commit.
     index: usize,
@@ -50,6 +51,8 @@ struct Held<'f> {
     stiffness: f64,
     kinetic_limit: f64,
     static_limit: f64,
+    /// For solids: index of the second of the two contacts that carry the friction, and the effective area, m².
+    second: Option<(usize, f64)>,
 }
 
 impl EvaluationBuffers {
@@ -71,16 +74,9 @@ impl EvaluationBuffers {
                     (held.holding(self.on_a(scene, sealed, pair, held.contact, force), whole), true)
                 }
             };
-            let squared = bristle.norm_squared() - held.contact.bristle_b.norm_squared();
-            Some(Preloaded {
-                index: held.index,
-                bristle_b: bristle,
-                sticks,
-                friction_force_b: bristle * -held.stiffness,
-                stored_more: 0.5 * held.stiffness * squared,
-            })
+            Some(held.preloaded(bristle, sticks))
         };
-        held.iter().filter_map(preloaded).collect()
+        held.iter().filter_map(preloaded).flatten().collect()
     }
 
     fn held(&self, scene: &Scene, sealed: &Sealed, memory: &ContactMemory, pair: usize) -> Vec<Held<'_>> {
@@ -91,7 +87,13 @@ impl EvaluationBuffers {
         let mut all = Vec::new();
         for group in indices.chunk_by(|a, b| contact_at(*a).found.key == contact_at(*b).found.key) {
             let key = contact_at(group[0]).found.key;
-            if sealed.group_pairs[key.group_pair as usize].pair != pair || key.is_of_solids() {
+            if sealed.group_pairs[key.group_pair as usize].pair != pair {
+                continue;
+            }
+            if key.is_of_solids() {
+                let of_one =
+                    |a: &usize, b: &usize| contact_at(*a).found.element_b == contact_at(*b).found.element_b;
+                all.extend(group.chunk_by(of_one).filter_map(|two| self.held_by_solids(scene, sealed, two)));
                 continue;
             }
             let motion = motions.known(&self.input, key.direction());
@@ -113,11 +115,50 @@ impl EvaluationBuffers {
                     stiffness: share * stiffness,
                     kinetic_limit: mu_kinetic * contact.normal_force,
                     static_limit: mu_static * contact.normal_force,
+                    second: None,
                 });
             }
         }
         all.retain(|held| held.stiffness > 0.0);
         all
+    }
+
+    /// Bristle of a pair of solids, if `group` is the two contacts that carry its friction. Normal force and
+    /// effective area follow from the cells beside them: (Σaδ)²/Σaδ² for the areas a and the depths δ.
+    fn held_by_solids(&self, scene: &Scene, sealed: &Sealed, group: &[usize]) -> Option<Held<'_>> {
+        let contact_at = |index: usize| self.found().contact(&self.order[index]);
+        let [index, second] = *group else { return None };
+        let contact = contact_at(index);
+        let found = &contact.found;
+        let key_of = |part| found.key.with_part(part);
+        if found.key != key_of(SolidContactPart::Friction) {
+            return None;
+        }
+        let FrictionProps::Bristle { stiffness, mu_kinetic, mu_static, .. } =
+            values_of(scene, sealed, &self.input.tables, found).friction
+        else {
+            return None;
+        };
+        let fields = [SolidContactPart::CellOfB, SolidContactPart::CellOfA].map(key_of);
+        let cells =
+            self.contacts().with_head(found.key.head()).map(|reference| self.found().contact(reference));
+        let cells =
+            cells.filter(|cell| fields.contains(&cell.found.key) && cell.found.element_b == found.element_b);
+        let (mut force, mut volume, mut squares) = (Vec3::zeros(), 0.0, 0.0);
+        for cell in cells {
+            force += cell.found.normal_b * cell.normal_force;
+            volume += cell.found.weight * cell.found.depth;
+            squares += cell.found.weight * cell.found.depth * cell.found.depth;
+        }
+        let area = volume * volume / squares.max(f64::MIN_POSITIVE);
+        Some(Held {
+            index,
+            contact,
+            stiffness: stiffness * area,
+            kinetic_limit: mu_kinetic * force.norm(),
+            static_limit: mu_static * force.norm(),
+            second: Some((second, area)),
+        })
     }
 
     /// Force on A of a contact, in B's frame, from a force on the first Object of a pair.
@@ -140,6 +181,26 @@ impl EvaluationBuffers {
 }
 
 impl Held<'_> {
+    /// New state with this deflection, m. Solids have two contacts, each with half of the force.
+    fn preloaded(&self, bristle: Vec3, sticks: bool) -> Vec<Preloaded> {
+        let squared = bristle.norm_squared() - self.contact.bristle_b.norm_squared();
+        let part = if self.second.is_some() { 0.5 } else { 1.0 };
+        let first = Preloaded {
+            index: self.index,
+            bristle_b: bristle,
+            sticks,
+            friction_force_b: bristle * (-part * self.stiffness),
+            stored_more: 0.5 * self.stiffness * squared,
+        };
+        let second = self.second.map(|(index, area)| Preloaded {
+            index,
+            bristle_b: bristle * area,
+            stored_more: 0.0,
+            ..first
+        });
+        std::iter::once(first).chain(second).collect()
+    }
+
     /// Bristle of steady sliding; `None` without slip velocity.
     fn sliding(&self) -> Option<(Vec3, bool)> {
         let velocity = &self.contact.slip_velocity_b;

@@ -12,6 +12,12 @@ use pong_geometry::{Transform, Vec3};
 /// through which the other body would leave at the far side.
 const FAR_SIDE_COSINE: f64 = -0.3;
 
+/// Cosine of the angle up to which the directions in the two frames agree (18°).
+const SAME_DIRECTION_COSINE: f64 = 0.95;
+
+/// Largest depth, relative to the thinner body, at which the direction of least depth is that of entry.
+const SHALLOW: f64 = 0.25;
+
 /// Unit directions that separated two bodies before they overlapped, from one body to the other.
 pub(super) struct Entry {
     /// From B to A, in B's frame.
@@ -23,6 +29,11 @@ pub(super) struct Entry {
 }
 
 impl Entry {
+    /// Directions of entry along a unit vector in B's frame, at a pose of A.
+    fn along(in_b: Vec3, x_ba: &Transform, record: Option<usize>) -> Self {
+        Self { in_b, in_a: -x_ba.rotation.tr_mul(&in_b), record }
+    }
+
     /// Returns true if a face pushes, in the frame in which `entry` is given.
     pub fn pushes(face: &HalfSpace, entry: &Vec3) -> bool {
         face.normal_b.dot(entry) >= FAR_SIDE_COSINE
@@ -53,6 +64,10 @@ pub(super) fn records<'m>(
 
 /// Directions of entry of two sides that overlap: those committed, else those of the last committed pose, in
 /// which they were apart, else those of least depth. `None` if neither side remembers.
+///
+/// A body that rolls or tumbles on another turns its own direction away from the contact. Where the two
+/// directions no longer agree, they are taken anew, if the overlap is still shallow: no face that changes is then
+/// near the shared volume.
 pub(super) fn side_of_entry(
     context: &PairContext<'_>,
     relative: &Relative,
@@ -63,16 +78,36 @@ pub(super) fn side_of_entry(
         return None;
     }
     if let Some((index, record)) = records(context, sides, SolidContactPart::Entry).next() {
-        return Some(Entry { in_b: record.normal_b, in_a: record.bristle_b, record: Some(index) });
+        let known = Entry { in_b: record.normal_b, in_a: record.bristle_b, record: Some(index) };
+        if known.in_b.dot(&relative.x_ba.vector(&known.in_a)) < -SAME_DIRECTION_COSINE {
+            return Some(known);
+        }
+        let (gap, in_b) = separating_direction(a, b, &relative.x_ba);
+        let is_shallow = -gap < SHALLOW * least_width(a, b, &relative.x_ba, &in_b);
+        return Some(if is_shallow { Entry::along(in_b, &relative.x_ba, Some(index)) } else { known });
     }
     let earlier = context.motion.since_commit.as_ref().map(|since| &since.x_ba);
     let x_ba = earlier.unwrap_or(&relative.x_ba);
-    let in_b = separating_direction(a, b, x_ba);
-    Some(Entry { in_b, in_a: -x_ba.rotation.tr_mul(&in_b), record: None })
+    let (_, in_b) = separating_direction(a, b, x_ba);
+    Some(Entry::along(in_b, x_ba, None))
 }
 
-/// Face normal along which two convex sides are farthest apart, or overlap least, from B to A in B's frame.
-fn separating_direction(a: &Side<'_>, b: &Side<'_>, x_ba: &Transform) -> Vec3 {
+/// Smaller of the widths of two sides along a direction in B's frame, m. A plane has no width.
+fn least_width(a: &Side<'_>, b: &Side<'_>, x_ba: &Transform, direction: &Vec3) -> f64 {
+    let width = |side: &Side<'_>, direction: &Vec3| {
+        let vertices = side.parts.iter().flat_map(|part| part.surface.vertices());
+        let (low, high) = vertices
+            .map(|vertex| direction.dot(vertex))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), along| (low.min(along), high.max(along)));
+        high - low
+    };
+    let of_a = width(a, &x_ba.rotation.tr_mul(direction));
+    if b.parts.is_empty() { of_a } else { of_a.min(width(b, direction)) }
+}
+
+/// Face normal along which two convex sides are farthest apart, or overlap least: the distance along it, m,
+/// negative for an overlap, and its direction from B to A in B's frame.
+fn separating_direction(a: &Side<'_>, b: &Side<'_>, x_ba: &Transform) -> (f64, Vec3) {
     let x_ab = x_ba.inverse();
     let mut best = (f64::NEG_INFINITY, Vec3::z());
     for face in b.faces {
@@ -88,7 +123,7 @@ fn separating_direction(a: &Side<'_>, b: &Side<'_>, x_ba: &Transform) -> Vec3 {
             best = (gap, -x_ba.vector(&face.normal_b));
         }
     }
-    best.1
+    best
 }
 
 /// Height of the lowest vertex of `other` above a face, m; negative below it. `x` transforms from the frame
