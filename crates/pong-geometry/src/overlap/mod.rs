@@ -7,30 +7,15 @@
 //! these moments.
 
 mod clip;
+mod half_space;
 mod moments;
 
 use clip::Cutter;
 pub use clip::Surface;
+pub use half_space::HalfSpace;
 pub use moments::Moments;
 
 use crate::{Transform, Twist, Vec3, Wrench};
-
-/// Half space: `normal_b · x ≤ offset`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HalfSpace {
-    /// Unit outward normal.
-    pub normal_b: Vec3,
-    /// Distance of the plane from the frame's origin along the normal, m.
-    pub offset: f64,
-}
-
-impl HalfSpace {
-    /// Returns the depth of a point below the plane, m; negative outside.
-    #[inline]
-    pub fn depth(&self, x: &Vec3) -> f64 {
-        self.offset - self.normal_b.dot(x)
-    }
-}
 
 /// Convex solid B, given by its planes.
 #[derive(Clone, Copy, Debug)]
@@ -48,8 +33,42 @@ pub struct Cell {
     pub face: usize,
     /// Moments about [`Overlap::reference_b`].
     pub moments: Moments,
-    /// Least depth rate −n·v over the vertices of the cell, m/s.
+    /// Least depth rate over the vertices of the cell, m/s; negative where A leaves the face.
     pub least_rate: f64,
+    /// Greatest depth below the face over the vertices of the cell, m.
+    pub deepest: f64,
+    /// Vertex at that depth, m; of several, the one with the lowest index.
+    pub deepest_b: Vec3,
+}
+
+impl Cell {
+    /// Creates the cell of a face from its surface. `velocity` is that of A relative to B, as a field in B's
+    /// frame. Returns `None` if the surface encloses no volume.
+    fn new(
+        face: usize,
+        half_space: &HalfSpace,
+        surface: &Surface,
+        reference: &Vec3,
+        velocity: &Twist,
+    ) -> Option<Self> {
+        // A reference point far from a thin cell would cost digits, so the moments are taken about a vertex of
+        // the cell and shifted.
+        let near = surface.vertices().first()?;
+        let moments = surface.moments(near).about(&(near - reference));
+        if moments.volume <= 0.0 {
+            return None;
+        }
+        let mut cell =
+            Self { face, moments, least_rate: f64::INFINITY, deepest: -1.0, deepest_b: Vec3::zeros() };
+        for vertex in surface.vertices() {
+            cell.least_rate = cell.least_rate.min(-half_space.normal_b.dot(&velocity.at(vertex)));
+            let depth = half_space.depth(vertex);
+            if depth > cell.deepest {
+                (cell.deepest, cell.deepest_b) = (depth, *vertex);
+            }
+        }
+        Some(cell)
+    }
 }
 
 /// Workspace for the overlap of two solids, and its result.
@@ -87,34 +106,24 @@ impl Overlap {
         facets * BYTES_PER_FACET
     }
 
+    /// Returns the cells of the last call of [`cells`](Self::cells).
+    pub fn found(&self) -> &[Cell] {
+        &self.cells
+    }
+
     /// Returns the point about which the moments of the last result are taken, m: a vertex of the shared
     /// volume.
     pub fn reference_b(&self) -> Vec3 {
         self.reference_b
     }
 
-    /// Returns the cells of the last call of [`cells`](Self::cells).
-    pub fn found(&self) -> &[Cell] {
-        &self.cells
-    }
-
-    /// Returns `true` if a closed surface and a convex solid share volume.
-    pub fn share_volume(&mut self, a: &Surface, x_ba: &Transform, b: &Field<'_>) -> bool {
-        self.shared.copy_from(a);
-        self.shared.carry(x_ba);
-        b.faces.iter().chain(b.walls).all(|face| self.cutter.cut(&mut self.shared, |x| face.depth(x)))
-    }
-
     /// Returns the cells of the volume that a closed surface and a convex solid share, by increasing face
-    /// index; empty if they share none. `a` and `b` are in one frame.
+    /// index; empty if they share none. `a` is in A's frame, and `x_ba` carries it into B's frame. `velocity`
+    /// is that of A relative to B: `linear + angular × x` at the point x of B's frame.
     pub fn cells(&mut self, a: &Surface, x_ba: &Transform, b: &Field<'_>, velocity: &Twist) -> &[Cell] {
         self.cells.clear();
-        self.shared.copy_from(a);
-        self.shared.carry(x_ba);
-        for half_space in b.faces.iter().chain(b.walls) {
-            if !self.cutter.cut(&mut self.shared, |x| half_space.depth(x)) {
-                return &self.cells;
-            }
+        if !self.cut_shared(a, x_ba, b) {
+            return &self.cells;
         }
         let Some(reference_b) = self.shared.vertices().first() else { return &self.cells };
         self.reference_b = *reference_b;
@@ -123,6 +132,36 @@ impl Overlap {
             self.push_cell(b.faces, self.nearest[at], velocity);
         }
         &self.cells
+    }
+
+    /// Returns `true` if a closed surface and a convex solid share volume. The arguments are those of
+    /// [`Overlap::cells`]. The last result of that function is lost.
+    pub fn share_volume(&mut self, a: &Surface, x_ba: &Transform, b: &Field<'_>) -> bool {
+        self.cells.clear();
+        let inside = |x: &Vec3| b.faces.iter().chain(b.walls).all(|half_space| half_space.depth(x) > 0.0);
+        if a.vertices().iter().any(|vertex| inside(&x_ba.point(vertex))) {
+            return true;
+        }
+        self.cut_shared(a, x_ba, b)
+            && self.shared.vertices().first().is_some_and(|x| self.shared.moments(x).volume > 0.0)
+    }
+
+    /// Returns `true` if a plane of B has all vertices of A outside it or on it, so that they share no
+    /// volume. If A is convex too, its planes can be tested by a second call with A and B exchanged.
+    pub fn apart(a: &Surface, x_ba: &Transform, b: &Field<'_>) -> bool {
+        b.faces.iter().chain(b.walls).any(|half_space| {
+            let normal_a = x_ba.rotation.tr_mul(&half_space.normal_b);
+            let offset = half_space.depth(&x_ba.translation);
+            a.vertices().iter().all(|vertex| offset <= normal_a.dot(vertex))
+        })
+    }
+
+    /// Cuts A by all planes of B and stores the shared volume. Returns `false` if it is known to be empty.
+    fn cut_shared(&mut self, a: &Surface, x_ba: &Transform, b: &Field<'_>) -> bool {
+        self.shared.copy_moved(a, x_ba);
+        let Self { shared, cutter, .. } = self;
+        let mut half_spaces = b.faces.iter().chain(b.walls);
+        half_spaces.all(|half_space| cutter.cut(shared, |x| half_space.depth(x)))
     }
 
     /// Lists the faces that may be the nearest of some point of the shared volume. Each face has a greatest
@@ -163,12 +202,7 @@ impl Overlap {
                 return;
             }
         }
-        let moments = self.cell.moments(&self.reference_b);
-        if moments.volume > 0.0 {
-            let rate = |x: &Vec3| -faces[face].normal_b.dot(&velocity.at(x));
-            let least_rate = self.cell.vertices().iter().map(rate).fold(f64::INFINITY, f64::min);
-            self.cells.push(Cell { face, moments, least_rate });
-        }
+        self.cells.extend(Cell::new(face, &faces[face], &self.cell, &self.reference_b, velocity));
     }
 }
 
