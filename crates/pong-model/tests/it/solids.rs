@@ -81,6 +81,15 @@ fn an_l_of_two_pieces_has_two_fields_with_walls() {
     assert!((solid.area - 18.0).abs() < 1e-12, "{}", solid.area);
 }
 
+/// The faces of the notch are internal faces with nothing behind them: all other faces are those of a box.
+#[test]
+fn an_l_with_an_inactive_notch_is_not_convex() {
+    let foot = cube("foot", [1.0, 0.0, 0.0], [3.0, 1.0, 1.0], "[5, 1]");
+    let post = cube("post", [0.0, 0.0, 0.0], [1.0, 1.0, 2.0], "[3]");
+    let solid = only(&format!("{foot},\n{post}"));
+    assert_eq!(counts(&solid), [[4, 2], [5, 1]]);
+}
+
 #[test]
 fn boxes_that_are_not_joined_are_solids_of_their_own() {
     let found = solids(&format!(
