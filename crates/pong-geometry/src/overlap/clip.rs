@@ -1,7 +1,8 @@
 //! Closed surface of flat polygons (*facets*), and its cut by a half space.
 
+use super::half_space::HalfSpace;
 use super::moments::Moments;
-use crate::{Vec3, divisor};
+use crate::{Transform, Vec3, divisor};
 
 /// Closed surface of facets: flat polygons with any number of corners. A facet is stored as directed edges in
 /// any order, which form one closed cycle or several. Seen from outside the solid, the edges run
@@ -56,6 +57,40 @@ impl Surface {
         &self.vertices
     }
 
+    /// Returns the directed edges of each facet, as pairs of indices of vertices.
+    pub fn facets(&self) -> impl Iterator<Item = &[[u32; 2]]> {
+        let firsts = std::iter::once(0).chain(self.ends.iter().copied());
+        firsts.zip(&self.ends).map(|(first, &end)| &self.edges[first..end])
+    }
+
+    /// Returns the area of all facets, m².
+    pub fn area(&self) -> f64 {
+        let twice = |facet: &[[u32; 2]]| {
+            let apex = self.vertices[facet[0][0] as usize];
+            let from = |index: u32| self.vertices[index as usize] - apex;
+            facet.iter().map(|[start, end]| from(*start).cross(&from(*end))).sum::<Vec3>().norm()
+        };
+        self.facets().map(twice).sum::<f64>() / 2.0
+    }
+
+    /// Returns the least and the greatest coordinates of the vertices, m; +∞ and −∞ if there are none.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let none = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+        self.vertices.iter().fold(none, |(low, high), vertex| (low.inf(vertex), high.sup(vertex)))
+    }
+
+    /// Returns the closed surface of the part inside a half space. It is empty if that part has no volume.
+    ///
+    /// The part inside the opposite half space is the rest of the solid. On the plane, the vertices of the
+    /// two parts have the same bits.
+    pub fn cut_by(&self, half_space: &HalfSpace) -> Self {
+        let mut part = self.clone();
+        if !Cutter::default().cut(&mut part, |x| half_space.depth(x)) {
+            part.clear();
+        }
+        part
+    }
+
     /// Replaces this surface by a copy of another, in the memory that it has.
     pub(super) fn copy_from(&mut self, other: &Self) {
         self.vertices.clone_from(&other.vertices);
@@ -63,16 +98,18 @@ impl Surface {
         self.ends.clone_from(&other.ends);
     }
 
-    /// Returns the edges of each facet.
-    fn facets(&self) -> impl Iterator<Item = &[[u32; 2]]> {
-        let firsts = std::iter::once(0).chain(self.ends.iter().copied());
-        firsts.zip(&self.ends).map(|(first, &end)| &self.edges[first..end])
+    /// Replaces this surface by a copy of another that is given in frame A. `x_ba` carries it into frame B.
+    pub(super) fn copy_moved(&mut self, other: &Self, x_ba: &Transform) {
+        self.vertices.clear();
+        self.vertices.extend(other.vertices.iter().map(|vertex| x_ba.point(vertex)));
+        self.edges.clone_from(&other.edges);
+        self.ends.clone_from(&other.ends);
     }
 
     /// Returns the moments of the enclosed volume about the point `reference` (m). Each facet is divided into
     /// triangles with its first vertex as a common corner. Each triangle forms a tetrahedron with
     /// `reference`, and the moments are the sum over these tetrahedra, with signs.
-    pub(super) fn moments(&self, reference: &Vec3) -> Moments {
+    pub fn moments(&self, reference: &Vec3) -> Moments {
         let mut moments = Moments::default();
         let from = |index: u32| self.vertices[index as usize] - reference;
         for facet in self.facets() {
@@ -203,10 +240,15 @@ impl Cutter {
         if let Some((_, vertex)) = self.crossings.iter().find(|(edge, _)| *edge == [inner, outer]) {
             return *vertex;
         }
-        let (inside, outside) = (&vertices[inner as usize], &vertices[outer as usize]);
-        let share = depth / divisor(depth - self.depths[outer as usize]);
+        // The crossing is computed from the end nearer to the plane, so a cut by the opposite half space
+        // gives the same bits.
+        let height = -self.depths[outer as usize];
+        let from_inner = depth < height || (depth == height && inner < outer);
+        let (near, far) = if from_inner { (inner, outer) } else { (outer, inner) };
+        let (near, far) = (&vertices[near as usize], &vertices[far as usize]);
+        let share = depth.min(height) / divisor(depth + height);
         let vertex = self.result.vertices.len() as u32;
-        self.result.vertices.push(inside + (outside - inside) * share);
+        self.result.vertices.push(near + (far - near) * share);
         self.crossings.push(([inner, outer], vertex));
         vertex
     }

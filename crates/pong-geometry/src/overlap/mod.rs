@@ -7,30 +7,15 @@
 //! these moments.
 
 mod clip;
+mod half_space;
 mod moments;
 
 use clip::Cutter;
 pub use clip::Surface;
+pub use half_space::HalfSpace;
 pub use moments::Moments;
 
-use crate::{Vec3, Wrench};
-
-/// Half space: `normal_b · x ≤ offset`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HalfSpace {
-    /// Unit outward normal.
-    pub normal_b: Vec3,
-    /// Distance of the plane from the frame's origin along the normal, m.
-    pub offset: f64,
-}
-
-impl HalfSpace {
-    /// Returns the depth of a point below the plane, m; negative outside.
-    #[inline]
-    pub fn depth(&self, x: &Vec3) -> f64 {
-        self.offset - self.normal_b.dot(x)
-    }
-}
+use crate::{Transform, Twist, Vec3, Wrench};
 
 /// Convex solid B, given by its planes.
 #[derive(Clone, Copy, Debug)]
@@ -48,6 +33,42 @@ pub struct Cell {
     pub face: usize,
     /// Moments about [`Overlap::reference_b`].
     pub moments: Moments,
+    /// Least depth rate over the vertices of the cell, m/s; negative where A leaves the face.
+    pub least_rate: f64,
+    /// Greatest depth below the face over the vertices of the cell, m.
+    pub deepest: f64,
+    /// Vertex at that depth, m; of several, the one with the lowest index.
+    pub deepest_b: Vec3,
+}
+
+impl Cell {
+    /// Creates the cell of a face from its surface. `velocity` is that of A relative to B, as a field in B's
+    /// frame. Returns `None` if the surface encloses no volume.
+    fn new(
+        face: usize,
+        half_space: &HalfSpace,
+        surface: &Surface,
+        reference: &Vec3,
+        velocity: &Twist,
+    ) -> Option<Self> {
+        // A reference point far from a thin cell would cost digits, so the moments are taken about a vertex of
+        // the cell and shifted.
+        let near = surface.vertices().first()?;
+        let moments = surface.moments(near).about(&(near - reference));
+        if moments.volume <= 0.0 {
+            return None;
+        }
+        let mut cell =
+            Self { face, moments, least_rate: f64::INFINITY, deepest: -1.0, deepest_b: Vec3::zeros() };
+        for vertex in surface.vertices() {
+            cell.least_rate = cell.least_rate.min(-half_space.normal_b.dot(&velocity.at(vertex)));
+            let depth = half_space.depth(vertex);
+            if depth > cell.deepest {
+                (cell.deepest, cell.deepest_b) = (depth, *vertex);
+            }
+        }
+        Some(cell)
+    }
 }
 
 /// Workspace for the overlap of two solids, and its result.
@@ -85,22 +106,50 @@ impl Overlap {
     }
 
     /// Returns the cells of the volume that a closed surface and a convex solid share, by increasing face
-    /// index; empty if they share none. `a` and `b` are in one frame.
-    pub fn cells(&mut self, a: &Surface, b: &Field<'_>) -> &[Cell] {
+    /// index; empty if they share none. `a` is in A's frame, and `x_ba` carries it into B's frame. `velocity`
+    /// is that of A relative to B: `linear + angular × x` at the point x of B's frame.
+    pub fn cells(&mut self, a: &Surface, x_ba: &Transform, b: &Field<'_>, velocity: &Twist) -> &[Cell] {
         self.cells.clear();
-        self.shared.copy_from(a);
-        for half_space in b.faces.iter().chain(b.walls) {
-            if !self.cutter.cut(&mut self.shared, |x| half_space.depth(x)) {
-                return &self.cells;
-            }
+        if !self.cut_shared(a, x_ba, b) {
+            return &self.cells;
         }
         let Some(reference_b) = self.shared.vertices().first() else { return &self.cells };
         self.reference_b = *reference_b;
         self.find_nearest(b.faces);
         for at in 0..self.nearest.len() {
-            self.push_cell(b.faces, self.nearest[at]);
+            self.push_cell(b.faces, self.nearest[at], velocity);
         }
         &self.cells
+    }
+
+    /// Returns `true` if a closed surface and a convex solid share volume. The arguments are those of
+    /// [`Overlap::cells`]. The last result of that function is lost.
+    pub fn share_volume(&mut self, a: &Surface, x_ba: &Transform, b: &Field<'_>) -> bool {
+        self.cells.clear();
+        let inside = |x: &Vec3| b.faces.iter().chain(b.walls).all(|half_space| half_space.depth(x) > 0.0);
+        if a.vertices().iter().any(|vertex| inside(&x_ba.point(vertex))) {
+            return true;
+        }
+        self.cut_shared(a, x_ba, b)
+            && self.shared.vertices().first().is_some_and(|x| self.shared.moments(x).volume > 0.0)
+    }
+
+    /// Returns `true` if a plane of B has all vertices of A outside it or on it, so that they share no
+    /// volume. If A is convex too, its planes can be tested by a second call with A and B exchanged.
+    pub fn apart(a: &Surface, x_ba: &Transform, b: &Field<'_>) -> bool {
+        b.faces.iter().chain(b.walls).any(|half_space| {
+            let normal_a = x_ba.rotation.tr_mul(&half_space.normal_b);
+            let offset = half_space.depth(&x_ba.translation);
+            a.vertices().iter().all(|vertex| offset <= normal_a.dot(vertex))
+        })
+    }
+
+    /// Cuts A by all planes of B and stores the shared volume. Returns `false` if it is known to be empty.
+    fn cut_shared(&mut self, a: &Surface, x_ba: &Transform, b: &Field<'_>) -> bool {
+        self.shared.copy_moved(a, x_ba);
+        let Self { shared, cutter, .. } = self;
+        let mut half_spaces = b.faces.iter().chain(b.walls);
+        half_spaces.all(|half_space| cutter.cut(shared, |x| half_space.depth(x)))
     }
 
     /// Lists the faces that may be the nearest of some point of the shared volume. Each face has a greatest
@@ -120,7 +169,7 @@ impl Overlap {
 
     /// Appends the cell of a face, if it has a volume. The cell is cut out of the shared volume by the planes
     /// at which another face is equally near.
-    fn push_cell(&mut self, faces: &[HalfSpace], face: usize) {
+    fn push_cell(&mut self, faces: &[HalfSpace], face: usize, velocity: &Twist) {
         self.cell.copy_from(&self.shared);
         // Faces of similar normals come first, because they cut away most of the volume. Most of the later
         // planes then miss the cell, so their cuts are quick.
@@ -141,10 +190,7 @@ impl Overlap {
                 return;
             }
         }
-        let moments = self.cell.moments(&self.reference_b);
-        if moments.volume > 0.0 {
-            self.cells.push(Cell { face, moments });
-        }
+        self.cells.extend(Cell::new(face, &faces[face], &self.cell, &self.reference_b, velocity));
     }
 }
 
@@ -155,7 +201,7 @@ impl Overlap {
 pub fn energy_and_wrench(cells: &[Cell], reference_b: &Vec3, faces: &[HalfSpace]) -> (f64, Wrench) {
     let mut energy = 0.0;
     let mut wrench = Wrench::zero();
-    for Cell { face, moments } in cells {
+    for Cell { face, moments, .. } in cells {
         let face = &faces[*face];
         energy += face.depth(reference_b) * moments.volume - face.normal_b.dot(&moments.first_b);
         wrench.force += face.normal_b * moments.volume;

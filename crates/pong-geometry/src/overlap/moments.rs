@@ -27,6 +27,16 @@ impl Moments {
         self.second += squares * (volume / 20.0);
     }
 
+    /// Returns the moments about another reference point. `step` is the position of the present reference
+    /// point from that point, m.
+    #[inline]
+    pub(super) fn about(&self, step: &Vec3) -> Self {
+        let first_b = self.first_b + step * self.volume;
+        let mixed = self.first_b * step.transpose();
+        let second = self.second + mixed + mixed.transpose() + step * (step * self.volume).transpose();
+        Self { volume: self.volume, first_b, second }
+    }
+
     /// Returns the centroid, as a position from the reference point, m.
     pub fn centroid(&self) -> Vec3 {
         self.first_b / self.volume

@@ -30,6 +30,7 @@ mod oracle_ray;
 mod oracle_sphere_triangle;
 mod oracle_support;
 mod overlap;
+mod overlap_timing;
 mod ray_round;
 mod rods_in_bores;
 mod round_parts;
