@@ -4,6 +4,7 @@ use super::convex;
 use super::facets::{Facet, total_area};
 use super::refusal::{self, Refusal};
 use crate::draft::BodyDraft;
+use crate::model::MovableGroup;
 use crate::solid::{Solid, SolidBox, SolidField, SolidPart};
 use crate::surface::Surface;
 use pong_geometry::Vec3;
@@ -43,7 +44,7 @@ fn solid(draft: &BodyDraft, shell: u32, pieces: &[usize]) -> Solid {
         leaf: 0,
         bound,
         area: total_area(&outer),
-        parts: polyhedra.iter().map(|polyhedron| part(polyhedron)).collect(),
+        parts: pieces.iter().map(|&piece| part(body, piece)).collect(),
         fields: merged
             .map_or_else(|| polyhedra.iter().map(|piece| field(piece)).collect(), |field| vec![field]),
     }
@@ -66,13 +67,16 @@ fn facets(polyhedron: &Polyhedron, active: bool) -> impl Iterator<Item = Facet> 
     })
 }
 
-fn part(polyhedron: &Polyhedron) -> SolidPart {
+fn part(body: &MovableGroup, piece: usize) -> SolidPart {
+    let element = body.primitives[piece].elements.start;
+    let polyhedron = &body.polyhedra[element as usize];
     let mut surface = ClosedSurface::with_capacity(polyhedron.faces.len());
     surface.add_vertices(places(polyhedron));
     for face in &polyhedron.faces {
         surface.add_facet(polyhedron.rims_of(face).iter().map(|rim| rim.start));
     }
-    SolidPart { bound: SolidBox::around(surface.vertices()), surface }
+    let primitive = piece as u32;
+    SolidPart { primitive, element, bound: SolidBox::around(surface.vertices()), surface }
 }
 
 /// Field of one piece of a solid that is not convex.

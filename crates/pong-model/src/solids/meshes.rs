@@ -69,6 +69,7 @@ fn solid(draft: &BodyDraft, number: u32, shell: &Shell, refusals: &mut Vec<Refus
     let faces = facets::planes_of_mesh(&outer, &closed.triangles[..closed.outer], PLANE_TOLERANCE * diameter);
     let walls: Vec<Facet> = closed.facets(closed.outer..closed.triangles.len()).collect();
     let field = convex::field(faces, &walls, &closed.vertices, diameter);
+    let lowest = (shell.primitives[0] as u32, shell.triangles[0]);
     Some(Solid {
         primitive: shell.primitives[0] as u32,
         shell: number,
@@ -76,7 +77,7 @@ fn solid(draft: &BodyDraft, number: u32, shell: &Shell, refusals: &mut Vec<Refus
         leaf: 0,
         bound,
         area: surface_area,
-        parts: parts::of_mesh(&closed.vertices, &closed.triangles),
+        parts: parts::of_mesh(lowest, &closed.vertices, &closed.triangles),
         fields: field.into_iter().collect(),
     })
 }
