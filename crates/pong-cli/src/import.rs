@@ -26,9 +26,6 @@ pub(crate) struct Arguments {
     /// Puts meshes of more than this many faces into OBJ files beside the model.
     #[arg(long, value_name = "FACES", num_args = 0..=1, default_missing_value = "1000")]
     mesh_files: Option<usize>,
-    /// Writes no `contact: Solid`: unmarked shapes touch where points, segments and round parts meet faces.
-    #[arg(long)]
-    marked: bool,
     /// Makes unmarked parts that are not convex their convex hulls: hulls of CoACD, which rounding has dented.
     #[arg(long)]
     hull: bool,
@@ -48,6 +45,9 @@ pub(crate) struct Mesh {
     /// Name of the model; that of the file unless given.
     #[arg(long)]
     pub(crate) name: Option<String>,
+    /// Writes no `contact: Solid`: shapes touch where points, segments and round parts meet faces.
+    #[arg(long)]
+    pub(crate) marked: bool,
     #[command(flatten)]
     pub(crate) surface: Surface,
 }
@@ -166,7 +166,8 @@ fn not_negative(text: &str) -> Result<f64, String> {
 impl Mesh {
     /// Options of every command that makes a model of a mesh.
     pub(crate) fn options(&self) -> Options {
-        Options { name: self.name.clone(), surface: self.surface.chosen(), ..self.file.options() }
+        let (name, surface) = (self.name.clone(), self.surface.chosen());
+        Options { name, surface, marked: self.marked, ..self.file.options() }
     }
 }
 
@@ -193,7 +194,6 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
         faces_max: arguments.faces_max,
         inline_max: arguments.mesh_files.unwrap_or(usize::MAX),
         round_m: arguments.round,
-        marked: arguments.marked,
         hull: arguments.hull.then_some(pong_decompose::hull_of_mesh),
         ..arguments.mesh.options()
     };

@@ -142,7 +142,11 @@ fn attempt(
     (building.progress)("writing");
     let mut model = model(pieces, &building, &figures);
     build::default_surface(&mut model, &building, findings);
-    files::write_checked(output, write::text(&model), Vec::new(), findings)
+    model.root.solid = !options.import.marked;
+    let text = write::text(&model);
+    model.root.solid = false;
+    let instead = || (!options.import.marked).then(|| write::text(&model));
+    files::write_checked_or(output, text, instead, Vec::new(), findings)
 }
 
 /// Protrusions of more than this share of the size are reported.

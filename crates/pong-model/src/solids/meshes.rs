@@ -69,7 +69,12 @@ fn solid(draft: &BodyDraft, number: u32, shell: &Shell, refusals: &mut Vec<Refus
     let faces = facets::planes_of_mesh(&outer, &closed.triangles[..closed.outer], PLANE_TOLERANCE * diameter);
     let walls: Vec<Facet> = closed.facets(closed.outer..closed.triangles.len()).collect();
     let field = convex::field(faces, &walls, &closed.vertices, diameter);
-    let lowest = (shell.primitives[0] as u32, shell.triangles[0]);
+    let owner = |number: usize| {
+        let element = shell.triangles[number % shell.triangles.len()];
+        let has = |primitive: &&usize| draft.body.primitives[**primitive].elements.contains(&element);
+        let primitive = shell.primitives.iter().find(has).unwrap_or(&shell.primitives[0]);
+        (*primitive as u32, element)
+    };
     Some(Solid {
         primitive: shell.primitives[0] as u32,
         shell: number,
@@ -77,7 +82,7 @@ fn solid(draft: &BodyDraft, number: u32, shell: &Shell, refusals: &mut Vec<Refus
         leaf: 0,
         bound,
         area: surface_area,
-        parts: parts::of_mesh(lowest, &closed.vertices, &closed.triangles),
+        parts: parts::of_mesh(owner, &closed.vertices, &closed.triangles),
         fields: field.into_iter().collect(),
     })
 }

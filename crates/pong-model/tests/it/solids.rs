@@ -81,6 +81,15 @@ fn an_l_of_two_pieces_has_two_fields_with_walls() {
     assert!((solid.area - 18.0).abs() < 1e-12, "{}", solid.area);
 }
 
+/// The faces of the notch are internal faces with nothing behind them: all other faces are those of a box.
+#[test]
+fn an_l_with_an_inactive_notch_is_not_convex() {
+    let foot = cube("foot", [1.0, 0.0, 0.0], [3.0, 1.0, 1.0], "[5, 1]");
+    let post = cube("post", [0.0, 0.0, 0.0], [1.0, 1.0, 2.0], "[3]");
+    let solid = only(&format!("{foot},\n{post}"));
+    assert_eq!(counts(&solid), [[4, 2], [5, 1]]);
+}
+
 #[test]
 fn boxes_that_are_not_joined_are_solids_of_their_own() {
     let found = solids(&format!(
@@ -248,6 +257,63 @@ fn a_torus_is_a_solid_without_fields() {
     assert!(solid.fields.is_empty() && !solid.is_convex());
     let exact = std::f64::consts::TAU * std::f64::consts::TAU * 0.3;
     assert!((solid.area / exact - 1.0).abs() < 0.03, "{} {exact}", solid.area);
+}
+
+fn volume(solid: &Solid) -> f64 {
+    solid.parts.iter().map(|part| part.surface.moments(&solid.bound.center).volume).sum()
+}
+
+/// Enclosed volume of triangles, by tetrahedra with the origin.
+fn volume_of(vertices: &[Vec3], triangles: &[[u32; 3]]) -> f64 {
+    let six = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|vertex| vertices[vertex as usize]);
+        a.dot(&b.cross(&c))
+    };
+    triangles.iter().map(six).sum::<f64>() / 6.0
+}
+
+/// The parts are small, lie in their boxes and have no common volume.
+#[test]
+fn parts_of_a_torus_add_up_to_it() {
+    for (around, across) in [(8, 6), (24, 12), (120, 60)] {
+        let (vertices, triangles) = torus(around, across);
+        let solid = only(&mesh_of(&vertices, &triangles, ""));
+        let whole = volume_of(&vertices, &triangles);
+        assert!((volume(&solid) / whole - 1.0).abs() < 1e-12, "{} {whole}", volume(&solid));
+        let facets: Vec<usize> = solid.parts.iter().map(|part| part.surface.facets().count()).collect();
+        assert!(facets.iter().all(|facets| *facets <= 24), "{facets:?}");
+        assert!(solid.parts.len() > triangles.len() / 24, "{} parts", solid.parts.len());
+        assert!(
+            solid.parts.len() < triangles.len() / 3,
+            "{} parts of {}",
+            solid.parts.len(),
+            triangles.len()
+        );
+        for part in &solid.parts {
+            let (low, high) = part.surface.bounds();
+            assert_eq!((part.bound.center, part.bound.half), (0.5 * (low + high), 0.5 * (high - low)));
+            assert!(part.surface.moments(&part.bound.center).volume > 0.0);
+        }
+    }
+}
+
+/// No plane divides the triangles of a slender double cone well, since all of them meet at its tips.
+#[test]
+fn parts_of_a_slender_double_cone_add_up_to_it() {
+    let sides = 200;
+    let turn = |k: u32| f64::from(k) / f64::from(sides) * std::f64::consts::TAU;
+    let mut vertices: Vec<Vec3> = (0..sides).map(|k| Vec3::new(turn(k).cos(), turn(k).sin(), 0.0)).collect();
+    vertices.extend([Vec3::new(0.0, 0.0, -50.0), Vec3::new(0.0, 0.0, 50.0)]);
+    let triangles: Vec<[u32; 3]> = (0..sides)
+        .flat_map(|k| {
+            let next = (k + 1) % sides;
+            [[k, next, sides + 1], [next, k, sides]]
+        })
+        .collect();
+    let solid = only(&mesh_of(&vertices, &triangles, ""));
+    assert_eq!(counts(&solid), [[400, 0]]);
+    let whole = volume_of(&vertices, &triangles);
+    assert!((volume(&solid) / whole - 1.0).abs() < 1e-12, "{} {whole}", volume(&solid));
 }
 
 #[test]
