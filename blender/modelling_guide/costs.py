@@ -63,12 +63,13 @@ def group(name, primitives, bound="Aabb"):
     return f'(name: "{name}", bound: {bound}, primitives: [{", ".join(primitives)}])'
 
 
-def model(name, content, stiffness, bound="Aabb", damping=0.0):
-    """`content`: primitives, or groups as text. Stiffness in N/m (0: rigid), damping in N·s/m, of each contact."""
+def model(name, content, stiffness, bound="Aabb", damping=0.0, contact="Marked"):
+    """`content`: primitives, or groups as text. Stiffness in N/m (0: rigid), damping in N·s/m, of each contact, or of a
+    solid over its default area."""
     what = "groups" if content[0].startswith("(") else "primitives"
     surface = f'"s": (stiffness: {stiffness}, normal: Linear(damping: {float(damping)!r}))' if stiffness else '"s": (stiffness: inf)'
     return (f'(format: "pong-model", version: 1, name: "{name}", surfaces: {{ {surface} }}, '
-            f'root: (name: "{name}", bound: {bound}, surface: "s", {what}: [{", ".join(content)}]))')
+            f'root: (name: "{name}", bound: {bound}, surface: "s", contact: {contact}, {what}: [{", ".join(content)}]))')
 
 
 @dataclass
@@ -154,6 +155,7 @@ def box_cases(ground):
         "polyhedron | 12 segments, 8 points": (box_solid("box", LOW, HIGH), edges),
         "polyhedron, 12 segments | the same": (box_solid("box", LOW, HIGH) + box_edges(LOW, HIGH),
                                                solid + box_edges(low, high)),
+        "solid | solid": (box_solid("box", LOW, HIGH), solid),
     }
 
 
@@ -163,7 +165,9 @@ def box_table(options):
         cells = label.split(" | ")
         for ground in GROUNDS:
             a, b = box_cases(ground)[label]
-            done = run(Case(label, model("a", a, 1e5, damping=100.0), model("b", b, 0), BOX_MOTION), options)
+            contact = "Solid" if label.startswith("solid") else "Marked"
+            models = model("a", a, 1e5, damping=100.0, contact=contact), model("b", b, 0, contact=contact)
+            done = run(Case(label, *models, BOX_MOTION), options)
             cells += [rested(done), f"{done.us:.2f}"]
         rows.append(cells)
     return ["box is", "ground is", "on the floor", "µs", "on the rail", "µs"], rows

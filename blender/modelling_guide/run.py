@@ -8,6 +8,7 @@ user folder, as the guide says. Blocks of the page, by the words behind the thre
 
     python          runs, in one namespace for the whole page
     ron NAME        is written to a file
+    obj NAME        likewise
     c NAME          is compiled, and run where --library names the folder of libpong.so
     console         a command line behind `$ `, then what it prints
     text            behind python or c: what that printed
@@ -99,6 +100,8 @@ class Page:
 
     def ron(self, _number, words, lines):
         Path(words[0]).write_text("\n".join(lines) + "\n")
+
+    obj = ron
 
     def c(self, _number, words, lines):
         source = Path(words[0])
