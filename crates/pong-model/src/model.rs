@@ -86,6 +86,17 @@ pub struct MovableGroup {
     pub tree: Tree,
 }
 
+impl MovableGroup {
+    /// Returns `true` if a primitive of this group belongs to a solid.
+    pub fn is_solid(&self, info: &PrimitiveInfo) -> bool {
+        let shell = match info.kind {
+            PrimitiveKind::Triangle => self.triangles.triangles[info.elements.start as usize].shell,
+            _ => info.shell,
+        };
+        self.solids.iter().any(|solid| solid.shell == shell)
+    }
+}
+
 /// Properties of a primitive other than its shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrimitiveInfo {

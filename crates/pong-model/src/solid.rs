@@ -1,9 +1,7 @@
 //! Solids: closed parts of a rigid body that touch by the volume they share with others (docs/theory.md, 2.11).
 
-use crate::model::{MovableGroup, PrimitiveInfo};
 use pong_geometry::Vec3;
 use pong_geometry::overlap::{HalfSpace, Surface};
-use pong_geometry::primitive::PrimitiveKind;
 
 /// Closed part of a movable group whose interior counts: a polyhedron, several joined by internal faces, or a
 /// closed mesh of triangles.
@@ -72,17 +70,6 @@ impl Solid {
     /// surface, which is one face if the solid is a cube.
     pub fn reference_area(&self) -> f64 {
         self.area / 6.0
-    }
-}
-
-impl MovableGroup {
-    /// Returns `true` if a primitive of this group belongs to a solid.
-    pub fn is_solid(&self, info: &PrimitiveInfo) -> bool {
-        let shell = match info.kind {
-            PrimitiveKind::Triangle => self.triangles.triangles[info.elements.start as usize].shell,
-            _ => info.shell,
-        };
-        self.solids.iter().any(|solid| solid.shell == shell)
     }
 }
 

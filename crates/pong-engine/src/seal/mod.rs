@@ -24,16 +24,18 @@ mod solids;
 mod surface_table;
 mod surfaces;
 mod test_plan;
+mod values;
 mod warnings;
 
 pub(crate) use filters::part_groups;
 pub(crate) use plans::{can_be_tested, kind_name};
 pub use sealed::GroupPair;
 pub(crate) use sealed::Sealed;
-pub(crate) use solids::{Partner, SolidPair, field_shares, values_of};
+pub(crate) use solids::{Partner, SolidPair, field_shares};
 pub(crate) use surface_table::SurfaceTable;
 pub(crate) use surfaces::{law_state_len, surface_tables};
 pub(crate) use test_plan::{Direction, Plan};
+pub(crate) use values::values_of;
 pub use warnings::{MetIn, SetupNote, SetupWarning};
 
 use crate::energy::account::WrenchCoupling;

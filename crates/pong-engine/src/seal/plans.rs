@@ -3,7 +3,7 @@
 use super::filters::{apart, primitives_that_meet, representatives};
 use super::leaf_filter::{LeafFilter, ObjectFilters};
 use super::sealed::NO_PLAN;
-use super::solids::solid_pairs;
+use super::solids::{Partner, SolidPair};
 use super::{GroupPair, Plan};
 use crate::frame::narrow_phase::pair_table::{REGISTERED, has_tester, kind_pair};
 use crate::frame::{PrimitivesOf, least_travel_m, reach_m};
@@ -59,6 +59,29 @@ fn plan(
     let reach_a_m = reach_m(met_a);
     let solids = solid_pairs([a, b], in_order, filters);
     Plan { element_ns, touched, least_travel_m, reach_a_m, solids, filter }
+}
+
+/// Solids of A with solids and planes of B that no filter keeps apart. Two solids are paired only if A's
+/// Object was named first (`in_order`), so that no contact is found twice.
+pub(super) fn solid_pairs(
+    [a, b]: [&MovableGroup; 2],
+    in_order: bool,
+    filters: Option<&Filters>,
+) -> Vec<SolidPair> {
+    let mut pairs = Vec::new();
+    for (index_a, solid_a) in (0..).zip(&a.solids) {
+        let meets = |primitive_b: u32| {
+            let info_a = &a.primitives[solid_a.primitive as usize];
+            !apart(filters, info_a, &b.primitives[primitive_b as usize])
+        };
+        let solids = (0..).zip(&b.solids).filter(|_| in_order);
+        let solids =
+            solids.filter(|(_, solid)| meets(solid.primitive)).map(|(index, _)| Partner::Solid(index));
+        let planes = (0..).zip(&b.primitives).filter(|(_, info)| info.kind == PrimitiveKind::Plane);
+        let planes = planes.filter(|(index, _)| meets(*index)).map(|(index, _)| Partner::Plane(index));
+        pairs.extend(solids.chain(planes).map(|b| SolidPair { a: index_a, b }));
+    }
+    pairs
 }
 
 /// Rough cost of an element of kind `a` against a movable group with elements of kind `b`, ns.

@@ -2,8 +2,8 @@
 
 use super::filters::{apart, representatives};
 use super::leaf_filter::ObjectFilters;
-use super::plans::{can_be_tested, kind_name};
-use super::solids::{Partner, SolidPair, entry_per_area, field_shares, per_area, solid_pairs, unfit};
+use super::plans::{can_be_tested, kind_name, solid_pairs};
+use super::solids::{Partner, SolidPair, entry_per_area, field_shares, per_area, unfit};
 use super::warnings::SetupNote;
 use super::{GroupPair, SurfaceTable};
 use crate::law::{FrictionProps, PairProps, combine, friction_name};
@@ -155,7 +155,7 @@ fn combined(scene: &Scene, a: (&Model, &Surface), b: (&Model, &Surface)) -> Resu
     combined_by(scene, a, b, Clone::clone)
 }
 
-/// The same with an entry of the pair changed by `of_entry`.
+/// Combined values with the entry of the pair changed by `of_entry`.
 fn combined_by(
     scene: &Scene,
     (model_a, a): (&Model, &Surface),

@@ -41,14 +41,14 @@ impl ContactKey {
     const SOLID: u32 = 1 << 31;
     const PART_SHIFT: u32 = 29;
 
-    /// The same key with the `end` of a part of the contact of two solids. `unit_a` is the index of the part
+    /// Key with the `end` of a part of the contact of two solids. `unit_a` is the index of the part
     /// of A.
     pub fn of_solids(self, part: SolidContactPart, unit_a: u32) -> Self {
         let unit_a = unit_a & ((1 << Self::PART_SHIFT) - 1);
         Self { end: Self::SOLID | (part as u32) << Self::PART_SHIFT | unit_a, ..self }
     }
 
-    /// The same key with another part of the contact of two solids.
+    /// Key of another part of the same contact of two solids.
     pub fn with_part(self, part: SolidContactPart) -> Self {
         let unit_a = self.end & ((1 << Self::PART_SHIFT) - 1);
         self.of_solids(part, unit_a)

@@ -1,8 +1,9 @@
 //! Cells of the two fields of a pair of sides: the volume that both share, divided by the nearest faces of B,
 //! and by those of A.
 
-use super::Relative;
+use super::cell_force::CellForce;
 use super::entry::Entry;
+use super::relative::Relative;
 use super::side::Side;
 use pong_geometry::overlap::{Cell, Field, HalfSpace, Moments, Overlap};
 use pong_geometry::{Transform, Twist, Vec3};
@@ -12,33 +13,57 @@ use pong_geometry::{Transform, Twist, Vec3};
 pub(crate) struct SolidScratch {
     overlap: Overlap,
     /// Faces of B and of A that push.
-    pub(super) faces_b: Vec<HalfSpace>,
-    pub(super) faces_a: Vec<HalfSpace>,
+    pub(super) faces_b: PushingFaces,
+    pub(super) faces_a: PushingFaces,
     /// Planes that bound the volume but do not push, for the field that is being evaluated.
     walls: Vec<HalfSpace>,
     /// Cells of B's field in B's frame, and of A's field in A's frame, by increasing face.
     pub(super) of_b: FieldCells,
     pub(super) of_a: FieldCells,
     /// Contacts of the patch.
-    pub(super) forces: Vec<super::patch::CellForce>,
+    pub(super) forces: Vec<CellForce>,
+}
+
+/// Faces of a side that push, with their numbers among all faces of the side.
+#[derive(Debug, Default)]
+pub(super) struct PushingFaces {
+    pub planes: Vec<HalfSpace>,
+    pub numbers: Vec<u32>,
+}
+
+impl PushingFaces {
+    fn with_capacity(faces: usize) -> Self {
+        Self { planes: Vec::with_capacity(faces), numbers: Vec::with_capacity(faces) }
+    }
+
+    fn choose(&mut self, side: &Side<'_>, entry: Option<&Vec3>) {
+        self.planes.clear();
+        self.numbers.clear();
+        for (number, face) in (0..).zip(side.faces) {
+            if entry.is_none_or(|entry| Entry::pushes(face, entry)) {
+                self.planes.push(*face);
+                self.numbers.push(number);
+            }
+        }
+    }
 }
 
 /// Cells of one field.
 #[derive(Debug, Default)]
 pub(super) struct FieldCells {
-    /// Cells with their moments about `reference`.
+    /// Cells with their moments about `reference_b`.
     pub cells: Vec<Cell>,
-    /// Reference point in the frame of the field's owner, m.
-    pub reference: Vec3,
+    /// Reference point, m, in the frame of the field's owner, the B of the overlap.
+    pub reference_b: Vec3,
 }
 
 impl FieldCells {
     /// Adds cells with moments about the reference point of `overlap`.
     fn add(&mut self, cells: &[Cell], reference: &Vec3) {
         if self.cells.is_empty() {
-            self.reference = *reference;
+            self.reference_b = *reference;
         }
-        let from = reference - self.reference;
+        let from = reference - self.reference_b;
         for cell in cells {
             let moments = cell.moments.about(&from);
             match self.cells.iter_mut().find(|earlier| earlier.face == cell.face) {
@@ -62,8 +87,8 @@ impl FieldCells {
 impl SolidScratch {
     /// Memory for two sides with at most this many facets in a part, and this many faces in a field.
     pub fn with_capacity(facets: usize, faces: usize) -> Self {
-        let list = || Vec::with_capacity(faces);
-        let cells = || FieldCells { cells: Vec::with_capacity(faces), reference: Vec3::zeros() };
+        let list = || PushingFaces::with_capacity(faces);
+        let cells = || FieldCells { cells: Vec::with_capacity(faces), reference_b: Vec3::zeros() };
         Self {
             overlap: Overlap::with_capacity(facets + 2 * faces),
             faces_b: list(),
@@ -77,8 +102,7 @@ impl SolidScratch {
 
     /// Memory that [`with_capacity`](Self::with_capacity) takes, bytes.
     pub fn bytes(facets: usize, faces: usize) -> usize {
-        let per_face =
-            5 * size_of::<HalfSpace>() + 2 * size_of::<Cell>() + 2 * size_of::<super::patch::CellForce>();
+        let per_face = 5 * size_of::<HalfSpace>() + 2 * size_of::<Cell>() + 2 * size_of::<CellForce>();
         Overlap::bytes(facets + 2 * faces) + faces * per_face
     }
 
@@ -96,13 +120,8 @@ impl SolidScratch {
 
     /// Lists the faces of both sides that push.
     pub(super) fn choose_faces(&mut self, (a, b): (&Side<'_>, &Side<'_>), entry: Option<&Entry>) {
-        let choose = |faces: &mut Vec<HalfSpace>, side: &Side<'_>, entry: Option<&Vec3>| {
-            faces.clear();
-            let pushes = |face: &&HalfSpace| entry.is_none_or(|entry| Entry::pushes(face, entry));
-            faces.extend(side.faces.iter().filter(pushes));
-        };
-        choose(&mut self.faces_b, b, entry.map(|entry| &entry.in_b));
-        choose(&mut self.faces_a, a, entry.map(|entry| &entry.in_a));
+        self.faces_b.choose(b, entry.map(|entry| &entry.in_b));
+        self.faces_a.choose(a, entry.map(|entry| &entry.in_a));
     }
 }
 
@@ -122,7 +141,7 @@ impl Cells<'_> {
         of_b.cells.clear();
         of_a.cells.clear();
         if shares[1] > 0.0 {
-            let field = Field { faces: faces_b, walls: b.walls };
+            let field = Field { faces: &faces_b.planes, walls: b.walls };
             find(overlap, a, &relative.x_ba, &relative.a_in_b, &field, of_b);
         }
         if shares[0] > 0.0 {
@@ -132,10 +151,10 @@ impl Cells<'_> {
                 walls.extend(a.walls.iter().chain(b.faces).copied());
                 let last = walls.len() - 1;
                 walls[last] = in_frame_of_a(&b.faces[0], &relative.x_ba);
-                let field = Field { faces: faces_a, walls };
+                let field = Field { faces: &faces_a.planes, walls };
                 find(overlap, a, &Transform::identity(), &relative.b_in_a, &field, of_a);
             } else {
-                let field = Field { faces: faces_a, walls: a.walls };
+                let field = Field { faces: &faces_a.planes, walls: a.walls };
                 find(overlap, b, &relative.x_ab, &relative.b_in_a, &field, of_a);
             }
         }

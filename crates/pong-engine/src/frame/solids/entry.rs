@@ -1,7 +1,7 @@
 //! Side of entry of solids (docs/theory.md, 2.12): a convex body pushes out of the side through which the other
 //! entered, whatever the depth.
 
-use super::Relative;
+use super::relative::Relative;
 use super::side::Side;
 use crate::frame::input::PairContext;
 use crate::state::{ContactKey, ContactRecord, SolidContactPart};

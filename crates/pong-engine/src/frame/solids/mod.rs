@@ -7,13 +7,14 @@
 //! | cells of both fields | `cells.rs` |
 //! | normal forces, friction, contacts | `patch.rs` |
 
+mod cell_force;
 mod cells;
 mod entry;
 mod patch;
+mod relative;
 mod side;
 
 use crate::frame::block::plan_of;
-use crate::frame::input::motion::Motion;
 use crate::frame::input::{Block, PairContext, Round};
 use crate::frame::worker_context::WorkerContext;
 use crate::report::{Laps, Work};
@@ -21,30 +22,8 @@ use crate::seal::{Partner, SolidPair, field_shares};
 use cells::Cells;
 pub(crate) use cells::SolidScratch;
 use patch::Patch;
-use pong_geometry::{Transform, Twist};
+use relative::Relative;
 use side::Side;
-
-/// Poses and velocity of two solids, seen from both.
-struct Relative {
-    /// From A's frame to B's, and back.
-    x_ba: Transform,
-    x_ab: Transform,
-    /// Velocity of A relative to B in B's frame, and of B relative to A in A's frame, as fields of position.
-    a_in_b: Twist,
-    b_in_a: Twist,
-}
-
-impl Relative {
-    fn new(motion: &Motion) -> Self {
-        let (x_ba, x_ab) = (motion.x_ba, motion.x_ba.inverse());
-        let angular = motion.omega_a_b - motion.omega_b_b;
-        let linear = motion.linear_b - motion.omega_a_b.cross(&x_ba.translation);
-        let a_in_b = Twist { linear, angular };
-        let back = |v| -x_ab.vector(&v);
-        let b_in_a = Twist { linear: back(a_in_b.at(&x_ba.translation)), angular: back(angular) };
-        Self { x_ba, x_ab, a_in_b, b_in_a }
-    }
-}
 
 /// Finds and computes the contacts of some pairs of solids, and writes them to the worker's context.
 pub(crate) fn run_solids(round: &Round<'_>, block: &Block, worker: &mut WorkerContext, laps: &mut impl Laps) {

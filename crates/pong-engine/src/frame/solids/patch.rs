@@ -1,9 +1,10 @@
 //! Forces of a patch: the normal force of every cell, and one bristle for all of them, with torsion
 //! (docs/theory.md, 2.12).
 
-use super::Relative;
-use super::cells::{FieldCells, SolidScratch};
+use super::cell_force::CellForce;
+use super::cells::{FieldCells, PushingFaces, SolidScratch};
 use super::entry::{self, Entry};
+use super::relative::Relative;
 use super::side::Side;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::forces::contact_buffer::ContactBuffer;
@@ -27,29 +28,13 @@ const LEAST_RESULTANT: f64 = 1e-9;
 /// Mean lever of a uniform disc over its radius of gyration, 2√2/3.
 const MEAN_LEVER: f64 = 0.942_809_041_582_063_4;
 
-/// Normal force of a cell, in B's frame.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct CellForce {
-    part: SolidContactPart,
-    face: u32,
-    /// Direction of the force on A.
-    normal_b: Vec3,
-    /// Point where the force acts, m.
-    point_b: Vec3,
-    force: f64,
-    /// Mean depth rate, m/s.
-    rate: f64,
-    /// Effective area, m², times the field's share; effective depth, m.
-    area: f64,
-    depth: f64,
-}
-
 /// Two sides that share volume.
 pub(super) struct Patch<'a> {
     pub context: &'a PairContext<'a>,
     pub sealed: &'a Sealed,
     pub relative: &'a Relative,
     pub sides: (&'a Side<'a>, &'a Side<'a>),
+    /// Shares of A's and B's field in the energy, 0…1.
     pub shares: [f64; 2],
     pub props: &'a PairProps,
 }
@@ -83,37 +68,37 @@ impl Patch<'_> {
         forces.clear();
         self.add_forces_of_b(of_b, faces_b, forces);
         self.add_forces_of_a(of_a, faces_a, forces);
+        let resultant = self.resultant(forces, (of_a, of_b));
+        let sticks = resultant.is_some_and(|resultant| self.add_friction(&resultant, out));
         for force in forces.iter() {
-            self.add_cell(force, out);
-        }
-        if let Some(resultant) = self.resultant(forces, (of_a, of_b)) {
-            self.add_friction(&resultant, out);
+            self.add_cell(force, sticks, out);
         }
         if let Some(entry) = entry {
             self.add_entry(entry, out);
         }
     }
 
-    fn add_forces_of_b(&self, found: &FieldCells, faces: &[HalfSpace], forces: &mut Vec<CellForce>) {
-        let reference = &found.reference;
+    fn add_forces_of_b(&self, found: &FieldCells, faces: &PushingFaces, forces: &mut Vec<CellForce>) {
+        let reference = &found.reference_b;
         for cell in &found.cells {
-            let face = &faces[cell.face];
+            let face = &faces.planes[cell.face];
             if let Some(force) = self.cell_force(cell, face, reference, &self.relative.a_in_b, self.shares[1])
             {
-                forces.push(CellForce { part: SolidContactPart::CellOfB, ..force });
+                forces.push(CellForce { face: faces.numbers[cell.face], ..force });
             }
         }
     }
 
     /// The field of A pushes B along its faces, and A the opposite way.
-    fn add_forces_of_a(&self, found: &FieldCells, faces: &[HalfSpace], forces: &mut Vec<CellForce>) {
-        let (reference, x_ba) = (&found.reference, &self.relative.x_ba);
+    fn add_forces_of_a(&self, found: &FieldCells, faces: &PushingFaces, forces: &mut Vec<CellForce>) {
+        let (reference, x_ba) = (&found.reference_b, &self.relative.x_ba);
         for cell in &found.cells {
-            let face = &faces[cell.face];
+            let face = &faces.planes[cell.face];
             if let Some(force) = self.cell_force(cell, face, reference, &self.relative.b_in_a, self.shares[0])
             {
                 forces.push(CellForce {
                     part: SolidContactPart::CellOfA,
+                    face: faces.numbers[cell.face],
                     normal_b: -x_ba.vector(&force.normal_b),
                     point_b: x_ba.point(&force.point_b),
                     ..force
@@ -183,10 +168,10 @@ impl Patch<'_> {
         let volume = self.volume(fields);
         let depths: f64 = forces.iter().map(|cell| 0.5 * cell.area * cell.depth * cell.depth).sum();
         let lever = if self.shares[1] >= self.shares[0] {
-            lever(&of_b.sum(), &of_b.reference, &center, &normal)
+            lever(&of_b.sum(), &of_b.reference_b, &center, &normal)
         } else {
             let x_ab = &self.relative.x_ab;
-            lever(&of_a.sum(), &of_a.reference, &x_ab.point(&center), &x_ab.vector(&normal))
+            lever(&of_a.sum(), &of_a.reference_b, &x_ab.point(&center), &x_ab.vector(&normal))
         };
         let (area, depth) = (volume * volume / (2.0 * depths), 2.0 * depths / volume);
         Some(Resultant { normal, force, center, area, depth, lever })
@@ -198,10 +183,10 @@ impl Patch<'_> {
     }
 
     /// Adds the friction as two contacts beside the centre, whose forces have the resultant and the couple of
-    /// the patch.
-    fn add_friction(&self, resultant: &Resultant, out: &mut ContactBuffer) {
+    /// the patch. Returns true if it sticks.
+    fn add_friction(&self, resultant: &Resultant, out: &mut ContactBuffer) -> bool {
         if matches!(self.props.friction, FrictionProps::None) {
-            return;
+            return false;
         }
         let earlier = self.earlier_friction();
         let slip_velocity = self.slip_velocity(resultant);
@@ -231,6 +216,7 @@ impl Patch<'_> {
                 contact.stored = if index == 0 { output.stored } else { 0.0 };
             });
         }
+        output.sticks
     }
 
     /// Records of the two friction contacts at the last commit, with their indices.
@@ -259,10 +245,10 @@ impl Patch<'_> {
         let stuck = earlier.is_none_or(|[(_, first), _]| first.sticks);
         let output = match self.props.friction {
             FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } => PatchBristle {
-                carried: carried(resultant, earlier),
-                slip: self.slip(resultant, earlier),
-                slip_velocity,
-                normal,
+                carried_b: carried(resultant, earlier),
+                slip_b: self.slip(resultant, earlier),
+                slip_velocity_b: slip_velocity,
+                normal_b: normal,
                 stiffness: stiffness * area,
                 damping: damping * area,
                 kinetic_limit: mu_kinetic * force,
@@ -319,7 +305,7 @@ impl Patch<'_> {
         }
     }
 
-    fn add_cell(&self, cell: &CellForce, out: &mut ContactBuffer) {
+    fn add_cell(&self, cell: &CellForce, sticks: bool, out: &mut ContactBuffer) {
         let found = ContactCandidate {
             feature: Feature::face(cell.face as usize),
             depth: cell.depth,
@@ -338,7 +324,7 @@ impl Patch<'_> {
             contact.normal_force = cell.force;
             contact.slip_velocity_b = velocity - cell.normal_b * cell.normal_b.dot(&velocity);
             contact.stored = crate::law::stored_energy(self.props, cell.area, cell.depth);
-            contact.sticks = cell.force <= 0.0;
+            contact.sticks = sticks || cell.force <= 0.0;
         });
     }
 

@@ -1,6 +1,6 @@
 //! Sides of a pair of solids: a convex body, a part of another body, or a plane.
 
-use super::Relative;
+use super::relative::Relative;
 use pong_geometry::Vec3;
 use pong_geometry::overlap::HalfSpace;
 use pong_model::{MovableGroup, Solid, SolidBox, SolidPart};

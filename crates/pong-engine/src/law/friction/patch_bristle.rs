@@ -9,13 +9,13 @@ use pong_geometry::simd::{LaneBits, Numbers, Portable, Vectors};
 /// Bristle of a patch, and its motion since the last commit. The vectors have three components, in B's axes.
 pub(crate) struct PatchBristle {
     /// Deflection at the last commit, in the present contact plane, m.
-    pub carried: Vec3,
+    pub carried_b: Vec3,
     /// Slip since the last commit, m.
-    pub slip: Vec3,
+    pub slip_b: Vec3,
     /// Slip velocity, m/s.
-    pub slip_velocity: Vec3,
+    pub slip_velocity_b: Vec3,
     /// Unit normal of the patch.
-    pub normal: Vec3,
+    pub normal_b: Vec3,
     /// Stiffness, N/m, and damping, N·s/m.
     pub stiffness: f64,
     pub damping: f64,
@@ -38,9 +38,9 @@ impl PatchBristle {
             kinetic_limit: number(self.kinetic_limit),
             static_limit: number(self.static_limit),
             normal: vector(&self.plane_of_path()),
-            carried: vector(&self.carried),
-            slip: vector(&self.slip),
-            slip_velocity: vector(&self.slip_velocity),
+            carried: vector(&self.carried_b),
+            slip: vector(&self.slip_b),
+            slip_velocity: vector(&self.slip_velocity_b),
             stuck: if self.stuck { LaneBits::MAX } else { 0 },
         }
         .evaluate(Portable);
@@ -55,8 +55,8 @@ impl PatchBristle {
 
     /// Unit normal of the plane of slip and slip velocity; that of the patch if they are parallel.
     fn plane_of_path(&self) -> Vec3 {
-        let across = self.slip.cross(&self.slip_velocity);
+        let across = self.slip_b.cross(&self.slip_velocity_b);
         let length = across.norm();
-        if length > f64::MIN_POSITIVE { across / length } else { self.normal }
+        if length > f64::MIN_POSITIVE { across / length } else { self.normal_b }
     }
 }
