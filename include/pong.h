@@ -640,6 +640,7 @@ typedef struct pong_contact {
     /// Index of that feature among those of its kind.
     uint32_t feature_index;
     /// End of an elongated body: 0 and 1 at its ends, 2 and above between them; 0 for other bodies.
+    /// Contacts of solids have bit 31 set: see docs/c_api.md.
     uint32_t end;
     /// 1: friction sticks. 0: it slips, or there is none.
     int32_t sticks;
@@ -652,6 +653,7 @@ typedef struct pong_contact {
     /// Rate of the depth, m/s, positive while closing.
     double depth_rate;
     /// Weight, 0 to 1: the share of the pair's spring that this contact carries.
+    /// For a cell of two solids, its area, m2; 0 for the contacts that carry their friction.
     double weight;
     /// Normal force, N, never negative.
     double normal_force;

@@ -50,6 +50,7 @@ pub struct pong_contact {
     /// Index of that feature among those of its kind.
     pub feature_index: u32,
     /// End of an elongated body: 0 and 1 at its ends, 2 and above between them; 0 for other bodies.
+    /// Contacts of solids have bit 31 set: see docs/c_api.md.
     pub end: u32,
     /// 1: friction sticks. 0: it slips, or there is none.
     pub sticks: i32,
@@ -62,6 +63,7 @@ pub struct pong_contact {
     /// Rate of the depth, m/s, positive while closing.
     pub depth_rate: f64,
     /// Weight, 0 to 1: the share of the pair's spring that this contact carries.
+    /// For a cell of two solids, its area, m2; 0 for the contacts that carry their friction.
     pub weight: f64,
     /// Normal force, N, never negative.
     pub normal_force: f64,
