@@ -350,3 +350,42 @@ fn tumbling_body_forgets_the_side_on_which_it_began() {
         assert!(deepest > 0.0);
     }
 }
+
+/// Prints the time of a frame with one pair of boxes, for the page on performance.
+#[test]
+#[ignore = "prints times"]
+fn times_of_a_pair_of_boxes() {
+    let rough = "stiffness: 1e5, foundation: 2e7, friction: Bristle(mu: 0.5)";
+    let mut pair = Pair::new(&remembering(&block(rough, [0.1; 3])), &remembering(&block(rough, [0.1; 3])));
+    let quarter = std::f64::consts::FRAC_PI_4;
+    let tilt = tilt_to_corner();
+    let cases = [
+        ("face on face", pose([0.03, 0.02, 0.2 - 1e-4], [0.0; 3])),
+        ("edge on face", pose([0.0, 0.0, 0.1 + 0.1 * 2.0_f64.sqrt() - 1e-4], [quarter, 0.0, 0.0])),
+        ("corner on face", pose([0.0, 0.0, 0.1 + 0.1 * 3.0_f64.sqrt() - 1e-4], [quarter, 0.0, 0.0])),
+        ("half way in", pose([0.03, 0.02, 0.1], [0.1, 0.2, 0.3])),
+        ("apart by 1 mm", pose([0.03, 0.02, 0.201], [0.0; 3])),
+        ("far apart", pose([0.0, 0.0, 5.0], [0.0; 3])),
+    ];
+    for (name, mut place) in cases {
+        if name == "corner on face" {
+            place.orientation = Quat::from_scaled_axis(Vec3::y() * tilt) * place.orientation;
+        }
+        pair.at(&place);
+        pair.world.commit().unwrap();
+        let mut least = f64::INFINITY;
+        for _ in 0..20 {
+            let start = std::time::Instant::now();
+            for _ in 0..2000 {
+                pair.world.evaluate().unwrap();
+            }
+            least = least.min(start.elapsed().as_secs_f64() / 2000.0);
+        }
+        println!("{name}: {:.3} µs a frame, {} contacts", 1e6 * least, pair.contacts().len());
+    }
+}
+
+/// Angle by which a cube that stands on an edge is tilted to stand on a corner, rad.
+fn tilt_to_corner() -> f64 {
+    (1.0 / 2.0_f64.sqrt()).atan()
+}
