@@ -405,6 +405,26 @@ fn a_flat_sheet_with_a_thickness_is_a_plate() {
         (solid.bound.center, solid.bound.half),
         (Vec3::new(1.0, 0.5, -0.25), Vec3::new(1.0, 0.5, 0.25))
     );
+    assert!((volume(&solid) - 1.0).abs() < 1e-15);
+}
+
+/// The open box has sides of 1 m and no top. The normal at a vertex is the mean of two or three faces that are
+/// perpendicular to each other, whatever the number of their triangles: the layer of 0.1·√3 m is 0.1 m thick at
+/// the vertices of the bottom.
+#[test]
+fn a_layer_behind_an_open_box_has_its_thickness_along_the_normals() {
+    let open = "[(0,3,2), (0,2,1), (0,1,5), (0,5,4), (1,2,6), (1,6,5), (2,3,7), (2,7,6), (3,0,4), (3,4,7)]";
+    let thickness = 0.1 * 3.0_f64.sqrt();
+    let solid =
+        only(&mesh("open", &cube_vertices([0.0; 3], [1.0; 3]), open, &format!(", thickness: {thickness:?}")));
+    assert!(solid.fields.is_empty());
+    assert_eq!(solid.area, 5.0);
+    // At the top, the normals are those of two faces.
+    let at_top = thickness / 2.0_f64.sqrt();
+    let (low, high) = ((1.0 - 0.2_f64).powi(2), (1.0 - 2.0 * at_top).powi(2));
+    // The hollow is a frustum of a pyramid, 0.9 m high.
+    let hollow = 0.9 / 3.0 * (low + high + (low * high).sqrt());
+    assert!((volume(&solid) - (1.0 - hollow)).abs() < 1e-12, "{} {hollow}", volume(&solid));
 }
 
 /// Ridges thinner than twice the layer leave no room for it.
