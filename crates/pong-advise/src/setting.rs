@@ -3,9 +3,9 @@
 use crate::mass::{GroupMass, Joints, SpringRates, StepPlan};
 use crate::mobility::Mobility;
 use crate::places::{Compliance, Compliances, compliances};
-use crate::spring::{ContactSprings, pressed_springs, springs};
+use crate::spring::{ContactSprings, Spring, pressed_springs, springs};
 use pong_engine::inspect::{GroupPair, Inspection, PushingContact};
-use pong_engine::{EngineError, InterfaceId, PairProps, World};
+use pong_engine::{EngineError, FrictionProps, InterfaceId, PairProps, World};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::PrimitiveInfo;
 use std::collections::{BTreeMap, BTreeSet};
@@ -121,7 +121,15 @@ impl<'w> Setting<'w> {
 
     /// The springs of a contact at its depth and normal force; `None` for laws of the host's.
     pub(crate) fn pressed_springs(&self, contact: &PushingContact<'_>) -> Option<ContactSprings> {
-        pressed_springs(contact.props, contact.depth, contact.normal_force).ok()
+        let mut springs = pressed_springs(contact.props, contact.depth, contact.normal_force).ok()?;
+        // The bristle of a patch of solids has the numbers of the pair, which are per unit area, times its area.
+        if let (true, FrictionProps::Bristle { .. }) = (contact.is_of_solids, &contact.props.friction) {
+            springs.friction = springs.friction.map(|spring| Spring {
+                stiffness: spring.stiffness * contact.weight,
+                damping: spring.damping * contact.weight,
+            });
+        }
+        Some(springs)
     }
 
     /// The combined values of a contact's two surfaces.

@@ -40,6 +40,8 @@ pub struct PushingContact<'w> {
     /// Active share of the contact's spring, 0…1; half of it at each end of a line segment. For a cell of two
     /// solids, its effective area, m².
     pub weight: f64,
+    /// `true` for a cell of two solids.
+    pub is_of_solids: bool,
     /// Depth, m.
     pub depth: f64,
     /// Normal force, N.
@@ -137,6 +139,7 @@ impl<'w> Inspection<'w> {
                 primitive_b: contact.found.primitive_b,
                 props: values_of(scene, sealed, tables, &contact.found),
                 weight: contact.found.full_weight(),
+                is_of_solids: key.is_of_solids(),
                 depth: contact.found.depth,
                 normal_force: contact.normal_force,
                 normal_b: contact.found.normal_b,
