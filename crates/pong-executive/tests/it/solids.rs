@@ -89,7 +89,7 @@ fn fixed(text: String) -> Part {
 }
 
 fn of_block(surface: &str, mass: f64, half: [f64; 3], pose: Pose) -> Part {
-    let moves = Some(MassProperties::cuboid(mass, half.map(|h| 2.0 * h).into()));
+    let moves = Some(MassProperties::cuboid(mass, half.map(|h| 2.0 * h)));
     Part { text: block(surface, half), moves, pose }
 }
 
@@ -120,7 +120,7 @@ fn simulate(parts: &[Part], integrator: Integrator, step: f64) -> (Simulation, V
     for (index, (part, root)) in parts.iter().zip(roots).enumerate() {
         let name = format!("o{index}");
         let body = match &part.moves {
-            Some(mass) => RigidBody::free(&name, mass.clone()),
+            Some(mass) => RigidBody::free(&name, *mass),
             None => RigidBody::fixed(&name),
         };
         bodies.push(simulation.add_body(body.at(part.pose).touching(root)).unwrap());

@@ -75,8 +75,9 @@ pub(super) fn thickened(mesh: &Triangles, thickness: f64) -> Result<Triangles, V
             let [a, b, c] = layer.corners(&triangle);
             (b - a).cross(&(c - a))
         };
-        // Also false if a vertex has no normal.
-        if !(normal(*triangle).dot(&normal(image)) > 0.0) {
+        let along = normal(*triangle).dot(&normal(image));
+        // Not a number if a vertex has no normal.
+        if along.is_nan() || along <= 0.0 {
             return Err(layer.vertices[triangle[0] as usize]);
         }
     }
