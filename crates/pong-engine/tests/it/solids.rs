@@ -333,6 +333,41 @@ fn rigid_body_is_pushed_along_the_face_of_the_soft_one() {
     assert!(wrench.force.z > 0.0 && wrench.force.xy().norm() < 1e-9 * wrench.force.z, "{wrench:?}");
 }
 
+const RUBBING: &str = "stiffness: 1e5, foundation: 2e7, friction: Bristle(mu: 0.5, stiffness: 1e4)";
+const RIGID_RUBBING: &str = "stiffness: inf, friction: Bristle(mu: 0.5)";
+
+/// The friction of a patch that grows while it sticks keeps its force: pressing deeper makes no energy.
+#[test]
+fn growing_patch_keeps_the_force_of_its_bristle() {
+    let mut pair = Pair::new(&block(RIGID_RUBBING, [0.1; 3]), &block(RUBBING, [1.0, 1.0, 0.2]));
+    let mut held = |y: f64, depth: f64| {
+        let height = 0.2 + 0.1 * (0.3_f64.sin() + 0.3_f64.cos()) - depth;
+        let wrench = pair.at(&pose([0.0, y, height], [0.0, 0.3, 0.0])).0;
+        pair.world.commit().unwrap();
+        wrench
+    };
+    held(0.0, 1e-3);
+    let stuck = held(1e-5, 1e-3);
+    let deeper = held(1e-5, 2e-3);
+    assert!(stuck.force.y < -1e-3 && deeper.force.z > 3.0 * stuck.force.z, "{stuck:?} {deeper:?}");
+    assert!((deeper.force.y / stuck.force.y - 1.0).abs() < 1e-9, "{stuck:?} {deeper:?}");
+}
+
+/// A flat face that spins about its normal has the couple μ·F·r, with r = 2√2/3 of its radius of gyration.
+#[test]
+fn spinning_face_has_the_couple_of_its_lever() {
+    let half = [0.1, 0.06, 0.05];
+    let mut pair = Pair::new(&block(RIGID_RUBBING, half), &block(RUBBING, [1.0, 1.0, 0.2]));
+    let at = |turn: f64| pose([0.3, 0.2, 0.25 - 1e-5], [0.0, 0.0, turn]);
+    pair.at(&at(0.0));
+    pair.world.commit().unwrap();
+    let wrench = pair.at(&at(0.5)).0;
+    let gyration = ((half[0].powi(2) + half[1].powi(2)) / 3.0).sqrt();
+    let couple = 0.5 * wrench.force.z * 8.0_f64.sqrt() / 3.0 * gyration;
+    assert!((wrench.moment.z / -couple - 1.0).abs() < 1e-6, "{wrench:?} {couple}");
+    assert!(wrench.force.xy().norm() < 1e-6 * wrench.force.z, "{wrench:?}");
+}
+
 /// Internal faces bound a field and do not push: across the seam of a slab that is not convex, all forces are
 /// along the normal of its face.
 #[test]
