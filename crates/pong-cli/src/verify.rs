@@ -144,7 +144,8 @@ fn main_of_invariances(arguments: &Arguments) -> Outcome {
     if arguments.list {
         return list(invariances::INVARIANCES.iter().map(|one| format!("{:<16} {}\n", one.name, one.says)));
     }
-    let families = || pong_invariance::make::families().chain([pong_invariance::make::round::ALL]);
+    let all = [pong_invariance::make::round::ALL, pong_invariance::make::volumes::ALL];
+    let families = || pong_invariance::make::families().chain(all);
     if let Some(unknown) = arguments.family.as_ref().filter(|asked| !families().any(|name| name == *asked)) {
         let known: Vec<_> = families().collect();
         return wrong_usage(format!(

@@ -2,6 +2,7 @@
 
 use crate::base::Base;
 use crate::make::path;
+use crate::play::Answer;
 use crate::scene::{Scene, Shape};
 use crate::twin::Twin;
 use pong_geometry::{Vec3, Wrench};
@@ -25,14 +26,8 @@ impl Allowance {
     /// Allowance for a difference in a frame whose largest term is `largest`.
     pub fn of(base: &Base, twin: &Twin, largest: f64) -> Self {
         let scene = &base.scene;
-        let far = scene
-            .frames
-            .iter()
-            .flatten()
-            .flat_map(|state| state.position)
-            .fold(0.0, |m: f64, x| m.max(x.abs()));
-        let position = twin.rounding + f64::EPSILON * (scene.size + far) + bent(scene) / ROUNDINGS;
-        let velocity = twin.rounding_of_velocity + f64::EPSILON * 10.0 * (scene.size + far);
+        let position = Self::position(scene, twin);
+        let velocity = twin.rounding_of_velocity + f64::EPSILON * 10.0 * (scene.size + farthest(scene));
         let rounding = ROUNDINGS * (scene.stiffness() * position + scene.damping() * velocity);
         // Rounding tilts the plane of a triangle by ε over its relative height.
         let thin = 64.0 * f64::EPSILON * (1.0 / thinnest(scene)).max(1.0 / thinnest(&twin.scene));
@@ -43,10 +38,48 @@ impl Allowance {
         Self { force: (TOLERANCE + thin + turned) * largest + rounding, lever }
     }
 
+    /// Uncertainty of a position, m, as one of [`ROUNDINGS`].
+    fn position(scene: &Scene, twin: &Twin) -> f64 {
+        twin.rounding + f64::EPSILON * (scene.size + farthest(scene)) + bent(scene) / ROUNDINGS
+    }
+
+    /// Allowance for the rounding of volumes in the frames up to the last of `answers`, which are those of the
+    /// twin. The force of a cell of solids is K·V, with a damping of c·ḋ over its effective area, which is known
+    /// to the rounding of V over its depth.
+    pub fn of_solids(base: &Base, twin: &Twin, answers: &[Answer]) -> f64 {
+        let scene = &base.scene;
+        let rounding = Self::position(scene, twin) * ROUNDINGS * scene.size.powi(2);
+        let area = scene.reference_area();
+        let scale = scene.size / twin.scene.size;
+        let mut damped = 0.0;
+        for (frame, answer) in answers.iter().enumerate() {
+            let speed = scene.frames[frame].iter().map(|state| {
+                let twist = state.twist();
+                twist.linear.norm() + twist.angular.norm() * scene.size
+            });
+            let speed: f64 = speed.sum();
+            let first = base.answers[frame].contacts.iter().map(|touch| (touch.depth, touch.weight));
+            let second =
+                answer.contacts.iter().map(|touch| (touch.depth * scale, touch.weight * scale * scale));
+            damped += first
+                .chain(second)
+                .filter(|(depth, _)| *depth > 0.0)
+                .map(|(depth, weight)| scene.damping_at(depth) * speed * weight.min(rounding / depth))
+                .sum::<f64>();
+        }
+        (scene.stiffness() * rounding + damped) / area
+    }
+
     /// Difference of two wrenches as a multiple of the allowance.
     pub fn exceeded(&self, a: &[Wrench; 2], b: &[Wrench; 2]) -> f64 {
         distance(a, b, self.lever) / self.force
     }
+}
+
+/// Largest coordinate of a group, m.
+fn farthest(scene: &Scene) -> f64 {
+    let positions = scene.frames.iter().flatten().flat_map(|state| state.position);
+    positions.fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
 /// Largest difference of forces, and of moments divided by the lever.

@@ -100,6 +100,7 @@ pub const INVARIANCES: &[Invariance] = &[
     ),
     twin("reordered", "primitives, triangles, faces and corners in another order, renamed", shape::reordered),
     twin("own_axis", "round parts turned about their own axis", place::own_axis),
+    twin("exchanged", "the Objects of a pair of solids swapped, without bristles", shape::exchanged),
     bits("swapped", "the Objects of a pair of different kinds swapped", 2, shape::swapped),
     bits("regrouped", "primitives hung into groups of groups", 4, shape::regrouped),
     bits("bounded", "other kinds of bounding volumes, other leaves", 2, shape::bounded),

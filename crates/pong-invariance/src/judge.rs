@@ -112,7 +112,10 @@ pub fn compare(base: &mut Base, twin: &Twin, is_bits: bool, random: &mut Random)
         }
         let largest = base.largest(frame).max(answer.largest / twin.back.force);
         let mut allowance = Allowance::of(base, twin, largest);
-        allowance.force += of_folds(base, twin, &answers[..=frame], largest);
+        allowance.force += match base.scene.is_of_solids() {
+            true => Allowance::of_solids(base, twin, &answers[..=frame]),
+            false => of_folds(base, twin, &answers[..=frame], largest),
+        };
         let read = twin.read(answer, &base.scene, frame);
         if allowance.exceeded(&first.wrenches, &read) > 1.0 {
             let difference = distance(&first.wrenches, &read, allowance.lever);

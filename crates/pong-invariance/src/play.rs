@@ -177,6 +177,9 @@ impl Stage {
 
 /// Contact capacity of a small scene, which is faster to set up; `None` for the engine's own estimate.
 fn capacity(scene: &Scene) -> Option<usize> {
+    if scene.is_of_solids() {
+        return None;
+    }
     let elements = |shape: &Shape| match shape {
         Shape::Mesh(mesh) => mesh.triangles.len() * (1 + usize::from(mesh.two_sided)),
         // Two spheres of a capsule and its edges on each triangle; four points of a cylinder's end circles.

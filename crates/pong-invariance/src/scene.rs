@@ -32,6 +32,8 @@ pub struct Body {
     pub grouping: Grouping,
     /// Pose of the group that holds the primitives, in the movable group.
     pub place: Pose,
+    /// True if the primitives touch by the volume they share (`contact: Solid`).
+    pub is_solid: bool,
 }
 
 /// Grouping of primitives below the movable group.
@@ -229,6 +231,17 @@ impl Shape {
         }
     }
 
+    /// Area of the outer faces of a polyhedron, m²; zero for other kinds.
+    fn outer_area(&self) -> f64 {
+        let Self::Polyhedron(solid) = self else { return 0.0 };
+        let outer = (0..).zip(&solid.faces).filter(|(index, _)| !solid.inactive.contains(index));
+        let area = |face: &[usize]| {
+            let side = |at: usize| solid.vertices[face[at]] - solid.vertices[face[0]];
+            (1..face.len() - 1).map(|at| side(at).cross(&side(at + 1))).sum::<Vec3>().norm() / 2.0
+        };
+        outer.map(|(_, face)| area(face)).sum()
+    }
+
     /// Corners that a model may give in single precision.
     pub fn vertices_mut(&mut self) -> &mut [Vec3] {
         match self {
@@ -244,7 +257,14 @@ impl Body {
     /// A body of these primitives.
     pub fn new(shapes: Vec<Shape>, surface: Surface) -> Self {
         let names = (0..shapes.len()).collect();
-        Self { shapes, names, surface, grouping: Grouping::default(), place: Pose::identity() }
+        Self {
+            shapes,
+            names,
+            surface,
+            grouping: Grouping::default(),
+            place: Pose::identity(),
+            is_solid: false,
+        }
     }
 
     /// The body with other primitives.
@@ -255,6 +275,18 @@ impl Body {
 }
 
 impl Scene {
+    /// True if the bodies touch by the volume they share.
+    pub fn is_of_solids(&self) -> bool {
+        self.bodies.iter().any(|body| body.is_solid)
+    }
+
+    /// Smallest reference area of a solid body, m²: a sixth of its outer surface.
+    pub fn reference_area(&self) -> f64 {
+        let solids = self.bodies.iter().filter(|body| body.is_solid);
+        let outer = solids.map(|body| body.shapes.iter().map(Shape::outer_area).sum::<f64>());
+        outer.fold(f64::INFINITY, f64::min) / 6.0
+    }
+
     /// Spring of the pair at depths like the scene's size, N/m, for rounding allowances.
     pub fn stiffness(&self) -> f64 {
         let [a, b] = [0, 1].map(|body| {
@@ -279,14 +311,17 @@ impl Scene {
 
     /// Largest damping of either surface, N·s/m.
     pub fn damping(&self) -> f64 {
+        self.damping_at(self.size)
+    }
+
+    /// Largest damping of either surface at a depth in m, N·s/m.
+    pub fn damping_at(&self, depth: f64) -> f64 {
         let of = |surface: &Surface| {
             let normal = match surface.normal {
                 Normal::Linear { damping, .. } => damping,
-                Normal::HuntCrossley { dissipation, .. } => {
-                    dissipation * surface.stiffness.min(1e12) * self.size
-                }
+                Normal::HuntCrossley { dissipation, .. } => dissipation * surface.stiffness.min(1e12) * depth,
                 Normal::PowerLaw { damping, damping_exponent, .. } => {
-                    damping * libm::pow(self.size, damping_exponent)
+                    damping * libm::pow(depth, damping_exponent)
                 }
             };
             let friction = match surface.friction {

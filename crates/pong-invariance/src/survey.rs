@@ -109,6 +109,9 @@ pub struct Survey {
 /// keep their numbers.
 const ROUND_EVERY: u64 = 2;
 
+/// In a survey of all families, a scene of solids accompanies one in this many scenes.
+const VOLUME_EVERY: u64 = 4;
+
 /// Scenes that a thread takes at a time.
 const PORTION: u64 = 64;
 
@@ -150,17 +153,25 @@ impl Survey {
         total
     }
 
-    /// One index: a scene of the requested family, or one without and one with round parts.
+    /// One index: a scene of the requested family, or one of points to ellipsoids, one with round parts and one of
+    /// solids.
     fn one(&mut self, order: &Order, asked: &[&'static Invariance], index: u64) {
         match order.family.as_deref() {
             Some(make::round::ALL) => {
                 self.one_of(order, &of_shared_scenes(asked), Some(make::round::family(index)), index);
+            }
+            Some(make::volumes::ALL) => {
+                self.one_of(order, &of_shared_scenes(asked), Some(make::volumes::family(index)), index);
             }
             Some(family) => self.one_of(order, asked, Some(family), index),
             None => {
                 self.one_of(order, asked, None, index);
                 if index.is_multiple_of(ROUND_EVERY) {
                     let family = make::round::family(index / ROUND_EVERY);
+                    self.one_of(order, &of_shared_scenes(asked), Some(family), index);
+                }
+                if index % VOLUME_EVERY == 1 {
+                    let family = make::volumes::family(index / VOLUME_EVERY);
                     self.one_of(order, &of_shared_scenes(asked), Some(family), index);
                 }
             }
@@ -351,7 +362,7 @@ impl Survey {
     }
 }
 
-/// Invariances without a scene generator, which round parts are checked against.
+/// Invariances without a scene generator, which round parts and solids are checked against.
 fn of_shared_scenes(asked: &[&'static Invariance]) -> Vec<&'static Invariance> {
     asked.iter().filter(|invariance| invariance.make.is_none()).copied().collect()
 }

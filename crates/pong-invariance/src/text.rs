@@ -15,6 +15,9 @@ type Fields = Vec<(&'static str, Value)>;
 pub fn model(body: &Body, name: &str, surface: &str) -> String {
     let mut root: Fields = vec![("name", Value::text(name)), ("surface", Value::text(surface))];
     root.extend(bound(body, 0));
+    if body.is_solid {
+        root.push(("contact", Value::name("Solid")));
+    }
     root.push(contents(body));
     let surfaces = Value::map([(surface, self::surface(&body.surface))]);
     write::text(&Value::model(name, [("surfaces", surfaces), ("root", Value::fields(root))]))

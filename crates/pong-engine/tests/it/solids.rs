@@ -389,3 +389,87 @@ fn times_of_a_pair_of_boxes() {
 fn tilt_to_corner() -> f64 {
     (1.0 / 2.0_f64.sqrt()).atan()
 }
+
+/// A rigid body is pushed by the field of its soft partner alone: turned anyhow, along the normal of the slab.
+#[test]
+fn rigid_body_is_pushed_along_the_face_of_the_soft_one() {
+    let rigid = block(RIGID, [0.1, 0.08, 0.06]);
+    let mut pair = Pair::new(&rigid, &block(SOFT, [1.0, 1.0, 0.2]));
+    let (wrench, _) = pair.at(&pose([0.02, 0.01, 0.29], [0.3, 0.4, 0.1]));
+    assert!(wrench.force.z > 0.0 && wrench.force.xy().norm() < 1e-9 * wrench.force.z, "{wrench:?}");
+}
+
+const RUBBING: &str = "stiffness: 1e5, foundation: 2e7, friction: Bristle(mu: 0.5, stiffness: 1e4)";
+const RIGID_RUBBING: &str = "stiffness: inf, friction: Bristle(mu: 0.5)";
+
+/// The friction of a patch that grows while it sticks keeps its force: pressing deeper makes no energy.
+#[test]
+fn growing_patch_keeps_the_force_of_its_bristle() {
+    let mut pair = Pair::new(&block(RIGID_RUBBING, [0.1; 3]), &block(RUBBING, [1.0, 1.0, 0.2]));
+    let mut held = |y: f64, depth: f64| {
+        let height = 0.2 + 0.1 * (0.3_f64.sin() + 0.3_f64.cos()) - depth;
+        let wrench = pair.at(&pose([0.0, y, height], [0.0, 0.3, 0.0])).0;
+        pair.world.commit().unwrap();
+        wrench
+    };
+    held(0.0, 1e-3);
+    let stuck = held(1e-5, 1e-3);
+    let deeper = held(1e-5, 2e-3);
+    assert!(stuck.force.y < -1e-3 && deeper.force.z > 3.0 * stuck.force.z, "{stuck:?} {deeper:?}");
+    assert!((deeper.force.y / stuck.force.y - 1.0).abs() < 1e-9, "{stuck:?} {deeper:?}");
+}
+
+/// A flat face that spins about its normal has the couple μ·F·r, with r = 2√2/3 of its radius of gyration.
+#[test]
+fn spinning_face_has_the_couple_of_its_lever() {
+    let half = [0.1, 0.06, 0.05];
+    let mut pair = Pair::new(&block(RIGID_RUBBING, half), &block(RUBBING, [1.0, 1.0, 0.2]));
+    let at = |turn: f64| pose([0.3, 0.2, 0.25 - 1e-5], [0.0, 0.0, turn]);
+    pair.at(&at(0.0));
+    pair.world.commit().unwrap();
+    let wrench = pair.at(&at(0.5)).0;
+    let gyration = ((half[0].powi(2) + half[1].powi(2)) / 3.0).sqrt();
+    let couple = 0.5 * wrench.force.z * 8.0_f64.sqrt() / 3.0 * gyration;
+    assert!((wrench.moment.z / -couple - 1.0).abs() < 1e-6, "{wrench:?} {couple}");
+    assert!(wrench.force.xy().norm() < 1e-6 * wrench.force.z, "{wrench:?}");
+}
+
+/// Internal faces bound a field and do not push: across the seam of a slab that is not convex, all forces are
+/// along the normal of its face.
+#[test]
+fn internal_faces_do_not_push() {
+    let l = |surface: &str, size: f64, up: f64| {
+        let piece = |name: &str, x: f64, z: f64, inactive: &str| {
+            box_polyhedron(name, [size * x, 0.0, up * size * z], [0.5 * size, size, 0.5 * size], inactive)
+        };
+        // Faces in the order −z, +z, −y, +y, −x, +x.
+        let (of_row, of_column) = if up > 0.0 { ("1, 5", "0") } else { ("0, 5", "1") };
+        let pieces =
+            [piece("a", -0.5, 0.5, of_row), piece("b", 0.5, 0.5, "4"), piece("c", -0.5, 1.5, of_column)];
+        solid(surface, &pieces.join(", "))
+    };
+    let mut pair = Pair::new(&l(RIGID, 0.1, 1.0), &l(SOFT, 0.3, -1.0));
+    let depth = 5e-3;
+    let (wrench, _) = pair.at(&pose([0.01, 0.02, -depth], [0.0; 3]));
+    let force = 2e7 * 0.2 * 0.2 * depth;
+    assert!((wrench.force.z / force - 1.0).abs() < 1e-9, "{wrench:?} {force}");
+    let contacts = pair.contacts();
+    assert!(
+        contacts.len() >= 3 && contacts.iter().all(|contact| contact.normal.z > 0.999_999),
+        "{contacts:?}"
+    );
+}
+
+/// A flat face that turns about its edge presses only where it approaches: with the damping of a cell clamped at
+/// its fastest point, the force acts within the face.
+#[test]
+fn parts_of_a_face_that_separate_fast_do_not_pull() {
+    let damped = "stiffness: 1e5, foundation: 2e7, normal: HuntCrossley(dissipation: 1.0, exponent: 1.0), friction: None";
+    let mut pair = Pair::new(&block(RIGID, [0.1; 3]), &block(damped, [1.0, 1.0, 0.2]));
+    for spin in [1.0, 10.0, 100.0, 1e3, 1e6] {
+        let twist = Twist { linear: Vec3::zeros(), angular: Vec3::y() * spin };
+        let (wrench, _) = pair.evaluate(&pose([0.0, 0.0, 0.299], [0.0; 3]), &twist);
+        let lever = wrench.moment.y.abs() / wrench.force.z;
+        assert!(wrench.force.z > 0.0 && lever < 0.1 / 3.0 + 1e-6, "{spin}: {wrench:?}");
+    }
+}

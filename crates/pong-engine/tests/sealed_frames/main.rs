@@ -10,6 +10,7 @@ mod heap;
 mod pay_for_use;
 mod registered;
 mod scene;
+mod solids;
 
 use heap::{counted, during, helpers, my_turn};
 use pong_engine::{Config, NormalForce, NormalInput, WorkerSettings, has_tester};

@@ -8,6 +8,7 @@ mod round_path;
 pub mod solids;
 pub mod touched;
 mod toucher;
+pub mod volumes;
 
 use crate::random::Random;
 use crate::scene::{Body, Friction, Normal, Scene, Shape, Surface};
@@ -24,6 +25,9 @@ pub fn scene_of(random: &mut Random, name: &str) -> Option<Scene> {
     if let Some((name, make, kinds)) = round::FAMILIES.iter().find(|(known, ..)| *known == name) {
         return Some(family(random, name, *make, Some(kinds)));
     }
+    if let Some((name, b, a)) = volumes::FAMILIES.iter().find(|(known, ..)| *known == name) {
+        return Some(of_solids(random, name, *b, *a));
+    }
     let (name, make) = touched::FAMILIES.iter().find(|(known, _)| *known == name)?;
     Some(family(random, name, *make, None))
 }
@@ -31,7 +35,8 @@ pub fn scene_of(random: &mut Random, name: &str) -> Option<Scene> {
 /// Names of all families.
 pub fn families() -> impl Iterator<Item = &'static str> {
     let of_round_parts = round::FAMILIES.iter().map(|(name, ..)| *name);
-    touched::FAMILIES.iter().map(|(name, _)| *name).chain(of_round_parts)
+    let of_solids = volumes::FAMILIES.iter().map(|(name, ..)| *name);
+    touched::FAMILIES.iter().map(|(name, _)| *name).chain(of_round_parts).chain(of_solids)
 }
 
 /// The makers of a family, and the kinds that touch it if not all can.
@@ -49,18 +54,41 @@ fn family(
         Some(kinds) => round::touching(random, kinds, &touched[0], is_round),
         None => touching(random, kinds_that_touch(&touched[0]), is_round),
     };
-    let mut size = 1.0;
-    if random.chance(0.3) {
-        size = random.log_between(1e-3, 1e3);
-    }
+    let size = unit_of_length(random);
     let [a, b] = surfaces(random, size);
-    let mut scene = Scene {
-        family: name,
-        bodies: [Body::new(touching, a), Body::new(touched, b)],
-        swapped: random.chance(0.3),
-        frames: Vec::new(),
-        size: 1.0,
-    };
+    let bodies = [Body::new(touching, a), Body::new(touched, b)];
+    with_history(random, name, bodies, size, is_round)
+}
+
+/// A scene of two solids, or of a solid on a plane.
+fn of_solids(random: &mut Random, name: &'static str, make_b: touched::Make, make_a: touched::Make) -> Scene {
+    let is_round = random.chance(0.35);
+    let [mut b, mut a] = [make_b(random, is_round), make_a(random, is_round)];
+    touched::tilt(random, &mut b, is_round);
+    touched::tilt(random, &mut a, is_round);
+    let size = unit_of_length(random);
+    let surfaces = surfaces(random, size).map(volumes::linear);
+    let mut bodies = [Body::new(a, surfaces[0]), Body::new(b, surfaces[1])];
+    for body in &mut bodies {
+        body.is_solid = body.shapes.iter().all(|shape| matches!(shape, Shape::Polyhedron(_)));
+    }
+    with_history(random, name, bodies, size, is_round)
+}
+
+fn unit_of_length(random: &mut Random) -> f64 {
+    if random.chance(0.3) { random.log_between(1e-3, 1e3) } else { 1.0 }
+}
+
+/// A scene of two bodies about 1 m large, in another unit of length.
+fn with_history(
+    random: &mut Random,
+    family: &'static str,
+    bodies: [Body; 2],
+    size: f64,
+    is_round: bool,
+) -> Scene {
+    let swapped = random.chance(0.3);
+    let mut scene = Scene { family, bodies, swapped, frames: Vec::new(), size: 1.0 };
     scene.frames = path::history(random, &scene, is_round);
     rescaled(&scene, size)
 }

@@ -134,7 +134,11 @@ pub fn stand(shape: &Shape, orientation: &Quat, foot: &Foot, depth: f64, end: us
             center + orientation * support(semi_axes, &(orientation.inverse() * down))
         }
         Shape::Round(part) => part.lowest(&down, end),
-        Shape::Plane { .. } | Shape::Polyhedron(_) | Shape::Mesh(_) => Vec3::zeros(),
+        Shape::Polyhedron(solid) => {
+            let heights = |p: &&Vec3, q: &&Vec3| down.dot(p).total_cmp(&down.dot(q));
+            solid.vertices.iter().max_by(heights).copied().unwrap_or_default()
+        }
+        Shape::Plane { .. } | Shape::Mesh(_) => Vec3::zeros(),
     };
     let position = foot.place - foot.normal * depth - orientation * lowest;
     Pose { position, orientation: *orientation }
@@ -152,6 +156,11 @@ fn first_orientation(random: &mut Random, shape: &Shape, foot: &Foot, is_round: 
             let across = random.across(&foot.normal);
             let tilt = if random.chance(0.3) { 0.0 } else { random.between(-0.3, 0.3) };
             rotation_between(&along, &(across + foot.normal * tilt).normalize())
+        }
+        // A face of a solid flush with the face below it.
+        Shape::Polyhedron(solid) if !is_round && random.chance(0.5) => {
+            let face = corners(&solid.vertices, &solid.faces[random.below(solid.faces.len())]);
+            rotation_between(&normal_of(&face), &-foot.normal)
         }
         _ if is_round => Quat::identity(),
         _ => random.orientation(),

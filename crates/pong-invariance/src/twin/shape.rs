@@ -6,7 +6,7 @@ use crate::cutting;
 use crate::make::meshes;
 use crate::random::{Random, rotation_between};
 use crate::round_part::RoundKind;
-use crate::scene::{Grouping, Mesh, Scene, Shape, Solid};
+use crate::scene::{Friction, Grouping, Mesh, Scene, Shape, Solid};
 use pong_geometry::Vec3;
 
 /// The Objects named in the other order, if no kind is on both sides.
@@ -100,6 +100,9 @@ fn renumbered(vertices: &[Vec3], random: &mut Random) -> (Vec<Vec3>, Vec<usize>)
 /// Faces cut into more triangles, solids into pieces: anywhere, and through the point where A pushes.
 pub fn cut(base: &Base, random: &mut Random) -> Option<Twin> {
     let scene = &base.scene;
+    if scene.is_of_solids() {
+        return cut_volumes(base, random);
+    }
     let mut twin = Twin::of(scene);
     let shapes = &scene.bodies[1].shapes;
     let aim = aim(base, random);
@@ -120,6 +123,30 @@ pub fn cut(base: &Base, random: &mut Random) -> Option<Twin> {
         _ => return None,
     };
     twin.scene.bodies[1] = scene.bodies[1].with_shapes(shapes);
+    Some(twin)
+}
+
+/// Solids of one primitive that touch by volume, cut into pieces.
+fn cut_volumes(base: &Base, random: &mut Random) -> Option<Twin> {
+    let mut twin = Twin::of(&base.scene);
+    for (index, body) in base.scene.bodies.iter().enumerate() {
+        let aim = aim(base, random).filter(|_| index == 1);
+        if let Some(pieces) = cut_solid(&body.shapes, aim, random) {
+            let shapes = pieces.into_iter().map(Shape::Polyhedron).collect();
+            twin.scene.bodies[index] = body.with_shapes(shapes);
+        }
+    }
+    (twin.scene.bodies != base.scene.bodies).then_some(twin)
+}
+
+/// The roles of A and B exchanged between two solids. A bristle depends on them to the third order of the angle
+/// that a body turns in a frame.
+pub fn exchanged(scene: &Scene, _: &mut Random) -> Option<Twin> {
+    let has_bristle =
+        scene.bodies.iter().any(|body| matches!(body.surface.friction, Friction::Bristle { .. }));
+    (scene.bodies.iter().all(|body| body.is_solid) && !has_bristle).then_some(())?;
+    let mut twin = Twin::of(scene);
+    twin.scene.swapped = !scene.swapped;
     Some(twin)
 }
 

@@ -1,3 +1,4 @@
 //! Tests of the invariances.
 
 mod invariances;
+mod solids;

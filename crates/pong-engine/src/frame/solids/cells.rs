@@ -76,6 +76,11 @@ impl FieldCells {
         }
     }
 
+    /// Shared volume, m³.
+    pub fn volume(&self) -> f64 {
+        self.cells.iter().map(|cell| cell.moments.volume).sum()
+    }
+
     /// Moments of the whole shared volume.
     pub fn sum(&self) -> Moments {
         let mut sum = Moments::default();

@@ -162,12 +162,17 @@ impl Patch<'_> {
         let along = |cell: &CellForce| (cell.force * cell.normal_b.dot(&normal)).max(0.0);
         let weights: f64 = forces.iter().map(along).sum();
         let center: Vec3 = forces.iter().map(|cell| cell.point_b * along(cell)).sum::<Vec3>() / weights;
-        // Both fields divide the same volume V. Effective area V²/(2I) and depth 2I/V, as for one cell, with
-        // I = s_A·I_A + s_B·I_B.
+        // Both fields divide the same volume V, which only rounding makes different in the two. Effective area
+        // V²/(2I) and depth 2I/V, as for one cell, with I = s_A·I_A + s_B·I_B and V = s_A·V_A + s_B·V_B.
         let (of_a, of_b) = fields;
-        let volume = self.volume(fields);
+        let [share_a, share_b] = self.shares;
+        let (volume_a, volume_b) = (share_a * of_a.volume(), share_b * of_b.volume());
+        let volume = volume_a + volume_b;
         let depths: f64 = forces.iter().map(|cell| 0.5 * cell.area * cell.depth * cell.depth).sum();
-        let lever = if self.shares[1] >= self.shares[0] {
+        if volume <= 0.0 || depths <= 0.0 {
+            return None;
+        }
+        let lever = if volume_b >= volume_a {
             lever(&of_b.sum(), &of_b.reference_b, &center, &normal)
         } else {
             let x_ab = &self.relative.x_ab;
@@ -175,11 +180,6 @@ impl Patch<'_> {
         };
         let (area, depth) = (volume * volume / (2.0 * depths), 2.0 * depths / volume);
         Some(Resultant { normal, force, center, area, depth, lever })
-    }
-
-    fn volume(&self, (of_a, of_b): (&FieldCells, &FieldCells)) -> f64 {
-        let cells = if self.shares[1] >= self.shares[0] { of_b } else { of_a };
-        cells.cells.iter().map(|cell| cell.moments.volume).sum()
     }
 
     /// Adds the friction as two contacts beside the centre, whose forces have the resultant and the couple of
@@ -280,14 +280,15 @@ impl Patch<'_> {
     fn slip(&self, resultant: &Resultant, earlier: Option<[(usize, &ContactRecord); 2]>) -> Vec3 {
         let Some(since) = &self.context.motion.since_commit else { return Vec3::zeros() };
         let Resultant { normal, center, depth, lever, .. } = resultant;
-        let reference = self.sides.0.center();
-        let (before, now) = (since.x_ba.point(&reference), self.relative.x_ba.point(&reference));
-        let present = center - now;
-        let arm = earlier.map_or(present, |[(_, first), (_, second)]| {
-            ((first.point_b + second.point_b) * 0.5 - before + present) * 0.5
+        // Point of A at the centre: the mean of those at this centre and at the earlier one, in A's frame. No
+        // choice of frames has a part in it, and a rolling contact does not slip.
+        let present = self.relative.x_ab.point(center);
+        let point_of_a = earlier.map_or(present, |[(_, first), (_, second)]| {
+            let middle = (first.point_b + second.point_b) * 0.5;
+            (since.x_ba.inverse().point(&middle) + present) * 0.5
         });
+        let displacement = self.relative.x_ba.point(&point_of_a) - since.x_ba.point(&point_of_a);
         let turned = self.context.rotation(since);
-        let displacement = now - before + turned.cross(&arm);
         let approach = -normal.dot(&displacement);
         let slip = displacement + normal * (approach + lever * turned.dot(normal));
         if earlier.is_none() { shortened(slip, approach, *depth) } else { slip }

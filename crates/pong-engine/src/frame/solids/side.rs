@@ -1,7 +1,6 @@
 //! Sides of a pair of solids: a convex body, a part of another body, or a plane.
 
 use super::relative::Relative;
-use pong_geometry::Vec3;
 use pong_geometry::overlap::HalfSpace;
 use pong_model::{MovableGroup, Solid, SolidBox, SolidPart};
 
@@ -69,11 +68,6 @@ impl<'a> Side<'a> {
             shell: info.shell,
             unit: 0,
         }
-    }
-
-    /// Centre of the box around the parts, m; the origin for a plane.
-    pub fn center(&self) -> Vec3 {
-        self.bound.map_or(Vec3::zeros(), |bound| bound.center)
     }
 }
 
