@@ -119,6 +119,12 @@ fn scale_friction(law: &mut pong_model::FrictionLaw, factor: f64) {
 
 /// Reason why solids cannot use the combined values, with the cure.
 pub(super) fn unfit(props: &PairProps) -> Option<&'static str> {
+    if props.has_resistance() {
+        return Some(
+            "the friction of solids has no `rolling` and no `spinning` resistance; give solids surfaces without \
+             them, or give the pair its friction in `pairs`, or mark what touches with `contact: Marked`",
+        );
+    }
     match &props.normal {
         NormalProps::Custom { .. } => Some(
             "solids have no law of the host for the normal force; use `Linear` or `HuntCrossley` for them, or mark \

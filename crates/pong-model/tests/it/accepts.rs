@@ -78,7 +78,14 @@ fn surfaces_and_pairs_are_read() {
     // c·2^(−0.2)·k^(−0.8)·m^(−0.2)·v^0.6 = 0.60744 gives e = 0.6 (an integration in time by another program).
     let group = damping * (1e9_f64.powf(-0.8) * (2.0_f64 * 0.04).powf(-0.2) * 2.0_f64.powf(0.6));
     assert!((group - 0.607_435).abs() < 1e-4, "{group}");
-    let bristle = FrictionLaw::Bristle { mu: 0.2, static_excess: 0.1, stiffness: None, damping: Some(3.0) };
+    let bristle = FrictionLaw::Bristle {
+        mu: 0.2,
+        static_excess: 0.1,
+        stiffness: None,
+        damping: Some(3.0),
+        rolling: 0.0,
+        spinning: 0.0,
+    };
     assert_eq!(by_name("rubber").friction, bristle);
     assert_eq!(model.pair_overrides[0].surfaces, ["steel".to_owned(), "elsewhere".to_owned()]);
     assert_eq!(model.pair_overrides[0].friction, Some(FrictionLaw::None));

@@ -4,6 +4,7 @@ mod bristles;
 pub(crate) mod contact;
 pub(crate) mod contact_buffer;
 pub(crate) mod contact_ref;
+mod couples;
 pub(crate) mod found;
 
 use crate::frame::broad_phase::chunk::Chunk;
@@ -50,6 +51,9 @@ pub(crate) fn compute_forces(
             }
         }
     }
+    if context.table.has_resistance {
+        couples::add_couples((context, sealed), elements_a.kind, found, out);
+    }
 }
 
 /// Recomputes the forces after the contact capacity has removed contacts, because the remaining contacts then
@@ -68,8 +72,8 @@ pub(crate) fn recompute_forces(
         let group;
         (group, rest) =
             rest.split_at(rest.iter().take_while(|reference| key_of(out, reference) == key).count());
-        // The forces of solids share no springs.
-        if key.is_of_solids() {
+        // The forces of solids and of resistance couples share no springs.
+        if !key.is_tested() {
             continue;
         }
         let motion = motions.known(input, key.direction());
@@ -236,7 +240,7 @@ impl PairContext<'_> {
             carry_by_smallest_rotation(&record.bristle_b, &record.normal_b, &contact.found.normal_b)
         });
         let stuck = record.is_none_or(|record| record.sticks);
-        if let FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } = props.friction {
+        if let FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static, .. } = props.friction {
             return out.bristles.add(
                 contact.index,
                 &Bristle {

@@ -91,7 +91,7 @@ impl EvaluationBuffers {
         let mut all = Vec::new();
         for group in indices.chunk_by(|a, b| contact_at(*a).found.key == contact_at(*b).found.key) {
             let key = contact_at(group[0]).found.key;
-            if sealed.group_pairs[key.group_pair as usize].pair != pair || key.is_of_solids() {
+            if sealed.group_pairs[key.group_pair as usize].pair != pair || !key.is_tested() {
                 continue;
             }
             let motion = motions.known(&self.input, key.direction());
