@@ -4,8 +4,8 @@
 use super::contact::FrameContact;
 use super::contact_buffer::ContactBuffer;
 use super::contact_ref::ContactRef;
-use super::{CandidateStatus, ContactCandidate, bristle_share};
 use crate::frame::input::PairContext;
+use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::law::friction::{Resistance, ResistingMoment, shortened};
 use crate::law::{FrictionProps, normal_force};
 use crate::seal::Sealed;
@@ -16,37 +16,15 @@ use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::MovableGroup;
 
-/// Adds the couples of the contacts of a chunk whose surfaces resist rolling or spinning. `found` is in
-/// summation order.
-#[inline(never)]
-pub(super) fn add_couples(
-    (context, sealed): (&PairContext<'_>, &Sealed),
-    kind_a: PrimitiveKind,
-    found: &[ContactCandidate],
-    out: &mut ContactBuffer,
-) {
-    // A ray is a plunger, which does not roll.
-    if kind_a == PrimitiveKind::Ray {
-        return;
-    }
-    for group in found.chunk_by(|a, b| a.key == b.key) {
-        let counts = || group.iter().filter(|contact| contact.status != CandidateStatus::Culled);
-        for one in counts().filter(|contact| contact.role == ContactRole::Active) {
-            if let Some(couple) = Couple::of(context, kind_a, one, bristle_share(one, counts())) {
-                couple.add(sealed, out);
-            }
-        }
-    }
-}
-
 /// Couple of one contact.
-struct Couple<'a> {
+pub(super) struct Couple<'a> {
     found: &'a ContactCandidate,
     /// Contact point c in B's frame, m.
-    point: Vec3,
+    point_b: Vec3,
+    /// Lever L, m.
     lever: f64,
     /// Angular velocity of A relative to B in B's frame, rad/s.
-    rate: Vec3,
+    rate_b: Vec3,
     resisting: ResistingMoment,
     /// Indices of the committed records of the two contacts.
     continues: [Option<u32>; 2],
@@ -55,7 +33,7 @@ struct Couple<'a> {
 impl<'a> Couple<'a> {
     /// Couple of a contact that carries the given share of the tangential spring; `None` without normal force,
     /// or if its surfaces do not resist.
-    fn of(
+    pub fn of(
         context: &PairContext<'_>,
         kind_a: PrimitiveKind,
         found: &'a ContactCandidate,
@@ -85,30 +63,30 @@ impl<'a> Couple<'a> {
             radius(context.body_b, found.kind_b, found.element_b),
         ];
         let lever = radii.into_iter().flatten().reduce(f64::min).unwrap_or(rolling.max(spinning));
-        let rate = context.motion.omega_a_b - context.motion.omega_b_b;
+        let rate_b = context.motion.omega_a_b - context.motion.omega_b_b;
         let resistance = Resistance {
-            normal,
+            normal_b: normal,
             lever,
             stiffness: share * stiffness,
             damping: share * damping,
             limits: [rolling, spinning].map(|length| length * pressed),
-            carried: first.map_or(Vec3::zeros(), |record| {
+            carried_b: first.map_or(Vec3::zeros(), |record| {
                 carry_by_smallest_rotation(&record.bristle_b, &record.normal_b, &normal)
             }),
-            turned: turned(context, found, &point, first),
-            rate,
+            turned_b: turned(context, found, &point, first),
+            rate_b,
             stuck: earlier.map(|record| record.is_none_or(|(_, record)| record.sticks)),
         };
         let continues = earlier.map(|record| record.map(|(index, _)| index as u32));
-        Some(Self { found, point, lever, rate, resisting: resistance.evaluate(), continues })
+        Some(Self { found, point_b: point, lever, rate_b, resisting: resistance.evaluate(), continues })
     }
 
     /// Adds the two contacts: forces ±f at c ± e, so that 2·e × f is the moment.
-    fn add(&self, sealed: &Sealed, out: &mut ContactBuffer) {
+    pub fn add(&self, sealed: &Sealed, out: &mut ContactBuffer) {
         let Self { found, resisting, .. } = self;
-        let arm = arm(&resisting.moment, &found.normal_b) * self.lever;
-        let force = resisting.moment.cross(&arm) / (2.0 * self.lever * self.lever);
-        let sliding = self.rate.cross(&arm);
+        let arm = arm(&resisting.moment_b, &found.normal_b) * self.lever;
+        let force = resisting.moment_b.cross(&arm) / (2.0 * self.lever * self.lever);
+        let sliding = self.rate_b.cross(&arm);
         let sliding = sliding - found.normal_b * found.normal_b.dot(&sliding);
         let keys = found.key.of_couple();
         for (index, sign) in [1.0, -1.0].into_iter().enumerate() {
@@ -123,10 +101,10 @@ impl<'a> Couple<'a> {
                     weight: 0.0,
                     ..**found
                 },
-                point_b: self.point + arm * sign,
+                point_b: self.point_b + arm * sign,
                 friction_force_b: force * sign,
                 slip_velocity_b: sliding * sign,
-                bristle_b: resisting.bristle,
+                bristle_b: resisting.bristle_b,
                 stored: 0.5 * resisting.stored,
                 sticks: resisting.sticks[index],
                 ..FrameContact::blank()

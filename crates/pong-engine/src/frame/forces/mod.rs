@@ -20,6 +20,7 @@ use bristles::Bristle;
 use contact::FrameContact;
 use contact_buffer::ContactBuffer;
 use contact_ref::ContactRef;
+use couples::Couple;
 use pong_geometry::Vec3;
 use pong_geometry::lanes::Lanes;
 use pong_geometry::pose::carry_by_smallest_rotation;
@@ -52,7 +53,30 @@ pub(crate) fn compute_forces(
         }
     }
     if context.table.has_resistance {
-        couples::add_couples((context, sealed), elements_a.kind, found, out);
+        add_couples((context, sealed), elements_a.kind, found, out);
+    }
+}
+
+/// Adds the couples of the contacts of a chunk whose surfaces resist rolling or spinning. `found` is in
+/// summation order.
+#[inline(never)]
+fn add_couples(
+    (context, sealed): (&PairContext<'_>, &Sealed),
+    kind_a: PrimitiveKind,
+    found: &[ContactCandidate],
+    out: &mut ContactBuffer,
+) {
+    // A ray is a plunger, which does not roll.
+    if kind_a == PrimitiveKind::Ray {
+        return;
+    }
+    for group in found.chunk_by(|a, b| a.key == b.key) {
+        let counts = || group.iter().filter(|contact| contact.status != CandidateStatus::Culled);
+        for one in counts().filter(|contact| contact.role == ContactRole::Active) {
+            if let Some(couple) = Couple::of(context, kind_a, one, bristle_share(one, counts())) {
+                couple.add(sealed, out);
+            }
+        }
     }
 }
 
