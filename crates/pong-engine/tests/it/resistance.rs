@@ -1,7 +1,7 @@
 //! Couples that resist rolling and spinning (docs/theory.md, 4).
 
 use crate::common::*;
-use pong_engine::{Config, State, WorkerSettings, World};
+use pong_engine::{Config, State, WorkerSettings, World, WorldBuilder};
 use pong_geometry::{Quat, Vec3};
 use pong_model::FrictionLaw;
 use pong_testkit::Random;
@@ -171,4 +171,20 @@ fn surfaces_without_lengths_have_no_couples() {
         *rolling = -1e-3;
     }
     plain.world.set_surface(ids[0], &rubber).unwrap_err();
+}
+
+#[test]
+fn solids_with_a_length_are_refused() {
+    let rubber = surface(1e5, "friction: Bristle(mu: 0.4, spinning: 1e-3)");
+    let block = box_polyhedron("block", [0.0; 3], [0.1; 3], "");
+    let solid = model("block", &rubber, &block).replace("root: (", "root: (contact: Solid, ");
+    let plane = model("plane", &rubber, "Plane(name: \"floor\", normal: (0,0,1), offset: 0)");
+    let mut builder = WorldBuilder::new(Config::default());
+    let objects = [&solid, &plane].map(|text| {
+        let model = load(&mut builder, text);
+        builder.create_object(model, if text == &solid { "block" } else { "plane" }).unwrap()
+    });
+    builder.pair(objects[0], objects[1]).unwrap();
+    let refused = builder.seal().err().expect("sealing refuses it").to_string();
+    assert!(refused.contains("`spinning`") && refused.contains("contact: Marked"), "{refused}");
 }

@@ -266,3 +266,17 @@ fn the_hash_knows_whether_a_bristle_gives_its_damping() {
         hash(&format!("mu: 0.3, damping: {:?}", 2.0 * (2.0 / 3.0 * 1e5 * 6.0_f64).sqrt()))
     );
 }
+
+/// Lengths of rolling and spinning resistance are read and hashed; lengths of zero are as if they were left out.
+#[test]
+fn rolling_and_spinning_resistance_is_read() {
+    let read =
+        |bristle: &str| with_tables(&format!("\"t\": (stiffness: 1e5, friction: Bristle({bristle}))"), "");
+    let model = read("mu: 0.3, rolling: 2e-3, spinning: 1e-3");
+    let surface = model.surfaces.iter().find(|surface| surface.name == "t").unwrap();
+    assert_eq!(surface.resistances(), [2e-3, 1e-3]);
+    let hash = |bristle: &str| read(bristle).hash;
+    assert_eq!(hash("mu: 0.3"), hash("mu: 0.3, rolling: 0, spinning: 0"));
+    let hashes = ["mu: 0.3", "mu: 0.3, rolling: 2e-3", "mu: 0.3, spinning: 2e-3"].map(hash);
+    assert!(hashes[0] != hashes[1] && hashes[1] != hashes[2] && hashes[0] != hashes[2]);
+}
