@@ -54,9 +54,11 @@ def power_law(exponent, damping_exponent, damping=None, restitution=None):
     return _law("PowerLaw", exponent=exponent, damping_exponent=damping_exponent, damping=damping, restitution=rebound)
 
 
-def bristle(mu, static_excess=None, stiffness=None, damping=None, mass=None):
-    """Damping in N·s/m, 0 for none; or `mass` in kg, for which it is critical. Without both it follows the normal law."""
-    return _law("Bristle", mu=mu, static_excess=static_excess, stiffness=stiffness, damping=damping, mass=mass)
+def bristle(mu, static_excess=None, stiffness=None, damping=None, mass=None, rolling=None, spinning=None):
+    """Damping in N·s/m, 0 for none; or `mass` in kg, for which it is critical. Without both it follows the normal law.
+    `rolling` and `spinning` are lengths in m."""
+    return _law("Bristle", mu=mu, static_excess=static_excess, stiffness=stiffness, damping=damping, mass=mass,
+                rolling=rolling, spinning=spinning)
 
 
 def coulomb(mu, slip_speed):

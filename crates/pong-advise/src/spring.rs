@@ -92,7 +92,7 @@ fn normal_spring(props: &PairProps, depth: f64) -> Result<(Spring, bool), &'stat
 fn friction_spring(props: &PairProps, load: Option<f64>) -> Result<Option<Spring>, &'static str> {
     Ok(match &props.friction {
         FrictionProps::None => None,
-        FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } => {
+        FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static, .. } => {
             let grips = *mu_kinetic > 0.0 || *mu_static > 0.0;
             grips.then_some(Spring { stiffness: *stiffness, damping: *damping })
         }

@@ -178,7 +178,7 @@ impl pong_surface_values {
             NormalLaw::Custom { .. } | NormalLaw::Inherited => {}
         }
         match &mut new.friction {
-            FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
+            FrictionLaw::Bristle { mu, static_excess, stiffness, damping, .. } => {
                 (*mu, *static_excess) = (self.friction, self.friction_static_excess);
                 *stiffness = (self.friction_stiffness != 0.0).then_some(self.friction_stiffness);
                 *damping = Some(self.friction_damping);

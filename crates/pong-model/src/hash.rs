@@ -115,7 +115,7 @@ impl ModelHash {
     fn friction_law(&mut self, law: &FrictionLaw) {
         match law {
             FrictionLaw::None => self.word(0),
-            FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
+            FrictionLaw::Bristle { mu, static_excess, stiffness, damping, rolling, spinning } => {
                 self.word(1);
                 self.number(*mu);
                 self.number(*static_excess);
@@ -124,6 +124,12 @@ impl ModelHash {
                     Some(damping) => self.number(*damping),
                     // Bits that no finite number has.
                     None => self.word(u64::MAX),
+                }
+                // As for filters, nothing is added without resistances.
+                if [rolling, spinning].into_iter().any(|length| *length > 0.0) {
+                    self.text("resistances");
+                    self.number(*rolling);
+                    self.number(*spinning);
                 }
             }
             FrictionLaw::Coulomb { mu, slip_speed } => {

@@ -62,6 +62,14 @@ impl Surface {
         Some((k_t, damping.unwrap_or_else(|| self.normal.bristle_damping(self.stiffness, k_t))))
     }
 
+    /// Lengths of its rolling and its spinning resistance, m; zero without a bristle.
+    pub fn resistances(&self) -> [f64; 2] {
+        match self.friction {
+            FrictionLaw::Bristle { rolling, spinning, .. } => [rolling, spinning],
+            _ => [0.0; 2],
+        }
+    }
+
     /// Default stiffness of a bristle relative to the normal stiffness.
     pub const BRISTLE_SHARE: f64 = 2.0 / 3.0;
 
@@ -173,6 +181,10 @@ pub enum FrictionLaw {
         stiffness: Option<f64>,
         /// c_t, N·s/m; `None` takes the damping ratio of the normal law ([`NormalLaw::bristle_damping`]).
         damping: Option<f64>,
+        /// b_r, rolling resistance: largest moment against rolling over the normal force, m.
+        rolling: f64,
+        /// b_s, spinning resistance: largest moment against turning about the normal over the normal force, m.
+        spinning: f64,
     },
     /// Regularised Coulomb friction; creeps.
     Coulomb {

@@ -114,10 +114,30 @@ enum Normal {
 #[serde(remote = "FrictionLaw", tag = "law")]
 enum Friction {
     None,
-    Bristle { mu: f64, static_excess: f64, stiffness: Option<f64>, damping: Option<f64> },
-    Coulomb { mu: f64, slip_speed: f64 },
-    Custom { name: String, parameters: Vec<f64> },
+    Bristle {
+        mu: f64,
+        static_excess: f64,
+        stiffness: Option<f64>,
+        damping: Option<f64>,
+        #[serde(default, skip_serializing_if = "is_zero")]
+        rolling: f64,
+        #[serde(default, skip_serializing_if = "is_zero")]
+        spinning: f64,
+    },
+    Coulomb {
+        mu: f64,
+        slip_speed: f64,
+    },
+    Custom {
+        name: String,
+        parameters: Vec<f64>,
+    },
     Inherited,
+}
+
+/// Returns true for a resistance that a surface does not have.
+fn is_zero(length: &f64) -> bool {
+    *length == 0.0
 }
 
 impl From<&Surface> for SurfaceValues {
@@ -205,6 +225,8 @@ mod tests {
                     static_excess: 0.1,
                     stiffness: None,
                     damping: Some(5e-324),
+                    rolling: 1e-3 / 3.0,
+                    spinning: 0.0,
                 },
             ),
             (
@@ -213,7 +235,14 @@ mod tests {
             ),
             (
                 NormalLaw::Custom { name: "mine".to_owned(), parameters: vec![0.3] },
-                FrictionLaw::Bristle { mu: 0.2, static_excess: 0.0, stiffness: Some(1e5), damping: None },
+                FrictionLaw::Bristle {
+                    mu: 0.2,
+                    static_excess: 0.0,
+                    stiffness: Some(1e5),
+                    damping: None,
+                    rolling: 0.0,
+                    spinning: 0.1 + 0.2,
+                },
             ),
             (
                 NormalLaw::PowerLaw {

@@ -291,12 +291,21 @@ pub fn set_bristle(surface: &mut Surface, bristle: &Bristle) {
         static_excess: bristle.excess,
         stiffness: Some(bristle.stiffness),
         damping: Some(bristle.damping),
+        rolling: 0.0,
+        spinning: 0.0,
     };
 }
 
 /// Gives the pair these friction values: the ground's bristle is rigid.
 pub fn with_friction(duo: Duo, bristle: &Bristle) -> Result<Duo, Failure> {
     let (mu, excess) = (bristle.mu, bristle.excess);
-    let ground = FrictionLaw::Bristle { mu, static_excess: excess, stiffness: None, damping: Some(0.0) };
+    let ground = FrictionLaw::Bristle {
+        mu,
+        static_excess: excess,
+        stiffness: None,
+        damping: Some(0.0),
+        rolling: 0.0,
+        spinning: 0.0,
+    };
     duo.mover(|s| set_bristle(s, bristle))?.ground(|s| s.friction = ground)
 }

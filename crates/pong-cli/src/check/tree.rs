@@ -168,7 +168,8 @@ fn surface_line(surface: &Surface) -> String {
         FrictionLaw::None => "no friction".to_owned(),
         FrictionLaw::Bristle { mu, static_excess, .. } => {
             let static_mu = number(mu * (1.0 + static_excess));
-            format!("bristle, μ_k {}, μ_s {static_mu}{}", number(*mu), bristles::springs(surface))
+            let springs = bristles::springs(surface);
+            format!("bristle, μ_k {}, μ_s {static_mu}{springs}{}", number(*mu), resistances(surface))
         }
         FrictionLaw::Coulomb { mu, slip_speed } => {
             format!("regularised Coulomb, μ {}, v_ε {} m/s", number(*mu), number(*slip_speed))
@@ -186,6 +187,15 @@ fn surface_line(surface: &Surface) -> String {
         (None, None) => String::new(),
     };
     format!("`{}`: k {} {unit}{foundation}, {normal}, {friction}", surface.name, number(surface.stiffness))
+}
+
+/// Rolling and spinning resistance of a surface; empty without them.
+fn resistances(surface: &Surface) -> String {
+    let lengths = surface.resistances();
+    if lengths == [0.0; 2] {
+        return String::new();
+    }
+    format!(", rolling {} m, spinning {} m", number(lengths[0]), number(lengths[1]))
 }
 
 fn exponent_text(exponent: Exponent) -> &'static str {

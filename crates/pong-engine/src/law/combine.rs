@@ -6,7 +6,8 @@
 //!
 //! The power law's c is c_A·s_A^(2+q) + c_B·s_B^(2+q). With the exponent 3/2, κ_i = k_i^(2/3) replaces k_i in
 //! s_A, and k = (κ_A·κ_B/(κ_A + κ_B))^(3/2). Friction: k_t follows from the series rule, c_t from the squared
-//! shares of k_t, and each μ from 2·μ_A·μ_B/(μ_A + μ_B). A bristle without given damping takes the damping
+//! shares of k_t, and each μ from 2·μ_A·μ_B/(μ_A + μ_B). The
+//! lengths of the rolling resistances add up, and so do those of the spinning resistances. A bristle without given damping takes the damping
 //! ratio of the normal law, c·√(k_t/k) (docs/theory.md, 4).
 //!
 //! A rigid surface has no share of the depth; values that it leaves out of a law are taken from the other
@@ -98,9 +99,11 @@ fn completed<'s>(own: &'s Surface, other: &Surface) -> Result<Cow<'s, Surface>, 
     }
     if own.friction == FrictionLaw::Inherited {
         full.to_mut().friction = match other.friction.clone() {
-            // The bristle of a rigid surface does not yield, so it takes no stiffness from the other surface.
+            // The bristle of a rigid surface does not yield, so it takes no stiffness from the other surface, and
+            // no resistance, because those of the two surfaces add up.
             FrictionLaw::Bristle { mu, static_excess, damping, .. } => {
-                FrictionLaw::Bristle { mu, static_excess, stiffness: None, damping }
+                let (rolling, spinning) = (0.0, 0.0);
+                FrictionLaw::Bristle { mu, static_excess, stiffness: None, damping, rolling, spinning }
             }
             law => law,
         };
@@ -257,8 +260,12 @@ fn combined_friction(a: &Surface, b: &Surface, laws: &Laws) -> Result<FrictionPr
     match (&a.friction, &b.friction) {
         (FrictionLaw::None, _) | (_, FrictionLaw::None) => Ok(FrictionProps::None),
         (
-            FrictionLaw::Bristle { mu: mu_a, static_excess: excess_a, .. },
-            FrictionLaw::Bristle { mu: mu_b, static_excess: excess_b, .. },
+            FrictionLaw::Bristle {
+                mu: mu_a, static_excess: excess_a, rolling: roll_a, spinning: spin_a, ..
+            },
+            FrictionLaw::Bristle {
+                mu: mu_b, static_excess: excess_b, rolling: roll_b, spinning: spin_b, ..
+            },
         ) => {
             let ((kt_a, ct_a), (kt_b, ct_b)) = (spring_of(a), spring_of(b));
             let (share_a, stiffness) = in_series(kt_a, kt_b, Exponent::One);
@@ -274,6 +281,8 @@ fn combined_friction(a: &Surface, b: &Surface, laws: &Laws) -> Result<FrictionPr
                 damping: ct_a * share_a * share_a + ct_b * share_b * share_b,
                 mu_kinetic: harmonic(*mu_a, *mu_b),
                 mu_static: harmonic((1.0 + excess_a) * mu_a, (1.0 + excess_b) * mu_b),
+                rolling: roll_a + roll_b,
+                spinning: spin_a + spin_b,
             })
         }
         (
@@ -308,13 +317,17 @@ fn table_friction(
 ) -> Result<FrictionProps, CombineError> {
     Ok(match law {
         FrictionLaw::None => FrictionProps::None,
-        FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => FrictionProps::Bristle {
-            stiffness: stiffness.unwrap_or(default_tangential(pair_stiffness)),
-            // If the entry gives none, `combine` computes it later.
-            damping: damping.unwrap_or(0.0),
-            mu_kinetic: *mu,
-            mu_static: (1.0 + static_excess) * mu,
-        },
+        FrictionLaw::Bristle { mu, static_excess, stiffness, damping, rolling, spinning } => {
+            FrictionProps::Bristle {
+                stiffness: stiffness.unwrap_or(default_tangential(pair_stiffness)),
+                // If the entry gives none, `combine` computes it later.
+                damping: damping.unwrap_or(0.0),
+                mu_kinetic: *mu,
+                mu_static: (1.0 + static_excess) * mu,
+                rolling: *rolling,
+                spinning: *spinning,
+            }
+        }
         FrictionLaw::Coulomb { mu, slip_speed } => {
             FrictionProps::Coulomb { mu: *mu, slip_speed: *slip_speed }
         }
@@ -459,13 +472,18 @@ mod tests {
                 static_excess: 0.5,
                 stiffness: Some(stiffness),
                 damping: Some(4.0),
+                rolling: mu * 0.01,
+                spinning: 0.0,
             },
             ..surface(1e5, 0.0)
         };
         let props = combine(&rough(0.2, 1e4), &rough(0.6, 3e4), None, &Laws::default()).unwrap();
-        let FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } = props.friction else {
+        let FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static, rolling, spinning } =
+            props.friction
+        else {
             panic!("not a bristle")
         };
+        assert!((rolling - 0.008).abs() < 1e-17 && spinning == 0.0);
         assert!((mu_kinetic - 0.3).abs() < 1e-15 && (mu_static - 0.45).abs() < 1e-15);
         assert!((stiffness - 7500.0).abs() < 1e-9);
         assert!((damping - 4.0 * (0.75 * 0.75 + 0.25 * 0.25)).abs() < 1e-12);
@@ -474,8 +492,14 @@ mod tests {
     /// Without a given bristle stiffness, k_t = ⅔·k, for surfaces in series and for an entry of the pair.
     #[test]
     fn what_is_not_said_of_friction_follows_the_normal_spring() {
-        let friction =
-            || FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: None, damping: None };
+        let friction = || FrictionLaw::Bristle {
+            mu: 0.3,
+            static_excess: 0.0,
+            stiffness: None,
+            damping: None,
+            rolling: 0.0,
+            spinning: 0.0,
+        };
         let rough = |stiffness| Surface { friction: friction(), ..surface(stiffness, 0.0) };
         let stiffness_of = |a: &Surface, b: &Surface, table| {
             let props = combine(a, b, table, &Laws::default()).unwrap();
@@ -494,13 +518,19 @@ mod tests {
 
     #[test]
     fn an_entry_says_what_holds_for_the_pair() {
-        let friction =
-            FrictionLaw::Bristle { mu: 0.4, static_excess: 0.5, stiffness: Some(9e3), damping: Some(7.0) };
+        let friction = FrictionLaw::Bristle {
+            mu: 0.4,
+            static_excess: 0.5,
+            stiffness: Some(9e3),
+            damping: Some(7.0),
+            rolling: 0.0,
+            spinning: 0.0,
+        };
         let entry =
             PairOverride { stiffness: Some(6e4), friction: Some(friction), ..PairOverride::default() };
         let props = combine(&surface(3e5, 0.0), &surface(1e5, 0.0), Some(&entry), &Laws::default()).unwrap();
         assert_eq!((props.stiffness, props.share_a), (6e4, 0.25));
-        let FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } = props.friction else {
+        let FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static, .. } = props.friction else {
             panic!("not a bristle")
         };
         assert_eq!((stiffness, damping, mu_kinetic), (9e3, 7.0, 0.4));
@@ -508,7 +538,7 @@ mod tests {
     }
 
     fn bristle(mu: f64, stiffness: Option<f64>, damping: Option<f64>) -> FrictionLaw {
-        FrictionLaw::Bristle { mu, static_excess: 0.0, stiffness, damping }
+        FrictionLaw::Bristle { mu, static_excess: 0.0, stiffness, damping, rolling: 0.0, spinning: 0.0 }
     }
 
     /// Whatever the normal dampings are, the bristle of two surfaces in series has the damping ratio of their
@@ -619,7 +649,14 @@ mod tests {
         let normal = |normal| Surface { normal, ..surface(1e5, 0.0) };
         let friction = |friction| Surface { friction, ..surface(1e5, 0.0) };
         let coulomb = |slip_speed| FrictionLaw::Coulomb { mu: 0.5, slip_speed };
-        let bristle = FrictionLaw::Bristle { mu: 0.5, static_excess: 0.0, stiffness: None, damping: None };
+        let bristle = FrictionLaw::Bristle {
+            mu: 0.5,
+            static_excess: 0.0,
+            stiffness: None,
+            damping: None,
+            rolling: 0.0,
+            spinning: 0.0,
+        };
         for (a, b, what) in [
             (normal(custom("x")), normal(custom("y")), "their normal force law"),
             (normal(custom("x")), surface(1e5, 0.0), "their normal force law"),
@@ -674,8 +711,22 @@ mod tests {
         ];
         let frictions = [
             FrictionLaw::None,
-            FrictionLaw::Bristle { mu: 0.3, static_excess: 0.2, stiffness: Some(7e3), damping: Some(5.0) },
-            FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: None, damping: None },
+            FrictionLaw::Bristle {
+                mu: 0.3,
+                static_excess: 0.2,
+                stiffness: Some(7e3),
+                damping: Some(5.0),
+                rolling: 0.0,
+                spinning: 0.0,
+            },
+            FrictionLaw::Bristle {
+                mu: 0.3,
+                static_excess: 0.0,
+                stiffness: None,
+                damping: None,
+                rolling: 0.0,
+                spinning: 0.0,
+            },
             FrictionLaw::Coulomb { mu: 0.3, slip_speed: 1e-3 },
         ];
         let text = |a: &Surface, b: &Surface| format!("{:?}", combine(a, b, None, &Laws::default()).unwrap());

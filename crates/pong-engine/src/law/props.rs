@@ -43,9 +43,31 @@ impl NormalProps {
 #[allow(missing_docs)]
 pub enum FrictionProps {
     None,
-    Bristle { stiffness: f64, damping: f64, mu_kinetic: f64, mu_static: f64 },
-    Coulomb { mu: f64, slip_speed: f64 },
-    Custom { law: Arc<dyn FrictionForce>, stiffness: f64, parameters: Vec<f64> },
+    Bristle {
+        stiffness: f64,
+        damping: f64,
+        mu_kinetic: f64,
+        mu_static: f64,
+        /// Lengths of the rolling and the spinning resistance, m.
+        rolling: f64,
+        spinning: f64,
+    },
+    Coulomb {
+        mu: f64,
+        slip_speed: f64,
+    },
+    Custom {
+        law: Arc<dyn FrictionForce>,
+        stiffness: f64,
+        parameters: Vec<f64>,
+    },
+}
+
+impl PairProps {
+    /// Returns true if contacts of the pair resist rolling or spinning.
+    pub(crate) fn has_resistance(&self) -> bool {
+        matches!(self.friction, FrictionProps::Bristle { rolling, spinning, .. } if rolling > 0.0 || spinning > 0.0)
+    }
 }
 
 /// Reason why two surfaces cannot be combined.

@@ -107,9 +107,9 @@ fn check_change(old: &Surface, new: &Surface) -> Result<(), EngineError> {
     }
     let rough: &[f64] = match &new.friction {
         FrictionLaw::None | FrictionLaw::Inherited => &[],
-        FrictionLaw::Bristle { mu, static_excess, stiffness, .. } => {
+        FrictionLaw::Bristle { mu, static_excess, stiffness, rolling, spinning, .. } => {
             let c_t = new.bristle().map_or(0.0, |(_, c_t)| c_t);
-            &[*mu, *static_excess, stiffness.unwrap_or(0.0), c_t]
+            &[*mu, *static_excess, stiffness.unwrap_or(0.0), c_t, *rolling, *spinning]
         }
         FrictionLaw::Coulomb { mu, slip_speed } if *slip_speed > 0.0 => &[*mu, *slip_speed],
         FrictionLaw::Coulomb { .. } => return bad("the slip speed must be positive"),

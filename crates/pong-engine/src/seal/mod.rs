@@ -121,7 +121,9 @@ pub(crate) fn seal(
         let [a, b] = [pair.first, pair.second].map(|body| scene.group_of_model(body).0);
         pair.tables = [table_of[&(a, b)], table_of[&(b, a)]];
     }
-    let contact_capacity = scene.config.contact_capacity.unwrap_or_else(|| worst_case(scene, &group_pairs));
+    let has_resistance = tables.iter().any(|table| table.has_resistance);
+    let contact_capacity =
+        scene.config.contact_capacity.unwrap_or_else(|| worst_case(scene, &group_pairs, has_resistance));
     let record_capacity = 2 * contact_capacity;
     let hash = scene_hash(scene, contact_capacity, law_state_len);
     let paired_bodies = paired_bodies(scene, &group_pairs);

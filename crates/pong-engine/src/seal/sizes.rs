@@ -117,9 +117,12 @@ pub(super) fn bytes_per_contact(scene: &Scene, threads: usize, law_state_len: us
 /// Estimate of the number of contacts: every primitive touches every shell of the groups paired with its own,
 /// with the most contacts that the tester table gives its kind. Clamped to the limits of the default
 /// capacity.
-pub(super) fn worst_case(scene: &Scene, group_pairs: &[GroupPair]) -> usize {
+///
+/// If any surfaces resist rolling or spinning, every contact has the two of a couple besides.
+pub(super) fn worst_case(scene: &Scene, group_pairs: &[GroupPair], has_resistance: bool) -> usize {
+    let with_couple = if has_resistance { 3 } else { 1 };
     let movers = |body: usize| -> usize {
-        scene.body(body).primitives.iter().map(|info| most_contacts(info.kind)).sum()
+        scene.body(body).primitives.iter().map(|info| with_couple * most_contacts(info.kind)).sum()
     };
     let movers: Vec<usize> = (0..scene.bodies.len()).map(movers).collect();
     let mut total = 0_usize;

@@ -96,6 +96,12 @@ pub(super) fn unfit(props: &PairProps) -> Option<&'static str> {
              with `contact: Marked`",
         );
     }
+    if props.has_resistance() {
+        return Some(
+            "the friction of solids has no `rolling` and no `spinning` resistance; give solids surfaces without \
+             them, or give the pair its friction in `pairs`, or mark what touches with `contact: Marked`",
+        );
+    }
     match &props.normal {
         NormalProps::Custom { .. } => Some(
             "solids have no law of the host for the normal force; use `Linear` or `HuntCrossley` for them, or mark \

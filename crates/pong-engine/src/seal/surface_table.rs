@@ -13,6 +13,8 @@ pub(crate) struct SurfaceTable {
     pub columns: usize,
     /// Combined values in row-major order, one row per surface of A's model.
     pub props: Vec<Option<PairProps>>,
+    /// True if contacts of any of these pairs resist rolling or spinning.
+    pub has_resistance: bool,
     /// Combined values per unit area of solids and planes that may meet.
     pub foundations: BTreeMap<FoundationKey, PairProps>,
 }
@@ -22,7 +24,7 @@ impl SurfaceTable {
     pub fn empty(model_a: usize, model_b: usize, surfaces: &[Vec<Surface>]) -> Self {
         let columns = surfaces[model_b].len();
         let props = vec![None; surfaces[model_a].len() * columns];
-        Self { model_a, model_b, columns, props, foundations: BTreeMap::new() }
+        Self { model_a, model_b, columns, props, has_resistance: false, foundations: BTreeMap::new() }
     }
 
     /// Values of a pair of surfaces that can meet.

@@ -72,7 +72,10 @@ fn fill_table(
             let a = &surfaces[table.model_a][info_a.surface as usize];
             let b = &surfaces[table.model_b][info_b.surface as usize];
             match combined(scene, (model_a, a), (model_b, b)) {
-                Ok(props) => table.props[slot] = Some(props),
+                Ok(props) => {
+                    table.has_resistance |= props.has_resistance();
+                    table.props[slot] = Some(props);
+                }
                 Err(problem) => _ = problems.insert(problem),
             }
         }

@@ -18,7 +18,8 @@ pub(crate) struct ContactKey {
     /// Shell of B.
     pub shell_b: u32,
     /// Place on A, if A has two ends: 0 and 1 at the ends, 2 and above elsewhere. For solids, see
-    /// [`of_solids`](Self::of_solids). 0 for all other kinds.
+    /// [`of_solids`](Self::of_solids); for the contacts of a couple, [`of_couple`](Self::of_couple). 0 for all
+    /// other kinds.
     pub end: u32,
 }
 
@@ -58,6 +59,23 @@ impl ContactKey {
     #[inline]
     pub fn is_of_solids(&self) -> bool {
         self.end & Self::SOLID != 0
+    }
+
+    /// Bit of `end` that marks the two contacts of a resistance couple, and the bit that tells them apart.
+    const COUPLE: u32 = 1 << 30;
+    const SECOND: u32 = 1 << 29;
+
+    /// Keys of the two contacts whose forces are the couple that resists rolling and spinning at a contact of
+    /// this key.
+    pub fn of_couple(self) -> [Self; 2] {
+        [Self::COUPLE, Self::COUPLE | Self::SECOND].map(|bits| Self { end: self.end | bits, ..self })
+    }
+
+    /// Returns true if the contact is one that a contact tester has found: neither one of two solids nor part
+    /// of a resistance couple.
+    #[inline]
+    pub fn is_tested(&self) -> bool {
+        self.end & (Self::SOLID | Self::COUPLE) == 0
     }
 
     /// Fields packed into two words, which compare faster than five fields.

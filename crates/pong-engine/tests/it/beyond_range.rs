@@ -152,8 +152,14 @@ fn surface(stiffness: f64, exponent: Exponent) -> Surface {
         Exponent::One => NormalLaw::Linear { damping: 1.0, ramp: 0.0 },
         Exponent::ThreeHalves => NormalLaw::HuntCrossley { dissipation: 0.1, exponent },
     };
-    let friction =
-        FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: Some(stiffness), damping: None };
+    let friction = FrictionLaw::Bristle {
+        mu: 0.3,
+        static_excess: 0.0,
+        stiffness: Some(stiffness),
+        damping: None,
+        rolling: 0.0,
+        spinning: 0.0,
+    };
     Surface { name: "s".to_owned(), stiffness, foundation: None, area: None, normal, friction }
 }
 
@@ -210,7 +216,14 @@ fn stiffnesses_beyond_their_range_are_refused_by_name_and_change_nothing() {
     let good = rig.world.surface(model, "s").unwrap().clone();
     for k in [1.01e100, f64::MAX, 0.99e-100, 5e-324] {
         let bad = Surface { stiffness: k, ..good.clone() };
-        let bristle = FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: Some(k), damping: None };
+        let bristle = FrictionLaw::Bristle {
+            mu: 0.3,
+            static_excess: 0.0,
+            stiffness: Some(k),
+            damping: None,
+            rolling: 0.0,
+            spinning: 0.0,
+        };
         for bad in [bad, Surface { friction: bristle, ..good.clone() }] {
             match rig.world.set_surface(model, &bad) {
                 Err(EngineError::BadValue { what, cause }) => {
@@ -223,8 +236,14 @@ fn stiffnesses_beyond_their_range_are_refused_by_name_and_change_nothing() {
     for damping in [1.01e100, f64::MAX] {
         let bad = Surface { normal: NormalLaw::Linear { damping, ramp: 0.0 }, ..good.clone() };
         assert!(matches!(rig.world.set_surface(model, &bad), Err(EngineError::BadValue { .. })), "{damping}");
-        let rough =
-            FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: None, damping: Some(damping) };
+        let rough = FrictionLaw::Bristle {
+            mu: 0.3,
+            static_excess: 0.0,
+            stiffness: None,
+            damping: Some(damping),
+            rolling: 0.0,
+            spinning: 0.0,
+        };
         let bad = Surface { friction: rough, ..good.clone() };
         assert!(matches!(rig.world.set_surface(model, &bad), Err(EngineError::BadValue { .. })), "{damping}");
     }

@@ -27,6 +27,7 @@ mod normal_tangents;
 mod other_descriptions;
 mod pairs;
 mod preload;
+mod resistance;
 mod round_parts;
 mod round_sides;
 mod scene;

@@ -31,6 +31,11 @@ pub(super) fn bristle(
         Some(node) => reader.not_negative(node, path, "static_excess"),
         None => Some(0.0),
     };
+    let mut length = |name| match fields.optional(name) {
+        Some(node) => reader.not_negative(node, path, name),
+        None => Some(0.0),
+    };
+    let (rolling, spinning) = (length("rolling"), length("spinning"));
     let stiffness = match fields.optional("stiffness") {
         Some(node) => Some(finite_stiffness(reader, node, path, "the bristle's stiffness")?),
         None => None,
@@ -44,7 +49,15 @@ pub(super) fn bristle(
             _ => None,
         },
     };
-    Some(FrictionLaw::Bristle { mu: mu?, static_excess: static_excess?, stiffness, damping })
+    let (mu, static_excess) = (mu?, static_excess?);
+    Some(FrictionLaw::Bristle {
+        mu,
+        static_excess,
+        stiffness,
+        damping,
+        rolling: rolling?,
+        spinning: spinning?,
+    })
 }
 
 /// Mass that a normal law gives in its `restitution`. Its faults are reported where the law is read.

@@ -183,6 +183,8 @@ pub const FRICTION_LAWS: &[Kind<Friction>] = &[
             described("stiffness", Type::FiniteStiffness, "N/m", "⅔ of the normal stiffness"),
             described("damping", Type::NotNegative, "N·s/m", "that of `mass`, else of the normal law"),
             described("mass", Type::Positive, "kg", "`damping` counts"),
+            optional("rolling", Type::NotNegative, "m", "0.0"),
+            optional("spinning", Type::NotNegative, "m", "0.0"),
         ],
     ),
     kind(

@@ -78,7 +78,14 @@ fn surfaces_and_pairs_are_read() {
     // c·2^(−0.2)·k^(−0.8)·m^(−0.2)·v^0.6 = 0.60744 gives e = 0.6 (an integration in time by another program).
     let group = damping * (1e9_f64.powf(-0.8) * (2.0_f64 * 0.04).powf(-0.2) * 2.0_f64.powf(0.6));
     assert!((group - 0.607_435).abs() < 1e-4, "{group}");
-    let bristle = FrictionLaw::Bristle { mu: 0.2, static_excess: 0.1, stiffness: None, damping: Some(3.0) };
+    let bristle = FrictionLaw::Bristle {
+        mu: 0.2,
+        static_excess: 0.1,
+        stiffness: None,
+        damping: Some(3.0),
+        rolling: 0.0,
+        spinning: 0.0,
+    };
     assert_eq!(by_name("rubber").friction, bristle);
     assert_eq!(model.pair_overrides[0].surfaces, ["steel".to_owned(), "elsewhere".to_owned()]);
     assert_eq!(model.pair_overrides[0].friction, Some(FrictionLaw::None));
@@ -258,4 +265,18 @@ fn the_hash_knows_whether_a_bristle_gives_its_damping() {
         hash("mu: 0.3, mass: 6"),
         hash(&format!("mu: 0.3, damping: {:?}", 2.0 * (2.0 / 3.0 * 1e5 * 6.0_f64).sqrt()))
     );
+}
+
+/// Lengths of rolling and spinning resistance are read and hashed; lengths of zero are as if they were left out.
+#[test]
+fn rolling_and_spinning_resistance_is_read() {
+    let read =
+        |bristle: &str| with_tables(&format!("\"t\": (stiffness: 1e5, friction: Bristle({bristle}))"), "");
+    let model = read("mu: 0.3, rolling: 2e-3, spinning: 1e-3");
+    let surface = model.surfaces.iter().find(|surface| surface.name == "t").unwrap();
+    assert_eq!(surface.resistances(), [2e-3, 1e-3]);
+    let hash = |bristle: &str| read(bristle).hash;
+    assert_eq!(hash("mu: 0.3"), hash("mu: 0.3, rolling: 0, spinning: 0"));
+    let hashes = ["mu: 0.3", "mu: 0.3, rolling: 2e-3", "mu: 0.3, spinning: 2e-3"].map(hash);
+    assert!(hashes[0] != hashes[1] && hashes[1] != hashes[2] && hashes[0] != hashes[2]);
 }

@@ -4,6 +4,7 @@ mod bristles;
 pub(crate) mod contact;
 pub(crate) mod contact_buffer;
 pub(crate) mod contact_ref;
+mod couples;
 pub(crate) mod found;
 
 use crate::frame::broad_phase::chunk::Chunk;
@@ -19,6 +20,7 @@ use bristles::Bristle;
 use contact::FrameContact;
 use contact_buffer::ContactBuffer;
 use contact_ref::ContactRef;
+use couples::Couple;
 use pong_geometry::Vec3;
 use pong_geometry::lanes::Lanes;
 use pong_geometry::pose::carry_by_smallest_rotation;
@@ -50,6 +52,32 @@ pub(crate) fn compute_forces(
             }
         }
     }
+    if context.table.has_resistance {
+        add_couples((context, sealed), elements_a.kind, found, out);
+    }
+}
+
+/// Adds the couples of the contacts of a chunk whose surfaces resist rolling or spinning. `found` is in
+/// summation order.
+#[inline(never)]
+fn add_couples(
+    (context, sealed): (&PairContext<'_>, &Sealed),
+    kind_a: PrimitiveKind,
+    found: &[ContactCandidate],
+    out: &mut ContactBuffer,
+) {
+    // A ray is a plunger, which does not roll.
+    if kind_a == PrimitiveKind::Ray {
+        return;
+    }
+    for group in found.chunk_by(|a, b| a.key == b.key) {
+        let counts = || group.iter().filter(|contact| contact.status != CandidateStatus::Culled);
+        for one in counts().filter(|contact| contact.role == ContactRole::Active) {
+            if let Some(couple) = Couple::of(context, kind_a, one, bristle_share(one, counts())) {
+                couple.add(sealed, out);
+            }
+        }
+    }
 }
 
 /// Recomputes the forces after the contact capacity has removed contacts, because the remaining contacts then
@@ -68,8 +96,8 @@ pub(crate) fn recompute_forces(
         let group;
         (group, rest) =
             rest.split_at(rest.iter().take_while(|reference| key_of(out, reference) == key).count());
-        // The forces of solids share no springs.
-        if key.is_of_solids() {
+        // The forces of solids and of resistance couples share no springs.
+        if !key.is_tested() {
             continue;
         }
         let motion = motions.known(input, key.direction());
@@ -236,7 +264,7 @@ impl PairContext<'_> {
             carry_by_smallest_rotation(&record.bristle_b, &record.normal_b, &contact.found.normal_b)
         });
         let stuck = record.is_none_or(|record| record.sticks);
-        if let FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } = props.friction {
+        if let FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static, .. } = props.friction {
             return out.bristles.add(
                 contact.index,
                 &Bristle {

@@ -96,6 +96,9 @@ impl EvaluationBuffers {
                 all.extend(group.chunk_by(of_one).filter_map(|two| self.held_by_solids(scene, sealed, two)));
                 continue;
             }
+            if !key.is_tested() {
+                continue;
+            }
             let motion = motions.known(&self.input, key.direction());
             let context = PairContext::new(&round, key.direction(), &motion);
             for index in group {

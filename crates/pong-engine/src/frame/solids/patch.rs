@@ -244,7 +244,7 @@ impl Patch<'_> {
         let Resultant { normal, force, area, lever, .. } = *resultant;
         let stuck = earlier.is_none_or(|[(_, first), _]| first.sticks);
         let output = match self.props.friction {
-            FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } => PatchBristle {
+            FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static, .. } => PatchBristle {
                 carried_b: carried(resultant, earlier),
                 slip_b: self.slip(resultant, earlier),
                 slip_velocity_b: slip_velocity,

@@ -105,7 +105,7 @@ fn ended<'a>(records: &Records, order: &[ContactRef], scratch: &'a Arena) -> Lis
     // be a cache miss. Of the remaining records only the role is read. These reads do not depend on each
     // other, so their cache misses overlap.
     for index in (0..records.len()).filter(|&index| !continued[index]) {
-        if records[index].role == ContactRole::Active && !records[index].key.is_of_solids() {
+        if records[index].role == ContactRole::Active && records[index].key.is_tested() {
             ended.push(index as u32).expect(room);
         }
     }

@@ -5,11 +5,13 @@ mod bristle;
 mod coulomb;
 mod force;
 mod patch_bristle;
+mod resistance;
 mod slip_path;
 
 pub(crate) use bristle::{BristleForces, Bristles, shortened};
 pub use force::{FrictionForce, FrictionInput, FrictionOutput};
 pub(crate) use patch_bristle::PatchBristle;
+pub(crate) use resistance::{Resistance, ResistingMoment};
 
 use super::props::FrictionProps;
 
