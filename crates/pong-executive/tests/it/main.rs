@@ -9,5 +9,6 @@ mod free_flight;
 mod scene_faults;
 mod scene_format;
 mod solids;
+mod solids_scenes;
 mod springs;
 mod step_sums;
