@@ -10,5 +10,6 @@ mod resistance;
 mod scene_faults;
 mod scene_format;
 mod solids;
+mod solids_scenes;
 mod springs;
 mod step_sums;

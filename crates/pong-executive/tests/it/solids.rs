@@ -9,10 +9,10 @@ use pong_testkit::samples::samples;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-const G: f64 = 9.81;
+pub(super) const G: f64 = 9.81;
 
 /// Model of one solid with the given primitives.
-fn solid(surface: &str, primitives: &str) -> String {
+pub(super) fn solid(surface: &str, primitives: &str) -> String {
     format!(
         r#"(format: "pong-model", version: 1, name: "solid", surfaces: {{ "s": ({surface}) }},
             root: (name: "solid", surface: "s", contact: Solid, primitives: [{primitives}]))"#
@@ -20,12 +20,12 @@ fn solid(surface: &str, primitives: &str) -> String {
 }
 
 /// Box of half extents around the origin.
-fn block(surface: &str, half: [f64; 3]) -> String {
+pub(super) fn block(surface: &str, half: [f64; 3]) -> String {
     solid(surface, &box_polyhedron("box", [0.0; 3], half, ""))
 }
 
 /// Regular prism around z.
-fn prism(surface: &str, sides: usize, radius: f64, half: f64) -> String {
+pub(super) fn prism(surface: &str, sides: usize, radius: f64, half: f64) -> String {
     let corner = |index: usize, z: f64| {
         let (sine, cosine) = (2.0 * PI * index as f64 / sides as f64).sin_cos();
         format!("({:?}, {:?}, {z:?})", radius * cosine, radius * sine)
@@ -52,7 +52,7 @@ fn prism(surface: &str, sides: usize, radius: f64, half: f64) -> String {
 }
 
 /// Plane z = 0 under everything.
-fn ground(surface: &str) -> String {
+pub(super) fn ground(surface: &str) -> String {
     format!(
         r#"(format: "pong-model", version: 1, name: "ground", surfaces: {{ "s": ({surface}) }},
             root: (name: "ground", surface: "s", primitives: [
@@ -60,12 +60,12 @@ fn ground(surface: &str) -> String {
     )
 }
 
-fn rough(modulus: f64, mu: f64) -> String {
+pub(super) fn rough(modulus: f64, mu: f64) -> String {
     damped(modulus, 300.0, mu)
 }
 
 /// Damping c, N·s/m, beside the stiffness of 1e5 N/m; solids scale it by modulus over stiffness.
-fn damped(modulus: f64, damping: f64, mu: f64) -> String {
+pub(super) fn damped(modulus: f64, damping: f64, mu: f64) -> String {
     format!(
         "stiffness: 1e5, foundation: {modulus:?}, normal: Linear(damping: {damping:?}), friction: Bristle(mu: {mu:?})"
     )
@@ -74,27 +74,27 @@ fn damped(modulus: f64, damping: f64, mu: f64) -> String {
 const RIGID: &str = "stiffness: inf";
 
 /// Body of a scene: its model, and its mass and pose if it moves.
-struct Part {
-    text: String,
-    moves: Option<MassProperties>,
-    pose: Pose,
+pub(super) struct Part {
+    pub text: String,
+    pub moves: Option<MassProperties>,
+    pub pose: Pose,
 }
 
-fn at(position: [f64; 3]) -> Pose {
+pub(super) fn at(position: [f64; 3]) -> Pose {
     Pose::new(position.into(), [1.0, 0.0, 0.0, 0.0])
 }
 
-fn fixed(text: String) -> Part {
+pub(super) fn fixed(text: String) -> Part {
     Part { text, moves: None, pose: at([0.0; 3]) }
 }
 
-fn of_block(surface: &str, mass: f64, half: [f64; 3], pose: Pose) -> Part {
+pub(super) fn of_block(surface: &str, mass: f64, half: [f64; 3], pose: Pose) -> Part {
     let moves = Some(MassProperties::cuboid(mass, half.map(|h| 2.0 * h)));
     Part { text: block(surface, half), moves, pose }
 }
 
 /// Simulation of bodies that all touch each other, under gravity.
-fn simulate(parts: &[Part], integrator: Integrator, step: f64) -> (Simulation, Vec<BodyId>) {
+pub(super) fn simulate(parts: &[Part], integrator: Integrator, step: f64) -> (Simulation, Vec<BodyId>) {
     let config = Config { accounts: integrator.wrench_coupling(), ..Config::default() };
     let mut builder = WorldBuilder::new(config);
     let mut objects = Vec::new();
