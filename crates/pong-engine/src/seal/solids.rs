@@ -25,13 +25,13 @@ pub(crate) struct SolidPair {
 /// the two models, each with its solid or plane.
 pub(crate) type FoundationKey = (usize, u32, usize, Partner);
 
-/// Shares of the two fields in the energy of a pair, A's first. A solid that is not convex leaves its share
-/// to a convex partner, whose field then carries both springs in series. `None` if neither has a field.
+/// Shares of the two fields in the energy of a pair, A's first. The field of a plane carries both springs in
+/// series: it has no far side, so a soft body cannot sink through it. A solid that is not convex leaves its share
+/// to a convex partner. `None` if neither has a field.
 pub(crate) fn field_shares(a: &Solid, b: Option<&Solid>, share_a: f64) -> Option<[f64; 2]> {
-    // A plane is a convex field.
-    let convex = [a.is_convex(), b.is_none_or(Solid::is_convex)];
-    let has_field = [!a.fields.is_empty(), b.is_none_or(|b| !b.fields.is_empty())];
-    match (convex, has_field) {
+    let Some(b) = b else { return Some([0.0, 1.0]) };
+    let has_field = [!a.fields.is_empty(), !b.fields.is_empty()];
+    match ([a.is_convex(), b.is_convex()], has_field) {
         ([true, false], _) | (_, [true, false]) => Some([1.0, 0.0]),
         ([false, true], _) | (_, [false, true]) => Some([0.0, 1.0]),
         (_, [true, true]) => Some([share_a, 1.0 - share_a]),

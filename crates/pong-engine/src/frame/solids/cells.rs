@@ -15,8 +15,6 @@ pub(crate) struct SolidScratch {
     /// Faces of B and of A that push.
     pub(super) faces_b: PushingFaces,
     pub(super) faces_a: PushingFaces,
-    /// Planes that bound the volume but do not push, for the field that is being evaluated.
-    walls: Vec<HalfSpace>,
     /// Cells of B's field in B's frame, and of A's field in A's frame, by increasing face.
     pub(super) of_b: FieldCells,
     pub(super) of_a: FieldCells,
@@ -98,7 +96,6 @@ impl SolidScratch {
             overlap: Overlap::with_capacity(facets + 2 * faces),
             faces_b: list(),
             faces_a: list(),
-            walls: Vec::with_capacity(2 * faces),
             of_b: cells(),
             of_a: cells(),
             forces: Vec::with_capacity(2 * faces),
@@ -107,7 +104,9 @@ impl SolidScratch {
 
     /// Memory that [`with_capacity`](Self::with_capacity) takes, bytes.
     pub fn bytes(facets: usize, faces: usize) -> usize {
-        let per_face = 5 * size_of::<HalfSpace>() + 2 * size_of::<Cell>() + 2 * size_of::<CellForce>();
+        let per_face = 2 * (size_of::<HalfSpace>() + size_of::<u32>())
+            + 2 * size_of::<Cell>()
+            + 2 * size_of::<CellForce>();
         Overlap::bytes(facets + 2 * faces) + faces * per_face
     }
 
@@ -142,26 +141,17 @@ impl Cells<'_> {
     /// Finds the cells of both fields that have a share.
     pub fn find(&self, scratch: &mut SolidScratch) {
         let Self { relative, shares, sides: (a, b) } = *self;
-        let SolidScratch { overlap, faces_b, faces_a, walls, of_b, of_a, .. } = scratch;
+        let SolidScratch { overlap, faces_b, faces_a, of_b, of_a, .. } = scratch;
         of_b.cells.clear();
         of_a.cells.clear();
         if shares[1] > 0.0 {
             let field = Field { faces: &faces_b.planes, walls: b.walls };
             find(overlap, a, &relative.x_ba, &relative.a_in_b, &field, of_b);
         }
+        // Against a plane, only the plane's field has a share.
         if shares[0] > 0.0 {
-            if b.parts.is_empty() {
-                // A plane has no surface that could be cut: A's surface is cut by the plane instead.
-                walls.clear();
-                walls.extend(a.walls.iter().chain(b.faces).copied());
-                let last = walls.len() - 1;
-                walls[last] = in_frame_of_a(&b.faces[0], &relative.x_ba);
-                let field = Field { faces: &faces_a.planes, walls };
-                find(overlap, a, &Transform::identity(), &relative.b_in_a, &field, of_a);
-            } else {
-                let field = Field { faces: &faces_a.planes, walls: a.walls };
-                find(overlap, b, &relative.x_ab, &relative.b_in_a, &field, of_a);
-            }
+            let field = Field { faces: &faces_a.planes, walls: a.walls };
+            find(overlap, b, &relative.x_ab, &relative.b_in_a, &field, of_a);
         }
         of_b.cells.sort_by_key(|cell| cell.face);
         of_a.cells.sort_by_key(|cell| cell.face);
@@ -182,10 +172,4 @@ fn find(
         overlap.cells(&part.surface, x, field, velocity);
         found.add(overlap.found(), &overlap.reference_b());
     }
-}
-
-/// Half space of B's plane in A's frame.
-fn in_frame_of_a(plane: &HalfSpace, x_ba: &Transform) -> HalfSpace {
-    let normal = x_ba.rotation.tr_mul(&plane.normal_b);
-    HalfSpace { normal_b: normal, offset: plane.offset - plane.normal_b.dot(&x_ba.translation) }
 }
