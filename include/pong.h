@@ -640,7 +640,7 @@ typedef struct pong_contact {
     /// Index of that feature among those of its kind.
     uint32_t feature_index;
     /// End of an elongated body: 0 and 1 at its ends, 2 and above between them; 0 for other bodies.
-    /// Contacts of solids have bit 31 set: see docs/c_api.md.
+    /// Contacts of solids have bit 31 set, forces against rolling and spinning bit 30: see docs/c_api.md.
     uint32_t end;
     /// 1: friction sticks. 0: it slips, or there is none.
     int32_t sticks;

@@ -50,7 +50,7 @@ pub struct pong_contact {
     /// Index of that feature among those of its kind.
     pub feature_index: u32,
     /// End of an elongated body: 0 and 1 at its ends, 2 and above between them; 0 for other bodies.
-    /// Contacts of solids have bit 31 set: see docs/c_api.md.
+    /// Contacts of solids have bit 31 set, forces against rolling and spinning bit 30: see docs/c_api.md.
     pub end: u32,
     /// 1: friction sticks. 0: it slips, or there is none.
     pub sticks: i32,

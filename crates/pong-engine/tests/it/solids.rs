@@ -351,6 +351,17 @@ fn tumbling_body_forgets_the_side_on_which_it_began() {
     }
 }
 
+/// Solids count for the distance of two movable groups, as do solids and planes.
+#[test]
+fn distance_of_solids() {
+    for (other, expected) in [(block(SOFT, [0.1; 3]), 0.05), (floor(SOFT), 0.15)] {
+        let mut pair = Pair::new(&block(SOFT, [0.1; 3]), &other);
+        pair.at(&pose([0.02, 0.03, 0.25], [0.0; 3]));
+        let found = pair.world.distance(pair.roots[0], pair.roots[1]).unwrap();
+        assert!((found.distance - expected).abs() < 1e-12, "{found:?}");
+    }
+}
+
 /// Prints the time of a frame with one pair of boxes, for the page on performance.
 #[test]
 #[ignore = "prints times"]
