@@ -43,12 +43,13 @@ pub(crate) fn field_shares(a: &Solid, b: Option<&Solid>, share_a: f64) -> Option
 /// and the stiffness of its bristle change by the same factor. `area` is that of its solid, m².
 pub(super) fn per_area(surface: &Surface, area: f64) -> Surface {
     let area = surface.area.unwrap_or(area);
-    let modulus = if surface.stiffness.is_finite() {
-        surface.foundation.unwrap_or(surface.stiffness / area)
-    } else {
-        surface.stiffness
+    let modulus = match surface.stiffness.is_finite() {
+        true => surface.foundation.unwrap_or(surface.stiffness / area),
+        false => f64::INFINITY,
     };
-    let factor = if surface.stiffness.is_finite() { modulus / surface.stiffness } else { 1.0 / area };
+    // Finite operands, because a compiler may divide before it tests them, and ∞/∞ is an invalid operation.
+    let scale = modulus.min(f64::MAX) / surface.stiffness.min(f64::MAX);
+    let factor = if surface.stiffness.is_finite() { scale } else { 1.0 / area };
     let mut scaled = surface.clone();
     scaled.stiffness = modulus;
     scale_laws(&mut scaled.normal, &mut scaled.friction, factor);

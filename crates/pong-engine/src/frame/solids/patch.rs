@@ -19,7 +19,7 @@ use pong_geometry::interference::Feature;
 use pong_geometry::overlap::{Cell, HalfSpace, Moments};
 use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_geometry::{Twist, Vec3};
+use pong_geometry::{Twist, Vec3, divisor};
 
 /// Least resultant of the normal forces that has friction, relative to K·V. Below it the cells push against
 /// each other, and the direction of their sum is rounding.
@@ -125,7 +125,8 @@ impl Patch<'_> {
         if *volume <= 0.0 || depths <= 0.0 {
             return None;
         }
-        let (area, depth) = (share * volume * volume / (2.0 * depths), 2.0 * depths / volume);
+        let (per_depth, per_volume) = (divisor(2.0 * depths), divisor(*volume));
+        let (area, depth) = (share * volume * volume / per_depth, 2.0 * depths / per_volume);
         // Rate of the depth at a position y from the reference point: at_reference + slope·y.
         let at_reference = -face.normal_b.dot(&velocity.at(reference));
         let slope = velocity.angular.cross(&face.normal_b);
@@ -134,18 +135,18 @@ impl Patch<'_> {
         let damping = normal_tangent(self.props, area, depth, 0.0).map_or(0.0, |tangent| tangent.damping);
         let dissipation = damping / elastic.max(f64::MIN_POSITIVE);
         let least = dissipation * cell.least_rate;
-        let applied = if least < -1.0 { dissipation / -least } else { dissipation };
+        let applied = if least < -1.0 { dissipation / divisor(-least) } else { dissipation };
         let damped = volume + applied * rates;
         let first = first_b + (first_b * at_reference + second * slope) * applied;
         let pulls_nowhere = damped > 1e-12 * volume;
-        let center = if pulls_nowhere { first / damped } else { first_b / *volume };
+        let center = if pulls_nowhere { first / divisor(damped) } else { first_b / per_volume };
         Some(CellForce {
             part: SolidContactPart::CellOfB,
             face: cell.face as u32,
             normal_b: face.normal_b,
             point_b: reference + center,
-            force: if pulls_nowhere { elastic * (damped / volume) } else { 0.0 },
-            rate: rates / volume,
+            force: if pulls_nowhere { elastic * (damped / per_volume) } else { 0.0 },
+            rate: rates / per_volume,
             area,
             depth,
         })
@@ -158,10 +159,11 @@ impl Patch<'_> {
         if force <= LEAST_RESULTANT * pressed || force == 0.0 {
             return None;
         }
-        let normal = sum / force;
+        let normal = sum / divisor(force);
         let along = |cell: &CellForce| (cell.force * cell.normal_b.dot(&normal)).max(0.0);
         let weights: f64 = forces.iter().map(along).sum();
-        let center: Vec3 = forces.iter().map(|cell| cell.point_b * along(cell)).sum::<Vec3>() / weights;
+        let center: Vec3 =
+            forces.iter().map(|cell| cell.point_b * along(cell)).sum::<Vec3>() / divisor(weights);
         // Both fields divide the same volume V, which only rounding makes different in the two. Effective area
         // V²/(2I) and depth 2I/V, as for one cell, with I = s_A·I_A + s_B·I_B and V = s_A·V_A + s_B·V_B.
         let (of_a, of_b) = fields;
@@ -178,7 +180,7 @@ impl Patch<'_> {
             let x_ab = &self.relative.x_ab;
             lever(&of_a.sum(), &of_a.reference_b, &x_ab.point(&center), &x_ab.vector(&normal))
         };
-        let (area, depth) = (volume * volume / (2.0 * depths), 2.0 * depths / volume);
+        let (area, depth) = (volume * volume / divisor(2.0 * depths), 2.0 * depths / divisor(volume));
         Some(Resultant { normal, force, center, area, depth, lever })
     }
 
@@ -360,7 +362,7 @@ impl Patch<'_> {
 /// contact keeps the deflection times the area, so the shorter of the two candidates is the right one.
 fn carried(resultant: &Resultant, earlier: Option<[(usize, &ContactRecord); 2]>) -> Vec3 {
     let Some([(_, first), (_, second)]) = earlier else { return Vec3::zeros() };
-    let same_force = second.bristle_b / resultant.area;
+    let same_force = second.bristle_b / divisor(resultant.area);
     let kept =
         if same_force.norm_squared() < first.bristle_b.norm_squared() { same_force } else { first.bristle_b };
     carry_by_smallest_rotation(&kept, &first.normal_b, &resultant.normal)
@@ -378,7 +380,7 @@ fn lever(moments: &Moments, reference: &Vec3, center: &Vec3, normal: &Vec3) -> f
 fn across(normal: &Vec3, force: &Vec3) -> Vec3 {
     let length = force.norm();
     if length > 0.0 {
-        return force / length;
+        return force / divisor(length);
     }
     let least = normal.iamin();
     let mut axis = Vec3::zeros();
