@@ -66,7 +66,14 @@ pub enum FrictionProps {
 impl PairProps {
     /// Returns true if contacts of the pair resist rolling or spinning.
     pub(crate) fn has_resistance(&self) -> bool {
-        matches!(self.friction, FrictionProps::Bristle { rolling, spinning, .. } if rolling > 0.0 || spinning > 0.0)
+        // Bits are compared, not numbers: a compiler may compare before it has tested the law, and what stands in
+        // place of the lengths then may be no number.
+        match self.friction {
+            FrictionProps::Bristle { rolling, spinning, .. } => {
+                (rolling.to_bits() | spinning.to_bits()) << 1 != 0
+            }
+            _ => false,
+        }
     }
 }
 

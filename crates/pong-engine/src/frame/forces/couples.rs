@@ -10,10 +10,10 @@ use crate::law::friction::{Resistance, ResistingMoment, shortened};
 use crate::law::{FrictionProps, normal_force};
 use crate::seal::Sealed;
 use crate::state::{ContactRecord, ContactRole, NO_FACE};
+use pong_geometry::Vec3;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_geometry::{Vec3, divisor};
 use pong_model::MovableGroup;
 
 /// Couple of one contact.
@@ -143,7 +143,7 @@ fn arm(moment: &Vec3, normal: &Vec3) -> Vec3 {
     if size == 0.0 {
         return *normal;
     }
-    let axis = moment / divisor(size);
+    let axis = moment / (size + f64::MIN_POSITIVE);
     let mut along_force = normal.cross(&axis);
     if along_force.norm() < LEAST_SINE {
         let mut guide = Vec3::zeros();

@@ -380,7 +380,7 @@ fn lever(moments: &Moments, reference: &Vec3, center: &Vec3, normal: &Vec3) -> f
 fn across(normal: &Vec3, force: &Vec3) -> Vec3 {
     let length = force.norm();
     if length > 0.0 {
-        return force / divisor(length);
+        return force / (length + f64::MIN_POSITIVE);
     }
     let least = normal.iamin();
     let mut axis = Vec3::zeros();

@@ -3,8 +3,8 @@
 
 use super::bristle::{BristleForces, Bristles};
 use super::force::FrictionOutput;
+use pong_geometry::Vec3;
 use pong_geometry::simd::{LaneBits, Numbers, Portable, Vectors};
-use pong_geometry::{Vec3, divisor};
 
 /// Bristle of a patch, and its motion since the last commit. The vectors have three components, in B's axes.
 pub(crate) struct PatchBristle {
@@ -57,6 +57,8 @@ impl PatchBristle {
     fn plane_of_path(&self) -> Vec3 {
         let across = self.slip_b.cross(&self.slip_velocity_b);
         let length = across.norm();
-        if length > f64::MIN_POSITIVE { across / divisor(length) } else { self.normal_b }
+        // The sum keeps the divisor above zero, ahead of the branch as well.
+        let direction = across / (length + f64::MIN_POSITIVE);
+        if length > f64::MIN_POSITIVE { direction } else { self.normal_b }
     }
 }
