@@ -112,7 +112,7 @@ fn is_crossed([p, q, r]: &[Vec3; 3], from: &Vec3, to: &Vec3) -> bool {
     if start * end > 0.0 {
         return false;
     }
-    let place = from + (to - from) * (start / (start - end));
+    let place = from + (to - from) * (start / pong_geometry::divisor(start - end));
     let size = (q - p).norm() + (r - p).norm();
     (nearest_of_triangle(&[*p, *q, *r], &place) - place).norm() < 1e-9 * size
 }
