@@ -132,11 +132,6 @@ impl<'w> Setting<'w> {
         Some(springs)
     }
 
-    /// The combined values of a contact's two surfaces.
-    pub(crate) fn props(&self, contact: &PushingContact<'w>) -> &'w PairProps {
-        contact.props
-    }
-
     /// Effective mass 1/(1/m₁ + 1/m₂), kg; `None` if neither yields.
     pub fn effective_mass(&self, pair: &GroupPair) -> Option<f64> {
         let inverse = |body: usize| self.masses[body].map_or(0.0, |known| 1.0 / known.mass);

@@ -44,7 +44,7 @@ pub fn stored_energy(world: &World) -> Result<Vec<StoredEnergy>, EngineError> {
             deepest: (0, [0.0; 3]),
             not_known: 0,
         });
-        match pressed_in(setting.props(&contact), contact.depth) {
+        match pressed_in(contact.props, contact.depth) {
             Some(energy) => sum.energy += contact.weight * energy,
             None => sum.not_known += 1,
         }

@@ -5,7 +5,7 @@
 //! farther away than the nearest pair so far. The search allocates nothing.
 
 use crate::scene::Scene;
-use crate::seal::{Plan, Sealed};
+use crate::seal::{Plan, Sealed, solids_touch};
 use pong_geometry::distance::{Distance, Solid};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Pose, Transform, Vec3};
@@ -65,22 +65,18 @@ pub(crate) fn nearest(scene: &Scene, sealed: &Sealed, group_pair: usize, poses: 
 /// Batches of A and B that are tested against each other.
 fn tested_batches<'m>(plan: &Plan, groups: [&'m MovableGroup; 2]) -> impl Iterator<Item = [&'m Batch; 2]> {
     let [of_a, of_b] = groups.map(|group| &group.tree.batches);
+    let first = |group: &'m MovableGroup, batch: &Batch| {
+        let item = &group.tree.items[batch.items.start as usize];
+        (group, &group.primitives[item.primitive as usize])
+    };
     of_a.iter().enumerate().flat_map(move |(a, batch_a)| {
         let tested = move |(b, batch_b): &(usize, &Batch)| {
             plan.tests_batches((a, batch_a.kind), (*b, batch_b.kind))
-                || !plan.solids.is_empty() && solids_touch(groups, [batch_a, batch_b])
+                || !plan.solids.is_empty()
+                    && solids_touch(first(groups[0], batch_a), first(groups[1], batch_b))
         };
         of_b.iter().enumerate().filter(tested).map(move |(_, batch_b)| [batch_a, batch_b])
     })
-}
-
-/// Returns true if a batch holds solids of A, and the other one solids or planes of B.
-fn solids_touch([group_a, group_b]: [&MovableGroup; 2], [a, b]: [&Batch; 2]) -> bool {
-    let is_solid = |group: &MovableGroup, batch: &Batch| {
-        let first = &group.tree.items[batch.items.start as usize];
-        group.is_solid(&group.primitives[first.primitive as usize])
-    };
-    is_solid(group_a, a) && (b.kind == PrimitiveKind::Plane || is_solid(group_b, b))
 }
 
 /// Element as a convex solid in the frame that `x` leads to; `None` for planes, bores and a host's kinds.

@@ -52,7 +52,7 @@ pub fn divisor(difference: f64) -> f64 {
 }
 
 /// Returns a unit vector perpendicular to a unit vector; the same input gives the same result.
-pub(crate) fn any_perpendicular(axis: &Vec3) -> Vec3 {
+pub fn any_perpendicular(axis: &Vec3) -> Vec3 {
     let least = axis.iamin();
     axis.cross(&Vec3::ith(least, 1.0)).normalize()
 }

@@ -31,7 +31,7 @@ pub(crate) use filters::part_groups;
 pub(crate) use plans::{can_be_tested, kind_name};
 pub use sealed::GroupPair;
 pub(crate) use sealed::Sealed;
-pub(crate) use solids::{Partner, SolidPair, field_shares};
+pub(crate) use solids::{Partner, SolidPair, field_shares, solids_touch};
 pub(crate) use surface_table::SurfaceTable;
 pub(crate) use surfaces::{law_state_len, surface_tables};
 pub(crate) use test_plan::{Direction, Plan};

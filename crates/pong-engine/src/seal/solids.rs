@@ -2,7 +2,8 @@
 //! (docs/theory.md, 2.12).
 
 use crate::law::{FrictionProps, NormalProps, PairProps};
-use pong_model::{Exponent, NormalLaw, PairOverride, Solid, Surface};
+use pong_geometry::primitive::PrimitiveKind;
+use pong_model::{Exponent, MovableGroup, NormalLaw, PairOverride, PrimitiveInfo, Solid, Surface};
 
 /// Partner of a solid of A.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,6 +25,11 @@ pub(crate) struct SolidPair {
 /// Key of the combined values of two solids in a [`SurfaceTable`](super::SurfaceTable): the movable groups of
 /// the two models, each with its solid or plane.
 pub(crate) type FoundationKey = (usize, u32, usize, Partner);
+
+/// Returns true if the first primitive belongs to a solid, and the second to a solid or is a plane.
+pub(crate) fn solids_touch(a: (&MovableGroup, &PrimitiveInfo), b: (&MovableGroup, &PrimitiveInfo)) -> bool {
+    a.0.is_solid(a.1) && (b.1.kind == PrimitiveKind::Plane || b.0.is_solid(b.1))
+}
 
 /// Shares of the two fields in the energy of a pair, A's first. The field of a plane carries both springs in
 /// series: it has no far side, so a soft body cannot sink through it. A solid that is not convex leaves its share

@@ -3,6 +3,7 @@
 use super::filters::{apart, is_paired, representatives};
 use super::leaf_filter::ObjectFilters;
 use super::plans::{can_be_tested, kind_name};
+use super::solids::solids_touch;
 use crate::frame::narrow_phase::pair_table::has_tester;
 use crate::scene::{GroupFilter, ObjectPair, Scene};
 use pong_geometry::primitive::PrimitiveKind;
@@ -240,9 +241,4 @@ fn kinds_that_meet<'m>(
         }
     }
     (ignored, anything)
-}
-
-/// Returns true if the first primitive belongs to a solid, and the second to a solid or is a plane.
-fn solids_touch(a: (&MovableGroup, &PrimitiveInfo), b: (&MovableGroup, &PrimitiveInfo)) -> bool {
-    a.0.is_solid(a.1) && (b.1.kind == PrimitiveKind::Plane || b.0.is_solid(b.1))
 }

@@ -19,7 +19,7 @@ use pong_geometry::interference::Feature;
 use pong_geometry::overlap::{Cell, HalfSpace, Moments};
 use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_geometry::{Twist, Vec3, divisor};
+use pong_geometry::{Twist, Vec3, any_perpendicular, divisor};
 
 /// Least resultant of the normal forces that has friction, relative to K·V. Below it the cells push against
 /// each other, and the direction of their sum is rounding.
@@ -382,8 +382,5 @@ fn across(normal: &Vec3, force: &Vec3) -> Vec3 {
     if length > 0.0 {
         return force / (length + f64::MIN_POSITIVE);
     }
-    let least = normal.iamin();
-    let mut axis = Vec3::zeros();
-    axis[least] = 1.0;
-    normal.cross(&axis).normalize()
+    any_perpendicular(normal)
 }
