@@ -119,6 +119,19 @@ void pong_ode_mover(scene *s, int kind, double radius, double length)
     }
 }
 
+/* Target and mover are boxes with these edges. */
+void pong_ode_boxes(scene *s, const double *edges)
+{
+    s->target = dCreateBox(0, edges[0], edges[1], edges[2]);
+    s->mover = dCreateBox(0, edges[0], edges[1], edges[2]);
+}
+
+void pong_ode_mover_convex(scene *s, const double *planes, unsigned plane_count, const double *points,
+                           unsigned point_count, const unsigned *polygons)
+{
+    s->mover = dCreateConvex(0, planes, plane_count, points, point_count, polygons);
+}
+
 /* Places the mover at each wheel's pose in turn and returns the number of contacts. */
 int pong_ode_wheels(scene *s, const double *poses, int count)
 {

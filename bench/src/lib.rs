@@ -23,6 +23,7 @@ pub mod ring;
 pub mod ron;
 pub mod scenes;
 pub mod side_by_side;
+pub mod solids;
 pub mod table;
 pub mod terrain;
 pub mod timing;

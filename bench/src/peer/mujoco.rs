@@ -5,6 +5,7 @@ use crate::pairs::{
     Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, TARGET_ROUND, Target,
 };
 use crate::ring::{Ring, Tip};
+use crate::solids::{Pair, Shape, SolidsPeer};
 use crate::terrain::{Terrain, Wheel};
 use pong_engine::State;
 use pong_geometry::Vec3;
@@ -196,6 +197,35 @@ impl PairPeer for MujocoPair {
 
     fn frame_of_answers(&self) -> AnswerFrame {
         AnswerFrame::Common
+    }
+}
+
+/// MuJoCo on two equal convex solids: boxes or meshes. A pair of meshes has one contact, MuJoCo's default.
+pub struct MujocoSolids {
+    scene: Scene,
+    answers: Vec<Answer>,
+}
+
+impl MujocoSolids {
+    /// Builds the pair.
+    pub fn new(shape: &Shape) -> Self {
+        let (assets, geom) = match shape.half {
+            Some(half) => (String::new(), format!("type=\"box\" size=\"{}\"", numbers(&half))),
+            None => (mesh("hull", &shape.hull().vertices), "type=\"mesh\" mesh=\"hull\"".to_owned()),
+        };
+        let scene = Scene::load(&assets, &format!("<geom {geom}/><body>{FREE}<geom {geom}/></body>"));
+        Self { scene, answers: Vec::new() }
+    }
+}
+
+impl SolidsPeer for MujocoSolids {
+    fn pass(&mut self, pairs: &[Pair]) -> usize {
+        self.answers.resize(pairs.len(), Answer::default());
+        for (pair, answer) in pairs.iter().zip(&mut self.answers) {
+            // SAFETY: the scene lives; there are one pair of poses and one answer, in the form that C knows.
+            unsafe { pong_mujoco_pairs(self.scene.0.as_ptr(), pair.numbers.as_ptr().cast(), 1, answer) };
+        }
+        self.answers.iter().filter(|answer| answer.hit()).count()
     }
 }
 

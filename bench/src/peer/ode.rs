@@ -7,6 +7,7 @@ use crate::pairs::{
     Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, TARGET_ROUND, Target,
 };
 use crate::ring::{Ring, Tip, WEDGE_FACES};
+use crate::solids::{Pair, Shape, SolidsPeer};
 use crate::terrain::{Terrain, Wheel};
 use pong_engine::State;
 use pong_geometry::Vec3;
@@ -55,6 +56,15 @@ unsafe extern "C" {
     );
     fn pong_ode_target_round(scene: *mut Opaque, kind: c_int, radius: f64, length: f64);
     fn pong_ode_mover(scene: *mut Opaque, kind: c_int, radius: f64, length: f64);
+    fn pong_ode_boxes(scene: *mut Opaque, edges: *const f64);
+    fn pong_ode_mover_convex(
+        scene: *mut Opaque,
+        planes: *const f64,
+        plane_count: c_uint,
+        points: *const f64,
+        point_count: c_uint,
+        polygons: *const c_uint,
+    );
     fn pong_ode_wheels(scene: *mut Opaque, poses: *const f64, count: c_int) -> c_int;
     fn pong_ode_deepest(scene: *const Opaque) -> f64;
     fn pong_ode_pairs(scene: *mut Opaque, poses: *const f64, count: c_int, answers: *mut Answer);
@@ -289,5 +299,52 @@ impl PairPeer for OdePair {
 
     fn frame_of_answers(&self) -> AnswerFrame {
         AnswerFrame::Common
+    }
+}
+
+/// ODE on two equal convex solids: boxes, or convex geoms.
+pub struct OdeSolids {
+    scene: Scene,
+    answers: Vec<Answer>,
+}
+
+impl OdeSolids {
+    /// Builds the pair.
+    pub fn new(shape: &Shape) -> Self {
+        let mut scene = Scene::new(Space::SweepAndPrune);
+        match shape.half {
+            Some(half) => {
+                let edges = half.map(|half| 2.0 * half);
+                // SAFETY: three numbers.
+                unsafe { pong_ode_boxes(scene.pointer, edges.as_ptr()) };
+            }
+            None => {
+                scene.target_convex(&shape.hull());
+                let Convex { planes, points, polygons } = &scene.convexes[0];
+                // SAFETY: the arrays live as long as the scene and are not touched again.
+                unsafe {
+                    pong_ode_mover_convex(
+                        scene.pointer,
+                        planes.as_ptr().cast(),
+                        planes.len() as c_uint,
+                        points.as_ptr().cast(),
+                        points.len() as c_uint,
+                        polygons.as_ptr(),
+                    );
+                }
+            }
+        }
+        Self { scene, answers: Vec::new() }
+    }
+}
+
+impl SolidsPeer for OdeSolids {
+    fn pass(&mut self, pairs: &[Pair]) -> usize {
+        self.answers.resize(pairs.len(), Answer::default());
+        for (pair, answer) in pairs.iter().zip(&mut self.answers) {
+            // SAFETY: the scene lives; there are one pair of poses and one answer, in the form that C knows.
+            unsafe { pong_ode_pairs(self.scene.pointer, pair.numbers.as_ptr().cast(), 1, answer) };
+        }
+        self.answers.iter().filter(|answer| answer.hit()).count()
     }
 }

@@ -1,7 +1,8 @@
-//! parry on the ring and on the terrain.
+//! parry on the ring, on the terrain, and on pairs of convex solids.
 
 use super::Peer;
 use crate::ring::{Ring, TIP_RADIUS, Tip, WEDGE_FACES};
+use crate::solids::{self, SolidsPeer};
 use crate::terrain::{Terrain, Wheel};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::{Pose, Rotation, Vector};
@@ -9,7 +10,7 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d_f64::query::{
     ContactManifold, ContactManifoldsWorkspace, DefaultQueryDispatcher, PersistentQueryDispatcher, PointQuery,
 };
-use parry3d_f64::shape::{Ball, Compound, ConvexPolyhedron, Shape, SharedShape, TriMesh};
+use parry3d_f64::shape::{Ball, Compound, ConvexPolyhedron, Cuboid, Shape, SharedShape, TriMesh};
 use pong_engine::State;
 use pong_geometry::Vec3;
 
@@ -62,6 +63,21 @@ impl Manifolds {
         Some(Self::of(trimesh(terrain), Ball::new(radius), wheels))
     }
 
+    /// Two equal convex solids: cuboids, or convex polyhedra.
+    ///
+    /// # Panics
+    /// If parry refuses the hull.
+    pub fn solids(shape: &solids::Shape) -> Self {
+        if let Some(half) = shape.half {
+            let cuboid = Cuboid::new(half.into());
+            return Self::of(cuboid, cuboid, 1);
+        }
+        let hull = shape.hull();
+        let vertices = hull.vertices.iter().map(vector).collect();
+        let polyhedron = ConvexPolyhedron::from_convex_mesh(vertices, &hull.faces).expect("a hull is convex");
+        Self::of(polyhedron.clone(), polyhedron, 1)
+    }
+
     fn of(first: impl Shape, second: impl Shape, pairs: usize) -> Self {
         Self {
             first: Box::new(first),
@@ -92,6 +108,28 @@ impl Peer for Manifolds {
     fn deepest(&self) -> Option<f64> {
         let manifolds = self.pairs.iter().flat_map(|(manifolds, _)| manifolds);
         manifolds.flat_map(|manifold| &manifold.points).map(|point| -point.dist).max_by(f64::total_cmp)
+    }
+}
+
+impl SolidsPeer for Manifolds {
+    /// Every pair begins without kept data, because the pairs do not follow each other in time.
+    fn pass(&mut self, pairs: &[solids::Pair]) -> usize {
+        let touches = |pair: &&solids::Pair| {
+            let [first, second] = pair.numbers.map(|[x, y, z, w, i, j, k]| pose([x, y, z], [w, i, j, k]));
+            let (mut manifolds, mut workspace): Kept = Kept::default();
+            DefaultQueryDispatcher
+                .contact_manifolds(
+                    &first.inv_mul(&second),
+                    &*self.first,
+                    &*self.second,
+                    0.0,
+                    &mut manifolds,
+                    &mut workspace,
+                )
+                .expect("parry knows these shapes");
+            manifolds.iter().flat_map(|manifold| &manifold.points).any(|point| point.dist < 0.0)
+        };
+        pairs.iter().filter(touches).count()
     }
 }
 
