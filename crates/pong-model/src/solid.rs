@@ -66,6 +66,21 @@ impl Solid {
         self.fields.len() == 1
     }
 
+    /// Returns `true` if every part is convex.
+    pub fn has_convex_parts(&self) -> bool {
+        !self.fields.is_empty()
+    }
+
+    /// Lower bound of the least width of its convex parts, m: twice the volume over the area. A convex body of
+    /// width w and area S has at most the volume w·S/2, since no section of it is larger than S/2.
+    pub fn thinnest_m(&self) -> f64 {
+        let volume = |part: &SolidPart| part.surface.moments(&part.bound.center).volume;
+        if self.is_convex() {
+            return 2.0 * self.parts.iter().map(volume).sum::<f64>() / self.area;
+        }
+        self.parts.iter().map(|part| 2.0 * volume(part) / part.surface.area()).fold(f64::INFINITY, f64::min)
+    }
+
     /// Area that takes the place of a surface's `area` where the file gives none, m²: a sixth of the outer
     /// surface, which is one face if the solid is a cube.
     pub fn reference_area(&self) -> f64 {

@@ -28,7 +28,7 @@ pub(crate) use output::commit::{new_records, write_records};
 pub use output::preload::FrictionPreload;
 pub(crate) use run_blocks::arena_bytes;
 pub(crate) use tunnelling::followed::{TunnellingEvent, TunnellingEvents};
-pub(crate) use tunnelling::travel::{PrimitivesOf, least_travel_m, reach_m};
+pub(crate) use tunnelling::travel::{PrimitivesOf, least_travel_m, reach_m, travel_of_solids_m};
 pub(crate) use worker_context::WorkerContext;
 pub(crate) use worker_pool::WorkerPool;
 

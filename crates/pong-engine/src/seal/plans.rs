@@ -6,7 +6,7 @@ use super::sealed::NO_PLAN;
 use super::solids::{Partner, SolidPair};
 use super::{GroupPair, Plan};
 use crate::frame::narrow_phase::pair_table::{REGISTERED, has_tester, kind_pair};
-use crate::frame::{PrimitivesOf, least_travel_m, reach_m};
+use crate::frame::{PrimitivesOf, least_travel_m, reach_m, travel_of_solids_m};
 use crate::scene::Scene;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Extensions, Filters, MovableGroup, PrimitiveInfo};
@@ -58,7 +58,17 @@ fn plan(
     let least_travel_m = least_travel_m(met_a, met_b, tests);
     let reach_a_m = reach_m(met_a);
     let solids = solid_pairs([a, b], in_order, filters);
-    Plan { element_ns, touched, least_travel_m, reach_a_m, solids, filter }
+    let (least_travel_of_solids_m, reach_of_solids_a_m) = travel_of_solids_m([a, b], &solids);
+    Plan {
+        element_ns,
+        touched,
+        least_travel_m,
+        reach_a_m,
+        solids,
+        least_travel_of_solids_m,
+        reach_of_solids_a_m,
+        filter,
+    }
 }
 
 /// Solids of A with solids and planes of B that no filter keeps apart. Two solids are paired only if A's

@@ -26,6 +26,10 @@ pub(crate) struct Plan {
     pub reach_a_m: f64,
     /// Solids of A and what they may touch.
     pub solids: Vec<SolidPair>,
+    /// Shortest displacement with which solids of A may pass through solids of B, m.
+    pub least_travel_of_solids_m: f64,
+    /// Greatest distance of a vertex of these solids of A from the origin of its movable group, m.
+    pub reach_of_solids_a_m: f64,
     /// Leaves that are not tested against each other.
     pub filter: Option<Box<LeafFilter>>,
 }

@@ -407,3 +407,76 @@ fn touch_on_a_round_solid_is_reported_only_where_it_ends_on_the_far_side() {
         }
     }
 }
+
+/// A box with these half edges as a solid.
+fn solid_box(half: [f64; 3]) -> String {
+    let text = model("solid", &surface(1e5, ""), &box_polyhedron("b", [0.0; 3], half, ""));
+    text.replace("root: (", "root: (contact: Solid, ")
+}
+
+fn solids(a: [f64; 3], b: [f64; 3]) -> Rig {
+    Rig::new(&solid_box(a), &solid_box(b))
+}
+
+#[test]
+fn solid_shot_through_a_solid_plate_is_reported_once() {
+    for from in [1.0, -1.0] {
+        let mut rig = solids([0.02, 0.03, 0.05], [0.005, 0.5, 0.5]);
+        let places = [0.5, 0.3, -0.3, -0.5].map(|x| x * from);
+        assert_eq!(told(&mut rig, &places), [false, false, true, false], "from {from}");
+        let mut plate_first = solids([0.005, 0.5, 0.5], [0.02, 0.03, 0.05]);
+        assert_eq!(told(&mut plate_first, &places), [false, false, true, false], "plate from {from}");
+    }
+}
+
+/// A slow solid that enters the plate is pushed back; one that comes out behind it in a single step has passed.
+#[test]
+fn solid_that_entered_a_plate_and_comes_out_behind_it_is_reported() {
+    let mut rig = solids([0.02; 3], [0.005, 0.5, 0.5]);
+    assert_eq!(told(&mut rig, &[0.1, 0.024, 0.0, -0.03]), [false, false, false, true]);
+    let mut back = solids([0.02; 3], [0.005, 0.5, 0.5]);
+    assert_eq!(told(&mut back, &[0.1, 0.024, 0.0, 0.03]), [false; 4]);
+}
+
+#[test]
+fn solid_past_the_rim_and_round_the_corner_of_a_solid_is_not_reported() {
+    let mut beside = solids([0.02; 3], [0.005, 0.5, 0.5]);
+    let places = [0.3, -0.3].map(|x| Vec3::new(x, 0.53, 0.0));
+    assert_eq!(told_at(&mut beside, places), [false, false]);
+    // From above a cube to beside it, over its edge and through it: the sides are not opposite.
+    let mut corner = solids([0.02; 3], [0.1; 3]);
+    let places = [Vec3::new(0.08, 0.0, 0.14), Vec3::new(0.14, 0.0, 0.08)];
+    assert_eq!(told_at(&mut corner, places), [false, false]);
+}
+
+/// Shots at random directions through and past a box, beside a path in small steps. An overlap may be shorter than
+/// these steps of 2.5 mm, so the path goes past a box that is as much larger.
+#[test]
+fn random_shots_of_solids_are_reported_if_they_pass_through() {
+    let mut random = Random(0x71);
+    let mut through = 0;
+    for _ in 0..300 {
+        let mut rig = solids([0.03, 0.02, 0.04], [0.1, 0.05, 0.2]);
+        let (direction, aside) = (random.direction(), random.direction() * 0.12);
+        let turn = Quat::from_scaled_axis(random.direction() * 2.0);
+        let mut at = |along: f64| {
+            rig.place_a(aside + direction * along, turn);
+            rig.world.step().unwrap()
+        };
+        at(0.5);
+        let reported = at(-0.5).status.contains(StatusBits::TUNNELLED);
+        let mut fine = solids([0.03, 0.02, 0.04], [0.1025, 0.0525, 0.2025]);
+        let overlaps = (0..400).any(|i| {
+            fine.place_a(aside + direction * (0.5 - f64::from(i) / 400.0), turn);
+            fine.world.evaluate().unwrap().contacts > 0
+        });
+        through += usize::from(reported);
+        assert!(overlaps || !reported, "reported, but never overlaps");
+        let misses = direction.cross(&aside).norm();
+        assert!(
+            !overlaps || reported || misses > 0.05,
+            "went through {misses} m from the middle, not reported"
+        );
+    }
+    assert!(through > 60, "{through}");
+}

@@ -20,6 +20,8 @@ enum Core<'a> {
     Frustum(Frustum),
     /// Polyhedron in its own frame, with the pose of that frame.
     Polyhedron(&'a Polyhedron, Transform),
+    /// Points in their own frame, with a map from that frame.
+    Hull(&'a [Vec3], Transform),
 }
 
 impl<'a> Solid<'a> {
@@ -73,6 +75,11 @@ impl<'a> Solid<'a> {
         Self::new(Core::Polyhedron(polyhedron, *x), 0.0)
     }
 
+    /// Creates the convex hull of points, m. `x` maps their frame to that of the search; it may be any affine map.
+    pub fn hull(points: &'a [Vec3], x: &Transform) -> Self {
+        Self::new(Core::Hull(points, *x), 0.0)
+    }
+
     /// Returns the distance around the core that still belongs to the solid, m.
     pub fn margin(&self) -> f64 {
         self.margin
@@ -91,6 +98,9 @@ impl<'a> Solid<'a> {
                 let vertices = polyhedron.vertices.iter().map(|vertex| vertex.position);
                 x.point(&farthest(vertices, &within))
             }
+            Core::Hull(points, x) => {
+                x.point(&farthest(points.iter().copied(), &x.rotation.tr_mul(direction)))
+            }
         }
     }
 
@@ -104,6 +114,7 @@ impl<'a> Solid<'a> {
             Core::Polyhedron(polyhedron, x) => {
                 x.point(&polyhedron.vertices.first().map_or(Vec3::zeros(), |vertex| vertex.position))
             }
+            Core::Hull(points, x) => x.point(points.first().unwrap_or(&Vec3::zeros())),
         }
     }
 
@@ -124,6 +135,11 @@ impl<'a> Solid<'a> {
             }
             // All of a polyhedron is within its diameter of any vertex.
             Core::Polyhedron(polyhedron, _) => (self.member(), polyhedron.diameter),
+            Core::Hull(points, x) => {
+                let center = self.member();
+                let radius = points.iter().map(|point| (x.point(point) - center).norm()).fold(0.0, f64::max);
+                (center, radius)
+            }
         };
         (center, radius + self.margin)
     }

@@ -19,9 +19,11 @@ use crate::frame::input::{Block, PairContext, Round};
 use crate::frame::worker_context::WorkerContext;
 use crate::report::{Laps, Work};
 use crate::seal::{Partner, SolidPair, field_shares};
+use crate::state::SolidContactPart;
 use cells::Cells;
 pub(crate) use cells::SolidScratch;
 use patch::Patch;
+use pong_geometry::Vec3;
 use relative::Relative;
 use side::Side;
 
@@ -34,6 +36,18 @@ pub(crate) fn run_solids(round: &Round<'_>, block: &Block, worker: &mut WorkerCo
     for pair in &plan.solids[block.first as usize..block.end as usize] {
         touch(round, &context, bodies, &relative, pair, worker, laps);
     }
+}
+
+/// Direction from B to A at which two convex solids began to overlap, in B's frame. `None` if they did not overlap
+/// at the last commit, or do not remember it.
+pub(crate) fn committed_entry(context: &PairContext<'_>, pair: &SolidPair) -> Option<Vec3> {
+    let Partner::Solid(b) = pair.b else { return None };
+    let [a, b] = [&context.body_a.solids[pair.a as usize], &context.body_b.solids[b as usize]];
+    if !a.is_convex() || !b.is_convex() {
+        return None;
+    }
+    let sides = (&Side::unit(a, 0), &Side::unit(b, 0));
+    entry::records(context, sides, SolidContactPart::Entry).next().map(|(_, record)| record.normal_b)
 }
 
 /// Computes the contacts of a pair of solids: one patch for each of its parts that are near each other.

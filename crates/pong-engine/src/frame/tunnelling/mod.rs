@@ -12,10 +12,13 @@
 //! * A contact that pushed the element to one side has ended, and the element is now on the other side or is
 //!   pushed to it.
 //!
+//! Two solids have tunnelled if their convex parts have changed sides and overlapped in between ([`bodies`]).
+//!
 //! Paths are followed only if A may have moved farther than half the thickness of the thinnest element of B
 //! ([`travel::least_travel_m`]). A shorter path may cut an edge or a corner, but passes through no wall. In
 //! all other frames only ended contacts are checked.
 
+mod bodies;
 mod ended;
 pub(crate) mod followed;
 mod solids;
@@ -67,6 +70,9 @@ fn follow(
             let motion = motions.of(direction);
             if travel::may_go_through(plan, motion) {
                 Seen::new(given.round(input), direction, motion, contacts).follow_lines(plan, events);
+            }
+            if travel::solids_may_go_through(plan, motion) {
+                Seen::new(given.round(input), direction, motion, contacts).follow_solids(plan, events);
             }
         }
     }

@@ -1,11 +1,11 @@
 //! Rejects tunnelling by distance: if A has moved by less than half the thickness of the thinnest element of
 //! B, it has passed through nothing.
 
-use crate::frame::input::motion::Motion;
-use crate::seal::Plan;
+use crate::frame::input::motion::{Motion, SinceCommit};
+use crate::seal::{Partner, Plan, SolidPair};
 use pong_geometry::primitive::{Primitive, PrimitiveKind};
 use pong_geometry::{Transform, Vec3};
-use pong_model::{Batch, MovableGroup, PrimitiveInfo};
+use pong_model::{Batch, MovableGroup, PrimitiveInfo, Solid, SolidBox};
 
 /// Some primitives of a movable group.
 #[derive(Clone, Copy)]
@@ -50,19 +50,50 @@ fn facts<'a>(
     elements.filter_map(|(kind, element)| body.element(kind, element).facts())
 }
 
+/// Least distance that solids of A must move to pass through solids of B, and the greatest distance of a vertex
+/// of these solids of A from the origin of its movable group, m. Infinite and 0 without such pairs.
+pub(crate) fn travel_of_solids_m([a, b]: [&MovableGroup; 2], pairs: &[SolidPair]) -> (f64, f64) {
+    let mut travel = (f64::INFINITY, 0.0_f64);
+    for pair in pairs {
+        let Partner::Solid(index_b) = pair.b else { continue };
+        let (solid_a, solid_b) = (&a.solids[pair.a as usize], &b.solids[index_b as usize]);
+        travel.0 = travel.0.min(0.5 * solid_a.thinnest_m()).min(0.5 * solid_b.thinnest_m());
+        travel.1 = travel.1.max(reach_of(solid_a));
+    }
+    travel
+}
+
+fn reach_of(solid: &Solid) -> f64 {
+    let vertices = solid.parts.iter().flat_map(|part| part.surface.vertices());
+    vertices.map(|vertex| vertex.norm()).fold(0.0, f64::max)
+}
+
 /// Returns true if a point of A, seen from B, may have moved farther than `least_travel_m` since the last
 /// commit.
 #[inline]
 pub(super) fn may_go_through(plan: &Plan, motion: &Motion) -> bool {
+    has_moved(motion, plan.reach_a_m, plan.least_travel_m)
+}
+
+/// Returns true if a solid of A, seen from B, may have moved far enough since the last commit to pass through a
+/// solid of B.
+#[inline]
+pub(super) fn solids_may_go_through(plan: &Plan, motion: &Motion) -> bool {
+    has_moved(motion, plan.reach_of_solids_a_m, plan.least_travel_of_solids_m)
+}
+
+/// Returns true if a point of A within `reach` (m) of its origin, seen from B, may have moved farther than
+/// `least` (m) since the last commit.
+#[inline]
+fn has_moved(motion: &Motion, reach: f64, least: f64) -> bool {
     let Some(since) = &motion.since_commit else { return false };
     // B has nothing that A can pass through.
-    if plan.least_travel_m == f64::INFINITY {
+    if least == f64::INFINITY {
         return false;
     }
     let shift_square = (motion.x_ba.translation - since.x_ba.translation).norm_squared();
     // The Frobenius norm bounds the displacement of any point at a distance of 1 m.
     let turn_square = (motion.x_ba.rotation - since.x_ba.rotation).norm_squared();
-    let (reach, least) = (plan.reach_a_m, plan.least_travel_m);
     // The first comparison needs no roots and decides most cases: (a + b)² ≤ 2·(a² + b²), and the factor 4
     // adds a margin for rounding.
     4.0 * (shift_square + turn_square * (reach * reach)) > least * least
@@ -85,6 +116,14 @@ pub(super) fn sweeps(motion: &Motion, a: &Batch, b: &Batch) -> bool {
     let (from, to) = (carried(&low, &high, &since.x_ba), carried(&low, &high, &motion.x_ba));
     let query = b.boxes.narrowed(&from.0.inf(&to.0), &from.1.sup(&to.1));
     query.meets(&b.boxes.around)
+}
+
+/// Returns true if the region that a box of A has swept since the last commit may overlap a box of B.
+pub(super) fn sweeps_box([a, b]: [&SolidBox; 2], since: &SinceCommit, motion: &Motion) -> bool {
+    let (low, high) = (a.center - a.half, a.center + a.half);
+    let (from, to) = (carried(&low, &high, &since.x_ba), carried(&low, &high, &motion.x_ba));
+    let (low, high) = (from.0.inf(&to.0), from.1.sup(&to.1));
+    (0..3).all(|k| low[k] <= b.center[k] + b.half[k] && high[k] >= b.center[k] - b.half[k])
 }
 
 /// Box in B's frame around a box of A.
