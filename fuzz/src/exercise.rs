@@ -10,17 +10,20 @@ use std::sync::Arc;
 const ELEMENTS_MAX: usize = 3000;
 /// Contact capacity of the world, which some inputs should exceed.
 const CAPACITY: usize = 64;
-/// A small model of each kind of partner.
+/// Marked primitives and a solid.
 const PARTNER: &str = r#"(format: "pong-model", version: 1, name: "partner",
     surfaces: {"s": (stiffness: 1e5, normal: Linear(damping: 10.0), friction: Bristle(mu: 0.3))},
-    root: (name: "partner", surface: "s", primitives: [
+    root: (name: "partner", surface: "s", groups: [(name: "marked", primitives: [
         Sphere(name: "ball", center: (0, 0, 0), radius: 0.5),
         Polyhedron(name: "wedge", vertices: [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
             faces: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]),
         Plane(name: "ground", normal: (0, 0, 1), offset: 0),
         Point(name: "tip", position: (0, 0, 0)),
         LineSegment(name: "bar", ends: ((0, 0, 0), (1, 0, 0))),
-    ]))"#;
+    ]), (name: "solid", contact: Solid, primitives: [
+        Polyhedron(name: "block", vertices: [(-1, -1, -1.2), (1, -1, -1.2), (0, 1, -1.2), (0, 0, -0.1)],
+            faces: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]),
+    ])]))"#;
 
 /// Seals a world of two Objects of the model and a partner, and runs some frames with states made of the bytes.
 ///

@@ -26,14 +26,14 @@ pub fn import(data: &[u8], ending: &str) {
     }
 }
 
-/// Loads a file with this extension as the mesh of a model, as surface and as solid.
+/// Loads a file with this extension as the mesh of a model: as a surface, as a solid, and as a polyhedron.
 pub fn load(data: &[u8], ending: &str) {
     let name = format!("mesh.{ending}");
     let file = files::write(&name, data);
-    for kind in ["TriangleMesh", "Polyhedron"] {
+    for (kind, contact) in [("TriangleMesh", "Marked"), ("TriangleMesh", "Solid"), ("Polyhedron", "Solid")] {
         let text = format!(
             r#"(format: "pong-model", version: 1, name: "m", surfaces: {{"s": (stiffness: 1e5)}},
-            root: (name: "m", surface: "s", primitives: [{kind}(name: "mesh", file: "{name}", scale: 0.5)]))"#
+            root: (name: "m", surface: "s", contact: {contact}, primitives: [{kind}(name: "mesh", file: "{name}", scale: 0.5)]))"#
         );
         let folder = file.parent().unwrap_or(Path::new(""));
         if let Ok(model) = pong_model::parse(&text, "fuzz.ron", Some(folder), &Extensions::new()) {
