@@ -10,6 +10,7 @@ import numpy as np
 
 from .log import Log
 from .marks import contact_forces
+from .patches import merged
 from .timeline import Film
 
 KEY = "pong_response"  # of a scene: what its captions are made of
@@ -27,13 +28,14 @@ LOOK = {
 KEPT = (*STAMPS, *LOOK, "stamp_font_size", "stamp_note_text")
 
 
-def keep(scene, log: Log, film: Film, metres_per_newton: float) -> None:
+def keep(scene, log: Log, film: Film, metres_per_newton: float, pressure_scale: float = 0.0) -> None:
     """Stores the data of its captions with a scene; pictures begin at frame 1."""
-    forces = [np.linalg.norm(contact_forces(log.contacts_of(int(row))), axis=1) for row in film.rows]
+    forces = [np.linalg.norm(contact_forces(merged(log.contacts_of(int(row)))), axis=1) for row in film.rows]
     scene[KEY] = {
         "times": np.asarray(film.times, float),
         "contacts": np.array([len(each) for each in forces], float),
         "largest": np.array([each.max(initial=0.0) for each in forces]),
+        "pressure_scale": pressure_scale,
         "newtons_per_metre": 1.0 / metres_per_newton if metres_per_newton else 0.0,
     }
 
@@ -52,7 +54,15 @@ def text(scene, frame: int) -> str:
         told.append("no contact")
     if known["newtons_per_metre"]:
         told.append(f"1 m of arrow: {known['newtons_per_metre']:.4g} N")
+    if known.get("pressure_scale"):
+        told.append(f"pressure: 0 violet, {pressure(known['pressure_scale'])} yellow")
     return f" {'   '.join(told)} "
+
+
+def pressure(value: float) -> str:
+    """A pressure with a prefix: `12.3 kPa`."""
+    factor, unit = next((f, u) for f, u in ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (0.0, "Pa")) if value >= f)
+    return f"{value / (factor or 1.0):.3g} {unit}"
 
 
 @contextlib.contextmanager

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from . import marks, shapes
+from . import marks, patches, shapes
 from .animate import action_curves, key
 from .bodies import mesh_object
 
@@ -15,10 +15,12 @@ MARK_RADIUS, MARK_THICKNESS = 0.045, 0.015  # of a mark, a disc in the tangent p
 
 def show_contacts(stage, shown) -> marks.Slots:
     """Adds arrows and marks for the largest number of simultaneous contacts."""
-    largest = marks.largest_force(stage.log)
+    made = marks.slots(stage.log, shown.film, shown.seen, stage.options.most_contacts)
+    # The force of a patch may be larger than that of any of its cells.
+    largest = max(marks.largest_force(stage.log), float(made.forces.max(initial=0.0)))
     length = stage.options.arrow_length or 0.5 * stage.extent
     shown.metres_per_newton = length / largest if largest > 0.0 else 0.0
-    made = marks.slots(stage.log, shown.film, shown.seen, stage.options.most_contacts)
+    shown.pressure_scale = made.pressure_scale
     if made.left_out:
         shown.notes.append(f"{made.left_out} contacts are not shown, those with the largest forces are; "
                            f"show more than {stage.options.most_contacts} at once with --most-contacts (Contacts)")
@@ -30,10 +32,13 @@ def show_contacts(stage, shown) -> marks.Slots:
         # Forces point into the bodies on which they act.
         arrow.show_in_front = mark.show_in_front = True
         _key_arrow(_key_place(arrow, made, slot, stage.unit), made, slot, shown.metres_per_newton / stage.unit)
-        _key_mark(_key_place(mark, made, slot, stage.unit), made, slot)
+        curves = _key_place(mark, made, slot, stage.unit)
+        _key_mark(curves, made, slot, shown.pressure_scale)
         mark.rotation_mode = arrow.rotation_mode = "QUATERNION"
         wide, thick = (share * stage.extent / stage.unit for share in (MARK_RADIUS, MARK_THICKNESS))
         mark.scale = (wide, wide, thick)
+        if made.areas[:, slot].any():
+            _key_patch(curves, made, slot, (wide, thick), stage.unit)
         shown.arrows.append(arrow)
         shown.marks.append(mark)
     return made
@@ -55,6 +60,17 @@ def _key_arrow(curves, made, slot, units_per_newton) -> None:
     key(curves, "scale", np.stack([widths, widths, lengths], axis=1), constant=True)
 
 
-def _key_mark(curves, made, slot) -> None:
+def _key_mark(curves, made, slot, pressure_scale) -> None:
     key(curves, "rotation_quaternion", made.tangents[:, slot], constant=True)
-    key(curves, "color", np.where(made.sticks[:, slot, None], marks.STICK, marks.SLIP), constant=True)
+    friction = np.where(made.sticks[:, slot, None], marks.STICK, marks.SLIP)
+    pressure = patches.colours(made.pressures[:, slot], pressure_scale)
+    key(curves, "color", np.where(made.areas[:, slot, None] > 0.0, pressure, friction), constant=True)
+
+
+def _key_patch(curves, made, slot, mark_size, unit) -> None:
+    """The size of a slot that holds patches: a disc of the effective area, in other pictures that of a mark."""
+    wide, thick = mark_size
+    areas = made.areas[:, slot]
+    radii = patches.radii(areas) / unit
+    sizes = np.stack([radii, radii, np.minimum(thick, 0.1 * radii)], axis=1)
+    key(curves, "scale", np.where(areas[:, None] > 0.0, sizes, (wide, wide, thick)), constant=True)

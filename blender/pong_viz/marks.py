@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Appearance of contacts: arrows of force, marks of stick and slip. Numpy only."""
+"""Appearance of contacts: arrows of force, marks of stick and slip, patches of solids. Numpy only."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from . import patches
 from .log import Log
 from .timeline import Film, View, from_z, turned
 
@@ -25,7 +26,18 @@ class Slots:
     tangents: np.ndarray  # (.., 4): takes +z to the normal of the contact
     forces: np.ndarray  # N
     sticks: np.ndarray  # bool
+    areas: np.ndarray  # of patches of solids, m²; 0 for other contacts
     left_out: int  # contacts of no slot, over all pictures
+
+    @property
+    def pressures(self) -> np.ndarray:
+        """Pressure of each patch, Pa; 0 for other contacts."""
+        return np.divide(self.forces, self.areas, out=np.zeros_like(self.forces), where=self.areas > 0.0)
+
+    @property
+    def pressure_scale(self) -> float:
+        """Pressure of the last colour of patches, Pa; 0 without patches."""
+        return patches.scale(self.pressures[self.areas > 0.0])
 
     def tips(self, metres_per_newton: float) -> np.ndarray:
         """Ends of all displayed arrows, (n, 3)."""
@@ -38,12 +50,13 @@ def slots(log: Log, film: Film, seen: View, most: int = 64) -> Slots:
 
     The force is that on the first object of the pair; its opposite acts on the second.
     """
-    in_picture = np.asarray(log.frames["contacts"])[film.rows].astype(int)
-    made = _hidden(len(film.rows), min(int(in_picture.max(initial=0)), most))
-    made.left_out = int(np.maximum(in_picture - most, 0).sum())
+    in_picture = [patches.merged(log.contacts_of(int(row))) for row in film.rows]
+    counts = np.array([len(contacts) for contacts in in_picture], dtype=int)
+    made = _hidden(len(film.rows), min(int(counts.max(initial=0)), most))
+    made.left_out = int(np.maximum(counts - most, 0).sum())
     owners = _owners(log)
-    for picture, row in enumerate(film.rows):
-        contacts = _largest(log.contacts_of(int(row)), most)
+    for picture, merged in enumerate(in_picture):
+        contacts = _largest(merged, most)
         if len(contacts):
             _fill(made, picture, contacts, _signs(owners, contacts)[:, None] * contact_forces(contacts), seen)
     return made
@@ -58,6 +71,7 @@ def _hidden(pictures: int, count: int) -> Slots:
         tangents=np.tile(no_turn, (pictures, count, 1)),
         forces=np.zeros((pictures, count)),
         sticks=np.zeros((pictures, count), dtype=bool),
+        areas=np.zeros((pictures, count)),
         left_out=0,
     )
 
@@ -71,6 +85,8 @@ def _fill(made: Slots, picture: int, contacts: np.ndarray, forces: np.ndarray, s
     made.tangents[here] = from_z(seen.direction(contacts["normal"], picture))
     made.forces[here] = sizes
     made.sticks[here] = contacts["sticks"] != 0
+    cells = patches.are_cells(contacts)
+    made.areas[here][cells] = contacts["weight"][cells]
 
 
 def contact_forces(contacts: np.ndarray) -> np.ndarray:

@@ -50,6 +50,7 @@ class Shown:
     arrows: list
     marks: list
     metres_per_newton: float
+    pressure_scale: float  # of the last colour of patches, Pa; 0 without solids
     notes: list[str]  # what the user should know
 
 
@@ -81,7 +82,7 @@ def show(log: Log, options: Options, scene=None) -> Shown:
     extent = 2.0 * options.look_at[3] if options.look_at else whole  # arrows and marks are as large as suits the picture
     seen = view(log, pictures, held, whole, anchors)
     sizes = shapes.sizes_for(extent, whole + travel(log, pictures, seen, anchors))
-    shown = Shown(pictures, seen, {}, [], [], 0.0, list(log.notes))
+    shown = Shown(pictures, seen, {}, [], [], 0.0, 0.0, list(log.notes))
     name = f"Response of {log.run.get('name') or log.folder.name}"
     before.note(scene)
     led = {item for item, _ in before.led()}
@@ -97,7 +98,7 @@ def show(log: Log, options: Options, scene=None) -> Shown:
     slots = show_contacts(stage, shown)
     scene.render.fps, scene.render.fps_base = options.fps, 1.0
     scene.frame_start, scene.frame_end = 1, len(pictures.times)
-    captions.keep(scene, log, pictures, shown.metres_per_newton)
+    captions.keep(scene, log, pictures, shown.metres_per_newton, shown.pressure_scale)
     scene.frame_set(1)
     if options.camera:
         points = np.concatenate([slots.points[slots.shown], slots.tips(shown.metres_per_newton)])

@@ -8,7 +8,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from . import before, render
+from . import before, captions, render
 from .core.engine import WheelMissing
 from .graphics import PROPERTY
 from .log import Log, LogError
@@ -63,6 +63,8 @@ class PONG_OT_import_response(bpy.types.Operator, ImportHelper):
         for note in made.notes:
             self.report({"WARNING"}, note)
         scale = f"; 1 m of arrow is {1.0 / made.metres_per_newton:.4g} N" if made.metres_per_newton else "; nothing touches"
+        if made.pressure_scale:
+            scale += f"; patches of solids: 0 (violet) to {captions.pressure(made.pressure_scale)} (yellow)"
         self.report({"INFO"}, f"{len(made.film.times)} pictures{scale}")
         return {"FINISHED"}
 

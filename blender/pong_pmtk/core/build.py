@@ -15,6 +15,7 @@ from .same_place import check_same_place
 from .scene import Scene, check_scene, find_root
 from .snapshot import Snapshot, SnapshotObject
 from .surfaces import checked
+from .touch import choose
 from .triangle_check import check_triangles
 
 MIXED = "a μ of 0.1 there becomes {:.3g}"
@@ -52,6 +53,7 @@ def build(snapshot: Snapshot, root: str = "") -> Built:
     model = Model(name, surfaces, group, pairs)
     if settings:
         model.entry_memory, model.filters = settings.entry_memory, list(settings.filters)
+    choose(scene, top, model)
     _unused_surfaces(scene, top, model)
     _rigid_friction(scene, top, surfaces)
     loaded = _judged_by_engine(scene, top, model, files, origins)

@@ -13,7 +13,7 @@ import numpy as np
 
 from . import transforms
 from .build_primitives import build_primitive
-from .marks import BOUNDS
+from .marks import BOUNDS, CONTACTS
 from .model import Group, Primitive
 from .naming import natural
 from .scene import Scene
@@ -46,6 +46,7 @@ class GroupBuilder:
             self.findings.error("group-type", where, cause, "use an empty, and hang the object below it")
         group.bound = self.bound(thing)
         group.leaf_size = mark.leaf_size or None
+        group.contact = self.contact(thing)
         group.surface = self.surface(thing)
         items = self.items(thing, Affine(rest, np.zeros(3)), transforms.is_identity(rest))
         self.contents(thing, group, items, group.surface or above_surface)
@@ -189,6 +190,14 @@ class GroupBuilder:
             cause = "it moves by itself and cannot do without a bounding volume"
             self.findings.error("bound-above", self.scene.where(thing), cause, "give it a box, a sphere or an oriented box")
         return thing.mark.bound
+
+    def contact(self, thing: SnapshotObject) -> str | None:
+        """`contact` of a group as in a model file. That of an automatic root is chosen when the model is complete."""
+        mark, allowed = thing.mark, CONTACTS if thing.mark.role == "root" else CONTACTS[:-1]
+        if mark.contact not in allowed:
+            cause = f'its contact is "{mark.contact}"'
+            self.findings.error("unknown-contact", self.scene.where(thing), cause, f"choose from: {', '.join(allowed)}")
+        return mark.contact if mark.contact in ("Solid", "Marked") else None
 
     def check_name(self, siblings, name: str, thing: SnapshotObject) -> None:
         check_name(self.scene, name, thing)

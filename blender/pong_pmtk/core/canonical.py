@@ -11,7 +11,7 @@ import copy
 import numpy as np
 
 from .model import Group, Model, Primitive
-from .schema import is_default, primitives
+from .schema import SOLID_NUMBERS, is_default, primitives
 
 
 def canonical(model: Model) -> Model:
@@ -22,7 +22,7 @@ def canonical(model: Model) -> Model:
 
 
 def _surface(surface: dict) -> dict:
-    fields = {key: surface[key] for key in ("stiffness", "normal", "friction") if surface.get(key) is not None}
+    fields = {key: surface[key] for key in ("stiffness", *SOLID_NUMBERS, "normal", "friction") if surface.get(key) is not None}
     if "friction" in surface and surface.get("stiffness") == float("inf"):
         # For a rigid surface, no friction differs from friction left to the partner.
         fields["friction"] = surface["friction"]
@@ -41,6 +41,7 @@ def _group(group: Group, is_root: bool = False) -> Group:
         [_group(below) for below in group.groups],
         [_primitive(primitive) for primitive in group.primitives],
         group.leaf_size,
+        group.contact,
     )
 
 

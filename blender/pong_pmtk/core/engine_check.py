@@ -13,6 +13,7 @@ from .engine import wheel
 from .model import Group, Model
 from .scene import Scene
 from .snapshot import SnapshotObject
+from .touch import is_of_solids, tell_marked
 from .write import write_files, write_text
 
 ELEMENT = re.compile(r"/(triangles|faces|vertices)\[(\d+)\]$")
@@ -31,9 +32,15 @@ def check_loads(scene: Scene, top: SnapshotObject, model: Model, files: dict[str
         return None
     found = _judged(dataclasses.replace(model, root=known), files)
     paths = dict(_paths(known, known.name, origins))
+    refused = [error for error in found.errors if is_of_solids(error["rule"])]
+    if top.mark.contact == "Automatic" and model.root.contact == "Solid" and refused:
+        tell_marked(scene, top, f"{refused[0]['path']}: {refused[0]['cause']}")
+        model.root.contact = known.contact = None
+        found = _judged(dataclasses.replace(model, root=known), files)
     for error in found.errors:
         where, more = _place(error["path"], paths, top)
-        scene.findings.error(error["rule"], where, error["cause"], error["cure"], **more)
+        fix = _fix(scene, where[0], error)
+        scene.findings.error(error["rule"], where, error["cause"], error["cure"], fix=fix, **more)
     for warning in found.warnings:
         path, what = _parted(WARNING.sub(r"\1", warning), paths)
         if not any(words in what for words in OF_TRIANGLES):
@@ -41,6 +48,16 @@ def check_loads(scene: Scene, top: SnapshotObject, model: Model, files: dict[str
             where, more = _place(path, paths, top)
             scene.findings.warn("loader-warning", where, cause, cure or "change it, or leave it: the model loads", **more)
     return found.model
+
+
+def _fix(scene: Scene, name: str, error: dict) -> str:
+    """Name of the repair of a fault of a solid; "" if there is none."""
+    if error["rule"] == "solid-volume" and "faces inwards" in error["cause"]:
+        return "recalculate-normals"
+    if error["rule"] != "open-solid":
+        return ""
+    is_turned = any(finding.rule == "winding" and finding.object == name for finding in scene.findings)
+    return "recalculate-normals" if is_turned else "merge-by-distance"
 
 
 def _parted(warning: str, paths: dict[str, Origin | None]) -> tuple[str, str]:

@@ -32,6 +32,8 @@ KINDS = (
 
 BOUNDS = ("Aabb", "Sphere", "Obb", "Above")
 
+CONTACTS = ("Default", "Solid", "Marked", "Automatic")
+
 
 @dataclass
 class Part:
@@ -83,6 +85,7 @@ class Mark:
     bound: str = "Default"  # or one of BOUNDS
     custom_bound: str = ""  # name of a registered kind of volume, instead of `bound`
     leaf_size: int = 0  # most elements of a leaf; 0 for no limit
+    contact: str = "Default"  # or one of CONTACTS; the default is that of the group above, of a root `Marked`
     # primitives
     kind: str = ""
     radius: float = 0.0  # before the object's scale

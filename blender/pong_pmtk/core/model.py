@@ -30,6 +30,7 @@ class Group:
     groups: list[Group] = field(default_factory=list)
     primitives: list[Primitive] = field(default_factory=list)
     leaf_size: int | None = None  # most elements of a leaf
+    contact: str | None = None  # "Solid" or "Marked"; `None` for that of the group above
 
 
 @dataclass
@@ -43,7 +44,7 @@ class Tagged:
 @dataclass
 class Model:
     name: str
-    surfaces: dict[str, dict]  # name -> fields; `normal` and `friction` are Tagged or None
+    surfaces: dict[str, dict]  # name -> fields; `normal` and `friction` are Tagged or None, the others numbers
     root: Group
     pairs: list[dict] = field(default_factory=list)
     entry_memory: bool = True

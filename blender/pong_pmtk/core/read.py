@@ -12,7 +12,7 @@ from pathlib import Path
 
 from .engine import wheel
 from .model import Group, Model, Primitive, Tagged
-from .schema import Field, Table, friction_laws, is_default, normal_laws, primitives, tells_friction
+from .schema import SOLID_NUMBERS, Field, Table, friction_laws, is_default, normal_laws, primitives, tells_friction
 
 
 @dataclass(frozen=True)
@@ -83,6 +83,7 @@ def _tagged(value) -> tuple[str, dict]:
 
 def _surface(data: dict) -> dict:
     surface = {"stiffness": data["stiffness"]}
+    surface |= {name: data[name] for name in SOLID_NUMBERS if data.get(name) is not None}
     if data.get("normal") is not None:
         surface["normal"] = _law(data["normal"], normal_laws())
     if tells_friction(data):
@@ -135,6 +136,7 @@ def _group(data: dict, is_root: bool = False) -> Group:
         [_group(below) for below in data.get("groups") or []],
         [_primitive(primitive) for primitive in data.get("primitives") or []],
         data.get("leaf_size"),
+        data.get("contact"),
     )
 
 

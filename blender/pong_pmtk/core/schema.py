@@ -12,6 +12,7 @@ import numpy as np
 from .engine import wheel
 
 REQUIRED = object()
+SOLID_NUMBERS = ("foundation", "area")  # of a surface: its stiffness per area at solids
 RESPONSES = ("Normal", "Axial")  # of a ray; also where there is no wheel
 
 

@@ -56,7 +56,7 @@ class _Scene:
             mark.custom_bound = group.bound[7:]
         elif group.bound:
             mark.bound = group.bound
-        mark.leaf_size = group.leaf_size or 0
+        mark.leaf_size, mark.contact = group.leaf_size or 0, group.contact or "Default"
         thing = self.add(group.name, "EMPTY", parent, mark)
         _place(thing, group.position, group.orientation)
         for place, below in ordered(group.groups):

@@ -15,7 +15,7 @@ import numpy as np
 from .canonical import canonical
 from .engine import wheel
 from .model import Group, Model, Primitive, Tagged
-from .schema import friction_laws, normal_laws, primitives, tells_friction
+from .schema import SOLID_NUMBERS, friction_laws, normal_laws, primitives, tells_friction
 
 
 def write_text(model: Model) -> str:
@@ -64,6 +64,7 @@ def data_of(model: Model) -> dict:
 
 def _surface(fields: dict) -> dict:
     data = {"stiffness": float(fields["stiffness"])}
+    data |= {name: float(fields[name]) for name in SOLID_NUMBERS if fields.get(name) is not None}
     if fields.get("normal") is not None:
         data["normal"] = _law(fields["normal"], normal_laws())
     if tells_friction(fields):
@@ -114,6 +115,7 @@ def _group(group: Group) -> dict:
         "bound": bound,
         "leaf_size": group.leaf_size,
         "surface": group.surface,
+        "contact": group.contact,
         "groups": [_group(below) for below in group.groups] or None,
         "primitives": [_primitive(primitive) for primitive in group.primitives] or None,
     }

@@ -44,7 +44,7 @@ class PONG_OT_export_ron(ExportHelper, bpy.types.Operator):
         except OSError as error:
             self.report({"ERROR"}, f"{self.filepath}: nothing was written: {error.strerror}")
             return {"CANCELLED"}
-        keep_findings(context, result.findings, result.name)
+        keep_findings(context, result.findings, result.name, session.touches(result))
         self.report({"INFO"}, f"{self.filepath} written. {result.summary()}")
         return {"FINISHED"}
 

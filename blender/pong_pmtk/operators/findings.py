@@ -34,7 +34,7 @@ class PONG_OT_check(bpy.types.Operator):
     def execute(self, context):
         root = current_root(context)
         result = session.check(context, root.name if root else "")
-        keep_findings(context, result.findings, result.name)
+        keep_findings(context, result.findings, result.name, session.touches(result))
         self.report({"WARNING" if result.model is None else "INFO"}, result.summary())
         return {"FINISHED"}
 
@@ -175,7 +175,7 @@ class PONG_OT_findings_fix(OnFinding, bpy.types.Operator):
 def _check_again(context):
     context.view_layer.update()
     again = session.check(context, state(context).checked)
-    keep_findings(context, again.findings, again.name)
+    keep_findings(context, again.findings, again.name, session.touches(again))
     return again
 
 

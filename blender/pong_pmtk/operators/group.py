@@ -6,7 +6,7 @@ from mathutils import Matrix, Vector
 
 from ..core.marks import VERSION
 from ..scene.tree import common_parent, hang, new_empty, parents, topmost
-from ..store.marks import BOUND_ITEMS
+from ..store.marks import BOUND_ITEMS, CONTACT_ITEMS
 from ..store.references import select_only
 from .targets import Selection, selected
 
@@ -35,7 +35,7 @@ class PONG_OT_root_new(bpy.types.Operator):
     def execute(self, context):
         members = topmost(selected(context))
         root = new_empty(context, self.name, members, "PLAIN_AXES")
-        root.pong.role, root.pong.version = "root", VERSION
+        root.pong.role, root.pong.version, root.pong.contact = "root", VERSION, "Automatic"
         context.view_layer.update()
         for member in members:
             hang(member, root)
@@ -90,17 +90,22 @@ class PONG_OT_group_set(Selection, bpy.types.Operator):
         ("group", "Group", "Holds groups or primitives"), ("root", "Root", "The whole model")])
     movable: bpy.props.BoolProperty(name="Movable", description="A rigid body of its own")
     bound: bpy.props.EnumProperty(name="Bound", items=BOUND_ITEMS, default="Default")
+    contact: bpy.props.EnumProperty(name="Contact", items=CONTACT_ITEMS, default="Default")
 
     def execute(self, context):
         given = self.properties.is_property_set
         for obj in selected(context):
             mark = obj.pong
             if given("role") or mark.role not in ("group", "root"):
+                if self.role == "root" and mark.role != "root" and mark.contact == "Default":
+                    mark.contact = "Automatic"
                 mark.role, mark.version = self.role, VERSION
             if given("movable"):
                 mark.movable = self.movable and mark.role == "group"
             if given("bound"):
                 mark.bound = self.bound
+            if given("contact"):
+                mark.contact = self.contact
         return {"FINISHED"}
 
 

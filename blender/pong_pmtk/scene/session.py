@@ -12,6 +12,7 @@ from ..core.finding import SEVERITIES
 from ..core.mesh_file import MeshFileError
 from ..core.model import Model
 from ..core.read import ModelFaults, read_file
+from ..core.touch import sentences
 from ..core.unbuild import unbuild
 from ..core.write import write_files
 from .extract import snapshot
@@ -32,6 +33,11 @@ class Result:
         count = {level: sum(f.severity == level for f in self.findings) for level in SEVERITIES}
         told = ", ".join(f"{count[level]} {level}{'s' * (count[level] != 1)}" for level in SEVERITIES if count[level])
         return f"{self.name or 'model'}: {told or 'nothing to find fault with'}"
+
+
+def touches(result):
+    """Sentences about what touches what in the model of a result; none without a model."""
+    return sentences(result.model) if result.model is not None else []
 
 
 class Refused(ValueError):

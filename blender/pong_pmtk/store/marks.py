@@ -43,6 +43,13 @@ BOUND_ITEMS = [
     ("Obb", "Oriented Box", "Box that fits best", 0, 2),
     ("Above", "None", "No volume of its own: what it holds counts to the group above", 0, 3),
 ]
+CONTACT_ITEMS = [
+    ("Default", "As Above", "That of the group above; of a root, Marked", 0),
+    ("Solid", "Solid", "Closed meshes and polyhedra touch other solids and planes by the volume that they share", 1),
+    ("Marked", "Marked", "Points, segments, rays and round parts touch faces; faces alone touch nothing", 2),
+    ("Automatic", "Automatic", "Of a root: Solid if all shapes are closed and no corner, edge or part is marked by hand; "
+                               "otherwise Marked", 3),
+]
 # Blender shows lengths in the scene's unit, without trailing zeros: 0.25 mm.
 LENGTH = {"subtype": "DISTANCE", "unit": "LENGTH", "min": 0.0, "precision": 6}
 
@@ -88,6 +95,8 @@ class PONG_PG_mark(bpy.types.PropertyGroup):
                                     description="Bounding volume around all below")
     custom_bound: bpy.props.StringProperty(name="Custom Bound", description="A registered kind of volume instead")
     leaf_size: bpy.props.IntProperty(name="Leaf Size", min=0, description="Most elements of a leaf. 0: no limit")
+    contact: bpy.props.EnumProperty(name="Contact", items=CONTACT_ITEMS, default="Default",
+                                    description="What makes the shapes below touch others")
     order: bpy.props.IntProperty(name="Order", min=0, description="Place among siblings, from 1. 0: behind, by name")
     kind: bpy.props.EnumProperty(name="Kind", items=KIND_ITEMS)
     radius: numbers.number("radius_64", name="Radius", shown=_show_size, **LENGTH)
@@ -139,7 +148,7 @@ class PONG_PG_model(bpy.types.PropertyGroup):
 
 # In the mark and in the property group.
 SAME = (
-    "role", "surface", "order", "movable", "bound", "custom_bound", "leaf_size", "response", "two_sided", "file",
+    "role", "surface", "order", "movable", "bound", "custom_bound", "leaf_size", "contact", "response", "two_sided", "file",
     "custom_kind",
 )
 # Stored in full precision, and left out if not given.

@@ -56,6 +56,7 @@ class PONG_PG_state(bpy.types.PropertyGroup):
     findings: bpy.props.CollectionProperty(type=PONG_PG_finding)
     active_finding: bpy.props.IntProperty()
     checked: bpy.props.StringProperty()  # what the last check was of
+    touches: bpy.props.StringProperty()  # what touches what in the model, in lines; "" after a check with errors
     active_object: bpy.props.IntProperty(get=_active_object, set=_select_object)  # of the scene's objects
     show_bounds: _toggle("Bounds", "Bounding volumes of the groups")
     show_normals: _toggle("Normals", "Outward normals of faces and planes")
@@ -70,12 +71,13 @@ def state(context):
     return context.window_manager.pong
 
 
-def keep_findings(context, findings, checked):
-    """Lists findings in the panel."""
+def keep_findings(context, findings, checked, touches=()):
+    """Lists findings, and what touches what, in the panel."""
     kept = state(context)
     kept.findings.clear()
     kept.active_finding = 0
     kept.checked = checked
+    kept.touches = "\n".join(touches)
     for finding in findings:
         item = kept.findings.add()
         for field in ("severity", "rule", "object", "path", "cause", "cure", "fix"):

@@ -5,6 +5,7 @@ import json
 
 import bpy
 
+from ..core.schema import SOLID_NUMBERS
 from ..core.surfaces import derived
 from . import spec
 from .changes import changed, watched
@@ -36,6 +37,7 @@ RIGID_FRICTION_LAWS = [
     ("DEFAULT", OF_PARTNER, "Friction of the surface that it meets", None),
     ("None", "None", "No friction with anything", {}),
 ] + FRICTION_LAWS[2:]
+AREA_M2 = 0.01  # of a contact of solids, where a surface begins to give a foundation or an area
 SOFT = 1e6  # N/m, of a surface that was made rigid by a script or a file
 FIRST_FRICTION = {"Bristle": {"mu": 0.2}}  # of a new surface
 
@@ -45,12 +47,13 @@ def _rigid(self):
 
 
 def _set_rigid(self, rigid):
-    """Removes stiffness and default friction when a surface becomes rigid, and restores them when it is soft again."""
+    """Removes stiffness, its area and default friction when a surface becomes rigid, and restores them when it is soft again."""
     if rigid == _rigid(self):
         return
     fields = spec.read(self)
     if rigid:
-        soft = {"stiffness": fields.get("stiffness", SOFT)}
+        soft = {name: fields.pop(name) for name in SOLID_NUMBERS if name in fields}
+        soft["stiffness"] = fields.get("stiffness", SOFT)
         if fields.get("friction") == FIRST_FRICTION:
             soft["friction"] = fields.pop("friction")
         self.soft = json.dumps(soft)
@@ -117,6 +120,22 @@ def _bristle_given(key, other, start=None):
     return {"get": get, "set": set_}
 
 
+def _per_area(key, other, start):
+    """View of the foundation or the area of a surface; at most one of them is given. It starts with what acts on `AREA_M2`."""
+
+    def get(self):
+        return spec.value_at(spec.read(self), (key,)) is not None
+
+    def set_(self, on):
+        if on != get(self):
+            begin = start(spec.value_at(spec.read(self), ("stiffness",), SOFT), spec.value_at(spec.read(self), (other,)))
+            spec.put(self, (key,), begin if on else None)
+            if on:
+                spec.put(self, (other,), None)
+
+    return {"get": get, "set": set_}
+
+
 def _stiffness_unit(self):
     return "N/m^1.5" if _exponent(self) else "N/m"
 
@@ -146,7 +165,17 @@ NUMBERS = {
                         "Damping of the bristle: 0 is undamped; unless given, critical for the mass of the restitution, "
                         "or with the damping ratio of the normal law"),
     "bristle_mass": ("kg", ("friction", FIELDS, "mass"), "Bristle Mass", "Mass for which the bristle's damping is critical"),
+    "rolling": ("m", ("friction", FIELDS, "rolling"), "Rolling", "Resistance to rolling: the moment over the normal force"),
+    "spinning": ("m", ("friction", FIELDS, "spinning"), "Spinning",
+                 "Resistance to spinning about the normal: the moment over the normal force"),
     "slip_speed": ("m/s", ("friction", FIELDS, "slip_speed"), "Slip Speed", "Speed at which the full force is reached"),
+}
+
+
+# Of a surface, not of a pair.
+NUMBERS_OF_SURFACE = {
+    "foundation": ("N/m^3", ("foundation",), "Foundation", "Stiffness of solids per area of contact"),
+    "area": ("m^2", ("area",), "Area", "Area over which a solid has the stiffness; instead of a foundation"),
 }
 
 
@@ -170,15 +199,22 @@ class Laws:
     use_bristle_stiffness: spec.given("friction", FIELDS, "stiffness", default=1e5, name="Bristle Spring")
     use_bristle_damping: bpy.props.BoolProperty(name="Bristle Damper", **_bristle_given("damping", "mass"))
     use_bristle_mass: bpy.props.BoolProperty(name="Bristle Mass", **_bristle_given("mass", "damping", 1.0))
+    use_rolling: spec.given("friction", FIELDS, "rolling", default=0.001, name="Rolling")
+    use_spinning: spec.given("friction", FIELDS, "spinning", default=0.001, name="Spinning")
     friction_name: spec.text("friction", FIELDS, "name", name="Law")
     friction_parameters: spec.numbers("friction", FIELDS, "parameters", name="Parameters")
 
 
-for _name, (_unit, _path, _label, _tip) in NUMBERS.items():
-    _most = {"most": 1.0} if _name == "restitution" else {}
-    Laws.__annotations__[_name] = spec.number(
-        *_path, name=_label, description=_tip, min=0.0, **{"max": limit for limit in _most.values()})
-    Laws.__annotations__[f"{_name}_text"] = spec.quantity(_unit, *_path, name=_label, description=_tip, **_most)
+def _add_numbers(group, numbers):
+    """Gives a property group its numbers, and their texts with units."""
+    for name, (unit, path, label, tip) in numbers.items():
+        most = 1.0 if name == "restitution" else None
+        limit = {} if most is None else {"max": most}
+        group.__annotations__[name] = spec.number(*path, name=label, description=tip, min=0.0, **limit)
+        group.__annotations__[f"{name}_text"] = spec.quantity(unit, *path, name=label, description=tip, most=most)
+
+
+_add_numbers(Laws, NUMBERS)
 watched(Laws)
 
 
@@ -192,14 +228,23 @@ def _renamed(self, _context):
     changed()
 
 
-@watched
 class PONG_PG_surface(Laws, bpy.types.PropertyGroup):
     """One surface of a model."""
 
     name: bpy.props.StringProperty(name="Name", update=_renamed)
     known_as: bpy.props.StringProperty(options={"HIDDEN"})  # the name that others still use
+    use_foundation: bpy.props.BoolProperty(
+        name="Foundation", description="Give the stiffness of solids per area",
+        **_per_area("foundation", "area", lambda stiffness, area: stiffness / (area or AREA_M2)))
+    use_area: bpy.props.BoolProperty(
+        name="Area", description="Give the area over which a solid has the stiffness",
+        **_per_area("area", "foundation", lambda stiffness, foundation: stiffness / foundation if foundation else AREA_M2))
     normal: spec.law("normal", NORMAL_LAWS, RIGID_NORMAL_LAWS, name="Normal Force")
     friction: spec.law("friction", FRICTION_LAWS, RIGID_FRICTION_LAWS, name="Friction")
+
+
+_add_numbers(PONG_PG_surface, NUMBERS_OF_SURFACE)
+watched(PONG_PG_surface)
 
 
 @watched

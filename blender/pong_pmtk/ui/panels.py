@@ -89,6 +89,7 @@ class PONG_PT_object(Panel, bpy.types.Panel):
     def _group(self, layout, mark):
         if mark.role == "group":
             layout.prop(mark, "movable")
+        layout.prop(mark, "contact")
         layout.prop(mark, "bound")
         layout.prop(mark, "custom_bound")
         layout.prop(mark, "leaf_size")
@@ -187,12 +188,25 @@ class PONG_PT_surfaces(Panel, bpy.types.Panel):
             layout.prop(surface, "rigid")
             if not surface.rigid:
                 draw_quantity(layout, surface, "stiffness")
+                draw_per_area(layout, surface)
             draw_laws(layout, surface)
             if shares_friction(surface):
                 layout.label(text="Mixes with the friction of what it meets", icon="INFO")
         row = layout.row(align=True)
         row.operator_menu_enum("pong.preset_load", "preset", text="Load Preset", icon="PRESET")
         row.operator("pong.preset_save", text="Save as Preset", icon="PRESET_NEW")
+
+
+def draw_per_area(layout, surface):
+    """Stiffness of solids per area, which only a linear spring has."""
+    if surface.normal == "Custom" or surface.normal in ("HuntCrossley", "PowerLaw") and surface.exponent == "HERTZ":
+        if surface.use_foundation or surface.use_area:
+            layout.label(text="Solids need the exponent 1: remove the foundation", icon="ERROR")
+        else:
+            return
+    unset = "from the stiffness"
+    draw_optional(layout, surface, "foundation", "foundation_text", "stiffness over area" if surface.use_area else unset)
+    draw_optional(layout, surface, "area", "area_text", "not needed" if surface.use_foundation else "a sixth of each solid's")
 
 
 def draw_laws(layout, laws):
@@ -222,6 +236,8 @@ def draw_laws(layout, laws):
         for name in ("static_excess", "bristle_stiffness"):
             draw_optional(layout, laws, name, f"{name}_text")
         draw_bristle_damping(layout, laws)
+        for name in ("rolling", "spinning"):
+            draw_optional(layout, laws, name, f"{name}_text", "none")
     elif laws.friction == "Coulomb":
         draw_quantity(layout, laws, "slip_speed")
     elif laws.friction == "Custom":
@@ -271,6 +287,22 @@ class PONG_PT_pairs(Panel, bpy.types.Panel):
             layout.prop(pair, "second")
             draw_optional(layout, pair, "stiffness", "stiffness_text")
             draw_laws(layout, pair)
+
+
+class PONG_PT_touch(Panel, bpy.types.Panel):
+    bl_label = "What Touches"
+    bl_parent_id = "PONG_PT_model"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return current_root(context) is not None
+
+    def draw(self, context):
+        told = state(context).touches
+        for text in told.splitlines() if told else ("Known after a check without errors",):
+            for line in wrapped(text, context.region.width):
+                self.layout.label(text=line)
 
 
 class PONG_PT_filters(Panel, bpy.types.Panel):
@@ -352,6 +384,6 @@ class PONG_PT_overlays(Panel, bpy.types.Panel):
 
 
 CLASSES = (
-    PONG_PT_model, PONG_PT_tree, PONG_PT_object, PONG_PT_parts, PONG_PT_surfaces, PONG_PT_pairs, PONG_PT_filters, PONG_PT_findings,
+    PONG_PT_model, PONG_PT_tree, PONG_PT_object, PONG_PT_parts, PONG_PT_surfaces, PONG_PT_pairs, PONG_PT_touch, PONG_PT_filters, PONG_PT_findings,
     PONG_PT_overlays,
 )

@@ -632,6 +632,80 @@ def file_pieces():
     return one("Polyhedron", mesh([*a.vertices, *b.vertices], faces), file="blocks.obj")
 
 
+# --- solids --------------------------------------------------------------------------------------------------------
+
+
+def _solid(kind="TriangleMesh", shape=None, **more):
+    s = one(kind, box((1, 1, 1)) if shape is None else shape, **more)
+    changed(s.root, contact="Solid")
+    return s
+
+
+def _turned_box():
+    return mesh(box((1, 1, 1)).vertices, [face[::-1] for face in BOX_FACES])
+
+
+def _open_box():
+    return mesh(box((1, 1, 1)).vertices, BOX_FACES[:-1])
+
+
+@faulty
+def unknown_contact():
+    return with_change("arm", contact="Automatic")
+
+
+@faulty
+def solid_corner():
+    s = _solid("Polyhedron")
+    changed(part(s, "thing"), parts=[Part("feet", "Point", vertices=[0, 1])])
+    return s
+
+
+@faulty
+def open_solid():
+    return _solid(shape=_open_box())
+
+
+@faulty
+def solid_thickness():
+    return _solid(shape=_open_box(), thickness=0.9)
+
+
+@faulty
+def solid_volume():
+    return _solid(shape=_turned_box())
+
+
+@faulty
+def solid_two_sided():
+    return _solid(two_sided=True)
+
+
+def _walled():
+    """Two halves of a bar in two groups of one body, joined by an internal face."""
+    s = scene()
+    changed(s.root, contact="Solid")
+    for group, name, x, wall in (("a", "left", 0.0, 5), ("b", "right", 1.0, 4)):
+        above = s.group(group)
+        s.mesh(name, "Polyhedron", box((1, 1, 1), (x, 0, 0)), above=above, inactive_faces=[wall])
+    return s
+
+
+@faulty
+def solid_surfaces():
+    s = _walled()
+    s.root.settings.surfaces = {**STEEL, "ice": {"stiffness": 1e5}}
+    changed(part(s, "right"), surface="ice")
+    return s
+
+
+@faulty
+def solid_contact():
+    s = _walled()
+    changed(part(s, "b"), contact="Marked")
+    return s
+
+
 # --- surfaces ------------------------------------------------------------------------------------------------------
 
 
@@ -665,6 +739,16 @@ def not_positive():
 @faulty
 def stiffness_range():
     return _with_surface(stiffness=1e101)
+
+
+@faulty
+def foundation_range():
+    return _with_surface(stiffness=1e6, area=1e-99)
+
+
+@faulty
+def foundation_law():
+    return _with_surface(stiffness=math.inf, foundation=1e9)
 
 
 @faulty

@@ -67,6 +67,7 @@ def random_group(name, depth):
         random.choice([None, "Sphere", "Obb", "Custom:torus"]), random.choice([None, "ice"]),
     )  # fmt: skip
     group.leaf_size = random.choice([None, None, 1, 32])
+    group.contact = random.choice([None, "Marked"])
     if depth < 3 and not group.movable and random.random() < 0.2:
         group.bound = "Above"
     if depth and random.random() < 0.6:
@@ -116,6 +117,28 @@ class Models(unittest.TestCase):
         model.filters = [("arm", "bass")]
         refused = build(loads(dumps(unbuild(model)))).findings.errors
         self.assertIn("bass", str(refused[0]))
+
+    def test_solids(self):
+        """Every field of solids; `Marked` below `Solid`, and `Marked` of the root, which is its default."""
+        shape = author.box((0.1, 0.2, 1 / 3))
+        faces = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+        bristle = Tagged("Bristle", {"mu": 0.3, "rolling": 1 / 3e3, "spinning": 2e-4})
+        surfaces = {
+            "pad": {"stiffness": 1e5, "foundation": 1e9 / 3, "friction": bristle},
+            "plate": {"stiffness": 1e6, "area": 1 / 700},
+        }
+        groups = [
+            Group("arm", True, surface="plate", primitives=[Primitive("Polyhedron", "p", {"vertices": shape.vertices, "faces": faces})]),
+            Group("feet", True, contact="Marked", primitives=[Primitive("Point", "q", {"position": (0.0, 0.0, 0.0)})]),
+        ]
+        for contact in ("Solid", "Marked", None):
+            model = Model("m", surfaces, Group("m", surface="pad", groups=groups, contact=contact))
+            text = write_text(model)
+            made = self.back(model)
+            self.assertEqual(write_text(made.model), text)
+            self.assertEqual(made.model.root.contact, contact)
+            for word in ("foundation: 333333333.3333333", "area: 0.0014285714285714286", "rolling: ", "spinning: "):
+                self.assertIn(word, text)
 
     def test_names_that_blender_cannot_keep(self):
         long = "x" * 80

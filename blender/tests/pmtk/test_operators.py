@@ -40,6 +40,48 @@ class Marking(InBlender):
         bpy.ops.pong.mark(kind="TriangleMesh")
         self.assertEqual(objects["Polyhedron"].pong.kind, "TriangleMesh")
 
+    def test_closed_meshes_of_a_new_root_are_solids(self):
+        block = new("block", mesh(CUBE))
+        activate(block)
+        bpy.ops.pong.root_new(name="crate")
+        top = bpy.data.objects["crate"]
+        self.assertEqual(top.pong.contact, "Automatic")
+        bpy.ops.pong.surface_add(name="wood", stiffness=1e5)
+        top.pong.surface = "wood"
+        activate(block)
+        bpy.ops.pong.mark()
+        self.assertEqual(self.check().model.root.contact, "Solid")
+        bpy.ops.pong.check()
+        told = state(bpy.context).touches.splitlines()
+        self.assertEqual(told[0], "crate: 1 solid shape")
+
+        edit(block)  # feet by hand: the author says what touches
+        bpy.ops.mesh.select_mode(type="VERT")
+        elements.select(block.data, {"vertices": [0, 1]})
+        bpy.ops.pong.mark_elements(kind="Point")
+        bpy.ops.object.mode_set(mode="OBJECT")
+        result = self.check()
+        self.assertIsNone(result.model.root.contact)
+        self.assertIn("not-solid", {finding.rule for finding in result.findings})
+
+        activate(top)
+        bpy.ops.pong.group_set(contact="Solid")
+        self.assertEqual(self.rules(), {"solid-corner"})
+
+    def test_inward_and_unwelded_solids_are_repaired(self):
+        top = root()
+        top.pong.contact = "Solid"
+        turned = mark(new("a", mesh((CUBE[0], [face[::-1] for face in CUBE[1]])), top), kind="TriangleMesh")
+        loose = [vertex for face in CUBE[1] for vertex in (CUBE[0][i] for i in face)]
+        loose[:4] = [(x + 1e-6, y, z) for x, y, z in loose[:4]]  # triangles share corners that are the same to the last bit
+        faces = [tuple(range(4 * i, 4 * i + 4)) for i in range(6)]
+        mark(new("b", mesh((loose, faces)), top, location=(5, 0, 0)), kind="TriangleMesh")
+        bpy.ops.pong.check()
+        self.assertEqual(self.rules() - {"t-junction"}, {"solid-volume", "open-solid"})
+        bpy.ops.pong.findings_fix()
+        self.assertEqual(self.rules(), set())
+        self.assertEqual(len(turned.data.polygons), 6)
+
     def test_unmarking(self):
         obj = mark(new("a"), kind="Sphere", radius=1.0)
         activate(obj)

@@ -92,6 +92,9 @@ class Settings(InBlender):
             "a": {"stiffness": 1 / 3, "normal": Tagged("Linear", {"damping": 0.1, "ramp": 1e-4}),
                   "friction": Tagged("Bristle", {"mu": 0.2, "static_excess": 0.0})},
             "b": {"stiffness": math.inf},
+            "f": {"stiffness": 1e5, "foundation": 1e9 / 3,
+                  "friction": Tagged("Bristle", {"mu": 0.2, "rolling": 1 / 3e3, "spinning": 1e-4})},
+            "g": {"stiffness": 1e5, "area": 1 / 700},
             "c": {"stiffness": 2e5, "normal": Tagged("HuntCrossley", {"restitution": {"e": 0.5, "speed": 0.1},
                                                                       "exponent": 1.5})},
             "e": {"stiffness": 2e9, "normal": Tagged("PowerLaw", {"exponent": 1.5, "damping_exponent": 0.5,
@@ -129,6 +132,25 @@ class Settings(InBlender):
         surface.rigid, surface.friction = True, "DEFAULT"
         self.assertEqual(spec.read(surface)["stiffness"], math.inf)
         self.assertNotIn("friction", spec.read(surface))
+
+    def test_a_surface_has_a_foundation_or_an_area(self):
+        marks.write_settings(new("root"), ModelSettings(surfaces={"a": {"stiffness": 1e5}}))
+        surface = bpy.data.objects["root"].pong_model.surfaces["a"]
+        surface.use_foundation = True  # of the stiffness over 0.01 m²
+        self.assertEqual(surface.foundation_text, "1e7 N/m^3")
+        surface.foundation_text = "0.02 N/mm^3"
+        self.assertEqual(spec.read(surface), {"stiffness": 1e5, "foundation": 2e7})
+        surface.use_area = True  # in place of the foundation, with the same effect
+        self.assertEqual(spec.read(surface), {"stiffness": 1e5, "area": 0.005})
+        surface.area_text = "2 cm²"
+        self.assertAlmostEqual(spec.read(surface)["area"], 2e-4)
+        surface.rigid = True  # a rigid surface has neither; what it had comes back
+        self.assertEqual(spec.read(surface), {"stiffness": math.inf})
+        surface.rigid = False
+        self.assertAlmostEqual(spec.read(surface)["area"], 2e-4)
+        surface.friction, surface.use_rolling = "Bristle", True
+        surface.rolling_text = "0.2 mm"
+        self.assertEqual(spec.read(surface)["friction"]["Bristle"]["rolling"], 2e-4)
 
     def test_of_a_pair_no_friction_is_not_the_same_as_none_given(self):
         marks.write_settings(new("root"), self.FULL)

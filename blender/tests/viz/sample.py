@@ -126,3 +126,23 @@ def many_contacts(folder: Path, count: int) -> None:
     frames["first_contact"] *= count
     np.save(folder / "frames.npy", frames)
     np.save(folder / "contacts.npy", more)
+
+
+AREA_M2 = 4e-4  # of the patch of `as_solids`
+
+
+def as_solids(folder: Path) -> None:
+    """Replaces each contact by those of two solids: a cell of each field, 1 mm apart, with half of the area and of the
+    normal force each, a wedge at the rim with the normal along x, and two contacts with half of the friction each."""
+    frames, contacts = np.load(folder / "frames.npy"), np.load(folder / "contacts.npy")
+    more, kind = np.repeat(contacts, 5), np.tile(np.arange(5), len(contacts))
+    more["end"] = np.array([4, 5, 5, 6, 6], dtype=np.uint32)[kind] << np.uint32(29)
+    more["point"][:, 1] += np.array([-5e-4, 5e-4, 2e-3, 1e-2, -1e-2])[kind]
+    more["weight"] = np.array([AREA_M2 / 2, AREA_M2 / 2, 1e-6, 0.0, 0.0])[kind]
+    more["normal_force"] *= np.array([0.5, 0.5, 1e-4, 0.0, 0.0])[kind]
+    more["friction_force"] *= np.array([0.0, 0.0, 0.0, 0.5, 0.5])[kind, None]
+    more["normal"][kind == 2] = (1.0, 0.0, 0.0)
+    frames["contacts"] *= 5
+    frames["first_contact"] *= 5
+    np.save(folder / "frames.npy", frames)
+    np.save(folder / "contacts.npy", more)

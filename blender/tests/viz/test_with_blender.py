@@ -15,7 +15,7 @@ import numpy as np
 
 import pong_pmtk
 import pong_viz
-from pong_viz import captions, render
+from pong_viz import captions, patches, render
 from pong_viz.cli import main
 from pong_viz.log import Log
 from pong_viz.marks import SLIP, STICK, TOUCHED
@@ -68,6 +68,21 @@ class Scenes(WithScene):
             np.testing.assert_allclose(mark.evaluated_get(self.at(picture + 1)).color, color, atol=1e-6)
         np.testing.assert_allclose(skin.evaluated_get(self.at(51)).color[:3], TOUCHED, atol=1e-6)
         self.assertGreater(np.abs(np.array(skin.evaluated_get(self.at(52)).color[:3]) - TOUCHED).max(), 0.1)
+
+    def test_patches_of_solids_have_the_size_of_their_area_and_the_colour_of_their_pressure(self):
+        sample.as_solids(self.log_folder)
+        made = show(Log(self.log_folder), Options(fps=100))
+        patch = made.marks[0]
+        for picture in (0, 20, 50):
+            shown = patch.evaluated_get(self.at(picture + 1))
+            matrix, pressure = np.array(shown.matrix_world), 10.0 * (1.0 + picture / 100.0) / sample.AREA_M2
+            np.testing.assert_allclose(matrix[:3, 3], (0.5 * picture / 100.0, 0.0, 0.0), atol=1e-6)
+            radius = np.linalg.norm(matrix[:3, 0])
+            self.assertAlmostEqual(np.pi * radius**2, sample.AREA_M2, places=8)
+            np.testing.assert_allclose(shown.color, patches.colours(np.array([pressure]), made.pressure_scale)[0], atol=1e-6)
+        friction = made.marks[2].evaluated_get(self.at(51))
+        np.testing.assert_allclose(friction.color, STICK, atol=1e-6)
+        self.assertIn("kPa yellow", captions.text(bpy.context.scene, 51))
 
     def test_events_are_never_interpolated(self):
         arrow = self.made.arrows[0]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pong_viz import marks, shapes, timeline
+from pong_viz import marks, patches, shapes, timeline
 from pong_viz.core.model import Primitive
 from pong_viz.log import Log, LogError
 
@@ -226,6 +226,40 @@ class Marks(WithLog):
         self.assertEqual((slots.shown.shape, slots.left_out), ((101, 200), 51 * 100))
         # Contact k has 1 + k N: the least hundred are left out.
         np.testing.assert_allclose(slots.forces[0], np.hypot(1.0 + np.arange(100, 300), 2.0))
+
+    def test_cells_of_one_face_are_one_patch(self):
+        sample.as_solids(self.log.folder)
+        log = Log(self.log.folder)
+        film = timeline.film(log, fps=100)
+        slots = marks.slots(log, film, timeline.view(log, film))
+        self.assertEqual(slots.shown.shape[1], 4)  # the patch, the wedge at the rim, two contacts with friction
+        np.testing.assert_allclose(slots.areas[:51], np.tile([sample.AREA_M2, 1e-6, 0.0, 0.0], (51, 1)))
+        t = film.times[:51]
+        np.testing.assert_allclose(slots.forces[:51], np.stack([10.0 * (1.0 + t), 1e-3 * (1.0 + t), 1.0 + 0.0 * t, 1.0 + 0.0 * t], axis=1))
+        np.testing.assert_allclose(slots.points[:51, 0, 1], 0.0, atol=1e-12)
+        np.testing.assert_allclose(slots.pressures[:51, 0], 10.0 * (1.0 + t) / sample.AREA_M2)
+        self.assertAlmostEqual(slots.pressure_scale, 15.0 / sample.AREA_M2, delta=0.05 * 15.0 / sample.AREA_M2)
+        self.assertEqual(slots.areas[51:].max(), 0.0)
+
+    def test_forces_and_areas_stay_when_cells_become_patches(self):
+        random = np.random.default_rng(1)
+        contacts = np.zeros(200, dtype=sample.CONTACTS)
+        contacts["pair"], contacts["point"] = random.integers(0, 3, 200), random.uniform(-1e-2, 1e-2, (200, 3))
+        contacts["normal"] = np.eye(3)[random.integers(0, 3, 200)]
+        contacts["weight"], contacts["normal_force"] = random.uniform(0.0, 1e-4, 200), random.uniform(0.0, 5.0, 200)
+        contacts["end"] = np.array([0, 4, 5, 6], dtype=np.uint32)[random.integers(0, 4, 200)] << np.uint32(29)
+        made = patches.merged(contacts)
+        self.assertLess(len(made), 150)
+        self.assertEqual((~patches.are_cells(made)).sum(), (~patches.are_cells(contacts)).sum())
+        for name in ("weight", "normal_force"):
+            self.assertAlmostEqual(made[name].sum(), contacts[name].sum(), places=10)
+        moment = lambda rows: (rows["normal_force"][:, None] * rows["point"]).sum(axis=0)  # noqa: E731
+        np.testing.assert_allclose(moment(made), moment(contacts), atol=1e-12)
+
+    def test_colours_of_pressures(self):
+        found = patches.colours(np.array([0.0, 5.0, 10.0, 20.0]), 10.0)
+        np.testing.assert_allclose(found, patches.RAMP[[0, 2, 4, 4]])
+        self.assertEqual(patches.colours(np.zeros(0), 0.0).shape, (0, 4))
 
     def test_shortest_turn_from_z(self):
         for direction in ((0, 0, 2), (0, 0, -3), (1, 0, 0), (-1, 2, -5)):

@@ -136,13 +136,14 @@ pub fn import(
     let built = convert(input, options, progress, &mut findings);
     let Some(built) = built.filter(|_| findings.faults.is_empty()) else { return Err(findings) };
     progress("writing");
-    let Built { mut model, mesh_files, vertices, triangles, by_marks } = built;
+    let Built { mut model, mesh_files, vertices, triangles, is_automatic } = built;
     let primitives = kinds_of(&model.root);
     let has = |kind: &str| primitives.iter().any(|(other, _)| *other == kind);
-    let solid = !options.marked && !by_marks && (has("Polyhedron") || has("TriangleMesh"));
-    model.root.solid = solid;
+    let solid = !options.marked && is_automatic && (has("Polyhedron") || has("TriangleMesh"));
+    let marked = model.root.contact;
+    model.root.contact = if solid { Some("Solid") } else { marked };
     let text = write::text(&model);
-    model.root.solid = false;
+    model.root.contact = marked;
     // Kept only if another text may be needed.
     let model = solid.then_some(model);
     let instead = || model.as_ref().map(write::text);

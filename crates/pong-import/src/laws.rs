@@ -37,7 +37,7 @@ impl DefaultSurface {
 }
 
 /// Order of the fields of surfaces and pairs; other fields follow in their given order.
-const ORDER: [&str; 4] = ["surfaces", "stiffness", "normal", "friction"];
+const ORDER: [&str; 6] = ["surfaces", "stiffness", "foundation", "area", "normal", "friction"];
 
 /// Fields of a surface or pair; the error names the part that is not understood.
 pub fn record(value: &Value) -> Result<Record, String> {

@@ -9,6 +9,10 @@ const VERSION: u64 = 1;
 
 const ROLES: [&str; 4] = ["none", "root", "group", "primitive"];
 const BOUNDS: [&str; 3] = ["Aabb", "Sphere", "Obb"];
+const CONTACTS: [&str; 3] = ["Default", "Solid", "Marked"];
+
+/// Contact of a root whose shapes become solids if they can.
+const AUTOMATIC: &str = "Automatic";
 
 /// Kinds of primitives, in the order of the format.
 pub(crate) fn kinds() -> Vec<&'static str> {
@@ -28,6 +32,10 @@ pub(crate) struct Mark {
     pub(crate) movable: bool,
     /// Name as in model files, or `Custom:` and the name of a registered kind; empty for the default.
     pub(crate) bound: String,
+    /// `Solid` or `Marked`; `None` for the contact of the group above.
+    pub(crate) contact: Option<&'static str>,
+    /// True for a root whose shapes become solids if they can.
+    pub(crate) is_automatic: bool,
     pub(crate) kind: String,
     /// Radius before the node's scale, as are semi-axes and length.
     pub(crate) radius: f64,
@@ -127,6 +135,16 @@ impl<'a> Fields<'a> {
         if custom.is_empty() { bound } else { format!("Custom:{custom}") }
     }
 
+    /// Contact, and true for the automatic contact of a root.
+    fn contact(&mut self, role: &str) -> (Option<&'static str>, bool) {
+        let allowed = match role {
+            "root" => [CONTACTS.as_slice(), &[AUTOMATIC]].concat(),
+            _ => CONTACTS.to_vec(),
+        };
+        let word = self.word("contact", &allowed, "Default");
+        (CONTACTS[1..].iter().copied().find(|contact| *contact == word), word == AUTOMATIC)
+    }
+
     fn unknown(&mut self) {
         for key in self.map.keys().filter(|key| !self.known.contains(&key.as_str())) {
             let cause = format!("`{key}` of its mark is not known and counts for nothing");
@@ -186,13 +204,17 @@ impl Mark {
         let before = findings.faults.len();
         let mut fields = Fields::of(map, path, findings);
         let numbers = |value: &Value| -> Option<[f64; 3]> { numbers_of(value)?.try_into().ok() };
+        let role = fields.word("role", &ROLES, if map.contains_key("kind") { "primitive" } else { "none" });
+        let (contact, is_automatic) = fields.contact(&role);
         let mark = Self {
-            role: fields.word("role", &ROLES, if map.contains_key("kind") { "primitive" } else { "none" }),
+            role,
             name: fields.text("name"),
             surface: fields.text("surface"),
             movable: fields.flag("movable").unwrap_or(false),
             order: fields.take("order", "a whole number", Value::as_u64).unwrap_or(0),
             bound: fields.bound(),
+            contact,
+            is_automatic,
             kind: fields.word("kind", &[kinds().as_slice(), &[""]].concat(), ""),
             radius: fields.number("radius").unwrap_or(0.0),
             semi_axes: fields.take("semi_axes", "three numbers", numbers).unwrap_or([0.0; 3]),

@@ -28,8 +28,8 @@ pub struct Group {
     /// `None` for the default of the format; `Custom:` and the name of a registered kind.
     pub bound: Option<String>,
     pub surface: Option<String>,
-    /// True for `contact: Solid`.
-    pub solid: bool,
+    /// `Solid` or `Marked`; `None` for the contact of the parent group.
+    pub contact: Option<&'static str>,
     pub groups: Vec<Group>,
     pub primitives: Vec<Primitive>,
 }

@@ -48,8 +48,8 @@ fn group(node: &Group) -> Value {
     if let Some(surface) = &node.surface {
         fields.push(("surface", Value::text(surface)));
     }
-    if node.solid {
-        fields.push(("contact", Value::name("Solid")));
+    if let Some(contact) = node.contact {
+        fields.push(("contact", Value::name(contact)));
     }
     if !node.groups.is_empty() {
         fields.push(("groups", Value::list(node.groups.iter().map(group))));

@@ -6,6 +6,7 @@ import {
     MeshBasicMaterial, Points, PointsMaterial, Quaternion, Vector3,
 } from "three";
 import { dotTexture } from "#view/meshes.js";
+import { Patches } from "#view/patches.js";
 import { HIGHLIGHT, SLIP, STICK, styleColor } from "#view/theme.js";
 
 const MARK_PIXELS = 11, HALO_PIXELS = 24, SHAFT_PIXELS = 3, HEAD_PIXELS = 13;
@@ -117,7 +118,8 @@ export class ContactMarks extends Group {
         this.stick = new Marks(STICK, MARK_PIXELS, false);
         this.slip = new Marks(SLIP, MARK_PIXELS, true);
         this.halo = new Marks(HIGHLIGHT, HALO_PIXELS, true);
-        this.add(this.normals, this.sticking, this.slipping, this.stick, this.slip, this.halo);
+        this.patches = new Patches();
+        this.add(this.patches, this.normals, this.sticking, this.slipping, this.stick, this.slip, this.halo);
         this.recolor();
     }
 
@@ -126,7 +128,7 @@ export class ContactMarks extends Group {
     }
 
     /** `metresPerNewton` is the scale; forces are those on `body` where it is B, else those on A. */
-    show(contacts, metresPerNewton, body, selected, { hasNormals, hasFriction }) {
+    show(contacts, patches, metresPerNewton, body, selected, { hasNormals, hasFriction, pressure }) {
         const arrow = (contact, vector, force) => {
             const direction = new Vector3().fromArray(vector).multiplyScalar(signFor(contact, body));
             return { from: new Vector3().fromArray(contact.point), direction: direction.normalize(), length: force * metresPerNewton };
@@ -139,13 +141,18 @@ export class ContactMarks extends Group {
                       .map((contact) => arrow(contact, contact.friction, contact.frictionForce))
                       .filter(isSeen)
                 : [];
-        const normals = hasNormals ? contacts.map((c) => arrow(c, c.normal, c.normalForce)).filter(isSeen) : [];
+        // The cells of a patch have one arrow and no dot: friction, which sticks or slips, is at contacts of its own.
+        const others = contacts.filter((contact) => !contact.isCell);
+        const pushing = [...others, ...patches];
+        const normals = hasNormals ? pushing.map((c) => arrow(c, c.normal, c.normalForce)).filter(isSeen) : [];
         this.normals.set(normals);
+        this.patches.visible = pressure > 0;
+        this.patches.show(patches, pressure);
         this.sticking.set(frictions(true));
         this.slipping.set(frictions(false));
         const places = (list) => list.map((contact) => contact.point);
-        this.stick.set(places(contacts.filter((contact) => contact.sticks)));
-        this.slip.set(places(contacts.filter((contact) => !contact.sticks)));
+        this.stick.set(places(others.filter((contact) => contact.sticks)));
+        this.slip.set(places(others.filter((contact) => !contact.sticks)));
         this.halo.set(places(contacts.filter((contact) => contact.key === selected)));
     }
 

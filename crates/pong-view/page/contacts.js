@@ -2,9 +2,13 @@
 
 /** Key of a contact that stays the same from frame to frame. */
 export const keyOf = (run, row) => {
-    const { pair, primitive_a, primitive_b, element_a, element_b, flags } = run.contacts;
-    return [pair[row], primitive_a[row], primitive_b[row], element_a[row], element_b[row], flags[row] & 2].join(":");
+    const { pair, primitive_a, primitive_b, element_a, element_b, end, feature } = run.contacts;
+    const face = run.isCell(row) ? feature[row] : 0;
+    return [pair[row], primitive_a[row], primitive_b[row], element_a[row], element_b[row], end[row], face].join(":");
 };
+
+/** Word for what friction does; cells of solids have none. */
+export const stateOf = ({ isCell, sticks }) => (isCell ? "–" : sticks ? "stick" : "slip");
 
 /** One contact, vectors along the common axes, forces on A. */
 export function contactAt(run, row) {
@@ -13,6 +17,9 @@ export function contactAt(run, row) {
     const friction = vector(c.friction), slip = vector(c.slip);
     return {
         row,
+        pair: c.pair[row],
+        isCell: run.isCell(row),
+        isFriction: run.isFriction(row),
         key: keyOf(run, row),
         a: run.primitive(c.primitive_a[row]),
         b: run.primitive(c.primitive_b[row]),

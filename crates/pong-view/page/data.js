@@ -2,6 +2,9 @@
 
 const ARRAYS = { f64: Float64Array, f32: Float32Array, u32: Uint32Array, u8: Uint8Array };
 
+/** Bits 29 to 31 of the `end` of cells (docs/c_api.md). */
+const CELL_OF_B = 4, CELL_OF_A = 5;
+
 async function unpacked(text) {
     const letters = atob(text);
     const bytes = new Uint8Array(letters.length);
@@ -88,6 +91,18 @@ export class Run {
     /** Rows of the contacts of a frame: from, to (exclusive). */
     contactsOf(frame) {
         return [this.frames.first_contact[frame], this.frames.first_contact[frame + 1]];
+    }
+
+    /** True for the row of a cell of solids, whose weight is an area, m². */
+    isCell(row) {
+        const part = this.contacts.end[row] >>> 29;
+        return part === CELL_OF_B || part === CELL_OF_A;
+    }
+
+    /** True for one of the two rows with the friction of solids, or with rolling or spinning resistance. */
+    isFriction(row) {
+        const part = this.contacts.end[row] >>> 29;
+        return part !== 0 && !this.isCell(row);
     }
 
     contactCount(frame) {

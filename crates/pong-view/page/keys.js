@@ -24,6 +24,7 @@ export function bindKeys(actions) {
         [["x"], "X", "see through bodies", () => actions.flip("xray")],
         [["e"], "E", "edges", () => actions.flip("edges")],
         [["h"], "H", "primitives in contact", () => actions.flip("highlight")],
+        [["u"], "U", "patches of solids with their pressure", () => actions.flip("patches")],
         [["t"], "T", "dark or light", () => actions.theme()],
         [["s"], "S", "save the picture", () => actions.save()],
         [["Escape"], "Esc", "drop the selected contact", () => actions.drop()],

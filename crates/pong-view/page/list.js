@@ -1,5 +1,6 @@
 // The lists beside the picture: bodies, and the contacts of the frame.
 
+import { stateOf } from "#view/contacts.js";
 import { bodyColors } from "#view/theme.js";
 import { count, digits, fixed, quantity } from "#view/units.js";
 
@@ -88,7 +89,7 @@ export class ContactList {
 
     show(contacts, selected) {
         this.selected = selected;
-        const strongest = [...contacts].sort((a, b) => b.normalForce - a.normalForce).slice(0, ROWS);
+        const strongest = [...contacts].sort((a, b) => b.normalForce - a.normalForce || b.frictionForce - a.frictionForce).slice(0, ROWS);
         while (this.rows.length < strongest.length) this.rows.push(this.#row());
         strongest.forEach((contact, index) => this.#fill(this.rows[index], contact, contact.key === selected));
         const missing = this.rows.slice(0, strongest.length);
@@ -116,14 +117,18 @@ export class ContactList {
             name.style.borderColor = this.colors[body];
             name.textContent = index ? contact.nameB : contact.nameA;
         });
-        pair.title = `A  ${full[0]}\nB  ${full[1]}, ${contact.feature}\nshare of the pair's spring ${digits(contact.weight)}\nrate ${digits(contact.rate * 1e3)} mm/s, slip ${digits(contact.slipSpeed * 1e3)} mm/s`;
+        const share = contact.isCell
+            ? `effective area ${digits(contact.weight * 1e4)} cm², pressure ${quantity(contact.normalForce / contact.weight, "Pa")}`
+            : contact.isFriction ? "friction of the pair" : `share of the pair's spring ${digits(contact.weight)}`;
+        pair.title = `A  ${full[0]}\nB  ${full[1]}, ${contact.feature}\n${share}\nrate ${digits(contact.rate * 1e3)} mm/s, slip ${digits(contact.slipSpeed * 1e3)} mm/s`;
         const texts = [
-            digits(contact.depth * 1e3), digits(contact.normalForce), digits(contact.frictionForce), contact.sticks ? "stick" : "slip",
+            contact.isFriction ? "–" : digits(contact.depth * 1e3), contact.isFriction ? "–" : digits(contact.normalForce),
+            contact.isCell ? "–" : digits(contact.frictionForce), stateOf(contact),
         ];
         texts.forEach((text, index) => {
             if (numbers[index].textContent !== text) numbers[index].textContent = text;
         });
-        numbers[3].className = contact.sticks ? "stick" : "slip";
+        numbers[3].className = contact.isCell ? "" : stateOf(contact);
     }
 
     #full(contact, side) {

@@ -4,18 +4,19 @@ import { Raycaster, Vector2, Vector3 } from "three";
 import { ContactMarks, signFor } from "#view/arrows.js";
 import { Bodies } from "#view/bodies.js";
 import { CameraControl } from "#view/camera.js";
-import { contactsIn, typicalForces } from "#view/contacts.js";
+import { contactsIn, stateOf, typicalForces } from "#view/contacts.js";
 import { load } from "#view/data.js";
 import { Highlights } from "#view/highlight.js";
 import { bindKeys } from "#view/keys.js";
 import { BodyList, ContactList, describeBody } from "#view/list.js";
+import { patchesOf, rampGradient, typicalPressure } from "#view/patches.js";
 import { Player } from "#view/player.js";
 import { Plots } from "#view/plots.js";
 import { Series } from "#view/series.js";
 import { Stage } from "#view/stage.js";
 import { initTheme, toggleTheme } from "#view/theme.js";
 import { Transport } from "#view/transport.js";
-import { count, niceStep, quantity } from "#view/units.js";
+import { count, digits, niceStep, quantity } from "#view/units.js";
 
 /** Interval of updating the lists while a run plays, s. */
 const LIST_PERIOD = 0.1;
@@ -44,7 +45,9 @@ class Page {
         this.selected = null;
         this.shownFrame = -1;
         this.listAge = Infinity;
+        this.pressure = typicalPressure(run);
         this.#measureArrows();
+        this.#showPressureScale();
         this.#buildLists();
         this.#bindControls();
         this.#bindKeys();
@@ -125,6 +128,7 @@ class Page {
         onChange("highlight", ({ checked }) => ((this.highlights.isOn = checked), this.#showContacts()));
         onChange("normals", () => this.#showContacts());
         onChange("frictions", () => this.#showContacts());
+        onChange("patches", () => this.#showContacts());
         onChange("plot-body", ({ value }) => this.pick(Number(value)));
         onChange("components", ({ checked }) => ((this.plots.hasComponents = checked), this.plots.refresh()));
         byId("scale").addEventListener("input", () => this.#showContacts());
@@ -248,13 +252,22 @@ class Page {
 
     #showContacts() {
         this.contacts = contactsIn(this.run, this.player.frame);
-        this.marks.show(this.contacts, this.metresPerNewton, this.body, this.selected, {
+        this.patches = patchesOf(this.contacts);
+        this.marks.show(this.contacts, this.patches, this.metresPerNewton, this.body, this.selected, {
+            pressure: byId("patches").checked ? this.pressure : 0,
             hasNormals: byId("normals").checked,
             hasFriction: byId("frictions").checked,
         });
         this.highlights.show(this.contacts);
         this.#showScale();
         this.stage.redraw();
+    }
+
+    // The scale of pressure, which a run without solids does not have.
+    #showPressureScale() {
+        byId("patches-legend").hidden = !(this.pressure > 0);
+        byId("pressure-ramp").style.background = rampGradient();
+        byId("pressure-scale").textContent = `0 … ${quantity(this.pressure, "Pa", 3)}`;
     }
 
     // A round force and the length of its arrow.
@@ -283,8 +296,7 @@ class Page {
         if (!contact) return;
         const [x, y] = this.project(contact.point);
         Object.assign(label.style, { left: `${x}px`, top: `${y}px` });
-        const state = contact.sticks ? "stick" : "slip";
-        label.textContent = `${contact.nameA} – ${contact.nameB}\n${quantity(contact.normalForce, "N")}, ${quantity(contact.depth, "m")}, ${state}`;
+        label.textContent = `${contact.nameA} – ${contact.nameB}\n${labelOf(contact)}`;
     }
 
     #recolor() {
@@ -320,6 +332,14 @@ class Page {
     }
 }
 
+/** Numbers of a contact for its label. */
+function labelOf(contact) {
+    const { normalForce, depth, frictionForce, weight } = contact;
+    if (contact.isFriction) return `${quantity(frictionForce, "N")} of friction, ${stateOf(contact)}`;
+    const state = contact.isCell ? `${quantity(normalForce / weight, "Pa")} on ${digits(weight * 1e4)} cm²` : stateOf(contact);
+    return `${quantity(normalForce, "N")}, ${quantity(depth, "m")}, ${state}`;
+}
+
 /** Interface of the page for the console and tests. */
 function interfaceOf(page) {
     const { run, player, stage, bodies } = page;
@@ -347,6 +367,7 @@ function interfaceOf(page) {
         /** Position of a body's origin in the picture, px. */
         projected: (name) => page.project(bodies.views[index(name)].position.toArray()),
         contacts: () => page.contacts,
+        patches: () => page.patches,
         arrows: () => page.marks.arrowCount,
         highlighted: () => page.highlights.count,
         /** Position of a point of the scene in the picture, px. */

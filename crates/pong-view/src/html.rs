@@ -25,6 +25,7 @@ const MODULES: &[(&str, &str)] = &modules![
     "keys.js",
     "list.js",
     "meshes.js",
+    "patches.js",
     "player.js",
     "plots.js",
     "series.js",

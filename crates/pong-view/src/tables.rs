@@ -53,8 +53,10 @@ pub(crate) struct ContactColumns {
     primitive_b: Column,
     element_a: Column,
     element_b: Column,
-    /// Bit 0 sticks, bit 1 end of a segment, bits 2 and 3 kind of feature.
+    /// Bit 0 sticks, bits 2 and 3 kind of feature.
     flags: Column,
+    /// Code of the end of a segment, of a cell or of the friction of solids (docs/c_api.md).
+    end: Column,
     feature: Column,
     point: Column,
     normal: Column,
@@ -143,9 +145,7 @@ impl Frames {
         let frames = self.rows.iter().enumerate();
         let origins =
             frames.flat_map(|(frame, row)| std::iter::repeat_n(origin.at(frame), row.contacts as usize));
-        let flags = |c: &ContactRow| {
-            u8::from(c.sticks != 0) | u8::from(c.end != 0) << 1 | (c.feature_kind.min(3) as u8) << 2
-        };
+        let flags = |c: &ContactRow| u8::from(c.sticks != 0) | (c.feature_kind.min(3) as u8) << 2;
         ContactColumns {
             pair: blob.u32s(all().map(|c| c.pair)),
             primitive_a: blob.u32s(all().map(|c| c.primitive_a)),
@@ -153,6 +153,7 @@ impl Frames {
             element_a: blob.u32s(all().map(|c| c.element_a)),
             element_b: blob.u32s(all().map(|c| c.element_b)),
             flags: blob.u8s(all().map(flags)),
+            end: blob.u32s(all().map(|c| c.end)),
             feature: blob.u32s(all().map(|c| c.feature_index)),
             point: blob.f32s(all().zip(origins).flat_map(|(c, at)| local(&c.point, &at))),
             normal: blob.f32s(all().flat_map(|c| c.normal)),

@@ -6,7 +6,7 @@ use pong_record::FrameRow;
 const FRAME: u64 = 36;
 const BODY: u64 = 28 + 24;
 const PEAKS: u64 = 12;
-const CONTACT: u64 = 90;
+const CONTACT: u64 = 94;
 
 /// Every n-th frame of a log, and the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

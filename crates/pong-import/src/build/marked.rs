@@ -53,6 +53,7 @@ pub(super) fn tree(
             group.name = build.name_of(root);
             group.bound = Some(mark.bound).filter(|bound| !bound.is_empty() && bound != "Aabb");
             group.surface = Some(mark.surface).filter(|surface| !surface.is_empty());
+            group.contact = mark.contact;
             let children = std::mem::take(&mut build.below[root]);
             build.fill(&mut group, &children, &frame.rest);
         }
@@ -64,6 +65,15 @@ pub(super) fn tree(
         findings.fault(&building.file, "empty-group", cause, "mark something in extras.pong");
     }
     Some(group)
+}
+
+/// True if the root that is built leaves its contact to its shapes.
+pub(super) fn is_automatic(nodes: &[Node], marks: &[Option<Mark>], root: &Option<String>) -> bool {
+    let is_meant = |node: &Node| root.as_ref().is_none_or(|name| node.name == *name);
+    nodes
+        .iter()
+        .zip(marks)
+        .any(|(node, mark)| mark.as_ref().is_some_and(|mark| mark.is_automatic) && is_meant(node))
 }
 
 /// The node marked as the root; `Some(None)` if none is, which makes the scene the root.
@@ -191,6 +201,7 @@ impl Build<'_, '_> {
             bound: Some(mark.bound.clone())
                 .filter(|bound| !(bound.is_empty() || mark.movable && bound == "Aabb")),
             surface: Some(mark.surface.clone()).filter(|surface| !surface.is_empty()),
+            contact: mark.contact,
             ..Group::default()
         };
         let mut to_body = *here;

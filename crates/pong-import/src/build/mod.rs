@@ -29,8 +29,8 @@ pub struct Built {
     /// Number of vertices and triangles read.
     pub vertices: usize,
     pub triangles: usize,
-    /// True if marks say what becomes of the nodes.
-    pub by_marks: bool,
+    /// True if the shapes become solids if they can: without marks, or with a root whose contact is automatic.
+    pub is_automatic: bool,
 }
 
 pub fn build(source: Source, building: &mut Building<'_>, findings: &mut Findings) -> Option<Built> {
@@ -43,6 +43,7 @@ pub fn build(source: Source, building: &mut Building<'_>, findings: &mut Finding
     let settings =
         settings.map(|value| Settings::read(value, &format!("{}: scene", building.file), findings));
     let marked = settings.is_some() || marks.iter().any(Option::is_some);
+    let is_automatic = !marked || marked::is_automatic(&source.nodes, &marks, &building.root);
     let grid = Grid::of_size(size_m(&source));
     let root = match marked {
         true => marked::tree(source, &marks, grid, building, findings),
@@ -55,7 +56,7 @@ pub fn build(source: Source, building: &mut Building<'_>, findings: &mut Finding
         return None;
     }
     let mesh_files = mesh_files::split_off(&mut model, building.inline_max, findings);
-    findings.faults.is_empty().then_some(Built { model, mesh_files, vertices, triangles, by_marks: marked })
+    findings.faults.is_empty().then_some(Built { model, mesh_files, vertices, triangles, is_automatic })
 }
 
 /// Largest coordinate, m; it sets the number of digits.

@@ -253,6 +253,60 @@ fn all_that_cannot_be_imported_is_told_at_once() {
     assert!(!path.with_extension("ron").exists());
 }
 
+/// File of a marked cube `block` in a group below a root, and perhaps a point beside it.
+fn marked_cube(root: &str, group: &str, has_foot: bool) -> Gltf {
+    let mut gltf = Gltf::new();
+    let surface = json!({"stiffness": 1e6, "normal": {"Linear": {"damping": 1.0}}, "foundation": 2e8});
+    gltf.json["scenes"][0]["extras"] = marked(json!({"surfaces": {"steel": surface}}));
+    let cube = gltf.triangles(&cube());
+    let mark = json!({"role": "root", "surface": "steel", "contact": root});
+    let root = gltf.node(None, json!({"name": "root", "extras": marked(mark)}));
+    let extras = marked(json!({"role": "group", "contact": group}));
+    let arm = gltf.node(Some(root), json!({"name": "arm", "extras": extras}));
+    let extras = marked(json!({"role": "primitive", "kind": "Polyhedron"}));
+    gltf.node(Some(arm), json!({"name": "block", "mesh": cube, "extras": extras}));
+    if has_foot {
+        let extras = marked(json!({"role": "primitive", "kind": "Point"}));
+        gltf.node(Some(arm), json!({"name": "foot", "extras": extras}));
+    }
+    gltf
+}
+
+#[test]
+fn marks_give_contact_and_foundation() {
+    for (root, group, has_foot, solids, notes) in [
+        ("Solid", "Default", false, 1, [].as_slice()),
+        ("Solid", "Marked", true, 0, &[]),
+        ("Default", "Solid", false, 1, &[]),
+        ("Default", "Default", true, 0, &[]),
+        ("Automatic", "Default", false, 1, &[]),
+        ("Automatic", "Default", true, 0, &["not-solid"]),
+    ] {
+        let path = marked_cube(root, group, has_foot).save(&folder("contact"), "cube.glb");
+        let (imported, model) = run(&path, &Options { surface: None, ..options() }).unwrap();
+        assert_eq!(model.bodies[0].solids.len(), solids, "{root} {group} {has_foot}");
+        assert_eq!(note_rules(&imported), notes, "{root} {group} {has_foot}");
+        let text = std::fs::read_to_string(&imported.files[0]).unwrap();
+        assert!(text.contains("(stiffness: 1000000.0, foundation: 200000000.0, normal:"), "{text}");
+    }
+    let path = marked_cube("Automatic", "Default", false).save(&folder("contact_marked"), "cube.glb");
+    let (_, model) = run(&path, &Options { marked: true, ..options() }).unwrap();
+    assert_eq!(model.bodies[0].solids.len(), 0);
+}
+
+#[test]
+fn contact_that_is_not_known_or_contradicts_points_is_refused() {
+    for (root, group, has_foot, rule) in [
+        ("Hard", "Default", false, "mark"),
+        ("Solid", "Automatic", false, "mark"),
+        ("Solid", "Default", true, "solid-corner"),
+    ] {
+        let path = marked_cube(root, group, has_foot).save(&folder("no_contact"), "cube.glb");
+        let findings = run(&path, &options()).map(|_| ()).unwrap_err();
+        assert!(rules(&findings).contains(&rule), "{findings}");
+    }
+}
+
 /// Asserts that a file with one fault, made by `spoil`, breaks this rule.
 fn assert_refused(test: &str, rule: &str, spoil: impl Fn(&mut Gltf)) {
     let mut gltf = cube_file();
