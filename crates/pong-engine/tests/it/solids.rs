@@ -351,6 +351,28 @@ fn tumbling_body_forgets_the_side_on_which_it_began() {
     }
 }
 
+/// A body that first touches on an edge and then lies flat is held as if it had come down flat, whatever the tilt at
+/// which it first touched: a side face beside the shared volume is never taken for the far side.
+#[test]
+fn body_that_tips_onto_a_face_has_all_side_faces() {
+    let half = 0.05;
+    let other = block(SOFT, [0.5, 0.5, 0.1]);
+    let mut plain = Pair::new(&block(SOFT, [half; 3]), &other);
+    for tenths in (0..=440).step_by(2) {
+        let mut with_memory = Pair::new(&remembering(&block(SOFT, [half; 3])), &remembering(&other));
+        let angle = (0.1 * f64::from(tenths)).to_radians();
+        let reach = half * (angle.sin() + angle.cos());
+        for (tilt, height) in [(angle, 0.1 + reach + 1e-4), (angle, 0.1 + reach - 1e-4), (0.0, 0.1 + half - 1e-3)] {
+            let pose = pose([0.0, 0.0, height], [0.0, tilt, 0.0]);
+            let (expected, _) = plain.at(&pose);
+            let (got, _) = with_memory.at(&pose);
+            with_memory.world.commit().unwrap();
+            let apart = (got.force - expected.force).norm() + (got.moment - expected.moment).norm() / half;
+            assert!(apart <= 1e-9 * expected.force.norm(), "{angle} rad: {got:?} for {expected:?}");
+        }
+    }
+}
+
 /// Solids count for the distance of two movable groups, as do solids and planes.
 #[test]
 fn distance_of_solids() {

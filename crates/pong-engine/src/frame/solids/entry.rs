@@ -12,8 +12,9 @@ use pong_geometry::{Transform, Vec3};
 /// through which the other body would leave at the far side.
 const FAR_SIDE_COSINE: f64 = -0.3;
 
-/// Cosine of the angle up to which the directions in the two frames agree (18°).
-const SAME_DIRECTION_COSINE: f64 = 0.95;
+/// Cosine of the angle up to which the directions in the two frames agree (11°). A side face at a right angle to one of
+/// them then has a cosine of at least -0.2 with the other, so it pushes, and so does one that faces away by up to 6°.
+const SAME_DIRECTION_COSINE: f64 = 0.98;
 
 /// Largest depth, relative to the thinner body, at which the direction of least depth is that of entry.
 const SHALLOW: f64 = 0.25;
