@@ -55,7 +55,7 @@ def text(scene, frame: int) -> str:
     if known["newtons_per_metre"]:
         told.append(f"1 m of arrow: {known['newtons_per_metre']:.4g} N")
     if known.get("pressure_scale"):
-        told.append(f"pressure: 0 violet, {pressure(known['pressure_scale'])} yellow")
+        told.append(f"yellow: {pressure(known['pressure_scale'])}")
     return f" {'   '.join(told)} "
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 # Bits 29 to 31 of the `end` of a contact (docs/c_api.md): a cell of B's field, one of A's.
 PART_SHIFT, CELLS = 29, (4, 5)
-ALIKE = 0.9998  # cosine of the largest angle between the normals of cells of one patch
+ALIKE = 0.985  # cosine of the largest angle between the normals of cells of one patch
 COVERED = 0.98  # share of the patches whose pressure the scale of colours covers
 # No pressure to the largest pressure of the scale.
 RAMP = np.array([(0.04, 0.03, 0.35, 1.0), (0.27, 0.03, 0.36, 1.0), (0.68, 0.10, 0.15, 1.0), (0.97, 0.38, 0.04, 1.0), (0.9, 0.88, 0.2, 1.0)])

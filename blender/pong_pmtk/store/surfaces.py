@@ -165,9 +165,9 @@ NUMBERS = {
                         "Damping of the bristle: 0 is undamped; unless given, critical for the mass of the restitution, "
                         "or with the damping ratio of the normal law"),
     "bristle_mass": ("kg", ("friction", FIELDS, "mass"), "Bristle Mass", "Mass for which the bristle's damping is critical"),
-    "rolling": ("m", ("friction", FIELDS, "rolling"), "Rolling", "Resistance to rolling: the moment over the normal force"),
+    "rolling": ("m", ("friction", FIELDS, "rolling"), "Rolling", "Resistance to rolling: the moment over the normal force. Not for solids"),
     "spinning": ("m", ("friction", FIELDS, "spinning"), "Spinning",
-                 "Resistance to spinning about the normal: the moment over the normal force"),
+                 "Resistance to spinning about the normal: the moment over the normal force. Not for solids"),
     "slip_speed": ("m/s", ("friction", FIELDS, "slip_speed"), "Slip Speed", "Speed at which the full force is reached"),
 }
 

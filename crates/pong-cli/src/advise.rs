@@ -9,7 +9,7 @@ pub(crate) use arguments::Arguments;
 use crate::terminal::{Outcome, print};
 use crate::text::number;
 use pong_advise::{StepPlan, WrenchCoupling, judge_contact};
-use pong_engine::{Laws, combine_surfaces};
+use pong_engine::{Laws, World, combine_surfaces};
 use pong_executive::scene::Scene;
 use pong_model::{FrictionLaw, Model, NormalLaw, Surface, printable};
 use std::path::Path;
@@ -70,6 +70,10 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
     for note in &report.notes {
         text += &format!("note: {}\n", printable(&note.to_string()));
     }
+    if has_solids(built.simulation.world()) {
+        text += "note: solids are not judged here, because their stiffness K·a depends on the area a that touches; \
+                 `pong run` judges them when they touch (docs/advise.md, Solids)\n";
+    }
     if arguments.depth.is_some() {
         for pair in &report.pairs {
             text += &format!(
@@ -82,6 +86,12 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
         }
     }
     Ok(text)
+}
+
+/// Returns true if a movable group of a world has solids.
+fn has_solids(world: &World) -> bool {
+    let scene = world.inspect();
+    (0..scene.group_count()).any(|group| !scene.body(group).solids.is_empty())
 }
 
 fn model(arguments: &Arguments, path: &Path) -> Result<String, String> {
@@ -98,6 +108,10 @@ fn model(arguments: &Arguments, path: &Path) -> Result<String, String> {
         let plan =
             StepPlan { step, coupling, closing_speed: arguments.speed, accuracy: Some(arguments.accuracy()) };
         text += &surfaces(&model, mass, &plan, arguments.friction_share(mass)?);
+        if model.bodies.iter().any(|body| !body.solids.is_empty()) {
+            text += "note: at solids, these are the limits of a contact with the area `stiffness`/`foundation`; k and c \
+                     grow with the area (docs/advise.md, Solids)\n";
+        }
     } else if arguments.depth.is_none() {
         return Err(
             "--rate: give the host's frames a second, or a wanted --depth and --restitution".to_owned()

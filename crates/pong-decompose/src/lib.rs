@@ -142,9 +142,9 @@ fn attempt(
     (building.progress)("writing");
     let mut model = model(pieces, &building, &figures);
     build::default_surface(&mut model, &building, findings);
-    model.root.solid = !options.import.marked;
+    model.root.contact = (!options.import.marked).then_some("Solid");
     let text = write::text(&model);
-    model.root.solid = false;
+    model.root.contact = None;
     let instead = || (!options.import.marked).then(|| write::text(&model));
     files::write_checked_or(output, text, instead, Vec::new(), findings)
 }

@@ -3,8 +3,9 @@
 /** Key of a contact that stays the same from frame to frame. */
 export const keyOf = (run, row) => {
     const { pair, primitive_a, primitive_b, element_a, element_b, end, feature } = run.contacts;
-    const face = run.isCell(row) ? feature[row] : 0;
-    return [pair[row], primitive_a[row], primitive_b[row], element_a[row], element_b[row], end[row], face].join(":");
+    // The contacts of two solids differ in their features, those of other pairs in their elements and ends.
+    const part = end[row] >>> 31 ? feature[row] : 0;
+    return [pair[row], primitive_a[row], primitive_b[row], element_a[row], element_b[row], end[row], part].join(":");
 };
 
 /** Word for what friction does; cells of solids have none. */

@@ -1,4 +1,4 @@
-//! `pong check` of models with solids.
+//! `pong check` and `pong advise` with solids.
 
 use crate::common;
 use crate::common::pong;
@@ -35,4 +35,33 @@ fn check_lists_solids_and_their_foundations() {
         assert!(out.contains(line), "no `{line}` in:\n{out}");
     }
     assert_eq!(out.matches("gives no `foundation`").count(), 1, "{out}");
+}
+
+const SCENE: &str = r#"(format: "pong-scene", version: 1, name: "scene", models: { "parts": "parts.ron", "ground": "ground.ron" },
+    objects: [
+        (name: "parts", model: "parts", bodies: [(motion: Free, mass: 1.0, inertia: Diagonal(1.0, 1.0, 1.0))]),
+        (name: "ground", model: "ground", bodies: [(motion: Fixed)]),
+    ],
+    pairs: [("parts", "ground")], integrator: SemiImplicitEuler, step: 1e-4, duration: 0.1)"#;
+
+const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground", surfaces: { "stone": (stiffness: inf) },
+    root: (name: "ground", surface: "stone", primitives: [Plane(name: "floor", normal: (0, 0, 1), offset: -1)]))"#;
+
+#[test]
+fn advise_says_that_solids_are_judged_when_they_touch() {
+    let marked = MODEL.replace("contact: Solid, ", "");
+    let files = [("parts.ron", MODEL), ("marked.ron", &marked), ("ground.ron", GROUND), ("scene.ron", SCENE)];
+    let folder = common::folder("solids/advise", &files);
+    let (code, out, err) = pong(&folder, &["advise", "scene.ron"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    assert!(out.contains("note: solids are not judged here"), "{out}");
+    for (file, is_told) in [("parts.ron", true), ("marked.ron", false)] {
+        let (code, out, err) = pong(&folder, &["advise", file, "--mass", "1", "--rate", "1000"]);
+        assert_eq!((code, err.as_str()), (0, ""), "{out}");
+        assert_eq!(
+            out.contains("note: at solids, these are the limits of a contact with the area"),
+            is_told,
+            "{out}"
+        );
+    }
 }

@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { resolve } from "node:path";
-import { drawn, hasColor, open, pixels } from "./page.mjs";
+import { differing, drawn, hasColor, open, pixels } from "./page.mjs";
 import { readTable } from "./npy.mjs";
 
 const STICK = [0x1f, 0xb6, 0xa3], SLIP = [0xf4, 0x62, 0x2e];
@@ -24,6 +24,8 @@ const mover = moved.indexOf(Math.max(...moved));
 const busiest = frames.reduce((best, frame, index) => (frame.contacts > frames[best].contacts ? index : best), 0);
 const positions = () => page.evaluate(() => pong.bodies.map((body) => pong.position(body)));
 const isNear = (a, b) => a.every((x, axis) => Math.abs(x - b[axis]) <= 1e-6 * Math.max(1, moved[mover]));
+
+const isCell = ({ end }) => [4, 5].includes(end >>> 29);
 
 const checks = {
     async "all frames are there, without a complaint"() {
@@ -76,16 +78,45 @@ const checks = {
         const strongest = Math.max(...logged.map((contact) => contact.normal_force));
         const listed = await page.locator("#contacts tr").first().locator("td").nth(2).textContent();
         assert.ok(Math.abs(Number(listed) - strongest) <= 1e-3 * strongest, `${listed} N instead of ${strongest} N`);
-        assert.ok((await page.evaluate(() => pong.arrows())) >= logged.filter((contact) => contact.normal_force > 0).length);
+        const pushing = logged.filter((contact) => contact.normal_force > 0 && !isCell(contact));
+        assert.ok((await page.evaluate(() => pong.arrows())) >= pushing.length);
         assert.ok((await page.evaluate(() => pong.highlighted())) > 0);
         const { key, sticks, at } = await page.evaluate(() => {
             const [contact] = [...pong.contacts()].sort((a, b) => b.normalForce - a.normalForce);
-            return { key: contact.key, sticks: contact.sticks, at: pong.project(contact.point) };
+            // Cells of solids have a patch in place of a dot.
+            const marked = contact.isCell ? pong.contacts().find((other) => other.isFriction) : contact;
+            return { key: contact.key, sticks: marked.sticks, at: pong.project(marked.point) };
         });
         assert.ok(hasColor(await pixels(page), at, sticks ? STICK : SLIP), "no mark at the contact");
         await page.locator("#contacts tr").first().click();
         assert.equal(await page.locator("#contacts tr.picked").getAttribute("data-key"), key);
         await page.locator("#label").waitFor({ timeout: 10_000 });
+    },
+
+    async "cells of solids are patches with their area, force and pressure"() {
+        await page.evaluate((frame) => { pong.seekFrame(frame); pong.select(null); }, busiest);
+        const { first_contact: first, contacts: count } = frames[busiest];
+        const cells = contacts.slice(first, first + count).filter((contact) => isCell(contact) && contact.weight > 0);
+        const patches = await page.evaluate(() => pong.patches());
+        assert.equal(await page.locator("#patches-legend").isVisible(), contacts.some(isCell));
+        assert.equal(patches.reduce((sum, patch) => sum + patch.cells, 0), cells.length);
+        assert.equal(new Set(await page.evaluate(() => pong.contacts().map((contact) => contact.key))).size, count);
+        if (!cells.length) return;
+        assert.ok(patches.length < cells.length, "cells of both fields at one face are one patch");
+        for (const [ours, logged] of [["normalForce", "normal_force"], ["area", "weight"]]) {
+            const [shown, sum] = [patches, cells].map((list, index) => list.reduce((sum, each) => sum + each[index ? logged : ours], 0));
+            assert.ok(Math.abs(shown - sum) <= 1e-5 * sum, `${ours} ${shown} instead of ${sum}`);
+        }
+        const largest = patches.reduce((a, b) => (b.area > a.area ? b : a));
+        assert.ok(Math.abs(largest.pressure - largest.normalForce / largest.area) <= 1e-6 * largest.pressure);
+        assert.match(await page.textContent("#pressure-scale"), /^0 … [\d.]+ [kM]?Pa$/);
+        const seen = [];
+        for (const wanted of [true, false]) {
+            await page.locator("#patches").setChecked(wanted);
+            seen.push(await pixels(page));
+        }
+        await page.locator("#patches").check();
+        assert.ok(differing(...seen) > 100, "no patch is drawn");
     },
 
     async "contacts are never made up between frames"() {

@@ -74,6 +74,15 @@ export function drawn(picture) {
     return { count, center: [x / count, y / count] };
 }
 
+/** Number of pixels that differ between two pictures of one size. */
+export function differing(a, b) {
+    let count = 0;
+    for (let row = RIM; row < a.height - RIM; row++) {
+        for (let column = RIM; column < a.width - RIM; column++) count += far(a.at(column, row), b.at(column, row)) > 12;
+    }
+    return count;
+}
+
 /** Whether a colour is found within some pixels of a place. */
 export function hasColor(picture, [x, y], color, reach = 8) {
     for (let row = Math.max(0, Math.round(y) - reach); row <= Math.min(picture.height - 1, y + reach); row++) {
