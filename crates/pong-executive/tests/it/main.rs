@@ -10,6 +10,7 @@ mod resistance;
 mod scene_faults;
 mod scene_format;
 mod solids;
+mod solids_jams;
 mod solids_joints;
 mod solids_scenes;
 mod springs;
