@@ -18,8 +18,12 @@ const DEFAULT_CAPACITY_MAX: usize = 65_536;
 /// which is more than the worst case assumes.
 const DEFAULT_CAPACITY_MIN: usize = 256;
 
-/// Contacts of two solids that the worst case assumes: a few cells of both fields, friction, side of entry.
+/// Contacts of two parts of solids that the worst case assumes: a few cells of both fields, friction, side of
+/// entry.
 const SOLID_CONTACTS: usize = 8;
+
+/// Pairs of parts that the worst case assumes at most for two solids. A mesh has more parts, but few of them touch.
+const PART_PAIRS_MAX: usize = 512;
 
 /// Capacities of the buffers of the frames of a scene.
 pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: usize) -> Limits {
@@ -114,6 +118,26 @@ pub(super) fn bytes_per_contact(scene: &Scene, threads: usize, law_state_len: us
     RECORDS * (records + caller + workers)
 }
 
+/// Estimate of the number of contacts of the solids of two groups with each other and with planes: every part of a
+/// solid touches a part of the other. Beyond the default capacity the count is not continued.
+fn solid_contacts(a: &MovableGroup, b: &MovableGroup) -> usize {
+    let contacts = |parts: usize, others: usize| (parts + others - 1).min(PART_PAIRS_MAX) * SOLID_CONTACTS;
+    let beside_planes = |body: &MovableGroup, planes: usize| {
+        let each = body.solids.iter().map(|solid| contacts(solid.parts.len(), 1));
+        each.sum::<usize>().saturating_mul(planes)
+    };
+    let mut total = beside_planes(a, b.planes.len()).saturating_add(beside_planes(b, a.planes.len()));
+    for own in &a.solids {
+        for other in &b.solids {
+            if total > DEFAULT_CAPACITY_MAX {
+                return total;
+            }
+            total += contacts(own.parts.len(), other.parts.len());
+        }
+    }
+    total
+}
+
 /// Estimate of the number of contacts: every primitive touches every shell of the groups paired with its own,
 /// with the most contacts that the tester table gives its kind. Clamped to the limits of the default
 /// capacity.
@@ -128,10 +152,7 @@ pub(super) fn worst_case(scene: &Scene, group_pairs: &[GroupPair], has_resistanc
     let mut total = 0_usize;
     for pair in group_pairs {
         let [a, b] = [pair.first, pair.second].map(|body| scene.body(body));
-        let partners = |body: &MovableGroup| body.solids.len() + body.planes.len();
-        let pairs =
-            a.solids.len().saturating_mul(partners(b)) + a.planes.len().saturating_mul(b.solids.len());
-        total = total.saturating_add(pairs.saturating_mul(SOLID_CONTACTS));
+        total = total.saturating_add(solid_contacts(a, b));
         for (a, b) in [(pair.first, pair.second), (pair.second, pair.first)] {
             total = total.saturating_add(movers[a].saturating_mul(scene.body(b).shell_count as usize));
         }

@@ -10,6 +10,8 @@ mod resistance;
 mod scene_faults;
 mod scene_format;
 mod solids;
+mod solids_jams;
+mod solids_joints;
 mod solids_scenes;
 mod springs;
 mod step_sums;

@@ -11,7 +11,7 @@ fn smooth(modulus: f64) -> String {
 }
 
 /// Body that does not move.
-fn fixed_at(text: String, position: [f64; 3]) -> Part {
+pub(super) fn fixed_at(text: String, position: [f64; 3]) -> Part {
     Part { text, moves: None, pose: at(position) }
 }
 
@@ -25,7 +25,7 @@ fn fastest(simulation: &Simulation, bodies: &[BodyId]) -> f64 {
 }
 
 /// Prism along y over a convex outline in the xz plane, counter-clockwise seen from −y.
-fn bar_of(name: &str, outline: &[[f64; 2]], half: f64) -> String {
+pub(super) fn bar_of(name: &str, outline: &[[f64; 2]], half: f64) -> String {
     let count = outline.len();
     let corner = |index: usize| {
         let [x, z] = outline[index % count];
