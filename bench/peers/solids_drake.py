@@ -1,11 +1,11 @@
-"""Hydroelastic contact of Drake at given poses: normal force against depth, stiffness against tilt, and damping.
+"""Solids of Pong and hydroelastic contact of Drake at the same poses: force against depth, stiffness against tilt, damping.
 
     python3 solids_drake.py
 
 A compliant body of Drake has a pressure that rises linearly from 0 at its surface to the hydroelastic modulus E at its
 middle. So a box with the least half edge h carries E/h per volume: K = E/h is its foundation modulus, N/m³. Against a
 rigid body a flat face of area A at depth d has the force K·A·d, and a tilt of θ gives the moment K·I·θ with the
-second moment of area I. The tables compare Drake with these closed forms.
+second moment of area I. The tables compare Drake, and Pong's solids with the same K, with these closed forms.
 """
 
 import importlib.metadata
@@ -14,11 +14,13 @@ import pathlib
 import tempfile
 
 import numpy as np
+import solids_pong as pong
 from pydrake.geometry import (
     AddCompliantHydroelasticProperties,
     AddContactMaterial,
     AddRigidHydroelasticProperties,
     Box,
+    ConvertVolumeToSurfaceMesh,
     HalfSpace,
     Mesh,
     ProximityProperties,
@@ -54,7 +56,7 @@ def properties(resolution=None):
     return made
 
 
-class Pair:
+class DrakePair:
     """A free body and a fixed one, without gravity or friction; the answer is the wrench on the free body."""
 
     def __init__(self, shape, made, ground, ground_made, ground_pose=RigidTransform()):
@@ -86,166 +88,206 @@ class Pair:
             force += sign * on_a.translational()
             arm = surface.centroid() - about
             moment += sign * (on_a.rotational() + np.cross(arm, on_a.translational()))
-        self.faces = sum(
-            results.hydroelastic_contact_info(i).contact_surface().num_faces()
-            for i in range(results.num_hydroelastic_contacts())
-        )
         return force, moment
 
+    def ball_surface(self):
+        """Vertices (m) and triangles of the surface of the mesh that Drake made of the body."""
+        query = self.plant.get_geometry_query_input_port().Eval(self.own)
+        surface = ConvertVolumeToSurfaceMesh(query.inspector().maybe_get_hydroelastic_mesh(self.geometry))
+        triangles = [[face.vertex(i) for i in range(3)] for face in surface.triangles()]
+        return np.array(surface.vertices()), np.array(triangles)
 
-def heading(title, *columns):
-    print(f"\n{title}\n\n| {' | '.join(columns)} |\n|{'---|' * len(columns)}")
+
+class PongPair(pong.Pair):
+    """That pair in Pong."""
+
+    def wrench(self, place, rotation=RotationMatrix(), velocity=(0.0, 0.0, 0.0), about=None):
+        return super().wrench(place, rotation.ToQuaternion().wxyz(), velocity, about)
+
+
+def table(title, first, *columns):
+    """Prints the heading of a table."""
+    print(f"\n{title}\n\n| {' | '.join([first, *columns])} |\n|{'---|' * (len(columns) + 1)}")
 
 
 def line(*values):
     print("| " + " | ".join(f"{v:.6g}" if isinstance(v, float) else str(v) for v in values) + " |")
 
 
-def block_on_ground(name, pair, foundation):
+def names_of(pairs, *quantities):
+    """A column for each quantity of each engine."""
+    return [f"{name}{quantity}" for name in pairs for quantity in quantities]
+
+
+def block_on_ground(title, pairs, foundation):
     """Force against depth, and moment against tilt at one depth."""
-    heading(f"{name}: force against depth, upright", "depth, m", "force, N", "K·A·d, N", "ratio", "polygons")
+    table(f"{title}: force over K·A·d, upright", "depth, m", "K·A·d, N", *names_of(pairs, ""))
     for depth in (1e-6, 1e-5, 1e-4, 1e-3, 1e-2):
-        force, _ = pair.wrench([0, 0, EDGE / 2 - depth])
         flat = foundation * EDGE**2 * depth
-        line(depth, force[2], flat, force[2] / flat, pair.faces)
+        line(depth, flat, *(pair.wrench([0, 0, EDGE / 2 - depth])[0][2] / flat for pair in pairs.values()))
     depth, second = 1e-3, EDGE**4 / 12
-    heading(
-        f"{name}: tilt about the middle of the lower face, {depth} m deep",
+    table(
+        f"{title}: tilt about the middle of the lower face, {depth} m deep; moment over K·I·θ, and lateral force",
         "θ, rad",
-        "force, N",
-        "moment, N·m",
         "K·I·θ, N·m",
-        "ratio",
-        "lateral force, N",
+        *names_of(pairs, "", ", N"),
     )
     for angle in (1e-6, 1e-5, 1e-4, 1e-3, 5e-3):
         rotation = RotationMatrix.MakeYRotation(angle)
         pivot = np.array([0, 0, -depth])
         place = pivot + rotation @ np.array([0, 0, EDGE / 2])
-        force, moment = pair.wrench(place, rotation, about=pivot)
-        flat = -foundation * second * angle
-        line(angle, force[2], moment[1], flat, moment[1] / flat, float(force[0]))
+        flat = foundation * second * angle
+        values = []
+        for pair in pairs.values():
+            force, moment = pair.wrench(place, rotation, about=pivot)
+            values += [-moment[1] / flat, float(force[0])]
+        line(angle, flat, *values)
 
 
-def block_damping(name, pair):
+def block_damping(title, pairs):
     """Ratio of the force to that at rest, against the velocity."""
-    heading(
-        f"{name}: damping, dissipation {DISSIPATION} s/m, 1e-3 m deep",
+    table(
+        f"{title}: damping, dissipation {DISSIPATION} s/m, 1e-3 m deep; force over that at rest",
         "velocity up, m/s",
-        "force, N",
-        "over that at rest",
         "1 − d·v",
+        *names_of(pairs, ""),
     )
     place = [0, 0, EDGE / 2 - 1e-3]
-    rest = pair.wrench(place)[0][2]
+    rest = {name: pair.wrench(place)[0][2] for name, pair in pairs.items()}
     for velocity in (-0.2, -0.1, 0.0, 0.1, 0.2, 0.6):
-        force = pair.wrench(place, velocity=(0, 0, velocity))[0][2]
-        line(velocity, force, force / rest, max(0.0, 1 - DISSIPATION * velocity))
+        ratios = (pair.wrench(place, velocity=(0, 0, velocity))[0][2] / rest[name] for name, pair in pairs.items())
+        line(velocity, max(0.0, 1 - DISSIPATION * velocity), *ratios)
 
 
-def ball_on_block(pair):
+def flush_blocks(pairs):
+    """Lateral force of equal compliant blocks, one on the other, against the lateral offset."""
+    depth = 1e-3
+    table(
+        f"compliant block on an equal one, {depth} m deep: offset",
+        "offset, m",
+        *names_of(pairs, ": normal force, N", ": lateral force, N"),
+    )
+    for offset in (-1e-2, -1e-3, -1e-4, -1e-6, 0.0, 1e-6, 1e-4, 1e-3, 1e-2):
+        values = []
+        for pair in pairs.values():
+            force, _ = pair.wrench([offset, 0, EDGE - depth])
+            values += [force[2], float(force[0])]
+        line(offset, *values)
+
+
+def ball_on_block(pairs):
     """Force of a ball on a rigid flat body against depth, beside the integral of its linear pressure."""
-    heading("ball on a rigid block: force against depth", "depth, m", "force, N", "closed form, N", "ratio", "polygons")
+    table("ball on a rigid block: force over the closed form of a round ball", "depth, m", "closed form, N", *pairs)
     for depth in (1e-5, 1e-4, 1e-3, 5e-3, 1e-2):
-        force, _ = pair.wrench([0, 0, RADIUS - depth])
         low, high = RADIUS - depth, RADIUS
         closed = 2 * math.pi * MODULUS * ((high**2 - low**2) / 2 - (high**3 - low**3) / (3 * RADIUS))
-        line(depth, force[2], closed, force[2] / closed, pair.faces)
+        line(depth, closed, *(pair.wrench([0, 0, RADIUS - depth])[0][2] / closed for pair in pairs.values()))
 
 
-def hole_text():
-    """OBJ of a square hole in a block, open above and below, as one closed mesh."""
-    inner, outer = (PEG + CLEARANCE) / 2, PEG
-    vertices = [
-        (x * half, y * half, z)
-        for z in (-HOLE_DEPTH, 0.0)
-        for half in (inner, outer)
-        for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))
-    ]
-    faces = []
-    for i in range(4):
-        j = (i + 1) % 4
-        low_in, low_out, up_in, up_out = (lambda k, base=base: base + k for base in (0, 4, 8, 12))
-        faces += [(low_in(j), low_in(i), up_in(i)), (low_in(j), up_in(i), up_in(j))]
-        faces += [(low_out(i), low_out(j), up_out(j)), (low_out(i), up_out(j), up_out(i))]
-        faces += [(up_in(i), up_out(i), up_out(j)), (up_in(i), up_out(j), up_in(j))]
-        faces += [(low_in(j), low_out(j), low_out(i)), (low_in(j), low_out(i), low_in(i))]
+def obj_text(vertices, faces):
     lines = [f"v {x} {y} {z}" for x, y, z in vertices] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
     return "\n".join(lines) + "\n"
 
 
-def peg_in_hole(pair):
+def peg_in_hole(pairs):
     """Force against offset to one wall, and moment against tilt, of a peg whose lower end is in the hole."""
     insertion = 0.1
     foundation = MODULUS / (PEG / 2)
     middle = PEG_LENGTH / 2 - insertion
-    heading(
-        f"peg in hole, {insertion} m inserted, clearance {CLEARANCE} m: offset to one wall",
+    table(
+        f"peg in hole, {insertion} m inserted, clearance {CLEARANCE} m: offset to one wall; force over K·A·d, and moment"
+        " about the middle of the contact",
         "depth, m",
-        "force, N",
         "K·A·d, N",
-        "ratio",
-        "moment about the middle of the contact, N·m",
+        *names_of(pairs, "", ", N·m"),
     )
     for depth in (1e-5, 1e-4, 1e-3):
-        force, moment = pair.wrench([CLEARANCE / 2 + depth, 0, middle], about=[0, 0, -insertion / 2])
-        flat = -foundation * PEG * insertion * depth
-        line(depth, force[0], flat, force[0] / flat, float(moment[1]))
-    heading(
-        "peg in hole: tilt about the middle of the insertion",
+        flat, values = foundation * PEG * insertion * depth, []
+        for pair in pairs.values():
+            force, moment = pair.wrench([CLEARANCE / 2 + depth, 0, middle], about=[0, 0, -insertion / 2])
+            values += [-force[0] / flat, float(moment[1])]
+        line(depth, flat, *values)
+    table(
+        "peg in hole: tilt about the middle of the insertion; moment over the closed form, and force",
         "θ, rad",
         "beyond the clearance at the ends, m",
-        "force, N",
-        "moment, N·m",
         "closed form, N·m",
-        "ratio",
+        *names_of(pairs, "", ", N"),
     )
     for angle in (0.009, 0.0101, 0.011, 0.012, 0.015):
         rotation = RotationMatrix.MakeYRotation(angle)
         pivot = np.array([0, 0, -insertion / 2])
         place = pivot + rotation @ np.array([0, 0, PEG_LENGTH / 2 - insertion / 2])
-        force, moment = pair.wrench(place, rotation, about=pivot)
         # Each side: K·PEG·∫ s·(θ·s − c/2) ds over the lever s, from c/(2θ) to insertion/2; first order in θ.
         start, end = min(CLEARANCE / 2 / angle, insertion / 2), insertion / 2
         whole = (end**3 - start**3) / 3 * angle - CLEARANCE / 4 * (end**2 - start**2)
-        closed = -2 * foundation * PEG * whole
-        over = angle * end - CLEARANCE / 2
-        ratio = moment[1] / closed if closed else float("nan")
-        line(angle, over, float(np.linalg.norm(force)), moment[1], closed, ratio)
+        closed = 2 * foundation * PEG * whole
+        values = []
+        for pair in pairs.values():
+            force, moment = pair.wrench(place, rotation, about=pivot)
+            values += [-moment[1] / closed if closed else float(moment[1]), float(np.linalg.norm(force))]
+        line(angle, angle * end - CLEARANCE / 2, closed, *values)
 
 
-def flush_blocks():
-    """Lateral force of equal compliant blocks, one on the other, against the lateral offset."""
-    block = Box(EDGE, EDGE, EDGE)
-    pair = Pair(block, properties(EDGE), block, properties(EDGE))
-    depth = 1e-3
-    heading(
-        "compliant block on an equal one, 1e-3 m deep: offset",
-        "offset, m",
-        "normal force, N",
-        "lateral force, N",
-        "polygons",
-    )
-    for offset in (-1e-2, -1e-3, -1e-4, -1e-6, 0.0, 1e-6, 1e-4, 1e-3, 1e-2):
-        force, _ = pair.wrench([offset, 0, EDGE - depth])
-        line(offset, force[2], float(force[0]), pair.faces)
+def blocks():
+    """Tables of the block."""
+    block, rigid = Box(EDGE, EDGE, EDGE), properties()
+    half = (EDGE / 2,) * 3
+    own, soft, hard = pong.box(half), pong.surface(FOUNDATION, pong.hunt_crossley(DISSIPATION)), pong.surface()
+    below = pong.box((0.5, 0.5, EDGE / 2), (0, 0, -EDGE / 2))
+    on_rigid = {
+        "Drake": DrakePair(block, properties(EDGE), HalfSpace(), rigid),
+        "Pong, plane": PongPair(own, soft, pong.plane(), hard),
+        "Pong, solid ground": PongPair(own, soft, below, hard),
+    }
+    block_on_ground("compliant block on a rigid ground", on_rigid, FOUNDATION)
+    block_damping("compliant block on a rigid ground", on_rigid)
+    on_soft = {
+        "Drake": DrakePair(block, properties(EDGE), GROUND, properties(1.0), BELOW),
+        "Pong, solid ground": PongPair(own, soft, below, soft),
+    }
+    block_on_ground("compliant block on a compliant ground of the same modulus", on_soft, FOUNDATION / 2)
+    on_equal = {
+        "Drake": DrakePair(block, properties(EDGE), block, properties(EDGE)),
+        "Pong": PongPair(own, soft, own, soft),
+    }
+    flush_blocks(on_equal)
+
+
+def ball():
+    """Table of the ball: Drake's mesh, and the same facets in Pong."""
+    rigid, soft = properties(), pong.surface(MODULUS / RADIUS)
+    below = pong.box((0.5, 0.5, EDGE / 2), (0, 0, -EDGE / 2))
+    drake = DrakePair(Sphere(RADIUS), properties(BALL_RESOLUTION), GROUND, rigid, BELOW)
+    vertices, triangles = drake.ball_surface()
+    pairs = {
+        f"Drake, {len(triangles)} facets": drake,
+        "Pong, the same facets": PongPair(pong.mesh(vertices, triangles), soft, below, pong.surface()),
+    }
+    ball_on_block(pairs)
+
+
+def peg():
+    """Tables of the peg."""
+    vertices, faces = pong.tube((PEG + CLEARANCE) / 2, PEG, -HOLE_DEPTH, 0.0)
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "hole.obj"
+        path.write_text(obj_text(vertices, faces), encoding="utf-8")
+        drake = DrakePair(Box(PEG, PEG, PEG_LENGTH), properties(PEG), Mesh(str(path), 1.0), properties())
+        own = pong.box((PEG / 2, PEG / 2, PEG_LENGTH / 2))
+        soft = pong.surface(MODULUS / (PEG / 2), pong.hunt_crossley(DISSIPATION))
+        peg_in_hole({"Drake": drake, "Pong": PongPair(own, soft, pong.mesh(vertices, faces), pong.surface())})
 
 
 def main():
     version = importlib.metadata.version("drake")
-    print(f"drake {version}; modulus {MODULUS:g} Pa, block {EDGE} m, ball {RADIUS} m, peg {PEG} m")
-    block, rigid = Box(EDGE, EDGE, EDGE), properties()
-    ground = Pair(block, properties(EDGE), HalfSpace(), rigid)
-    block_on_ground("compliant block on a rigid ground", ground, FOUNDATION)
-    block_damping("compliant block on a rigid ground", ground)
-    compliant_ground = Pair(block, properties(EDGE), GROUND, properties(1.0), BELOW)
-    block_on_ground("compliant block on a compliant ground of the same modulus", compliant_ground, FOUNDATION / 2)
-    flush_blocks()
-    ball_on_block(Pair(Sphere(RADIUS), properties(BALL_RESOLUTION), GROUND, rigid, BELOW))
-    with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder) / "hole.obj"
-        path.write_text(hole_text(), encoding="utf-8")
-        peg_in_hole(Pair(Box(PEG, PEG, PEG_LENGTH), properties(PEG), Mesh(str(path), 1.0), rigid))
+    print(
+        f"drake {version}, pong {importlib.metadata.version('pong')}; modulus {MODULUS:g} Pa, block {EDGE} m,"
+        f" ball {RADIUS} m, peg {PEG} m"
+    )
+    blocks()
+    ball()
+    peg()
 
 
 if __name__ == "__main__":
