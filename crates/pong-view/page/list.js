@@ -123,7 +123,8 @@ export class ContactList {
         pair.title = `A  ${full[0]}\nB  ${full[1]}, ${contact.feature}\n${share}\nrate ${digits(contact.rate * 1e3)} mm/s, slip ${digits(contact.slipSpeed * 1e3)} mm/s`;
         const texts = [
             contact.isFriction ? "–" : digits(contact.depth * 1e3), contact.isFriction ? "–" : digits(contact.normalForce),
-            contact.isCell ? "–" : digits(contact.frictionForce), stateOf(contact),
+            contact.isCell ? "–" : digits(contact.frictionForce),
+            contact.isCell ? quantity(contact.normalForce / contact.weight, "Pa", 3) : stateOf(contact),
         ];
         texts.forEach((text, index) => {
             if (numbers[index].textContent !== text) numbers[index].textContent = text;

@@ -51,8 +51,9 @@ const checks = {
     async "the pixels move as the body does"() {
         const others = bodies.map((_, body) => body).filter((body) => body !== mover);
         const toggles = page.locator("#bodies input");
+        const overlays = ["normals", "frictions", "highlight", ...(contacts.some(isCell) ? ["patches"] : [])];
         for (const body of others) await toggles.nth(body).uncheck();
-        for (const id of ["normals", "frictions", "highlight"]) await page.locator(`#${id}`).uncheck();
+        for (const id of overlays) await page.locator(`#${id}`).uncheck();
         const seen = [];
         for (const frame of [0, frames.length - 1]) {
             await page.evaluate(([frame, name]) => { pong.seekFrame(frame); pong.select(null); pong.pick(name); }, [frame, bodies[mover]]);
@@ -60,7 +61,7 @@ const checks = {
             seen.push({ at, ...drawn(await pixels(page)) });
         }
         for (const body of others) await toggles.nth(body).check();
-        for (const id of ["normals", "frictions", "highlight"]) await page.locator(`#${id}`).check();
+        for (const id of overlays) await page.locator(`#${id}`).check();
         const way = (of) => [0, 1].map((axis) => seen[1][of][axis] - seen[0][of][axis]);
         const [expected, found] = [way("at"), way("center")];
         const off = Math.hypot(found[0] - expected[0], found[1] - expected[1]);
