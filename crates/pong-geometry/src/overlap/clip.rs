@@ -1,8 +1,11 @@
 //! Closed surface of flat polygons (*facets*), and its cut by a half space.
 
 use super::half_space::HalfSpace;
-use super::moments::Moments;
+use super::moments::{Moments, Tetrahedra};
 use crate::{Transform, Vec3, divisor};
+
+/// Bytes of an edge.
+const EDGE: usize = size_of::<[u32; 2]>();
 
 /// Closed surface of facets: flat polygons with any number of corners. A facet is stored as directed edges in
 /// any order, which form one closed cycle or several. Seen from outside the solid, the edges run
@@ -18,6 +21,9 @@ pub struct Surface {
 }
 
 impl Surface {
+    /// Bytes that [`with_capacity`](Self::with_capacity) takes per facet.
+    pub(super) const BYTES_PER_FACET: usize = 2 * size_of::<Vec3>() + 6 * EDGE + size_of::<usize>();
+
     /// Creates an empty surface with room for a convex solid of `facets` facets.
     pub fn with_capacity(facets: usize) -> Self {
         // A convex solid has at most 2·facets − 4 vertices and 3·facets − 6 edges, each in two facets.
@@ -90,17 +96,10 @@ impl Surface {
     /// two parts have the same bits.
     pub fn cut_by(&self, half_space: &HalfSpace) -> Self {
         let mut part = self.clone();
-        if !Cutter::default().cut(&mut part, |x| half_space.depth(x)) {
+        if Cutter::default().cut(&mut part, |x| half_space.depth(x)) == Part::Nothing {
             part.clear();
         }
         part
-    }
-
-    /// Replaces this surface by a copy of another, in the memory that it has.
-    pub(super) fn copy_from(&mut self, other: &Self) {
-        self.vertices.clone_from(&other.vertices);
-        self.edges.clone_from(&other.edges);
-        self.ends.clone_from(&other.ends);
     }
 
     /// Replaces this surface by a copy of another that is given in frame A. `x_ba` carries it into frame B.
@@ -115,7 +114,7 @@ impl Surface {
     /// triangles with its first vertex as a common corner. Each triangle forms a tetrahedron with
     /// `reference`, and the moments are the sum over these tetrahedra, with signs.
     pub fn moments(&self, reference: &Vec3) -> Moments {
-        let mut moments = Moments::default();
+        let mut sums = Tetrahedra::default();
         let from = |index: u32| self.vertices[index as usize] - reference;
         for facet in self.facets() {
             let [first, _] = facet[0];
@@ -125,10 +124,22 @@ impl Surface {
                 continue;
             }
             for &[start, end] in facet.iter().filter(|[start, end]| *start != first && *end != first) {
-                moments.add([apex, from(start), from(end)]);
+                sums.add([apex, from(start), from(end)]);
             }
         }
-        moments
+        sums.moments()
+    }
+
+    /// Returns the mean of the vertices, and the radius (m) of the ball around it that contains them.
+    pub(super) fn ball(&self) -> (Vec3, f64) {
+        let count = self.vertices.len().max(1) as f64;
+        let center = self.vertices.iter().sum::<Vec3>() / count;
+        (center, self.radius_about(&center))
+    }
+
+    /// Returns the greatest distance of a vertex from a point, m.
+    pub(super) fn radius_about(&self, center: &Vec3) -> f64 {
+        self.vertices.iter().map(|x| (x - center).norm_squared()).fold(0.0, greater).sqrt()
     }
 
     /// Ends the facet of the edges from `first` on. A facet of at most two edges has no area, so it is
@@ -142,27 +153,73 @@ impl Surface {
     }
 }
 
+/// Returns the lesser of two numbers; `a` if one is not a number. It is faster than `f64::min`.
+fn lesser(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// Returns the greater of two numbers; `a` if one is not a number. It is faster than `f64::max`.
+fn greater(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
+/// Part of a solid inside a half space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Part {
+    /// No volume.
+    Nothing,
+    /// The whole solid.
+    Whole,
+    /// The part on one side of the plane.
+    Cut,
+}
+
+/// Place of a vertex of the surface that is cut.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    /// Index of the vertex in the result, or `NONE` if it lies outside.
+    kept: u32,
+    /// Index of its last crossing in [`Cutter::crossings`], or `NONE`.
+    crossing: u32,
+}
+
+const NONE: u32 = u32::MAX;
+
+/// Vertex where the plane crosses an edge that begins at a vertex inside.
+#[derive(Clone, Copy, Debug)]
+struct Crossing {
+    /// End of the edge outside.
+    outer: u32,
+    /// Index of the vertex in the result.
+    vertex: u32,
+    /// Index of the previous crossing at the same inner vertex, or `NONE`.
+    previous: u32,
+}
+
 /// Workspace for cutting surfaces. Its memory is used again for every cut.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cutter {
     /// Depth of each vertex of the surface; negative outside the half space.
     depths: Vec<f64>,
-    /// For each vertex that is kept, its index in `result`.
-    kept: Vec<u32>,
-    /// Edges that the plane crosses, from the end inside to the end outside, each with the index in `result`
-    /// of the vertex at the crossing.
-    crossings: Vec<([u32; 2], u32)>,
+    /// Place of each vertex of the surface.
+    places: Vec<Place>,
+    /// Vertices where edges cross the plane.
+    crossings: Vec<Crossing>,
     /// Edges of the facet that closes the cut (the *cap*).
     cap: Vec<[u32; 2]>,
     result: Surface,
 }
 
 impl Cutter {
+    /// Bytes that [`with_capacity`](Self::with_capacity) takes per facet.
+    pub const BYTES_PER_FACET: usize =
+        2 * (size_of::<f64>() + size_of::<Place>()) + size_of::<Crossing>() + EDGE + Surface::BYTES_PER_FACET;
+
     /// Creates a workspace for convex solids of up to `facets` facets.
     pub fn with_capacity(facets: usize) -> Self {
         Self {
             depths: Vec::with_capacity(2 * facets),
-            kept: Vec::with_capacity(2 * facets),
+            places: Vec::with_capacity(2 * facets),
             crossings: Vec::with_capacity(facets),
             cap: Vec::with_capacity(facets),
             result: Surface::with_capacity(facets),
@@ -170,40 +227,83 @@ impl Cutter {
     }
 
     /// Cuts a surface by the half space in which the affine function `depth` is not negative, and keeps the
-    /// part inside. Returns `false`, and leaves `surface` as it is, if no vertex has a positive depth: the
-    /// part inside then has no volume. Exception: if all depths are zero, as between two faces in one plane,
-    /// the whole surface is kept.
-    pub fn cut(&mut self, surface: &mut Surface, depth: impl Fn(&Vec3) -> f64) -> bool {
-        self.depths.clear();
-        self.depths.extend(surface.vertices.iter().map(depth));
-        let least = self.depths.iter().copied().fold(f64::INFINITY, f64::min);
-        let greatest = self.depths.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        // For an empty surface `least` is +∞, so it is tested by `is_empty`.
-        if greatest <= 0.0 && (least < 0.0 || surface.vertices.is_empty()) {
-            return false;
-        }
-        if least < 0.0 {
-            self.keep_inner_vertices(surface);
-            surface.facets().for_each(|facet| self.cut_facet(&surface.vertices, facet));
-            let first = self.result.edges.len();
-            self.result.edges.extend_from_slice(&self.cap);
-            self.result.end_facet(first);
+    /// part inside. If this part has no volume, `surface` stays as it is.
+    pub fn cut(&mut self, surface: &mut Surface, depth: impl Fn(&Vec3) -> f64) -> Part {
+        let part = self.measure(surface, depth);
+        if part == Part::Cut {
+            self.cut_facets(surface);
             std::mem::swap(surface, &mut self.result);
         }
-        true
+        part
+    }
+
+    /// Stores the part of a surface inside a half space in `target`, if the plane divides the surface. See
+    /// [`cut`](Self::cut).
+    pub fn cut_into(
+        &mut self,
+        target: &mut Surface,
+        surface: &Surface,
+        depth: impl Fn(&Vec3) -> f64,
+    ) -> Part {
+        let part = self.measure(surface, depth);
+        if part == Part::Cut {
+            self.cut_facets(surface);
+            std::mem::swap(target, &mut self.result);
+        }
+        part
+    }
+
+    /// Computes the depths of all vertices. The part inside has no volume if no depth is positive. Exception:
+    /// if all depths are zero, as between two faces in one plane, it is the whole surface.
+    fn measure(&mut self, surface: &Surface, depth: impl Fn(&Vec3) -> f64) -> Part {
+        self.depths.clear();
+        self.depths.extend(surface.vertices.iter().map(depth));
+        let least = self.depths.iter().copied().fold(f64::INFINITY, lesser);
+        let greatest = self.depths.iter().copied().fold(f64::NEG_INFINITY, greater);
+        // For an empty surface `least` is +∞, so it is tested by `is_empty`.
+        if greatest <= 0.0 && (least < 0.0 || surface.vertices.is_empty()) {
+            Part::Nothing
+        } else if least < 0.0 {
+            Part::Cut
+        } else {
+            Part::Whole
+        }
+    }
+
+    /// Stores the part of the surface with depths that are not negative in `result`.
+    fn cut_facets(&mut self, surface: &Surface) {
+        self.crossings.clear();
+        self.cap.clear();
+        self.keep_inner_vertices(surface);
+        for facet in surface.facets() {
+            let kept = |index: u32| self.places[index as usize].kept;
+            // Most facets lie on one side of the plane. Each vertex of a facet begins an edge of it.
+            let outside = facet.iter().map(|[start, _]| usize::from(kept(*start) == NONE)).sum::<usize>();
+            if outside == 0 {
+                self.result.edges.extend(facet.iter().map(|&[start, end]| [kept(start), kept(end)]));
+                self.result.ends.push(self.result.edges.len());
+            } else if outside < facet.len() {
+                self.cut_facet(&surface.vertices, facet);
+            }
+        }
+        let first = self.result.edges.len();
+        self.result.edges.extend_from_slice(&self.cap);
+        self.result.end_facet(first);
     }
 
     fn keep_inner_vertices(&mut self, surface: &Surface) {
-        self.result.clear();
-        self.crossings.clear();
-        self.cap.clear();
-        self.kept.clear();
-        for (vertex, depth) in surface.vertices.iter().zip(&self.depths) {
-            self.kept.push(self.result.vertices.len() as u32);
-            if *depth >= 0.0 {
-                self.result.vertices.push(*vertex);
-            }
-        }
+        let Self { places, depths, result, .. } = self;
+        result.clear();
+        places.clear();
+        let mut count = 0;
+        places.extend(depths.iter().map(|depth| {
+            let inside = *depth >= 0.0;
+            let kept = if inside { count } else { NONE };
+            count += u32::from(inside);
+            Place { kept, crossing: NONE }
+        }));
+        let inner = surface.vertices.iter().zip(places.iter()).filter(|(_, place)| place.kept != NONE);
+        result.vertices.extend(inner.map(|(vertex, _)| *vertex));
     }
 
     /// Adds the part of a facet inside the half space to the result. An edge along the cut runs from a place
@@ -215,20 +315,23 @@ impl Cutter {
     /// cut, these directed edges add up to one edge where the facet is inside, and cancel elsewhere.
     fn cut_facet(&mut self, vertices: &[Vec3], facet: &[[u32; 2]]) {
         let first = self.result.edges.len();
-        let mut pivot = None;
+        let mut pivot = NONE;
         for &[start, end] in facet {
-            match (self.depths[start as usize] >= 0.0, self.depths[end as usize] >= 0.0) {
-                (true, true) => self.add_edge(self.kept[start as usize], self.kept[end as usize]),
+            let (kept_start, kept_end) = (self.places[start as usize].kept, self.places[end as usize].kept);
+            match (kept_start != NONE, kept_end != NONE) {
+                (true, true) => self.result.edges.push([kept_start, kept_end]),
                 (false, false) => {}
                 (true, false) => {
                     let exit = self.crossing(vertices, start, end);
-                    self.add_edge(self.kept[start as usize], exit);
-                    self.add_along_cut(exit, *pivot.get_or_insert(exit));
+                    self.add_edge(kept_start, exit);
+                    pivot = if pivot == NONE { exit } else { pivot };
+                    self.add_along_cut(exit, pivot);
                 }
                 (false, true) => {
                     let entry = self.crossing(vertices, end, start);
-                    self.add_along_cut(*pivot.get_or_insert(entry), entry);
-                    self.add_edge(entry, self.kept[end as usize]);
+                    pivot = if pivot == NONE { entry } else { pivot };
+                    self.add_along_cut(pivot, entry);
+                    self.add_edge(entry, kept_end);
                 }
             }
         }
@@ -239,11 +342,16 @@ impl Cutter {
     /// get the same vertex, so the surface stays closed.
     fn crossing(&mut self, vertices: &[Vec3], inner: u32, outer: u32) -> u32 {
         let depth = self.depths[inner as usize];
+        let Place { kept, crossing: last } = self.places[inner as usize];
         if depth == 0.0 {
-            return self.kept[inner as usize];
+            return kept;
         }
-        if let Some((_, vertex)) = self.crossings.iter().find(|(edge, _)| *edge == [inner, outer]) {
-            return *vertex;
+        let mut earlier = last;
+        while let Some(crossing) = self.crossings.get(earlier as usize) {
+            if crossing.outer == outer {
+                return crossing.vertex;
+            }
+            earlier = crossing.previous;
         }
         // The crossing is computed from the end nearer to the plane, so a cut by the opposite half space
         // gives the same bits.
@@ -254,7 +362,8 @@ impl Cutter {
         let share = depth.min(height) / divisor(depth + height);
         let vertex = self.result.vertices.len() as u32;
         self.result.vertices.push(near + (far - near) * share);
-        self.crossings.push(([inner, outer], vertex));
+        self.places[inner as usize].crossing = self.crossings.len() as u32;
+        self.crossings.push(Crossing { outer, vertex, previous: last });
         vertex
     }
 

@@ -9,13 +9,15 @@
 mod clip;
 mod half_space;
 mod moments;
+mod planes;
 
-use clip::Cutter;
 pub use clip::Surface;
 pub use half_space::HalfSpace;
 pub use moments::Moments;
 
 use crate::{Transform, Twist, Vec3, Wrench};
+use clip::{Cutter, Part};
+use planes::Planes;
 
 /// Convex solid B, given by its planes.
 #[derive(Clone, Copy, Debug)]
@@ -60,8 +62,11 @@ impl Cell {
         }
         let mut cell =
             Self { face, moments, least_rate: f64::INFINITY, deepest: -1.0, deepest_b: Vec3::zeros() };
+        // The depth rate at x is rate_at_origin + slope·x.
+        let rate_at_origin = -half_space.normal_b.dot(&velocity.linear);
+        let slope = velocity.angular.cross(&half_space.normal_b);
         for vertex in surface.vertices() {
-            cell.least_rate = cell.least_rate.min(-half_space.normal_b.dot(&velocity.at(vertex)));
+            cell.least_rate = cell.least_rate.min(rate_at_origin + slope.dot(vertex));
             let depth = half_space.depth(vertex);
             if depth > cell.deepest {
                 (cell.deepest, cell.deepest_b) = (depth, *vertex);
@@ -71,16 +76,23 @@ impl Cell {
     }
 }
 
+/// Face that may be the nearest somewhere in the shared volume.
+#[derive(Clone, Copy, Debug)]
+struct NearFace {
+    index: usize,
+    /// Least depth below the face over the vertices of the shared volume, m.
+    least: f64,
+}
+
 /// Workspace for the overlap of two solids, and its result.
 #[derive(Clone, Debug, Default)]
 pub struct Overlap {
     shared: Surface,
     cell: Surface,
     cutter: Cutter,
-    /// Faces that may be the nearest somewhere in the shared volume.
-    nearest: Vec<usize>,
-    /// Faces of `nearest` in the order in which they cut a cell.
-    cutting: Vec<usize>,
+    near_faces: Vec<NearFace>,
+    /// Planes that may still cut the shared volume or a cell.
+    planes: Planes,
     cells: Vec<Cell>,
     reference_b: Vec3,
 }
@@ -92,8 +104,8 @@ impl Overlap {
             shared: Surface::with_capacity(facets),
             cell: Surface::with_capacity(facets),
             cutter: Cutter::with_capacity(facets),
-            nearest: Vec::with_capacity(facets),
-            cutting: Vec::with_capacity(facets),
+            near_faces: Vec::with_capacity(facets),
+            planes: Planes::with_capacity(facets),
             cells: Vec::with_capacity(facets),
             reference_b: Vec3::zeros(),
         }
@@ -101,8 +113,11 @@ impl Overlap {
 
     /// Returns the memory that [`with_capacity`](Self::with_capacity) takes, bytes.
     pub fn bytes(facets: usize) -> usize {
-        /// Three surfaces, lists of the cutter, and lists of faces and cells.
-        const BYTES_PER_FACET: usize = 3 * 104 + 52 + 2 * size_of::<usize>() + size_of::<Cell>();
+        const BYTES_PER_FACET: usize = 2 * Surface::BYTES_PER_FACET
+            + Cutter::BYTES_PER_FACET
+            + size_of::<NearFace>()
+            + Planes::BYTES_PER_FACET
+            + size_of::<Cell>();
         facets * BYTES_PER_FACET
     }
 
@@ -127,9 +142,9 @@ impl Overlap {
         }
         let Some(reference_b) = self.shared.vertices().first() else { return &self.cells };
         self.reference_b = *reference_b;
-        self.find_nearest(b.faces);
-        for at in 0..self.nearest.len() {
-            self.push_cell(b.faces, self.nearest[at], velocity);
+        self.find_near_faces(b.faces);
+        for at in 0..self.near_faces.len() {
+            self.push_cell(b.faces, self.near_faces[at], velocity);
         }
         &self.cells
     }
@@ -158,52 +173,73 @@ impl Overlap {
 
     /// Cuts A by all planes of B and stores the shared volume. Returns `false` if it is known to be empty.
     fn cut_shared(&mut self, a: &Surface, x_ba: &Transform, b: &Field<'_>) -> bool {
-        self.shared.copy_moved(a, x_ba);
-        let Self { shared, cutter, .. } = self;
-        let mut half_spaces = b.faces.iter().chain(b.walls);
-        half_spaces.all(|half_space| cutter.cut(shared, |x| half_space.depth(x)))
+        let Self { shared, cutter, planes, .. } = self;
+        shared.copy_moved(a, x_ba);
+        let (center, radius) = shared.ball();
+        planes.set_center(&center);
+        b.faces.iter().chain(b.walls).for_each(|half_space| planes.add(half_space));
+        planes.cut(cutter, shared, radius)
     }
 
     /// Lists the faces that may be the nearest of some point of the shared volume. Each face has a greatest
     /// depth in this volume; the least of these is `bound`. So nowhere is the nearest face deeper than
     /// `bound`, and a face that is deeper everywhere is left out.
-    fn find_nearest(&mut self, faces: &[HalfSpace]) {
-        let greatest =
-            |face: &HalfSpace| self.shared.vertices().iter().map(|x| face.depth(x)).fold(0.0, f64::max);
-        let bound = faces.iter().map(greatest).fold(f64::INFINITY, f64::min);
-        self.nearest.clear();
+    fn find_near_faces(&mut self, faces: &[HalfSpace]) {
+        let mut bound = f64::INFINITY;
+        self.near_faces.clear();
         for (index, face) in faces.iter().enumerate() {
-            if self.shared.vertices().iter().any(|x| face.depth(x) <= bound) {
-                self.nearest.push(index);
+            let (mut least, mut greatest) = (f64::INFINITY, 0.0);
+            for x in self.shared.vertices() {
+                let depth = face.depth(x);
+                least = if depth < least { depth } else { least };
+                greatest = if depth > greatest { depth } else { greatest };
+            }
+            bound = if greatest < bound { greatest } else { bound };
+            if least <= bound {
+                self.near_faces.push(NearFace { index, least });
             }
         }
+        self.near_faces.retain(|face| face.least <= bound);
     }
 
     /// Appends the cell of a face, if it has a volume. The cell is cut out of the shared volume by the planes
-    /// at which another face is equally near.
-    fn push_cell(&mut self, faces: &[HalfSpace], face: usize, velocity: &Twist) {
-        self.cell.copy_from(&self.shared);
-        // Faces of similar normals come first, because they cut away most of the volume. Most of the later
-        // planes then miss the cell, so their cuts are quick.
-        let Self { nearest, cutting, .. } = self;
-        cutting.clear();
-        cutting.extend(nearest.iter().filter(|other| **other != face));
-        let toward = |other: &usize| faces[*other].normal_b.dot(&faces[face].normal_b);
-        cutting.sort_unstable_by(|a, b| toward(b).total_cmp(&toward(a)).then(a.cmp(b)));
-        for &other in &self.cutting {
-            let normal_b = faces[other].normal_b - faces[face].normal_b;
-            let offset = faces[other].offset - faces[face].offset;
-            let farther = HalfSpace { normal_b, offset };
-            // Of two faces in one plane, the face of lower index has the cell.
-            if normal_b == Vec3::zeros() && offset == 0.0 && other < face {
-                return;
-            }
-            if !self.cutter.cut(&mut self.cell, |x| farther.depth(x)) {
+    /// at which another face is equally near, those nearest to the foot of the cell first.
+    fn push_cell(&mut self, faces: &[HalfSpace], near: NearFace, velocity: &Twist) {
+        let Self { shared, cell, cutter, near_faces, planes, .. } = self;
+        let face = &faces[near.index];
+        planes.set_center(&foot(shared, face, near.least));
+        for other in near_faces.iter().filter(|other| other.index != near.index) {
+            let normal_b = faces[other.index].normal_b - face.normal_b;
+            let offset = faces[other.index].offset - face.offset;
+            if normal_b != Vec3::zeros() {
+                planes.add(&HalfSpace { normal_b, offset });
+            } else if offset < 0.0 || (offset == 0.0 && other.index < near.index) {
+                // The other face is nearer everywhere. Of two faces in one plane, the face of lower index has
+                // the cell.
                 return;
             }
         }
-        self.cells.extend(Cell::new(face, &faces[face], &self.cell, &self.reference_b, velocity));
+        let radius = shared.radius_about(planes.center());
+        let surface = match planes.cut_first(cutter, cell, shared, radius) {
+            Part::Nothing => return,
+            Part::Whole => shared,
+            Part::Cut => {
+                let radius = cell.radius_about(planes.center());
+                if !planes.cut(cutter, cell, radius) {
+                    return;
+                }
+                cell
+            }
+        };
+        self.cells.extend(Cell::new(near.index, face, surface, &self.reference_b, velocity));
     }
+}
+
+/// Returns the mean of the vertices that are at the least depth (m) below a face.
+fn foot(shared: &Surface, face: &HalfSpace, least: f64) -> Vec3 {
+    let low = |x: &&Vec3| face.depth(x) <= least;
+    let count = shared.vertices().iter().filter(low).count();
+    shared.vertices().iter().filter(low).sum::<Vec3>() / count.max(1) as f64
 }
 
 /// Returns energy and wrench of cells for a foundation modulus of 1 N/m³: the energy is `∫ depth dV`, m⁴, and
