@@ -1,7 +1,9 @@
 //! Solids: closed parts of a rigid body that touch by the volume they share with others (docs/theory.md, 2.11).
 
+use crate::solid_tree::SolidTree;
 use pong_geometry::Vec3;
 use pong_geometry::overlap::{HalfSpace, Surface};
+use std::ops::Range;
 
 /// Closed part of a movable group whose interior counts: a polyhedron, several joined by internal faces, or a
 /// closed mesh of triangles.
@@ -24,6 +26,12 @@ pub struct Solid {
     /// Convex solids that together are the solid, each with its faces and walls. One if the solid is convex,
     /// however it is divided; empty if it is a mesh that is not convex.
     pub fields: Vec<SolidField>,
+    /// Regions below the facets of a mesh that is not convex, part after part; empty for all other solids.
+    pub facets: Vec<SolidFacet>,
+    /// Walls of the regions.
+    pub facet_walls: Vec<HalfSpace>,
+    /// Tree of the parts, with the regions of their facets. A convex solid is one item.
+    pub tree: SolidTree,
 }
 
 /// Closed part of a solid.
@@ -38,6 +46,23 @@ pub struct SolidPart {
     pub bound: SolidBox,
     /// Surface of the part in the group frame, internal faces included.
     pub surface: Surface,
+    /// Facets that belong to the part (indices into [`Solid::facets`]).
+    pub facets: Range<u32>,
+}
+
+/// Convex region below a facet of a mesh that is not convex, in the group frame. The facet is the face nearest to
+/// all points of the region (docs/theory.md, 2.12).
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolidFacet {
+    /// Box around the region.
+    pub bound: SolidBox,
+    /// Plane of the facet.
+    pub face: HalfSpace,
+    /// Planes that bound the region (indices into [`Solid::facet_walls`]).
+    pub walls: Range<u32>,
+    /// Depth at which the region is cut off, because another side of the solid is as near there, m; +∞ if its
+    /// walls meet above that depth.
+    pub height: f64,
 }
 
 /// Convex part of a solid by its planes in the group frame.
@@ -79,6 +104,16 @@ impl Solid {
             return 2.0 * self.parts.iter().map(volume).sum::<f64>() / self.area;
         }
         self.parts.iter().map(|part| 2.0 * volume(part) / part.surface.area()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns `true` if the solid has a field: convex pieces, or regions below its facets.
+    pub fn has_field(&self) -> bool {
+        !self.fields.is_empty() || !self.facets.is_empty()
+    }
+
+    /// Least depth at which a region of a facet is cut off, m; `None` if none is.
+    pub fn least_height(&self) -> Option<f64> {
+        self.facets.iter().map(|facet| facet.height).filter(|height| height.is_finite()).min_by(f64::total_cmp)
     }
 
     /// Area that takes the place of a surface's `area` where the file gives none, m²: a sixth of the outer

@@ -50,6 +50,10 @@ pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: us
     let facets = parts.map(|part| part.surface.facet_count()).max().unwrap_or(0);
     let fields = solids().flat_map(|solid| &solid.fields);
     let faces = fields.map(|field| field.faces.len() + field.walls.len()).max().map_or(0, |most| most + 1);
+    // The walls of a region are cut like faces, and a side has a face for each region of its part.
+    let regions = solids().flat_map(|solid| &solid.facets).map(|facet| facet.walls.len() + 2).max();
+    let in_parts = solids().flat_map(|solid| &solid.parts).map(|part| part.facets.len()).max();
+    let faces = faces.max(regions.unwrap_or(0)).max(in_parts.unwrap_or(0));
     Limits { thread_contacts, found, tree_parts, arena_bytes, scratch_bytes, facets, faces }
 }
 

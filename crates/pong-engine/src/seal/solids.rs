@@ -33,10 +33,10 @@ pub(crate) fn solids_touch(a: (&MovableGroup, &PrimitiveInfo), b: (&MovableGroup
 
 /// Shares of the two fields in the energy of a pair, A's first. The field of a plane carries both springs in
 /// series: it has no far side, so a soft body cannot sink through it. A solid that is not convex leaves its share
-/// to a convex partner. `None` if neither has a field.
+/// to a convex partner. `None` if neither has a field: all facets of both are too thin for one.
 pub(crate) fn field_shares(a: &Solid, b: Option<&Solid>, share_a: f64) -> Option<[f64; 2]> {
     let Some(b) = b else { return Some([0.0, 1.0]) };
-    let has_field = [!a.fields.is_empty(), !b.fields.is_empty()];
+    let has_field = [a.has_field(), b.has_field()];
     match ([a.is_convex(), b.is_convex()], has_field) {
         ([true, false], _) | (_, [true, false]) => Some([1.0, 0.0]),
         ([false, true], _) | (_, [false, true]) => Some([0.0, 1.0]),

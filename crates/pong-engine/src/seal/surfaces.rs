@@ -111,8 +111,8 @@ fn fill_foundations(
         {
             let [one, other] = [name(0, solid_a.primitive), name(1, solid_b.primitive)];
             problems.insert(format!(
-                "solids `{one}` and `{other}`: neither is convex, and neither is divided into convex pieces; divide \
-                 one with `pong decompose`, or filter the pair"
+                "solids `{one}` and `{other}`: neither is convex, and all triangles of both are too thin to push; \
+                 divide one with `pong decompose`, or filter the pair"
             ));
             continue;
         }

@@ -25,8 +25,11 @@ pub(crate) fn values_of<'t>(
         return table.props(a.surfaces[primitive_a], b.surfaces[primitive_b]);
     }
     let solid_of = |body: &MovableGroup, primitive: u32| {
+        // Only a solid of several primitives has parts of another primitive than its lowest.
+        let is_lowest = |solid: &Solid| solid.primitive == primitive;
         let has = |solid: &Solid| solid.parts.iter().any(|part| part.primitive == primitive);
-        body.solids.iter().position(has).expect("a contact of solids is one of its solids") as u32
+        let found = body.solids.iter().position(is_lowest).or_else(|| body.solids.iter().position(has));
+        found.expect("a contact of solids is one of its solids") as u32
     };
     let partner = match b.primitives[primitive_b].kind {
         PrimitiveKind::Plane => Partner::Plane(found.primitive_b),

@@ -35,6 +35,7 @@ mod seams;
 mod seams_turned;
 mod side_of_entry;
 mod solids;
+mod solids_meshes;
 mod solids_state;
 mod sums;
 mod surface_pairs;

@@ -8,11 +8,11 @@ use pong_testkit::Random;
 use pong_testkit::ron::box_polyhedron;
 use pong_testkit::samples::samples;
 
-const SOFT: &str = "stiffness: 1e5, foundation: 2e7, friction: None";
-const STIFF: &str = "stiffness: 1e5, foundation: 5e7, friction: None";
+pub const SOFT: &str = "stiffness: 1e5, foundation: 2e7, friction: None";
+pub const STIFF: &str = "stiffness: 1e5, foundation: 5e7, friction: None";
 const RIGID: &str = "stiffness: inf, friction: None";
 
-fn solid(surface: &str, primitives: &str) -> String {
+pub fn solid(surface: &str, primitives: &str) -> String {
     format!(
         r#"(format: "pong-model", version: 1, name: "solid", entry_memory: false, surfaces: {{ "s": ({surface}) }},
             root: (name: "solid", surface: "s", contact: Solid, primitives: [{primitives}]))"#
@@ -23,7 +23,7 @@ fn remembering(text: &str) -> String {
     text.replace("entry_memory: false, ", "")
 }
 
-fn block(surface: &str, half: [f64; 3]) -> String {
+pub fn block(surface: &str, half: [f64; 3]) -> String {
     solid(surface, &box_polyhedron("box", [0.0; 3], half, ""))
 }
 
@@ -36,19 +36,19 @@ fn floor(surface: &str) -> String {
 }
 
 /// Two Objects, of which the second is at the origin.
-struct Pair {
-    world: World,
-    roots: [pong_engine::InterfaceId; 2],
+pub struct Pair {
+    pub world: World,
+    pub roots: [pong_engine::InterfaceId; 2],
 }
 
 impl Pair {
-    fn new(a: &str, b: &str) -> Self {
+    pub fn new(a: &str, b: &str) -> Self {
         let Rig { world, interfaces: roots, .. } = Rig::with_config(Config::default(), a, b);
         Self { world, roots }
     }
 
     /// Evaluates with A at a pose, moving with a twist. Returns A's wrench about its origin and the stored energy.
-    fn evaluate(&mut self, pose: &Pose, twist: &Twist) -> (Wrench, f64) {
+    pub fn evaluate(&mut self, pose: &Pose, twist: &Twist) -> (Wrench, f64) {
         let state = |pose: &Pose, twist: &Twist| State {
             position: pose.position.into(),
             orientation: [pose.orientation.w, pose.orientation.i, pose.orientation.j, pose.orientation.k],
@@ -63,40 +63,40 @@ impl Pair {
         (wrench, self.contacts().iter().map(|contact| contact.stored).sum())
     }
 
-    fn at(&mut self, pose: &Pose) -> (Wrench, f64) {
+    pub fn at(&mut self, pose: &Pose) -> (Wrench, f64) {
         self.evaluate(pose, &Twist::zero())
     }
 
-    fn contacts(&self) -> Vec<Contact> {
+    pub fn contacts(&self) -> Vec<Contact> {
         self.world.contacts()
     }
 }
 
-fn pose(position: [f64; 3], turn: [f64; 3]) -> Pose {
+pub fn pose(position: [f64; 3], turn: [f64; 3]) -> Pose {
     Pose { position: position.into(), orientation: Quat::from_scaled_axis(Vec3::from(turn)) }
 }
 
 /// Pose moved by a small twist about its own origin.
-fn moved(from: &Pose, by: &Twist) -> Pose {
+pub fn moved(from: &Pose, by: &Twist) -> Pose {
     Pose {
         position: from.position + by.linear,
         orientation: Quat::from_scaled_axis(by.angular) * from.orientation,
     }
 }
 
-fn random_vector(random: &mut Random, size: f64) -> Vec3 {
+pub fn random_vector(random: &mut Random, size: f64) -> Vec3 {
     Vec3::from_fn(|_, _| random.between(-size, size))
 }
 
 /// Six unit twists.
-fn directions() -> Vec<Twist> {
+pub fn directions() -> Vec<Twist> {
     let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
     let zero = Vec3::zeros();
     let linear = axes.iter().map(|axis| Twist { linear: *axis, angular: zero });
     linear.chain(axes.iter().map(|axis| Twist { linear: zero, angular: *axis })).collect()
 }
 
-fn power(wrench: &Wrench, along: &Twist) -> f64 {
+pub fn power(wrench: &Wrench, along: &Twist) -> f64 {
     wrench.force.dot(&along.linear) + wrench.moment.dot(&along.angular)
 }
 

@@ -11,6 +11,13 @@ pub(super) struct Facet {
     pub(super) corners: Vec<Vec3>,
 }
 
+impl Facet {
+    /// Tests whether the height of a triangle is at most `tolerance`, m.
+    pub(super) fn is_thin(&self, tolerance: f64) -> bool {
+        is_thin(self, area(&self.corners), tolerance)
+    }
+}
+
 /// Sum of the areas of facets, m².
 pub(super) fn total_area(facets: &[Facet]) -> f64 {
     facets.iter().map(|facet| area(&facet.corners)).sum()

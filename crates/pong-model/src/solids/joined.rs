@@ -3,6 +3,7 @@
 use super::convex;
 use super::facets::{Facet, total_area};
 use super::refusal::{self, Refusal};
+use crate::solid_tree::SolidTree;
 use crate::draft::BodyDraft;
 use crate::model::MovableGroup;
 use crate::solid::{Solid, SolidBox, SolidField, SolidPart};
@@ -37,6 +38,11 @@ fn solid(draft: &BodyDraft, shell: u32, pieces: &[usize]) -> Solid {
     let internal: Vec<Facet> = facets(false).collect();
     let diameter = 2.0 * bound.half.norm();
     let merged = convex::field(convex::planes(&outer, diameter), &internal, &vertices, diameter);
+    let parts: Vec<SolidPart> = pieces.iter().map(|&piece| part(body, piece)).collect();
+    let items = match merged {
+        Some(_) => vec![bound],
+        None => parts.iter().map(|part| part.bound).collect(),
+    };
     Solid {
         primitive: pieces[0] as u32,
         shell,
@@ -44,9 +50,12 @@ fn solid(draft: &BodyDraft, shell: u32, pieces: &[usize]) -> Solid {
         leaf: 0,
         bound,
         area: total_area(&outer),
-        parts: pieces.iter().map(|&piece| part(body, piece)).collect(),
+        parts,
         fields: merged
             .map_or_else(|| polyhedra.iter().map(|piece| field(piece)).collect(), |field| vec![field]),
+        facets: Vec::new(),
+        facet_walls: Vec::new(),
+        tree: SolidTree::new(&items),
     }
 }
 
@@ -76,7 +85,7 @@ fn part(body: &MovableGroup, piece: usize) -> SolidPart {
         surface.add_facet(polyhedron.rims_of(face).iter().map(|rim| rim.start));
     }
     let primitive = piece as u32;
-    SolidPart { primitive, element, bound: SolidBox::around(surface.vertices()), surface }
+    SolidPart { primitive, element, bound: SolidBox::around(surface.vertices()), surface, facets: 0..0 }
 }
 
 /// Field of one piece of a solid that is not convex.

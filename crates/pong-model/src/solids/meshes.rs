@@ -3,10 +3,11 @@
 use super::facets::{self, Facet};
 use super::refusal::{self, Refusal};
 use super::thickened::{Triangles, thickened};
-use super::{convex, parts};
+use super::{convex, parts, regions};
 use crate::draft::BodyDraft;
 use crate::hull::{PLANE_TOLERANCE, area};
 use crate::solid::{Solid, SolidBox};
+use crate::solid_tree::SolidTree;
 use crate::surface::Surface;
 use pong_geometry::Vec3;
 use pong_geometry::overlap::HalfSpace;
@@ -69,12 +70,20 @@ fn solid(draft: &BodyDraft, number: u32, shell: &Shell, refusals: &mut Vec<Refus
     let faces = facets::planes_of_mesh(&outer, &closed.triangles[..closed.outer], PLANE_TOLERANCE * diameter);
     let walls: Vec<Facet> = closed.facets(closed.outer..closed.triangles.len()).collect();
     let field = convex::field(faces, &walls, &closed.vertices, diameter);
+    let all: Vec<Facet> = outer.into_iter().chain(walls).collect();
     let owner = |number: usize| {
         let element = shell.triangles[number % shell.triangles.len()];
         let has = |primitive: &&usize| draft.body.primitives[**primitive].elements.contains(&element);
         let primitive = shell.primitives.iter().find(has).unwrap_or(&shell.primitives[0]);
         (*primitive as u32, element)
     };
+    let mut parts = parts::of_mesh(owner, &closed.vertices, &closed.triangles);
+    let (mut facets, mut facet_walls, mut items) = (Vec::new(), Vec::new(), vec![bound]);
+    if field.is_none() {
+        let (regions, walls) = regions::regions(&closed, &all, diameter);
+        (facets, facet_walls) = (parts::with_facets(&mut parts, &all, regions, diameter), walls);
+        items = parts.iter().map(|part| parts::reach(part, &facets)).collect();
+    }
     Some(Solid {
         primitive: shell.primitives[0] as u32,
         shell: number,
@@ -82,8 +91,11 @@ fn solid(draft: &BodyDraft, number: u32, shell: &Shell, refusals: &mut Vec<Refus
         leaf: 0,
         bound,
         area: surface_area,
-        parts: parts::of_mesh(owner, &closed.vertices, &closed.triangles),
+        parts,
         fields: field.into_iter().collect(),
+        facets,
+        facet_walls,
+        tree: SolidTree::new(&items),
     })
 }
 

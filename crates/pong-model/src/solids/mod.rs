@@ -8,6 +8,7 @@ mod joined;
 mod meshes;
 mod parts;
 mod refusal;
+mod regions;
 mod thickened;
 
 use crate::draft::BodyDraft;

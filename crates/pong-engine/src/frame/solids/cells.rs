@@ -4,7 +4,7 @@
 use super::cell_force::CellForce;
 use super::entry::Entry;
 use super::relative::Relative;
-use super::side::Side;
+use super::side::{self, Side};
 use pong_geometry::overlap::{Cell, Field, HalfSpace, Moments, Overlap};
 use pong_geometry::{Transform, Twist, Vec3};
 
@@ -37,6 +37,10 @@ impl PushingFaces {
     fn choose(&mut self, side: &Side<'_>, entry: Option<&Vec3>) {
         self.planes.clear();
         self.numbers.clear();
+        for (number, facet) in (side.regions.first..).zip(side.regions.facets) {
+            self.planes.push(facet.face);
+            self.numbers.push(number);
+        }
         for (number, face) in (0..).zip(side.faces) {
             if entry.is_none_or(|entry| Entry::pushes(face, entry)) {
                 self.planes.push(*face);
@@ -110,7 +114,12 @@ impl SolidScratch {
         Overlap::bytes(facets + 2 * faces) + faces * per_face
     }
 
-    /// Returns true if two sides share volume.
+    /// Returns true if the last search found a cell.
+    pub(super) fn found_any(&self) -> bool {
+        !self.of_b.cells.is_empty() || !self.of_a.cells.is_empty()
+    }
+
+    /// Returns true if two sides share volume. At least one of them has faces.
     pub(super) fn share_volume(&mut self, relative: &Relative, a: &Side<'_>, b: &Side<'_>) -> bool {
         // One part of a side without a field is compared with the field of the other.
         let x = (&relative.x_ba, &relative.x_ab);
@@ -145,31 +154,60 @@ impl Cells<'_> {
         of_b.cells.clear();
         of_a.cells.clear();
         if shares[1] > 0.0 {
-            let field = Field { faces: &faces_b.planes, walls: b.walls };
-            find(overlap, a, &relative.x_ba, &relative.a_in_b, &field, of_b);
+            let search = Search { relative, x: &relative.x_ba, velocity: &relative.a_in_b, in_b: true };
+            search.find(overlap, (a, b), faces_b, of_b);
         }
         // Against a plane, only the plane's field has a share.
         if shares[0] > 0.0 {
-            let field = Field { faces: &faces_a.planes, walls: a.walls };
-            find(overlap, b, &relative.x_ab, &relative.b_in_a, &field, of_a);
+            let search = Search { relative, x: &relative.x_ab, velocity: &relative.b_in_a, in_b: false };
+            search.find(overlap, (b, a), faces_a, of_a);
         }
         of_b.cells.sort_by_key(|cell| cell.face);
         of_a.cells.sort_by_key(|cell| cell.face);
     }
 }
 
-/// Cells of a field in the parts of the other side. `x` transforms from the frame of these parts to that of
-/// the field; `velocity` is the velocity of the other side in that frame.
-fn find(
-    overlap: &mut Overlap,
-    side: &Side<'_>,
-    x: &Transform,
-    velocity: &Twist,
-    field: &Field<'_>,
-    found: &mut FieldCells,
-) {
-    for part in side.parts {
-        overlap.cells(&part.surface, x, field, velocity);
-        found.add(overlap.found(), &overlap.reference_b());
+/// Search for the cells of one field.
+struct Search<'a> {
+    relative: &'a Relative,
+    /// Transform from the frame of the other side to that of the field.
+    x: &'a Transform,
+    /// Velocity of the other side in the frame of the field.
+    velocity: &'a Twist,
+    /// True if the field is that of B.
+    in_b: bool,
+}
+
+impl Search<'_> {
+    /// Finds the cells of the field of `owner` in the parts of `other`.
+    fn find(
+        &self,
+        overlap: &mut Overlap,
+        (other, owner): (&Side<'_>, &Side<'_>),
+        faces: &PushingFaces,
+        found: &mut FieldCells,
+    ) {
+        for part in other.parts {
+            if owner.regions.facets.is_empty() {
+                let field = Field { faces: &faces.planes, walls: owner.walls };
+                overlap.cells(&part.surface, self.x, &field, self.velocity);
+                found.add(overlap.found(), &overlap.reference_b());
+                continue;
+            }
+            for (index, facet) in owner.regions.facets.iter().enumerate() {
+                let meet = match self.in_b {
+                    true => side::boxes_meet(self.relative, &part.bound, &facet.bound),
+                    false => side::boxes_meet(self.relative, &facet.bound, &part.bound),
+                };
+                if !meet {
+                    continue;
+                }
+                let field = Field { faces: &faces.planes[index..=index], walls: owner.regions.walls(facet) };
+                overlap.cells(&part.surface, self.x, &field, self.velocity);
+                if let [cell] = overlap.found() {
+                    found.add(&[Cell { face: index, ..*cell }], &overlap.reference_b());
+                }
+            }
+        }
     }
 }

@@ -61,41 +61,35 @@ fn touch(
     laps: &mut impl Laps,
 ) {
     let solid_a = &context.body_a.solids[pair.a as usize];
-    let plane;
-    let (bound_b, solid_b) = match pair.b {
-        Partner::Solid(index) => {
-            let solid = &context.body_b.solids[index as usize];
-            (Some(&solid.bound), Some(solid))
-        }
-        Partner::Plane(_) => (None, None),
+    let solid_b = match pair.b {
+        Partner::Solid(index) => Some(&context.body_b.solids[index as usize]),
+        Partner::Plane(_) => None,
     };
-    if bound_b.is_some_and(|bound| !side::boxes_meet(relative, &solid_a.bound, bound)) {
+    if solid_b.is_some_and(|solid_b| !side::boxes_meet(relative, &solid_a.bound, &solid_b.bound)) {
         return;
     }
     let groups = [body_a, body_b].map(|body| round.scene.group_of_model(body).1);
     let props = &context.table.foundations[&(groups[0], pair.a, groups[1], pair.b)];
     let shares = field_shares(solid_a, solid_b, props.share_a).expect("sealing has checked it");
-    let sides_b = match pair.b {
-        Partner::Solid(_) => None,
-        Partner::Plane(primitive) => {
-            plane = side::half_space(context.body_b, primitive);
-            Some(Side::plane(context.body_b, primitive, &plane))
-        }
+    let mut with = |a: &Side<'_>, b: &Side<'_>| {
+        touch_units(round, context, relative, (a, b), shares, props, worker);
     };
-    for unit_a in 0..side::unit_count(solid_a) {
-        let a = Side::unit(solid_a, unit_a);
-        let mut with = |b: &Side<'_>| {
-            if side::sides_meet(relative, &a, b) {
-                touch_units(round, context, relative, (&a, b), shares, props, worker);
-            }
-        };
-        match (&sides_b, solid_b) {
-            (Some(plane), _) => with(plane),
-            (None, Some(solid_b)) => {
-                (0..side::unit_count(solid_b)).for_each(|unit_b| with(&Side::unit(solid_b, unit_b)));
-            }
-            (None, None) => {}
+    let root_a = solid_a.tree.root();
+    match (pair.b, root_a, solid_b.and_then(|solid| solid.tree.root())) {
+        (Partner::Plane(primitive), Some(root_a), _) => {
+            let half_space = side::half_space(context.body_b, primitive);
+            let plane = Side::plane(context.body_b, primitive, &half_space);
+            side::for_each_below(relative, (solid_a, &half_space[0]), root_a, &mut |unit| {
+                with(&Side::unit(solid_a, unit), &plane);
+            });
         }
+        (Partner::Solid(index), Some(root_a), Some(root_b)) => {
+            let solid_b = &context.body_b.solids[index as usize];
+            let mut meet =
+                |one, other| with(&Side::unit(solid_a, one), &Side::unit(solid_b, other));
+            side::for_each_meeting(relative, (solid_a, solid_b), (root_a, root_b), &mut meet);
+        }
+        _ => {}
     }
     laps.lap(Work::Forces, &mut worker.out.times);
 }
@@ -111,13 +105,18 @@ fn touch_units(
     worker: &mut WorkerContext,
 ) {
     let WorkerContext { solids, out, .. } = worker;
-    if !solids.share_volume(relative, a, b) {
+    // Regions of facets know only the volume near the surface.
+    let has_regions = !a.regions.facets.is_empty() || !b.regions.facets.is_empty();
+    if !has_regions && !solids.share_volume(relative, a, b) {
         return;
     }
     let entry = entry::side_of_entry(context, relative, (a, b));
     solids.choose_faces((a, b), entry.as_ref());
     let cells = Cells { relative, shares, sides: (a, b) };
     cells.find(solids);
+    if has_regions && !solids.found_any() {
+        return;
+    }
     let patch = Patch { context, sealed: round.sealed, relative, sides: (a, b), shares, props };
     patch.add_contacts(solids, entry.as_ref(), out);
 }

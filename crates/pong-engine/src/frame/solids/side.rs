@@ -2,7 +2,7 @@
 
 use super::relative::Relative;
 use pong_geometry::overlap::HalfSpace;
-use pong_model::{MovableGroup, Solid, SolidBox, SolidPart};
+use pong_model::{MovableGroup, Solid, SolidBox, SolidFacet, SolidNode, SolidPart};
 
 /// One side of a patch: a convex solid with all its parts, one part of another solid, or a plane. A side has
 /// one bristle with each other side.
@@ -13,10 +13,10 @@ pub(super) struct Side<'a> {
     /// Planes of the field: outer faces, and internal faces. Empty without a field.
     pub faces: &'a [HalfSpace],
     pub walls: &'a [HalfSpace],
+    /// Regions below the facets of a mesh that is not convex, which are its field instead of `faces` and `walls`.
+    pub regions: Regions<'a>,
     /// True if the field describes the whole body, which then remembers the side of entry.
     pub is_whole: bool,
-    /// Box around the parts; `None` for a plane.
-    pub bound: Option<SolidBox>,
     pub primitive: u32,
     pub element: u32,
     pub shell: u32,
@@ -24,9 +24,26 @@ pub(super) struct Side<'a> {
     pub unit: u32,
 }
 
-/// Number of sides of a solid.
-pub(super) fn unit_count(solid: &Solid) -> usize {
-    if solid.is_convex() { 1 } else { solid.parts.len() }
+/// Regions of the facets of a part.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Regions<'a> {
+    pub facets: &'a [SolidFacet],
+    /// Index of the first of `facets` in its solid.
+    pub first: u32,
+    /// Walls of all regions of the solid.
+    walls: &'a [HalfSpace],
+}
+
+impl<'a> Regions<'a> {
+    fn of(solid: &'a Solid, part: &SolidPart) -> Self {
+        let facets = &solid.facets[part.facets.start as usize..part.facets.end as usize];
+        Self { facets, first: part.facets.start, walls: &solid.facet_walls }
+    }
+
+    /// Walls of a region.
+    pub fn walls(&self, facet: &SolidFacet) -> &'a [HalfSpace] {
+        &self.walls[facet.walls.start as usize..facet.walls.end as usize]
+    }
 }
 
 /// Half space of a plane.
@@ -41,12 +58,13 @@ impl<'a> Side<'a> {
         let is_whole = solid.is_convex();
         let parts = if is_whole { &solid.parts[..] } else { &solid.parts[unit..=unit] };
         let field = solid.fields.get(unit);
+        let regions = if is_whole { Regions::default() } else { Regions::of(solid, &parts[0]) };
         Self {
             parts,
             faces: field.map_or(&[], |field| &field.faces),
             walls: field.map_or(&[], |field| &field.walls),
+            regions,
             is_whole,
-            bound: Some(if is_whole { solid.bound } else { parts[0].bound }),
             primitive: parts[0].primitive,
             element: parts[0].element,
             shell: solid.shell,
@@ -61,8 +79,8 @@ impl<'a> Side<'a> {
             parts: &[],
             faces: plane,
             walls: &[],
+            regions: Regions::default(),
             is_whole: true,
-            bound: None,
             primitive,
             element: info.elements.start,
             shell: info.shell,
@@ -71,17 +89,47 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Returns false if the boxes of two sides, or the box of A and the plane B, cannot overlap.
-pub(super) fn sides_meet(relative: &Relative, a: &Side<'_>, b: &Side<'_>) -> bool {
-    let Some(bound_a) = &a.bound else { return true };
-    match &b.bound {
-        Some(bound_b) => boxes_meet(relative, bound_a, bound_b),
-        None => {
-            let plane = &b.faces[0];
-            let center = relative.x_ba.point(&bound_a.center);
-            let along = relative.x_ba.rotation.tr_mul(&plane.normal_b).abs().dot(&bound_a.half);
-            plane.depth(&center) + along > 0.0
+/// Calls `meet` with the numbers of the sides of two solids whose boxes meet.
+pub(super) fn for_each_meeting(
+    relative: &Relative,
+    (a, b): (&Solid, &Solid),
+    (node_a, node_b): (SolidNode, SolidNode),
+    meet: &mut impl FnMut(usize, usize),
+) {
+    let (bound_a, bound_b) = (a.tree.bound(&node_a), b.tree.bound(&node_b));
+    if !boxes_meet(relative, bound_a, bound_b) {
+        return;
+    }
+    // The larger box is divided first.
+    let divides_a = bound_a.half.norm_squared() >= bound_b.half.norm_squared();
+    match (node_a.halves(), node_b.halves()) {
+        (None, None) => meet(a.tree.item(&node_a), b.tree.item(&node_b)),
+        (Some(halves), of_b) if divides_a || of_b.is_none() => {
+            halves.iter().for_each(|half| for_each_meeting(relative, (a, b), (*half, node_b), meet));
         }
+        (_, Some(halves)) => {
+            halves.iter().for_each(|half| for_each_meeting(relative, (a, b), (node_a, *half), meet));
+        }
+        (Some(_), None) => {}
+    }
+}
+
+/// Calls `meet` with the numbers of the sides of a solid whose boxes reach below the plane B.
+pub(super) fn for_each_below(
+    relative: &Relative,
+    (a, plane): (&Solid, &HalfSpace),
+    node: SolidNode,
+    meet: &mut impl FnMut(usize),
+) {
+    let bound = a.tree.bound(&node);
+    let center = relative.x_ba.point(&bound.center);
+    let along = relative.x_ba.rotation.tr_mul(&plane.normal_b).abs().dot(&bound.half);
+    if plane.depth(&center) + along <= 0.0 {
+        return;
+    }
+    match node.halves() {
+        Some(halves) => halves.iter().for_each(|half| for_each_below(relative, (a, plane), *half, meet)),
+        None => meet(a.tree.item(&node)),
     }
 }
 
