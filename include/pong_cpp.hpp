@@ -51,6 +51,8 @@ using ContactChange = pong_contact_change;
 using Distance = pong_distance;
 using PairPeaks = pong_pair_peaks;
 using SurfaceValues = pong_surface_values;
+using SurfaceMore = pong_surface_more;
+using SurfaceMotion = pong_surface_motion;
 using Continuation = pong_continuation;
 using LogOptions = pong_log_options;
 using LogReport = pong_log_report;
@@ -207,6 +209,13 @@ public:
     void set_states(const InterfaceId* interfaces, const pong_state* states, std::size_t n) {
         check(pong_set_states(get(), interfaces, states, n));
     }
+    /// Motions of surfaces along themselves in one call: `n` ids and as many motions.
+    void set_surface_motions(const InterfaceId* interfaces, const SurfaceMotion* motions, std::size_t n) {
+        check(pong_set_surface_motions(get(), interfaces, motions, n));
+    }
+    SurfaceMotion surface_motion(InterfaceId interface) const {
+        return result<SurfaceMotion>([&](SurfaceMotion* out) { return pong_get_surface_motion(get(), interface, out); });
+    }
     State authored_state(InterfaceId interface) const {
         return result<pong_state>([&](pong_state* out) { return pong_get_authored_state(get(), interface, out); });
     }
@@ -352,6 +361,13 @@ public:
     }
     void set_surface(ModelId model, const std::string& name, const SurfaceValues& values) {
         check(pong_set_surface(get(), model, name.c_str(), &values));
+    }
+    SurfaceMore surface_more(ModelId model, const std::string& name) const {
+        return result<SurfaceMore>(
+            [&](SurfaceMore* out) { return pong_get_surface_more(get(), model, name.c_str(), out); });
+    }
+    void set_surface_more(ModelId model, const std::string& name, const SurfaceMore& values) {
+        check(pong_set_surface_more(get(), model, name.c_str(), &values));
     }
 
     // Further worlds.

@@ -241,6 +241,38 @@ static void surfaces(scene *s)
     TEST(memcmp(&before, &after, sizeof after) == 0);
 }
 
+static void more_values_of_surfaces(scene *s)
+{
+    pong_surface_more values, changed;
+    OK(pong_get_surface_more(s->world, s->ball_model, "rubber", &values));
+    TEST(values.foundation == 0.0 && values.area == 0.0 && values.rolling == 0.0 && values.spinning == 0.0);
+    changed = values;
+    changed.rolling = 1e-3;
+    changed.foundation = 1e7;
+    OK(pong_set_surface_more(s->world, s->ball_model, "rubber", &changed));
+    OK(pong_get_surface_more(s->world, s->ball_model, "rubber", &values));
+    TEST(values.rolling == 1e-3 && values.foundation == 1e7);
+    values.area = 0.01;
+    REFUSED(pong_set_surface_more(s->world, s->ball_model, "rubber", &values), BAD_VALUE, "not both");
+    values.area = 0.0;
+    values.spinning = -1.0;
+    REFUSED(pong_set_surface_more(s->world, s->ball_model, "rubber", &values), BAD_VALUE, "friction values");
+    REFUSED(pong_get_surface_more(s->world, s->ball_model, "rubber", NULL), NULL_ARGUMENT, "`values`");
+    changed.rolling = changed.foundation = 0.0;
+    OK(pong_set_surface_more(s->world, s->ball_model, "rubber", &changed));
+}
+
+/* This world was sealed without a motion of a surface. */
+static void surfaces_at_rest(scene *s)
+{
+    pong_surface_motion motion;
+    OK(pong_get_surface_motion(s->world, s->interfaces[0], &motion));
+    TEST(motion.linear_velocity[0] == 0.0 && motion.belt_travel[2] == 0.0);
+    motion.linear_velocity[0] = 1.0;
+    REFUSED(pong_set_surface_motions(s->world, &s->interfaces[0], &motion, 1), BAD_VALUE, "before the seal");
+    OK(pong_set_surface_motions(s->world, NULL, NULL, 0));
+}
+
 /* The arm's tip lies in the ground as deep as the ball; what is kept apart has no contact, in a clone as well. */
 static void filters(void)
 {
@@ -716,6 +748,8 @@ int main(void)
     preload(&s);
     clones(&s);
     surfaces(&s);
+    more_values_of_surfaces(&s);
+    surfaces_at_rest(&s);
     pairs_and_rates(&s);
     threads(&s);
     OK(pong_destroy_world(s.world));

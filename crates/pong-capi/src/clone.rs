@@ -52,6 +52,7 @@ impl Inner {
             remedy: CString::default(),
             pair_count: self.pair_count,
             states: Vec::with_capacity(self.names.interface_count()),
+            surface_motions: Vec::with_capacity(self.names.interface_count()),
             pairs: Vec::with_capacity(self.pair_count),
             counters: Counters { contact_capacity, ..Counters::default() },
             law_faults,

@@ -110,6 +110,8 @@ impl pong_config {
             ledger: switch("keep_ledger", self.keep_ledger)?,
             accounts: self.accounts()?,
             workers: self.worker_settings()?,
+            // pong_set_surface_motions() in set-up makes it true.
+            moving_surfaces: false,
         };
         Ok(Wanted { engine, times: switch("report_times", self.report_times)? })
     }

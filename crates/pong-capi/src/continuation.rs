@@ -115,6 +115,7 @@ impl Inner {
             workers: Vec::new(),
             pair_count: self.pair_count,
             states: Vec::new(),
+            surface_motions: Vec::new(),
             pairs: Vec::new(),
             counters: Counters::default(),
             law_faults,

@@ -5,7 +5,7 @@ use crate::law_adapters::{Callback, LawFaults};
 use crate::names::Names;
 use crate::phase::Phase;
 use crate::worker::Started;
-use pong_engine::{FrameReport, InterfaceId, PairId, PairMonitor, State};
+use pong_engine::{FrameReport, InterfaceId, PairId, PairMonitor, State, SurfaceMotion};
 use pong_record::{ModelSource, Recorder};
 use std::collections::HashMap;
 use std::ffi::CString;
@@ -35,6 +35,8 @@ pub(crate) struct Inner {
     pub pair_count: usize,
     /// Scratch for `pong_set_states`, kept to avoid allocation.
     pub states: Vec<(InterfaceId, State)>,
+    /// Scratch for `pong_set_surface_motions`, kept to avoid allocation.
+    pub surface_motions: Vec<(InterfaceId, SurfaceMotion)>,
     /// Scratch for `pong_commit_pairs`, kept to avoid allocation.
     pub pairs: Vec<PairId>,
     pub counters: Counters,

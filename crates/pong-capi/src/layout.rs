@@ -15,7 +15,8 @@ use crate::seal::pong_seal_report;
 use crate::states::pong_state;
 use crate::status::pong_status;
 use crate::step_plan::{pong_joints, pong_mass, pong_step_check, pong_step_plan};
-use crate::surfaces::pong_surface_values;
+use crate::surface_motions::pong_surface_motion;
+use crate::surfaces::{pong_surface_more, pong_surface_values};
 use crate::tally::pong_tally;
 use crate::worker::pong_worker;
 use crate::wrenches::pong_wrench;
@@ -75,6 +76,9 @@ layouts! {
     pong_step_check { contacts, not_judged, stable_step, stiffness_rate, damping_rate }
     pong_step_plan { step, wrench_coupling, delay_frames, closing_speed, depth_within, rebound_within, reserved }
     pong_state { position, orientation, linear_velocity, angular_velocity }
+    pong_surface_motion {
+        linear_velocity, angular_velocity, belt_velocity, linear_travel, angular_travel, belt_travel,
+    }
     pong_wrench { force, moment }
     pong_distance { distance, points, primitives, elements }
     pong_contact_side { object, interface, primitive, element, arm }
@@ -115,6 +119,7 @@ layouts! {
         normal_law, friction_law, stiffness, damping, ramp, dissipation, friction, friction_static_excess,
         friction_stiffness, friction_damping, friction_slip_speed,
     }
+    pong_surface_more { foundation, area, rolling, spinning }
 }
 
 /// FNV-1a over names, sizes, offsets and status numbers.

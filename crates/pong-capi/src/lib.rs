@@ -69,6 +69,7 @@ pub mod seal;
 pub mod states;
 pub mod status;
 pub mod step_plan;
+pub mod surface_motions;
 pub mod surfaces;
 pub mod tally;
 pub mod user_data;

@@ -1,8 +1,8 @@
 //! The two phases of a world: calls of C in the wrong one are refused here. In Rust the types exclude them.
 
 use pong_engine::{
-    Config, EngineError, FrameReport, InterfaceId, ModelId, PairId, Scene, SealReport, State, World,
-    WorldBuilder,
+    Config, EngineError, FrameReport, InterfaceId, ModelId, PairId, Scene, SealReport, State, SurfaceMotion,
+    World, WorldBuilder,
 };
 use pong_model::Surface;
 
@@ -81,6 +81,23 @@ impl Phase {
         match self {
             Self::SetUp(builder) => builder.set_states(states),
             Self::Frames(world) => world.set_states(states),
+        }
+    }
+
+    pub fn set_surface_motions(
+        &mut self,
+        motions: &[(InterfaceId, SurfaceMotion)],
+    ) -> Result<(), EngineError> {
+        match self {
+            Self::SetUp(builder) => builder.set_surface_motions(motions),
+            Self::Frames(world) => world.set_surface_motions(motions),
+        }
+    }
+
+    pub fn surface_motion(&self, interface: InterfaceId) -> Result<&SurfaceMotion, EngineError> {
+        match self {
+            Self::SetUp(builder) => builder.surface_motion(interface),
+            Self::Frames(world) => world.surface_motion(interface),
         }
     }
 

@@ -54,6 +54,7 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
         inner.workers = sealed.workers.iter().map(Into::into).collect();
         inner.counters.contact_capacity = sealed.contact_capacity as u64;
         inner.states.reserve(inner.names.interface_count());
+        inner.surface_motions.reserve(inner.names.interface_count());
         inner.pairs.reserve(inner.pair_count);
         out.set(pong_seal_report {
             group_pairs: sealed.group_pairs as u64,

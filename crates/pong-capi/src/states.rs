@@ -96,7 +96,7 @@ impl Inner {
 impl Inner {
     /// Refuses ids of other worlds, and a group that is given two states; the message has their index in the
     /// caller's array.
-    fn check_named_once(&self, ids: &[pong_interface_id]) -> Outcome {
+    pub(crate) fn check_named_once(&self, ids: &[pong_interface_id]) -> Outcome {
         let Some(place) = self.names.unknown_or_named_twice(ids) else { return Ok(()) };
         let Ok(path) = self.names.path(ids[place]) else {
             return Err(crate::names::unknown(&format!("interfaces[{place}]")));

@@ -72,6 +72,20 @@ pub struct pong_surface_values {
     pub friction_slip_speed: f64,
 }
 
+/// Values of a surface that pong_surface_values does not have. Get them, change some, set them.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct pong_surface_more {
+    /// Foundation modulus of solids, N/m^3: the pressure for each metre of depth; 0 for none.
+    pub foundation: f64,
+    /// Area to which the stiffness belongs, m^2; 0 for none.
+    pub area: f64,
+    /// Bristle: rolling resistance, m: the moment of a rolling contact over its normal force. Ignored by other laws.
+    pub rolling: f64,
+    /// Bristle: spinning resistance, m, likewise.
+    pub spinning: f64,
+}
+
 /// Number of surfaces of a model.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_surface_count(
@@ -126,6 +140,62 @@ pub unsafe extern "C" fn pong_set_surface(
         inner.log_event(|log| log.surface_set(model.id(), &new));
         Ok(())
     })
+}
+
+/// Copies the present further values of a surface, named as in the model.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_surface_more(
+    world: *const pong_world,
+    model: pong_model_id,
+    surface: *const c_char,
+    values: *mut pong_surface_more,
+) -> pong_status {
+    with_world(world, |inner| {
+        let (name, out) = (text(surface, "surface")?, Out::new(values, "values")?);
+        out.set(inner.phase.surface(model.id(), name)?.into());
+        Ok(())
+    })
+}
+
+/// Sets the further values of a surface for all Objects of a model, as pong_set_surface() sets the others.
+/// PONG_STATUS_BAD_VALUE: a value outside its range.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_set_surface_more(
+    world: *mut pong_world,
+    model: pong_model_id,
+    surface: *const c_char,
+    values: *const pong_surface_more,
+) -> pong_status {
+    setting_up(world, |inner| {
+        let (name, values) = (text(surface, "surface")?, one(values, "values")?);
+        let new = values.applied_to(inner.phase.surface(model.id(), name)?);
+        inner.phase.set_surface(model.id(), &new)?;
+        inner.log_event(|log| log.surface_set(model.id(), &new));
+        Ok(())
+    })
+}
+
+impl From<&Surface> for pong_surface_more {
+    fn from(surface: &Surface) -> Self {
+        let (rolling, spinning) = match surface.friction {
+            FrictionLaw::Bristle { rolling, spinning, .. } => (rolling, spinning),
+            _ => (0.0, 0.0),
+        };
+        let [foundation, area] = [surface.foundation, surface.area].map(|value| value.unwrap_or(0.0));
+        Self { foundation, area, rolling, spinning }
+    }
+}
+
+impl pong_surface_more {
+    /// The old surface with these values.
+    fn applied_to(&self, old: &Surface) -> Surface {
+        let given = |value: f64| (value != 0.0).then_some(value);
+        let mut new = Surface { foundation: given(self.foundation), area: given(self.area), ..old.clone() };
+        if let FrictionLaw::Bristle { rolling, spinning, .. } = &mut new.friction {
+            (*rolling, *spinning) = (self.rolling, self.spinning);
+        }
+        new
+    }
 }
 
 impl From<&Surface> for pong_surface_values {

@@ -49,6 +49,7 @@ pub unsafe extern "C" fn pong_create_world(
             workers: Vec::new(),
             pair_count: 0,
             states: Vec::new(),
+            surface_motions: Vec::new(),
             pairs: Vec::new(),
             counters: Counters::default(),
             law_faults: LawFaults::default(),

@@ -5,7 +5,9 @@ use crate::ids::{InterfaceId, ModelId, ObjectId, PairId};
 use crate::law::registry::Laws;
 use crate::report::Clock;
 use crate::runtime::Runtime;
-use crate::scene::{Config, GroupFilter, GroupInstance, Object, ObjectPair, Scene, State, States, Surfaces};
+use crate::scene::{
+    Config, GroupFilter, GroupInstance, Object, ObjectPair, Scene, State, States, SurfaceMotion, Surfaces,
+};
 use crate::seal::{self, SealReport};
 use crate::world::World;
 use pong_model::{Extensions, Model, Surface};
@@ -260,6 +262,32 @@ impl WorldBuilder {
     pub fn set_states(&mut self, states: &[(InterfaceId, State)]) -> Result<(), EngineError> {
         self.states.set(&self.scene, states)?;
         Ok(())
+    }
+
+    /// Sets initial motions of surfaces along themselves, and so
+    /// [`Config::moving_surfaces`]; they may also be set after the seal ([`World::set_surface_motions`]).
+    ///
+    /// # Errors
+    /// As [`World::set_surface_motions`].
+    pub fn set_surface_motions(
+        &mut self,
+        motions: &[(InterfaceId, SurfaceMotion)],
+    ) -> Result<(), EngineError> {
+        let before = self.scene.config.moving_surfaces;
+        self.scene.config.moving_surfaces |= !motions.is_empty();
+        let set = self.states.set_surfaces(&self.scene, motions);
+        if set.is_err() {
+            self.scene.config.moving_surfaces = before;
+        }
+        set.map(|_| ())
+    }
+
+    /// Motion of the surface of a movable group along itself, as it was set last; at rest if never set.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an Interface of another world.
+    pub fn surface_motion(&self, interface: InterfaceId) -> Result<&SurfaceMotion, EngineError> {
+        self.states.surface_of(&self.scene, interface)
     }
 
     /// State last set for a movable group, as it was set; `None` if never set.

@@ -74,7 +74,16 @@ pub struct Ledger {
     pub stored: f64,
     /// Work done on the bodies since the world began, by the trapezoidal rule between commits, J.
     pub work: f64,
-    /// Energy dissipated since the world began, J: −work − stored. Cleared history counts as dissipated;
+    /// Energy dissipated since the world began, J: −work − stored, plus the work of the drives of moving surfaces
+    /// ([`driven`](Self::driven)). Cleared history counts as dissipated;
     /// energy that the host inserted, by placing bodies in contact or by a preload, counts negative.
     pub dissipated: f64,
+}
+
+impl Ledger {
+    /// Work of the drives of surfaces that move along themselves since the world began, J. It is zero to rounding
+    /// where no surface moves.
+    pub fn driven(&self) -> f64 {
+        self.work + self.stored + self.dissipated
+    }
 }

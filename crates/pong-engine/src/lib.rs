@@ -65,7 +65,7 @@ pub use report::{
     FrameCounts, FrameReport, MemoryReport, Stage, StageTimes, StatusBits, Tally, TunnellingReport, Work,
     WorkTimes,
 };
-pub use scene::{Config, Scene, State, WorkerSettings};
+pub use scene::{Config, Scene, State, SurfaceMotion, WorkerSettings};
 pub use seal::{MetIn, SealReport, SetupNote, SetupWarning};
 pub use state::StateError;
 pub use world::{Continuation, GroupDistance, NearestPrimitive, World};

@@ -61,7 +61,8 @@ impl Runtime {
         let workers = settings.map_or(0, |settings| settings.workers_granted());
         let memory = || {
             let poses =
-                CommittedPoses::new(Arc::clone(&sealed.paired_bodies), scene.bodies.len(), scene.pairs.len());
+                CommittedPoses::new(Arc::clone(&sealed.paired_bodies), scene.bodies.len(), scene.pairs.len())
+                    .with_travels(scene.config.moving_surfaces);
             let memory =
                 ContactMemory::with_capacity(poses, pairs, sealed.record_capacity, sealed.law_state_len);
             let energies = ContactEnergies::with_capacity(sealed.coupling, sealed.record_capacity);
@@ -72,6 +73,7 @@ impl Runtime {
         let input = || WorkerInput {
             phase: 0,
             motions: Vec::with_capacity(pairs.min(MOTIONS_AT_ONCE)),
+            surfaces: Vec::with_capacity(scene.bodies.len()),
             tables: Arc::clone(&tables),
             blocks: Vec::with_capacity(ROUND),
             clock,
@@ -181,6 +183,7 @@ impl Runtime {
         let Self { memory, back_buffers, frame, .. } = self;
         write_and_swap(memory, back_buffers, |old, next| {
             next.poses.commit(&old.poses, (frame.number, &frame.poses), &states.enabled);
+            next.poses.commit_travels(0, frame.input.travels());
             write_records(frame, next);
             let LedgerEntry { work, dissipated } = frame.energy.total;
             (next.work, next.dissipated) = (work, dissipated);
@@ -231,6 +234,7 @@ impl Runtime {
         write_and_swap(memory, back_buffers, |old, next| {
             let now = (&frame.poses[..], &states.enabled[..]);
             next.poses.commit_some(&old.poses, now, epoch, &accepts);
+            next.poses.commit_travels(epoch, frame.input.travels());
             left_out = old.merge_into(
                 new_records(frame),
                 (&frame.energy.pairs, &frame.energy.added),
@@ -336,6 +340,10 @@ impl Runtime {
         let refused = |cause: String| {
             Err(EngineError::BadValue { what: "continue from another world".to_owned(), cause })
         };
+        if from.memory.poses.has_travels() && !self.memory.poses.keeps_travels() {
+            let cause = "its surfaces move along themselves, and those of this world may not; set `moving_surfaces` in its settings";
+            return refused(cause.to_owned());
+        }
         let records = from.memory.records_to_carry(counterparts.group_pairs);
         let room = self.memory.records.capacity();
         if records > room {

@@ -2,7 +2,7 @@
 
 use crate::mass::MassProperties;
 use crate::path::Path;
-use pong_engine::InterfaceId;
+use pong_engine::{InterfaceId, SurfaceMotion};
 use pong_geometry::{Pose, Twist};
 
 /// A body of one simulation.
@@ -40,6 +40,8 @@ pub struct RigidBody {
     pub twist: Twist,
     /// The Interface whose contact wrench acts on it; `None` for a body that touches nothing.
     pub interface: Option<InterfaceId>,
+    /// Motion of its surface along itself: velocities that stay as they are, and the travels at time zero.
+    pub surface: SurfaceMotion,
 }
 
 impl RigidBody {
@@ -60,7 +62,14 @@ impl RigidBody {
 
     fn with_motion(name: &str, motion: Motion) -> Self {
         let (pose, twist) = (Pose::identity(), Twist::zero());
-        Self { name: name.to_owned(), motion, pose, twist, interface: None }
+        Self {
+            name: name.to_owned(),
+            motion,
+            pose,
+            twist,
+            interface: None,
+            surface: SurfaceMotion::default(),
+        }
     }
 
     /// Returns this body with an initial pose.
@@ -76,6 +85,11 @@ impl RigidBody {
     /// Returns this body with the contact wrench of an Interface.
     pub fn touching(self, interface: InterfaceId) -> Self {
         Self { interface: Some(interface), ..self }
+    }
+
+    /// Returns this body with a surface that moves along itself, as of a belt or a turntable.
+    pub fn with_surface(self, surface: SurfaceMotion) -> Self {
+        Self { surface, ..self }
     }
 
     /// Mass properties of a free body.

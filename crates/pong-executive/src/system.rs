@@ -5,7 +5,7 @@ use crate::error::{ExecutiveError, Result};
 use crate::load::Load;
 use crate::spring::{Spring, SpringAction, SpringEnd};
 use crate::state::{FreeState, Inertia, Rates};
-use pong_engine::{FrictionPreload, InterfaceId, PairId, State, World};
+use pong_engine::{FrictionPreload, InterfaceId, PairId, State, SurfaceMotion, World};
 use pong_geometry::{Pose, Twist, Vec3, Wrench};
 
 /// The ground as the end of a spring.
@@ -29,6 +29,7 @@ pub(crate) struct System {
     /// Sum of loads, springs and the host's wrench on every body, likewise.
     applied: Vec<Wrench>,
     states_in: Vec<(InterfaceId, State)>,
+    surfaces_in: Vec<(InterfaceId, SurfaceMotion)>,
 }
 
 impl System {
@@ -45,6 +46,7 @@ impl System {
             external: Vec::new(),
             applied: Vec::new(),
             states_in: Vec::new(),
+            surfaces_in: Vec::new(),
         }
     }
 
@@ -113,7 +115,21 @@ impl System {
                 self.states_in.push((interface, State::from_motion(pose, twist)));
             }
         }
-        Ok(self.world.set_states(&self.states_in)?)
+        self.world.set_states(&self.states_in)?;
+        self.hand_in_surfaces(time)
+    }
+
+    /// Sets the motions of the surfaces that move along themselves.
+    fn hand_in_surfaces(&mut self, time: f64) -> Result<()> {
+        self.surfaces_in.clear();
+        for body in self.bodies.iter().filter(|body| body.surface != SurfaceMotion::default()) {
+            if let Some(interface) = body.interface {
+                let mut motion = body.surface;
+                motion.advance(time);
+                self.surfaces_in.push((interface, motion));
+            }
+        }
+        Ok(self.world.set_surface_motions(&self.surfaces_in)?)
     }
 
     fn take_wrenches(&mut self) -> Result<()> {

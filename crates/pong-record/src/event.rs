@@ -45,6 +45,15 @@ pub enum Event {
         #[serde(flatten)]
         values: SurfaceValues,
     },
+    /// The motion of the surface of a movable group along itself was set.
+    SurfaceMotion {
+        /// Index of the movable group, as in the table of states.
+        body: u32,
+        /// Velocities: linear, m/s, angular, rad/s, and belt, m/s.
+        velocity: [[f64; 3]; 3],
+        /// Travels: linear, m, angular, rad, and belt, m.
+        travel: [[f64; 3]; 3],
+    },
     /// A contact state was restored.
     Restore {
         /// File of the block, in the folder of the log.

@@ -16,7 +16,8 @@ use pong::objects::pong_clear_contact_history;
 use pong::pairs::pong_set_pair_enabled;
 use pong::seal::pong_seal;
 use pong::surfaces::{
-    pong_get_surface, pong_set_surface, pong_surface_count, pong_surface_name, pong_surface_values,
+    pong_get_surface, pong_get_surface_more, pong_set_surface, pong_set_surface_more, pong_surface_count,
+    pong_surface_more, pong_surface_name, pong_surface_values,
 };
 use pong::workers::{pong_prewake, pong_quiesce};
 use pong::world::{pong_destroy_world, pong_world};
@@ -241,6 +242,23 @@ impl Session<'_> {
         let good = self.change(&mut values);
         let sure = Sure::Unknown.only_if(good);
         self.call("set surface", sure, || unsafe { pong_set_surface(world, model, name.pointer(), &values) });
+        let place = self.place::<pong_surface_more>();
+        let got = place.sure.and(Sure::Unknown);
+        if self.call("get surface more", got, || unsafe {
+            pong_get_surface_more(world, model, name.pointer(), place.pointer)
+        }) {
+            let mut more = place.get();
+            match self.input.below(4) {
+                0 => more.foundation = self.input.number(),
+                1 => more.area = self.input.number(),
+                2 => more.rolling = self.input.number(),
+                _ => more.spinning = self.input.number(),
+            }
+            let sure = Sure::Unknown;
+            self.call("set surface more", sure, || unsafe {
+                pong_set_surface_more(world, model, name.pointer(), &more)
+            });
+        }
     }
 
     /// Changes values. Returns whether any of them is certainly invalid.

@@ -14,6 +14,7 @@ use pong::pair_monitor::{
     pong_observe_pairs, pong_pair_peaks, pong_start_pair_monitor,
 };
 use pong::report::{pong_get_ledger, pong_get_report, pong_ledger, pong_report};
+use pong::surface_motions::{pong_get_surface_motion, pong_set_surface_motions, pong_surface_motion};
 use pong::states::{pong_default_state, pong_get_state, pong_set_state, pong_set_states, pong_state};
 use pong::world::pong_world;
 use pong::wrenches::{
@@ -43,6 +44,7 @@ impl Session<'_> {
             14 if self.input.chance(128) => self.monitor(),
             14 => self.report(),
             15 => self.accounts(),
+            16 if self.input.chance(128) => self.set_surface_motion(),
             16 => self.standing_groups(),
             _ => self.get_state(),
         }
@@ -150,6 +152,20 @@ impl Session<'_> {
         if self.call("set states", sure, || unsafe { pong_set_states(world, at, states.as_ptr(), count) }) {
             ids.into_iter().for_each(|id| self.was_set(id));
         }
+    }
+
+    fn set_surface_motion(&mut self) {
+        let (world, known) = self.world();
+        let (id, good) = self.id(|ids| &ids.interfaces, |bits| pong_interface_id { bits });
+        let mut motion = pong_surface_motion::default();
+        for part in [&mut motion.linear_velocity, &mut motion.belt_velocity, &mut motion.angular_travel] {
+            part[self.input.below(3)] = if self.input.chance(16) { self.input.number() } else { 0.1 };
+        }
+        let sure = known.and(good).and(Sure::Unknown);
+        self.call("set surface motions", sure, || unsafe { pong_set_surface_motions(world, &id, &motion, 1) });
+        let place = self.place::<pong_surface_motion>();
+        let sure = known.and(good).and(place.sure);
+        self.call("get surface motion", sure, || unsafe { pong_get_surface_motion(world, id, place.pointer) });
     }
 
     fn get_state(&mut self) {

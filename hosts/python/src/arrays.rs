@@ -6,7 +6,7 @@ use numpy::{
     AllowTypeChange, PyArray2, PyArrayLike1, PyArrayLike2, PyArrayMethods, PyReadwriteArray2,
     PyUntypedArrayMethods,
 };
-use pong_engine::{InterfaceId, State};
+use pong_engine::{InterfaceId, State, SurfaceMotion};
 use pong_geometry::{Pose, Twist, Wrench};
 use pyo3::prelude::*;
 
@@ -104,6 +104,35 @@ pub(crate) fn given_states(
         (None, _) => "neither `states` nor `position` is given",
     };
     Err(bad_value("states", cause, "give one array of 13 columns, or `position` and the others"))
+}
+
+/// Motions of surfaces: rows of 18 numbers.
+pub(crate) fn surface_motions(
+    motions: &Bound<'_, PyAny>,
+    ids: &[InterfaceId],
+) -> PyResult<Vec<(InterfaceId, SurfaceMotion)>> {
+    let array = rows("motions", motions, ids.len(), 18)?;
+    let motion = |row: numpy::ndarray::ArrayView1<'_, f64>| {
+        let part = |from: usize| std::array::from_fn(|i| row[from + i]);
+        SurfaceMotion {
+            linear_velocity: part(0),
+            angular_velocity: part(3),
+            belt_velocity: part(6),
+            linear_travel: part(9),
+            angular_travel: part(12),
+            belt_travel: part(15),
+        }
+    };
+    Ok(ids.iter().zip(array.as_array().rows()).map(|(id, row)| (*id, motion(row))).collect())
+}
+
+/// True if `axes` are those of the common frame, false if those of a group.
+pub(crate) fn along_common_axes(axes: &str) -> PyResult<bool> {
+    match axes {
+        "common" => Ok(true),
+        "group" => Ok(false),
+        other => Err(bad_value("axes", format!("there is no `{other}`"), "give \"common\" or \"group\"")),
+    }
 }
 
 fn separate_states(

@@ -50,6 +50,7 @@ impl WorldBuilder {
         delay_frames = 0,
         workers = 0,
         allow_files_below = Vec::new(),
+        moving_surfaces = false,
     ))]
     fn new(
         contact_capacity: Option<usize>,
@@ -58,6 +59,7 @@ impl WorldBuilder {
         delay_frames: u32,
         workers: i64,
         allow_files_below: Vec<PathBuf>,
+        moving_surfaces: bool,
     ) -> PyResult<Self> {
         let accounts = accounts.map(|name| coupling("accounts", name, delay_frames)).transpose()?;
         if accounts.is_none() && delay_frames > 0 {
@@ -65,7 +67,7 @@ impl WorldBuilder {
             return Err(bad_value("delay_frames", format!("it is {delay_frames} without `accounts`"), cure));
         }
         let workers = worker_settings(workers)?;
-        let config = Config { contact_capacity, ledger, accounts, workers };
+        let config = Config { contact_capacity, ledger, accounts, workers, moving_surfaces };
         let extensions = extensions(allow_files_below.clone());
         let builder = pong_engine::WorldBuilder::with_extensions(config, extensions, Laws::default());
         let setup = Setup { builder, sources: Vec::new(), folders: allow_files_below };

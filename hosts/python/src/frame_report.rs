@@ -1,6 +1,8 @@
 //! Report of a frame.
 
+use pong_engine::Continuation;
 use pyo3::prelude::*;
+use pyo3::types::{IntoPyDict, PyDict};
 
 /// Report of a frame.
 #[pyclass(frozen, eq, module = "pong.types", get_all)]
@@ -33,4 +35,19 @@ impl FrameReport {
         let Self { status, contacts, contacts_wanted } = self;
         format!("<pong.FrameReport status={status} contacts={contacts} contacts_wanted={contacts_wanted}>")
     }
+}
+
+/// Counts of a continued run, by name.
+pub(crate) fn continued<'py>(py: Python<'py>, of: &Continuation) -> PyResult<Bound<'py, PyDict>> {
+    let counts = [
+        ("objects", of.objects),
+        ("pairs", of.pairs),
+        ("contacts", of.contacts),
+        ("objects_left", of.objects_left),
+        ("pairs_left", of.pairs_left),
+        ("contacts_left", of.contacts_left),
+    ];
+    let told = counts.into_py_dict(py)?;
+    told.set_item("energy_left", of.energy_left)?;
+    Ok(told)
 }

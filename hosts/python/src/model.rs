@@ -3,7 +3,7 @@
 use crate::arrays::refused;
 use crate::dynamics::check_names;
 use crate::errors::{bad_value, of_model};
-use pong_model::Extensions;
+use pong_model::{Extensions, FrictionLaw};
 use pong_record::{ModelSource, SurfaceValues};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyList, PyString};
@@ -172,6 +172,14 @@ pub(crate) fn surface_values<'py>(
     let text = serde_json::to_string(&values).expect("the values of a surface can be written");
     let values = py.import("json")?.call_method1("loads", (text,))?;
     values.set_item("stiffness", surface.stiffness)?;
+    // Logs leave out what a surface does not have; here it can be set.
+    values.set_item("foundation", surface.foundation)?;
+    values.set_item("area", surface.area)?;
+    if let FrictionLaw::Bristle { rolling, spinning, .. } = surface.friction {
+        let friction = values.get_item("friction")?;
+        friction.set_item("rolling", rolling)?;
+        friction.set_item("spinning", spinning)?;
+    }
     Ok(values)
 }
 

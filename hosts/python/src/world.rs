@@ -3,7 +3,7 @@
 use crate::arrays::{self, Matrix, STATE, WRENCH};
 use crate::distance::Distance;
 use crate::errors::{PhaseError, bad_value, of_engine};
-use crate::frame_report::FrameReport;
+use crate::frame_report::{self, FrameReport};
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
 use crate::model::{surface_from, surface_values};
 use crate::pair_monitor::{ContactChange, PairPeaks, no_monitor};
@@ -12,20 +12,11 @@ use crate::setup::WorldBuilder;
 use crate::{advice, contacts, recording};
 use numpy::PyArray1;
 use pong_advise::StepPlan;
-use pong_engine::{Continuation, EngineError, FrictionPreload, PairMonitor};
+use pong_engine::{EngineError, FrictionPreload, PairMonitor};
 use pong_record::{RecordOptions, Recorder, WhenFull};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict};
 use std::path::PathBuf;
-
-/// True if `axes` are those of the common frame, false if those of a group.
-fn along_common_axes(axes: &str) -> PyResult<bool> {
-    match axes {
-        "common" => Ok(true),
-        "group" => Ok(false),
-        other => Err(bad_value("axes", format!("there is no `{other}`"), "give \"common\" or \"group\"")),
-    }
-}
 
 #[pymethods]
 impl World {
@@ -220,6 +211,30 @@ impl World {
         world.set_states(room).map_err(of_engine)
     }
 
+    /// Sets the motions of surfaces along themselves, as of belts and turntables (docs/theory.md, 4). The world must be
+    /// built with `moving_surfaces=True`. Set them for each step for which they differ, as states are set.
+    ///
+    /// Parameters
+    /// ----------
+    /// motions : array_like, shape (n, 18)
+    ///     Linear, angular and belt velocity in the axes of the group, m/s, rad/s and m/s, then their integrals over time.
+    /// interfaces : sequence of Interface, optional
+    ///     Groups of the rows; all of them without it.
+    #[pyo3(signature = (motions, interfaces = None))]
+    fn set_surface_motions(
+        &self,
+        motions: Bound<'_, PyAny>,
+        interfaces: Option<Vec<PyRef<'_, Interface>>>,
+    ) -> PyResult<()> {
+        let chosen = self.chosen(interfaces)?;
+        let motions = arrays::surface_motions(&motions, chosen.as_deref().unwrap_or(&self.ids))?;
+        let mut inner = self.lock()?;
+        let Inner { world, recorder, .. } = &mut **inner;
+        world.set_surface_motions(&motions).map_err(of_engine)?;
+        recorder.iter_mut().for_each(|recorder| recorder.surfaces_moved(&motions));
+        Ok(())
+    }
+
     /// Returns the states as they were set.
     ///
     /// Parameters
@@ -333,7 +348,7 @@ impl World {
         out: Option<Bound<'py, PyAny>>,
         axes: &str,
     ) -> PyResult<Matrix<'py>> {
-        let common = along_common_axes(axes)?;
+        let common = arrays::along_common_axes(axes)?;
         let inner = self.lock()?;
         arrays::fill::<WRENCH>(py, out, self.ids.len(), |index| {
             let id = self.ids[index];
@@ -365,7 +380,7 @@ impl World {
         source: &Interface,
         axes: &str,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let common = along_common_axes(axes)?;
+        let common = arrays::along_common_axes(axes)?;
         let inner = self.lock()?;
         let (world, on, from) = (&inner.world, on.id, source.id);
         let wrench = if common { world.wrench_from_common(on, from) } else { world.wrench_from(on, from) };
@@ -454,7 +469,7 @@ impl World {
         about: &Interface,
         axes: &str,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let common = along_common_axes(axes)?;
+        let common = arrays::along_common_axes(axes)?;
         let inner = self.lock()?;
         let (world, pair, about) = (&inner.world, pair.id, about.id);
         let wrench =
@@ -578,7 +593,7 @@ impl World {
             ));
         }
         let of = inner.world.continue_from(&other.world).map_err(of_engine)?;
-        continued(slf.py(), &of)
+        frame_report::continued(slf.py(), &of)
     }
 
     /// Drops the contact state of an Object, after a teleport or a reset.
@@ -781,19 +796,4 @@ impl World {
 
 fn no_log() -> PyErr {
     PhaseError::new_err("log: none is open; call start_log first")
-}
-
-/// Counts of a continued run, by name.
-fn continued<'py>(py: Python<'py>, of: &Continuation) -> PyResult<Bound<'py, PyDict>> {
-    let counts = [
-        ("objects", of.objects),
-        ("pairs", of.pairs),
-        ("contacts", of.contacts),
-        ("objects_left", of.objects_left),
-        ("pairs_left", of.pairs_left),
-        ("contacts_left", of.contacts_left),
-    ];
-    let told = counts.into_py_dict(py)?;
-    told.set_item("energy_left", of.energy_left)?;
-    Ok(told)
 }

@@ -433,3 +433,18 @@ def test_a_step_report_counts_masses_and_joints():
     ):
         with pytest.raises(pong.EngineError, match=words):
             world.step_report(bad, step=1e-3)
+
+
+def test_surfaces_that_move_along_themselves():
+    w = world(moving_surfaces=True)
+    motions = np.zeros((2, 18))
+    for _ in range(20):
+        w.set_states(touching(1e-3))
+        w.set_surface_motions(motions)
+        w.step()
+        motions[1, 0] = 0.5
+        motions[1, 9] += 0.5 * 1e-3
+    friction = w.wrenches()[0, 0]
+    assert 0.0 < friction <= 0.6 * w.wrenches()[0, 2] * (1.0 + 1e-9)
+    with pytest.raises(pong.BadValueError, match="moving_surfaces"):
+        world().set_surface_motions(motions)

@@ -81,13 +81,14 @@ impl Accounts<'_> {
         self.intervals.fill(Interval::default());
     }
 
-    /// Adds a contact that pushes, which may continue a committed one.
+    /// Adds a contact that pushes, which may continue a committed one. `drive` is the work of the drives of moving
+    /// surfaces since the last commit, J, which the contact dissipates.
     pub fn contact(
         &mut self,
         index: usize,
         contact: &FrameContact,
         earlier: Option<usize>,
-        displacement: Option<&Displacement>,
+        (displacement, drive): (Option<&Displacement>, f64),
     ) {
         let pair = contact.found.key.group_pair as usize;
         let committed = earlier.and_then(|earlier| self.given.memory.energies.get(earlier));
@@ -103,7 +104,7 @@ impl Accounts<'_> {
         let done = self.work(delayed, record, &before, Some(&now), displacement);
         let interval = &mut self.intervals[pair];
         interval.pushes = true;
-        let mut one = self.entry(&before, &now, &done.along_motion, begins);
+        let mut one = self.entry((&before, &now), &done.along_motion, drive, begins);
         if displacement.is_none() {
             // Without an earlier pose, the host placed the bodies in contact: all stored energy is inserted.
             one.inserted = now.stored[0] + now.stored[1];
@@ -113,8 +114,9 @@ impl Accounts<'_> {
         self.note(pair, &one, &done);
         if begins && displacement.is_some() && self.given.memory.pair_energies.pairs[pair].episode.lasts {
             // A new contact may take over energy that another contact of the pair had stored.
-            one.inserted = (now.stored[0] + now.stored[1] + done.as_used).max(0.0);
-            one.damping_loss += one.inserted;
+            let taken_over = (now.stored[0] + now.stored[1] + done.as_used - drive).max(0.0);
+            one.inserted += taken_over;
+            one.damping_loss += taken_over;
         }
         one.work(done.as_used);
         one.hold_error = done.as_used - done.along_motion.sum();
@@ -123,12 +125,12 @@ impl Accounts<'_> {
     }
 
     /// Adds a committed contact that has ended.
-    pub fn ended(&mut self, earlier: usize, displacement: Option<&Displacement>) {
+    pub fn ended(&mut self, earlier: usize, (displacement, drive): (Option<&Displacement>, f64)) {
         let Some(committed) = self.given.memory.energies.get(earlier) else { return };
         let record = &self.given.memory.records[earlier];
         let before = ForceParts::before(record, committed.energy.bristle);
         let done = self.work(committed.delayed, Some(record), &before, None, displacement);
-        let one = self.entry(&before, &ForceParts::default(), &done.along_motion, true);
+        let one = self.entry((&before, &ForceParts::default()), &done.along_motion, drive, true);
         self.note(record.key.group_pair as usize, &one, &done);
     }
 
@@ -162,15 +164,16 @@ impl Accounts<'_> {
     /// began or ended since then.
     fn entry(
         &self,
-        before: &ForceParts,
-        now: &ForceParts,
+        (before, now): (&ForceParts, &ForceParts),
         followed: &WorkAlongMotion,
+        drive: f64,
         at_an_end: bool,
     ) -> EnergyAccount {
         let doubtful = at_an_end && self.coupling == WrenchCoupling::Stages;
         EnergyAccount {
             damping_loss: -followed.normal - (now.stored[0] - before.stored[0]),
-            friction_loss: -followed.friction - (now.stored[1] - before.stored[1]),
+            friction_loss: -followed.friction - (now.stored[1] - before.stored[1]) + drive,
+            inserted: drive,
             resolution: if doubtful { followed.sum().abs() } else { 0.0 },
             ..EnergyAccount::default()
         }

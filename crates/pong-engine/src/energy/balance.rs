@@ -8,7 +8,7 @@
 //! ```
 //!
 //! with c the contact point, o the reference point of A, Δo its displacement and φ the rotation vector of A.
-//! The dissipated energy is −W − Δstored. A contact that has ended contributes the half of its last force,
+//! The dissipated energy is −W − Δstored, plus the work of the drives of surfaces that move along themselves. A contact that has ended contributes the half of its last force,
 //! and its stored energy is dissipated.
 
 use super::LedgerEntry;
@@ -99,12 +99,13 @@ impl<'a> Books<'a> {
             displacement.half_work(&before.point_b, &before.force_b, false)
                 + displacement.half_work(&contact.point_b, &contact.force(), true)
         });
-        let dissipated = -work - (contact.stored - before.stored);
+        let drive = self.drive_work(before, Some(contact));
+        let dissipated = -work - (contact.stored - before.stored) + drive;
         contact.work = before.work + work;
         contact.dissipated = before.dissipated + dissipated;
         self.book(contact.found.key.group_pair, &LedgerEntry { work, dissipated });
         if let Some(accounts) = &mut self.accounts {
-            accounts.contact(index, contact, earlier, displacement.as_ref());
+            accounts.contact(index, contact, earlier, (displacement.as_ref(), drive));
         }
     }
 
@@ -115,11 +116,22 @@ impl<'a> Books<'a> {
         let half =
             |displacement: &Displacement| displacement.half_work(&earlier.point_b, &earlier.force_b, false);
         let work = displacement.as_ref().map_or(0.0, half);
-        let entry = LedgerEntry { work, dissipated: earlier.stored - work };
+        let drive = self.drive_work(earlier, None);
+        let entry = LedgerEntry { work, dissipated: earlier.stored - work + drive };
         self.book(earlier.key.group_pair, &entry);
         if let Some(accounts) = &mut self.accounts {
-            accounts.ended(index, displacement.as_ref());
+            accounts.ended(index, (displacement.as_ref(), drive));
         }
+    }
+
+    /// Work of the drives of moving surfaces since the last commit, J, against the friction of a contact: at the
+    /// last commit (`before`) and, unless it has ended, now. Zero without an earlier pose.
+    fn drive_work(&self, before: &ContactRecord, now: Option<&FrameContact>) -> f64 {
+        let direction = now.map_or(before.key, |contact| contact.found.key).direction();
+        let Some(surfaces) = self.given.round(self.input).moving_surfaces(direction) else { return 0.0 };
+        let motion = self.motions.known(self.input, direction);
+        let now = now.map(|contact| (&contact.point_b, &contact.found.normal_b, &contact.friction_force_b));
+        motion.since_commit.as_ref().map_or(0.0, |since| surfaces.drive_work((&motion, since), before, now))
     }
 
     /// Ends the frame: sums the accounts of the pairs.

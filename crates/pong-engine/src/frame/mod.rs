@@ -58,6 +58,7 @@ pub(crate) fn evaluate(
     let mut watch = clock.start();
 
     latch_states(sealed, states, poses, twists);
+    input.latch_surfaces(states, &memory.poses);
     near.find(sealed, &states.enabled, poses, &memory.poses);
     let motions = Motions { sealed, frame: frame.number, near, poses, twists, committed: &memory.poses };
     watch.lap(Stage::Input, times);

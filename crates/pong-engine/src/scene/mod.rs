@@ -3,6 +3,8 @@
 mod names;
 mod shared;
 mod states;
+mod surface_field;
+mod surface_motion;
 mod surfaces;
 
 use crate::energy::account::WrenchCoupling;
@@ -14,6 +16,8 @@ pub(crate) use shared::{Shared, refused};
 pub use states::State;
 pub(crate) use states::States;
 use std::sync::Arc;
+pub(crate) use surface_field::SurfaceField;
+pub use surface_motion::SurfaceMotion;
 pub(crate) use surfaces::Surfaces;
 
 /// Settings of a world.
@@ -28,6 +32,9 @@ pub struct Config {
     /// `None` for no accounts. Accounts include the ledger. See
     /// [`World::pair_accounts`](crate::World::pair_accounts).
     pub accounts: Option<WrenchCoupling>,
+    /// True for a world in which surfaces may move along themselves ([`SurfaceMotion`]): it remembers their travels.
+    /// A motion that is set before the seal makes it true.
+    pub moving_surfaces: bool,
     /// Workers that share a frame's work with the calling thread; `None` for the calling thread alone. The
     /// results are bit-identical.
     pub workers: Option<WorkerSettings>,

@@ -1,6 +1,6 @@
 //! States set by the host.
 
-use super::Scene;
+use super::{Scene, SurfaceMotion};
 use crate::error::EngineError;
 use crate::ids::InterfaceId;
 use pong_geometry::{Pose, Twist, Vec3};
@@ -13,6 +13,10 @@ pub(crate) struct States {
     pub bodies: Vec<Option<State>>,
     /// Poses of the states, with normalised quaternions.
     pub poses: Vec<Pose>,
+    /// Motion of the surface of each movable group.
+    pub surfaces: Vec<SurfaceMotion>,
+    /// True if the surface of any movable group has a velocity or a travel.
+    surfaces_move: bool,
     /// For each pair of Objects: true if it is tested.
     pub enabled: Vec<bool>,
 }
@@ -22,6 +26,42 @@ impl States {
     pub fn resize(&mut self, bodies: usize) {
         self.bodies.resize(bodies, None);
         self.poses.resize(bodies, Pose::identity());
+        self.surfaces.resize(bodies, SurfaceMotion::default());
+    }
+
+    /// Sets the motions of surfaces: all of them or, if one is refused, none. Returns true if one differs from
+    /// that set before.
+    pub fn set_surfaces(
+        &mut self,
+        scene: &Scene,
+        motions: &[(InterfaceId, SurfaceMotion)],
+    ) -> Result<bool, EngineError> {
+        if !scene.config.moving_surfaces && !motions.is_empty() {
+            let cause = "the world was sealed for surfaces that do not move; set `moving_surfaces` in its settings, or set \
+                         the motion of a surface before the seal";
+            return Err(EngineError::BadValue {
+                what: "motion of a surface".to_owned(),
+                cause: cause.to_owned(),
+            });
+        }
+        for (interface, motion) in motions {
+            motion.require_acceptable(scene, scene.body_index(*interface)?)?;
+        }
+        let mut changed = false;
+        for (interface, motion) in motions {
+            let known = &mut self.surfaces[scene.body_index(*interface)?];
+            changed |= !known.has_bits_of(motion);
+            *known = *motion;
+        }
+        if changed {
+            self.surfaces_move = self.surfaces.iter().any(SurfaceMotion::moves);
+        }
+        Ok(changed)
+    }
+
+    /// Returns true if the surface of any movable group has a velocity or a travel.
+    pub fn any_surface_moves(&self) -> bool {
+        self.surfaces_move
     }
 
     /// Sets the states of movable groups: all of them or, if one is refused, none. Returns true if a state
@@ -50,17 +90,32 @@ impl States {
 
     /// Copies the states and enabled pairs of another world; `bodies` and `pairs` hold the indices in the
     /// other world. A state that was never set there is kept as it is here.
-    pub fn take_over(&mut self, from: &Self, bodies: &[Option<usize>], pairs: &[Option<usize>]) {
+    /// Motions of surfaces are copied if they may move here.
+    pub fn take_over(
+        &mut self,
+        from: &Self,
+        (bodies, pairs): (&[Option<usize>], &[Option<usize>]),
+        moving_surfaces: bool,
+    ) {
         for (body, earlier) in bodies.iter().enumerate() {
             let set = earlier.filter(|&earlier| from.bodies[earlier].is_some());
             if let Some(earlier) = set {
                 self.bodies[body] = from.bodies[earlier];
                 self.poses[body] = from.poses[earlier];
             }
+            if let Some(earlier) = earlier.filter(|_| moving_surfaces) {
+                self.surfaces[body] = from.surfaces[earlier];
+            }
         }
+        self.surfaces_move = self.surfaces.iter().any(SurfaceMotion::moves);
         for (enabled, earlier) in self.enabled.iter_mut().zip(pairs) {
             *enabled = earlier.map_or(*enabled, |earlier| from.enabled[earlier]);
         }
+    }
+
+    /// Motion of the surface of a movable group, as it was set last.
+    pub fn surface_of(&self, scene: &Scene, interface: InterfaceId) -> Result<&SurfaceMotion, EngineError> {
+        Ok(&self.surfaces[scene.body_index(interface)?])
     }
 
     /// State last set for a movable group, as it was set; `None` if never set.

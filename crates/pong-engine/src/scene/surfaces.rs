@@ -1,7 +1,7 @@
 //! Current values of surfaces.
 
 use crate::error::EngineError;
-use pong_model::{FrictionLaw, LARGEST, Model, NormalLaw, Surface};
+use pong_model::{Exponent, FrictionLaw, LARGEST, Model, NormalLaw, Surface};
 
 /// Current surfaces of every model; the host may change their values at any time.
 #[derive(Clone, Default)]
@@ -45,6 +45,32 @@ impl Surfaces {
             known: surfaces.iter().map(|surface| surface.name.clone()).collect(),
         })
     }
+}
+
+/// Returns the reason why a surface cannot have its foundation or area, as the loader of models judges them.
+fn foundation_fault(surface: &Surface) -> Option<String> {
+    let modulus = match (surface.foundation, surface.area) {
+        (None, None) => return None,
+        (Some(_), Some(_)) => return Some("give `foundation` or `area`, not both".to_owned()),
+        (Some(modulus), None) => modulus,
+        (None, Some(area)) if area > 0.0 => surface.stiffness / area,
+        (None, Some(_)) => return Some("the area must be positive".to_owned()),
+    };
+    let is_linear = match &surface.normal {
+        NormalLaw::HuntCrossley { exponent, .. } | NormalLaw::PowerLaw { exponent, .. } => {
+            *exponent == Exponent::One
+        }
+        NormalLaw::Linear { .. } | NormalLaw::Inherited => true,
+        NormalLaw::Custom { .. } => false,
+    };
+    if surface.stiffness.is_infinite() || !is_linear {
+        let cause =
+            "a foundation needs a finite stiffness and a normal law of exponent 1; leave it and the area out";
+        return Some(cause.to_owned());
+    }
+    let (least, most) = (Surface::SOFTEST, Surface::STIFFEST);
+    let fits = modulus > 0.0 && Surface::can_be_so_stiff(modulus);
+    (!fits).then(|| format!("the foundation modulus is {modulus:e} N/m³; make it {least:e} to {most:e} N/m³"))
 }
 
 /// Returns an error for a change of law, and for values that no surface may have.
@@ -93,6 +119,11 @@ fn check_change(old: &Surface, new: &Surface) -> Result<(), EngineError> {
         return bad(&format!(
             "stiffnesses must lie within {least:e} and {most:e} N/m, beyond which forces are no numbers"
         ));
+    }
+    if (new.foundation, new.area) != (old.foundation, old.area)
+        && let Some(cause) = foundation_fault(new)
+    {
+        return bad(&cause);
     }
     let numbers: &[f64] = match &new.normal {
         NormalLaw::Linear { damping, ramp } => &[*damping, *ramp],

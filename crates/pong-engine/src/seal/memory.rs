@@ -76,8 +76,8 @@ pub(super) fn for_frames(
     let scratch = limits.arena_bytes + limits.scratch_bytes + least_thread_bytes(limits, stride) + solids;
     let blocks = 2 * ROUND * size_of::<Block>() + PendingParts::bytes(limits.tree_parts);
     let bodies = scene.bodies.len() * (size_of::<(Pose, Twist)>() + size_of::<Wrench>());
-    let committed =
-        (2 + usize::from(threads > 0)) * CommittedPoses::bytes(scene.bodies.len(), scene.pairs.len());
+    let committed = (2 + usize::from(threads > 0))
+        * CommittedPoses::bytes(scene.bodies.len(), scene.pairs.len(), scene.config.moving_surfaces);
     let motions = (1 + usize::from(threads > 0)) * pairs.min(MOTIONS_AT_ONCE) * size_of::<PairMotions>();
     let near = NearPairs::bytes(pairs, scene.bodies.len());
     let sum = pairs

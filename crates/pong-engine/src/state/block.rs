@@ -3,13 +3,14 @@
 //! ```text
 //! magic 8 | version 4 | record count 4 | world hash 8 | ledger 2 × 8
 //! | epochs 8, poses of every epoch: 7 × 8 per movable group that is in a pair
+//! | if any surface has moved along itself, travels of the surfaces of every epoch: 9 × 8 per movable group that is in a pair
 //! | epoch of every pair of Objects: 1 each, 255 without history; zeros up to a multiple of 8
 //! | accounts, if kept, per pair of movable groups: PairEnergy::NUMBERS × 8, and 6 × 8 per delay frame of the wrenches
 //! | records: RECORD_LEN + 8 × (numbers of its friction law and of its energies) per contact
 //! | checksum 8 (FNV-1a of everything before)
 //! ```
 //!
-//! All numbers are little-endian. The length depends on the number of epochs and records; the sealed world
+//! The version is 4 with the travels of surfaces and 3 without. All numbers are little-endian. The length depends on the number of epochs and records; the sealed world
 //! limits it. A longer buffer, up to that limit, holds the block followed by zeros.
 
 use super::memory::ContactMemory;
@@ -18,15 +19,19 @@ use super::record::{ContactKey, ContactRecord, ContactRole};
 use crate::energy::account::{EnergyAccount, WrenchCoupling};
 use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
 use crate::energy::episodes::{PairEnergies, PairEnergy};
+use crate::scene::SurfaceField;
 use pong_geometry::{Pose, Vec3, Wrench};
 use pong_model::{Fnv, LARGEST};
 
 const MAGIC: [u8; 8] = *b"PONGSTAT";
 const VERSION: u32 = 3;
+/// Version of a block that has the travels of surfaces.
+const VERSION_WITH_TRAVELS: u32 = 4;
 const TOTALS_AT: usize = 8 + 4 + 4 + 8;
 const HEADER_LEN: usize = TOTALS_AT + 2 * 8;
 const EPOCHS_AT: usize = HEADER_LEN;
 const POSE_LEN: usize = 7 * 8;
+const TRAVEL_LEN: usize = 8 * SurfaceField::NUMBERS;
 const RECORD_LEN: usize = 8 * 4 + 2 * 4 + 4 * 3 * 8 + 3 * 8;
 const CHECKSUM_LEN: usize = 8;
 
@@ -72,22 +77,26 @@ pub enum StateError {
 
 /// Length of the largest block of a memory, bytes.
 pub(crate) fn largest_len(memory: &ContactMemory) -> usize {
-    used_len(memory, memory.poses.capacity(), memory.records.capacity()) + CHECKSUM_LEN
+    used_len(memory, (memory.poses.capacity(), memory.poses.keeps_travels()), memory.records.capacity())
+        + CHECKSUM_LEN
 }
 
 /// Length of the block of the current contents, bytes.
 pub(crate) fn needed_len(memory: &ContactMemory) -> usize {
     let (_, epochs) = memory.poses.numbered();
-    used_len(memory, usize::from(epochs), memory.records.len()) + CHECKSUM_LEN
+    let epochs = (usize::from(epochs), memory.poses.has_travels());
+    used_len(memory, epochs, memory.records.len()) + CHECKSUM_LEN
 }
 
 fn accounts_len(memory: &ContactMemory) -> usize {
     PairEnergies::block_len(memory.pair_energies.pairs.len(), memory.pair_energies.delay)
 }
 
-/// Length of a block with this many epochs and records, without the checksum, bytes.
-fn used_len(memory: &ContactMemory, epochs: usize, records: usize) -> usize {
-    let poses = 8 + epochs * memory.poses.bodies().len() * POSE_LEN + padded(memory.poses.pairs());
+/// Length of a block with this many epochs, with or without the travels of surfaces, and with this many records,
+/// without the checksum, bytes.
+fn used_len(memory: &ContactMemory, (epochs, has_travels): (usize, bool), records: usize) -> usize {
+    let each = POSE_LEN + if has_travels { TRAVEL_LEN } else { 0 };
+    let poses = 8 + epochs * memory.poses.bodies().len() * each + padded(memory.poses.pairs());
     let contacts = records * (RECORD_LEN + 8 * memory.numbers_each());
     HEADER_LEN + poses + accounts_len(memory) + contacts
 }
@@ -116,7 +125,7 @@ pub(crate) fn write_block(memory: &ContactMemory, world_hash: u64, out: &mut [u8
 fn write_used(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> usize {
     let mut writer = Writer { out, at: 0 };
     writer.bytes(&MAGIC);
-    writer.u32(VERSION);
+    writer.u32(if memory.poses.has_travels() { VERSION_WITH_TRAVELS } else { VERSION });
     writer.u32(memory.records.len() as u32);
     writer.bytes(&world_hash.to_le_bytes());
     writer.f64(memory.work);
@@ -143,10 +152,11 @@ pub(crate) fn read_block(
     exists: impl Fn(&ContactKey) -> bool,
 ) -> Result<(), StateError> {
     let count = check(memory, world_hash, block, exists)?;
+    let has_travels = Reader { block, at: MAGIC.len() }.u32() == VERSION_WITH_TRAVELS;
     let mut reader = Reader { block, at: TOTALS_AT };
     memory.work = reader.f64();
     memory.dissipated = reader.f64();
-    reader.poses(&mut memory.poses);
+    reader.poses(&mut memory.poses, has_travels);
     reader.pair_energies(&mut memory.pair_energies);
     memory.clear_records();
     for _ in 0..count {
@@ -172,7 +182,7 @@ fn check(
     }
     let mut reader = Reader { block, at: 8 };
     let version = reader.u32();
-    if version != VERSION {
+    if ![VERSION, VERSION_WITH_TRAVELS].contains(&version) {
         return Err(StateError::Version { got: version });
     }
     let count = reader.u32() as usize;
@@ -189,7 +199,11 @@ fn check(
     if epochs > like.poses.capacity() {
         return Err(StateError::Damaged);
     }
-    let used = used_len(like, epochs, count);
+    let has_travels = version == VERSION_WITH_TRAVELS;
+    if has_travels && !like.poses.keeps_travels() {
+        return Err(StateError::World);
+    }
+    let used = used_len(like, (epochs, has_travels), count);
     let (least, most) = (used + CHECKSUM_LEN, largest_len(like));
     if !(least..=most).contains(&block.len()) {
         return Err(StateError::Length { least, most, got: block.len() });
@@ -201,7 +215,7 @@ fn check(
     }
     reader.at = TOTALS_AT;
     let totals = [reader.f64(), reader.f64()];
-    let poses_make_sense = poses_make_sense(&like.poses, &mut reader);
+    let poses_make_sense = poses_make_sense(&like.poses, &mut reader, has_travels);
     let accounts_make_sense = (0..accounts_len(like) / 8).all(|_| reader.f64().is_finite());
     let finite = totals.iter().all(|x| x.is_finite()) && poses_make_sense && accounts_make_sense;
     match finite && records_make_sense(like, reader, count, exists) {
@@ -210,8 +224,9 @@ fn check(
     }
 }
 
-/// Returns true if all poses are valid host poses and every pair's epoch exists.
-fn poses_make_sense(like: &CommittedPoses, reader: &mut Reader<'_>) -> bool {
+/// Returns true if all poses are valid host poses, all travels are numbers that a host may set, and every pair's
+/// epoch exists.
+fn poses_make_sense(like: &CommittedPoses, reader: &mut Reader<'_>, has_travels: bool) -> bool {
     let epochs = reader.u64();
     // NaN fails both comparisons. No component of a unit quaternion exceeds 1 by more than rounding.
     let can_be = |pose: &Pose| {
@@ -220,9 +235,14 @@ fn poses_make_sense(like: &CommittedPoses, reader: &mut Reader<'_>) -> bool {
     };
     let count = epochs as usize * like.bodies().len();
     let poses_can_be = (0..count).fold(true, |all, _| can_be(&reader.pose()) && all);
+    let numbers = if has_travels { count * SurfaceField::NUMBERS } else { 0 };
+    let travels_can_be = (0..numbers).fold(true, |all, _| reader.f64().abs() <= LARGEST && all);
     let epochs_of = reader.bytes(padded(like.pairs()));
     let (pairs, behind) = epochs_of.split_at(like.pairs());
-    poses_can_be && pairs.iter().all(|epoch| *epoch == NEVER || u64::from(*epoch) < epochs) && is_zero(behind)
+    poses_can_be
+        && travels_can_be
+        && pairs.iter().all(|epoch| *epoch == NEVER || u64::from(*epoch) < epochs)
+        && is_zero(behind)
 }
 
 fn is_finite_record(record: &ContactRecord) -> bool {
@@ -294,6 +314,13 @@ impl Writer<'_> {
                 let pose = poses.pose(epoch as u8, body);
                 self.vec3(&pose.position);
                 pose.orientation.coords.iter().for_each(|x| self.f64(*x));
+            }
+        }
+        let written = if poses.has_travels() { count } else { 0 };
+        for wanted in 0..written {
+            let epoch = number.iter().position(|number| *number == wanted).expect("as many as are numbered");
+            for &body in poses.bodies() {
+                poses.travel_in(epoch as u8, body).numbers().iter().for_each(|x| self.f64(*x));
             }
         }
         for pair in 0..poses.pairs() {
@@ -373,7 +400,7 @@ impl Reader<'_> {
         Pose { position, orientation }
     }
 
-    fn poses(&mut self, poses: &mut CommittedPoses) {
+    fn poses(&mut self, poses: &mut CommittedPoses, has_travels: bool) {
         let count = self.u64() as u8;
         for epoch in 0..count {
             for place in 0..poses.bodies().len() {
@@ -381,8 +408,22 @@ impl Reader<'_> {
                 poses.put_pose(epoch, body, self.pose());
             }
         }
+        poses.drop_travels();
+        if has_travels {
+            self.travels(poses, count);
+        }
         let epochs = self.bytes(padded(poses.pairs()));
         poses.put_epochs(count, epochs.iter().copied());
+    }
+
+    fn travels(&mut self, poses: &mut CommittedPoses, epochs: u8) {
+        poses.use_travels();
+        for epoch in 0..epochs {
+            for place in 0..poses.bodies().len() {
+                let travel = SurfaceField::from_numbers(&std::array::from_fn(|_| self.f64()));
+                poses.put_travel(epoch, poses.bodies()[place], &travel);
+            }
+        }
     }
 
     fn wrench(&mut self) -> Wrench {

@@ -8,6 +8,7 @@
 //! Relative poses of an epoch are computed on demand, by the same function and from the same numbers as in
 //! the committed frame, so they have the same bits.
 
+use crate::scene::SurfaceField;
 use pong_geometry::Pose;
 use std::sync::Arc;
 
@@ -29,6 +30,10 @@ pub(crate) struct CommittedPoses {
     stride: usize,
     /// Poses, epoch by epoch, one per movable group of the world.
     poses: Box<[Pose]>,
+    /// Travels of the surfaces, laid out as the poses; none unless surfaces may move.
+    travels: Box<[[f64; SurfaceField::NUMBERS]]>,
+    /// True if `travels` is in use; otherwise all travels are zero.
+    has_travels: bool,
     /// Epoch of the last commit of each pair of Objects, or [`NEVER`].
     pub(super) epoch_of: Box<[u8]>,
     /// Version of `epoch_of`: two states of one world with equal versions have equal epochs.
@@ -62,6 +67,8 @@ impl CommittedPoses {
             bodies,
             stride,
             poses: vec![Pose::identity(); room].into_boxed_slice(),
+            travels: Box::default(),
+            has_travels: false,
             epoch_of: vec![NEVER; object_pairs].into_boxed_slice(),
             version: 0,
             uniform: false,
@@ -70,14 +77,26 @@ impl CommittedPoses {
         }
     }
 
+    /// Adds room for the travels of surfaces, if they may move.
+    pub fn with_travels(self, moving_surfaces: bool) -> Self {
+        let room = if moving_surfaces { self.poses.len() } else { 0 };
+        Self { travels: vec![[0.0; SurfaceField::NUMBERS]; room].into_boxed_slice(), ..self }
+    }
+
+    /// Returns true if there is room for the travels of surfaces.
+    pub fn keeps_travels(&self) -> bool {
+        !self.travels.is_empty()
+    }
+
     /// Capacity in epochs; small worlds have one for each pair, so that each pair can be committed alone.
     fn epochs(stride: usize, object_pairs: usize) -> usize {
         object_pairs.min((ROOM / stride.max(1)).clamp(LEAST_EPOCHS, usize::from(NEVER)))
     }
 
     /// Size of the committed poses of a world, bytes.
-    pub fn bytes(stride: usize, object_pairs: usize) -> usize {
-        Self::epochs(stride, object_pairs) * stride * size_of::<Pose>() + object_pairs
+    pub fn bytes(stride: usize, object_pairs: usize, moving_surfaces: bool) -> usize {
+        let each = size_of::<Pose>() + if moving_surfaces { size_of::<SurfaceField>() } else { 0 };
+        Self::epochs(stride, object_pairs) * stride * each + object_pairs
     }
 
     /// Capacity in epochs.
@@ -117,6 +136,58 @@ impl CommittedPoses {
         (epoch != NEVER).then(|| Pose::relative(self.pose(epoch, a), self.pose(epoch, b)))
     }
 
+    /// Returns true if any travel may differ from zero.
+    pub fn has_travels(&self) -> bool {
+        self.has_travels
+    }
+
+    /// Travel of the surface of a movable group in an epoch.
+    pub fn travel_in(&self, epoch: u8, body: usize) -> SurfaceField {
+        let index = usize::from(epoch) * self.stride + body;
+        if self.has_travels {
+            SurfaceField::from_numbers(&self.travels[index])
+        } else {
+            SurfaceField::default()
+        }
+    }
+
+    /// Travel of the surface of a movable group at the last commit of a pair of Objects, if there was one.
+    pub fn travel(&self, pair: usize, body: usize) -> Option<SurfaceField> {
+        let epoch = self.epoch_of[pair];
+        (epoch != NEVER).then(|| self.travel_in(epoch, body))
+    }
+
+    /// Stores the travels of all movable groups in the epoch of a commit that has stored its poses. `travels` is
+    /// empty where no surface moves or has moved.
+    #[inline]
+    pub fn commit_travels(&mut self, epoch: u8, travels: impl ExactSizeIterator<Item = SurfaceField>) {
+        if !self.keeps_travels() || (travels.len() == 0 && !self.has_travels) {
+            return;
+        }
+        self.use_travels();
+        for (body, travel) in travels.enumerate() {
+            self.put_travel(epoch, body, &travel);
+        }
+    }
+
+    /// Prepares to store travels.
+    pub fn use_travels(&mut self) {
+        if !self.has_travels {
+            self.travels.fill([0.0; SurfaceField::NUMBERS]);
+            self.has_travels = true;
+        }
+    }
+
+    /// Stores a travel; [`use_travels`](Self::use_travels) must have been called.
+    pub fn put_travel(&mut self, epoch: u8, body: usize, travel: &SurfaceField) {
+        self.travels[usize::from(epoch) * self.stride + body] = travel.numbers();
+    }
+
+    /// Sets all travels to zero.
+    pub fn drop_travels(&mut self) {
+        self.has_travels = false;
+    }
+
     /// Class of the epochs in use.
     pub fn past(&self) -> Past {
         self.past
@@ -152,6 +223,7 @@ impl CommittedPoses {
         if self.capacity() > 0 {
             self.write(0, poses);
         }
+        self.has_travels = before.has_travels;
         (self.past, self.frame) = (Past::OneEpoch, frame);
     }
 
@@ -202,6 +274,10 @@ impl CommittedPoses {
     pub fn copy_from(&mut self, other: &Self) {
         self.epoch_of.copy_from_slice(&other.epoch_of);
         self.poses.copy_from_slice(&other.poses);
+        if other.has_travels {
+            self.travels.copy_from_slice(&other.travels);
+        }
+        self.has_travels = other.has_travels;
         (self.version, self.uniform, self.past) = (other.version, other.uniform, other.past);
         self.frame = 0;
     }
@@ -256,11 +332,19 @@ impl CommittedPoses {
             }
             *epoch_of = *numbered;
         }
+        self.has_travels = false;
+        let has_travels = from.has_travels && self.keeps_travels();
+        if has_travels {
+            self.use_travels();
+        }
         for (epoch, earlier) in epochs.iter().enumerate() {
             for &body in &*Arc::clone(&self.bodies) {
                 let known = bodies[body].filter(|&body| is_known[body]);
                 let pose = known.map_or(&elsewhere[body], |body| from.pose(*earlier, body));
                 self.put_pose(epoch as u8, body, *pose);
+                if let Some(body_there) = known.filter(|_| has_travels) {
+                    self.put_travel(epoch as u8, body, &from.travel_in(*earlier, body_there));
+                }
             }
         }
         self.put_count(epochs.len());
@@ -302,8 +386,11 @@ impl PartialEq for CommittedPoses {
         self.pairs() == other.pairs()
             && own.1 == others.1
             && pairs.clone().all(|(a, b)| own.0[usize::from(*a)] == others.0[usize::from(*b)])
-            && pairs
-                .filter(|(a, _)| **a != NEVER)
-                .all(|(a, b)| self.bodies.iter().all(|&body| self.pose(*a, body) == other.pose(*b, body)))
+            && pairs.filter(|(a, _)| **a != NEVER).all(|(a, b)| {
+                self.bodies.iter().all(|&body| {
+                    self.pose(*a, body) == other.pose(*b, body)
+                        && self.travel_in(*a, body) == other.travel_in(*b, body)
+                })
+            })
     }
 }

@@ -67,7 +67,7 @@ impl World {
             self.surfaces = surfaces;
             self.runtime.set_tables(tables);
         }
-        self.states.take_over(&other.states, bodies, pairs);
+        self.states.take_over(&other.states, (bodies, pairs), self.scene.config.moving_surfaces);
         let (poses, keeps_ledger) = (&self.states.poses, self.scene.config.ledger);
         let CarryOutcome { contacts, contacts_left, energy_left } =
             self.runtime.carry(&other.runtime, &counterparts, poses, keeps_ledger);

@@ -5,7 +5,7 @@ use crate::error::EngineError;
 use crate::frame::FrictionPreload;
 use crate::ids::{InterfaceId, PairId};
 use crate::report::FrameReport;
-use crate::scene::State;
+use crate::scene::{State, SurfaceMotion};
 use pong_geometry::{Pose, Twist};
 use pong_model::LARGEST;
 
@@ -32,6 +32,53 @@ impl World {
             self.runtime.changed();
         }
         Ok(())
+    }
+
+    /// Sets the motion of the surface of one movable group along itself. See
+    /// [`set_surface_motions`](Self::set_surface_motions).
+    ///
+    /// # Errors
+    /// As [`set_surface_motions`](Self::set_surface_motions).
+    pub fn set_surface_motion(
+        &mut self,
+        interface: InterfaceId,
+        motion: &SurfaceMotion,
+    ) -> Result<(), EngineError> {
+        self.set_surface_motions(&[(interface, *motion)])
+    }
+
+    /// Sets the motions of the surfaces of movable groups along themselves, in m, m/s, rad and rad/s in the frame
+    /// of each group: all of them or, if any is refused, none. They last until they are set again; before the first
+    /// call no surface moves. A host sets them as it sets states, for every evaluation for which they differ: the
+    /// travels are to the velocities what poses are to twists. Surfaces move in worlds that were sealed with
+    /// [`Config::moving_surfaces`](crate::Config::moving_surfaces).
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an Interface of another world; [`EngineError::BadState`] for a number that
+    /// is not finite or beyond [`State::LARGEST`]; [`EngineError::BadValue`] in a world whose surfaces may not
+    /// move.
+    pub fn set_surface_motions(
+        &mut self,
+        motions: &[(InterfaceId, SurfaceMotion)],
+    ) -> Result<(), EngineError> {
+        if self.states.set_surfaces(&self.scene, motions)? {
+            self.runtime.changed();
+        }
+        Ok(())
+    }
+
+    /// Returns true if surfaces may move along themselves
+    /// ([`Config::moving_surfaces`](crate::Config::moving_surfaces)).
+    pub fn surfaces_may_move(&self) -> bool {
+        self.scene.config.moving_surfaces
+    }
+
+    /// Motion of the surface of a movable group along itself, as it was set last; at rest if never set.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an Interface of another world.
+    pub fn surface_motion(&self, interface: InterfaceId) -> Result<&SurfaceMotion, EngineError> {
+        self.states.surface_of(&self.scene, interface)
     }
 
     /// Pose (m) and twist (m/s, rad/s) last set for a movable group, relative to and expressed in the common

@@ -15,7 +15,8 @@ impl World {
     ///
     /// Bristle friction follows poses and is damped by velocities (docs/theory.md, 4). A host that keeps a
     /// pose and gives it a velocity, as for a conveyor belt, gets neither the friction of a moving body nor
-    /// that of one at rest. It should move the pose, or choose `Coulomb` friction, which uses only
+    /// that of one at rest. It should move the pose, or the surface alone
+    /// ([`set_surface_motions`](Self::set_surface_motions)), or choose `Coulomb` friction, which uses only
     /// velocities.
     ///
     /// A group that is committed twice at one pose, as in a pause, is listed too if its velocity is not zero.

@@ -23,6 +23,7 @@ mod known_answers;
 mod ledger;
 mod limits;
 mod many_pairs;
+mod moving_surfaces;
 mod normal_tangents;
 mod other_descriptions;
 mod pairs;

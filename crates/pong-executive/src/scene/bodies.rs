@@ -7,7 +7,7 @@ use super::setting::Setting;
 use crate::body::{Motion, RigidBody};
 use crate::mass::MassProperties;
 use crate::path::{Oscillation, Path, PathRow, PathTable};
-use pong_engine::InterfaceId;
+use pong_engine::{InterfaceId, SurfaceMotion};
 use pong_geometry::{Mat3, Pose, Twist, Vec3};
 
 /// All bodies that could be made; the others are noted as faults.
@@ -89,7 +89,8 @@ impl ObjectBodies<'_> {
         let start = self.start(entry, interface, at);
         let twist = start_twist(entry, at);
         let motion = motion(entry, &start, &twist, at);
-        Some(RigidBody { name, motion: motion?, pose: start, twist, interface: Some(interface?) })
+        let surface = surface(entry, at);
+        Some(RigidBody { name, motion: motion?, pose: start, twist, interface: Some(interface?), surface })
     }
 
     /// The pose given, or else the one of the model's author.
@@ -115,6 +116,18 @@ fn start_twist(entry: &BodyEntry, at: &mut At<'_, '_>) -> Twist {
     at.finite("linear_velocity", &linear);
     at.finite("angular_velocity", &angular);
     Twist { linear: linear.into(), angular: angular.into() }
+}
+
+/// Motion of the body's surface along itself.
+fn surface(entry: &BodyEntry, at: &mut At<'_, '_>) -> SurfaceMotion {
+    let named = [
+        ("surface_velocity", entry.surface_velocity),
+        ("surface_angular_velocity", entry.surface_angular_velocity),
+        ("belt_velocity", entry.belt_velocity),
+    ];
+    named.iter().for_each(|(name, value)| _ = at.finite(name, value));
+    let [linear_velocity, angular_velocity, belt_velocity] = named.map(|(_, value)| value);
+    SurfaceMotion { linear_velocity, angular_velocity, belt_velocity, ..SurfaceMotion::default() }
 }
 
 fn motion(entry: &BodyEntry, start: &Pose, twist: &Twist, at: &mut At<'_, '_>) -> Option<Motion> {

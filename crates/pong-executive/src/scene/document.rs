@@ -141,6 +141,21 @@ pub(crate) struct BodyEntry {
     pub orientation: Option<Quaternion>,
     pub linear_velocity: Option<Triple>,
     pub angular_velocity: Option<Triple>,
+    /// Motion of the surface along itself, in the group frame: m/s, rad/s, m/s.
+    #[serde(default)]
+    pub surface_velocity: Triple,
+    #[serde(default)]
+    pub surface_angular_velocity: Triple,
+    #[serde(default)]
+    pub belt_velocity: Triple,
+}
+
+impl BodyEntry {
+    /// Returns true if the surface moves along itself.
+    pub fn has_moving_surface(&self) -> bool {
+        let velocities = [self.surface_velocity, self.surface_angular_velocity, self.belt_velocity];
+        velocities.iter().flatten().any(|x| *x != 0.0)
+    }
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]

@@ -4,7 +4,7 @@ use super::error::SceneError;
 use serde::Deserialize;
 
 /// Correct forms of the fields that are most often written differently.
-const FIELDS: [(&str, &str); 17] = [
+const FIELDS: [(&str, &str); 20] = [
     ("models", r#"write models: { "ball": "ball.ron", … }"#),
     ("objects", r#"write objects: [(name: "ball", model: "ball", bodies: [(motion: Fixed)]), …]"#),
     ("bodies", "write bodies: [(motion: Free, mass: …, inertia: …), …]"),
@@ -24,6 +24,9 @@ const FIELDS: [(&str, &str); 17] = [
     ("mass_center", "write mass_center: (x, y, z), m in the axes of the group"),
     ("linear_velocity", "write linear_velocity: (x, y, z), m/s"),
     ("angular_velocity", "write angular_velocity: (x, y, z), rad/s"),
+    ("surface_velocity", "write surface_velocity: (x, y, z), m/s in the axes of the group"),
+    ("surface_angular_velocity", "write surface_angular_velocity: (x, y, z), rad/s in the axes of the group"),
+    ("belt_velocity", "write belt_velocity: (x, y, z), the axis of the rollers times the speed, m/s"),
     ("force", "write force: (x, y, z), N"),
     ("moment", "write moment: (x, y, z), N·m"),
     ("stiffness", "write stiffness: (x, y, z, about x, about y, about z), N/m and N·m/rad"),

@@ -1,6 +1,6 @@
 //! Models, objects and pairs of a scene, as a world.
 
-use super::document::Document;
+use super::document::{BodyEntry, Document};
 use super::error::{At, Faults};
 use super::variation::Variation;
 use pong_engine::{Config, EngineError, InterfaceId, Laws, ObjectId, SealReport, World, WorldBuilder};
@@ -44,6 +44,11 @@ impl<'a> Setting<'a> {
             ledger: document.ledger,
             workers: variation.workers.clone(),
             accounts: document.integrator.wrench_coupling().filter(|_| document.ledger),
+            moving_surfaces: document
+                .objects
+                .iter()
+                .flat_map(|object| &object.bodies)
+                .any(BodyEntry::has_moving_surface),
         };
         let mut setting = Self {
             document,

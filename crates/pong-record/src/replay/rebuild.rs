@@ -2,6 +2,7 @@
 
 use super::options::ReplayOptions;
 use crate::error::LogError;
+use crate::event::Event;
 use crate::read::Log;
 use pong_engine::{Config, ModelId, Scene, World, WorldBuilder};
 use pong_model::Model;
@@ -15,6 +16,7 @@ pub(super) fn world(log: &Log, options: &ReplayOptions<'_>) -> Result<(World, Ve
         ledger: run.ledger,
         workers: options.workers.clone(),
         accounts: run.energy_accounts.map(|accounts| accounts.0),
+        moving_surfaces: log.events().iter().any(|event| matches!(event.event, Event::SurfaceMotion { .. })),
     };
     let mut builder = WorldBuilder::with_extensions(config, options.extensions.clone(), options.laws.clone());
     if let Some(law) =

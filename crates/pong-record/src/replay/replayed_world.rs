@@ -10,7 +10,7 @@ use crate::read::{Frame, Log};
 use crate::run::is_inside;
 use crate::table::{FrameRow, StateRow};
 use crate::write::Capture;
-use pong_engine::{InterfaceId, ModelId, ObjectId, PairId, State, World};
+use pong_engine::{InterfaceId, ModelId, ObjectId, PairId, State, SurfaceMotion, World};
 use pong_model::FrictionLaw;
 
 /// A world during a replay.
@@ -105,6 +105,19 @@ impl Replay {
                     surface.friction = FrictionLaw::None;
                 }
                 self.world.set_surface(model, &surface)?;
+            }
+            Event::SurfaceMotion { body, velocity, travel } => {
+                let [linear_velocity, angular_velocity, belt_velocity] = *velocity;
+                let [linear_travel, angular_travel, belt_travel] = *travel;
+                let motion = SurfaceMotion {
+                    linear_velocity,
+                    angular_velocity,
+                    belt_velocity,
+                    linear_travel,
+                    angular_travel,
+                    belt_travel,
+                };
+                self.world.set_surface_motion(find(&self.bodies, *body, "movable group")?, &motion)?;
             }
             Event::Restore { file } => {
                 let path = log.folder().join(file);

@@ -11,7 +11,7 @@ use crate::error::LogError;
 use crate::event::{Event, LoggedEvent};
 use crate::table::{EnergyRow, FrameRow};
 use pong_arena::{keep_small_blocks_free, require_memory};
-use pong_engine::{EngineError, ModelId, ObjectId, PairId, World};
+use pong_engine::{EngineError, InterfaceId, ModelId, ObjectId, PairId, SurfaceMotion, World};
 use pong_model::Surface;
 use rtrb::{Producer, RingBuffer};
 use std::io::Write as _;
@@ -80,7 +80,7 @@ const BUFFER: usize = 16 << 20;
 /// Bytes that frames leave free for events.
 const ROOM_FOR_EVENTS: usize = 1 << 16;
 /// Longest line of an event that is written in a frame, bytes.
-const LINE: usize = 256;
+const LINE: usize = 768;
 const DIGITS_OF_A_PAIR: usize = 11;
 /// Upper bound of the other memory of the thread and its files, bytes: a stack and the buffers of tables.
 const FILES: usize = 4 << 20;
@@ -240,6 +240,17 @@ impl Recorder {
         self.tell(Event::Surface { model, name, values: surface.into() });
     }
 
+    /// Logs motions of surfaces along themselves.
+    pub fn surfaces_moved(&mut self, motions: &[(InterfaceId, SurfaceMotion)]) {
+        for (interface, motion) in motions {
+            self.tell(Event::SurfaceMotion {
+                body: interface.index() as u32,
+                velocity: [motion.linear_velocity, motion.angular_velocity, motion.belt_velocity],
+                travel: [motion.linear_travel, motion.angular_travel, motion.belt_travel],
+            });
+        }
+    }
+
     /// Logs a restored contact state; `block` is trimmed to the used length.
     pub fn restored(&mut self, block: &[u8]) {
         if !self.push(Kind::Block, &[&self.blocks.to_le_bytes(), block]) {
@@ -351,6 +362,13 @@ impl Recorder {
         for (pair, _) in world.scene().pairs() {
             if !world.pair_enabled(pair)? {
                 self.pair_switched(pair, false);
+            }
+        }
+        if world.surfaces_may_move() {
+            for object in world.scene().objects() {
+                for body in world.scene().interfaces(object)? {
+                    self.surfaces_moved(&[(body, *world.surface_motion(body)?)]);
+                }
             }
         }
         if world.has_contact_state() {

@@ -18,7 +18,7 @@ pub(crate) struct FrameContact {
     pub normal_force: f64,
     /// Friction force on A, N.
     pub friction_force_b: Vec3,
-    /// Velocity of A relative to B in the tangent plane, m/s.
+    /// Velocity of A's surface relative to B's in the tangent plane, m/s.
     pub slip_velocity_b: Vec3,
     /// Deflection p of the bristle, m.
     pub bristle_b: Vec3,

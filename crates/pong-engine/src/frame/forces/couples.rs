@@ -63,7 +63,10 @@ impl<'a> Couple<'a> {
             radius(context.body_b, found.kind_b, found.element_b),
         ];
         let lever = radii.into_iter().flatten().reduce(f64::min).unwrap_or(rolling.max(spinning));
-        let rate_b = context.motion.omega_a_b - context.motion.omega_b_b;
+        let mut rate_b = context.motion.omega_a_b - context.motion.omega_b_b;
+        if let Some(surfaces) = &context.surfaces {
+            rate_b += surfaces.angular_velocity(context.motion);
+        }
         let resistance = Resistance {
             normal_b: normal,
             lever,
@@ -124,7 +127,10 @@ fn turned(
     earlier: Option<&ContactRecord>,
 ) -> Vec3 {
     let Some(since) = &context.motion.since_commit else { return Vec3::zeros() };
-    let turned = *context.rotation(since);
+    let mut turned = *context.rotation(since);
+    if let Some(surfaces) = &context.surfaces {
+        turned += surfaces.turned(context.motion);
+    }
     if earlier.is_some() {
         return turned;
     }

@@ -166,7 +166,7 @@ struct Slipping<'f> {
     found: &'f ContactCandidate,
     /// Contact point c in B's frame, m.
     point: Vec3,
-    /// Velocity of A relative to B in the tangent plane, in B's frame, m/s.
+    /// Velocity of A's surface relative to B's in the tangent plane, in B's frame, m/s.
     slip_velocity: Vec3,
     /// Normal force, N.
     pressed: f64,
@@ -206,7 +206,10 @@ impl PairContext<'_> {
         let point = found.deepest_b + found.normal_b * (props.share_a * found.depth);
         let velocity = self.motion.velocity_at(&point);
         let closing = -found.normal_b.dot(&velocity);
-        let slip_velocity = velocity + found.normal_b * closing;
+        let mut slip_velocity = velocity + found.normal_b * closing;
+        if let Some(surfaces) = &self.surfaces {
+            slip_velocity += surfaces.velocity(self.motion, &point, &found.normal_b);
+        }
         let records = match found.remembered {
             Some(range) => self.memory.at(range),
             None => self.memory.under(&found.key),
@@ -316,7 +319,8 @@ impl PairContext<'_> {
     /// 0 and 1 stand for the last commit and now.
     ///
     /// The lever c − o is the mean of its two values: with c₀ − o₀ alone, a sphere that rolls and spins would
-    /// slip by its spin times the distance that the contact has moved. For a new contact there is no c₀, so
+    /// slip by its spin times the distance that the contact has moved. The travel of surfaces that move along
+    /// themselves is added. For a new contact there is no c₀, so
     /// the lever is c₁ − o₁. Only the part of its displacement after the first touch counts; the time of the
     /// first touch follows from the depth if A has approached uniformly.
     #[inline(always)]
@@ -339,7 +343,11 @@ impl PairContext<'_> {
         let lever = earlier.map_or(present, |earlier| ((earlier.point_b - before) + present) * 0.5);
         let displacement = now - before + self.rotation(since).cross(&lever);
         let approach = -found.normal_b.dot(&displacement);
-        let across = displacement + found.normal_b * approach;
+        let mut across = displacement + found.normal_b * approach;
+        if let Some(surfaces) = &self.surfaces {
+            let earlier = earlier.map(|earlier| (earlier.point_b, earlier.normal_b));
+            across += surfaces.travel((self.motion, since), earlier, &contact.point, &found.normal_b);
+        }
         if earlier.is_none() { shortened(across, approach, found.depth) } else { across }
     }
 }

@@ -1,14 +1,16 @@
 //! Input of a frame: the states of the movable groups, and the input of the parallel stages, constant while they run.
 
 pub(crate) mod motion;
+pub(crate) mod moving_surfaces;
 pub(crate) mod relative;
 
 use crate::error::EngineError;
 use crate::report::Clock;
-use crate::scene::{Scene, States};
+use crate::scene::{Scene, States, SurfaceField};
 use crate::seal::{Direction, Sealed, SurfaceTable};
-use crate::state::ContactMemory;
+use crate::state::{CommittedPoses, ContactMemory};
 use motion::{Motion, PairMotions};
+use moving_surfaces::{GroupSurface, MovingSurfaces};
 use pong_geometry::bounding::VolumeTests;
 use pong_geometry::{Pose, Twist, Vec3};
 use pong_model::MovableGroup;
@@ -31,6 +33,8 @@ pub(crate) struct WorkerInput {
     pub phase: u64,
     /// Motions of all pairs of movable groups of this phase, two directions each.
     pub motions: Vec<PairMotions>,
+    /// Motions of the surfaces of all movable groups along themselves; empty where none moves or has moved.
+    pub surfaces: Vec<GroupSurface>,
     /// Combined properties of all pairs of surfaces.
     pub tables: Arc<Vec<SurfaceTable>>,
     /// Blocks of this phase.
@@ -77,12 +81,28 @@ impl<'a> EvaluationInput<'a> {
 }
 
 impl WorkerInput {
+    /// Copies the motions of the surfaces; none of them where no surface moves or has moved.
+    #[inline]
+    pub fn latch_surfaces(&mut self, states: &States, committed: &CommittedPoses) {
+        self.surfaces.clear();
+        if states.any_surface_moves() || committed.has_travels() {
+            self.surfaces.extend(states.surfaces.iter().map(GroupSurface::from));
+        }
+    }
+
+    /// Travels of the surfaces of all movable groups; none where no surface moves or has moved.
+    pub fn travels(&self) -> impl ExactSizeIterator<Item = SurfaceField> + '_ {
+        self.surfaces.iter().map(|surface| surface.travel)
+    }
+
     /// Copies another input without allocating.
     pub fn copy_from(&mut self, other: &Self) {
         self.phase = other.phase;
         self.clock = other.clock;
         self.motions.clear();
         self.motions.extend_from_slice(&other.motions);
+        self.surfaces.clear();
+        self.surfaces.extend_from_slice(&other.surfaces);
         // Cloned only if changed: a clone writes the reference count, which other cores read.
         if !Arc::ptr_eq(&self.tables, &other.tables) {
             self.tables = Arc::clone(&other.tables);
@@ -102,6 +122,19 @@ pub(crate) struct Round<'a> {
     pub input: &'a WorkerInput,
 }
 
+impl Round<'_> {
+    /// Motions of the surfaces of A and B along themselves; `None` where neither moves.
+    #[inline]
+    pub fn moving_surfaces(&self, direction: Direction) -> Option<MovingSurfaces> {
+        if self.input.surfaces.is_empty() {
+            return None;
+        }
+        let (body_a, body_b) = self.sealed.bodies_of(direction);
+        let pair = self.sealed.group_pairs[direction.group_pair as usize].pair;
+        MovingSurfaces::of(&self.input.surfaces, [body_a, body_b], (pair, &self.memory.poses))
+    }
+}
+
 /// Context of the testers for one direction of a pair of movable groups.
 pub(crate) struct PairContext<'a> {
     pub scene: &'a Scene,
@@ -112,6 +145,8 @@ pub(crate) struct PairContext<'a> {
     pub body_b: &'a MovableGroup,
     /// Motion of A relative to B.
     pub motion: &'a Motion,
+    /// Motions of the surfaces along themselves; `None` where neither moves.
+    pub surfaces: Option<MovingSurfaces>,
     pub memory: &'a ContactMemory,
     pub table: &'a SurfaceTable,
     pub volume_tests: &'a VolumeTests,
@@ -138,6 +173,7 @@ impl<'a> PairContext<'a> {
             body_a: scene.body(a),
             body_b: scene.body(b),
             motion,
+            surfaces: round.moving_surfaces(direction),
             memory,
             table: &input.tables[pair.tables[flipped as usize]],
             volume_tests: &sealed.volume_tests,

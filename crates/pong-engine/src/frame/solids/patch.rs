@@ -234,7 +234,15 @@ impl Patch<'_> {
         let Resultant { normal, center, lever, .. } = resultant;
         let velocity = self.relative.a_in_b.at(center);
         let turning = lever * self.relative.a_in_b.angular.dot(normal);
-        velocity + normal * (turning - normal.dot(&velocity))
+        let slip_velocity = velocity + normal * (turning - normal.dot(&velocity));
+        match &self.context.surfaces {
+            None => slip_velocity,
+            Some(surfaces) => {
+                let motion = self.context.motion;
+                let turning = lever * surfaces.angular_velocity(motion).dot(normal);
+                slip_velocity + surfaces.velocity(motion, center, normal) + normal * turning
+            }
+        }
     }
 
     fn friction(
@@ -292,7 +300,14 @@ impl Patch<'_> {
         let displacement = self.relative.x_ba.point(&point_of_a) - since.x_ba.point(&point_of_a);
         let turned = self.context.rotation(since);
         let approach = -normal.dot(&displacement);
-        let slip = displacement + normal * (approach + lever * turned.dot(normal));
+        let mut slip = displacement + normal * (approach + lever * turned.dot(normal));
+        if let Some(surfaces) = &self.context.surfaces {
+            let motion = self.context.motion;
+            let before = earlier
+                .map(|[(_, first), (_, second)]| ((first.point_b + second.point_b) * 0.5, first.normal_b));
+            slip += surfaces.travel((motion, since), before, center, normal)
+                + normal * (lever * surfaces.turned(motion).dot(normal));
+        }
         if earlier.is_none() { shortened(slip, approach, *depth) } else { slip }
     }
 
@@ -319,7 +334,10 @@ impl Patch<'_> {
         };
         let mut records = entry::records(self.context, self.sides, cell.part);
         let continues = records.find(|(_, record)| record.feature == found.feature.0).map(|(index, _)| index);
-        let velocity = self.relative.a_in_b.at(&cell.point_b);
+        let mut velocity = self.relative.a_in_b.at(&cell.point_b);
+        if let Some(surfaces) = &self.context.surfaces {
+            velocity += surfaces.velocity(self.context.motion, &cell.point_b, &cell.normal_b);
+        }
         self.add(out, continues, |contact| {
             contact.found = found;
             contact.point_b = cell.point_b;

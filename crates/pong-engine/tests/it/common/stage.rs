@@ -108,7 +108,7 @@ impl Scene {
     /// Sealed world of the scene with additional Objects at these positions in its list, far away and paired with all.
     pub fn set_up_beside(&self, newcomers: &[usize], workers: Option<WorkerSettings>) -> Stage<'_> {
         let Self { contact_capacity, ledger, accounts, .. } = *self;
-        let config = Config { contact_capacity, ledger, accounts, workers };
+        let config = Config { contact_capacity, ledger, accounts, workers, ..Config::default() };
         let mut builder = match self.own_kinds {
             true => WorldBuilder::with_extensions(
                 config,

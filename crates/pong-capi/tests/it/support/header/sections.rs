@@ -39,7 +39,7 @@ pub const SECTIONS: &[Section] = &[
     Section {
         heading: "Frames",
         about: &["Each frame: set states, step, get wrenches; or evaluate at stages and commit at the end."],
-        items: &["states", "interfaces::pong_get_authored_state", "frames"],
+        items: &["states", "surface_motions", "interfaces::pong_get_authored_state", "frames"],
     },
     Section { heading: "Results: wrenches", about: &[], items: &["wrenches"] },
     Section { heading: "Results: contacts", about: &[], items: &["contacts", "step_plan::pong_check_step"] },
