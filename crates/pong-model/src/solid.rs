@@ -113,7 +113,11 @@ impl Solid {
 
     /// Least depth at which a region of a facet is cut off, m; `None` if none is.
     pub fn least_height(&self) -> Option<f64> {
-        self.facets.iter().map(|facet| facet.height).filter(|height| height.is_finite()).min_by(f64::total_cmp)
+        self.facets
+            .iter()
+            .map(|facet| facet.height)
+            .filter(|height| height.is_finite())
+            .min_by(f64::total_cmp)
     }
 
     /// Area that takes the place of a surface's `area` where the file gives none, m²: a sixth of the outer

@@ -362,7 +362,9 @@ fn body_that_tips_onto_a_face_has_all_side_faces() {
         let mut with_memory = Pair::new(&remembering(&block(SOFT, [half; 3])), &remembering(&other));
         let angle = (0.1 * f64::from(tenths)).to_radians();
         let reach = half * (angle.sin() + angle.cos());
-        for (tilt, height) in [(angle, 0.1 + reach + 1e-4), (angle, 0.1 + reach - 1e-4), (0.0, 0.1 + half - 1e-3)] {
+        for (tilt, height) in
+            [(angle, 0.1 + reach + 1e-4), (angle, 0.1 + reach - 1e-4), (0.0, 0.1 + half - 1e-3)]
+        {
             let pose = pose([0.0, 0.0, height], [0.0, tilt, 0.0]);
             let (expected, _) = plain.at(&pose);
             let (got, _) = with_memory.at(&pose);

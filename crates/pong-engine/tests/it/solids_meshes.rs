@@ -105,7 +105,8 @@ fn wrench_of_meshes_is_the_derivative_of_the_energy() {
             errors.push(error);
         }
         errors.sort_by(f64::total_cmp);
-        let [median, most, worst] = [errors[errors.len() / 2], errors[errors.len() * 95 / 100], errors[errors.len() - 1]];
+        let [median, most, worst] =
+            [errors[errors.len() / 2], errors[errors.len() * 95 / 100], errors[errors.len() - 1]];
         println!("{name}: {} touches, median {median:.1e}, 95 % {most:.1e}, worst {worst:.1e}", errors.len());
     }
 }
