@@ -1,6 +1,6 @@
 //! Binary tree of boxes.
 
-use crate::solid::SolidBox;
+use crate::solid_box::SolidBox;
 use pong_geometry::Vec3;
 
 /// Binary tree over numbered items, each with a box. A node has the items of a range of `order`; the left child has
@@ -31,9 +31,10 @@ impl SolidTree {
         while let Some(node) = open.pop() {
             let items = &mut tree.order[node.first as usize..node.end as usize];
             let start = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
-            let corners = items.iter().map(|&item| &boxes[item as usize]).fold(start, |(low, high), bound| {
-                (low.inf(&(bound.center - bound.half)), high.sup(&(bound.center + bound.half)))
-            });
+            let corners =
+                items.iter().map(|&item| &boxes[item as usize]).fold(start, |(low, high), bound| {
+                    (low.inf(&(bound.center - bound.half)), high.sup(&(bound.center + bound.half)))
+                });
             tree.bounds[node.index as usize] =
                 SolidBox { center: 0.5 * (corners.0 + corners.1), half: 0.5 * (corners.1 - corners.0) };
             let (low, high) = items
@@ -44,9 +45,7 @@ impl SolidTree {
             if let Some([left, right]) = node.halves() {
                 let along = |item: &u32| boxes[*item as usize].center[axis];
                 let middle = (right.first - node.first) as usize;
-                items.select_nth_unstable_by(middle, |a, b| {
-                    along(a).total_cmp(&along(b)).then(a.cmp(b))
-                });
+                items.select_nth_unstable_by(middle, |a, b| along(a).total_cmp(&along(b)).then(a.cmp(b)));
                 open.extend([right, left]);
             }
         }

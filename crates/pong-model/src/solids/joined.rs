@@ -3,10 +3,11 @@
 use super::convex;
 use super::facets::{Facet, total_area};
 use super::refusal::{self, Refusal};
-use crate::solid_tree::SolidTree;
 use crate::draft::BodyDraft;
 use crate::model::MovableGroup;
-use crate::solid::{Solid, SolidBox, SolidField, SolidPart};
+use crate::solid::{Solid, SolidField, SolidPart};
+use crate::solid_box::SolidBox;
+use crate::solid_tree::SolidTree;
 use crate::surface::Surface;
 use pong_geometry::Vec3;
 use pong_geometry::overlap::{HalfSpace, Surface as ClosedSurface};

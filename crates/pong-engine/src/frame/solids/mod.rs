@@ -71,8 +71,7 @@ fn touch(
         }
         (Partner::Solid(index), Some(root_a), Some(root_b)) => {
             let solid_b = &context.body_b.solids[index as usize];
-            let mut meet =
-                |one, other| with(&Side::unit(solid_a, one), &Side::unit(solid_b, other));
+            let mut meet = |one, other| with(&Side::unit(solid_a, one), &Side::unit(solid_b, other));
             side::for_each_meeting(relative, (solid_a, solid_b), (root_a, root_b), &mut meet);
         }
         _ => {}
