@@ -43,6 +43,7 @@ mod ron_tree;
 pub mod schema;
 pub mod shapes;
 mod solid;
+mod solid_box;
 mod solid_tree;
 mod solids;
 pub mod surface;
@@ -64,7 +65,8 @@ pub use model::{
 };
 pub use pair_table::pair_entries;
 pub use printable::{printable, printable_lines};
-pub use solid::{Solid, SolidBox, SolidFacet, SolidField, SolidPart};
+pub use solid::{Solid, SolidFacet, SolidField, SolidPart};
+pub use solid_box::SolidBox;
 pub use solid_tree::{SolidNode, SolidTree};
 pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 

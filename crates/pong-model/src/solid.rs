@@ -1,7 +1,7 @@
 //! Solids: closed parts of a rigid body that touch by the volume they share with others (docs/theory.md, 2.11).
 
+use crate::solid_box::SolidBox;
 use crate::solid_tree::SolidTree;
-use pong_geometry::Vec3;
 use pong_geometry::overlap::{HalfSpace, Surface};
 use std::ops::Range;
 
@@ -76,15 +76,6 @@ pub struct SolidField {
     pub walls: Vec<HalfSpace>,
 }
 
-/// Box along the axes of the group frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SolidBox {
-    /// Centre, m.
-    pub center: Vec3,
-    /// Half extents, m.
-    pub half: Vec3,
-}
-
 impl Solid {
     /// Returns `true` if one field describes the whole solid, which is then convex.
     pub fn is_convex(&self) -> bool {
@@ -124,17 +115,5 @@ impl Solid {
     /// surface, which is one face if the solid is a cube.
     pub fn reference_area(&self) -> f64 {
         self.area / 6.0
-    }
-}
-
-impl SolidBox {
-    /// Box around points; around the origin if there are none.
-    pub(crate) fn around<'p>(points: impl IntoIterator<Item = &'p Vec3>) -> Self {
-        let mut points = points.into_iter();
-        let Some(first) = points.next() else {
-            return Self { center: Vec3::zeros(), half: Vec3::zeros() };
-        };
-        let (low, high) = points.fold((*first, *first), |(low, high), p| (low.inf(p), high.sup(p)));
-        Self { center: 0.5 * (low + high), half: 0.5 * (high - low) }
     }
 }

@@ -1,6 +1,6 @@
 //! Binary tree of boxes.
 
-use crate::solid::SolidBox;
+use crate::solid_box::SolidBox;
 use pong_geometry::Vec3;
 
 /// Binary tree over numbered items, each with a box. A node has the items of a range of `order`; the left child has

@@ -53,8 +53,11 @@ fn foundations(model: &Model, index: u32) -> String {
 pub(super) fn notes(model: &Model) -> Vec<String> {
     let note = |body: &MovableGroup, solid: &Solid| {
         let path = &body.primitives[solid.primitive as usize].path;
+        let reach = solid.least_height().map_or("as deep as they go".to_owned(), |least| {
+            format!("down to {} m at the shallowest, and not below that", number(least))
+        });
         format!(
-            "{path} is a solid that is not convex: it can touch planes and convex solids only; `pong decompose` \
+            "{path} is a solid that is not convex: against others like it, its facets push {reach}; `pong decompose` \
              makes convex pieces of it"
         )
     };

@@ -30,7 +30,7 @@ fn check_lists_solids_and_their_foundations() {
         "  surface `steel` gives no `foundation` and no `area`: area 1 … 4 m², K 250000 … 1000000 N/m³ at its solids\n",
         "`foam`: k 10000 N/m, K 1000000 N/m³ from the area, linear",
         "`oak`: k 100000 N/m, K 1e8 N/m³, linear",
-        "  note: parts/frame is a solid that is not convex: it can touch planes and convex solids only",
+        "  note: parts/frame is a solid that is not convex: against others like it, its facets push down to 0.25 m at the shallowest",
     ] {
         assert!(out.contains(line), "no `{line}` in:\n{out}");
     }

@@ -2,7 +2,8 @@
 
 use super::facets::Facet;
 use crate::hull::{PLANE_TOLERANCE, Places, area};
-use crate::solid::{SolidBox, SolidField};
+use crate::solid::SolidField;
+use crate::solid_box::SolidBox;
 use crate::weld::WordMap;
 use pong_geometry::Vec3;
 use pong_geometry::overlap::HalfSpace;

@@ -3,7 +3,8 @@
 use super::refusal::Refusal;
 use crate::draft::BodyDraft;
 use crate::hull::PLANE_TOLERANCE;
-use crate::solid::{Solid, SolidBox, SolidField};
+use crate::solid::{Solid, SolidField};
+use crate::solid_box::SolidBox;
 use pong_geometry::Vec3;
 use pong_geometry::distance::Solid as Shape;
 use pong_geometry::primitive::{Point, PrimitiveKind, TriangleSet};

@@ -1,12 +1,14 @@
 //! Solids of triangles: each connected shell that is closed, or that a thickness closes.
 
+use super::crossing::{self, Crossing};
 use super::facets::{self, Facet};
 use super::refusal::{self, Refusal};
 use super::thickened::{Triangles, thickened};
 use super::{convex, parts, regions};
 use crate::draft::BodyDraft;
 use crate::hull::{PLANE_TOLERANCE, area};
-use crate::solid::{Solid, SolidBox};
+use crate::solid::Solid;
+use crate::solid_box::SolidBox;
 use crate::solid_tree::SolidTree;
 use crate::surface::Surface;
 use pong_geometry::Vec3;
@@ -67,6 +69,10 @@ fn solid(draft: &BodyDraft, number: u32, shell: &Shell, refusals: &mut Vec<Refus
         refusals.push(no_volume(shell.primitives[0], volume, least));
         return None;
     }
+    if let Some(crossing) = crossing::crossing(&outer, diameter) {
+        refusals.push(crosses_itself(draft, shell, &crossing));
+        return None;
+    }
     let faces = facets::planes_of_mesh(&outer, &closed.triangles[..closed.outer], PLANE_TOLERANCE * diameter);
     let walls: Vec<Facet> = closed.facets(closed.outer..closed.triangles.len()).collect();
     let field = convex::field(faces, &walls, &closed.vertices, diameter);
@@ -97,6 +103,31 @@ fn solid(draft: &BodyDraft, number: u32, shell: &Shell, refusals: &mut Vec<Refus
         facet_walls,
         tree: SolidTree::new(&items),
     })
+}
+
+/// Refusal of a mesh whose triangles cross. Triangles are named by their numbers in their primitives.
+fn crosses_itself(draft: &BodyDraft, shell: &Shell, crossing: &Crossing) -> Refusal {
+    let named = crossing.triangles.map(|number| {
+        let element = shell.triangles[number];
+        let info = |primitive: &usize| &draft.body.primitives[*primitive];
+        let owner = shell.primitives.iter().find(|primitive| info(primitive).elements.contains(&element));
+        let primitive = *owner.unwrap_or(&shell.primitives[0]);
+        (primitive, element - info(&primitive).elements.start)
+    });
+    let [(primitive, first), (other, second)] = named;
+    let of = match other == primitive {
+        true => String::new(),
+        false => format!(" of {}", draft.body.primitives[other].path),
+    };
+    Refusal {
+        primitive,
+        rule: "solid-crossing",
+        cause: format!(
+            "the mesh crosses itself: triangle {first} and triangle {second}{of} cross at {}",
+            place(&crossing.place)
+        ),
+        cure: "take the triangles apart, make two meshes of it, or give the group `contact: Marked`",
+    }
 }
 
 fn no_volume(primitive: usize, volume: f64, least: f64) -> Refusal {

@@ -2,6 +2,7 @@
 
 mod convex;
 mod corners;
+mod crossing;
 mod divided;
 mod facets;
 mod joined;

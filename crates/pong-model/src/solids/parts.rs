@@ -2,7 +2,8 @@
 
 use super::divided::divided;
 use super::facets::Facet;
-use crate::solid::{SolidBox, SolidFacet, SolidPart};
+use crate::solid::{SolidFacet, SolidPart};
+use crate::solid_box::SolidBox;
 use crate::solid_tree::SolidTree;
 use pong_geometry::Vec3;
 use pong_geometry::overlap::Surface;

@@ -4,7 +4,8 @@
 use super::facets::Facet;
 use super::thickened::Triangles;
 use crate::hull::PLANE_TOLERANCE;
-use crate::solid::{SolidBox, SolidFacet};
+use crate::solid::SolidFacet;
+use crate::solid_box::SolidBox;
 use crate::solid_tree::SolidTree;
 use crate::weld::WordMap;
 use pong_geometry::Vec3;

@@ -3,7 +3,7 @@
 use crate::common::families::FAMILIES;
 use crate::common::{cube, cube_vertices, faults, load};
 use pong_geometry::Vec3;
-use pong_model::{Model, Solid};
+use pong_model::{Model, Solid, SolidFacet};
 use pong_testkit::{Random, samples};
 
 /// Model whose root has `contact: Solid` and these primitives.
@@ -257,6 +257,54 @@ fn a_torus_is_a_solid_without_fields() {
     assert!(solid.fields.is_empty() && !solid.is_convex());
     let exact = std::f64::consts::TAU * std::f64::consts::TAU * 0.3;
     assert!((solid.area / exact - 1.0).abs() < 0.03, "{} {exact}", solid.area);
+}
+
+/// Number of regions that hold a place, and the depth below their facets, m.
+fn regions_at(solid: &Solid, place: &Vec3) -> (usize, f64) {
+    let holds = |facet: &&SolidFacet| {
+        let walls = &solid.facet_walls[facet.walls.start as usize..facet.walls.end as usize];
+        facet.face.depth(place) >= 0.0 && walls.iter().all(|wall| wall.depth(place) >= 0.0)
+    };
+    let found: Vec<f64> = solid.facets.iter().filter(holds).map(|facet| facet.face.depth(place)).collect();
+    (found.len(), found.iter().copied().fold(0.0, f64::max))
+}
+
+/// Near the surface of a torus, each place inside is in one region, and each place outside in none.
+#[test]
+fn regions_of_a_torus_divide_the_volume_below_its_surface() {
+    let (vertices, triangles) = torus(48, 24);
+    let solid = only(&mesh_of(&vertices, &triangles, ""));
+    assert_eq!(solid.facets.len(), triangles.len());
+    assert!(solid.least_height().is_none_or(|least| least > 0.1), "{:?}", solid.least_height());
+    let of_parts: usize = solid.parts.iter().map(|part| part.facets.len()).sum();
+    assert_eq!(of_parts, solid.facets.len());
+    let mut random = Random::new(5, 0, 0);
+    let (mut once, all) = (0, samples(20_000));
+    for _ in 0..all {
+        let corners = triangles[random.below(triangles.len())].map(|vertex| vertices[vertex as usize]);
+        let [s, t] = [random.between(0.0, 1.0), random.between(0.0, 1.0)];
+        let [s, t] = if s + t > 1.0 { [1.0 - s, 1.0 - t] } else { [s, t] };
+        let edges = [corners[1] - corners[0], corners[2] - corners[0]];
+        let normal = edges[0].cross(&edges[1]).normalize();
+        let place = corners[0] + edges[0] * s + edges[1] * t;
+        let depth = random.between(1e-4, 0.02);
+        let (inside, found) = regions_at(&solid, &(place - normal * depth));
+        once += usize::from(inside == 1);
+        assert!(inside == 0 || (found / depth - 1.0).abs() < 0.05, "{inside} {found} for {depth}");
+        assert_eq!(regions_at(&solid, &(place + normal * depth)).0, 0);
+    }
+    println!("{once} of {all}");
+    assert!(once as f64 > 0.999 * all as f64, "{once} of {all}");
+}
+
+/// One vertex of a torus is drawn through the tube into the hole.
+#[test]
+fn a_mesh_that_crosses_itself_is_refused() {
+    let (mut vertices, triangles) = torus(24, 12);
+    vertices[0] = Vec3::new(0.4, 0.0, 0.0);
+    let faults = faults(&solid_model(&mesh_of(&vertices, &triangles, "")));
+    assert_eq!(faults.0[0].rule, "solid-crossing");
+    assert!(faults.0[0].cause.contains("cross at ("), "{}", faults.0[0].cause);
 }
 
 fn volume(solid: &Solid) -> f64 {

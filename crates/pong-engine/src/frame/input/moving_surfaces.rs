@@ -77,7 +77,7 @@ impl MovingSurfaces {
         tangential(&mean, normal_b)
     }
 
-    /// The same at one point, for a pose of A. It may have a part along the normal.
+    /// Travel at one point for a pose of A, m. It may have a part along the normal.
     fn travel_at(&self, x_ba: &Transform, point_b: &Vec3, normal_b: &Vec3) -> Vec3 {
         relative(&self.travels, x_ba, point_b, normal_b)
     }

@@ -1,0 +1,24 @@
+//! Boxes around solids and their parts.
+
+use pong_geometry::Vec3;
+
+/// Box along the axes of the group frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolidBox {
+    /// Centre, m.
+    pub center: Vec3,
+    /// Half extents, m.
+    pub half: Vec3,
+}
+
+impl SolidBox {
+    /// Box around points; around the origin if there are none.
+    pub(crate) fn around<'p>(points: impl IntoIterator<Item = &'p Vec3>) -> Self {
+        let mut points = points.into_iter();
+        let Some(first) = points.next() else {
+            return Self { center: Vec3::zeros(), half: Vec3::zeros() };
+        };
+        let (low, high) = points.fold((*first, *first), |(low, high), p| (low.inf(p), high.sup(p)));
+        Self { center: 0.5 * (low + high), half: 0.5 * (high - low) }
+    }
+}
