@@ -114,6 +114,13 @@ pub(super) fn bytes_per_contact(scene: &Scene, threads: usize, law_state_len: us
     RECORDS * (records + caller + workers)
 }
 
+/// Number of shells of a movable group. A primitive of a declared surface counts as a shell of its own besides,
+/// because it may coincide with another.
+fn surfaces(body: &MovableGroup) -> usize {
+    let in_joint = body.primitives.iter().filter(|info| body.is_joint(info.shell)).count();
+    body.shell_count as usize + in_joint
+}
+
 /// Estimate of the number of contacts: every primitive touches every shell of the groups paired with its own,
 /// with the most contacts that the tester table gives its kind. Clamped to the limits of the default
 /// capacity.
@@ -133,7 +140,7 @@ pub(super) fn worst_case(scene: &Scene, group_pairs: &[GroupPair], has_resistanc
             a.solids.len().saturating_mul(partners(b)) + a.planes.len().saturating_mul(b.solids.len());
         total = total.saturating_add(pairs.saturating_mul(SOLID_CONTACTS));
         for (a, b) in [(pair.first, pair.second), (pair.second, pair.first)] {
-            total = total.saturating_add(movers[a].saturating_mul(scene.body(b).shell_count as usize));
+            total = total.saturating_add(movers[a].saturating_mul(surfaces(scene.body(b))));
         }
     }
     total.clamp(DEFAULT_CAPACITY_MIN, DEFAULT_CAPACITY_MAX)

@@ -24,6 +24,7 @@ mod ledger;
 mod limits;
 mod many_pairs;
 mod normal_tangents;
+mod one_surface;
 mod other_descriptions;
 mod pairs;
 mod preload;
