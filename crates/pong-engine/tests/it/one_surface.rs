@@ -95,9 +95,12 @@ const SHARP: [(&str, &str); 2] = [
     ("segment", "LineSegment(name: \"m\", ends: ((-0.13,0.02,0),(0.12,-0.01,0)))"),
 ];
 
-/// Drags a mover over the seam of a body and over a plane; returns the worst difference of the wrenches, relative to
-/// the normal force.
-fn dragged(mover: &str, body: &str) -> f64 {
+/// Places of the ends of the segment, m.
+const SEGMENT: [f64; 2] = [-0.13, 0.12];
+
+/// Drags a mover over the seam of a body and over a plane; returns the worst difference of the wrenches at the places
+/// (x, m) that count, relative to the normal force.
+fn dragged(mover: &str, body: &str, counts: impl Fn(f64) -> bool) -> f64 {
     let mover = model("mover", &steel(), mover);
     let mut rigs = [Rig::new(&mover, &joint(body)), Rig::new(&mover, &plane())];
     let speed = 0.5;
@@ -113,7 +116,9 @@ fn dragged(mover: &str, body: &str) -> f64 {
         });
         assert!(expected.force.z > 0.4 * K * DEPTH, "{expected:?}");
         let off = (got.force - expected.force).norm() + (got.moment - expected.moment).norm();
-        worst = worst.max(off / expected.force.z);
+        if counts(place.x) {
+            worst = worst.max(off / expected.force.z);
+        }
     }
     worst
 }
@@ -132,7 +137,12 @@ fn movers_do_not_notice_a_seam() {
     let sharp = SHARP.iter().flat_map(|mover| bodies().into_iter().map(move |body| (mover, body)));
     let mut failed = Vec::new();
     for ((what, mover), (name, body)) in round.chain(sharp) {
-        let worst = dragged(mover, &body);
+        let counts = |x: f64| {
+            // Near a wall that is covered in part, an end of a segment is pushed out through it.
+            let is_limit = *what == "segment" && name.contains("narrow");
+            !is_limit || SEGMENT.iter().all(|end| (x + end).abs() > 0.02)
+        };
+        let worst = dragged(mover, &body, counts);
         println!("{what} over {name}: {worst:.1e}");
         if worst > most(name) {
             failed.push(format!("{what} over {name}: {worst:e}"));
@@ -154,7 +164,7 @@ fn a_small_step_changes_the_force_by_its_height() {
                 block("left", LOW, [0.0, 1.0], 0.0),
                 block("right", [0.0, -1.0], HIGH, step)
             );
-            let worst = dragged(mover, &body);
+            let worst = dragged(mover, &body, |_| true);
             println!("{what} over a step of {step:e}: {worst:.1e}");
             assert!(worst <= 1e-9 + 3.0 * step / DEPTH, "{what} over {step:e}: {worst:e}");
         }
@@ -181,5 +191,28 @@ fn a_ball_on_the_seam_sticks() {
         for (got, expected) in friction(&joint(&body)).iter().zip(&expected) {
             assert!((got - expected).abs() <= most(name), "{name}: {got:e} {expected:e}");
         }
+    }
+}
+
+/// Two solids of a declared surface are one solid: a solid box that is dragged over their joint does not notice it.
+#[test]
+fn a_solid_box_does_not_notice_the_joint_of_two_solids() {
+    let solid = |text: String| text.replace("surface: \"s\"", "surface: \"s\", contact: Solid");
+    let mover =
+        solid(model("mover", &steel(), &box_polyhedron("m", [0.0, 0.0, 0.05], [0.1, 0.08, 0.05], "")));
+    let two = format!("{}, {}", block("left", LOW, [0.0, 1.0], 0.0), block("right", [0.0, -1.0], HIGH, 0.0));
+    let whole = solid(model("whole", &steel(), &block("whole", LOW, HIGH, 0.0)));
+    let mut rigs = [Rig::new(&mover, &solid(joint(&two))), Rig::new(&mover, &whole)];
+    for step in -150..=150 {
+        let place = Vec3::new(f64::from(step) * 1e-3, f64::from(step) * 2e-4, -DEPTH);
+        let state = moving(place, Quat::identity(), Vec3::new(0.5, 0.1, 0.0), Vec3::zeros());
+        let [got, expected] = rigs.each_mut().map(|rig| {
+            rig.place([state, State::identity()]);
+            rig.world.step().unwrap();
+            rig.wrench(0)
+        });
+        assert!(expected.force.z > 1.0, "{expected:?}");
+        let off = (got.force - expected.force).norm() + (got.moment - expected.moment).norm();
+        assert!(off <= 1e-9 * expected.force.z, "step {step}: {got:?} {expected:?}");
     }
 }

@@ -1,7 +1,8 @@
 //! Contacts with a surface that B's model declares (`one_surface`). It may consist of several kinds of primitives,
-//! which may also coincide or overlap (docs/theory.md, 2.2).
+//! which may also coincide or overlap (docs/theory.md, 2.2, declared surfaces).
 
 use super::judge_before_sharing;
+use super::pieces::touched;
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use pong_geometry::Vec3;
@@ -34,23 +35,36 @@ pub(super) fn judge_by_kind(
     group.iter_mut().for_each(|found| found.shares = true);
 }
 
-/// Culls the contacts of a segment where it leaves one piece of the surface into another primitive of it.
+/// Culls two kinds of contacts that a segment has with one piece of the surface and would not have with the whole:
+/// where it leaves the piece into another primitive of the surface, and where an end of it is pushed through a face
+/// of the piece into another primitive that has a contact with this end as well.
 fn drop_exits_into_the_surface(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     let body = context.body_b;
-    for found in group.iter_mut().filter(|found| found.kind_b == PrimitiveKind::Polyhedron) {
+    for index in 0..group.len() {
+        let found = &group[index];
+        if found.kind_b != PrimitiveKind::Polyhedron {
+            continue;
+        }
         let segment = &context.body_a.segments[found.element_a as usize];
         let ends = segment.ends.map(|end| context.motion.x_ba.point(&end));
         let piece = &body.polyhedra[found.element_b as usize];
         let step = PAST_EXIT * piece.diameter;
-        if ends.iter().any(|end| (end - found.deepest_b).norm() <= step) {
-            continue;
-        }
-        let along = (ends[1] - ends[0]).normalize() * step;
         let leads_on = |past: Vec3| {
             !is_inside(piece, &past) && body.is_in_another(found.key.shell_b, found.element_b, &past)
         };
-        if leads_on(found.deepest_b + along) || leads_on(found.deepest_b - along) {
-            found.status = CandidateStatus::Culled;
+        let is_dropped = if ends.iter().any(|end| (end - found.deepest_b).norm() <= step) {
+            let has_end = |other: &ContactCandidate| {
+                other.takes_part()
+                    && (other.kind_b as u8, other.element_b) != (found.kind_b as u8, found.element_b)
+                    && (other.deepest_b - found.deepest_b).norm() <= step
+            };
+            leads_on(touched(found) + found.normal_b * step) && group.iter().any(has_end)
+        } else {
+            let along = (ends[1] - ends[0]).normalize() * step;
+            leads_on(found.deepest_b + along) || leads_on(found.deepest_b - along)
+        };
+        if is_dropped {
+            group[index].status = CandidateStatus::Culled;
         }
     }
 }
