@@ -65,7 +65,7 @@ fn bodies() -> Vec<(&'static str, String)> {
     ]
 }
 
-/// The same with triangles, which points and segments do not touch.
+/// Bodies with triangles, which points and segments do not touch.
 fn bodies_of_triangles() -> Vec<(&'static str, String)> {
     let left = patch("left", LOW, [0.0, 1.0]);
     let right = patch("right", [0.0, -1.5], [1.0, 1.2]);

@@ -1,7 +1,6 @@
 //! Contacts with a surface that B's model declares (`one_surface`). It may consist of several kinds of primitives,
 //! which may also coincide or overlap (docs/theory.md, 2.2, declared surfaces).
 
-use super::judge_before_sharing;
 use super::pieces::touched;
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
@@ -17,17 +16,18 @@ pub(super) fn is_joint(contact: &ContactCandidate, context: &PairContext<'_>) ->
     context.body_b.is_joint(contact.key.shell_b)
 }
 
-/// Runs passes 4 to 6 of the table in `status.rs` on the contacts of one key with a declared surface, by kind of B.
+/// Runs `judge`, passes 4 to 6 of the table in `status.rs`, on the contacts of one key with a declared surface, by kind of B.
 /// Afterwards the contacts that count share one spring, whatever the kind of A: where primitives of the surface
 /// coincide, a point is pushed once.
 pub(super) fn judge_by_kind(
     group: &mut [ContactCandidate],
     kind_a: PrimitiveKind,
     context: &PairContext<'_>,
+    judge: impl Fn(&mut [ContactCandidate], PrimitiveKind, &PairContext<'_>),
 ) {
     group.sort_unstable_by_key(|found| (found.kind_b as u8, found.order()));
     for of_kind in group.chunk_by_mut(|a, b| a.kind_b == b.kind_b) {
-        judge_before_sharing(of_kind, kind_a, context);
+        judge(of_kind, kind_a, context);
     }
     if kind_a == PrimitiveKind::LineSegment {
         drop_exits_into_the_surface(group, context);

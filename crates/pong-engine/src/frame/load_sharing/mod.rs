@@ -78,7 +78,7 @@ pub(crate) fn assign_weights(
             && (group.len() > 1 || kind_a == PrimitiveKind::LineSegment)
             && is_joint(&group[0], context);
         match joint {
-            true => judge_by_kind(group, kind_a, context),
+            true => judge_by_kind(group, kind_a, context, judge_before_sharing),
             false => judge_before_sharing(group, kind_a, context),
         }
         if group[0].shares && group.len() > 1 {
@@ -116,7 +116,7 @@ fn share_capsules(
         for end in ends.chunk_by_mut(|a, b| a.key == b.key) {
             cull_opposite_at_points(end);
             match joint {
-                true => judge_by_kind(end, PrimitiveKind::Sphere, context),
+                true => judge_by_kind(end, PrimitiveKind::Sphere, context, judge_before_sharing),
                 false => judge_before_sharing(end, PrimitiveKind::Sphere, context),
             }
             if end.len() > 1 {
