@@ -14,6 +14,7 @@ mod doctor;
 mod fmu;
 mod folders;
 mod import;
+mod join;
 mod log;
 mod man_pages;
 mod mass;
@@ -45,6 +46,7 @@ enum Command {
     Doctor(doctor::Arguments),
     Fmu(fmu::Arguments),
     Import(import::Arguments),
+    Join(join::Arguments),
     Run(run::Arguments),
     Log(log::Arguments),
     ManPages(man_pages::Arguments),
@@ -68,6 +70,7 @@ fn main() -> ExitCode {
         Command::Doctor(arguments) => doctor::main(&arguments),
         Command::Fmu(arguments) => fmu::main(&arguments),
         Command::Import(arguments) => import::main(&arguments),
+        Command::Join(arguments) => join::main(&arguments),
         Command::Run(arguments) => run::main(&arguments),
         Command::Log(arguments) => log::main(&arguments),
         Command::ManPages(arguments) => man_pages::main(&arguments, Cli::command()),

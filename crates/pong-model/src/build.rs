@@ -8,7 +8,7 @@ use crate::surface::Surface;
 use crate::triangle_topology::{self, MeshWarning, TopologyReport};
 use crate::weld::Welder;
 use crate::weld::WordMap;
-use crate::{arrange, hash, polyhedra, solids, tree};
+use crate::{arrange, hash, one_surface, polyhedra, solids, tree};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 
@@ -37,6 +37,7 @@ fn finish_body(reader: &mut Reader<'_>, draft: &mut BodyDraft, surfaces: &[Surfa
     let findings = connect_triangles(reader, draft);
     let surface_of = join_pieces(reader, draft);
     set_shells(&mut draft.body, &findings, &surface_of);
+    one_surface::join_shells(draft);
     if reader.fault_count() == 0 {
         solids::fill(reader, draft, surfaces);
     }
@@ -71,7 +72,7 @@ fn connect_triangles(reader: &mut Reader<'_>, draft: &mut BodyDraft) -> Topology
         reader.fault(draft.groups[0].at, &draft.body.path, "too-many-triangles", cause, cure);
         return TopologyReport::default();
     }
-    let findings = triangle_topology::build_adjacency(&mut draft.body);
+    let findings = triangle_topology::build_adjacency(&mut draft.body, &draft.one_surface);
     for &(repeated, earlier) in findings.duplicates.iter().take(LISTED_PER_MESH) {
         let (at, path) = draft.triangle_path(repeated);
         let (_, other) = draft.triangle_path(earlier);
@@ -121,16 +122,26 @@ fn place(p: &Vec3) -> String {
 /// Builds the polyhedra; returns, for each of them, the lowest piece of its surface.
 fn join_pieces(reader: &mut Reader<'_>, draft: &mut BodyDraft) -> Vec<u32> {
     let mut hulls = std::mem::take(&mut draft.hulls);
+    let wall_groups = one_surface::wall_groups(draft, hulls.len());
+    let closed = one_surface::close_walls(&mut hulls, &wall_groups);
     let (surface_of, lonely) = join_walls(&mut hulls);
     let primitives = draft.body.primitives.iter().zip(&draft.primitive_at);
     let pieces = primitives.filter(|(info, _)| info.kind == PrimitiveKind::Polyhedron);
     let owners: WordMap<u32, (u32, &str)> =
         pieces.map(|(info, at)| (info.elements.start, (*at, &*info.path))).collect();
     let owner = |piece: u32| owners.get(&piece).map(|(at, path)| (*at, (*path).to_owned()));
-    for (piece, face) in lonely {
+    for (piece, face) in lonely.into_iter().filter(|wall| !closed.lonely.contains(wall)) {
         let authored = hulls[piece as usize].faces[face].authored;
         if let Some((at, path)) = owner(piece) {
             let what = "this inactive face has no twin in another piece of the body";
+            reader.warn(at, &format!("{path}/faces[{authored}]"), what);
+        }
+    }
+    for (piece, face) in closed.in_part {
+        let authored = hulls[piece as usize].faces[face].authored;
+        if let Some((at, path)) = owner(piece) {
+            let what = "this face lies against another piece of the same surface only in part and pushes what is deep \
+                        at the joint; divide the piece at the edges of the other one";
             reader.warn(at, &format!("{path}/faces[{authored}]"), what);
         }
     }

@@ -25,6 +25,8 @@ pub(crate) struct BodyDraft {
     pub(crate) primitive_at: Vec<u32>,
     /// For each primitive, true if its group has `contact: Solid`.
     pub(crate) is_solid: Vec<bool>,
+    /// For each primitive, the outermost group above it that is declared one surface (index into `groups`).
+    pub(crate) one_surface: Vec<Option<u32>>,
     /// For each primitive, true if it is a `Triangle`, which is named by its path alone, without an index.
     pub(crate) lone_triangle: Vec<bool>,
     pub(crate) welder: Welder,

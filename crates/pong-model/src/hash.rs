@@ -35,6 +35,7 @@ pub(crate) fn hash(model: &Model, drafts: &[BodyDraft]) -> u64 {
     hash.foundations(&model.surfaces);
     for (body, draft) in (0..).zip(drafts) {
         hash.solids(body, &model.bodies[body], &draft.is_solid);
+        hash.one_surface(body, &draft.one_surface);
     }
     hash.0.value()
 }
@@ -200,6 +201,21 @@ impl ModelHash {
                 self.text("solid");
                 self.word((number as u64) << 32 | index as u64);
             }
+        }
+    }
+
+    /// Adds the primitives of a movable group that are declared one surface.
+    fn one_surface(&mut self, number: usize, one_surface: &[Option<u32>]) {
+        let mut numbers: Vec<u32> = Vec::new();
+        for (index, group) in one_surface.iter().enumerate() {
+            let Some(group) = group else { continue };
+            let place = numbers.iter().position(|known| known == group).unwrap_or_else(|| {
+                numbers.push(*group);
+                numbers.len() - 1
+            });
+            self.text("one surface");
+            self.word((number as u64) << 32 | index as u64);
+            self.word(place as u64);
         }
     }
 

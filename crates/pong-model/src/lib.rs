@@ -28,10 +28,12 @@ mod fnv;
 pub mod grouping;
 mod hash;
 mod hull;
+pub mod join;
 mod limits;
 #[doc(hidden)]
 pub mod mesh_formats;
 pub mod model;
+mod one_surface;
 mod pair_table;
 mod pieces;
 mod polyhedra;

@@ -77,9 +77,12 @@ pub struct MovableGroup {
     pub bores: Vec<Bore>,
     /// All custom primitives.
     pub customs: Vec<Arc<dyn CustomPrimitive>>,
-    /// Number of shells: connected surfaces of triangles, or of polyhedra joined by internal faces; every other
-    /// primitive is a shell of its own.
+    /// Number of shells: connected surfaces of triangles, or of polyhedra joined by internal faces, or what a group
+    /// declares one surface; every other primitive is a shell of its own.
     pub shell_count: u32,
+    /// Shells of polyhedra, triangles and planes that a group declares one surface (`one_surface: true`), in
+    /// increasing order. Only these shells may have primitives of several kinds.
+    pub joint_shells: Vec<u32>,
     /// Parts that touch by overlapped volume.
     pub solids: Vec<Solid>,
     /// Tree of bounding volumes.
@@ -94,6 +97,29 @@ impl MovableGroup {
             _ => info.shell,
         };
         self.solids.iter().any(|solid| solid.shell == shell)
+    }
+
+    /// Returns `true` if a group declares this shell one surface.
+    #[inline]
+    pub fn is_joint(&self, shell: u32) -> bool {
+        self.joint_shells.binary_search(&shell).is_ok()
+    }
+
+    /// Returns `true` if a place is in a polyhedron of the shell other than number `piece`, or below a plane of the
+    /// shell.
+    pub fn is_in_another(&self, shell: u32, piece: u32, place: &Vec3) -> bool {
+        let mut others = self.primitives.iter().filter(|info| info.shell == shell);
+        others.any(|info| {
+            let element = info.elements.start;
+            match info.kind {
+                PrimitiveKind::Polyhedron => {
+                    let faces = &self.polyhedra[element as usize].faces;
+                    element != piece && faces.iter().all(|face| face.height(place) <= 0.0)
+                }
+                PrimitiveKind::Plane => self.planes[element as usize].height(place) <= 0.0,
+                _ => false,
+            }
+        })
     }
 }
 

@@ -30,20 +30,20 @@ impl Sets {
     }
 }
 
-/// Inactive face: an internal face between pieces.
-struct Wall {
-    piece: u32,
-    face: usize,
-    corners: Vec<Vec3>,
-    low: Vec3,
-    high: Vec3,
+/// Face of a piece with the box around it.
+pub(crate) struct Wall {
+    pub(crate) piece: u32,
+    pub(crate) face: usize,
+    pub(crate) corners: Vec<Vec3>,
+    pub(crate) low: Vec3,
+    pub(crate) high: Vec3,
 }
 
 /// Joins pieces along their internal faces, and makes the planes of opposite internal faces exact opposites.
 /// Returns, for each piece, the lowest piece of its surface; and the internal faces (piece, face) without a
 /// counterpart.
 pub(crate) fn join_walls(hulls: &mut [Hull]) -> (Vec<u32>, Vec<(u32, usize)>) {
-    let walls = sorted_walls(hulls);
+    let walls = faces_by_x(hulls, |piece, face| !hulls[piece].faces[face].active);
     let twins = twin_walls(hulls, &walls);
     let mut pieces = Sets::new(hulls.len());
     let mut planes = Sets::new(walls.len());
@@ -62,11 +62,11 @@ pub(crate) fn join_walls(hulls: &mut [Hull]) -> (Vec<u32>, Vec<(u32, usize)>) {
     ((0..hulls.len() as u32).map(|piece| pieces.find(piece)).collect(), lonely)
 }
 
-/// All inactive faces, sorted by their least x coordinate.
-fn sorted_walls(hulls: &[Hull]) -> Vec<Wall> {
+/// Faces (piece, face) that `counts` selects, sorted by their least x coordinate.
+pub(crate) fn faces_by_x(hulls: &[Hull], counts: impl Fn(usize, usize) -> bool) -> Vec<Wall> {
     let mut walls = Vec::new();
     for (piece, hull) in hulls.iter().enumerate() {
-        for face in (0..hull.faces.len()).filter(|&face| !hull.faces[face].active) {
+        for face in (0..hull.faces.len()).filter(|&face| counts(piece, face)) {
             let corners = hull.corners(face);
             let margin = Vec3::repeat(PLANE_TOLERANCE * hull.diameter);
             let low = corners.iter().fold(corners[0], |low, c| low.inf(c)) - margin;
@@ -83,7 +83,7 @@ fn twin_walls(hulls: &[Hull], walls: &[Wall]) -> Vec<(usize, usize)> {
     for (index, wall) in walls.iter().enumerate() {
         let reachable = walls[index + 1..].iter().take_while(|other| other.low.x <= wall.high.x);
         for (ahead, other) in reachable.enumerate() {
-            if are_twins(hulls, wall, other) {
+            if lie_against(hulls, wall, other).is_some() {
                 twins.push((index, index + 1 + ahead));
             }
         }
@@ -91,10 +91,12 @@ fn twin_walls(hulls: &[Hull], walls: &[Wall]) -> Vec<(usize, usize)> {
     twins
 }
 
-fn are_twins(hulls: &[Hull], a: &Wall, b: &Wall) -> bool {
+/// Area common to two faces of different pieces that lie in one plane, with the pieces on opposite sides of it, m²;
+/// `None` if they do not lie so, or have no area in common.
+pub(crate) fn lie_against(hulls: &[Hull], a: &Wall, b: &Wall) -> Option<f64> {
     let apart = |i: usize| a.low[i] > b.high[i] || b.low[i] > a.high[i];
     if a.piece == b.piece || apart(1) || apart(2) {
-        return false;
+        return None;
     }
     let (hull_a, hull_b) = (&hulls[a.piece as usize], &hulls[b.piece as usize]);
     let (face_a, face_b) = (&hull_a.faces[a.face], &hull_b.faces[b.face]);
@@ -102,16 +104,16 @@ fn are_twins(hulls: &[Hull], a: &Wall, b: &Wall) -> bool {
     let near = |face: &crate::hull::HullFace, corners: &[Vec3]| {
         corners.iter().all(|c| (face.normal.dot(c) - face.offset).abs() <= tolerance)
     };
-    face_a.normal.dot(&face_b.normal) < -0.5
-        && near(face_a, &b.corners)
-        && near(face_b, &a.corners)
-        && overlap_area(&a.corners, &b.corners, &face_a.normal)
-            > OVERLAP_SHARE * area(&a.corners).min(area(&b.corners))
+    if face_a.normal.dot(&face_b.normal) >= -0.5 || !near(face_a, &b.corners) || !near(face_b, &a.corners) {
+        return None;
+    }
+    let common = overlap_area(&a.corners, &b.corners, &face_a.normal);
+    (common > OVERLAP_SHARE * area(&a.corners).min(area(&b.corners))).then_some(common)
 }
 
-/// Gives all internal faces in one plane the plane of the lowest piece among them, reversed where necessary,
-/// so that they agree to the bit.
-fn share_planes(hulls: &mut [Hull], walls: &[Wall], planes: &mut Sets) {
+/// Gives all faces of each set of `planes` the plane of the lowest piece among them, reversed where necessary, so
+/// that they agree to the bit.
+pub(crate) fn share_planes(hulls: &mut [Hull], walls: &[Wall], planes: &mut Sets) {
     let key = |wall: usize| (walls[wall].piece, walls[wall].face);
     let mut lowest: Vec<usize> = (0..walls.len()).collect();
     for wall in 0..walls.len() {

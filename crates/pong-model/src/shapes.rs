@@ -69,7 +69,7 @@ pub fn check_triangles(corners: &[[Vec3; 3]]) -> Vec<TriangleFault> {
     if !slivers.is_empty() {
         return fault(SLIVERS, slivers).into_iter().collect();
     }
-    let findings = triangle_topology::build_adjacency(&mut body_of(corners));
+    let findings = triangle_topology::build_adjacency(&mut body_of(corners), &[]);
     let repeated = findings.duplicates.iter().map(|&(repeated, _)| repeated).collect();
     let (mut crowded, mut wound, mut cracks) = (Vec::new(), Vec::new(), Vec::new());
     for warning in findings.mesh_warnings {

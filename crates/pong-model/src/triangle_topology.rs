@@ -7,7 +7,7 @@ use crate::model::MovableGroup;
 use crate::pieces::Sets;
 use crate::t_junctions;
 use pong_geometry::interference::pushing_features::mark_pushing;
-use pong_geometry::primitive::{NO_NEIGHBOR, PrimitiveKind, TriangleRecord, TriangleSet};
+use pong_geometry::primitive::{Lean, MayPush, NO_NEIGHBOR, PrimitiveKind, TriangleRecord, TriangleSet};
 use std::collections::BTreeSet;
 
 /// Maximum number of T-junctions reported.
@@ -39,13 +39,26 @@ type HalfEdge = (u64, u32);
 
 /// Sets the neighbours of all triangles and the features that may push. Returns warnings, duplicates and
 /// shells.
-pub(crate) fn build_adjacency(body: &mut MovableGroup) -> TopologyReport {
+///
+/// `one_surface` gives, for each primitive, the group that declares it one surface with others. A triangle that
+/// repeats one of the same declared surface is no fault: it has no neighbours, and only its face pushes.
+pub(crate) fn build_adjacency(body: &mut MovableGroup, one_surface: &[Option<u32>]) -> TopologyReport {
     let mut findings =
         TopologyReport { shell_leader: vec![0; body.triangles.triangles.len()], ..TopologyReport::default() };
+    let declared = declared_triangles(body, one_surface);
+    let mut repeated = Vec::new();
     for mirrors in [false, true] {
-        let part = triangles_of(body, mirrors);
+        let mut part = triangles_of(body, mirrors);
         let set = &mut body.triangles;
         let mut found = connect(set, &part);
+        let again = repeated_in_declared(set, &found, &declared);
+        if !again.is_empty() {
+            part.iter().for_each(|&triangle| set.triangles[triangle as usize].neighbors = [NO_NEIGHBOR; 3]);
+            part.retain(|triangle| !again.contains(triangle));
+            again.iter().for_each(|&triangle| findings.shell_leader[triangle as usize] = triangle);
+            found = connect(set, &part);
+            repeated.extend(again);
+        }
         lead_shells(set, &part, &mut findings.shell_leader);
         if !mirrors {
             let junctions = t_junctions::find(&set.vertices, &found.free_edges, JUNCTIONS_TOLD);
@@ -59,7 +72,38 @@ pub(crate) fn build_adjacency(body: &mut MovableGroup) -> TopologyReport {
         }
     }
     mark_pushing(&mut body.triangles);
+    for triangle in repeated {
+        let record = &mut body.triangles.triangles[triangle as usize];
+        (record.may_push, record.edge_lean, record.vertex_lean) = (MayPush(0), Lean::NONE, Lean::NONE);
+    }
     findings
+}
+
+/// For each triangle, the group that declares it one surface with others; empty if no group does.
+fn declared_triangles(body: &MovableGroup, one_surface: &[Option<u32>]) -> Vec<Option<u32>> {
+    if one_surface.iter().all(Option::is_none) {
+        return Vec::new();
+    }
+    let mut declared = vec![None; body.triangles.triangles.len()];
+    for (info, group) in body.primitives.iter().zip(one_surface) {
+        if info.kind == PrimitiveKind::Triangle {
+            declared[info.elements.start as usize..info.elements.end as usize].fill(*group);
+        }
+    }
+    declared
+}
+
+/// Triangles that repeat an earlier triangle of the same declared surface.
+fn repeated_in_declared(set: &TriangleSet, found: &Connections, declared: &[Option<u32>]) -> BTreeSet<u32> {
+    if declared.is_empty() {
+        return BTreeSet::new();
+    }
+    let group = |triangle: u32| declared[triangle as usize];
+    let pairs = duplicates(set, &found.suspects).into_iter();
+    pairs
+        .filter(|(repeated, earlier)| group(*repeated).is_some() && group(*repeated) == group(*earlier))
+        .map(|(repeated, _)| repeated)
+        .collect()
 }
 
 /// Front triangles of a movable group or, if `mirrors` is true, the mirror images of two-sided meshes; in

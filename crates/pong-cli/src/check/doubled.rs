@@ -79,13 +79,15 @@ fn flush_faces(body: &MovableGroup) -> Vec<String> {
     let path = |(_, primitive): (usize, usize)| &body.primitives[primitive].path;
     let line = |FlushPair { primitives: [one, other], overlap }: FlushPair| match overlap {
         true => format!(
-            "`{}` and `{}` lie in one plane and overlap: what touches both there is pushed twice; leave one out",
+            "`{}` and `{}` lie in one plane and overlap: what touches both there is pushed twice; leave one out, or declare a \
+             group above both `one_surface: true`",
             path(one),
             path(other)
         ),
         false => format!(
             "`{}` and `{}` are flush, but not one surface: what rolls or slides over their seam is pushed by both, up to twice; \
-             let them share vertices (triangles) or an inner wall (`inactive_faces` of polyhedra)",
+             declare a group above both `one_surface: true`, or let them share vertices (triangles) or an inner wall \
+             (`inactive_faces` of polyhedra)",
             path(one),
             path(other)
         ),

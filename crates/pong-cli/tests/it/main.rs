@@ -8,6 +8,7 @@ mod decompose;
 mod doctor;
 mod fmu;
 mod import;
+mod join;
 mod left_out;
 mod man_pages;
 mod replay;

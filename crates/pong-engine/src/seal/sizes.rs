@@ -142,6 +142,13 @@ fn solid_contacts(a: &MovableGroup, b: &MovableGroup) -> usize {
     total
 }
 
+/// Number of shells of a movable group. A primitive of a declared surface counts as a shell of its own besides,
+/// because it may coincide with another.
+fn surfaces(body: &MovableGroup) -> usize {
+    let in_joint = body.primitives.iter().filter(|info| body.is_joint(info.shell)).count();
+    body.shell_count as usize + in_joint
+}
+
 /// Estimate of the number of contacts: every primitive touches every shell of the groups paired with its own,
 /// with the most contacts that the tester table gives its kind. Clamped to the limits of the default
 /// capacity.
@@ -158,7 +165,7 @@ pub(super) fn worst_case(scene: &Scene, group_pairs: &[GroupPair], has_resistanc
         let [a, b] = [pair.first, pair.second].map(|body| scene.body(body));
         total = total.saturating_add(solid_contacts(a, b));
         for (a, b) in [(pair.first, pair.second), (pair.second, pair.first)] {
-            total = total.saturating_add(movers[a].saturating_mul(scene.body(b).shell_count as usize));
+            total = total.saturating_add(movers[a].saturating_mul(surfaces(scene.body(b))));
         }
     }
     total.clamp(DEFAULT_CAPACITY_MIN, DEFAULT_CAPACITY_MAX)

@@ -25,6 +25,7 @@ mod limits;
 mod many_pairs;
 mod moving_surfaces;
 mod normal_tangents;
+mod one_surface;
 mod other_descriptions;
 mod pairs;
 mod preload;

@@ -40,10 +40,10 @@ pub(super) fn warnings(setting: &Setting<'_>, bodies: &[RigidBody]) -> Vec<Strin
     let line = |((one, other), (overlap, [path, path_of_other])): ((usize, usize), (bool, [&String; 2]))| {
         let what = match overlap {
             true => {
-                "lie in one plane and overlap: what touches both there is pushed twice; leave one of them out of `pairs`"
+                "lie in one plane and overlap: what touches both there is pushed twice; make them one model with `pong join`, or leave one of them out of `pairs`"
             }
             false => {
-                "are flush: what rolls or slides over their seam is pushed by both, up to twice, and hops; make them one model"
+                "are flush: what rolls or slides over their seam is pushed by both, up to twice, and hops; make them one model with `pong join`"
             }
         };
         format!("objects `{}` and `{}`: `{path}` and `{path_of_other}` {what}", name(one), name(other))

@@ -24,12 +24,20 @@ pub(super) struct Above {
     surface: Option<u32>,
     /// True if the group above has `contact: Solid`.
     solid: bool,
+    /// Outermost group of this body that is declared one surface (index into the body's groups).
+    one_surface: Option<u32>,
 }
 
 /// Reads the root group with everything below it.
 pub(super) fn read_root(groups: &mut GroupReader<'_, '_>, node: &Node) {
-    let above =
-        Above { path: String::new(), owner: None, x_bg: Pose::identity(), surface: None, solid: false };
+    let above = Above {
+        path: String::new(),
+        owner: None,
+        x_bg: Pose::identity(),
+        surface: None,
+        solid: false,
+        one_surface: None,
+    };
     read_group(groups, node, &above, "root", &mut HashSet::new());
 }
 
@@ -52,6 +60,7 @@ fn read_group(
     };
     let contact =
         fields.optional("contact").and_then(|node| groups.reader.variant(node, &path, schema::CONTACTS));
+    let one_surface = fields.optional("one_surface").and_then(|node| groups.reader.boolean(node, &path));
     let bound = read_bound(groups.reader, &fields, &path, movable);
     let leaf_size = read_leaf_size(groups.reader, &fields, &path);
     let x_bg = above.x_bg.compose(&x_pg);
@@ -62,6 +71,11 @@ fn read_group(
     };
     place.surface = surface;
     place.solid = contact.map_or(above.solid, |contact| contact == "Solid");
+    place.one_surface = match (one_surface, above.one_surface.filter(|_| !movable)) {
+        (Some(false), _) => None,
+        (Some(true), None) => Some(place.group as u32),
+        (_, of_above) => of_above,
+    };
     let draft = &mut groups.bodies[place.body].groups[place.group];
     draft.bound = bound.clone().flatten().unwrap_or(BoundKind::Aabb);
     draft.leaf_size = leaf_size;
@@ -109,6 +123,7 @@ fn new_body(
         x_bg: Pose::identity(),
         surface: None,
         solid: false,
+        one_surface: None,
     }
 }
 
@@ -118,7 +133,7 @@ fn same_body(groups: &mut GroupReader<'_, '_>, above: &Above, path: String, x_bg
     draft.push(empty_group(&path));
     let group = draft.len() - 1;
     draft[parent].children.push(group);
-    Place { path, body, group, x_bg, surface: None, solid: false }
+    Place { path, body, group, x_bg, surface: None, solid: false, one_surface: None }
 }
 
 fn empty_group(path: &str) -> GroupDraft {
@@ -148,6 +163,7 @@ fn read_contents(groups: &mut GroupReader<'_, '_>, fields: &Fields<'_>, place: &
             x_bg: place.x_bg,
             surface: place.surface,
             solid: place.solid,
+            one_surface: place.one_surface,
         };
         for (index, item) in items.iter().enumerate() {
             read_group(groups, item, &above, &format!("groups[{index}]"), &mut siblings);

@@ -25,6 +25,8 @@ pub(super) struct Place {
     pub(super) surface: Option<u32>,
     /// True for `contact: Solid`.
     pub(super) solid: bool,
+    /// Outermost group of this body above the primitives that is declared one surface (index into its groups).
+    pub(super) one_surface: Option<u32>,
 }
 
 /// Name of a group or primitive, if it has a usable one, so that all its faults carry its path.

@@ -58,6 +58,7 @@ pub(super) fn read_primitive(
         draft.body.primitives.push(info);
         draft.primitive_at.push(node.at);
         draft.is_solid.push(place.solid);
+        draft.one_surface.push(place.one_surface);
         draft.lone_triangle.push(kind.tag == Shape::Triangle);
     }
 }

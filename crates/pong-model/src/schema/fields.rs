@@ -72,6 +72,7 @@ pub const GROUP: &[Field] = &[
     described("leaf_size", Type::Whole, "", "no limit"),
     described("surface", Type::Text, "", "that of the group above"),
     described("contact", Type::Word(CONTACTS), "", "that of the group above; root: `Marked`"),
+    described("one_surface", Type::Boolean, "", "that of the group above; movable: `false`"),
     described("groups", Type::Groups, "", "none: the group holds primitives"),
     described("primitives", Type::Primitives, "", "none: the group holds groups"),
 ];

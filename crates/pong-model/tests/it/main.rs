@@ -9,6 +9,7 @@ mod extensions;
 mod format;
 mod grouping;
 mod meshes;
+mod one_surface;
 mod rejects;
 mod round_bounds;
 mod round_parts;

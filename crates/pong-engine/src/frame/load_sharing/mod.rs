@@ -2,6 +2,7 @@
 
 mod capsules;
 mod exits;
+mod joint;
 mod pieces;
 mod ray_hits;
 mod rims;
@@ -14,6 +15,7 @@ use crate::frame::narrow_phase::element_pair::BETWEEN_ENDS;
 use crate::state::{ContactRole, NO_FACE};
 use capsules::couple;
 use exits::{is_exit_that_stands_in, keep_one_of_exits};
+use joint::{is_joint, judge_by_kind};
 use pieces::{
     are_convex, are_in_both_planes, are_one_place, drop_second_of_edges, drop_what_the_body_lacks,
     next_deeper, pushes_before, touch_convexly, touched,
@@ -45,6 +47,7 @@ pub(crate) fn assign_weights(
 ) -> Result<(), Full> {
     if let [alone] = &mut found[..]
         && !is_under_capsule(alone)
+        && !(kind_a == PrimitiveKind::LineSegment && is_joint(alone, context))
     {
         // A single candidate keeps the weight that its tester gave. If it is `BeyondWall`, B has no piece on
         // the other side of the internal face, so there is no contact.
@@ -70,10 +73,20 @@ pub(crate) fn assign_weights(
         return share_capsules(found, context, shared_contacts, scratch);
     }
     for group in found.chunk_by_mut(|a, b| a.key == b.key) {
-        judge_before_sharing(group, kind_a, context);
+        let shares = !matches!(kind_a, PrimitiveKind::Ray | PrimitiveKind::Custom);
+        let joint = shares
+            && (group.len() > 1 || kind_a == PrimitiveKind::LineSegment)
+            && is_joint(&group[0], context);
+        match joint {
+            true => judge_by_kind(group, kind_a, context, judge_before_sharing),
+            false => judge_before_sharing(group, kind_a, context),
+        }
         if group[0].shares && group.len() > 1 {
             outcome = outcome.and(find_shares(group, &context.body_b.triangles, shared_contacts, scratch));
             drop_idle(group);
+        }
+        if joint {
+            group.sort_unstable_by_key(ContactCandidate::order);
         }
     }
     outcome
@@ -91,6 +104,10 @@ fn share_capsules(
     let surface = |found: &ContactCandidate| (found.key.head(), found.key.shell_b);
     for body in found.chunk_by_mut(|a, b| surface(a) == surface(b)) {
         let edges = body.partition_point(|found| found.key.end < BETWEEN_ENDS);
+        let joint = body.len() > 1 && is_joint(&body[0], context);
+        if joint {
+            body.iter_mut().for_each(|found| found.shares = true);
+        }
         // Contacts with round solids and planes already have their weights.
         if !body[0].shares {
             continue;
@@ -98,7 +115,10 @@ fn share_capsules(
         let (ends, middle) = body.split_at_mut(edges);
         for end in ends.chunk_by_mut(|a, b| a.key == b.key) {
             cull_opposite_at_points(end);
-            judge_before_sharing(end, PrimitiveKind::Sphere, context);
+            match joint {
+                true => judge_by_kind(end, PrimitiveKind::Sphere, context, judge_before_sharing),
+                false => judge_before_sharing(end, PrimitiveKind::Sphere, context),
+            }
             if end.len() > 1 {
                 outcome = outcome.and(find_shares(end, &context.body_b.triangles, shared_contacts, scratch));
             }
@@ -107,6 +127,9 @@ fn share_capsules(
             couple(ends, middle);
         }
         ends.chunk_by_mut(|a, b| a.key == b.key).filter(|end| end.len() > 1).for_each(drop_idle);
+        if joint {
+            ends.sort_unstable_by_key(ContactCandidate::order);
+        }
     }
     outcome
 }

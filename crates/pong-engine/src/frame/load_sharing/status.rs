@@ -26,6 +26,9 @@
 //! | 8 | `couple` | capsules | contacts between the ends | culled |
 //! | 9 | `drop_idle` | the same | without weight | tracked with a face of entry or as `BackFace`, otherwise culled |
 //!
+//! With a surface that B's model declares (`joint.rs`), passes 4 to 6 run on the candidates of each kind of B, exits of
+//! segments into another primitive of the surface are culled after pass 4, and what is left shares one spring.
+//!
 //! A single candidate skips all passes, unless it lies between the ends of a capsule; if it is `BeyondWall`,
 //! it is culled. After the frame's contacts are in order, the first hit of a ray among several movable groups
 //! culls the other hits (`output/order.rs`). No pass makes a culled candidate count again.

@@ -4,7 +4,6 @@
 use crate::frame::input::motion::SinceCommit;
 use crate::frame::narrow_phase::nearest_side::{Nearby, ROUNDING, visit_triangles};
 use crate::state::{ContactRecord, ContactRole, NO_FACE, RecordsOfKey, SAME_WAY_COSINE_MIN};
-use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::{
     entry_of_line, face_most_along, follow, shallowest_face,
 };
@@ -14,6 +13,7 @@ use pong_geometry::interference::triangle_features::{
 };
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray};
+use pong_geometry::{Vec3, divisor};
 use pong_model::{Item, MovableGroup};
 use std::num::NonZeroU32;
 
@@ -41,6 +41,10 @@ impl EntryFace {
         self.pushes as usize
     }
 }
+
+/// Distance before the entry into a piece of a declared surface at which its other primitives are searched, in
+/// diameters of the piece: above the tolerance of internal faces, so that a path cannot be between two pieces.
+const BEFORE_ENTRY: f64 = 4e-6;
 
 /// A point (or a sphere's centre) inside a piece of B.
 pub(crate) struct PolyhedronEntry<'a> {
@@ -102,7 +106,7 @@ impl PolyhedronEntry<'_> {
         let entry = self.earlier_b().and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
         match entry {
             // The path left the body and entered it again: the remembered face no longer counts.
-            Some(entry) if polyhedron.faces[entry.face].active => Some(entry.face),
+            Some(entry) if self.came_in_by(entry.face, entry.at) => Some(entry.face),
             _ => face_most_along(&old.normal, &self.point_b, polyhedron),
         }
     }
@@ -114,12 +118,27 @@ impl PolyhedronEntry<'_> {
         let polyhedron = self.polyhedron();
         let entry = self.earlier_b().and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
         match entry {
-            Some(entry) if polyhedron.faces[entry.face].active => Some(entry.face),
+            Some(entry) if self.came_in_by(entry.face, entry.at) => Some(entry.face),
             Some(entry) => {
                 self.entered_through_wall(entry.at).or_else(|| shallowest_face(&self.point_b, polyhedron))
             }
             None => shallowest_face(&self.point_b, polyhedron),
         }
+    }
+
+    /// Returns true if a path that entered this piece through a face, at the parameter `at`, came into the body
+    /// there. A path through an internal face did not, nor did one that came out of another primitive of a declared
+    /// surface.
+    fn came_in_by(&self, face: usize, at: f64) -> bool {
+        let polyhedron = self.polyhedron();
+        if !polyhedron.faces[face].active || !self.body.is_joint(self.shell) {
+            return polyhedron.faces[face].active;
+        }
+        let Some(earlier) = self.earlier_b() else { return true };
+        let path = self.point_b - earlier;
+        let before =
+            earlier + path * (at - BEFORE_ENTRY * polyhedron.diameter / divisor(path.norm())).max(0.0);
+        !self.body.is_in_another(self.shell, self.piece, &before)
     }
 
     /// Face of entry in this piece for a path that entered it through an internal face, at the parameter

@@ -147,6 +147,9 @@ impl Seen<'_> {
         if record.normal_b.dot(&(line.to_b - line.from_b)) >= 0.0 {
             return false;
         }
+        if body.is_joint(key.shell_b) {
+            return self.came_out_of_joint(record, &line);
+        }
         let of_shell = |kind| {
             let mut infos = body.primitives.iter();
             infos.any(|info| info.kind == kind && info.shell == key.shell_b)
@@ -171,6 +174,25 @@ impl Seen<'_> {
                 info.elements.contains(&record.element_b) && self.came_out_of_round(record, info.kind)
             })
         }
+    }
+
+    /// Returns true if the element of an ended contact with a declared surface came out of its polyhedra, or went
+    /// through its triangles. A record does not tell the kind of its primitive, so both must be possible only for
+    /// kinds that the surface has; nothing passes through a plane.
+    fn came_out_of_joint(&self, record: &ContactRecord, line: &Line) -> bool {
+        let (body, shell) = (self.context.body_b, record.key.shell_b);
+        let planes =
+            body.primitives.iter().filter(|info| info.shell == shell && info.kind == PrimitiveKind::Plane);
+        let mut planes = planes.map(|info| &body.planes[info.elements.start as usize]);
+        if planes.any(|plane| plane.normal.dot(&record.normal_b) > SAME_SIDE_COSINE_MIN) {
+            return false;
+        }
+        let triangle = body.triangles.triangles.get(record.element_b as usize);
+        let is_of_triangle = triangle.is_some_and(|triangle| {
+            let normal = body.triangles.normal(record.element_b);
+            triangle.shell == shell && normal.dot(&record.normal_b) > SAME_SIDE_COSINE_MIN
+        });
+        self.came_out_of_solid(record, line) || is_of_triangle && self.came_out_of_sheet(record, line)
     }
 
     fn came_out_of_solid(&self, record: &ContactRecord, line: &Line) -> bool {
