@@ -64,7 +64,7 @@ impl<'a> Couple<'a> {
         ];
         let lever = radii.into_iter().flatten().reduce(f64::min).unwrap_or(rolling.max(spinning));
         let mut rate_b = context.motion.omega_a_b - context.motion.omega_b_b;
-        if let Some(surfaces) = &context.surfaces {
+        if let Some(surfaces) = context.surfaces.motions() {
             rate_b += surfaces.angular_velocity(context.motion);
         }
         let resistance = Resistance {
@@ -128,7 +128,7 @@ fn turned(
 ) -> Vec3 {
     let Some(since) = &context.motion.since_commit else { return Vec3::zeros() };
     let mut turned = *context.rotation(since);
-    if let Some(surfaces) = &context.surfaces {
+    if let Some(surfaces) = context.surfaces.motions() {
         turned += surfaces.turned(context.motion);
     }
     if earlier.is_some() {

@@ -207,7 +207,7 @@ impl PairContext<'_> {
         let velocity = self.motion.velocity_at(&point);
         let closing = -found.normal_b.dot(&velocity);
         let mut slip_velocity = velocity + found.normal_b * closing;
-        if let Some(surfaces) = &self.surfaces {
+        if let Some(surfaces) = self.surfaces.motions() {
             slip_velocity += surfaces.velocity(self.motion, &point, &found.normal_b);
         }
         let records = match found.remembered {
@@ -344,7 +344,7 @@ impl PairContext<'_> {
         let displacement = now - before + self.rotation(since).cross(&lever);
         let approach = -found.normal_b.dot(&displacement);
         let mut across = displacement + found.normal_b * approach;
-        if let Some(surfaces) = &self.surfaces {
+        if let Some(surfaces) = self.surfaces.motions() {
             let earlier = earlier.map(|earlier| (earlier.point_b, earlier.normal_b));
             across += surfaces.travel((self.motion, since), earlier, &contact.point, &found.normal_b);
         }

@@ -10,7 +10,7 @@ use crate::scene::{Scene, States, SurfaceField};
 use crate::seal::{Direction, Sealed, SurfaceTable};
 use crate::state::{CommittedPoses, ContactMemory};
 use motion::{Motion, PairMotions};
-use moving_surfaces::{GroupSurface, MovingSurfaces};
+use moving_surfaces::{GroupSurface, MovingSurfaces, PairSurfaces};
 use pong_geometry::bounding::VolumeTests;
 use pong_geometry::{Pose, Twist, Vec3};
 use pong_model::MovableGroup;
@@ -122,16 +122,22 @@ pub(crate) struct Round<'a> {
     pub input: &'a WorkerInput,
 }
 
-impl Round<'_> {
+impl<'a> Round<'a> {
     /// Motions of the surfaces of A and B along themselves; `None` where neither moves.
     #[inline]
     pub fn moving_surfaces(&self, direction: Direction) -> Option<MovingSurfaces> {
-        if self.input.surfaces.is_empty() {
-            return None;
+        self.surfaces_of(direction).motions()
+    }
+
+    /// Surfaces of A and B.
+    #[inline]
+    fn surfaces_of(&self, direction: Direction) -> PairSurfaces<'a> {
+        PairSurfaces {
+            all: &self.input.surfaces,
+            bodies: self.sealed.bodies_of(direction).into(),
+            pair: self.sealed.group_pairs[direction.group_pair as usize].pair,
+            committed: &self.memory.poses,
         }
-        let (body_a, body_b) = self.sealed.bodies_of(direction);
-        let pair = self.sealed.group_pairs[direction.group_pair as usize].pair;
-        MovingSurfaces::of(&self.input.surfaces, [body_a, body_b], (pair, &self.memory.poses))
     }
 }
 
@@ -145,8 +151,8 @@ pub(crate) struct PairContext<'a> {
     pub body_b: &'a MovableGroup,
     /// Motion of A relative to B.
     pub motion: &'a Motion,
-    /// Motions of the surfaces along themselves; `None` where neither moves.
-    pub surfaces: Option<MovingSurfaces>,
+    /// Surfaces of A and B, which may move along themselves.
+    pub surfaces: PairSurfaces<'a>,
     pub memory: &'a ContactMemory,
     pub table: &'a SurfaceTable,
     pub volume_tests: &'a VolumeTests,
@@ -173,7 +179,7 @@ impl<'a> PairContext<'a> {
             body_a: scene.body(a),
             body_b: scene.body(b),
             motion,
-            surfaces: round.moving_surfaces(direction),
+            surfaces: round.surfaces_of(direction),
             memory,
             table: &input.tables[pair.tables[flipped as usize]],
             volume_tests: &sealed.volume_tests,

@@ -12,6 +12,29 @@ pub(crate) struct GroupSurface {
     pub travel: SurfaceField,
 }
 
+/// Surfaces of A and B. Their motions are large and rarely there, so they are computed where they are used.
+#[derive(Clone, Copy)]
+pub(crate) struct PairSurfaces<'a> {
+    /// Surfaces of all movable groups; empty where none moves or has moved.
+    pub all: &'a [GroupSurface],
+    /// Movable groups A and B.
+    pub bodies: [usize; 2],
+    /// Pair of Objects.
+    pub pair: usize,
+    pub committed: &'a CommittedPoses,
+}
+
+impl PairSurfaces<'_> {
+    /// Motions of the surfaces along themselves; `None` where neither moves.
+    #[inline]
+    pub fn motions(&self) -> Option<MovingSurfaces> {
+        match self.all.is_empty() {
+            true => None,
+            false => MovingSurfaces::of(self.all, self.bodies, (self.pair, self.committed)),
+        }
+    }
+}
+
 /// Motion of the surfaces of A and B relative to their movable groups, each in the frame of its group.
 pub(crate) struct MovingSurfaces {
     velocities: [SurfaceField; 2],

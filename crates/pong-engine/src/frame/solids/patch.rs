@@ -235,7 +235,7 @@ impl Patch<'_> {
         let velocity = self.relative.a_in_b.at(center);
         let turning = lever * self.relative.a_in_b.angular.dot(normal);
         let slip_velocity = velocity + normal * (turning - normal.dot(&velocity));
-        match &self.context.surfaces {
+        match self.context.surfaces.motions() {
             None => slip_velocity,
             Some(surfaces) => {
                 let motion = self.context.motion;
@@ -301,7 +301,7 @@ impl Patch<'_> {
         let turned = self.context.rotation(since);
         let approach = -normal.dot(&displacement);
         let mut slip = displacement + normal * (approach + lever * turned.dot(normal));
-        if let Some(surfaces) = &self.context.surfaces {
+        if let Some(surfaces) = self.context.surfaces.motions() {
             let motion = self.context.motion;
             let before = earlier
                 .map(|[(_, first), (_, second)]| ((first.point_b + second.point_b) * 0.5, first.normal_b));
@@ -335,7 +335,7 @@ impl Patch<'_> {
         let mut records = entry::records(self.context, self.sides, cell.part);
         let continues = records.find(|(_, record)| record.feature == found.feature.0).map(|(index, _)| index);
         let mut velocity = self.relative.a_in_b.at(&cell.point_b);
-        if let Some(surfaces) = &self.context.surfaces {
+        if let Some(surfaces) = self.context.surfaces.motions() {
             velocity += surfaces.velocity(self.context.motion, &cell.point_b, &cell.normal_b);
         }
         self.add(out, continues, |contact| {
