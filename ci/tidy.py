@@ -179,7 +179,7 @@ def units():
 
 # Structs whose vectors need no frame in their names (docs/glossary.md, Motion and frames).
 IN_THE_COMMON_FRAME = {"Contact", "ContactSide", "NearestPrimitive"}
-FRAME_STANDS_IN_THE_NAME_OF_THE_VALUE = {"Pose", "Transform", "Twist", "Wrench", "SurfaceField"}
+FRAME_STANDS_IN_THE_NAME_OF_THE_VALUE = {"Pose", "Transform", "Twist", "Wrench"}
 CONSTANTS_OF_A_PRIMITIVE = {"TriangleView", "PreparedEllipsoid", "Shadow", "Wedge"}
 VECTOR = re.compile(r"^    pub(?:\(\w+\))? (\w+): [&'a-z (\[]*(?:Option<|Cell<|Vec<)*Vec3\b")
 STRUCT = re.compile(r"^(?:pub(?:\(\w+\))? )?(?:struct|enum) (\w+)")

@@ -102,7 +102,7 @@ const char *pong_last_message(void);
 /* ---- Version --------------------------------------------------------------------------------------------- */
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0x93554f8fd748de6bULL
+#define PONG_LAYOUT_HASH 0xe33d96005733ba00ULL
 
 /// Checks that this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -520,6 +520,43 @@ pong_status pong_get_state(const struct pong_world *world,
                            struct pong_interface_id interface,
                            struct pong_state *state);
 
+/// Motion of the surface of a movable group along itself, in the frame of the group, as of a belt, a track or a
+/// turntable. The shape of the group does not move by it; only friction sees it. At a point p of the surface with the
+/// outward unit normal n, the surface moves relative to the group at linear + angular x p + belt x n, of which the
+/// part in the contact plane counts. The travels are the integrals of the velocities over time since any instant that
+/// the host chooses: they are to the velocities what poses are to twists. Bristles follow the travels.
+typedef struct pong_surface_motion {
+    /// Velocity of the whole surface, m/s: a belt that is seen from one side.
+    double linear_velocity[3];
+    /// Angular velocity of the surface about the group's origin, rad/s: a turntable.
+    double angular_velocity[3];
+    /// Axis of the rollers of a belt that runs around the group, times its speed, m/s: along x above and against x
+    /// below for the axis y.
+    double belt_velocity[3];
+    /// Integral of linear_velocity over time, m.
+    double linear_travel[3];
+    /// Integral of angular_velocity over time, rad.
+    double angular_travel[3];
+    /// Integral of belt_velocity over time, m.
+    double belt_travel[3];
+} pong_surface_motion;
+
+/// Sets the motions of the surfaces of `n` movable groups in one call: all of them or, if any is refused, none. They
+/// last until they are set again; before the first call no surface moves. Set them as states are set, for every
+/// evaluation for which they differ. The world must know before the seal that surfaces may move: set one in set-up,
+/// with zeros if need be. With n = 0 the arrays may be NULL. In set-up and in frames. PONG_STATUS_BAD_VALUE: no motion
+/// was set in set-up. PONG_STATUS_BAD_STATE: a number is not finite or beyond 1e100. PONG_STATUS_DUPLICATE: a group is
+/// named twice.
+pong_status pong_set_surface_motions(struct pong_world *world,
+                                     const struct pong_interface_id *interfaces,
+                                     const struct pong_surface_motion *motions,
+                                     size_t n);
+
+/// Copies the motion of the surface of a movable group, as it was set last; zero if it was never set.
+pong_status pong_get_surface_motion(const struct pong_world *world,
+                                    struct pong_interface_id interface,
+                                    struct pong_surface_motion *motion);
+
 /// Copies the pose that the model's author gave a movable group, at rest, relative to the frame of the root
 /// group: an initial state. It is the identity for the root.
 pong_status pong_get_authored_state(const struct pong_world *world,
@@ -933,6 +970,18 @@ typedef struct pong_surface_values {
     double friction_slip_speed;
 } pong_surface_values;
 
+/// Values of a surface that pong_surface_values does not have. Get them, change some, set them.
+typedef struct pong_surface_more {
+    /// Foundation modulus of solids, N/m^3: the pressure for each metre of depth; 0 for none.
+    double foundation;
+    /// Area to which the stiffness belongs, m^2; 0 for none.
+    double area;
+    /// Bristle: rolling resistance, m: the moment of a rolling contact over its normal force. Ignored by other laws.
+    double rolling;
+    /// Bristle: spinning resistance, m, likewise.
+    double spinning;
+} pong_surface_more;
+
 /// Number of surfaces of a model.
 pong_status pong_surface_count(const struct pong_world *world, struct pong_model_id model, size_t *count);
 
@@ -955,6 +1004,19 @@ pong_status pong_set_surface(struct pong_world *world,
                              struct pong_model_id model,
                              const char *surface,
                              const struct pong_surface_values *values);
+
+/// Copies the present further values of a surface, named as in the model.
+pong_status pong_get_surface_more(const struct pong_world *world,
+                                  struct pong_model_id model,
+                                  const char *surface,
+                                  struct pong_surface_more *values);
+
+/// Sets the further values of a surface for all Objects of a model, as pong_set_surface() sets the others.
+/// PONG_STATUS_BAD_VALUE: a value outside its range.
+pong_status pong_set_surface_more(struct pong_world *world,
+                                  struct pong_model_id model,
+                                  const char *surface,
+                                  const struct pong_surface_more *values);
 
 /* ---- Further worlds -------------------------------------------------------------------------------------- */
 

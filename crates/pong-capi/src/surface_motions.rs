@@ -35,7 +35,8 @@ pub struct pong_surface_motion {
 /// last until they are set again; before the first call no surface moves. Set them as states are set, for every
 /// evaluation for which they differ. The world must know before the seal that surfaces may move: set one in set-up,
 /// with zeros if need be. With n = 0 the arrays may be NULL. In set-up and in frames. PONG_STATUS_BAD_VALUE: no motion
-/// was set in set-up. PONG_STATUS_BAD_STATE: a number is not finite or beyond 1e100. PONG_STATUS_DUPLICATE: a group is named twice.
+/// was set in set-up. PONG_STATUS_BAD_STATE: a number is not finite or beyond 1e100. PONG_STATUS_DUPLICATE: a group is
+/// named twice.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_surface_motions(
     world: *mut pong_world,

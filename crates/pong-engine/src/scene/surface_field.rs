@@ -5,14 +5,23 @@ use pong_geometry::Vec3;
 /// Velocity or travel of a surface relative to its movable group, as a field of position and normal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct SurfaceField {
-    pub linear: Vec3,
-    pub angular: Vec3,
-    pub belt: Vec3,
+    linear: Vec3,
+    angular: Vec3,
+    belt: Vec3,
 }
 
 impl SurfaceField {
     /// Count of numbers.
     pub const NUMBERS: usize = 9;
+
+    pub fn new([linear, angular, belt]: [Vec3; 3]) -> Self {
+        Self { linear, angular, belt }
+    }
+
+    /// Angular part: rad/s or rad.
+    pub fn angular(&self) -> &Vec3 {
+        &self.angular
+    }
 
     pub fn from_numbers(numbers: &[f64; Self::NUMBERS]) -> Self {
         let [a, b, c, d, e, f, g, h, i] = *numbers;

@@ -62,20 +62,12 @@ impl SurfaceMotion {
 
     /// Velocities as a field of position and normal, in the group's frame.
     pub(crate) fn velocity(&self) -> SurfaceField {
-        SurfaceField {
-            linear: self.linear_velocity.into(),
-            angular: self.angular_velocity.into(),
-            belt: self.belt_velocity.into(),
-        }
+        SurfaceField::new([self.linear_velocity, self.angular_velocity, self.belt_velocity].map(Into::into))
     }
 
     /// Travels as a field of position and normal, in the group's frame.
     pub(crate) fn travel(&self) -> SurfaceField {
-        SurfaceField {
-            linear: self.linear_travel.into(),
-            angular: self.angular_travel.into(),
-            belt: self.belt_travel.into(),
-        }
+        SurfaceField::new([self.linear_travel, self.angular_travel, self.belt_travel].map(Into::into))
     }
 
     /// Returns an error that names the movable group if a number is not finite or too large.

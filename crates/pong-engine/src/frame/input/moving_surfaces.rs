@@ -75,13 +75,13 @@ impl MovingSurfaces {
 
     /// Angular velocity of A's surface relative to A's group minus that of B's, in B's frame, rad/s.
     pub fn angular_velocity(&self, motion: &Motion) -> Vec3 {
-        motion.x_ba.vector(&self.velocities[0].angular) - self.velocities[1].angular
+        motion.x_ba.vector(self.velocities[0].angular()) - self.velocities[1].angular()
     }
 
     /// Angle by which A's surface has turned relative to A's group since the last commit minus that of B's, in B's
     /// frame, rad.
     pub fn turned(&self, motion: &Motion) -> Vec3 {
-        motion.x_ba.vector(&self.travels[0].angular) - self.travels[1].angular
+        motion.x_ba.vector(self.travels[0].angular()) - self.travels[1].angular()
     }
 
     /// Travel of A's surface since the last commit minus that of B's, at a contact that moves from `earlier` (point
@@ -100,7 +100,8 @@ impl MovingSurfaces {
         tangential(&mean, normal_b)
     }
 
-    /// Travel at one point for a pose of A, m. It may have a part along the normal.
+    /// Travel of A's surface minus that of B's at one point, for a pose of A, in B's frame, m. It may have a part along
+    /// the normal.
     fn travel_at(&self, x_ba: &Transform, point_b: &Vec3, normal_b: &Vec3) -> Vec3 {
         relative(&self.travels, x_ba, point_b, normal_b)
     }
