@@ -14,8 +14,8 @@ use pong::pair_monitor::{
     pong_observe_pairs, pong_pair_peaks, pong_start_pair_monitor,
 };
 use pong::report::{pong_get_ledger, pong_get_report, pong_ledger, pong_report};
-use pong::surface_motions::{pong_get_surface_motion, pong_set_surface_motions, pong_surface_motion};
 use pong::states::{pong_default_state, pong_get_state, pong_set_state, pong_set_states, pong_state};
+use pong::surface_motions::{pong_get_surface_motion, pong_set_surface_motions, pong_surface_motion};
 use pong::world::pong_world;
 use pong::wrenches::{
     pong_get_pair_wrench, pong_get_wrench, pong_get_wrench_from, pong_get_wrenches, pong_wrench,
@@ -162,10 +162,14 @@ impl Session<'_> {
             part[self.input.below(3)] = if self.input.chance(16) { self.input.number() } else { 0.1 };
         }
         let sure = known.and(good).and(Sure::Unknown);
-        self.call("set surface motions", sure, || unsafe { pong_set_surface_motions(world, &id, &motion, 1) });
+        self.call("set surface motions", sure, || unsafe {
+            pong_set_surface_motions(world, &id, &motion, 1)
+        });
         let place = self.place::<pong_surface_motion>();
         let sure = known.and(good).and(place.sure);
-        self.call("get surface motion", sure, || unsafe { pong_get_surface_motion(world, id, place.pointer) });
+        self.call("get surface motion", sure, || unsafe {
+            pong_get_surface_motion(world, id, place.pointer)
+        });
     }
 
     fn get_state(&mut self) {
