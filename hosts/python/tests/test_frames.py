@@ -448,3 +448,18 @@ def test_surfaces_that_move_along_themselves():
     assert 0.0 < friction <= 0.6 * w.wrenches()[0, 2] * (1.0 + 1e-9)
     with pytest.raises(pong.BadValueError, match="moving_surfaces"):
         world().set_surface_motions(motions)
+
+
+def test_foundation_and_resistance_can_be_set():
+    w = world()
+    ball = w.models[0]
+    values = w.surface(ball, "rubber")
+    assert values["foundation"] is None and values["area"] is None
+    assert values["friction"]["rolling"] == 0.0 and values["friction"]["spinning"] == 0.0
+    w.set_surface(ball, "rubber", {"foundation": 1e7, "friction": {"rolling": 1e-3, "spinning": 2e-3}})
+    values = w.surface(ball, "rubber")
+    assert values["foundation"] == 1e7
+    assert (values["friction"]["rolling"], values["friction"]["spinning"]) == (1e-3, 2e-3)
+    w.set_surface(ball, "rubber", {"foundation": None, "area": 0.01})
+    with pytest.raises(pong.BadValueError, match="not both"):
+        w.set_surface(ball, "rubber", {"foundation": 1e7})
