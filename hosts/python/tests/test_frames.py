@@ -450,6 +450,24 @@ def test_surfaces_that_move_along_themselves():
         world().set_surface_motions(motions)
 
 
+def test_a_log_has_the_motions_of_surfaces(tmp_path):
+    w = world(moving_surfaces=True)
+    motions = np.zeros((2, 18))
+    w.set_states(touching(1e-3))
+    w.start_log(tmp_path / "log", step=1e-3)
+    for frame in range(30):
+        w.set_states(touching(1e-3))
+        w.set_surface_motions(motions)
+        w.step()
+        w.log_frame(frame * 1e-3)
+        motions[1, 0] = 0.5
+        motions[1, 9] += 0.5e-3
+        motions[1, 16] += 1e-4 * frame
+    assert w.stop_log() == 30
+    found = pong.replay(tmp_path / "log")
+    assert found.agrees and found.compared == 30
+
+
 def test_foundation_and_resistance_can_be_set():
     w = world()
     ball = w.models[0]
