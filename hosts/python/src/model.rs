@@ -253,9 +253,10 @@ fn plain_value<'py>(
             .then(|| value.clone())
             .ok_or_else(|| refused(thing, value, "give a name"));
     }
-    // A bristle's stiffness and damping may be left to the engine; only a stiffness may be infinite.
-    let may_be_left_out =
-        ["friction: stiffness", "friction: damping"].iter().any(|name| thing.ends_with(name));
+    // A bristle's stiffness and damping may be left to the engine, and a surface may have no foundation; only a
+    // stiffness may be infinite.
+    let may_be_left_out = ["friction: stiffness", "friction: damping", ": foundation", ": area"];
+    let may_be_left_out = may_be_left_out.iter().any(|name| thing.ends_with(name));
     if may_be_left_out && value.is_none() {
         return Ok(value.clone());
     }

@@ -23,6 +23,8 @@ use std::sync::{Mutex, MutexGuard};
 ///     Threads that help the calling thread. They change no bit.
 /// allow_files_below : sequence of path_like, optional
 ///     Folders from which models may read meshes, beside their own.
+/// moving_surfaces : bool, default False
+///     Lets surfaces move along themselves (`World.set_surface_motions`).
 #[pyclass(frozen, module = "pong")]
 pub(crate) struct WorldBuilder {
     /// `None` once sealed.

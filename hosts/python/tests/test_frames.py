@@ -448,3 +448,36 @@ def test_surfaces_that_move_along_themselves():
     assert 0.0 < friction <= 0.6 * w.wrenches()[0, 2] * (1.0 + 1e-9)
     with pytest.raises(pong.BadValueError, match="moving_surfaces"):
         world().set_surface_motions(motions)
+
+
+def test_a_log_has_the_motions_of_surfaces(tmp_path):
+    w = world(moving_surfaces=True)
+    motions = np.zeros((2, 18))
+    w.set_states(touching(1e-3))
+    w.start_log(tmp_path / "log", step=1e-3)
+    for frame in range(30):
+        w.set_states(touching(1e-3))
+        w.set_surface_motions(motions)
+        w.step()
+        w.log_frame(frame * 1e-3)
+        motions[1, 0] = 0.5
+        motions[1, 9] += 0.5e-3
+        motions[1, 16] += 1e-4 * frame
+    assert w.stop_log() == 30
+    found = pong.replay(tmp_path / "log")
+    assert found.agrees and found.compared == 30
+
+
+def test_foundation_and_resistance_can_be_set():
+    w = world()
+    ball = w.models[0]
+    values = w.surface(ball, "rubber")
+    assert values["foundation"] is None and values["area"] is None
+    assert values["friction"]["rolling"] == 0.0 and values["friction"]["spinning"] == 0.0
+    w.set_surface(ball, "rubber", {"foundation": 1e7, "friction": {"rolling": 1e-3, "spinning": 2e-3}})
+    values = w.surface(ball, "rubber")
+    assert values["foundation"] == 1e7
+    assert (values["friction"]["rolling"], values["friction"]["spinning"]) == (1e-3, 2e-3)
+    w.set_surface(ball, "rubber", {"foundation": None, "area": 0.01})
+    with pytest.raises(pong.BadValueError, match="not both"):
+        w.set_surface(ball, "rubber", {"foundation": 1e7})
