@@ -92,6 +92,26 @@ pub use pong_engine::Scene;
 /// ```
 pub use pong_engine::State;
 
+/// Motion of a surface along itself: belts, tracks and turntables.
+///
+/// ```
+/// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/ball_on_ground.rs"));
+/// # fn main() -> Result<(), pong::Error> {
+/// let config = pong::Config { moving_surfaces: true, ..pong::Config::default() };
+/// # let (mut world, [ball, ground], pair) = ball_on_ground(config)?;
+/// let step = 1e-3;
+/// let mut belt = pong::SurfaceMotion { linear_velocity: [0.5, 0.0, 0.0], ..Default::default() };
+/// for _ in 0..10 {
+///     world.set_surface_motion(ground, &belt)?;
+///     world.step()?;
+///     belt.advance(step);
+/// }
+/// assert!(world.wrench_common(ball)?.force.x > 0.0);
+/// # Ok(())
+/// # }
+/// ```
+pub use pong_engine::SurfaceMotion;
+
 /// Threads that share a frame with the caller. The results are bit-identical.
 ///
 /// ```
