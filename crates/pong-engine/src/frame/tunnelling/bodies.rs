@@ -4,6 +4,7 @@
 //! from a known side, overlapped in between, and have changed sides.
 
 use super::followed::{Seen, TunnellingEvents};
+use super::golden_section::time_inside;
 use super::travel;
 use crate::frame::input::motion::{Motion, SinceCommit};
 use crate::frame::solids::committed_entry;
@@ -100,29 +101,13 @@ impl Passage<'_> {
         let time = |index: usize| index as f64 / TIMES as f64;
         let samples: [f64; TIMES + 1] = std::array::from_fn(|index| self.distance(time(index)).distance);
         let least = (0..=TIMES).min_by(|&a, &b| samples[a].total_cmp(&samples[b])).unwrap_or(0);
-        samples[least] <= 0.0
-            || self.least_between(time(least.saturating_sub(1)), time((least + 1).min(TIMES))) <= 0.0
-    }
-
-    /// Least distance between two times, by golden-section search; 0 as soon as the parts overlap.
-    fn least_between(&self, mut low: f64, mut high: f64) -> f64 {
-        const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        const STEPS: usize = 40;
-        let mut least = f64::INFINITY;
-        for _ in 0..STEPS {
-            let inner = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
-            let [first, second] = inner.map(|time| self.distance(time).distance);
-            least = least.min(first).min(second);
-            if least <= 0.0 {
-                return 0.0;
-            }
-            if first <= second {
-                high = inner[1];
-            } else {
-                low = inner[0];
-            }
-        }
-        least
+        let around = [time(least.saturating_sub(1)), time((least + 1).min(TIMES))];
+        // Parts that overlap have the distance 0; the search looks for a negative gap.
+        let gap = |time: f64| match self.distance(time).distance {
+            distance if distance <= 0.0 => -1.0,
+            distance => distance,
+        };
+        samples[least] <= 0.0 || time_inside(around, gap).is_some()
     }
 }
 

@@ -21,6 +21,7 @@
 mod bodies;
 mod ended;
 pub(crate) mod followed;
+mod golden_section;
 mod solids;
 mod swept;
 pub(crate) mod travel;

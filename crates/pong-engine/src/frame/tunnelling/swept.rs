@@ -1,5 +1,6 @@
 //! Points and axes of A that sweep through the round solids of B (docs/theory.md, 2.9).
 
+use super::golden_section::time_inside;
 use super::solids::Met;
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{Gap, PrimitiveKind, Round};
@@ -84,7 +85,7 @@ impl Beside<'_> {
     }
 
     /// Searches for a time at which the axis is inside the solid: first at equally spaced times, then by
-    /// [`least`](Self::least) around those at which the gap is a local minimum. Without rotation the gap is
+    /// [`time_inside`] around those at which the gap is a local minimum. Without rotation the gap is
     /// convex in time and has one minimum; with rotation the search may miss a short overlap.
     fn inside(&self) -> Option<f64> {
         let time = |index: usize| index as f64 / TIMES as f64;
@@ -94,33 +95,9 @@ impl Beside<'_> {
         }
         let is_least = |index: &usize| gaps[*index] <= gaps[index - 1] && gaps[*index] <= gaps[index + 1];
         let least = (1..TIMES).filter(is_least);
-        least.map(|index| [time(index - 1), time(index + 1)]).find_map(|between| self.least(between))
-    }
-
-    /// A time in the interval at which the axis is inside the solid, by golden-section search for the least
-    /// gap; `None` if the least gap is not negative.
-    fn least(&self, [mut low, mut high]: [f64; 2]) -> Option<f64> {
-        const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        const STEPS: usize = 40;
-        let time = |low: f64, high: f64, share: f64| low + (high - low) * share;
-        let mut inner = [1.0 - GOLDEN, GOLDEN].map(|share| time(low, high, share));
-        let mut gaps = inner.map(|time| self.gap(time).distance);
-        for _ in 0..STEPS {
-            let least = usize::from(gaps[1] < gaps[0]);
-            if gaps[least] < 0.0 {
-                return Some(inner[least]);
-            }
-            if least == 0 {
-                high = inner[1];
-                inner = [time(low, high, 1.0 - GOLDEN), inner[0]];
-                gaps = [self.gap(inner[0]).distance, gaps[0]];
-            } else {
-                low = inner[0];
-                inner = [inner[1], time(low, high, GOLDEN)];
-                gaps = [gaps[1], self.gap(inner[1]).distance];
-            }
-        }
-        None
+        least
+            .map(|index| [time(index - 1), time(index + 1)])
+            .find_map(|between| time_inside(between, |time| self.gap(time).distance))
     }
 
     /// Gap where the axis crosses the surface, by bisection between an outside and an inside time.
