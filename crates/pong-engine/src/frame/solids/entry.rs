@@ -78,19 +78,20 @@ pub(super) fn side_of_entry(
     if !a.is_whole || !b.is_whole || !context.remembers_entry || !context.a_remembers_entry {
         return None;
     }
-    if let Some((index, record)) = records(context, sides, SolidContactPart::Entry).next() {
-        let known = Entry { in_b: record.normal_b, in_a: record.bristle_b, record: Some(index) };
-        if known.in_b.dot(&relative.x_ba.vector(&known.in_a)) < -SAME_DIRECTION_COSINE {
-            return Some(known);
+    let known = match records(context, sides, SolidContactPart::Entry).next() {
+        Some((index, record)) => Entry { in_b: record.normal_b, in_a: record.bristle_b, record: Some(index) },
+        None => {
+            let earlier = context.motion.since_commit.as_ref().map(|since| &since.x_ba);
+            let x_ba = earlier.unwrap_or(&relative.x_ba);
+            Entry::along(separating_direction(a, b, x_ba).1, x_ba, None)
         }
-        let (gap, in_b) = separating_direction(a, b, &relative.x_ba);
-        let is_shallow = -gap < SHALLOW * least_width(a, b, &relative.x_ba, &in_b);
-        return Some(if is_shallow { Entry::along(in_b, &relative.x_ba, Some(index)) } else { known });
+    };
+    if known.in_b.dot(&relative.x_ba.vector(&known.in_a)) < -SAME_DIRECTION_COSINE {
+        return Some(known);
     }
-    let earlier = context.motion.since_commit.as_ref().map(|since| &since.x_ba);
-    let x_ba = earlier.unwrap_or(&relative.x_ba);
-    let (_, in_b) = separating_direction(a, b, x_ba);
-    Some(Entry::along(in_b, x_ba, None))
+    let (gap, in_b) = separating_direction(a, b, &relative.x_ba);
+    let is_shallow = -gap < SHALLOW * least_width(a, b, &relative.x_ba, &in_b);
+    Some(if is_shallow { Entry::along(in_b, &relative.x_ba, known.record) } else { known })
 }
 
 /// Smaller of the widths of two sides along a direction in B's frame, m. A plane has no width.
