@@ -80,7 +80,10 @@ fn flush_models_are_told_where_they_are_placed() {
     };
     let (twice, beside, apart) = (check("slab.ron"), check("slab.ron@1,0,0"), check("slab.ron@1.001,0,0.01"));
     let cure = "if they never move relative to each other, make them one model with `pong join`";
-    assert!(twice.contains("lie in one plane and overlap (and") || twice.contains("lie in one plane and overlap:"));
+    assert!(
+        twice.contains("lie in one plane and overlap (and")
+            || twice.contains("lie in one plane and overlap:")
+    );
     assert!(twice.contains("what touches both there is pushed twice") && twice.contains(cure), "{twice}");
     assert!(beside.contains("`slab/solid` and `slab/solid` are flush: what rolls") && beside.contains(cure));
     assert!(!apart.contains("pong join"), "{apart}");
@@ -92,8 +95,12 @@ fn flush_models_are_told_where_they_are_placed() {
 #[test]
 fn balls_of_two_models_in_one_place_are_told() {
     let folder = folder("check_balls");
-    let there = pong(&folder, &["check", "ball.ron@1,2,3", "ball.ron@1,2,3.00000001,0.7071068,0,0.7071068,0"]).1;
-    assert!(there.contains("`ball/s` and `ball/s` are the same Sphere in one place: their springs add"), "{there}");
+    let there =
+        pong(&folder, &["check", "ball.ron@1,2,3", "ball.ron@1,2,3.00000001,0.7071068,0,0.7071068,0"]).1;
+    assert!(
+        there.contains("`ball/s` and `ball/s` are the same Sphere in one place: their springs add"),
+        "{there}"
+    );
     let beside = pong(&folder, &["check", "ball.ron@1,2,3", "ball.ron@1,2,3.01"]).1;
     assert!(!beside.contains("in one place"), "{beside}");
 }
