@@ -48,13 +48,14 @@ const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground", surfa
     root: (name: "ground", surface: "stone", primitives: [Plane(name: "floor", normal: (0, 0, 1), offset: -1)]))"#;
 
 #[test]
-fn advise_says_that_solids_are_judged_when_they_touch() {
+fn advise_judges_solids_flat_on_their_largest_faces() {
     let marked = MODEL.replace("contact: Solid, ", "");
     let files = [("parts.ron", MODEL), ("marked.ron", &marked), ("ground.ron", GROUND), ("scene.ron", SCENE)];
     let folder = common::folder("solids/advise", &files);
     let (code, out, err) = pong(&folder, &["advise", "scene.ron"]);
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
-    assert!(out.contains("note: solids are not judged here"), "{out}");
+    assert!(out.contains("note: solids are judged flat on each other"), "{out}");
+    assert!(out.contains("parts/parts · ground/ground") && out.contains("stable to s"), "{out}");
     for (file, is_told) in [("parts.ron", true), ("marked.ron", false)] {
         let (code, out, err) = pong(&folder, &["advise", file, "--mass", "1", "--rate", "1000"]);
         assert_eq!((code, err.as_str()), (0, ""), "{out}");
