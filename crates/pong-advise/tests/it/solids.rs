@@ -67,7 +67,7 @@ fn a_cube_on_a_plane_has_its_face_and_its_mass() {
     );
 }
 
-/// Of two cubes the smaller face counts.
+/// The smaller face of two cubes counts.
 #[test]
 fn two_cubes_touch_on_the_smaller_face() {
     let (large, small) = (cube(0.4, ""), cube(0.1, ""));
