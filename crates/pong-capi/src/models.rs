@@ -71,7 +71,7 @@ pub unsafe extern "C" fn pong_load_model_text(
 }
 
 /// Loads `count` model files that never move relative to each other as one model, as `pong join` does: the root of
-/// each becomes a group of the new root, and with `one_surface` above 0 flush faces of the root's rigid body are one
+/// each becomes a group of the new root, and with `one_surface` other than 0 flush faces of the root's rigid body are one
 /// surface. `poses` has the place of each root in the frame of the new one: the position in m, and the quaternion
 /// (w, x, y, z). NULL leaves all roots in one place. A file may be named several times. Errors call the new model
 /// `name`. Before sealing. PONG_STATUS_MODEL_ERROR: a file has faults, or they cannot be joined.
