@@ -6,13 +6,14 @@
 #include <math.h>
 #include <unistd.h>
 
-/* Two slabs of one file become one model: a ball on their seam has the force of one surface, twice that without. */
+/* Two slabs of one file, which share no vertex, become one model: a ball on their seam has the force of one surface, and
+ * twice that if the model does not declare one. */
 static inline void joined_models(void)
 {
     static const char slab[] = "(format: \"pong-model\", version: 1, name: \"slab\", surfaces: {\"rough\": (stiffness: inf)},\n"
         " root: (name: \"slab\", surface: \"rough\", primitives: [TriangleMesh(name: \"top\",\n"
         "  vertices: [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], triangles: [(0, 1, 2), (0, 2, 3)])]))";
-    static const double poses[2][7] = { { -1, 0, 0, 1, 0, 0, 0 }, { 1, 0, 0, 0, 0, 0, 1 } };
+    static const double poses[2][7] = { { -1, 0, 0, 1, 0, 0, 0 }, { 1, 0.5, 0, 0, 0, 0, 1 } };
     char folder[] = "/tmp/pong_joined_XXXXXX", path[64];
     const char *paths[2] = { path, path };
     pong_config config = pong_default_config();
