@@ -44,7 +44,7 @@ fn run(folder: &Path, block: &str) {
         assert_eq!(text.lines().count(), lines.clone().count(), "{text}");
     }
     let mut rest = text.lines();
-    for shown in lines {
+    for shown in lines.filter(|shown| shown.trim() != "…") {
         assert!(rest.any(|line| is_like(line, shown)), "{command}: no line like `{shown}` here in\n{text}");
     }
 }
