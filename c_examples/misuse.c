@@ -85,6 +85,19 @@ static void worker_settings(void)
     REFUSED(pong_create_world(&cores, &world), BAD_VALUE, "worker_cores is 0x2 but pin_workers is 0");
 }
 
+static void joined_models(scene *s, pong_model_id *model)
+{
+    const char *const paths[] = { "no/such/file.ron", NULL };
+    static const double at_rest[2][7] = { { 0, 0, 0, 1, 0, 0, 0 }, { 0, 0, 0, 1, 0, 0, 0 } };
+    static const double long_quaternion[1][7] = { { 0, 0, 0, 1, 1, 0, 0 } };
+    REFUSED(pong_load_joined_models(s->world, paths, at_rest, 1, "floor", 1, model), MODEL_ERROR, "no/such/file.ron");
+    REFUSED(pong_load_joined_models(s->world, paths, NULL, 2, "floor", 1, model), NULL_ARGUMENT, "`paths[i]`");
+    REFUSED(pong_load_joined_models(s->world, paths, long_quaternion, 1, "floor", 1, model), BAD_VALUE, "`poses[0]`");
+    REFUSED(pong_load_joined_models(s->world, paths, NULL, 0, "floor", 1, model), MODEL_ERROR, "no models to join");
+    REFUSED(pong_load_joined_models(s->world, NULL, NULL, 1, "floor", 1, model), NULL_ARGUMENT, "`paths`");
+    REFUSED(pong_load_joined_models(s->world, paths, NULL, 1, NULL, 1, model), NULL_ARGUMENT, "`name`");
+}
+
 static void models(scene *s)
 {
     static const char two_faults[] = "(format: \"pong-model\", version: 1, name: \"x\",\n"
@@ -103,6 +116,7 @@ static void models(scene *s)
     REFUSED(pong_load_model(s->world, NULL, &model), NULL_ARGUMENT, "`path`");
     REFUSED(pong_load_model(s->world, "\xff", &model), BAD_VALUE, "UTF-8");
     REFUSED(pong_load_model(s->world, "x.ron", NULL), NULL_ARGUMENT, "`model`");
+    joined_models(s, &model);
     TEST(model.bits == 77);
 }
 

@@ -251,6 +251,20 @@ pong_status pong_load_model_text(struct pong_world *world,
                                  const char *mesh_dir,
                                  struct pong_model_id *model);
 
+/// Loads `count` model files that never move relative to each other as one model, as `pong join` does: the root of
+/// each becomes a group of the new root, and with `one_surface` other than 0 flush faces of the root's rigid body are one
+/// surface. `poses` has the place of each root in the frame of the new one: the position in m, and the quaternion
+/// (w, x, y, z). NULL leaves all roots in one place. A file may be named several times. Errors call the new model
+/// `name`. Before sealing. PONG_STATUS_MODEL_ERROR: a file has faults, or they cannot be joined.
+/// PONG_STATUS_BAD_VALUE: a number is not finite, or a quaternion has not the length 1 within 1e-3.
+pong_status pong_load_joined_models(struct pong_world *world,
+                                    const char *const *paths,
+                                    const double (*poses)[7],
+                                    size_t count,
+                                    const char *name,
+                                    int32_t one_surface,
+                                    struct pong_model_id *model);
+
 /// Lets models loaded from now on also read meshes from `folder` (UTF-8 path) and the folders below it. Without
 /// it a mesh that lies outside the model's own folder, through a link, is refused. Before sealing; may be
 /// called for several folders.

@@ -1,6 +1,8 @@
 /* The calls that the other programs do not make: names, user data, contacts, contact state, clones, surfaces, pairs, energies,
- * limits, report, workers, threads. */
+ * limits, report, workers, threads, models joined of files. */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "crowd.h"
+#include "joined_calls.h"
 #include "pair_calls.h"
 #include <math.h>
 #include <pthread.h>
@@ -754,6 +756,7 @@ int main(void)
     threads(&s);
     OK(pong_destroy_world(s.world));
     filters();
+    joined_models();
     joints();
     certain_steps();
     possible_steps();

@@ -6,9 +6,11 @@ use crate::coupling::surely_stable_with;
 use crate::limits::{GroupLimits, PairLimits, pair_limits};
 use crate::mass::{GroupMass, SpringRates, StepPlan};
 use crate::setting::Setting;
+use crate::solids::{Footprints, classes, footprints};
 use crate::spring::Spring;
 use crate::together::{Load, pair_load};
-use crate::warn::{StepNote, StepWarning, notes, warnings};
+use crate::warn::{StepNote, StepWarning, fall_note, is_unstable, notes, warnings};
+use pong_engine::inspect::GroupPair;
 use pong_engine::{EngineError, InterfaceId, World};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -72,32 +74,9 @@ pub fn step_report_with(
 }
 
 fn report(setting: &Setting<'_>, plan: &StepPlan, others: &[(String, GroupMass)]) -> StepReport {
-    let mut report = StepReport::default();
-    let mut untold = BTreeSet::new();
-    let mut loads: BTreeMap<usize, (Load, f64)> = BTreeMap::new();
-    for pair in setting.scene.pairs() {
-        let names = [pair.first, pair.second].map(|body| setting.scene.group_name(body));
-        if setting.met(pair).is_empty() {
-            continue;
-        }
-        let unknown = [pair.first, pair.second].map(|body| setting.masses[body].is_none());
-        if unknown != [false, false] {
-            untold
-                .extend(names.into_iter().zip(unknown).filter(|(_, unknown)| *unknown).map(|(name, _)| name));
-            continue;
-        }
-        let Some(mass) = setting.effective_mass(pair) else { continue };
-        let (known, causes) = setting.known(pair, mass, plan);
-        let not_judged = causes.iter().map(|cause| format!("`{}` and `{}`: {cause}", names[0], names[1]));
-        report.not_judged.extend(not_judged);
-        report.pairs.extend(pair_limits(names, mass, &known, plan));
-        let ratio = known.iter().map(|known| known.springs.least_damped()).fold(f64::INFINITY, f64::min);
-        let load = pair_load(setting, pair, mass, plan, &[]);
-        for body in [pair.first, pair.second] {
-            let (sum, least) = loads.entry(body).or_insert((Load::default(), f64::INFINITY));
-            (*sum, *least) = (sum.plus(load), least.min(ratio));
-        }
-    }
+    let mut pairs = PairFindings::new(setting, plan);
+    setting.scene.pairs().iter().for_each(|pair| pairs.add(pair));
+    let PairFindings { mut report, untold, mut loads, in_falls, .. } = pairs;
     for (body, known) in setting.masses.iter().enumerate() {
         if known.is_some_and(|known| !known.springs.is_zero()) {
             loads.entry(body).or_insert((Load::default(), f64::INFINITY));
@@ -124,7 +103,89 @@ fn report(setting: &Setting<'_>, plan: &StepPlan, others: &[(String, GroupMass)]
         of_group(setting, *body, plan)
     };
     report.notes = notes(&report.pairs, &report.groups, plan, asks).into_iter().collect();
+    report.notes.extend(plan.fall_speed.and_then(|speed| fall_note(&in_falls, speed, plan)));
     report
+}
+
+/// Findings about pairs of movable groups.
+struct PairFindings<'s, 'w> {
+    setting: &'s Setting<'w>,
+    plan: &'s StepPlan,
+    report: StepReport,
+    /// Movable groups without a mass.
+    untold: BTreeSet<String>,
+    /// Load of each movable group, and the least damping over stiffness of its contacts, s.
+    loads: BTreeMap<usize, (Load, f64)>,
+    /// Limits of solids at the speed that a fall can reach, of pairs that are stable without it.
+    in_falls: Vec<PairLimits>,
+    footprints: Footprints,
+    classes: Vec<usize>,
+    /// Classes and plans of the pairs of solids that have been judged.
+    judged: BTreeSet<([usize; 2], [u32; 2])>,
+}
+
+impl<'s, 'w> PairFindings<'s, 'w> {
+    fn new(setting: &'s Setting<'w>, plan: &'s StepPlan) -> Self {
+        Self {
+            setting,
+            plan,
+            report: StepReport::default(),
+            untold: BTreeSet::new(),
+            loads: BTreeMap::new(),
+            in_falls: Vec::new(),
+            footprints: footprints(setting),
+            classes: classes(setting),
+            judged: BTreeSet::new(),
+        }
+    }
+
+    fn add(&mut self, pair: &GroupPair) {
+        let Self { setting, plan, .. } = *self;
+        let has_marks = !setting.met(pair).is_empty();
+        if !has_marks && !setting.scene.has_solid_meetings(pair) {
+            return;
+        }
+        let bodies = [pair.first, pair.second];
+        let unknown = bodies.map(|body| setting.masses[body].is_none());
+        if unknown != [false, false] {
+            let names = bodies.map(|body| setting.scene.group_name(body)).into_iter().zip(unknown);
+            self.untold.extend(names.filter(|(_, unknown)| *unknown).map(|(name, _)| name));
+            return;
+        }
+        let Some(mass) = setting.effective_mass(pair) else { return };
+        // Pairs of solids of the same models and masses have the same limits: a bin of boxes is judged once.
+        let key = (bodies.map(|body| self.classes[body]), setting.scene.plans_of(pair));
+        if !self.judged.insert(key) && !has_marks {
+            return;
+        }
+        let names = bodies.map(|body| setting.scene.group_name(body));
+        let (mut known, mut causes) = setting.known(pair, mass, plan);
+        let ratio = known.iter().map(|known| known.springs.least_damped()).fold(f64::INFINITY, f64::min);
+        let (of_solids, more) = setting.known_solids(pair, mass, plan.closing_speed, &self.footprints);
+        known.extend(of_solids);
+        causes.extend(more);
+        let not_judged = causes.iter().map(|cause| format!("`{}` and `{}`: {cause}", names[0], names[1]));
+        self.report.not_judged.extend(not_judged);
+        let limits = pair_limits(names.clone(), mass, &known, plan);
+        if !limits.as_ref().is_some_and(|limits| is_unstable(limits, plan)) {
+            self.in_falls.extend(self.limits_in_a_fall(pair, mass, names));
+        }
+        self.report.pairs.extend(limits);
+        if has_marks {
+            let load = pair_load(setting, pair, mass, plan, &[]);
+            for body in bodies {
+                let (sum, least) = self.loads.entry(body).or_insert((Load::default(), f64::INFINITY));
+                (*sum, *least) = (sum.plus(load), least.min(ratio));
+            }
+        }
+    }
+
+    /// Limits of the solids of a pair at the speed that a fall can reach, if that is more than the closing speed.
+    fn limits_in_a_fall(&self, pair: &GroupPair, mass: f64, names: [String; 2]) -> Option<PairLimits> {
+        let speed = self.plan.fall_speed.filter(|speed| *speed > self.plan.closing_speed.unwrap_or(0.0))?;
+        let known = self.setting.known_solids(pair, mass, Some(speed), &self.footprints).0;
+        pair_limits(names, mass, &known, self.plan)
+    }
 }
 
 /// Limits of a body that only springs of the host act on.

@@ -12,6 +12,7 @@
 //! | `contact.rs` | stiffness and damping from depth, restitution, mass and speed |
 //! | `mass.rs`, `spring.rs` | the host's masses and step; springs and dampers of surfaces |
 //! | `mobility.rs`, `places.rs` | compliance of a body at a point; the points where its primitives can be touched |
+//! | `footprint.rs`, `solids.rs` | the largest shadow of a solid; contacts of solids before they touch |
 //! | `together.rs` | a bound of the contacts that can act on one movable group at once, with levers and inertia |
 //! | `spring_rates.rs` | the same of springs and dampers of the host |
 //! | `acting.rs` | the same of the contacts in a frame, exactly |
@@ -29,12 +30,14 @@ mod bounce;
 mod check;
 mod contact;
 mod coupling;
+mod footprint;
 mod limits;
 mod mass;
 mod mobility;
 mod places;
 mod pressed;
 mod setting;
+mod solids;
 mod spring;
 mod spring_rates;
 mod stored;

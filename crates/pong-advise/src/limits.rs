@@ -46,6 +46,9 @@ pub struct PairLimits {
     pub stable_step: f64,
     /// `model/surface` of both for the normal spring, and for the friction spring.
     pub surfaces: [[String; 2]; 2],
+    /// Area of solids that lie flat on each other, m², for the normal spring and for the friction spring; `None` for
+    /// other contacts.
+    pub areas: [Option<f64>; 2],
     /// The bounce with the largest error; `None` if no accuracy is asked for, or for laws without a closed
     /// form.
     pub bounce: Option<BounceLimit>,
@@ -80,7 +83,7 @@ pub fn judge_contact(
     plan: &StepPlan,
 ) -> Result<PairLimits, &'static str> {
     let springs = springs(props, mass, plan.closing_speed)?;
-    let known = [Known { springs, surfaces: groups.clone(), least_masses: [mass; 2] }];
+    let known = [Known { springs, surfaces: groups.clone(), least_masses: [mass; 2], area: None }];
     Ok(pair_limits(groups, mass, &known, plan).expect("one contact is known"))
 }
 
@@ -94,14 +97,13 @@ pub(crate) fn pair_limits(
         let (k, c) = (spring.stiffness, spring.damping);
         SpringLimit { spring, mass, stable_step: longest_stable_step(plan.coupling, k, c, mass) }
     };
-    let normal =
-        known.iter().map(|known| (limit(known.springs.normal, known.least_masses[0]), &known.surfaces));
-    let (normal, surfaces) = least(normal.collect())?;
-    let with_friction = known
-        .iter()
-        .filter_map(|known| Some((limit(known.springs.friction?, known.least_masses[1]), &known.surfaces)));
+    let normal = known.iter().map(|known| (limit(known.springs.normal, known.least_masses[0]), known));
+    let (normal, of_normal) = least(normal.collect())?;
+    let with_friction =
+        known.iter().filter_map(|known| Some((limit(known.springs.friction?, known.least_masses[1]), known)));
     let friction = least(with_friction.collect());
-    let surfaces = [surfaces, friction.map_or(surfaces, |(_, surfaces)| surfaces)].map(Clone::clone);
+    let named = [of_normal, friction.map_or(of_normal, |(_, known)| known)];
+    let (surfaces, areas) = (named.map(|known| known.surfaces.clone()), named.map(|known| known.area));
     let friction = friction.map(|(limit, _)| limit);
     let whole = known.iter().map(|known| whole_contact(known, plan.coupling));
     let stable_step =
@@ -111,7 +113,7 @@ pub(crate) fn pair_limits(
     let by_formula = known.iter().filter(|made| made.bounces_by_formula);
     let bounces = by_formula.filter_map(|made| bounce_limit(made.normal, mass, plan));
     let bounce = bounces.max_by(|x, y| x.error.rebound.total_cmp(&y.error.rebound));
-    Some(PairLimits { groups, mass, normal, friction, stable_step, surfaces, bounce })
+    Some(PairLimits { groups, mass, normal, friction, stable_step, surfaces, areas, bounce })
 }
 
 /// The longest step (s) at which a contact with its friction is surely stable. With Y the compliance at the
@@ -128,7 +130,7 @@ fn whole_contact(known: &Known, coupling: WrenchCoupling) -> f64 {
 }
 
 /// The spring with the shortest stable step; of two equal ones the stiffer.
-fn least(limits: Vec<(SpringLimit, &[String; 2])>) -> Option<(SpringLimit, &[String; 2])> {
+fn least(limits: Vec<(SpringLimit, &Known)>) -> Option<(SpringLimit, &Known)> {
     limits.into_iter().min_by(|(x, _), (y, _)| {
         let by_step = x.stable_step.total_cmp(&y.stable_step);
         by_step.then(y.spring.stiffness.total_cmp(&x.spring.stiffness))

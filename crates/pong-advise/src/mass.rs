@@ -175,6 +175,9 @@ pub struct StepPlan {
     /// Speed at which bodies touch, m/s; `None` if it is not known. Laws whose stiffness or damping follows
     /// the depth are judged at the depth that this speed gives, and not at all without it.
     pub closing_speed: Option<f64>,
+    /// Speed that a fall in the scene can reach, m/s; `None` if it is not known. Contacts of solids that would gain
+    /// energy at this speed get a note.
+    pub fall_speed: Option<f64>,
     /// Accuracy of a bounce; `None` to be warned of instability alone.
     pub accuracy: Option<Accuracy>,
 }
@@ -182,7 +185,7 @@ pub struct StepPlan {
 impl StepPlan {
     /// A plan with accuracies of 5 % for the depth and 2 % for the rebound.
     pub fn new(step: f64, coupling: WrenchCoupling) -> Self {
-        Self { step, coupling, closing_speed: None, accuracy: Some(Accuracy::default()) }
+        Self { step, coupling, closing_speed: None, fall_speed: None, accuracy: Some(Accuracy::default()) }
     }
 
     /// Refuses values that no host can have.
@@ -197,7 +200,7 @@ impl StepPlan {
         if !positive(self.step) {
             return bad(format!("the step is {} s; give a finite time above zero", self.step));
         }
-        if self.closing_speed.is_some_and(|speed| !positive(speed)) {
+        if [self.closing_speed, self.fall_speed].into_iter().flatten().any(|speed| !positive(speed)) {
             return bad(
                 "the closing speed must be finite and above zero; leave it out if it is not known".to_owned()
             );

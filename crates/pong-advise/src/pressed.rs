@@ -58,5 +58,5 @@ fn known_of(setting: &Setting<'_>, contact: &PushingContact<'_>) -> Option<Known
     let surfaces = setting.scene.surface_names(table, contact.surfaces(&setting.scene));
     // Least effective masses along the normal, and along the surface.
     let least_masses = compliances_at(setting, contact).map(|compliance| 1.0 / compliance.max(STIFF));
-    Some(Known { springs, surfaces, least_masses })
+    Some(Known { springs, surfaces, least_masses, area: None })
 }

@@ -32,6 +32,8 @@ pub(crate) struct Known {
     pub surfaces: [String; 2],
     /// Least effective masses at any point where they can touch, kg: along the normal, and along the surface.
     pub least_masses: [f64; 2],
+    /// Area of solids that lie flat on each other, m²; `None` for other contacts.
+    pub area: Option<f64>,
 }
 
 /// Input of the adviser.
@@ -110,7 +112,7 @@ impl<'w> Setting<'w> {
                 Ok(springs) => {
                     let least_masses =
                         [compliance.normal, compliance.along].map(|most| self.least_mass(pair, mass, most));
-                    known.push(Known { springs, surfaces, least_masses });
+                    known.push(Known { springs, surfaces, least_masses, area: None });
                     causes.extend(compliance.is_unbounded.then_some(UNBOUNDED));
                 }
                 Err(cause) => causes.push(cause),

@@ -83,24 +83,47 @@ pub(crate) fn notes(
     Some(StepNote { told: may(worst, together.len() - 1, plan) + &asks })
 }
 
+/// Note of the solids that would gain energy at the speed that a fall can reach, for the worst pair only. `pairs` are
+/// their limits at that speed.
+pub(crate) fn fall_note(pairs: &[PairLimits], speed: f64, plan: &StepPlan) -> Option<StepNote> {
+    let unstable_pairs = pairs.iter().filter_map(|pair| Some((pair, unstable(pair, plan)?)));
+    let unstable_pairs: Vec<_> = unstable_pairs.collect();
+    let (_, text) = unstable_pairs.iter().min_by(|(x, _), (y, _)| x.stable_step.total_cmp(&y.stable_step))?;
+    let others = match unstable_pairs.len() - 1 {
+        0 => String::new(),
+        1 => "; so it is with 1 more pair".to_owned(),
+        more => format!("; so it is with {more} more pairs"),
+    };
+    Some(StepNote {
+        told: format!("at {speed:.3e} m/s, which a fall in the scene can reach, {text}{others}"),
+    })
+}
+
+/// Returns true if a contact of the pair gains energy at the step.
+pub(crate) fn is_unstable(pair: &PairLimits, plan: &StepPlan) -> bool {
+    unstable(pair, plan).is_some()
+}
+
 fn unstable(pair: &PairLimits, plan: &StepPlan) -> Option<String> {
     if grows(&pair.normal, plan) {
         let cure = cure(pair.normal.stable_step, "give the surfaces some");
-        return Some(gains(pair, "a contact", &pair.normal, &pair.surfaces[0], plan) + &cure);
+        return Some(gains(pair, 0, &pair.normal, plan) + &cure);
     }
     let friction = pair.friction.filter(|friction| grows(friction, plan))?;
     let cure = cure(friction.stable_step, "give the friction some");
-    Some(gains(pair, "friction", &friction, &pair.surfaces[1], plan) + &cure)
+    Some(gains(pair, 1, &friction, plan) + &cure)
 }
 
-/// Text of the contact that gains energy, and its limiting term.
-fn gains(pair: &PairLimits, what: &str, limit: &SpringLimit, of: &[String; 2], plan: &StepPlan) -> String {
+/// Text of the contact that gains energy, and its limiting term: of the normal spring (0) or the friction spring (1).
+fn gains(pair: &PairLimits, term: usize, limit: &SpringLimit, plan: &StepPlan) -> String {
+    let what = ["a contact", "friction"][term];
     let [a, b] = &pair.groups;
-    let [one, other] = of;
+    let [one, other] = &pair.surfaces[term];
+    let flat = pair.areas[term].map_or_else(String::new, |area| format!(", flat on {area:.3e} m²"));
     let (k, c, mass) = (limit.spring.stiffness, limit.spring.damping, limit.mass);
     let lever = if mass < 0.999 * pair.mass { " (where its lever is longest)" } else { "" };
     format!(
-        "`{a}` and `{b}`: {what} of {k:.3e} N/m and {c:.3e} N·s/m (surfaces `{one}` and `{other}`) on {mass:.3e} kg{lever}, by its \
+        "`{a}` and `{b}`: {what} of {k:.3e} N/m and {c:.3e} N·s/m (surfaces `{one}` and `{other}`{flat}) on {mass:.3e} kg{lever}, by its \
          {}, gains energy at a step of {:.3e} s; ",
         of_spring(&limit.spring, plan.coupling, mass),
         plan.step,

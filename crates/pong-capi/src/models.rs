@@ -9,7 +9,8 @@ use crate::memory;
 use crate::names::text_at;
 use crate::pointers::{Out, array, text};
 use crate::status::pong_status;
-use pong_model::Model;
+use pong_geometry::{Pose, Vec3};
+use pong_model::{Model, PlacedFile, common_folder, join_files};
 use pong_record::ModelSource;
 use std::ffi::c_char;
 use std::path::{Path, PathBuf};
@@ -67,6 +68,59 @@ pub unsafe extern "C" fn pong_load_model_text(
         out.set(inner.add_model(loaded, source)?);
         Ok(())
     })
+}
+
+/// Loads `count` model files that never move relative to each other as one model, as `pong join` does: the root of
+/// each becomes a group of the new root, and with `one_surface` other than 0 flush faces of the root's rigid body are one
+/// surface. `poses` has the place of each root in the frame of the new one: the position in m, and the quaternion
+/// (w, x, y, z). NULL leaves all roots in one place. A file may be named several times. Errors call the new model
+/// `name`. Before sealing. PONG_STATUS_MODEL_ERROR: a file has faults, or they cannot be joined.
+/// PONG_STATUS_BAD_VALUE: a number is not finite, or a quaternion has not the length 1 within 1e-3.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_load_joined_models(
+    world: *mut pong_world,
+    paths: *const *const c_char,
+    poses: *const [f64; 7],
+    count: usize,
+    name: *const c_char,
+    one_surface: i32,
+    model: *mut pong_model_id,
+) -> pong_status {
+    with_world(world, |inner| {
+        let (paths, name) = (array(paths, count, "paths")?, text(name, "name")?);
+        let poses = if poses.is_null() { None } else { Some(array(poses, count, "poses")?) };
+        let out = Out::new(model, "model")?;
+        let mut files = Vec::with_capacity(count);
+        for (index, path) in paths.iter().enumerate() {
+            let path = PathBuf::from(text(*path, "paths[i]")?);
+            memory::require_for_file(&path)?;
+            let pose = poses.map_or(Ok(Pose::identity()), |poses| pose_of(index, &poses[index]))?;
+            files.push(PlacedFile { path, pose });
+        }
+        let folder = common_folder(&files);
+        let mesh_dir = folder.as_deref().unwrap_or(Path::new(""));
+        let extensions = inner.phase.scene().extensions();
+        let text = join_files(name, &files, mesh_dir, one_surface != 0, extensions)
+            .map_err(|error| Failure::new(pong_status::ModelError, error.to_string()))?;
+        memory::require_for_text(text.as_bytes(), Some(mesh_dir))?;
+        let loaded = pong_model::parse(&text, name, Some(mesh_dir), extensions)?;
+        out.set(inner.add_model(loaded, ModelSource::Text { text, mesh_dir: folder })?);
+        Ok(())
+    })
+}
+
+/// Pose of numbers from C; refuses numbers that no pose has.
+fn pose_of(index: usize, numbers: &[f64; 7]) -> Outcome<Pose> {
+    let [x, y, z, q @ ..] = *numbers;
+    let norm = q.iter().map(|q| q * q).sum::<f64>().sqrt();
+    if !numbers.iter().all(|number| number.is_finite()) || (norm - 1.0).abs() > 1e-3 {
+        let message = format!(
+            "`poses[{index}]`: the quaternion has the length {norm}, or a number is not finite; give x, y, z in m and a \
+             quaternion w, x, y, z of length 1"
+        );
+        return Err(Failure::new(pong_status::BadValue, message));
+    }
+    Ok(Pose::new(Vec3::new(x, y, z), q))
 }
 
 /// Lets models loaded from now on also read meshes from `folder` (UTF-8 path) and the folders below it. Without

@@ -197,6 +197,7 @@ impl pong_step_plan {
             step: self.step,
             coupling,
             closing_speed: (self.closing_speed != 0.0).then_some(self.closing_speed),
+            fall_speed: None,
             accuracy: (!none).then_some(accuracy),
         })
     }

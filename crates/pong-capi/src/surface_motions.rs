@@ -69,30 +69,23 @@ pub unsafe extern "C" fn pong_get_surface_motion(
     get(world, (motion, "motion"), |inner| Ok((*inner.phase.surface_motion(interface.id())?).into()))
 }
 
-impl From<SurfaceMotion> for pong_surface_motion {
-    fn from(motion: SurfaceMotion) -> Self {
-        let SurfaceMotion {
-            linear_velocity,
-            angular_velocity,
-            belt_velocity,
-            linear_travel,
-            angular_travel,
-            belt_travel,
-        } = motion;
-        Self { linear_velocity, angular_velocity, belt_velocity, linear_travel, angular_travel, belt_travel }
-    }
+/// Conversion between two structs with the fields of a surface motion.
+macro_rules! surface_motion_from {
+    ($from:ident, $to:ident) => {
+        impl From<$from> for $to {
+            fn from(motion: $from) -> Self {
+                Self {
+                    linear_velocity: motion.linear_velocity,
+                    angular_velocity: motion.angular_velocity,
+                    belt_velocity: motion.belt_velocity,
+                    linear_travel: motion.linear_travel,
+                    angular_travel: motion.angular_travel,
+                    belt_travel: motion.belt_travel,
+                }
+            }
+        }
+    };
 }
 
-impl From<pong_surface_motion> for SurfaceMotion {
-    fn from(motion: pong_surface_motion) -> Self {
-        let pong_surface_motion {
-            linear_velocity,
-            angular_velocity,
-            belt_velocity,
-            linear_travel,
-            angular_travel,
-            belt_travel,
-        } = motion;
-        Self { linear_velocity, angular_velocity, belt_velocity, linear_travel, angular_travel, belt_travel }
-    }
-}
+surface_motion_from!(SurfaceMotion, pong_surface_motion);
+surface_motion_from!(pong_surface_motion, SurfaceMotion);

@@ -115,11 +115,7 @@ pub unsafe extern "C" fn pong_get_surface(
     surface: *const c_char,
     values: *mut pong_surface_values,
 ) -> pong_status {
-    with_world(world, |inner| {
-        let (name, out) = (text(surface, "surface")?, Out::new(values, "values")?);
-        out.set(inner.phase.surface(model.id(), name)?.into());
-        Ok(())
-    })
+    copy_surface(world, model, surface, values)
 }
 
 /// Sets the values of a surface for all Objects of a model, from the next evaluation on, before or after
@@ -150,11 +146,7 @@ pub unsafe extern "C" fn pong_get_surface_more(
     surface: *const c_char,
     values: *mut pong_surface_more,
 ) -> pong_status {
-    with_world(world, |inner| {
-        let (name, out) = (text(surface, "surface")?, Out::new(values, "values")?);
-        out.set(inner.phase.surface(model.id(), name)?.into());
-        Ok(())
-    })
+    copy_surface(world, model, surface, values)
 }
 
 /// Sets the further values of a surface for all Objects of a model, as pong_set_surface() sets the others.
@@ -171,6 +163,20 @@ pub unsafe extern "C" fn pong_set_surface_more(
         let new = values.applied_to(inner.phase.surface(model.id(), name)?);
         inner.phase.set_surface(model.id(), &new)?;
         inner.log_event(|log| log.surface_set(model.id(), &new));
+        Ok(())
+    })
+}
+
+/// Copies the present values of a surface in one of the forms that C has for them.
+unsafe fn copy_surface<T: for<'s> From<&'s Surface>>(
+    world: *const pong_world,
+    model: pong_model_id,
+    surface: *const c_char,
+    values: *mut T,
+) -> pong_status {
+    with_world(world, |inner| {
+        let (name, out) = (text(surface, "surface")?, Out::new(values, "values")?);
+        out.set(inner.phase.surface(model.id(), name)?.into());
         Ok(())
     })
 }

@@ -53,6 +53,7 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
         step: arguments.step().unwrap_or(by_scene.step),
         coupling: arguments.coupling(by_scene.coupling)?,
         closing_speed: speed,
+        fall_speed: by_scene.fall_speed,
         accuracy: Some(arguments.accuracy()),
     };
     let report = built.simulation.step_report(&plan).map_err(|error| error.to_string())?;
@@ -71,8 +72,8 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
         text += &format!("note: {}\n", printable(&note.to_string()));
     }
     if has_solids(built.simulation.world()) {
-        text += "note: solids are not judged here, because their stiffness K·a depends on the area a that touches; \
-                 `pong run` judges them when they touch (docs/advise.md, Solids)\n";
+        text += "note: solids are judged flat on each other, on the area of the smaller one's largest face or shadow, and \
+                 not added up; `pong run` judges what touches (docs/advise.md, Solids)\n";
     }
     if arguments.depth.is_some() {
         for pair in &report.pairs {
@@ -105,8 +106,11 @@ fn model(arguments: &Arguments, path: &Path) -> Result<String, String> {
         arguments.stated(arguments.step(), coupling)
     );
     if let Some(step) = arguments.step() {
-        let plan =
-            StepPlan { step, coupling, closing_speed: arguments.speed, accuracy: Some(arguments.accuracy()) };
+        let plan = StepPlan {
+            closing_speed: arguments.speed,
+            accuracy: Some(arguments.accuracy()),
+            ..StepPlan::new(step, coupling)
+        };
         text += &surfaces(&model, mass, &plan, arguments.friction_share(mass)?);
         if model.bodies.iter().any(|body| !body.solids.is_empty()) {
             text += "note: at solids, these are the limits of a contact with the area `stiffness`/`foundation`; k and c \

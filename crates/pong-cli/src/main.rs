@@ -18,6 +18,7 @@ mod join;
 mod log;
 mod man_pages;
 mod mass;
+mod placed;
 mod replay;
 mod run;
 mod terminal;

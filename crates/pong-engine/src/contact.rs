@@ -75,8 +75,8 @@ pub struct Ledger {
     /// Work done on the bodies since the world began, by the trapezoidal rule between commits, J.
     pub work: f64,
     /// Energy dissipated since the world began, J: −work − stored, plus the work of the drives of moving surfaces
-    /// ([`driven`](Self::driven)). Cleared history counts as dissipated;
-    /// energy that the host inserted, by placing bodies in contact or by a preload, counts negative.
+    /// ([`driven`](Self::driven)). Cleared history counts as dissipated. Energy that the host inserted, by placing
+    /// bodies in contact or by a preload, counts negative.
     pub dissipated: f64,
 }
 

@@ -9,7 +9,7 @@ use crate::law::PairProps;
 use crate::runtime::Runtime;
 use crate::scene::Scene;
 pub use crate::seal::GroupPair;
-use crate::seal::{can_be_tested, values_of};
+use crate::seal::{Partner, can_be_tested, values_of};
 use pong_geometry::{Pose, Transform, Vec3};
 use pong_model::{Filters, MovableGroup, PrimitiveInfo};
 
@@ -54,6 +54,19 @@ pub struct PushingContact<'w> {
     pub x_ba: Transform,
 }
 
+/// A solid that can touch another one or a plane.
+#[derive(Clone, Debug)]
+pub struct SolidMeeting<'w> {
+    /// Movable group A and its solid (index into its [`solids`](MovableGroup::solids)).
+    pub a: (usize, Option<usize>),
+    /// Movable group B and its solid; no solid for a plane.
+    pub b: (usize, Option<usize>),
+    /// Combined values of the two surfaces per unit area: K in N/m³ in place of k.
+    pub props: &'w PairProps,
+    /// `model/surface` of both.
+    pub surfaces: [String; 2],
+}
+
 impl<'w> Inspection<'w> {
     pub(crate) fn new(scene: &'w Scene, runtime: &'w Runtime) -> Self {
         Self { scene, runtime }
@@ -86,6 +99,44 @@ impl<'w> Inspection<'w> {
             return false;
         }
         can_be_tested(&self.scene.extensions, (self.body(a.0), a.1), (self.body(b.0), b.1))
+    }
+
+    /// Returns true if solids of a pair of movable groups can touch solids or planes of each other.
+    pub fn has_solid_meetings(&self, pair: &GroupPair) -> bool {
+        let plans = &self.runtime.sealed.plans;
+        pair.plans.iter().any(|plan| plans.get(*plan as usize).is_some_and(|plan| !plan.solids.is_empty()))
+    }
+
+    /// Solids of a pair of movable groups that can touch solids or planes of each other.
+    pub fn solid_meetings(&self, pair: &GroupPair) -> Vec<SolidMeeting<'w>> {
+        let Self { scene, runtime: Runtime { sealed, tables, .. } } = *self;
+        let mut meetings = Vec::new();
+        for (flipped, [a, b]) in
+            [[pair.first, pair.second], [pair.second, pair.first]].into_iter().enumerate()
+        {
+            let Some(plan) = sealed.plans.get(pair.plans[flipped] as usize) else { continue };
+            let [in_a, in_b] = [a, b].map(|group| scene.group_of_model(group).1);
+            let table = pair.tables[flipped];
+            for met in &plan.solids {
+                let props = &tables[table].foundations[&(in_a, met.a, in_b, met.b)];
+                let (solid_b, surface_b) = match met.b {
+                    Partner::Solid(index) => {
+                        (Some(index as usize), scene.body(b).solids[index as usize].surface)
+                    }
+                    Partner::Plane(index) => (None, scene.body(b).primitives[index as usize].surface),
+                };
+                let surface_a = scene.body(a).solids[met.a as usize].surface;
+                let surfaces = self.surface_names(table, (surface_a, surface_b));
+                let a = (a, Some(met.a as usize));
+                meetings.push(SolidMeeting { a, b: (b, solid_b), props, surfaces });
+            }
+        }
+        meetings
+    }
+
+    /// Numbers that two pairs of movable groups have in common if the same models meet with the same filters.
+    pub fn plans_of(&self, pair: &GroupPair) -> [u32; 2] {
+        pair.plans
     }
 
     /// Indices of the filters between two movable groups that contain a primitive of the first. They are

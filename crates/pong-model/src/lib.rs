@@ -29,6 +29,7 @@ pub mod grouping;
 mod hash;
 mod hull;
 pub mod join;
+mod joined_files;
 mod limits;
 #[doc(hidden)]
 pub mod mesh_formats;
@@ -61,6 +62,7 @@ pub use error::{ModelError, ModelErrors};
 pub use extensions::Extensions;
 pub use filters::Filters;
 pub use fnv::Fnv;
+pub use joined_files::{JoinError, PlacedFile, common_folder, join_files};
 pub use limits::{LARGEST, LARGEST_SIZE, SMALLEST_SIZE};
 pub use model::{
     Batch, ChunkBoxes, Item, Model, MovableGroup, Node, PrimitiveInfo, SegmentLanes, SphereLanes, Tree,

@@ -7,7 +7,7 @@
 //! | `contacts.rs` | contacts as a structured NumPy array |
 //! | `ids.rs` | models, Objects, pairs and Interfaces of a world, and their forms as arguments |
 //! | `model.rs` | models |
-//! | `authored.rs`, `written.rs`, `shapes.rs` | model files as data, their text and schema, checks of single shapes: python/pong/model.py |
+//! | `authored.rs`, `written.rs`, `shapes.rs`, `joined.rs` | model files as data, their text and schema, checks of single shapes, joined files: python/pong/model.py |
 //! | `distance.rs` | distance of two movable groups |
 //! | `pair_monitor.rs` | begin and end of contact, peaks over several frames |
 //! | `setup.rs`, `builder.rs` | state and calls of a set-up |
@@ -28,6 +28,7 @@ mod dynamics;
 mod errors;
 mod frame_report;
 mod ids;
+mod joined;
 mod log;
 mod model;
 mod pair_monitor;
@@ -89,6 +90,7 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(authored::read_authored, module)?)?;
     module.add_function(wrap_pyfunction!(authored::parse_authored, module)?)?;
     module.add_function(wrap_pyfunction!(written::write_authored, module)?)?;
+    module.add_function(wrap_pyfunction!(joined::join_models, module)?)?;
     module.add_function(wrap_pyfunction!(written::model_schema, module)?)?;
     module.add_function(wrap_pyfunction!(shapes::check_polyhedron, module)?)?;
     module.add_function(wrap_pyfunction!(shapes::check_triangles, module)?)?;

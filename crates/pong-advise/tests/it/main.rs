@@ -1,4 +1,5 @@
 //! Tests of the step check and of advice, on scenes with closed forms.
 
+mod solids;
 mod step_advice;
 mod told;

@@ -51,25 +51,29 @@ fn in_one_place(body: &MovableGroup) -> Vec<String> {
     lines
 }
 
-/// All numbers in which primitives of one kind can differ, independent of the order of two ends.
+/// Numbers in which primitives of one kind can differ, independent of the order of two ends.
 fn numbers(body: &MovableGroup, kind: PrimitiveKind, index: usize) -> Option<Vec<f64>> {
-    let ends = |ends: &[Vec3; 2], radii: [f64; 2]| {
-        let mut ends = [(ends[0], radii[0]), (ends[1], radii[1])];
-        ends.sort_by(|a, b| a.0.as_slice().partial_cmp(b.0.as_slice()).unwrap_or(std::cmp::Ordering::Equal));
-        ends.iter().flat_map(|(end, radius)| [end.x, end.y, end.z, *radius]).collect()
+    let [one, other] = ends(body, kind, index)?;
+    let both = match one.0.as_slice().partial_cmp(other.0.as_slice()) {
+        Some(std::cmp::Ordering::Greater) => [other, one],
+        _ => [one, other],
     };
+    Some(both.iter().flat_map(|(end, radius)| [end.x, end.y, end.z, *radius]).collect())
+}
+
+/// Two ends of the axis of a primitive and the radii there, m; equal ends for points and spheres. `None` for kinds
+/// without an axis.
+pub(super) fn ends(body: &MovableGroup, kind: PrimitiveKind, index: usize) -> Option<[(Vec3, f64); 2]> {
+    let with = |ends: &[Vec3; 2], radii: [f64; 2]| [(ends[0], radii[0]), (ends[1], radii[1])];
     Some(match kind {
-        PrimitiveKind::Point => body.points[index].position.as_slice().to_vec(),
-        PrimitiveKind::Sphere => {
-            let sphere = &body.spheres[index];
-            [sphere.center.as_slice(), &[sphere.radius]].concat()
-        }
-        PrimitiveKind::LineSegment => ends(&body.segments[index].ends, [0.0; 2]),
-        PrimitiveKind::Capsule => ends(&body.capsules[index].ends, [body.capsules[index].radius; 2]),
+        PrimitiveKind::Point => [(body.points[index].position, 0.0); 2],
+        PrimitiveKind::Sphere => [(body.spheres[index].center, body.spheres[index].radius); 2],
+        PrimitiveKind::LineSegment => with(&body.segments[index].ends, [0.0; 2]),
+        PrimitiveKind::Capsule => with(&body.capsules[index].ends, [body.capsules[index].radius; 2]),
         PrimitiveKind::Cylinder | PrimitiveKind::Cone => {
-            ends(&body.frusta[index].ends, body.frusta[index].radii)
+            with(&body.frusta[index].ends, body.frusta[index].radii)
         }
-        PrimitiveKind::Bore => ends(&body.bores[index].hole.ends, body.bores[index].hole.radii),
+        PrimitiveKind::Bore => with(&body.bores[index].hole.ends, body.bores[index].hole.radii),
         _ => return None,
     })
 }

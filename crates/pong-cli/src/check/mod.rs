@@ -6,22 +6,24 @@ mod named;
 mod pairs;
 mod solids;
 mod stiffness;
+mod together;
 mod tree;
 
 use crate::folders::AllowedFolders;
+use crate::placed::{VALUE_NAME, placed};
 use crate::terminal::{Outcome, failure, print, tell_lines};
 use named::{Named, name};
-use pong_model::printable;
-use std::path::PathBuf;
+use pong_model::{PlacedFile, printable};
 use std::process::ExitCode;
 use std::sync::Arc;
 
 /// Checks model files (docs/model_format.md) and describes the contents of each and the contact of every two.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The model files.
-    #[arg(value_name = "MODEL.ron", required = true)]
-    models: Vec<PathBuf>,
+    /// The model files. Positions in m, and orientations as quaternions, as of `pong join`, tell how fixed parts lie
+    /// beside each other: part.ron@0,1.5,0. Without them all roots are in one place.
+    #[arg(value_name = VALUE_NAME, required = true, value_parser = placed)]
+    models: Vec<PlacedFile>,
     /// Checks each model by itself, without the contacts between them.
     #[arg(long)]
     alone: bool,
@@ -33,9 +35,9 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
     let mut named: Vec<Named> = Vec::new();
     let mut faults = 0;
     let extensions = arguments.allowed.extensions();
-    for path in &arguments.models {
+    for PlacedFile { path, pose } in &arguments.models {
         match pong_model::load(path, &extensions) {
-            Ok(model) => named.push(name(&named, model)),
+            Ok(model) => named.push(name(&named, model, *pose)),
             Err(errors) => {
                 tell_lines(&errors);
                 faults += errors.0.len();
@@ -43,7 +45,7 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
         }
     }
     let mut text = String::new();
-    for Named { name, model } in &named {
+    for Named { name, model, .. } in &named {
         text += &tree::description(name, model);
         text += &solids::description(model);
         let warnings = model.warnings.iter().cloned().chain(doubled::warnings(model));
@@ -63,6 +65,11 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
                     };
                     problems.iter().for_each(|problem| text += &format!("  note: {}\n", printable(problem)));
                 }
+            }
+            if !Arc::ptr_eq(&a.model, &b.model) {
+                together::notes(a, b)
+                    .iter()
+                    .for_each(|note| text += &format!("  note: {}\n", printable(note)));
             }
         }
     }

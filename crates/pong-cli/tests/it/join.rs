@@ -69,6 +69,42 @@ fn the_seam_of_two_objects_is_told_and_joined() {
     assert!(code == 1 && err.contains("--force"), "{err}");
 }
 
+/// Two slabs in one place overlap, side by side they are flush, a step apart they are neither.
+#[test]
+fn flush_models_are_told_where_they_are_placed() {
+    let folder = folder("check_placed");
+    let check = |other: &str| {
+        let (code, out, err) = pong(&folder, &["check", "slab.ron", other]);
+        assert_eq!((code, err.as_str()), (0, ""), "{other}");
+        out
+    };
+    let (twice, beside, apart) = (check("slab.ron"), check("slab.ron@1,0,0"), check("slab.ron@1.001,0,0.01"));
+    let cure = "if they never move relative to each other, make them one model with `pong join`";
+    assert!(
+        twice.contains("lie in one plane and overlap (and")
+            || twice.contains("lie in one plane and overlap:")
+    );
+    assert!(twice.contains("what touches both there is pushed twice") && twice.contains(cure), "{twice}");
+    assert!(beside.contains("`slab/solid` and `slab/solid` are flush: what rolls") && beside.contains(cure));
+    assert!(!apart.contains("pong join"), "{apart}");
+    let alone = pong(&folder, &["check", "--alone", "slab.ron", "slab.ron"]).1;
+    assert!(!alone.contains("pong join"), "{alone}");
+}
+
+/// A turned and moved model has its ball where the other one has it.
+#[test]
+fn balls_of_two_models_in_one_place_are_told() {
+    let folder = folder("check_balls");
+    let there =
+        pong(&folder, &["check", "ball.ron@1,2,3", "ball.ron@1,2,3.00000001,0.7071068,0,0.7071068,0"]).1;
+    assert!(
+        there.contains("`ball/s` and `ball/s` are the same Sphere in one place: their springs add"),
+        "{there}"
+    );
+    let beside = pong(&folder, &["check", "ball.ron@1,2,3", "ball.ron@1,2,3.01"]).1;
+    assert!(!beside.contains("in one place"), "{beside}");
+}
+
 #[test]
 fn separate_models_are_told_by_the_check_with_the_cure() {
     let folder = folder("separate");

@@ -48,13 +48,14 @@ const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground", surfa
     root: (name: "ground", surface: "stone", primitives: [Plane(name: "floor", normal: (0, 0, 1), offset: -1)]))"#;
 
 #[test]
-fn advise_says_that_solids_are_judged_when_they_touch() {
+fn advise_judges_solids_flat_on_their_largest_faces() {
     let marked = MODEL.replace("contact: Solid, ", "");
     let files = [("parts.ron", MODEL), ("marked.ron", &marked), ("ground.ron", GROUND), ("scene.ron", SCENE)];
     let folder = common::folder("solids/advise", &files);
     let (code, out, err) = pong(&folder, &["advise", "scene.ron"]);
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
-    assert!(out.contains("note: solids are not judged here"), "{out}");
+    assert!(out.contains("note: solids are judged flat on each other"), "{out}");
+    assert!(out.contains("parts/parts · ground/ground") && out.contains("stable to s"), "{out}");
     for (file, is_told) in [("parts.ron", true), ("marked.ron", false)] {
         let (code, out, err) = pong(&folder, &["advise", file, "--mass", "1", "--rate", "1000"]);
         assert_eq!((code, err.as_str()), (0, ""), "{out}");
@@ -65,3 +66,39 @@ fn advise_says_that_solids_are_judged_when_they_touch() {
         );
     }
 }
+
+/// A cube of 1 kg that falls by 1 m is too fast for Hunt and Crossley's damping at a step of 1 ms, which holds up to
+/// 0.64 m/s; beside the floor it has no height to fall.
+#[test]
+fn a_fall_is_judged_before_it_ends() {
+    let cube = MODEL_OF_A_CUBE;
+    let scene = |height: f64| {
+        format!(
+            r#"(format: "pong-scene", version: 1, name: "fall", models: {{ "cube": "cube.ron", "ground": "floor.ron" }},
+            objects: [(name: "cube", model: "cube", bodies: [(motion: Free, mass: 1.0, position: (0, 0, {height:?}),
+                inertia: Diagonal(0.0017, 0.0017, 0.0017))]),
+                (name: "ground", model: "ground", bodies: [(motion: Fixed)])],
+            pairs: [("cube", "ground")], gravity: (0, 0, -9.81), integrator: SemiImplicitEuler, step: 1e-3, duration: 2e-3)"#
+        )
+    };
+    let (high, low) = (scene(1.0), scene(0.01));
+    let floor = GROUND.replace("offset: -1", "offset: -0.06");
+    let files = [("cube.ron", cube), ("floor.ron", &floor), ("high.ron", &high), ("low.ron", &low)];
+    let folder = common::folder("solids/fall", &files);
+    let (code, _, err) = pong(&folder, &["run", "high.ron"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(
+        err.contains("at 4.429e0 m/s, which a fall in the scene can reach, `cube/cube` and `ground/ground`"),
+        "{err}"
+    );
+    assert!(err.contains("by its damping, gains energy at a step of 1.000e-3 s"), "{err}");
+    let (code, _, err) = pong(&folder, &["run", "low.ron"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+}
+
+const MODEL_OF_A_CUBE: &str = r#"(format: "pong-model", version: 1, name: "cube",
+    surfaces: { "s": (stiffness: 1e6, foundation: 1.2e8, normal: HuntCrossley(dissipation: 2.0, exponent: 1.0)) },
+    root: (name: "cube", surface: "s", contact: Solid, primitives: [Polyhedron(name: "box",
+        vertices: [(-0.05, -0.05, -0.05), (0.05, -0.05, -0.05), (-0.05, 0.05, -0.05), (0.05, 0.05, -0.05),
+            (-0.05, -0.05, 0.05), (0.05, -0.05, 0.05), (-0.05, 0.05, 0.05), (0.05, 0.05, 0.05)],
+        faces: [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]])]))"#;

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! with c the contact point, o the reference point of A, Δo its displacement and φ the rotation vector of A.
-//! The dissipated energy is −W − Δstored, plus the work of the drives of surfaces that move along themselves. A contact that has ended contributes the half of its last force,
-//! and its stored energy is dissipated.
+//! The dissipated energy is −W − Δstored, plus the work of the drives of surfaces that move along themselves. A
+//! contact that has ended contributes the half of its last force, and its stored energy is dissipated.
 
 use super::LedgerEntry;
 use super::accounts::Accounts;

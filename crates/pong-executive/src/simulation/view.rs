@@ -1,7 +1,7 @@
 //! Read access to a simulation.
 
 use super::Simulation;
-use crate::body::{BodyId, RigidBody};
+use crate::body::{BodyId, Motion, RigidBody};
 use crate::energy::Energy;
 use crate::error::Result;
 use crate::integrate::Integrator;
@@ -64,7 +64,20 @@ impl Simulation {
     /// check of the step begins with this plan, so that all of them agree.
     pub fn step_plan(&self) -> StepPlan {
         let plan = StepPlan::new(self.step, self.integrator.coupling());
-        StepPlan { closing_speed: self.closing_speed(), ..plan }
+        StepPlan { closing_speed: self.closing_speed(), fall_speed: self.fall_speed(), ..plan }
+    }
+
+    /// Speed of a fall over the height of the scene, m/s: from the highest free body to the lowest body, by the origins
+    /// of their group frames. `None` without gravity or height.
+    fn fall_speed(&self) -> Option<f64> {
+        let gravity = self.system.gravity;
+        let height = |body: &RigidBody| -gravity.dot(&body.pose.position);
+        let free = self.bodies().map(|(_, body)| body).filter(|body| matches!(body.motion, Motion::Free(_)));
+        let highest = free.map(height).fold(f64::NEG_INFINITY, f64::max);
+        let lowest = self.bodies().map(|(_, body)| height(body)).fold(f64::INFINITY, f64::min);
+        // Heights are multiplied by the gravity: g·h = v²/2.
+        let squared = 2.0 * (highest - lowest);
+        (squared > 0.0 && squared.is_finite()).then(|| squared.max(f64::MIN_POSITIVE).sqrt())
     }
 
     /// The largest initial speed between any two bodies, m/s; `None` if nothing moves.

@@ -50,6 +50,7 @@ __all__ = [
     "check_log",
     "check_polyhedron",
     "check_triangles",
+    "join_models",
     "model_schema",
     "parse_authored",
     "read_authored",
@@ -591,6 +592,14 @@ def read_authored(path: _Path) -> dict[str, Any]: ...
 def parse_authored(text: str, *, name: str = "model") -> dict[str, Any]: ...
 
 def write_authored(data: dict[str, Any], one_line: bool) -> str: ...
+
+def join_models(
+    parts: list[tuple[str, list[float]]],
+    name: str,
+    folder: _Path,
+    one_surface: bool,
+    allow_files_below: Sequence[_Path],
+) -> str: ...
 
 def model_schema() -> dict[str, Any]: ...
 

@@ -2,6 +2,7 @@
 
     data = pong.model.read("gripper.ron")            the file as it is written: dictionaries, tuples, arrays
     text = pong.model.write(data)                    data like that as the text of a model file
+    text = pong.model.join(parts, name="floor")     one model of files that never move relative to each other
     tables = pong.model.schema()                     kinds and fields of the format
     found = pong.model.check(text)                   every error and warning of a text
     pong.model.check_polyhedron(vertices, faces)     what keeps a shape from being a polyhedron
@@ -21,9 +22,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _pong
-from ._pong import Model, ModelError
+from ._pong import BadValueError, Model, ModelError
 
-__all__ = ["Checked", "check", "check_polyhedron", "check_triangles", "parse", "read", "schema", "write"]
+__all__ = ["Checked", "check", "check_polyhedron", "check_triangles", "join", "parse", "read", "schema", "write"]
 
 _Path = str | os.PathLike[str]
 _Indices = NDArray[np.integer[Any]]
@@ -117,6 +118,63 @@ def write(data: dict[str, Any], *, one_line: bool = False) -> str:
         bit.
     """
     return _pong.write_authored({"format": "pong-model", "version": 1} | data, one_line)
+
+
+def join(
+    parts: Sequence[_Path | tuple[_Path, ArrayLike] | tuple[_Path, ArrayLike, ArrayLike]],
+    *,
+    name: str,
+    folder: _Path = ".",
+    one_surface: bool = True,
+    allow_files_below: Sequence[_Path] = (),
+) -> str:
+    """Joins model files that never move relative to each other into one model, as `pong join` does.
+
+    The root of each file becomes a group of the new root, named after its model; movable groups stay movable.
+
+    Parameters
+    ----------
+    parts : sequence of path_like or tuple
+        Model files. A tuple has a file, the position of its root in m, and, if wanted, its orientation as a quaternion
+        (w, x, y, z). A file may be there several times.
+    name : str
+        Name of the new model.
+    folder : path_like, default "."
+        Folder in which the text is to be saved, or which is given to `pong.Model.parse`: meshes are named from there.
+    one_surface : bool, default True
+        Declare the new root one surface, so that nothing hops on the seams between the parts.
+    allow_files_below : sequence of path_like, optional
+        Further folders from which the models may read meshes.
+
+    Returns
+    -------
+    str
+        Text of the new model file.
+
+    Raises
+    ------
+    ModelError
+        A file is at fault.
+    BadValueError
+        The files cannot be joined: cause and cure.
+
+    Examples
+    --------
+    >>> text = pong.model.join(["slab.ron", ("slab.ron", (1, 0, 0))], name="floor")
+    >>> floor = pong.Model.parse(text)
+    """
+    places = [_placed(*part) if isinstance(part, tuple) else _placed(part) for part in parts]
+    return _pong.join_models(places, name, folder, one_surface, list(allow_files_below))
+
+
+def _placed(
+    path: _Path, position: ArrayLike = (0.0, 0.0, 0.0), orientation: ArrayLike = (1.0, 0.0, 0.0, 0.0)
+) -> tuple[str, list[float]]:
+    place = np.concatenate([np.ravel(np.asarray(given, float)) for given in (position, orientation)])
+    if len(place) != 7:
+        cure = "give a position (x, y, z) in m and a quaternion (w, x, y, z)"
+        raise BadValueError(f"parts: the place of {path} has {len(place)} numbers; {cure}")
+    return os.fspath(path), place.tolist()
 
 
 def schema() -> dict[str, Any]:

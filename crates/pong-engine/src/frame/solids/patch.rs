@@ -66,8 +66,8 @@ impl Patch<'_> {
     pub fn add_contacts(&self, scratch: &mut SolidScratch, entry: Option<&Entry>, out: &mut ContactBuffer) {
         let SolidScratch { of_b, of_a, faces_b, faces_a, forces, .. } = scratch;
         forces.clear();
-        self.add_forces_of_b(of_b, faces_b, forces);
-        self.add_forces_of_a(of_a, faces_a, forces);
+        self.add_forces(SolidContactPart::CellOfB, (of_b, faces_b), forces);
+        self.add_forces(SolidContactPart::CellOfA, (of_a, faces_a), forces);
         let resultant = self.resultant(forces, (of_a, of_b));
         let sticks = resultant.is_some_and(|resultant| self.add_friction(&resultant, out));
         for force in forces.iter() {
@@ -78,32 +78,34 @@ impl Patch<'_> {
         }
     }
 
-    fn add_forces_of_b(&self, found: &FieldCells, faces: &PushingFaces, forces: &mut Vec<CellForce>) {
-        let reference = &found.reference_b;
-        for cell in &found.cells {
-            let face = &faces.planes[cell.face];
-            if let Some(force) = self.cell_force(cell, face, reference, &self.relative.a_in_b, self.shares[1])
-            {
-                forces.push(CellForce { face: faces.numbers[cell.face], ..force });
-            }
-        }
-    }
-
-    /// The field of A pushes B along its faces, and A the opposite way.
-    fn add_forces_of_a(&self, found: &FieldCells, faces: &PushingFaces, forces: &mut Vec<CellForce>) {
+    /// Adds the forces of the cells in the field of one side, the owner: it pushes the other side along its faces, and A
+    /// the opposite way if A is the owner.
+    fn add_forces(
+        &self,
+        owner: SolidContactPart,
+        (found, faces): (&FieldCells, &PushingFaces),
+        forces: &mut Vec<CellForce>,
+    ) {
         let (reference, x_ba) = (&found.reference_b, &self.relative.x_ba);
+        let is_of_a = owner == SolidContactPart::CellOfA;
+        let (velocity, share) = match is_of_a {
+            true => (&self.relative.b_in_a, self.shares[0]),
+            false => (&self.relative.a_in_b, self.shares[1]),
+        };
         for cell in &found.cells {
-            let face = &faces.planes[cell.face];
-            if let Some(force) = self.cell_force(cell, face, reference, &self.relative.b_in_a, self.shares[0])
-            {
-                forces.push(CellForce {
-                    part: SolidContactPart::CellOfA,
-                    face: faces.numbers[cell.face],
+            let Some(force) = self.cell_force(cell, &faces.planes[cell.face], reference, velocity, share)
+            else {
+                continue;
+            };
+            let force = CellForce { part: owner, face: faces.numbers[cell.face], ..force };
+            forces.push(match is_of_a {
+                true => CellForce {
                     normal_b: -x_ba.vector(&force.normal_b),
                     point_b: x_ba.point(&force.point_b),
                     ..force
-                });
-            }
+                },
+                false => force,
+            });
         }
     }
 

@@ -69,11 +69,17 @@ fn follow(
     for (motions, &group_pair) in input.motions.iter().zip(pairs) {
         for (plan, direction) in given.sealed.plans_of(group_pair) {
             let motion = motions.of(direction);
-            if travel::may_go_through(plan, motion) {
-                Seen::new(given.round(input), direction, motion, contacts).follow_lines(plan, events);
+            let lines = travel::may_go_through(plan, motion);
+            let solids = travel::solids_may_go_through(plan, motion);
+            if !lines && !solids {
+                continue;
             }
-            if travel::solids_may_go_through(plan, motion) {
-                Seen::new(given.round(input), direction, motion, contacts).follow_solids(plan, events);
+            let seen = Seen::new(given.round(input), direction, motion, contacts);
+            if lines {
+                seen.follow_lines(plan, events);
+            }
+            if solids {
+                seen.follow_solids(plan, events);
             }
         }
     }
