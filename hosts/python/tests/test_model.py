@@ -249,13 +249,14 @@ def test_bounds_of_groups():
     assert "half" not in bounds["m/floor"], "a plane has no end"
 
 
-SLAB = """(format: "pong-model", version: 1, name: "slab", surfaces: { "rough": (stiffness: inf, friction: Bristle(mu: 0.9)) },
+SLAB = """(format: "pong-model", version: 1, name: "slab",
+    surfaces: { "rough": (stiffness: inf, friction: Bristle(mu: 0.9)) },
     root: (name: "slab", surface: "rough", primitives: [Polyhedron(name: "solid",
         vertices: [(-1, -1, -1), (1, -1, -1), (-1, 1, -1), (1, 1, -1), (-1, -1, 0), (1, -1, 0), (-1, 1, 0), (1, 1, 0)],
         faces: [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]])]))"""
 
 
-def heights(floor, places, ball):
+def forces_at(floor, places, ball):
     """Force on a ball of 0.1 m whose centre is at height 0.099 m, at each place."""
     builder = pong.WorldBuilder()
     builder.create_object(builder.add_model(ball), "ball")
@@ -275,14 +276,16 @@ def heights(floor, places, ball):
 
 def test_joined_files_are_one_surface(tmp_path):
     (tmp_path / "slab.ron").write_text(SLAB)
-    parts = [tmp_path / "slab.ron", (tmp_path / "slab.ron", (2, 0, 0)), (tmp_path / "slab.ron", (4, 0, 0), (0, 0, 0, 1))]
+    slab = tmp_path / "slab.ron"
+    parts = [slab, (slab, (2, 0, 0)), (slab, (4, 0, 0), (0, 0, 0, 1))]
     text = pong.model.join(parts, name="floor", folder=tmp_path)
     floor, ball = pong.Model.parse(text, folder=tmp_path), pong.Model.parse(BALL)
-    assert [path for path, _, _ in floor.primitives()] == ["floor/slab/solid", "floor/slab_2/solid", "floor/slab_3/solid"]
-    middle, seam, turned = heights(floor, [0.2, 1.0, 3.0], ball)
+    paths = [path for path, _, _ in floor.primitives()]
+    assert paths == ["floor/slab/solid", "floor/slab_2/solid", "floor/slab_3/solid"]
+    middle, seam, turned = forces_at(floor, [0.2, 1.0, 3.0], ball)
     assert middle > 1.0 and seam == pytest.approx(middle, rel=1e-9) and turned == pytest.approx(middle, rel=1e-9)
     separate = pong.Model.parse(pong.model.join(parts, name="floor", folder=tmp_path, one_surface=False))
-    assert heights(separate, [1.0], ball)[0] == pytest.approx(2.0 * middle, rel=1e-6)
+    assert forces_at(separate, [1.0], ball)[0] == pytest.approx(2.0 * middle, rel=1e-6)
 
 
 def test_what_cannot_be_joined_is_refused(tmp_path):
