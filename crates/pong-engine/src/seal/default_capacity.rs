@@ -69,8 +69,11 @@ fn keep_greatest(numbers: &mut [usize; NEIGHBORS], other: usize) {
 /// Estimate for one direction of a pair, with the plan of that direction.
 fn of_direction(plan: &Plan, [a, b]: [&MovableGroup; 2], has_resistance: bool) -> usize {
     let with_couple = if has_resistance { 3 } else { 1 };
-    let of_primitives: usize =
-        a.primitives.iter().map(|info| with_couple * most_contacts(info.kind, |b| plan.tests(info.kind, b))).sum();
+    let of_primitives: usize = a
+        .primitives
+        .iter()
+        .map(|info| with_couple * most_contacts(info.kind, |b| plan.tests(info.kind, b)))
+        .sum();
     of_primitives.saturating_mul(shells(b)).saturating_add(of_solids(&plan.solids, [a, b]))
 }
 
