@@ -21,8 +21,9 @@ pub struct pong_config {
     pub abi_version: u32,
     /// Set by pong_default_config(): checked by pong_create_world().
     pub cookie: u64,
-    /// Most contacts of a frame; 0 takes the worst case of the scene, at least 256 and at most 65536. When a frame
-    /// has more, the deepest are kept and the report has PONG_FLAG_CONTACT_LIMIT.
+    /// Most contacts of a frame; 0 takes an estimate from the scene, at least 256 and at most 65536: the contacts of
+    /// all pairs of movable groups, or, if that is less, those of the 16 pairs of each group that have the most. When a
+    /// frame has more, the deepest are kept and the report has PONG_FLAG_CONTACT_LIMIT.
     pub contact_capacity: u64,
     /// 1: keeps energies for pong_get_ledger(). 0 (default): does not, and costs nothing.
     pub keep_ledger: u32,

@@ -12,6 +12,13 @@ pub struct SolidBox {
 }
 
 impl SolidBox {
+    /// Returns `true` if the box has no point in common with another one, given by its least and greatest
+    /// coordinates, m.
+    pub fn is_beside(&self, (low, high): &(Vec3, Vec3)) -> bool {
+        let (own_low, own_high) = (self.center - self.half, self.center + self.half);
+        (0..3).any(|axis| own_high[axis] < low[axis] || high[axis] < own_low[axis])
+    }
+
     /// Box around points; around the origin if there are none.
     pub(crate) fn around<'p>(points: impl IntoIterator<Item = &'p Vec3>) -> Self {
         let mut points = points.into_iter();

@@ -52,6 +52,16 @@ impl SolidTree {
         tree
     }
 
+    /// Number of items.
+    pub fn len(&self) -> usize {
+        self.order.len()
+    }
+
+    /// Returns `true` if there are no items.
+    pub fn is_empty(&self) -> bool {
+        self.order.is_empty()
+    }
+
     /// Root; `None` without items.
     pub fn root(&self) -> Option<SolidNode> {
         (!self.order.is_empty()).then_some(SolidNode { index: 0, first: 0, end: self.order.len() as u32 })
@@ -70,6 +80,33 @@ impl SolidTree {
     /// Adds the items whose boxes meet a box to `found`.
     pub fn meeting(&self, bound: &SolidBox, found: &mut Vec<u32>) {
         self.root().inspect(|root| self.meeting_below(root, bound, found));
+    }
+
+    /// Calls `found` once for each two items whose boxes meet.
+    pub fn meeting_pairs(&self, found: &mut impl FnMut(u32, u32)) {
+        self.root().inspect(|root| self.meeting_within(root, found));
+    }
+
+    fn meeting_within(&self, node: &SolidNode, found: &mut impl FnMut(u32, u32)) {
+        let Some([left, right]) = node.halves() else { return };
+        self.meeting_within(&left, found);
+        self.meeting_within(&right, found);
+        self.meeting_between([&left, &right], found);
+    }
+
+    fn meeting_between(&self, [a, b]: [&SolidNode; 2], found: &mut impl FnMut(u32, u32)) {
+        let (bound_a, bound_b) = (self.bound(a), self.bound(b));
+        if ((bound_a.center - bound_b.center).abs() - bound_a.half - bound_b.half).max() > 0.0 {
+            return;
+        }
+        match (a.halves(), b.halves()) {
+            (None, None) => found(self.order[a.first as usize], self.order[b.first as usize]),
+            (Some(halves), of_b) if of_b.is_none() || a.end - a.first >= b.end - b.first => {
+                halves.iter().for_each(|half| self.meeting_between([half, b], found));
+            }
+            (_, Some(halves)) => halves.iter().for_each(|half| self.meeting_between([a, half], found)),
+            (Some(_), None) => {}
+        }
     }
 
     fn meeting_below(&self, node: &SolidNode, bound: &SolidBox, found: &mut Vec<u32>) {

@@ -46,7 +46,7 @@ pub(crate) fn run_blocks(round: &Round<'_>, blocks: Range<usize>, worker: &mut W
                     }
                 }
             }
-            BlockKind::Solids => match clock {
+            BlockKind::Solids | BlockKind::SolidSlice => match clock {
                 None => alike.iter().for_each(|block| run_solids(round, block, worker, &mut Untimed)),
                 Some(now) => {
                     alike.iter().for_each(|block| run_solids(round, block, worker, &mut Timed::start(now)));

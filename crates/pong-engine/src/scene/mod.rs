@@ -23,8 +23,9 @@ pub(crate) use surfaces::Surfaces;
 /// Settings of a world.
 #[derive(Clone, Debug, Default)]
 pub struct Config {
-    /// Maximum number of contacts of a frame. `None` takes the worst case of the scene, at least 256 and at
-    /// most 65,536. If a frame has more contacts, the deepest are kept and a status bit is set.
+    /// Maximum number of contacts of a frame. `None` takes an estimate from the scene, at least 256 and at
+    /// most 65,536: the contacts of all pairs of movable groups, or, if that is less, those of the 16 pairs of
+    /// each group that have the most. If a frame has more contacts, the deepest are kept and a status bit is set.
     pub contact_capacity: Option<usize>,
     /// True to keep the energy ledger (docs/theory.md, 6).
     pub ledger: bool,

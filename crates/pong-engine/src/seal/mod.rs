@@ -7,11 +7,13 @@
 //! | test plans | `test_plan.rs` | `plans.rs` |
 //! | combined surface values | `surface_table.rs` | `surfaces.rs` |
 //! | solids that may touch | `solids.rs` | `solids.rs` |
+//! | contact capacity, if the host gives none | | `default_capacity.rs` |
 //! | capacities of buffers | `frame_limits.rs` | `sizes.rs` |
 //!
 //! `memory.rs` checks that there is memory for all of it. `warnings.rs` and `known_limits.rs` find what the
 //! author of the scene may not have intended.
 
+mod default_capacity;
 mod filters;
 mod frame_limits;
 mod known_limits;
@@ -42,6 +44,7 @@ use crate::energy::account::WrenchCoupling;
 use crate::energy::contact::ContactEnergies;
 use crate::error::EngineError;
 use crate::scene::{GroupFilter, ObjectPair, Scene};
+use default_capacity::default_capacity;
 use filters::{drop_kept_apart, filter_count, filters_of_objects};
 use known_limits::known_limits;
 use plans::plans;
@@ -50,7 +53,7 @@ use pong_geometry::bounding::VolumeTests;
 use pong_model::{Fnv, Surface};
 use pong_threads::WorkerStart;
 use sealed::NO_PLAN;
-use sizes::{limits, too_large, worst_case};
+use sizes::{limits, too_large};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use surfaces::friction_lost;
@@ -122,8 +125,11 @@ pub(crate) fn seal(
         pair.tables = [table_of[&(a, b)], table_of[&(b, a)]];
     }
     let has_resistance = tables.iter().any(|table| table.has_resistance);
-    let contact_capacity =
-        scene.config.contact_capacity.unwrap_or_else(|| worst_case(scene, &group_pairs, has_resistance));
+    let plans = plans(scene, &mut group_pairs, &filters);
+    let contact_capacity = scene
+        .config
+        .contact_capacity
+        .unwrap_or_else(|| default_capacity(scene, &group_pairs, &plans, has_resistance));
     let record_capacity = 2 * contact_capacity;
     let hash = scene_hash(scene, contact_capacity, law_state_len);
     let paired_bodies = paired_bodies(scene, &group_pairs);
@@ -135,7 +141,7 @@ pub(crate) fn seal(
         "ask for a smaller `contact_capacity` or fewer workers, or pair fewer Objects",
     )?;
     let sealed = Sealed {
-        plans: plans(scene, &mut group_pairs, &filters),
+        plans,
         paired_bodies,
         rays_meet_groups: rays_meet_groups(scene, &group_pairs),
         group_pairs,

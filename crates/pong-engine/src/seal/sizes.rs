@@ -1,29 +1,13 @@
 //! Computes the capacities of the buffers of a frame, and the memory per contact and per thread.
 
-use super::GroupPair;
 use super::frame_limits::Limits;
 use crate::energy::contact::ContactEnergies;
 use crate::frame::load_sharing::solver::scratch_bytes;
-use crate::frame::narrow_phase::pair_table::most_contacts;
 use crate::frame::{ContactRef, FrameContact, Slot, WorkerContext, arena_bytes};
 use crate::scene::Scene;
 use crate::state::Records;
-use pong_model::{MovableGroup, Tree};
+use pong_model::Tree;
 use pong_threads::MAX_WORKERS;
-
-/// Maximum default capacity in contacts; the worst case of the scene may be larger.
-const DEFAULT_CAPACITY_MAX: usize = 65_536;
-
-/// Minimum default capacity in contacts. A sphere centred in a cone of many triangles touches all of them,
-/// which is more than the worst case assumes.
-const DEFAULT_CAPACITY_MIN: usize = 256;
-
-/// Contacts of two parts of solids that the worst case assumes: a few cells of both fields, friction, side of
-/// entry.
-const SOLID_CONTACTS: usize = 8;
-
-/// Pairs of parts that the worst case assumes at most for two solids. A mesh has more parts, but few of them touch.
-const PART_PAIRS_MAX: usize = 512;
 
 /// Capacities of the buffers of the frames of a scene.
 pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: usize) -> Limits {
@@ -120,53 +104,4 @@ pub(super) fn bytes_per_contact(scene: &Scene, threads: usize, law_state_len: us
         _ => 2 * BUFFERS_OF_A_WORKER * (buffer + buffer / 8) + (threads - 1) * WorkerContext::BYTES_PER_FOUND,
     };
     RECORDS * (records + caller + workers)
-}
-
-/// Estimate of the number of contacts of the solids of two groups with each other and with planes: every part of a
-/// solid touches a part of the other. Beyond the default capacity the count is not continued.
-fn solid_contacts(a: &MovableGroup, b: &MovableGroup) -> usize {
-    let contacts = |parts: usize, others: usize| (parts + others - 1).min(PART_PAIRS_MAX) * SOLID_CONTACTS;
-    let beside_planes = |body: &MovableGroup, planes: usize| {
-        let each = body.solids.iter().map(|solid| contacts(solid.parts.len(), 1));
-        each.sum::<usize>().saturating_mul(planes)
-    };
-    let mut total = beside_planes(a, b.planes.len()).saturating_add(beside_planes(b, a.planes.len()));
-    for own in &a.solids {
-        for other in &b.solids {
-            if total > DEFAULT_CAPACITY_MAX {
-                return total;
-            }
-            total += contacts(own.parts.len(), other.parts.len());
-        }
-    }
-    total
-}
-
-/// Number of shells of a movable group. A primitive of a declared surface counts as a shell of its own besides,
-/// because it may coincide with another.
-fn surfaces(body: &MovableGroup) -> usize {
-    let in_joint = body.primitives.iter().filter(|info| body.is_joint(info.shell)).count();
-    body.shell_count as usize + in_joint
-}
-
-/// Estimate of the number of contacts: every primitive touches every shell of the groups paired with its own,
-/// with the most contacts that the tester table gives its kind. Clamped to the limits of the default
-/// capacity.
-///
-/// If any surfaces resist rolling or spinning, every contact has the two of a couple besides.
-pub(super) fn worst_case(scene: &Scene, group_pairs: &[GroupPair], has_resistance: bool) -> usize {
-    let with_couple = if has_resistance { 3 } else { 1 };
-    let movers = |body: usize| -> usize {
-        scene.body(body).primitives.iter().map(|info| with_couple * most_contacts(info.kind)).sum()
-    };
-    let movers: Vec<usize> = (0..scene.bodies.len()).map(movers).collect();
-    let mut total = 0_usize;
-    for pair in group_pairs {
-        let [a, b] = [pair.first, pair.second].map(|body| scene.body(body));
-        total = total.saturating_add(solid_contacts(a, b));
-        for (a, b) in [(pair.first, pair.second), (pair.second, pair.first)] {
-            total = total.saturating_add(movers[a].saturating_mul(surfaces(scene.body(b))));
-        }
-    }
-    total.clamp(DEFAULT_CAPACITY_MIN, DEFAULT_CAPACITY_MAX)
 }

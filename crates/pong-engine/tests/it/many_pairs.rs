@@ -8,10 +8,10 @@ use std::sync::Arc;
 const COUNT: usize = 36;
 const FRAMES: usize = 25;
 
-fn world_of(count: usize, contacts: usize) -> (World, Vec<InterfaceId>) {
+fn world_of(count: usize, contacts: impl Into<Option<usize>>) -> (World, Vec<InterfaceId>) {
     let text = model("m", &surface(1e5, ""), "Sphere(name: \"s\", center: (0.1,0,0), radius: 0.1)");
     let mut builder =
-        WorldBuilder::new(Config { ledger: true, contact_capacity: Some(contacts), ..Config::default() });
+        WorldBuilder::new(Config { ledger: true, contact_capacity: contacts.into(), ..Config::default() });
     let made = pong_model::parse(&text, "m", None, builder.scene().extensions()).unwrap();
     let made = builder.add_model(Arc::new(made));
     let objects: Vec<_> =
@@ -154,5 +154,23 @@ fn a_block_of_an_older_format_is_refused() {
     let refused = world.restore_state(&block).unwrap_err().to_string();
     for part in ["contact state", "format version 2", "reads 3", "save it again"] {
         assert!(refused.contains(part), "{refused}");
+    }
+}
+
+/// Without a capacity from the host, a world of many spheres has room for 16 pairs of each sphere. If more touch, the
+/// deepest contacts are kept and the frame reports how many there were.
+#[test]
+fn default_capacity_has_sixteen_pairs_of_each_sphere() {
+    for (count, capacity) in [(20, 256), (30, 30 * 29 / 2), (40, 16 * 40), (100, 1600)] {
+        let (mut world, interfaces) = world_of(count, None);
+        assert_eq!(world.contact_capacity(), capacity, "{count} spheres");
+        let at = |i: usize| State { position: [1e-3 * i as f64, 0.0, 0.0], ..State::identity() };
+        let states: Vec<_> = interfaces.iter().enumerate().map(|(i, sphere)| (*sphere, at(i))).collect();
+        world.set_states(&states).unwrap();
+        let report = world.step().unwrap();
+        let pairs = count * (count - 1) / 2;
+        assert_eq!(report.contacts as usize, pairs.min(capacity));
+        assert_eq!(report.status.contains(StatusBits::CONTACT_LIMIT), pairs > capacity);
+        assert_eq!(report.advised_capacity(capacity), (pairs > capacity).then_some(pairs));
     }
 }

@@ -2,6 +2,9 @@
 //! depth is small beside the regions of the facets, and that of the same solid in convex pieces.
 
 use super::solids::{Pair, SOFT, STIFF, directions, moved, pose, power, random_vector, solid};
+use crate::common::Rig;
+use crate::common::stage::workers;
+use pong_engine::{Config, WorkerSettings};
 use pong_geometry::{Pose, Quat, Twist, Vec3};
 use pong_testkit::Random;
 use pong_testkit::meshes::{Place, torus};
@@ -197,6 +200,31 @@ fn bumpy_plate(cells: usize) -> String {
         }
     }
     solid(SOFT, &triangle_mesh("plate", &vertices, &triangles, ""))
+}
+
+/// A mesh of many parts is divided into slices, which threads share. Each of the hundred bumps of a plate touches that of
+/// the other plate, whichever slice has it, and the bits do not depend on the threads.
+#[test]
+fn every_slice_of_a_large_mesh_is_tested_on_any_number_of_workers() {
+    let text = bumpy_plate(60);
+    let deep = |height: f64, workers: Option<WorkerSettings>| {
+        let Rig { world, interfaces: roots, .. } =
+            Rig::with_config(Config { workers, ..Config::default() }, &text, &text);
+        let mut pair = Pair { world, roots };
+        let (wrench, energy) = pair.at(&pose([0.0, 0.0, height], [std::f64::consts::PI, 0.0, 0.0]));
+        let contacts: Vec<_> = pair.contacts().iter().map(|contact| (contact.point, contact.force)).collect();
+        (wrench, energy, contacts)
+    };
+    let alone = deep(0.24 - 1e-4, None);
+    let bumps: std::collections::BTreeSet<[i64; 2]> =
+        alone.2.iter().map(|(point, _)| [0, 1].map(|axis| (point[axis] * 10.0).floor() as i64)).collect();
+    assert_eq!(bumps.len(), 100);
+    let (force, moment) = (alone.0.force, alone.0.moment);
+    assert!(force.z > 0.0 && moment.norm() < 1e-9 * force.z, "{force:?} {moment:?}");
+    for count in [1, 3] {
+        assert!(deep(0.24 - 1e-4, workers(count)) == alone, "{count} workers");
+    }
+    assert_eq!(deep(0.24 + 1e-6, workers(1)).2, []);
 }
 
 /// Times of loading and of frames of two bumpy plates whose 81 to 100 bumps touch. `PLATE_CELLS` sets their size: 500

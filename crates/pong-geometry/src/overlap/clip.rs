@@ -95,11 +95,19 @@ impl Surface {
     /// The part inside the opposite half space is the rest of the solid. On the plane, the vertices of the
     /// two parts have the same bits.
     pub fn cut_by(&self, half_space: &HalfSpace) -> Self {
-        let mut part = self.clone();
-        if Cutter::default().cut(&mut part, |x| half_space.depth(x)) == Part::Nothing {
-            part.clear();
+        let mut part = Self::default();
+        match Cutter::default().cut_into(&mut part, self, |x| half_space.depth(x)) {
+            Part::Nothing => Self::default(),
+            Part::Whole => self.clone(),
+            Part::Cut => part,
         }
-        part
+    }
+
+    /// Replaces this surface by a copy of another one. It allocates only if its own memory is too small.
+    pub(super) fn copy(&mut self, other: &Self) {
+        self.vertices.clone_from(&other.vertices);
+        self.edges.clone_from(&other.edges);
+        self.ends.clone_from(&other.ends);
     }
 
     /// Replaces this surface by a copy of another that is given in frame A. `x_ba` carries it into frame B.
@@ -198,7 +206,7 @@ struct Crossing {
 
 /// Workspace for cutting surfaces. Its memory is used again for every cut.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Cutter {
+pub struct Cutter {
     /// Depth of each vertex of the surface; negative outside the half space.
     depths: Vec<f64>,
     /// Place of each vertex of the surface.
@@ -212,11 +220,11 @@ pub(super) struct Cutter {
 
 impl Cutter {
     /// Bytes that [`with_capacity`](Self::with_capacity) takes per facet.
-    pub const BYTES_PER_FACET: usize =
+    pub(super) const BYTES_PER_FACET: usize =
         2 * (size_of::<f64>() + size_of::<Place>()) + size_of::<Crossing>() + EDGE + Surface::BYTES_PER_FACET;
 
     /// Creates a workspace for convex solids of up to `facets` facets.
-    pub fn with_capacity(facets: usize) -> Self {
+    pub(super) fn with_capacity(facets: usize) -> Self {
         Self {
             depths: Vec::with_capacity(2 * facets),
             places: Vec::with_capacity(2 * facets),
@@ -226,9 +234,16 @@ impl Cutter {
         }
     }
 
+    /// Replaces a closed surface by its part inside a half space, as [`Surface::cut_by`] returns it.
+    pub fn cut_by(&mut self, surface: &mut Surface, half_space: &HalfSpace) {
+        if self.cut(surface, |x| half_space.depth(x)) == Part::Nothing {
+            surface.clear();
+        }
+    }
+
     /// Cuts a surface by the half space in which the affine function `depth` is not negative, and keeps the
     /// part inside. If this part has no volume, `surface` stays as it is.
-    pub fn cut(&mut self, surface: &mut Surface, depth: impl Fn(&Vec3) -> f64) -> Part {
+    pub(super) fn cut(&mut self, surface: &mut Surface, depth: impl Fn(&Vec3) -> f64) -> Part {
         let part = self.measure(surface, depth);
         if part == Part::Cut {
             self.cut_facets(surface);
@@ -239,7 +254,7 @@ impl Cutter {
 
     /// Stores the part of a surface inside a half space in `target`, if the plane divides the surface. See
     /// [`cut`](Self::cut).
-    pub fn cut_into(
+    pub(super) fn cut_into(
         &mut self,
         target: &mut Surface,
         surface: &Surface,

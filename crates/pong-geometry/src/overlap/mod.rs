@@ -11,12 +11,12 @@ mod half_space;
 mod moments;
 mod planes;
 
-pub use clip::Surface;
+pub use clip::{Cutter, Surface};
 pub use half_space::HalfSpace;
 pub use moments::Moments;
 
 use crate::{Transform, Twist, Vec3, Wrench};
-use clip::{Cutter, Part};
+use clip::Part;
 use planes::Planes;
 
 /// Convex solid B, given by its planes.
@@ -87,6 +87,10 @@ struct NearFace {
 /// Workspace for the overlap of two solids, and its result.
 #[derive(Clone, Debug, Default)]
 pub struct Overlap {
+    /// Surface of A in B's frame, its center and its radius about it, m.
+    placed: Surface,
+    center: Vec3,
+    radius: f64,
     shared: Surface,
     cell: Surface,
     cutter: Cutter,
@@ -101,6 +105,9 @@ impl Overlap {
     /// Creates a workspace for solids A and B that have `facets` faces in total.
     pub fn with_capacity(facets: usize) -> Self {
         Self {
+            placed: Surface::with_capacity(facets),
+            center: Vec3::zeros(),
+            radius: 0.0,
             shared: Surface::with_capacity(facets),
             cell: Surface::with_capacity(facets),
             cutter: Cutter::with_capacity(facets),
@@ -113,7 +120,7 @@ impl Overlap {
 
     /// Returns the memory that [`with_capacity`](Self::with_capacity) takes, bytes.
     pub fn bytes(facets: usize) -> usize {
-        const BYTES_PER_FACET: usize = 2 * Surface::BYTES_PER_FACET
+        const BYTES_PER_FACET: usize = 3 * Surface::BYTES_PER_FACET
             + Cutter::BYTES_PER_FACET
             + size_of::<NearFace>()
             + Planes::BYTES_PER_FACET
@@ -136,13 +143,55 @@ impl Overlap {
     /// index; empty if they share none. `a` is in A's frame, and `x_ba` carries it into B's frame. `velocity`
     /// is that of A relative to B: `linear + angular × x` at the point x of B's frame.
     pub fn cells(&mut self, a: &Surface, x_ba: &Transform, b: &Field<'_>, velocity: &Twist) -> &[Cell] {
+        self.place(a, x_ba);
+        self.placed_cells(b, velocity)
+    }
+
+    /// Places the surface of A for [`placed_cells`](Self::placed_cells): `x_ba` carries it into B's frame.
+    pub fn place(&mut self, a: &Surface, x_ba: &Transform) {
+        self.placed.copy_moved(a, x_ba);
+        (self.center, self.radius) = self.placed.ball();
+    }
+
+    /// Returns the least and the greatest coordinates of the vertices of the placed surface, m.
+    pub fn placed_bounds(&self) -> (Vec3, Vec3) {
+        self.placed.bounds()
+    }
+
+    /// Returns `true` if a plane of B has all vertices of the placed surface outside it or on it.
+    pub fn placed_apart(&self, b: &Field<'_>) -> bool {
+        let outside = |half_space: &HalfSpace| {
+            self.placed.vertices().iter().all(|vertex| half_space.depth(vertex) <= 0.0)
+        };
+        b.faces.iter().chain(b.walls).any(outside)
+    }
+
+    /// Cuts the placed surface by a half space of B's frame and keeps the part inside. Returns `false` if this part has
+    /// no volume; the placed surface then stays as it is.
+    pub fn cut_placed(&mut self, half_space: &HalfSpace) -> bool {
+        match self.cutter.cut(&mut self.placed, |x| half_space.depth(x)) {
+            Part::Nothing => return false,
+            Part::Whole => {}
+            Part::Cut => (self.center, self.radius) = self.placed.ball(),
+        }
+        true
+    }
+
+    /// Returns the cells of the volume that the placed surface and a convex solid share, as
+    /// [`cells`](Self::cells) does.
+    pub fn placed_cells(&mut self, b: &Field<'_>, velocity: &Twist) -> &[Cell] {
         self.cells.clear();
-        if !self.cut_shared(a, x_ba, b) {
+        if !self.cut_shared(b) {
             return &self.cells;
         }
         let Some(reference_b) = self.shared.vertices().first() else { return &self.cells };
         self.reference_b = *reference_b;
         self.find_near_faces(b.faces);
+        if let [near] = &self.near_faces[..] {
+            let (face, shared) = (&b.faces[near.index], &self.shared);
+            self.cells.extend(Cell::new(near.index, face, shared, &self.reference_b, velocity));
+            return &self.cells;
+        }
         for at in 0..self.near_faces.len() {
             self.push_cell(b.faces, self.near_faces[at], velocity);
         }
@@ -157,7 +206,8 @@ impl Overlap {
         if a.vertices().iter().any(|vertex| inside(&x_ba.point(vertex))) {
             return true;
         }
-        self.cut_shared(a, x_ba, b)
+        self.place(a, x_ba);
+        self.cut_shared(b)
             && self.shared.vertices().first().is_some_and(|x| self.shared.moments(x).volume > 0.0)
     }
 
@@ -171,14 +221,23 @@ impl Overlap {
         })
     }
 
-    /// Cuts A by all planes of B and stores the shared volume. Returns `false` if it is known to be empty.
-    fn cut_shared(&mut self, a: &Surface, x_ba: &Transform, b: &Field<'_>) -> bool {
-        let Self { shared, cutter, planes, .. } = self;
-        shared.copy_moved(a, x_ba);
-        let (center, radius) = shared.ball();
-        planes.set_center(&center);
+    /// Cuts the placed surface of A by all planes of B and stores the shared volume. Returns `false` if it is known
+    /// to be empty.
+    fn cut_shared(&mut self, b: &Field<'_>) -> bool {
+        let Self { placed, center, radius, shared, cutter, planes, .. } = self;
+        planes.set_center(center);
         b.faces.iter().chain(b.walls).for_each(|half_space| planes.add(half_space));
-        planes.cut(cutter, shared, radius)
+        match planes.cut_first(cutter, shared, placed, *radius) {
+            Part::Nothing => false,
+            Part::Whole => {
+                shared.copy(placed);
+                true
+            }
+            Part::Cut => {
+                let radius = shared.radius_about(center);
+                planes.cut(cutter, shared, radius)
+            }
+        }
     }
 
     /// Lists the faces that may be the nearest of some point of the shared volume. Each face has a greatest

@@ -76,6 +76,26 @@ pub(super) fn planes(facets: &[Facet], diameter: f64) -> Vec<HalfSpace> {
     merged(facets, PLANE_TOLERANCE * diameter).into_iter().map(|merged| merged.plane).collect()
 }
 
+/// Tests some of the triangles of a mesh. `true` means that a vertex is so far above one of them that [`field`] finds
+/// the mesh not convex, whichever planes of [`planes_of_mesh`](super::facets::planes_of_mesh) it gets: the corners of a
+/// triangle of the height h lie within the tolerance of one of these planes, which is turned by 60° at most. So at the
+/// distance of the diameter D from the triangle the plane is less than (2 + 8·D/h) tolerances above the triangle's own.
+pub(super) fn is_clearly_concave(facets: &[Facet], vertices: &[Vec3], diameter: f64) -> bool {
+    /// Number of triangles that are tested.
+    const TESTED: usize = 16;
+    let tolerance = PLANE_TOLERANCE * diameter;
+    facets.iter().step_by(facets.len().div_ceil(TESTED).max(1)).any(|facet| {
+        let longest =
+            (0..3).map(|k| (facet.corners[(k + 1) % 3] - facet.corners[k]).norm()).fold(0.0, f64::max);
+        let height = 2.0 * area(&facet.corners) / longest.max(f64::MIN_POSITIVE);
+        if height <= tolerance {
+            return false;
+        }
+        let margin = tolerance * (4.0 + 8.0 * diameter / height);
+        vertices.iter().any(|vertex| facet.plane.depth(vertex) < -margin)
+    })
+}
+
 /// Field of a solid given by the planes of its outer faces, by the internal faces of its pieces and by its
 /// vertices; `None` if the solid is not convex.
 ///

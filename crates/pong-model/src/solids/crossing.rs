@@ -1,7 +1,6 @@
 //! Triangles of a mesh that cross each other: the mesh then has no inside.
 
 use super::facets::Facet;
-use crate::solid_box::SolidBox;
 use crate::solid_tree::SolidTree;
 use pong_geometry::Vec3;
 
@@ -16,23 +15,21 @@ pub(super) struct Crossing {
 }
 
 /// First two triangles of a mesh of which an edge of one pierces the inside of the other; `None` if there are none.
-pub(super) fn crossing(facets: &[Facet], diameter: f64) -> Option<Crossing> {
+/// `tree` has the boxes around the triangles.
+pub(super) fn crossing(facets: &[Facet], tree: &SolidTree, diameter: f64) -> Option<Crossing> {
     let tolerance = TOUCH * diameter;
-    let boxes: Vec<SolidBox> = facets.iter().map(|facet| SolidBox::around(&facet.corners)).collect();
-    let tree = SolidTree::new(&boxes);
-    let mut near = Vec::new();
-    for (first, bound) in boxes.iter().enumerate() {
-        near.clear();
-        tree.meeting(bound, &mut near);
-        near.sort_unstable();
-        for second in near.iter().map(|&other| other as usize).filter(|&other| other > first) {
-            let (a, b) = (&facets[first], &facets[second]);
-            if let Some(place) = pierced(a, b, tolerance).or_else(|| pierced(b, a, tolerance)) {
-                return Some(Crossing { triangles: [first, second], place });
-            }
+    let mut first: Option<Crossing> = None;
+    tree.meeting_pairs(&mut |one, other| {
+        let triangles = [one.min(other) as usize, one.max(other) as usize];
+        if first.as_ref().is_some_and(|known| known.triangles < triangles) {
+            return;
         }
-    }
-    None
+        let [a, b] = triangles.map(|number| &facets[number]);
+        if let Some(place) = pierced(a, b, tolerance).or_else(|| pierced(b, a, tolerance)) {
+            first = Some(Crossing { triangles, place });
+        }
+    });
+    first
 }
 
 /// Place where an edge of one triangle passes through the inside of another. An edge that ends within `tolerance` (m)

@@ -69,13 +69,20 @@ fn solid(draft: &BodyDraft, number: u32, shell: &Shell, refusals: &mut Vec<Refus
         refusals.push(no_volume(shell.primitives[0], volume, least));
         return None;
     }
-    if let Some(crossing) = crossing::crossing(&outer, diameter) {
+    let tree = tree_of(&outer);
+    if let Some(crossing) = crossing::crossing(&outer, &tree, diameter) {
         refusals.push(crosses_itself(draft, shell, &crossing));
         return None;
     }
-    let faces = facets::planes_of_mesh(&outer, &closed.triangles[..closed.outer], PLANE_TOLERANCE * diameter);
     let walls: Vec<Facet> = closed.facets(closed.outer..closed.triangles.len()).collect();
-    let field = convex::field(faces, &walls, &closed.vertices, diameter);
+    let field = match convex::is_clearly_concave(&outer, &closed.vertices, diameter) {
+        true => None,
+        false => {
+            let (triangles, tolerance) = (&closed.triangles[..closed.outer], PLANE_TOLERANCE * diameter);
+            let faces = facets::planes_of_mesh(&outer, triangles, tolerance);
+            convex::field(faces, &walls, &closed.vertices, diameter)
+        }
+    };
     let all: Vec<Facet> = outer.into_iter().chain(walls).collect();
     let owner = |number: usize| {
         let element = shell.triangles[number % shell.triangles.len()];
@@ -86,7 +93,8 @@ fn solid(draft: &BodyDraft, number: u32, shell: &Shell, refusals: &mut Vec<Refus
     let mut parts = parts::of_mesh(owner, &closed.vertices, &closed.triangles);
     let (mut facets, mut facet_walls, mut items) = (Vec::new(), Vec::new(), vec![bound]);
     if field.is_none() {
-        let (regions, walls) = regions::regions(&closed, &all, diameter);
+        let tree = if is_layer { tree_of(&all) } else { tree };
+        let (regions, walls) = regions::regions(&closed, &all, &tree, diameter);
         (facets, facet_walls) = (parts::with_facets(&mut parts, &all, regions, diameter), walls);
         items = parts.iter().map(|part| parts::reach(part, &facets)).collect();
     }
@@ -103,6 +111,12 @@ fn solid(draft: &BodyDraft, number: u32, shell: &Shell, refusals: &mut Vec<Refus
         facet_walls,
         tree: SolidTree::new(&items),
     })
+}
+
+/// Tree of the boxes around triangles.
+fn tree_of(facets: &[Facet]) -> SolidTree {
+    let boxes: Vec<SolidBox> = facets.iter().map(|facet| SolidBox::around(&facet.corners)).collect();
+    SolidTree::new(&boxes)
 }
 
 /// Refusal of a mesh whose triangles cross. Triangles are named by their numbers in their primitives.

@@ -9,7 +9,7 @@ use crate::solid_box::SolidBox;
 use crate::solid_tree::SolidTree;
 use crate::weld::WordMap;
 use pong_geometry::Vec3;
-use pong_geometry::overlap::{HalfSpace, Surface};
+use pong_geometry::overlap::{Cutter, HalfSpace, Surface};
 
 /// Greatest height of a region, relative to the longest edge of its triangle. It keeps the regions of fine meshes
 /// small, so that few of them are near a contact.
@@ -18,6 +18,14 @@ const GREATEST_HEIGHT: f64 = 2.0;
 /// Distance to which the first block of a region reaches beside its triangle, relative to the greatest height. Walls
 /// that lean outwards more than this (174° between two faces) count as leaning this much.
 const REACH: f64 = 20.0;
+
+/// Workspace for the regions of a mesh.
+#[derive(Default)]
+struct Work {
+    cutter: Cutter,
+    /// Part of a triangle inside a region, and the part of it inside the next plane.
+    polygons: [Vec<Vec3>; 2],
+}
 
 /// Region below one triangle.
 struct Region {
@@ -44,21 +52,22 @@ struct Mesh<'m> {
     tolerance: f64,
 }
 
-/// Regions of the triangles of a mesh that push, each with its triangle, and the walls of all regions.
+/// Regions of the triangles of a mesh that push, each with its triangle, and the walls of all regions. `tree` has the
+/// boxes around all triangles.
 pub(super) fn regions(
     closed: &Triangles,
     facets: &[Facet],
+    tree: &SolidTree,
     diameter: f64,
 ) -> (Vec<(u32, SolidFacet)>, Vec<HalfSpace>) {
     let mesh = Mesh::new(closed, facets, PLANE_TOLERANCE * diameter);
-    let boxes: Vec<SolidBox> = facets.iter().map(|facet| SolidBox::around(&facet.corners)).collect();
-    let tree = SolidTree::new(&boxes);
     let (mut found, mut walls, mut near) = (Vec::new(), Vec::new(), Vec::new());
+    let mut work = Work::default();
     for triangle in 0..closed.outer as u32 {
-        let Some(mut region) = mesh.region(triangle) else { continue };
+        let Some(mut region) = mesh.region(triangle, &mut work) else { continue };
         near.clear();
         tree.meeting(&SolidBox::around(region.surface.vertices()), &mut near);
-        mesh.lower(&mut region, &near);
+        mesh.lower(&mut region, &near, &mut work);
         let first = walls.len() as u32;
         let face = mesh.planes[triangle as usize];
         let bound = SolidBox::around(region.surface.vertices());
@@ -133,7 +142,7 @@ impl<'m> Mesh<'m> {
     }
 
     /// Region below a triangle, cut off at its greatest height only; `None` if it has no volume.
-    fn region(&self, triangle: u32) -> Option<Region> {
+    fn region(&self, triangle: u32, work: &mut Work) -> Option<Region> {
         if self.is_thin[triangle as usize] {
             return None;
         }
@@ -143,14 +152,14 @@ impl<'m> Mesh<'m> {
         let height = GREATEST_HEIGHT * longest;
         let mut region =
             Region { triangle, walls: Vec::new(), surface: block(face, &corners, height), height };
-        (0..3).for_each(|edge| region.cut(self.wall(triangle, edge)));
+        (0..3).for_each(|edge| region.cut(self.wall(triangle, edge), work));
         for (corner, &vertex) in self.closed.triangles[triangle as usize].iter().enumerate() {
             // Beyond the two edges at the vertex.
             let [next, last] = [corner, (corner + 2) % 3].map(|edge| self.beyond[triangle as usize][edge]);
             for &other in self.around(vertex) {
                 if ![triangle, next, last].contains(&other) && !self.is_thin[other as usize] {
                     let wall = self.vertex_wall(triangle, other, self.is_reentrant[vertex as usize]);
-                    region.cut_if_crossed(wall, self.tolerance);
+                    region.cut_if_crossed(wall, self.tolerance, work);
                 }
             }
         }
@@ -209,7 +218,7 @@ impl<'m> Mesh<'m> {
 
     /// Cuts a region off so that it ends half-way to the next of some triangles that lies in it. Triangles with a
     /// common vertex are bounded by walls.
-    fn lower(&self, region: &mut Region, near: &[u32]) {
+    fn lower(&self, region: &mut Region, near: &[u32], work: &mut Work) {
         let own = self.closed.triangles[region.triangle as usize];
         let face = &self.planes[region.triangle as usize];
         let mut height = region.height;
@@ -219,9 +228,18 @@ impl<'m> Mesh<'m> {
                 continue;
             }
             let share = if (other as usize) < self.closed.outer { 0.5 } else { 1.0 };
-            let mut polygon = self.corners(other).to_vec();
-            for plane in std::iter::once(face).chain(&region.walls) {
-                polygon = clipped(&polygon, plane);
+            let planes = || std::iter::once(face).chain(&region.walls);
+            let corners = self.corners(other);
+            // Most of the triangles near a region are outside of one of its planes.
+            if planes().any(|plane| corners.iter().all(|corner| plane.depth(corner) < 0.0)) {
+                continue;
+            }
+            let [polygon, next] = &mut work.polygons;
+            polygon.clear();
+            polygon.extend(corners);
+            for plane in planes() {
+                clip(polygon, plane, next);
+                std::mem::swap(polygon, next);
             }
             let depths = polygon.iter().map(|place| share * face.depth(place));
             height = depths.fold(height, f64::min);
@@ -229,8 +247,7 @@ impl<'m> Mesh<'m> {
         let floor = HalfSpace { normal_b: -face.normal_b, offset: height - face.offset };
         let deepest = region.surface.vertices().iter().map(|place| face.depth(place)).fold(0.0, f64::max);
         if height < deepest || deepest >= 0.999 * region.height {
-            region.surface = region.surface.cut_by(&floor);
-            region.walls.push(floor);
+            region.cut(floor, work);
             region.height = height;
         } else {
             region.height = f64::INFINITY;
@@ -239,15 +256,15 @@ impl<'m> Mesh<'m> {
 }
 
 impl Region {
-    fn cut(&mut self, wall: HalfSpace) {
-        self.surface = self.surface.cut_by(&wall);
+    fn cut(&mut self, wall: HalfSpace, work: &mut Work) {
+        work.cutter.cut_by(&mut self.surface, &wall);
         self.walls.push(wall);
     }
 
-    fn cut_if_crossed(&mut self, wall: Option<HalfSpace>, tolerance: f64) {
+    fn cut_if_crossed(&mut self, wall: Option<HalfSpace>, tolerance: f64, work: &mut Work) {
         let crosses = |wall: &HalfSpace| self.surface.vertices().iter().any(|x| wall.depth(x) < -tolerance);
         if let Some(wall) = wall.filter(crosses) {
-            self.cut(wall);
+            self.cut(wall, work);
         }
     }
 }
@@ -272,9 +289,9 @@ fn block(face: &HalfSpace, corners: &[Vec3; 3], height: f64) -> Surface {
     surface
 }
 
-/// Part of a convex polygon inside a half space.
-fn clipped(polygon: &[Vec3], plane: &HalfSpace) -> Vec<Vec3> {
-    let mut inside = Vec::with_capacity(polygon.len() + 1);
+/// Stores the part of a convex polygon inside a half space in `inside`.
+fn clip(polygon: &[Vec3], plane: &HalfSpace, inside: &mut Vec<Vec3>) {
+    inside.clear();
     for (index, place) in polygon.iter().enumerate() {
         let next = &polygon[(index + 1) % polygon.len()];
         let (depth, after) = (plane.depth(place), plane.depth(next));
@@ -285,7 +302,6 @@ fn clipped(polygon: &[Vec3], plane: &HalfSpace) -> Vec<Vec3> {
             inside.push(place + (next - place) * (depth / (depth - after)));
         }
     }
-    inside
 }
 
 /// For each triangle, the triangles beyond its edges; the triangle itself beyond an edge without a neighbour.

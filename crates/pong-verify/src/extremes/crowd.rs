@@ -14,7 +14,7 @@ pub const CROWD: Extreme = Extreme {
              the depth differs from sphere to sphere. With room for all, on one thread and with two workers; with \
              room for 4,000.",
     answer: Answer::Told,
-    limit: "room is set at the seal: by default the scene's worst case up to 65,536; beyond it the deepest contacts \
+    limit: "room is set at the seal: by default an estimate from the scene up to 65,536; beyond it the deepest contacts \
             are kept, `CONTACT_LIMIT` is set and the report says how many there were",
     also: "`crates/pong-engine/tests/it/limits.rs`, `crates/pong-engine/tests/workers.rs`",
     rows,

@@ -4,9 +4,10 @@
 use crate::frame::broad_phase::group_search::SUPERCHUNK;
 use crate::frame::input::motion::PairMotions;
 use crate::frame::input::{Block, BlockKind, PairContext};
+use crate::frame::solids::slices;
 use crate::report::FrameCounts;
 use crate::scene::Scene;
-use crate::seal::{Direction, Plan, Sealed};
+use crate::seal::{Direction, Plan, Sealed, SolidPair};
 use pong_arena::Arena;
 use pong_geometry::bounding::{CarriedVolume, Volume};
 use pong_geometry::simd::LANES;
@@ -31,10 +32,13 @@ const NODE_NS: u32 = 4000;
 const BLOCK_NS: u32 = 1000;
 
 /// Pairs of solids per block.
-const SOLIDS_AT_ONCE: u32 = 4;
+const SOLIDS_AT_ONCE: usize = 4;
 
 /// Rough cost of a pair of solids, ns.
 const SOLIDS_NS: u32 = 1000;
+
+/// Rough cost of a slice of a large mesh that is near a solid of B, ns.
+const SLICE_NS: u32 = 20_000;
 
 /// A batch of A, and the leaf of A's tree that has it.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +61,8 @@ enum Pending {
     Elements(BatchOfA, [u32; 2]),
     /// Pairs of solids of the plan, from this one on.
     Solids(u32),
+    /// Slices of A's solid of one pair of the plan: the pair, and the first slice.
+    Slices(u32, u32),
 }
 
 /// Stack of pending parts.
@@ -64,14 +70,15 @@ pub(crate) struct PendingParts(Vec<Pending>);
 
 impl PendingParts {
     /// Allocates the stack for a tree with at most this many nodes and batches together. Each of them is
-    /// pending at most once, and besides them at most [`DEPTH_MAX`] box nodes of one batch, and the solids.
+    /// pending at most once, and besides them at most [`DEPTH_MAX`] box nodes of one batch, the solids, and the
+    /// slices of one of them.
     pub fn for_tree(nodes_and_batches: usize) -> Self {
-        Self(Vec::with_capacity(nodes_and_batches + DEPTH_MAX + 1))
+        Self(Vec::with_capacity(nodes_and_batches + DEPTH_MAX + 2))
     }
 
     /// Memory of the stack for such a tree, bytes.
     pub const fn bytes(nodes_and_batches: usize) -> usize {
-        (nodes_and_batches + DEPTH_MAX + 1) * size_of::<Pending>()
+        (nodes_and_batches + DEPTH_MAX + 2) * size_of::<Pending>()
     }
 }
 
@@ -189,6 +196,7 @@ impl<'a> Layout<'a> {
             Pending::Boxes(of_a, node) => self.cut(of, of_a, node, motions, out),
             Pending::Elements(of_a, elements) => self.slice(of, of_a, elements, out),
             Pending::Solids(first) => self.add_solids(of, first, motions, out),
+            Pending::Slices(pair, first) => self.add_slice(of, pair, first, motions, out),
         }
     }
 
@@ -285,20 +293,58 @@ impl<'a> Layout<'a> {
     }
 
     /// Makes a block of pairs of solids from `first` on, unless A does not reach B. The remaining pairs stay
-    /// pending.
+    /// pending, and so do the slices of a large mesh of A.
     fn add_solids(&mut self, of: &OfDirection<'a>, first: u32, motions: &[PairMotions], out: &mut Out<'_>) {
         if first == 0 && !self.reaches_b(of, &of.bodies.0.tree.nodes[0].volume, motions, out) {
             return;
         }
-        let count = of.plan.solids.len() as u32;
-        let end = count.min(first + SOLIDS_AT_ONCE);
-        let (direction, slot) = (of.direction, of.slot);
-        let kind = BlockKind::Solids;
-        out.blocks.push(Block { direction, slot, leaf: 0, batch: 0, first, end, leads: false, kind });
-        out.cost_ns += u64::from(end - first) * u64::from(SOLIDS_NS);
-        if end < count {
+        let pairs = &of.plan.solids[first as usize..];
+        let has_slices = |pair: &SolidPair| slices::count(&of.bodies.0.solids[pair.a as usize]).is_some();
+        let whole = pairs.iter().take(SOLIDS_AT_ONCE).take_while(|pair| !has_slices(pair)).count() as u32;
+        let end = first + whole.max(1);
+        if end < of.plan.solids.len() as u32 {
             self.pending.push(Pending::Solids(end));
         }
+        if whole == 0 {
+            self.pending.push(Pending::Slices(first, 0));
+            return;
+        }
+        self.add_block_of_solids(of, [first, end], BlockKind::Solids, 0, out);
+        out.cost_ns += u64::from(whole) * u64::from(SOLIDS_NS);
+    }
+
+    /// Makes a block of the first slice of A's solid, from `first` on, that is near the partner. The slices after it
+    /// stay pending.
+    fn add_slice(
+        &mut self,
+        of: &OfDirection<'a>,
+        pair: u32,
+        first: u32,
+        motions: &[PairMotions],
+        out: &mut Out<'_>,
+    ) {
+        let solids = &of.plan.solids[pair as usize];
+        let Some(count) = slices::count(&of.bodies.0.solids[solids.a as usize]) else { return };
+        let motion = motions[of.slot as usize].of(of.direction);
+        let is_near = |slice: &u32| slices::is_near(of.bodies, solids, *slice, motion);
+        let Some(slice) = (first..count).find(is_near) else { return };
+        if slice + 1 < count {
+            self.pending.push(Pending::Slices(pair, slice + 1));
+        }
+        self.add_block_of_solids(of, [pair, pair + 1], BlockKind::SolidSlice, slice, out);
+        out.cost_ns += u64::from(SLICE_NS);
+    }
+
+    fn add_block_of_solids(
+        &self,
+        of: &OfDirection<'a>,
+        [first, end]: [u32; 2],
+        kind: BlockKind,
+        slice: u32,
+        out: &mut Out<'_>,
+    ) {
+        let (direction, slot) = (of.direction, of.slot);
+        out.blocks.push(Block { direction, slot, leaf: slice, batch: 0, first, end, leads: false, kind });
     }
 }
 

@@ -50,7 +50,7 @@ pub(crate) struct Block {
     pub direction: Direction,
     /// Index of the pair's motions.
     pub slot: u32,
-    /// Leaf of A's tree.
+    /// Leaf of A's tree, or index of the slice of a solid.
     pub leaf: u32,
     /// Batch of that leaf (index into the tree's batches).
     pub batch: u32,
@@ -71,6 +71,9 @@ pub(crate) enum BlockKind {
     Single,
     /// Pairs of solids; the block has no leaf and no batch.
     Solids,
+    /// One pair of solids, but only one slice of the solid of A: `leaf` is the index of the slice
+    /// ([`slices`](crate::frame::solids::slices::count)).
+    SolidSlice,
 }
 
 impl<'a> EvaluationInput<'a> {

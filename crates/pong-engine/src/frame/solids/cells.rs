@@ -4,14 +4,17 @@
 use super::cell_force::CellForce;
 use super::entry::Entry;
 use super::relative::Relative;
-use super::side::{self, Side};
+use super::side::{Regions, Side};
 use pong_geometry::overlap::{Cell, Field, HalfSpace, Moments, Overlap};
-use pong_geometry::{Transform, Twist, Vec3};
+use pong_geometry::{Transform, Twist, Vec3, divisor};
+use pong_model::SolidFacet;
 
 /// Working memory for solids.
 #[derive(Debug, Default)]
 pub(crate) struct SolidScratch {
     overlap: Overlap,
+    /// Facets whose regions are near a part, as indices among the facets of the side.
+    near_facets: Vec<u32>,
     /// Faces of B and of A that push.
     pub(super) faces_b: PushingFaces,
     pub(super) faces_a: PushingFaces,
@@ -98,6 +101,7 @@ impl SolidScratch {
         let cells = || FieldCells { cells: Vec::with_capacity(faces), reference_b: Vec3::zeros() };
         Self {
             overlap: Overlap::with_capacity(facets + 2 * faces),
+            near_facets: Vec::with_capacity(faces),
             faces_b: list(),
             faces_a: list(),
             of_b: cells(),
@@ -109,6 +113,7 @@ impl SolidScratch {
     /// Memory that [`with_capacity`](Self::with_capacity) takes, bytes.
     pub fn bytes(facets: usize, faces: usize) -> usize {
         let per_face = 2 * (size_of::<HalfSpace>() + size_of::<u32>())
+            + size_of::<u32>()
             + 2 * size_of::<Cell>()
             + 2 * size_of::<CellForce>();
         Overlap::bytes(facets + 2 * faces) + faces * per_face
@@ -161,17 +166,17 @@ impl Cells<'_> {
     /// Finds the cells of both fields that have a share.
     pub fn find(&self, scratch: &mut SolidScratch) {
         let Self { relative, shares, sides: (a, b) } = *self;
-        let SolidScratch { overlap, faces_b, faces_a, of_b, of_a, .. } = scratch;
+        let SolidScratch { overlap, near_facets, faces_b, faces_a, of_b, of_a, .. } = scratch;
         of_b.cells.clear();
         of_a.cells.clear();
         if shares[1] > 0.0 {
-            let search = Search { relative, x: &relative.x_ba, velocity: &relative.a_in_b, in_b: true };
-            search.find(overlap, (a, b), faces_b, of_b);
+            let search = Search { x: &relative.x_ba, velocity: &relative.a_in_b };
+            search.find((overlap, near_facets), (a, b), faces_b, of_b);
         }
         // Against a plane, only the plane's field has a share.
         if shares[0] > 0.0 {
-            let search = Search { relative, x: &relative.x_ab, velocity: &relative.b_in_a, in_b: false };
-            search.find(overlap, (b, a), faces_a, of_a);
+            let search = Search { x: &relative.x_ab, velocity: &relative.b_in_a };
+            search.find((overlap, near_facets), (b, a), faces_a, of_a);
         }
         of_b.cells.sort_by_key(|cell| cell.face);
         of_a.cells.sort_by_key(|cell| cell.face);
@@ -180,45 +185,73 @@ impl Cells<'_> {
 
 /// Search for the cells of one field.
 struct Search<'a> {
-    relative: &'a Relative,
     /// Transform from the frame of the other side to that of the field.
     x: &'a Transform,
     /// Velocity of the other side in the frame of the field.
     velocity: &'a Twist,
-    /// True if the field is that of B.
-    in_b: bool,
 }
 
 impl Search<'_> {
     /// Finds the cells of the field of `owner` in the parts of `other`.
     fn find(
         &self,
-        overlap: &mut Overlap,
+        (overlap, near_facets): (&mut Overlap, &mut Vec<u32>),
         (other, owner): (&Side<'_>, &Side<'_>),
         faces: &PushingFaces,
         found: &mut FieldCells,
     ) {
         for part in other.parts {
+            overlap.place(&part.surface, self.x);
             if owner.regions.facets.is_empty() {
                 let field = Field { faces: &faces.planes, walls: owner.walls };
-                overlap.cells(&part.surface, self.x, &field, self.velocity);
+                overlap.placed_cells(&field, self.velocity);
                 found.add(overlap.found(), &overlap.reference_b());
                 continue;
             }
-            for (index, facet) in owner.regions.facets.iter().enumerate() {
-                let meet = match self.in_b {
-                    true => side::boxes_meet(self.relative, &part.bound, &facet.bound),
-                    false => side::boxes_meet(self.relative, &facet.bound, &part.bound),
-                };
-                if !meet {
+            list_near_facets(overlap, &owner.regions, near_facets);
+            if near_facets.len() > 1 && !overlap.cut_placed(&bound_of_regions(&owner.regions, near_facets)) {
+                continue;
+            }
+            for index in near_facets.iter().map(|&index| index as usize) {
+                let walls = owner.regions.walls(&owner.regions.facets[index]);
+                let field = Field { faces: &faces.planes[index..=index], walls };
+                if overlap.placed_apart(&field) {
                     continue;
                 }
-                let field = Field { faces: &faces.planes[index..=index], walls: owner.regions.walls(facet) };
-                overlap.cells(&part.surface, self.x, &field, self.velocity);
+                overlap.placed_cells(&field, self.velocity);
                 if let [cell] = overlap.found() {
                     found.add(&[Cell { face: index, ..*cell }], &overlap.reference_b());
                 }
             }
         }
     }
+}
+
+/// Lists the facets whose regions may have volume in common with the placed surface.
+fn list_near_facets(overlap: &Overlap, regions: &Regions<'_>, near: &mut Vec<u32>) {
+    near.clear();
+    let bounds = overlap.placed_bounds();
+    for (index, facet) in (0..).zip(regions.facets) {
+        let face = Field { faces: &[facet.face], walls: &[] };
+        if !facet.bound.is_beside(&bounds) && !overlap.placed_apart(&face) {
+            near.push(index);
+        }
+    }
+}
+
+/// Half space around the regions of some facets, along the mean of their normals. The surface of a part is cut by it
+/// once, so that little is left to be cut by the planes of each region.
+fn bound_of_regions(regions: &Regions<'_>, facets: &[u32]) -> HalfSpace {
+    let facets = || facets.iter().map(|&index| &regions.facets[index as usize]);
+    let sum: Vec3 = facets().map(|facet| facet.face.normal_b).sum();
+    let normal_b = sum / divisor(sum.norm());
+    // A region lies below its face and in its box. Along a normal that differs little from that of the face, the
+    // first says more.
+    let reach = |facet: &SolidFacet| {
+        let along_box =
+            |direction: &Vec3| direction.dot(&facet.bound.center) + direction.abs().dot(&facet.bound.half);
+        let below_face = facet.face.offset + along_box(&(normal_b - facet.face.normal_b));
+        below_face.min(along_box(&normal_b))
+    };
+    HalfSpace { normal_b, offset: facets().map(reach).fold(f64::NEG_INFINITY, f64::max) }
 }

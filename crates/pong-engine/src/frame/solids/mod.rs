@@ -2,6 +2,7 @@
 //!
 //! | step | file |
 //! |---|---|
+//! | slices of a large mesh, which several threads share | `slices.rs` |
 //! | sides of a pair, and which of their parts are near each other | `mod.rs`, `side.rs` |
 //! | faces that push, by the side of entry | `entry.rs` |
 //! | cells of both fields | `cells.rs` |
@@ -13,9 +14,10 @@ mod entry;
 mod patch;
 mod relative;
 mod side;
+pub(crate) mod slices;
 
 use crate::frame::block::plan_of;
-use crate::frame::input::{Block, PairContext, Round};
+use crate::frame::input::{Block, BlockKind, PairContext, Round};
 use crate::frame::worker_context::WorkerContext;
 use crate::report::{Laps, Work};
 use crate::seal::{Partner, SolidPair, field_shares};
@@ -33,8 +35,9 @@ pub(crate) fn run_solids(round: &Round<'_>, block: &Block, worker: &mut WorkerCo
     let context = PairContext::new(round, block.direction, motion);
     let relative = Relative::new(motion);
     let bodies = round.sealed.bodies_of(block.direction);
+    let slice = (block.kind == BlockKind::SolidSlice).then_some(block.leaf);
     for pair in &plan.solids[block.first as usize..block.end as usize] {
-        touch(round, &context, bodies, &relative, pair, worker, laps);
+        touch(round, &context, bodies, &relative, (pair, slice), worker, laps);
     }
 }
 
@@ -50,13 +53,14 @@ pub(crate) fn committed_entry(context: &PairContext<'_>, pair: &SolidPair) -> Op
     entry::records(context, sides, SolidContactPart::Entry).next().map(|(_, record)| record.normal_b)
 }
 
-/// Computes the contacts of a pair of solids: one patch for each of its parts that are near each other.
+/// Computes the contacts of a pair of solids, or of a slice of A's solid: one patch for each of its parts that are near
+/// each other.
 fn touch(
     round: &Round<'_>,
     context: &PairContext<'_>,
     (body_a, body_b): (usize, usize),
     relative: &Relative,
-    pair: &SolidPair,
+    (pair, slice): (&SolidPair, Option<u32>),
     worker: &mut WorkerContext,
     laps: &mut impl Laps,
 ) {
@@ -65,7 +69,7 @@ fn touch(
         Partner::Solid(index) => Some(&context.body_b.solids[index as usize]),
         Partner::Plane(_) => None,
     };
-    if solid_b.is_some_and(|solid_b| !side::boxes_meet(relative, &solid_a.bound, &solid_b.bound)) {
+    if solid_b.is_some_and(|solid_b| !side::boxes_meet(&relative.x_ba, &solid_a.bound, &solid_b.bound)) {
         return;
     }
     let groups = [body_a, body_b].map(|body| round.scene.group_of_model(body).1);
@@ -74,7 +78,7 @@ fn touch(
     let mut with = |a: &Side<'_>, b: &Side<'_>| {
         touch_units(round, context, relative, (a, b), shares, props, worker);
     };
-    let root_a = solid_a.tree.root();
+    let root_a = slice.map_or(solid_a.tree.root(), |slice| slices::node(&solid_a.tree, slice));
     match (pair.b, root_a, solid_b.and_then(|solid| solid.tree.root())) {
         (Partner::Plane(primitive), Some(root_a), _) => {
             let half_space = side::half_space(context.body_b, primitive);

@@ -1,6 +1,7 @@
 //! Sides of a pair of solids: a convex body, a part of another body, or a plane.
 
 use super::relative::Relative;
+use pong_geometry::Transform;
 use pong_geometry::overlap::HalfSpace;
 use pong_model::{MovableGroup, Solid, SolidBox, SolidFacet, SolidNode, SolidPart};
 
@@ -97,7 +98,7 @@ pub(super) fn for_each_meeting(
     meet: &mut impl FnMut(usize, usize),
 ) {
     let (bound_a, bound_b) = (a.tree.bound(&node_a), b.tree.bound(&node_b));
-    if !boxes_meet(relative, bound_a, bound_b) {
+    if !boxes_meet(&relative.x_ba, bound_a, bound_b) {
         return;
     }
     // The larger box is divided first.
@@ -133,14 +134,14 @@ pub(super) fn for_each_below(
     }
 }
 
-/// Returns false if two boxes are apart along an axis of either frame.
-pub(super) fn boxes_meet(relative: &Relative, a: &SolidBox, b: &SolidBox) -> bool {
-    let turned = relative.x_ba.rotation.abs();
-    let apart = relative.x_ba.point(&a.center) - b.center;
+/// Returns false if two boxes are apart along an axis of either frame. `x_ba` carries A's frame into B's.
+pub(super) fn boxes_meet(x_ba: &Transform, a: &SolidBox, b: &SolidBox) -> bool {
+    let turned = x_ba.rotation.abs();
+    let apart = x_ba.point(&a.center) - b.center;
     let along_b = apart.abs() - turned * a.half - b.half;
     if along_b.max() > 0.0 {
         return false;
     }
-    let along_a = relative.x_ba.rotation.tr_mul(&apart).abs() - turned.tr_mul(&b.half) - a.half;
+    let along_a = x_ba.rotation.tr_mul(&apart).abs() - turned.tr_mul(&b.half) - a.half;
     along_a.max() <= 0.0
 }

@@ -180,10 +180,11 @@ pub(crate) fn test_of(a: PrimitiveKind, b: PrimitiveKind) -> Test {
     TESTS[a as usize][b as usize]
 }
 
-/// Maximum number of contacts of one primitive of kind `a`, as A, with one shell.
-pub(crate) fn most_contacts(a: PrimitiveKind) -> usize {
-    let registered = if a == Custom { REGISTERED.1 } else { 0 };
-    ROWS.iter().filter(|row| row.a == a).map(|row| row.contacts).fold(registered, usize::max)
+/// Maximum number of contacts of one primitive of kind `a`, as A, with one shell of the kinds for which `meets` is
+/// true.
+pub(crate) fn most_contacts(a: PrimitiveKind, meets: impl Fn(PrimitiveKind) -> bool) -> usize {
+    let contacts = |b| kind_pair(a, b).map_or(REGISTERED.1, |row| row.contacts);
+    PrimitiveKind::ALL.into_iter().filter(|&b| meets(b)).map(contacts).max().unwrap_or(0)
 }
 
 /// Returns true if the engine tests primitives of kind `a` as A against primitives of kind `b` as B.
