@@ -120,9 +120,9 @@ impl RunStatistics {
     fn depth_advice(&self) -> Option<String> {
         (self.deep_in_mesh > 0).then(|| {
             format!(
-                "in {} steps a solid was deeper in a mesh than the mesh knows its nearest facets (`pong check` prints that \
-                 depth), and the force did not grow as it should; first {}; make the surfaces stiffer, the mesh thicker or \
-                 its edges longer, or divide it by `pong decompose`",
+                "in {} steps a solid was deeper in a mesh than its facets push (`pong check` prints that depth), and the \
+                 force did not grow as it should; first {}; make the surfaces stiffer, the mesh thicker or its edges \
+                 longer, or divide it by `pong decompose`",
                 self.deep_in_mesh, self.first_deep_in_mesh
             )
         })
@@ -163,7 +163,7 @@ fn tunnelling_in_words(simulation: &Simulation) -> Option<String> {
 fn deep_in_mesh_in_words(simulation: &Simulation) -> Option<String> {
     let world = simulation.world();
     let deep = world.deep_in_mesh()?;
-    let [other, mesh] = [deep.other, deep.mesh].map(|id| world.scene().interface_path(id).ok());
+    let [other, mesh] = [deep.other, deep.mesh].map(|id| world.scene().interface_name(id).ok());
     Some(format!("`{}` in `{}` at {} s", other?, mesh?, simulation.time()))
 }
 
