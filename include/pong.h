@@ -1368,6 +1368,10 @@ typedef uint32_t pong_flags;
 /// side of the one that pushed it back. Remedy: shorter frames, a thicker wall or a stiffer surface. Before an
 /// intended jump call pong_clear_contact_history().
 #define PONG_FLAG_TUNNELLED 4
+/// A solid was deeper in a mesh that is not convex than the regions below its facets: the force no longer grew as it
+/// should. Remedy: stiffer surfaces, a thicker mesh or one with longer edges, or convex pieces (`pong decompose`).
+/// `pong check` prints the least depth of the regions of each mesh.
+#define PONG_FLAG_DEEP_IN_MESH 8
 
 /// `stage_ns` of states in and relative motion.
 #define PONG_STAGE_INPUT 0
@@ -1450,8 +1454,8 @@ typedef struct pong_report {
 pong_status pong_get_report(const struct pong_world *world,
                             struct pong_report *report);
 
-/// Meaning of a flag of the report, in words: "contact limit", "load sharing limit", "tunnelled"; "unknown
-/// limit" for a number that is no single flag. Lives as long as the library.
+/// Meaning of a flag of the report, in words: "contact limit", "load sharing limit", "tunnelled", "deep in mesh";
+/// "unknown limit" for a number that is no single flag. Lives as long as the library.
 const char *pong_flag_name(pong_flags flag);
 
 /// Name of a stage, PONG_STAGE_...: "input", "contacts", "order", "energy", "output", "commit"; empty for an

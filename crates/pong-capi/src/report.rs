@@ -19,6 +19,10 @@ pub const PONG_FLAG_LOAD_SHARING_LIMIT: pong_flags = 2;
 /// side of the one that pushed it back. Remedy: shorter frames, a thicker wall or a stiffer surface. Before an
 /// intended jump call pong_clear_contact_history().
 pub const PONG_FLAG_TUNNELLED: pong_flags = 4;
+/// A solid was deeper in a mesh that is not convex than the regions below its facets: the force no longer grew as it
+/// should. Remedy: stiffer surfaces, a thicker mesh or one with longer edges, or convex pieces (`pong decompose`).
+/// `pong check` prints the least depth of the regions of each mesh.
+pub const PONG_FLAG_DEEP_IN_MESH: pong_flags = 8;
 
 /// `stage_ns` of states in and relative motion.
 pub const PONG_STAGE_INPUT: usize = 0;
@@ -158,14 +162,15 @@ pub(crate) fn by_work(times: &WorkTimes) -> [u64; 4] {
     Work::ALL.map(|work| times.of(work))
 }
 
-/// Meaning of a flag of the report, in words: "contact limit", "load sharing limit", "tunnelled"; "unknown
-/// limit" for a number that is no single flag. Lives as long as the library.
+/// Meaning of a flag of the report, in words: "contact limit", "load sharing limit", "tunnelled", "deep in mesh";
+/// "unknown limit" for a number that is no single flag. Lives as long as the library.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_flag_name(flag: pong_flags) -> *const c_char {
     let name: &CStr = match flag {
         PONG_FLAG_CONTACT_LIMIT => c"contact limit",
         PONG_FLAG_LOAD_SHARING_LIMIT => c"load sharing limit",
         PONG_FLAG_TUNNELLED => c"tunnelled",
+        PONG_FLAG_DEEP_IN_MESH => c"deep in mesh",
         _ => c"unknown limit",
     };
     name.as_ptr()
@@ -224,6 +229,7 @@ mod tests {
         assert_eq!(PONG_FLAG_CONTACT_LIMIT, StatusBits::CONTACT_LIMIT.bits());
         assert_eq!(PONG_FLAG_LOAD_SHARING_LIMIT, StatusBits::LOAD_SHARING_LIMIT.bits());
         assert_eq!(PONG_FLAG_TUNNELLED, StatusBits::TUNNELLED.bits());
+        assert_eq!(PONG_FLAG_DEEP_IN_MESH, StatusBits::DEEP_IN_MESH.bits());
     }
 
     #[test]

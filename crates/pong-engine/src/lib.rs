@@ -62,8 +62,8 @@ pub use law::{
 pub use pair_monitor::{ContactChange, PairMonitor, PairPeaks};
 pub use pong_threads::{ThreadWork, WorkerStart};
 pub use report::{
-    FrameCounts, FrameReport, MemoryReport, Stage, StageTimes, StatusBits, Tally, TunnellingReport, Work,
-    WorkTimes,
+    DeepInMeshReport, FrameCounts, FrameReport, MemoryReport, Stage, StageTimes, StatusBits, Tally,
+    TunnellingReport, Work, WorkTimes,
 };
 pub use scene::{Config, Scene, State, SurfaceMotion, WorkerSettings};
 pub use seal::{MetIn, SealReport, SetupNote, SetupWarning};

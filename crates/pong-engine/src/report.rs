@@ -4,7 +4,7 @@ use crate::ids::InterfaceId;
 use pong_geometry::bounding::Volume;
 use pong_geometry::primitive::PrimitiveKind;
 
-/// Flags of a frame for contacts that were left out or missed.
+/// Flags of a frame for contacts that were left out or missed, or whose force is wrong.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StatusBits(u32);
 
@@ -22,7 +22,12 @@ impl StatusBits {
     /// [`World::clear_contact_history`](crate::World::clear_contact_history).
     pub const TUNNELLED: Self = Self(4);
 
-    /// Returns true if nothing was left out or missed.
+    /// A solid is deeper in a mesh that is not convex than the regions below its facets: the force no longer grows as it
+    /// should, and may push to another side. [`World::deep_in_mesh`](crate::World::deep_in_mesh) names the two. Use
+    /// stiffer surfaces, a thicker mesh or one with longer edges, or divide the mesh into convex pieces (`pong decompose`).
+    pub const DEEP_IN_MESH: Self = Self(8);
+
+    /// Returns true if no flag is set.
     pub fn is_complete(self) -> bool {
         self.0 == 0
     }
@@ -61,10 +66,22 @@ pub struct TunnellingReport {
     pub count: u32,
 }
 
+/// Report of a solid that is deeper in a mesh than the regions below its facets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DeepInMeshReport {
+    /// Movable group of the mesh.
+    pub mesh: InterfaceId,
+    /// Movable group of the solid in the mesh.
+    pub other: InterfaceId,
+    /// Number of facets, of all meshes in the frame, whose region is not deep enough. The two movable groups are those
+    /// of one of these facets.
+    pub facets: u32,
+}
+
 /// Summary of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameReport {
-    /// Contacts that were left out or missed.
+    /// Contacts that were left out or missed, or whose force is wrong.
     pub status: StatusBits,
     /// Contacts that push.
     pub contacts: u32,

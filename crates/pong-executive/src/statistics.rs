@@ -43,6 +43,10 @@ pub struct RunStatistics {
     pub tunnelled: u64,
     /// The first tunnelling in words; empty if there is none.
     pub first_tunnelled: String,
+    /// Number of steps in which a solid was deeper in a mesh than the regions below its facets.
+    pub deep_in_mesh: u64,
+    /// The first such step in words; empty if there is none.
+    pub first_deep_in_mesh: String,
 }
 
 impl RunStatistics {
@@ -78,6 +82,12 @@ impl RunStatistics {
                 self.first_tunnelled = tunnelling_in_words(simulation).unwrap_or_default();
             }
         }
+        if report.status.contains(StatusBits::DEEP_IN_MESH) {
+            self.deep_in_mesh += 1;
+            if self.deep_in_mesh == 1 {
+                self.first_deep_in_mesh = deep_in_mesh_in_words(simulation).unwrap_or_default();
+            }
+        }
         self.left_out = self.left_out.max(LeftOut::of(world));
         self.last_energy = simulation.energy();
         let change = self.last_energy.balance() - self.first_energy.balance();
@@ -101,8 +111,25 @@ impl RunStatistics {
         self.most_contacts = self.most_contacts.max(contacts.len());
     }
 
+    /// Advice on all that went wrong in frames of the run.
+    pub fn advice(&self) -> impl Iterator<Item = String> {
+        [self.incomplete_advice(), self.tunnelling_advice(), self.depth_advice()].into_iter().flatten()
+    }
+
+    /// Advice if a solid was deeper in a mesh than the regions below its facets.
+    fn depth_advice(&self) -> Option<String> {
+        (self.deep_in_mesh > 0).then(|| {
+            format!(
+                "in {} steps a solid was deeper in a mesh than its facets push (`pong check` prints that depth), and the \
+                 force did not grow as it should; first {}; make the surfaces stiffer, the mesh thicker or its edges \
+                 longer, or divide it by `pong decompose`",
+                self.deep_in_mesh, self.first_deep_in_mesh
+            )
+        })
+    }
+
     /// Advice if something tunnelled between two steps.
-    pub fn tunnelling_advice(&self) -> Option<String> {
+    fn tunnelling_advice(&self) -> Option<String> {
         (self.tunnelled > 0).then(|| {
             format!(
                 "in {} steps something went right through something else, and contacts were missed; first {}; \
@@ -113,7 +140,7 @@ impl RunStatistics {
     }
 
     /// Advice if frames had to leave contacts out.
-    pub fn incomplete_advice(&self) -> Option<String> {
+    fn incomplete_advice(&self) -> Option<String> {
         let left_out = self.left_out?;
         Some(format!(
             "{left_out}; set contact_capacity: {} in the scene{}",
@@ -130,6 +157,14 @@ fn tunnelling_in_words(simulation: &Simulation) -> Option<String> {
     let element = world.scene().primitive_path(passage.interface, passage.primitive).ok()?;
     let through = world.scene().interface_path(passage.through).ok()?;
     Some(format!("`{element}` through `{through}` at {} s", simulation.time()))
+}
+
+/// A solid deep in a mesh, in words: the two bodies and the time.
+fn deep_in_mesh_in_words(simulation: &Simulation) -> Option<String> {
+    let world = simulation.world();
+    let deep = world.deep_in_mesh()?;
+    let [other, mesh] = [deep.other, deep.mesh].map(|id| world.scene().interface_name(id).ok());
+    Some(format!("`{}` in `{}` at {} s", other?, mesh?, simulation.time()))
 }
 
 impl BodyStatistics {

@@ -172,6 +172,20 @@ pub use pong_engine::StatusBits;
 /// ```
 pub use pong_engine::TunnellingReport;
 
+/// Solid that is deeper in a mesh than the regions below its facets.
+///
+/// ```
+/// # include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/ball_on_ground.rs"));
+/// # fn main() -> Result<(), pong::Error> {
+/// # let (mut world, [ball, ground], pair) = ball_on_ground(pong::Config::default())?;
+/// world.step()?;
+/// // A ball and a plane have no such regions.
+/// assert!(world.deep_in_mesh().is_none());
+/// # Ok(())
+/// # }
+/// ```
+pub use pong_engine::DeepInMeshReport;
+
 /// One contact of the last frame.
 ///
 /// ```

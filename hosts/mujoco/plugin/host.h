@@ -29,7 +29,7 @@ typedef struct contact_host {
     uint32_t contact_count, flags;
     int status;                   /* PONG_STATUS_... of the last evaluation or commit */
 
-    int warned_limit, warned_tunnelling, warned_failure; /* in this run */
+    int warned_limit, warned_tunnelling, warned_depth, warned_failure; /* in this run */
 } contact_host;
 
 /* Builds the world of an instance for an mjData, replacing an existing one. Returns NULL after a warning. */

@@ -63,6 +63,11 @@ static void warn_of_limits(contact_host *host, const mjModel *m, const pong_repo
         warn(name_of(m, host), "something went right through something else in one step, and no contact acted; shorten the "
                                "timestep, or call mj_resetData() before a jump that is meant");
     }
+    if ((report->flags & PONG_FLAG_DEEP_IN_MESH) != 0 && !host->warned_depth) {
+        host->warned_depth = 1;
+        warn(name_of(m, host), "a solid was deeper in a mesh than its facets push, and the force did not grow as it should; make "
+                               "the surfaces stiffer, or divide the mesh by `pong decompose`");
+    }
 }
 
 /* ---- states in, contact state in and out */
@@ -207,7 +212,7 @@ static void commit_states(contact_host *host, const mjModel *m, mjtNum *state)
     if (!read_known_past(&past, host, m, state) || !restore_past(host, m, &past, state))
         return;
     if (past.key == 0)
-        host->warned_limit = host->warned_tunnelling = host->warned_failure = 0;
+        host->warned_limit = host->warned_tunnelling = host->warned_depth = host->warned_failure = 0;
     status = pong_set_states(host->at.world, host->at.interfaces, host->states, host->at.group_count);
     if (status == PONG_STATUS_OK)
         status = pong_commit(host->at.world);

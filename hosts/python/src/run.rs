@@ -143,8 +143,7 @@ impl Run {
         let impulses: Vec<Vec<f64>> =
             statistics.bodies.iter().map(|body| body.impulse.as_slice().to_vec()).collect();
         let impulse = PyArray2::from_vec2(py, &impulses).expect("an impulse has three components");
-        let advice = [statistics.incomplete_advice(), statistics.tunnelling_advice()];
-        let warnings = built.simulation.energy_warnings().into_iter().chain(advice.into_iter().flatten());
+        let warnings = built.simulation.energy_warnings().into_iter().chain(statistics.advice());
         Ok(Self {
             bodies: bodies.to_vec(),
             time: PyArray1::from_vec(py, kept.time).into_any().unbind(),

@@ -40,9 +40,7 @@ pub(crate) fn main(arguments: &Arguments) -> Outcome {
     for warning in built.simulation.energy_warnings() {
         tell(format!("warning: {warning}"));
     }
-    for advice in
-        [statistics.run.incomplete_advice(), statistics.run.tunnelling_advice()].into_iter().flatten()
-    {
+    for advice in statistics.run.advice() {
         tell(format!("warning: {advice}"));
     }
     ended.map_err(|reason| failure(format!("{}: {reason}", arguments.scene.display())))?;

@@ -2,6 +2,7 @@
 
 use crate::common;
 use crate::common::pong;
+use pong_testkit::meshes::{Place, obj};
 
 /// Two boxes of 1 m and 2 m, and a mesh of a box of 2 m with a hole through it along z.
 const MODEL: &str = r#"(format: "pong-model", version: 1, name: "parts",
@@ -102,3 +103,49 @@ const MODEL_OF_A_CUBE: &str = r#"(format: "pong-model", version: 1, name: "cube"
         vertices: [(-0.05, -0.05, -0.05), (0.05, -0.05, -0.05), (-0.05, 0.05, -0.05), (0.05, 0.05, -0.05),
             (-0.05, -0.05, 0.05), (0.05, -0.05, 0.05), (-0.05, 0.05, 0.05), (0.05, 0.05, 0.05)],
         faces: [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]])]))"#;
+
+/// An L: an outline of six corners in x and z, from −0.08 m to 0.08 m along y. Its arm is 0.06 m thick.
+fn l_mesh() -> Vec<[Place; 3]> {
+    let outline = [[-0.1, -0.06], [0.1, -0.06], [0.1, 0.0], [0.0, 0.0], [0.0, 0.06], [-0.1, 0.06]];
+    let place = |corner: usize, y: f64| [outline[corner][0], y, outline[corner][1]];
+    let mut triangles = Vec::new();
+    for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]] {
+        triangles.push([a, b, c].map(|corner| place(corner, -0.08)));
+        triangles.push([a, c, b].map(|corner| place(corner, 0.08)));
+    }
+    for a in 0..6 {
+        let b = (a + 1) % 6;
+        triangles.push([place(a, -0.08), place(a, 0.08), place(b, 0.08)]);
+        triangles.push([place(a, -0.08), place(b, 0.08), place(b, -0.08)]);
+    }
+    triangles
+}
+
+/// An L on the upper end of another one: 1 mm deep the run has no warning, 40 mm deep it names the two.
+#[test]
+fn a_mesh_too_deep_in_another_is_named() {
+    let mesh = obj(&l_mesh());
+    let model = r#"(format: "pong-model", version: 1, name: "l", surfaces: { "s": (stiffness: 1e5) },
+    root: (name: "l", surface: "s", contact: Solid, primitives: [TriangleMesh(name: "mesh", file: "l.obj")]))"#;
+    let warning = |height: f64| {
+        let scene = format!(
+            r#"(format: "pong-scene", version: 1, name: "deep", models: {{ "l": "l.ron" }},
+    objects: [
+        (name: "lower", model: "l", bodies: [(motion: Fixed)]),
+        (name: "upper", model: "l", bodies: [(motion: Fixed, position: (0, 0, {height}))])],
+    pairs: [("lower", "upper")], integrator: SemiImplicitEuler, step: 1e-3, duration: 1e-3)"#
+        );
+        let files = [("l.obj", mesh.as_str()), ("l.ron", model), ("deep.ron", &scene)];
+        let folder = common::folder(&format!("deep_in_mesh/{height}"), &files);
+        let (code, _, told) = pong(&folder, &["run", "deep.ron", "--quiet"]);
+        assert_eq!(code, 0, "{told}");
+        told
+    };
+    assert!(!warning(0.119).contains("deeper"), "{}", warning(0.119));
+    let told = warning(0.08);
+    assert!(told.contains("a solid was deeper in a mesh than its facets push"), "{told}");
+    assert!(
+        told.contains("; first `upper") && told.contains("` in `lower") && told.contains("at 0 s"),
+        "{told}"
+    );
+}

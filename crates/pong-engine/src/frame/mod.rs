@@ -19,6 +19,7 @@ mod worker_pool;
 pub(crate) use broad_phase::blocks::{PendingParts, ROUND};
 pub(crate) use buffers::EvaluationBuffers;
 pub(crate) use forces::contact::FrameContact;
+pub(crate) use forces::contact_buffer::DeepInMeshes;
 pub(crate) use forces::contact_ref::{ContactRef, Slot};
 pub(crate) use input::motion::PairMotions;
 pub(crate) use input::{Block, EvaluationInput, WorkerInput, require_states};
@@ -77,6 +78,9 @@ pub(crate) fn evaluate(
     *tunnelling = tunnelling::watch(given, &motions, input, contacts, &mut caller.scratch);
     if tunnelling.count > 0 {
         report.status.set(StatusBits::TUNNELLED);
+    }
+    if caller.out.demand.deep_in_meshes.facets > 0 {
+        report.status.set(StatusBits::DEEP_IN_MESH);
     }
     watch.lap(Stage::Order, times);
 

@@ -3,10 +3,10 @@
 use super::World;
 use crate::contact::Contact;
 use crate::error::EngineError;
-use crate::frame::{FrameResults, TunnellingEvent};
+use crate::frame::{DeepInMeshes, FrameResults, TunnellingEvent};
 use crate::ids::InterfaceId;
 use crate::law::NormalTangent;
-use crate::report::{FrameCounts, FrameReport, TunnellingReport};
+use crate::report::{DeepInMeshReport, FrameCounts, FrameReport, TunnellingReport};
 use pong_geometry::Wrench;
 
 impl World {
@@ -82,6 +82,15 @@ impl World {
             through: interface(body_b),
             count: events.count,
         })
+    }
+
+    /// Solid that is deeper in a mesh than the regions below its facets in the last frame, if any
+    /// ([`StatusBits::DEEP_IN_MESH`](crate::StatusBits)). `pong check` prints the least depth of these regions.
+    pub fn deep_in_mesh(&self) -> Option<DeepInMeshReport> {
+        let DeepInMeshes { facets, first } = self.runtime.frame.caller.out.demand.deep_in_meshes;
+        let (mesh, other) = first?;
+        let interface = |body| InterfaceId::new(self.scene.stamp, body);
+        Some(DeepInMeshReport { mesh: interface(mesh), other: interface(other), facets })
     }
 
     /// Test counts and hits of the last frame.

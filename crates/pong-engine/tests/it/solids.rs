@@ -375,6 +375,59 @@ fn body_that_tips_onto_a_face_has_all_side_faces() {
     }
 }
 
+/// A cube rolls all the way round on a sheet that is deeper compressed than a quarter of its thickness: the wrench is
+/// that on a thick plate. The sheet keeps its side of entry; the cube, which is thick, gets a new one.
+#[test]
+fn body_that_rolls_on_a_thin_sheet_forgets_its_own_side() {
+    let half = 0.05;
+    let mut plain = Pair::new(&block(SOFT, [half; 3]), &block(SOFT, [0.5, 0.5, 0.1]));
+    let sheet = remembering(&block(SOFT, [0.5, 0.5, 0.001]));
+    let mut with_memory = Pair::new(&remembering(&block(SOFT, [half; 3])), &sheet);
+    for step in 0..=400 {
+        let angle = 2.0 * std::f64::consts::PI * f64::from(step) / 400.0;
+        let reach = half * (angle.sin().abs() + angle.cos().abs());
+        // Lowest corner 0.7 mm, then 1.9 mm deep in the sheet of 2 mm.
+        let depth = if step == 0 { -1e-3 } else { 7e-4 + 3e-6 * f64::from(step) };
+        let at = |lift: f64| pose([0.0, 0.0, lift + reach - depth], [0.0, angle, 0.0]);
+        let (expected, _) = plain.at(&at(0.1));
+        let (got, _) = with_memory.at(&at(0.001));
+        with_memory.world.commit().unwrap();
+        let at_origin = got.moment - expected.moment;
+        let apart = (got.force - expected.force).norm() + at_origin.norm() / half;
+        assert!(apart <= 1e-9 * expected.force.norm(), "{step}: {got:?} for {expected:?}");
+    }
+}
+
+/// A tilted block slides on the edge between two of its faces, at the depth D: each face has the damping force
+/// ¾·c·D·L·v, with c per area, of which the sine of the tilt of that face is drag. The force of the trailing face falls
+/// to zero at most.
+#[test]
+fn linear_damping_drags_a_tilted_edge() {
+    let (foundation, damping, depth, length) = (2e7, 1e4, 1e-4, 0.2);
+    let damped = "stiffness: 1e5, foundation: 2e7, normal: Linear(damping: 50.0), friction: None";
+    let mut pair = Pair::new(&block(damped, [0.05, 0.5 * length, 0.05]), &block(RIGID, [1.0, 1.0, 0.2]));
+    for tilt in [0.05, 0.3, std::f64::consts::FRAC_PI_4, 1.2_f64] {
+        let (sin, cos) = tilt.sin_cos();
+        let at = pose([0.0, 0.0, 0.2 + 0.05 * (sin + cos) - depth], [0.0, tilt, 0.0]);
+        // Lengths of the bottom and of the side in the cross-section of the overlap, and the height of their cells.
+        let (bottom, side) = (depth / sin, depth / cos);
+        let height = bottom * side / (bottom + side);
+        let elastic = [bottom, side].map(|along| 0.5 * foundation * along * height * length);
+        for speed in [-0.5, -0.05, 0.0, 0.05, 0.5] {
+            let rate = 0.75 * damping * depth * length * speed;
+            let [bottom, side] = [(elastic[0] - rate).max(0.0), (elastic[1] + rate).max(0.0)];
+            let expected = Vec3::new(bottom * sin - side * cos, 0.0, bottom * cos + side * sin);
+            let twist = Twist { linear: Vec3::x() * speed, angular: Vec3::zeros() };
+            let (wrench, _) = pair.evaluate(&at, &twist);
+            println!("{tilt:.2} rad, {speed} m/s: {:.4} N for {:.4} N", wrench.force.x, expected.x);
+            assert!(
+                (wrench.force - expected).norm() < 2e-3 * expected.norm(),
+                "{tilt} rad, {speed} m/s: {wrench:?} for {expected:?}"
+            );
+        }
+    }
+}
+
 /// Solids count for the distance of two movable groups, as do solids and planes.
 #[test]
 fn distance_of_solids() {

@@ -4,7 +4,7 @@
 use super::solids::{Pair, SOFT, STIFF, directions, moved, pose, power, random_vector, solid};
 use crate::common::Rig;
 use crate::common::stage::workers;
-use pong_engine::{Config, WorkerSettings};
+use pong_engine::{Config, DeepInMeshReport, StatusBits, WorkerSettings};
 use pong_geometry::{Pose, Quat, Twist, Vec3};
 use pong_testkit::Random;
 use pong_testkit::meshes::{Place, torus};
@@ -139,6 +139,32 @@ fn flat_contact_of_meshes_is_that_of_boxes() {
         assert!((wrench.force - wrenches[0].force).norm() < 1e-6 * force, "{wrenches:?}");
         assert!((wrench.moment - wrenches[0].moment).norm() < 1e-6 * 0.1 * force, "{wrenches:?}");
     }
+}
+
+/// An L sinks into another one. The arm of A is 0.06 m thick, so the regions below its bottom are 0.03 m high. The upper
+/// end of B is far from every other side.
+#[test]
+fn contacts_deeper_than_the_regions_are_reported() {
+    let at_depth = |a: &str, b: &str, depth: f64| {
+        let mut pair = Pair::new(a, b);
+        pair.at(&pose([0.0, 0.0, 0.12 - depth], [0.0; 3]));
+        let names = |report: DeepInMeshReport| (report.mesh, report.other) == (pair.roots[0], pair.roots[1]);
+        let found = pair.world.deep_in_mesh().map(|report| (names(report), report.facets));
+        let is_set = pair.world.report().status.contains(StatusBits::DEEP_IN_MESH);
+        assert_eq!(found.is_some(), is_set, "{depth} m");
+        found
+    };
+    let (soft, stiff) = (l_mesh(SOFT), l_mesh(STIFF));
+    for depth in [-0.001, 1e-6, 0.02, 0.0299] {
+        assert_eq!(at_depth(&soft, &stiff, depth), None, "{depth} m");
+    }
+    // The two triangles of the bottom, and some of the sides.
+    for depth in [0.0301, 0.04] {
+        let (is_named, facets) = at_depth(&soft, &stiff, depth).unwrap();
+        assert!(is_named && facets >= 2, "{depth} m: {facets}");
+    }
+    // Convex pieces have no regions.
+    assert_eq!(at_depth(&l_boxes(SOFT), &l_boxes(STIFF), 0.04), None);
 }
 
 /// Two rings linked like those of a chain, A pulled along x by more than the chain is long: the force on A points back,

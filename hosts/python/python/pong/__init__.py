@@ -94,6 +94,7 @@ class Status(IntFlag):
     CONTACT_LIMIT = 1
     LOAD_SHARING_LIMIT = 2
     TUNNELLED = 4
+    DEEP_IN_MESH = 8
 
 
 def load_model(path: str | os.PathLike[str], *, allow_files_below: Sequence[str | os.PathLike[str]] = ()) -> Model:

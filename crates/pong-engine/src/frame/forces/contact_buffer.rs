@@ -54,6 +54,32 @@ pub(crate) struct CapacityDemand {
     pub overflowed: bool,
     /// True if one surface had too many contacts with one primitive of A for exact load sharing.
     pub unshared: bool,
+    /// Contacts deeper in a mesh than the regions below its facets.
+    pub deep_in_meshes: DeepInMeshes,
+}
+
+/// Contacts deeper in a mesh that is not convex than the regions below its facets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct DeepInMeshes {
+    /// Number of facets whose region another solid reaches down to the floor.
+    pub facets: u32,
+    /// Bodies of such a mesh and of that solid: those with the lowest indices, because the order in which threads find
+    /// contacts must not matter.
+    pub first: Option<(usize, usize)>,
+}
+
+impl DeepInMeshes {
+    /// Counts facets of a mesh. `bodies` are those of the mesh and of the solid in it.
+    pub fn note(&mut self, bodies: (usize, usize), facets: u32) {
+        if facets > 0 {
+            self.add(&Self { facets, first: Some(bodies) });
+        }
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.facets = self.facets.saturating_add(other.facets);
+        self.first = self.first.into_iter().chain(other.first).min();
+    }
 }
 
 impl CapacityDemand {
@@ -69,6 +95,7 @@ impl CapacityDemand {
         self.at_once = self.at_once.max(other.at_once);
         self.overflowed |= other.overflowed;
         self.unshared |= other.unshared;
+        self.deep_in_meshes.add(&other.deep_in_meshes);
     }
 }
 

@@ -68,7 +68,7 @@ pub(crate) fn keep_deepest(
     report: &mut FrameReport,
 ) -> bool {
     let (capacity, spare) = (sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
-    let CapacityDemand { pushing, remembered, at_once, overflowed, unshared } = out.demand;
+    let CapacityDemand { pushing, remembered, at_once, overflowed, unshared, .. } = out.demand;
     report.contacts = pushing as u32;
     report.contacts_wanted = saturated(pushing);
     if unshared {

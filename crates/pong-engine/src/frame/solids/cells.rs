@@ -9,6 +9,10 @@ use pong_geometry::overlap::{Cell, Field, HalfSpace, Moments, Overlap};
 use pong_geometry::{Transform, Twist, Vec3, divisor};
 use pong_model::SolidFacet;
 
+/// Depth, relative to the height of a region, from which a cell counts as cut off by the floor. The rest is rounding of the
+/// vertices in the floor.
+const FLOOR_REACHED: f64 = 1.0 - 1e-9;
+
 /// Working memory for solids.
 #[derive(Debug, Default)]
 pub(crate) struct SolidScratch {
@@ -60,9 +64,20 @@ pub(super) struct FieldCells {
     pub cells: Vec<Cell>,
     /// Reference point, m, in the frame of the field's owner, the B of the overlap.
     pub reference_b: Vec3,
+    /// Number of regions of facets that the other side reaches down to the floor (`height` of [`SolidFacet`](pong_model::SolidFacet)).
+    pub floors_reached: u32,
 }
 
 impl FieldCells {
+    fn with_capacity(faces: usize) -> Self {
+        Self { cells: Vec::with_capacity(faces), reference_b: Vec3::zeros(), floors_reached: 0 }
+    }
+
+    fn clear(&mut self) {
+        self.cells.clear();
+        self.floors_reached = 0;
+    }
+
     /// Adds cells with moments about the reference point of `overlap`.
     fn add(&mut self, cells: &[Cell], reference: &Vec3) {
         if self.cells.is_empty() {
@@ -98,14 +113,13 @@ impl SolidScratch {
     /// Memory for two sides with at most this many facets in a part, and this many faces in a field.
     pub fn with_capacity(facets: usize, faces: usize) -> Self {
         let list = || PushingFaces::with_capacity(faces);
-        let cells = || FieldCells { cells: Vec::with_capacity(faces), reference_b: Vec3::zeros() };
         Self {
             overlap: Overlap::with_capacity(facets + 2 * faces),
             near_facets: Vec::with_capacity(faces),
             faces_b: list(),
             faces_a: list(),
-            of_b: cells(),
-            of_a: cells(),
+            of_b: FieldCells::with_capacity(faces),
+            of_a: FieldCells::with_capacity(faces),
             forces: Vec::with_capacity(2 * faces),
         }
     }
@@ -167,8 +181,8 @@ impl Cells<'_> {
     pub fn find(&self, scratch: &mut SolidScratch) {
         let Self { relative, shares, sides: (a, b) } = *self;
         let SolidScratch { overlap, near_facets, faces_b, faces_a, of_b, of_a, .. } = scratch;
-        of_b.cells.clear();
-        of_a.cells.clear();
+        of_b.clear();
+        of_a.clear();
         if shares[1] > 0.0 {
             let search = Search { x: &relative.x_ba, velocity: &relative.a_in_b };
             search.find((overlap, near_facets), (a, b), faces_b, of_b);
@@ -213,13 +227,15 @@ impl Search<'_> {
                 continue;
             }
             for index in near_facets.iter().map(|&index| index as usize) {
-                let walls = owner.regions.walls(&owner.regions.facets[index]);
-                let field = Field { faces: &faces.planes[index..=index], walls };
+                let facet = &owner.regions.facets[index];
+                let field = Field { faces: &faces.planes[index..=index], walls: owner.regions.walls(facet) };
                 if overlap.placed_apart(&field) {
                     continue;
                 }
                 overlap.placed_cells(&field, self.velocity);
                 if let [cell] = overlap.found() {
+                    // The floor cuts off what lies deeper, so the deepest vertex of the cell is then on the floor.
+                    found.floors_reached += u32::from(cell.deepest >= FLOOR_REACHED * facet.height);
                     found.add(&[Cell { face: index, ..*cell }], &overlap.reference_b());
                 }
             }

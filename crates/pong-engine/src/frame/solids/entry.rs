@@ -16,7 +16,7 @@ const FAR_SIDE_COSINE: f64 = -0.3;
 /// them then has a cosine of at least -0.2 with the other, so it pushes, and so does one that faces away by up to 6°.
 const SAME_DIRECTION_COSINE: f64 = 0.98;
 
-/// Largest depth, relative to the thinner body, at which the direction of least depth is that of entry.
+/// Largest depth, relative to the width of a body, at which its direction of entry may change.
 const SHALLOW: f64 = 0.25;
 
 /// Unit directions that separated two bodies before they overlapped, from one body to the other.
@@ -67,8 +67,8 @@ pub(super) fn records<'m>(
 /// which they were apart, else those of least depth. `None` if neither side remembers.
 ///
 /// A body that rolls or tumbles on another turns its own direction away from the contact. Where the two
-/// directions no longer agree, they are taken anew, if the overlap is still shallow: no face that changes is then
-/// near the shared volume.
+/// directions no longer agree, they are taken anew, if the overlap is shallow for both bodies: no face that changes is then
+/// near the shared volume. If it is shallow for the thicker body alone, that body takes the direction of the other.
 pub(super) fn side_of_entry(
     context: &PairContext<'_>,
     relative: &Relative,
@@ -90,21 +90,46 @@ pub(super) fn side_of_entry(
         return Some(known);
     }
     let (gap, in_b) = separating_direction(a, b, &relative.x_ba);
-    let is_shallow = -gap < SHALLOW * least_width(a, b, &relative.x_ba, &in_b);
-    Some(if is_shallow { Entry::along(in_b, &relative.x_ba, known.record) } else { known })
+    let widths = widths(sides, &relative.x_ba, &in_b);
+    if -gap < SHALLOW * widths[0].min(widths[1]) {
+        return Some(Entry::along(in_b, &relative.x_ba, known.record));
+    }
+    Some(of_thinner(sides, relative, known))
 }
 
-/// Smaller of the widths of two sides along a direction in B's frame, m. A plane has no width.
-fn least_width(a: &Side<'_>, b: &Side<'_>, x_ba: &Transform, direction: &Vec3) -> f64 {
-    let width = |side: &Side<'_>, direction: &Vec3| {
-        let vertices = side.parts.iter().flat_map(|part| part.surface.vertices());
-        let (low, high) = vertices
-            .map(|vertex| direction.dot(vertex))
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), along| (low.min(along), high.max(along)));
-        high - low
-    };
-    let of_a = width(a, &x_ba.rotation.tr_mul(direction));
-    if b.parts.is_empty() { of_a } else { of_a.min(width(b, direction)) }
+/// Directions of entry that no longer agree, where the overlap is not shallow for both sides. The side that is thinner
+/// along its own direction keeps it. The other side takes that direction too, if the overlap along it is shallow for it.
+fn of_thinner(sides: (&Side<'_>, &Side<'_>), relative: &Relative, known: Entry) -> Entry {
+    let x_ba = &relative.x_ba;
+    let of_a = -x_ba.vector(&known.in_a);
+    let b_is_thinner = widths(sides, x_ba, &known.in_b)[1] <= widths(sides, x_ba, &of_a)[0];
+    let kept = if b_is_thinner { known.in_b } else { of_a };
+    let thicker = widths(sides, x_ba, &kept)[usize::from(!b_is_thinner)];
+    match overlap_along(sides, x_ba, &kept) < SHALLOW * thicker {
+        true => Entry::along(kept, x_ba, known.record),
+        false => known,
+    }
+}
+
+/// Lowest and highest position of the vertices of a side along a direction in its frame, m.
+fn extent(side: &Side<'_>, direction: &Vec3) -> [f64; 2] {
+    let vertices = side.parts.iter().flat_map(|part| part.surface.vertices());
+    let along = vertices.map(|vertex| direction.dot(vertex));
+    along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
+}
+
+/// Widths of sides A and B along a direction in B's frame, m. A plane has an infinite width.
+fn widths((a, b): (&Side<'_>, &Side<'_>), x_ba: &Transform, direction: &Vec3) -> [f64; 2] {
+    let [of_a, of_b] = [extent(a, &x_ba.rotation.tr_mul(direction)), extent(b, direction)];
+    [of_a[1] - of_a[0], if b.parts.is_empty() { f64::INFINITY } else { of_b[1] - of_b[0] }]
+}
+
+/// Distance by which A has to move along a direction from B to A, in B's frame, until the two no longer overlap along
+/// it, m. Infinite for a plane.
+fn overlap_along((a, b): (&Side<'_>, &Side<'_>), x_ba: &Transform, direction: &Vec3) -> f64 {
+    let [lowest_a, _] = extent(a, &x_ba.rotation.tr_mul(direction));
+    let [_, highest_b] = extent(b, direction);
+    if b.parts.is_empty() { f64::INFINITY } else { highest_b - lowest_a - direction.dot(&x_ba.translation) }
 }
 
 /// Face normal along which two convex sides are farthest apart, or overlap least: the distance along it, m,

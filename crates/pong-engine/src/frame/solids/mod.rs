@@ -20,7 +20,7 @@ use crate::frame::block::plan_of;
 use crate::frame::input::{Block, BlockKind, PairContext, Round};
 use crate::frame::worker_context::WorkerContext;
 use crate::report::{Laps, Work};
-use crate::seal::{Partner, SolidPair, field_shares};
+use crate::seal::{Direction, Partner, SolidPair, field_shares};
 use crate::state::SolidContactPart;
 use cells::Cells;
 pub(crate) use cells::SolidScratch;
@@ -117,8 +117,14 @@ fn touch_units(
     solids.choose_faces((a, b), entry.as_ref());
     let cells = Cells { relative, shares, sides: (a, b) };
     cells.find(solids);
-    if has_regions && !solids.found_any() {
-        return;
+    if has_regions {
+        if !solids.found_any() {
+            return;
+        }
+        let PairContext { group_pair, flipped, .. } = *context;
+        let (body_a, body_b) = round.sealed.bodies_of(Direction { group_pair, flipped });
+        out.demand.deep_in_meshes.note((body_b, body_a), solids.of_b.floors_reached);
+        out.demand.deep_in_meshes.note((body_a, body_b), solids.of_a.floors_reached);
     }
     let patch = Patch { context, sealed: round.sealed, relative, sides: (a, b), shares, props };
     patch.add_contacts(solids, entry.as_ref(), out);
