@@ -1,6 +1,7 @@
 //! Random scenes of every tester: the touched body, the touching body, and a history with contact points on
 //! faces, seams, internal faces, edges, corners and junctions of pieces, as well as anywhere.
 
+pub mod belts;
 pub mod meshes;
 pub mod path;
 pub mod round;
@@ -12,6 +13,7 @@ pub mod volumes;
 
 use crate::random::Random;
 use crate::scene::{Body, Friction, Normal, Scene, Shape, Surface};
+use pong_engine::SurfaceMotion;
 use toucher::toucher;
 
 /// A scene of any family.
@@ -28,6 +30,9 @@ pub fn scene_of(random: &mut Random, name: &str) -> Option<Scene> {
     if let Some((name, b, a)) = volumes::FAMILIES.iter().find(|(known, ..)| *known == name) {
         return Some(of_solids(random, name, *b, *a));
     }
+    if let Some((name, make)) = belts::FAMILIES.iter().find(|(known, _)| *known == name) {
+        return Some(make(random, name));
+    }
     let (name, make) = touched::FAMILIES.iter().find(|(known, _)| *known == name)?;
     Some(family(random, name, *make, None))
 }
@@ -36,7 +41,8 @@ pub fn scene_of(random: &mut Random, name: &str) -> Option<Scene> {
 pub fn families() -> impl Iterator<Item = &'static str> {
     let of_round_parts = round::FAMILIES.iter().map(|(name, ..)| *name);
     let of_solids = volumes::FAMILIES.iter().map(|(name, ..)| *name);
-    touched::FAMILIES.iter().map(|(name, _)| *name).chain(of_round_parts).chain(of_solids)
+    let of_surfaces = belts::FAMILIES.iter().map(|(name, _)| *name);
+    touched::FAMILIES.iter().map(|(name, _)| *name).chain(of_round_parts).chain(of_solids).chain(of_surfaces)
 }
 
 /// The makers of a family, and the kinds that touch it if not all can.
@@ -70,7 +76,7 @@ fn of_solids(random: &mut Random, name: &'static str, make_b: touched::Make, mak
     let surfaces = surfaces(random, size).map(volumes::linear);
     let mut bodies = [Body::new(a, surfaces[0]), Body::new(b, surfaces[1])];
     for body in &mut bodies {
-        body.is_solid = body.shapes.iter().all(|shape| matches!(shape, Shape::Polyhedron(_)));
+        body.is_solid = !matches!(body.shapes[0], Shape::Plane { .. });
     }
     with_history(random, name, bodies, size, is_round)
 }
@@ -88,7 +94,7 @@ fn with_history(
     is_round: bool,
 ) -> Scene {
     let swapped = random.chance(0.3);
-    let mut scene = Scene { family, bodies, swapped, frames: Vec::new(), size: 1.0 };
+    let mut scene = Scene { family, bodies, swapped, frames: Vec::new(), motions: Vec::new(), size: 1.0 };
     scene.frames = path::history(random, &scene, is_round);
     rescaled(&scene, size)
 }
@@ -168,6 +174,12 @@ pub fn rescaled(scene: &Scene, s: f64) -> Scene {
     for state in scaled.frames.iter_mut().flatten() {
         state.position = state.position.map(|x| x * s);
         state.linear_velocity = state.linear_velocity.map(|x| x * s);
+    }
+    for motion in scaled.motions.iter_mut().flatten() {
+        let SurfaceMotion { linear_velocity, belt_velocity, linear_travel, belt_travel, .. } = motion;
+        for vector in [linear_velocity, belt_velocity, linear_travel, belt_travel] {
+            *vector = vector.map(|x| x * s);
+        }
     }
     scaled
 }
