@@ -1,7 +1,7 @@
 //! Scenes of surfaces that move along themselves (belts, tracks, turntables) and of flush solids that are declared one
 //! surface.
 
-use super::{solids, touched, volumes};
+use super::{assembly, solids, touched, volumes};
 use crate::random::Random;
 use crate::scene::{Body, Scene, Shape};
 use pong_engine::SurfaceMotion;
@@ -15,13 +15,13 @@ pub type MakeScene = fn(&mut Random, &'static str) -> Scene;
 
 /// Families by name.
 pub const FAMILIES: &[(&str, MakeScene)] = &[
-    ("belt", |random, name| driven(super::family(random, name, touched::plane, None), random)),
-    ("track", |random, name| moving(super::family(random, name, touched::solid, None), random)),
+    ("belt", |random, name| driven(assembly::family(random, name, touched::plane, None), random)),
+    ("track", |random, name| moving(assembly::family(random, name, touched::solid, None), random)),
     ("solid_on_belt", |random, name| {
-        driven(super::of_solids(random, name, touched::plane, volumes::convex), random)
+        driven(assembly::of_solids(random, name, touched::plane, volumes::convex), random)
     }),
     ("solid_on_track", |random, name| {
-        moving(super::of_solids(random, name, touched::solid, touched::solid), random)
+        moving(assembly::of_solids(random, name, touched::solid, touched::solid), random)
     }),
     ("joint", joint),
 ];
@@ -97,10 +97,10 @@ fn joint(random: &mut Random, name: &'static str) -> Scene {
         let pose = Pose { position: random.vector(1.0), orientation: random.orientation() };
         touched = touched.iter().map(|shape| shape.carried(&pose)).collect();
     }
-    let touching = super::touching(random, &["Point", "LineSegment", "Sphere", "Ellipsoid"], is_round);
-    let size = super::unit_of_length(random);
-    let [a, b] = super::surfaces(random, size);
+    let touching = assembly::touching(random, &["Point", "LineSegment", "Sphere", "Ellipsoid"], is_round);
+    let size = assembly::unit_of_length(random);
+    let [a, b] = assembly::surfaces(random, size);
     let mut bodies = [Body::new(touching, a), Body::new(touched, b)];
     bodies[1].is_one_surface = true;
-    super::with_history(random, name, bodies, size, is_round)
+    assembly::with_history(random, name, bodies, size, is_round)
 }

@@ -112,6 +112,9 @@ fn motion_by(motion: &SurfaceMotion, frame: &Pose) -> SurfaceMotion {
 /// The body B moved instead of its surface: a plane along itself, or about its normal.
 pub fn driven(scene: &Scene, _: &mut Random) -> Option<Twin> {
     let [Shape::Plane { normal, .. }] = scene.bodies[1].shapes.as_slice() else { return None };
+    // The direction of an axial plunger is not the normal of the plane: of a body that moves it sees the approach.
+    let is_axial = |shape: &Shape| matches!(shape, Shape::Ray { axial: true, .. });
+    (!scene.bodies[0].shapes.iter().any(is_axial)).then_some(())?;
     let has_bristle =
         scene.bodies.iter().any(|body| matches!(body.surface.friction, Friction::Bristle { .. }));
     let mut twin = Twin::of(scene);

@@ -138,6 +138,23 @@ impl Bodies {
         size(&self.shapes[0]).min(size(&self.shapes[1])).powi(2)
     }
 
+    /// Largest distance of a corner from the plane of its face, m: single precision bends faces of four corners.
+    pub fn bend(&self) -> f64 {
+        let mut most = 0.0_f64;
+        for shape in self.shapes.iter().flat_map(|shapes| &shapes.whole) {
+            let Shape::Polyhedron(solid) = shape else { continue };
+            for face in &solid.faces {
+                let corners: Vec<Vec3> = face.iter().map(|index| solid.vertices[*index]).collect();
+                let normal = path::normal_of(&corners);
+                most = corners
+                    .iter()
+                    .map(|corner| normal.dot(&(corner - corners[0])).abs())
+                    .fold(most, f64::max);
+            }
+        }
+        most
+    }
+
     /// World of the whole bodies, or of their pieces.
     pub fn world(&self, of_pieces: bool) -> SolidWorld {
         let texts = [0, 1].map(|body| {
