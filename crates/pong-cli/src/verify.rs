@@ -1,7 +1,7 @@
 //! `pong verify`: cases with known answers, extremes and their reports; invariances.
 
 use crate::terminal::{Outcome, failure, print, tell};
-use pong_invariance::{Order, Survey, invariances};
+use pong_invariance::{Order, Survey, invariances, make};
 use pong_verify::extremes::{self, Extreme, Length};
 use pong_verify::{Case, cases, orders, report};
 use std::path::PathBuf;
@@ -144,8 +144,8 @@ fn main_of_invariances(arguments: &Arguments) -> Outcome {
     if arguments.list {
         return list(invariances::INVARIANCES.iter().map(|one| format!("{:<16} {}\n", one.name, one.says)));
     }
-    let all = [pong_invariance::make::round::ALL, pong_invariance::make::volumes::ALL];
-    let families = || pong_invariance::make::families().chain(all);
+    let all = [make::round::ALL, make::volumes::ALL, make::belts::ALL];
+    let families = || make::families().chain(all);
     if let Some(unknown) = arguments.family.as_ref().filter(|asked| !families().any(|name| name == *asked)) {
         let known: Vec<_> = families().collect();
         return wrong_usage(format!(

@@ -91,8 +91,11 @@ pub fn distance(a: &[Wrench; 2], b: &[Wrench; 2], lever: f64) -> f64 {
 
 /// Largest distance of a solid's corners from the planes of their faces, m: in single precision a face of
 /// four corners is not planar, and its plane may depend on their order.
-fn bent(scene: &Scene) -> f64 {
+pub fn bent(scene: &Scene) -> f64 {
     let mut most = 0.0_f64;
+    for body in scene.bodies.iter().filter(|body| body.is_solid) {
+        body.shapes.iter().for_each(|shape| most = most.max(bent_between(shape, scene.size)));
+    }
     for shape in scene.bodies.iter().flat_map(|body| &body.shapes) {
         let Shape::Polyhedron(solid) = shape else { continue };
         for face in &solid.faces {
@@ -106,6 +109,24 @@ fn bent(scene: &Scene) -> f64 {
     // it.
     let slack = 1e3 * f64::EPSILON * scene.size;
     if most > slack { 30.0 * most } else { 0.0 }
+}
+
+/// Largest height of a triangle above the plane of a neighbour, m, among those that single precision may have bent.
+fn bent_between(shape: &Shape, size: f64) -> f64 {
+    let Shape::Mesh(mesh) = shape else { return 0.0 };
+    let mut most = 0.0_f64;
+    for one in &mesh.triangles {
+        let corners = one.map(|index| mesh.vertices[index]);
+        let normal = path::normal_of(&corners);
+        for other in &mesh.triangles {
+            if other.iter().filter(|index| one.contains(index)).count() == 2 {
+                let heights = other.map(|index| normal.dot(&(mesh.vertices[index] - corners[0])).abs());
+                let height = heights.into_iter().fold(0.0, f64::max);
+                most = if height < 1e-6 * size { most.max(height) } else { most };
+            }
+        }
+    }
+    most
 }
 
 /// Smallest radius of a round part, or the size, m: the direction from an axis is uncertain in proportion to

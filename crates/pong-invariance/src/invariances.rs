@@ -98,6 +98,12 @@ pub const INVARIANCES: &[Invariance] = &[
         "faces, plates and solids cut into more triangles and pieces, half of them under the foot",
         Check::AimedTwin(shape::cut),
     ),
+    claim(
+        "declared",
+        "solids cut into flush pieces that are declared one surface",
+        Check::AimedTwin(shape::declared),
+    ),
+    twin("driven", "a plane moved along itself instead of its surface", place::driven),
     twin("reordered", "primitives, triangles, faces and corners in another order, renamed", shape::reordered),
     twin("own_axis", "round parts turned about their own axis", place::own_axis),
     twin("exchanged", "the Objects of a pair of solids swapped, without bristles", shape::exchanged),

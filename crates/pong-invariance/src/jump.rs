@@ -13,7 +13,7 @@
 
 mod displaced;
 
-use crate::allowance::{Allowance, distance, thinnest};
+use crate::allowance::{Allowance, bent, distance, thinnest};
 use crate::base::Base;
 use crate::play::Stage;
 use crate::random::Random;
@@ -48,15 +48,24 @@ pub fn is_there(
     let smooth = 0.02 * difference / base.largest(frame).max(difference) * depth / size;
     let step = smooth.clamp(SHORTEST_STEP, LONGEST_STEP).max(100.0 * twin.rounding / size);
     let mut around = Around { answers: [first, *read], difference, allowance, settled: Vec::new() };
-    let decided = around.decide(
-        |_| false,
-        |around| {
-            let frames = beside(&base.scene.frames[..=frame], step, size, random.chance(0.5), random);
-            around.look(&mut base.stage, frames, size, random)
-        },
-    );
-    if let Some(is_there) = decided {
-        return is_there;
+    // Faces that are bent by single precision are known to the height of their corners: so is whether they touch.
+    let of_bends = (bent(&base.scene) / size).min(LONGEST_STEP);
+    let steps = [step, of_bends];
+    let mut decided = None;
+    for step in steps.into_iter().filter(|longer| *longer >= step) {
+        decided = around.decide(
+            |_| false,
+            |around| {
+                let frames = beside(&base.scene.frames[..=frame], step, size, random.chance(0.5), random);
+                around.look(&mut base.stage, frames, size, random)
+            },
+        );
+        if decided == Some(true) {
+            return true;
+        }
+    }
+    if decided == Some(false) {
+        return false;
     }
     // Thin triangles turn by more than their corners move.
     let longest = (step * thinnest(&base.scene)).max(SHORTEST_STEP);

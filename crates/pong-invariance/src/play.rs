@@ -2,7 +2,9 @@
 
 use crate::scene::{Scene, Shape};
 use crate::text;
-use pong_engine::{Config, InterfaceId, ObjectId, State, StatusBits, WorkerSettings, World, WorldBuilder};
+use pong_engine::{
+    Config, InterfaceId, ObjectId, State, StatusBits, SurfaceMotion, WorkerSettings, World, WorldBuilder,
+};
 use pong_geometry::{Vec3, Wrench};
 use pong_model::{Extensions, Fnv};
 use std::sync::Arc;
@@ -51,6 +53,8 @@ pub struct Stage {
     pub world: World,
     objects: [ObjectId; 2],
     groups: [InterfaceId; 2],
+    /// Motions of the surfaces of both groups, frame by frame; empty if none moves.
+    motions: Vec<[SurfaceMotion; 2]>,
 }
 
 /// Reason why a scene cannot be played, in the engine's words.
@@ -66,7 +70,9 @@ impl Stage {
         let settings = WorkerSettings { workers, oversubscribe: true, ..WorkerSettings::default() };
         let workers = (workers > 0).then_some(settings);
         let contact_capacity = capacity(scene);
-        let mut builder = WorldBuilder::new(Config { workers, contact_capacity, ..Config::default() });
+        let moving_surfaces = !scene.motions.is_empty();
+        let config = Config { workers, contact_capacity, moving_surfaces, ..Config::default() };
+        let mut builder = WorldBuilder::new(config);
         let mut add = |body: usize, name: &str| -> Result<ObjectId, Refusal> {
             let text = text::model(&scene.bodies[body], name, name);
             let model = pong_model::parse(&text, &format!("{name}.ron"), None, &Extensions::new());
@@ -83,7 +89,18 @@ impl Stage {
             Ok((world, groups))
         };
         let (world, groups) = begin().map_err(|error: pong_engine::EngineError| error.to_string())?;
-        Ok(Self { world, objects, groups })
+        Ok(Self { world, objects, groups, motions: scene.motions.clone() })
+    }
+
+    /// Sets the motions of the surfaces of a frame, where surfaces move.
+    ///
+    /// # Errors
+    ///
+    /// Motions that the engine refuses; the text is the engine's message.
+    pub fn move_surfaces(&mut self, frame: usize) -> Result<(), Refusal> {
+        let Some([a, b]) = self.motions.get(frame) else { return Ok(()) };
+        let motions = [(self.groups[0], *a), (self.groups[1], *b)];
+        self.world.set_surface_motions(&motions).map_err(|error| error.to_string())
     }
 
     /// Sets the states of a frame and evaluates them.
@@ -128,7 +145,11 @@ impl Stage {
     /// The error of [`step`](Self::step) for the first refused frame.
     pub fn play(&mut self, frames: &[[State; 2]]) -> Result<Vec<Answer>, Refusal> {
         self.forget()?;
-        frames.iter().map(|states| self.step(states)).collect()
+        let mut step = |(frame, states)| {
+            self.move_surfaces(frame)?;
+            self.step(states)
+        };
+        frames.iter().enumerate().map(&mut step).collect()
     }
 
     /// Clears all contact state.

@@ -55,6 +55,9 @@ fn fewer_frames(scene: &Scene, at: usize) -> Option<Scene> {
     (scene.frames.len() > 1 && at < scene.frames.len()).then_some(())?;
     let mut smaller = scene.clone();
     smaller.frames.remove(at);
+    if !smaller.motions.is_empty() {
+        smaller.motions.remove(at);
+    }
     Some(smaller)
 }
 
@@ -129,6 +132,7 @@ fn at_rest(scene: &Scene, at: usize) -> Option<Scene> {
         }),
         1 => each.flatten().for_each(|state| state.angular_velocity = [0.0; 3]),
         2 => smaller.swapped = false,
+        3 => smaller.motions.clear(),
         _ => return None,
     }
     Some(smaller)

@@ -1,7 +1,7 @@
 //! A scene as plain data: two bodies and the states of a history. Models and twins are made from it.
 
 use crate::round_part::RoundPart;
-use pong_engine::State;
+use pong_engine::{State, SurfaceMotion};
 use pong_geometry::{Pose, Quat, Vec3};
 
 /// Two bodies and their motion.
@@ -15,6 +15,8 @@ pub struct Scene {
     pub swapped: bool,
     /// States of both movable groups, frame by frame; each frame is evaluated and committed.
     pub frames: Vec<[State; 2]>,
+    /// Motions of the surfaces of both groups along themselves, frame by frame; empty if none moves.
+    pub motions: Vec<[SurfaceMotion; 2]>,
     /// Approximate size of the bodies, m.
     pub size: f64,
 }
@@ -34,6 +36,8 @@ pub struct Body {
     pub place: Pose,
     /// True if the primitives touch by the volume they share (`contact: Solid`).
     pub is_solid: bool,
+    /// True if the primitives are declared one surface (`one_surface: true`).
+    pub is_one_surface: bool,
 }
 
 /// Grouping of primitives below the movable group.
@@ -231,8 +235,15 @@ impl Shape {
         }
     }
 
-    /// Area of the outer faces of a polyhedron, m²; zero for other kinds.
+    /// Area of the outer faces of a polyhedron, or of the triangles of a mesh, m²; zero for other kinds.
     fn outer_area(&self) -> f64 {
+        if let Self::Mesh(mesh) = self {
+            let area = |triangle: &[usize; 3]| {
+                let [p, q, r] = triangle.map(|index| mesh.vertices[index]);
+                (q - p).cross(&(r - p)).norm() / 2.0
+            };
+            return mesh.triangles.iter().map(area).sum();
+        }
         let Self::Polyhedron(solid) = self else { return 0.0 };
         let outer = (0..).zip(&solid.faces).filter(|(index, _)| !solid.inactive.contains(index));
         let area = |face: &[usize]| {
@@ -264,6 +275,7 @@ impl Body {
             grouping: Grouping::default(),
             place: Pose::identity(),
             is_solid: false,
+            is_one_surface: false,
         }
     }
 

@@ -112,6 +112,9 @@ const ROUND_EVERY: u64 = 2;
 /// In a survey of all families, a scene of solids accompanies one in this many scenes.
 const VOLUME_EVERY: u64 = 4;
 
+/// In a survey of all families, a scene of moving or declared surfaces accompanies one in this many scenes.
+const SURFACE_EVERY: u64 = 8;
+
 /// Scenes that a thread takes at a time.
 const PORTION: u64 = 64;
 
@@ -153,8 +156,8 @@ impl Survey {
         total
     }
 
-    /// One index: a scene of the requested family, or one of points to ellipsoids, one with round parts and one of
-    /// solids.
+    /// One index: a scene of the requested family, or one of points to ellipsoids, one with round parts, one of
+    /// solids, and one of moving or declared surfaces.
     fn one(&mut self, order: &Order, asked: &[&'static Invariance], index: u64) {
         match order.family.as_deref() {
             Some(make::round::ALL) => {
@@ -162,6 +165,9 @@ impl Survey {
             }
             Some(make::volumes::ALL) => {
                 self.one_of(order, &of_shared_scenes(asked), Some(make::volumes::family(index)), index);
+            }
+            Some(make::belts::ALL) => {
+                self.one_of(order, &of_shared_scenes(asked), Some(make::belts::family(index)), index);
             }
             Some(family) => self.one_of(order, asked, Some(family), index),
             None => {
@@ -172,6 +178,10 @@ impl Survey {
                 }
                 if index % VOLUME_EVERY == 1 {
                     let family = make::volumes::family(index / VOLUME_EVERY);
+                    self.one_of(order, &of_shared_scenes(asked), Some(family), index);
+                }
+                if index % SURFACE_EVERY == 3 {
+                    let family = make::belts::family(index / SURFACE_EVERY);
                     self.one_of(order, &of_shared_scenes(asked), Some(family), index);
                 }
             }

@@ -18,6 +18,9 @@ pub fn model(body: &Body, name: &str, surface: &str) -> String {
     if body.is_solid {
         root.push(("contact", Value::name("Solid")));
     }
+    if body.is_one_surface {
+        root.push(("one_surface", Value::Bool(true)));
+    }
     root.push(contents(body));
     let surfaces = Value::map([(surface, self::surface(&body.surface))]);
     write::text(&Value::model(name, [("surfaces", surfaces), ("root", Value::fields(root))]))
@@ -202,6 +205,9 @@ pub fn scene(scene: &Scene) -> String {
     for (index, states) in scene.frames.iter().enumerate() {
         for (state, name) in states.iter().zip(["a", "b"]) {
             let _ = writeln!(text, "  frame {index} {name}: {}", self::state(state));
+        }
+        for (motion, name) in scene.motions.get(index).into_iter().flatten().zip(["a", "b"]) {
+            let _ = writeln!(text, "  frame {index} surface of {name}: {motion:?}");
         }
     }
     text

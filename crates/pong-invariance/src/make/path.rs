@@ -138,7 +138,11 @@ pub fn stand(shape: &Shape, orientation: &Quat, foot: &Foot, depth: f64, end: us
             let heights = |p: &&Vec3, q: &&Vec3| down.dot(p).total_cmp(&down.dot(q));
             solid.vertices.iter().max_by(heights).copied().unwrap_or_default()
         }
-        Shape::Plane { .. } | Shape::Mesh(_) => Vec3::zeros(),
+        Shape::Mesh(mesh) => {
+            let heights = |p: &&Vec3, q: &&Vec3| down.dot(p).total_cmp(&down.dot(q));
+            mesh.vertices.iter().max_by(heights).copied().unwrap_or_default()
+        }
+        Shape::Plane { .. } => Vec3::zeros(),
     };
     let position = foot.place - foot.normal * depth - orientation * lowest;
     Pose { position, orientation: *orientation }

@@ -1,10 +1,10 @@
 //! Scenes of solids that touch by the volume they share: on a plane, on another solid, on a solid cut into
-//! pieces, and L-shaped.
+//! pieces, L-shaped, and L-shaped as a mesh.
 
 use super::solids;
 use super::touched::{self, Make};
 use crate::random::Random;
-use crate::scene::{Normal, Shape, Surface};
+use crate::scene::{Mesh, Normal, Shape, Surface};
 use pong_geometry::Vec3;
 
 /// Common name of all families of solids.
@@ -19,6 +19,7 @@ pub const FAMILIES: &[(&str, Make, Make)] = &[
     ("l_on_solid", convex, bent),
     ("solid_on_l", bent, convex),
     ("l_on_l", bent, bent),
+    ("mesh_on_mesh", bent_mesh, bent_mesh),
 ];
 
 /// Families in turn.
@@ -43,7 +44,7 @@ fn one(random: &mut Random, is_round: bool) -> Vec<Shape> {
 }
 
 /// A convex solid, in one or several pieces.
-fn convex(random: &mut Random, is_round: bool) -> Vec<Shape> {
+pub(super) fn convex(random: &mut Random, is_round: bool) -> Vec<Shape> {
     if random.chance(0.7) { one(random, is_round) } else { touched::pieces(random, is_round) }
 }
 
@@ -58,4 +59,22 @@ fn bent(random: &mut Random, is_round: bool) -> Vec<Shape> {
         Shape::Polyhedron(crate::scene::Solid { inactive: inactive.to_vec(), ..cuboid })
     };
     vec![piece(0, 0, &[1, 5]), piece(1, 0, &[4]), piece(0, 1, &[0])]
+}
+
+/// An L as a closed mesh that is not divided into convex pieces: each of its facets has a region of its own.
+fn bent_mesh(random: &mut Random, is_round: bool) -> Vec<Shape> {
+    let (low, high) = (solids::extents(random, is_round), solids::extents(random, is_round));
+    let outline =
+        [[-low.x, -low.z], [high.x, -low.z], [high.x, 0.0], [0.0, 0.0], [0.0, high.z], [-low.x, high.z]];
+    let ring = |y: f64| outline.map(|[x, z]| Vec3::new(x, y, z));
+    let vertices = ring(-low.y).into_iter().chain(ring(low.y)).collect();
+    let mut triangles = Vec::new();
+    for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]] {
+        triangles.extend([[a, b, c], [a + 6, c + 6, b + 6]]);
+    }
+    for a in 0..6 {
+        let b = (a + 1) % 6;
+        triangles.extend([[a, a + 6, b + 6], [a, b + 6, b]]);
+    }
+    vec![Shape::Mesh(Mesh { vertices, triangles, ..Mesh::default() })]
 }

@@ -17,6 +17,9 @@ pub fn committed_again(base: &mut Base, _: &mut Random) -> Verdict {
         return Verdict::DoesNotApply;
     }
     for (frame, states) in frames.iter().enumerate() {
+        if base.stage.move_surfaces(frame).is_err() {
+            return Verdict::DoesNotApply;
+        }
         let Ok(first) = base.stage.step(states) else { return Verdict::DoesNotApply };
         let Ok(again) = base.stage.evaluate(states) else { return Verdict::DoesNotApply };
         let apart = distance(&first.wrenches, &again.wrenches, base.scene.size);
@@ -155,6 +158,7 @@ pub fn rolling(random: &mut Random) -> Scene {
         ],
         swapped: false,
         frames,
+        motions: Vec::new(),
         size: 1.0,
     }
 }

@@ -36,6 +36,7 @@ pub fn path_in_a_hull(random: &mut Random) -> Scene {
         bodies: [body(Shape::Point { position: Vec3::zeros() }), body(Shape::Polyhedron(hull))],
         swapped: false,
         frames,
+        motions: Vec::new(),
         size: 1.0,
     }
 }

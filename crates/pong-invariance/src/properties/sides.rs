@@ -47,6 +47,7 @@ pub fn set_down_scene(random: &mut Random) -> Scene {
         bodies: [Body::new(vec![ball], surface), Body::new(shapes, surface)],
         swapped: false,
         frames: vec![[still(&place), still(&Vec3::zeros())]],
+        motions: Vec::new(),
         size: 1.0,
     }
 }

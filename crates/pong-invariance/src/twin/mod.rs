@@ -60,6 +60,7 @@ impl Twin {
         if let Manner::Plain | Manner::Forgotten = self.manner
             && first.bodies == self.scene.bodies
             && first.swapped == self.scene.swapped
+            && first.motions == self.scene.motions
         {
             return stage.play(&self.scene.frames);
         }

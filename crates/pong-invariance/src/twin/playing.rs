@@ -35,7 +35,8 @@ pub fn play(scene: &Scene, manner: Manner) -> Result<Vec<Answer>, Refusal> {
         Manner::ThrownAway(seed) => {
             let mut random = Random::new(seed, 0, 0);
             let mut answers = Vec::new();
-            for states in &scene.frames {
+            for (frame, states) in scene.frames.iter().enumerate() {
+                stage.move_surfaces(frame)?;
                 for _ in 0..random.below(3) {
                     let other = random.pick(&scene.frames);
                     stage.evaluate(&shaken(&other, scene.size, &mut random))?;
@@ -52,14 +53,16 @@ pub fn play(scene: &Scene, manner: Manner) -> Result<Vec<Answer>, Refusal> {
         Manner::Restored => {
             let half = scene.frames.len() / 2;
             let mut answers = Vec::new();
-            for states in &scene.frames[..half] {
+            for (frame, states) in scene.frames[..half].iter().enumerate() {
+                stage.move_surfaces(frame)?;
                 answers.push(stage.step(states)?);
             }
             let mut block = Vec::new();
             stage.world.save_state_packed(&mut block);
             let mut other = Stage::set_up(scene, 0)?;
             other.world.restore_state(&block).map_err(|error| error.to_string())?;
-            for states in &scene.frames[half..] {
+            for (frame, states) in (half..).zip(&scene.frames[half..]) {
+                other.move_surfaces(frame)?;
                 answers.push(other.step(states)?);
             }
             Ok(answers)

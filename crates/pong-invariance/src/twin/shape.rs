@@ -126,6 +126,23 @@ pub fn cut(base: &Base, random: &mut Random) -> Option<Twin> {
     Some(twin)
 }
 
+/// A solid cut into pieces without internal faces that are declared one surface: the loader finds where they lie
+/// against each other.
+pub fn declared(base: &Base, random: &mut Random) -> Option<Twin> {
+    let scene = &base.scene;
+    let [Shape::Polyhedron(_)] = scene.bodies[1].shapes.as_slice() else { return None };
+    (!scene.is_of_solids()).then_some(())?;
+    let mut twin = cut(base, random)?;
+    let body = &mut twin.scene.bodies[1];
+    body.is_one_surface = true;
+    for shape in &mut body.shapes {
+        if let Shape::Polyhedron(piece) = shape {
+            piece.inactive.clear();
+        }
+    }
+    Some(twin)
+}
+
 /// Solids of one primitive that touch by volume, cut into pieces.
 fn cut_volumes(base: &Base, random: &mut Random) -> Option<Twin> {
     let mut twin = Twin::of(&base.scene);

@@ -1,4 +1,5 @@
 //! Tests of the invariances.
 
 mod invariances;
+mod poses;
 mod solids;

@@ -1,7 +1,7 @@
-//! Small surveys of solids that touch by volume.
+//! Small surveys of solids that touch by volume, and of moving and declared surfaces.
 
 use super::invariances::nothing_differs;
-use pong_invariance::make::volumes;
+use pong_invariance::make::{belts, volumes};
 
 #[test]
 fn solids_agree_with_their_twins() {
@@ -13,4 +13,33 @@ fn solids_agree_with_their_twins() {
 #[test]
 fn solids_with_other_group_axes() {
     nothing_differs(&["group_frame"], Some("solid_on_plane"), 200);
+}
+
+#[test]
+fn moving_and_declared_surfaces_agree_with_their_twins() {
+    for (name, ..) in belts::FAMILIES {
+        nothing_differs(&[], Some(name), 60);
+    }
+}
+
+#[test]
+fn driven_belts_are_driven_planes() {
+    for name in ["belt", "solid_on_belt"] {
+        nothing_differs(&["driven", "group_frame"], Some(name), 300);
+    }
+}
+
+#[test]
+fn declared_pieces_are_the_whole() {
+    nothing_differs(&["declared"], Some("solid"), 300);
+}
+
+#[test]
+fn joints_in_another_order() {
+    nothing_differs(&["reordered", "turned"], Some("joint"), 300);
+}
+
+#[test]
+fn meshes_in_another_order() {
+    nothing_differs(&["reordered", "group_frame"], Some("mesh_on_mesh"), 300);
 }
