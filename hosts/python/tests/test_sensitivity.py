@@ -152,7 +152,8 @@ def test_a_campaign_has_indices(tmp_path, cluster):
     assert found.method == "sobol" and (found.runs, found.used) == (32, 32) and found.constant == ["contacts_at_start"]
     speed, slip = found.indices[:2]
     # The ball's speed is what makes its peak force; the sideways one adds a little friction.
-    assert speed.parameter == "ball.velocity.z" and 0.7 < speed.total < 1.3 and slip.total < 1e-3
+    assert speed.parameter == "ball.velocity.z" and speed.total_low < 1.0 < speed.total_high
+    assert slip.total < 1e-3
     assert "ball.velocity.z  alone" in str(found) and "contacts_at_start: the same in all runs" in str(found)
     refused(lambda: campaign.indices(tmp_path / "out", quantities=["weight"]), "no such column")
     # A run that failed takes its block with it.
@@ -164,8 +165,9 @@ def test_effects_of_a_campaign_are_in_newtons(tmp_path, cluster):
     plan = plan_of(tmp_path, method="morris", samples=4, seed=5)
     campaign.run(plan, tmp_path / "out", scheduler=cluster.scheduler_address, progress=False)
     speed = campaign.indices(tmp_path / "out", quantities=["peak_force.ball"]).indices[0]
-    # A spring of 2e4 N/m and 1 kg: about m·v·ω = 141 N for each m/s, over 0.4 m/s, less damping.
-    assert speed.parameter == "ball.velocity.z" and speed.mean == pytest.approx(-0.4 * math.sqrt(2e4), rel=0.15)
+    # A spring of 2e4 N/m and 1 kg after a fall of 1 mm: v·√(k·m) without damping, which takes some percent.
+    slow, fast = (math.sqrt((v**2 + 2.0 * 9.81 * 1e-3) * 2e4) for v in (0.1, 0.5))
+    assert speed.parameter == "ball.velocity.z" and speed.mean == pytest.approx(slow - fast, rel=0.2)
 
 
 def test_designs_that_cannot_be_drawn(tmp_path):
@@ -313,7 +315,7 @@ def test_other_friction_is_written(tmp_path):
     assert "Linear" in data["surfaces"]["rubber"]["normal"]
     pong.Scene.load(path).build()
     path = _alternatives.written(scene, campaign.OtherLaws("n", friction="None"), tmp_path / "n")
-    assert pong.Scene.load(path).build().surface("ball", "rubber")["friction"] is None
+    assert pong.Scene.load(path).build().surface("ball", "rubber")["friction"] == {"law": "None"}
 
 
 def test_alternatives_that_cannot_be_run(tmp_path, cluster):
