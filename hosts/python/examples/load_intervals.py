@@ -77,9 +77,11 @@ def main():
     parser.add_argument("--pairs", type=int, default=10)
     parser.add_argument("--morris", type=int, help="trajectories")
     parser.add_argument("--sobol", type=int, help="base points, a power of two")
+    parser.add_argument("--duration", type=float, help="of a run, s; that of the scene without it")
     parser.add_argument("--workers", type=int)
     arguments = parser.parse_args()
     study = {"docking": docking, "berthing": berthing}[arguments.study]()
+    study["duration"] = arguments.duration
     force, quantity = study.pop("force"), study.pop("quantity")
     hands = {"workers": arguments.workers, "runs_per_task": 1}
     if arguments.morris or arguments.sobol:

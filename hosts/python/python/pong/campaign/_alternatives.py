@@ -98,6 +98,28 @@ class OtherLaws:
             return "slip_speed belongs to Coulomb friction; give both or none"
         return None
 
+    def law(self, stiffness, damping):
+        """Returns the law that replaces a linear one of a surface, whose depth under `force` is that of its own spring.
+
+        Parameters
+        ----------
+        stiffness : float
+            Stiffness of the surface, N/m.
+        damping : float
+            Damping of its linear law, N·s/m.
+
+        Returns
+        -------
+        tuple[float, dict]
+            Stiffness and normal law, as a model file has them.
+        """
+        p, q = self.exponent, self.damping_exponent
+        depth = self.force / stiffness
+        # Stored: k·δ²/2 = k'·δ^(p + 1)/(p + 1). Lost while closing: c·v·δ·π/4 = c'·v·δ^(q + 1)·I.
+        other = stiffness * 0.5 * (p + 1.0) * depth ** (1.0 - p)
+        lost = damping * (math.pi / 4.0) / (closing_integral(p, q) * depth**q)
+        return other, {"PowerLaw": {"exponent": p, "damping_exponent": q, "damping": lost}}
+
 
 KINDS = (OtherModels, OtherScene, OtherLaws)
 
@@ -178,16 +200,11 @@ def change(data, alternative, file):
 
 
 def change_normal(surface, stiffness, numbers, alternative):
-    """Replaces a linear law. The depth of a surface under the force is that of its own spring."""
+    """Replaces a linear law."""
     damping = linear_damping(surface, numbers)
     if alternative.force is None or damping is None or not math.isfinite(stiffness):
         return 0
-    p, q = alternative.exponent, alternative.damping_exponent
-    depth = alternative.force / stiffness
-    # Stored: k·δ²/2 = k'·δ^(p + 1)/(p + 1). Lost while closing: c·v·δ·π/4 = c'·v·δ^(q + 1)·I.
-    surface["stiffness"] = stiffness * 0.5 * (p + 1.0) * depth ** (1.0 - p)
-    lost = damping * (math.pi / 4.0) / (closing_integral(p, q) * depth**q)
-    surface["normal"] = {"PowerLaw": {"exponent": p, "damping_exponent": q, "damping": lost}}
+    surface["stiffness"], surface["normal"] = alternative.law(stiffness, damping)
     return 1
 
 
