@@ -67,7 +67,7 @@ class History:
             for j, (quantity, unit) in enumerate(QUANTITIES):
                 touching = values[values[:, i, j] > 0.0, i, j]
                 if not len(touching):
-                    yield (case, body, quantity, unit, 0.0, *("",) * 3, *(0.0,) * len(QUANTILES))
+                    yield (case, body, quantity, unit, 0.0, None, "", "", *(0.0,) * len(QUANTILES))
                     continue
                 peak, step = self.peaks[i, j]
                 told = contacts.hardest(self.states[step], body)
@@ -133,6 +133,6 @@ def shown(rows):
     yield "| case | on | load | peak | at | in phase | hardest contact | 50, 95, 99 % of the time in contact |"
     yield "|---|---|---|---|---|---|---|---|"
     for case, body, quantity, unit, peak, time, phase, contact, *spread in rows:
-        at = f"{time:.3f} s" if time != "" else ""
+        at = f"{time:.3f} s" if time is not None else ""
         quantiles = ", ".join(f"{value:.4g}" for value in spread)
         yield f"| {case} | {body} | {quantity} | {peak:.4g} {unit} | {at} | {phase} | {contact} | {quantiles} {unit} |"
