@@ -184,10 +184,15 @@ def values(plan):
 
 def scaled(dispersions, method, shares):
     """Values of the dispersions at points of the unit cube."""
-    if method == "morris":
-        return np.array([[d.level(share) for d, share in zip(dispersions, row)] for row in shares])
-    shares = np.minimum((np.floor(shares * _STEPS) + 0.5) / _STEPS, 1.0 - 0.5**53)
-    return np.array([[d.at(share) for d, share in zip(dispersions, row)] for row in shares])
+    if method != "morris":
+        shares = np.minimum((np.floor(shares * _STEPS) + 0.5) / _STEPS, 1.0 - 0.5**53)
+    values = np.empty(shares.shape)
+    for place, dispersion in enumerate(dispersions):
+        quantile = dispersion.level if method == "morris" else dispersion.at
+        column = shares[:, place]
+        # The quantile function of a uniform distribution takes arrays, that of a normal one single numbers.
+        values[:, place] = quantile(column) if isinstance(dispersion, Uniform) else [quantile(share) for share in column]
+    return values
 
 
 def corner_count(dispersions):
