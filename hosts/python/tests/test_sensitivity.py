@@ -10,7 +10,7 @@ from support import BALL, GROUND, SCENE, scene_folder
 
 import pong
 from pong import campaign
-from pong.campaign import _alternatives, _dispersions, _interval
+from pong.campaign import _alternatives, _dispersions, _interval, plots
 
 # A ball of 1 kg falls 1 mm onto a spring and leaves it: the peak force is known.
 DROP = (
@@ -155,6 +155,10 @@ def test_a_campaign_has_indices(tmp_path, cluster):
     assert slip.total < 1e-3
     assert "ball.velocity.z  alone" in str(found) and "contacts_at_start: the same in all runs" in str(found)
     refused(lambda: campaign.indices(tmp_path / "out", quantities=["weight"]), "no such column")
+    axes = plots.indices(tmp_path / "out", "peak_force.ball").axes[0]
+    assert [text.get_text() for text in axes.get_yticklabels()] == ["ball.velocity.z", "ball.velocity.x"]
+    assert sorted(bar.get_width() for bar in axes.patches)[-1] == max(speed.total, speed.first)
+    refused(lambda: plots.indices(tmp_path / "out", "contacts_at_start"), "the same in all runs")
     # A run that failed takes its block with it.
     (tmp_path / "out/parts/part-00000005.parquet").unlink()
     assert campaign.indices(tmp_path / "out").used == 28
