@@ -25,6 +25,7 @@ import tomllib
 import types
 
 _changed = {}  # constants of dimensions.py that were replaced: name → value
+_installed = [None, {}]  # folder of the mechanism, and parameters as given
 
 
 def fail(cause, cure):
@@ -62,6 +63,7 @@ def settings(texts):
 
 def install(home, parameters):
     """Makes the module `dimensions` of a mechanism, with these constants replaced, before anything imports it."""
+    _installed[:] = [str(home), dict(parameters)]
     path = pathlib.Path(home) / "dimensions.py"
     tree = ast.parse(path.read_text(encoding="utf-8"))
     by_constant = {}
@@ -91,6 +93,17 @@ def install(home, parameters):
     sys.modules["dimensions"] = module
     exec(compile(ast.fix_missing_locations(tree), str(path), "exec"), module.__dict__)
     refuse_what_models_hold(home, module)
+
+
+def installed():
+    """(folder of the mechanism, parameters) of this process, for `again` in its workers."""
+    return tuple(_installed)
+
+
+def again(home, parameters):
+    """Replaces the same constants in a worker, which is a new process."""
+    if parameters:
+        install(home, parameters)
 
 
 def constants(node):

@@ -4,6 +4,7 @@ import contextlib
 import csv
 import io
 import math
+import multiprocessing
 import pathlib
 import sys
 import tempfile
@@ -47,7 +48,7 @@ def constants(home):
     (home / "dimensions.py").write_text(DIMENSIONS, encoding="utf-8")
     (home / "build.py").write_text("import dimensions as d\nprint(d.LENGTH)\n", encoding="utf-8")
     (home / "case.toml").write_text(CASE, encoding="utf-8")
-    before = sys.modules.get("dimensions"), dict(parameters._changed)
+    before = sys.modules.get("dimensions"), dict(parameters._changed), parameters.installed()
     try:
         changed, cases = parameters.read(home / "case.toml")
         parameters.install(home, changed | parameters.settings(["COUNT=4"]))
@@ -55,9 +56,11 @@ def constants(home):
         yield Fact("a changed constant, and one that follows from it", (d.MASS, d.WEIGHT) == (3.0, 30.0))
         yield Fact("a field of a constant, and what follows from it", (d.SOFT.stiffness, d.SOFT.damping, d.HALF) == (300.0, 5.0, 150.0))
         yield Fact("the others, and those of the command line", (d.INERTIA, d.COUNT, d.LENGTH) == ((4.0, 5.0, 6.5), 4, 0.5))
+        with multiprocessing.get_context("spawn").Pool(1, parameters.again, parameters.installed()) as pool:
+            yield Fact("a worker of a campaign has them, too", pool.apply(weight) == 30.0)
         yield Fact("cases of the file", cases == {"fast": {"speed": 0.12}})
         for wrong in ("MAS=3", "MASS='a'", "COUNT=1.5", "INERTIA=[1, 2]", "SOFT.mass=1", "LENGTH=0.6"):
-            yield Fact(f"refused: {wrong}", _refused(lambda: parameters.install(home, parameters.settings([wrong]))))
+            yield Fact(f"refused: {wrong}", _refused(wrong, home))
             parameters._changed.clear()
     finally:
         sys.modules.pop("dimensions", None)
@@ -65,6 +68,13 @@ def constants(home):
             sys.modules["dimensions"] = before[0]
         parameters._changed.clear()
         parameters._changed.update(before[1])
+        parameters._installed[:] = before[2]
+
+
+def weight():
+    import dimensions
+
+    return dimensions.WEIGHT
 
 
 def bounce(thrown, mass, stiffness, folder):
@@ -93,10 +103,10 @@ def bounce(thrown, mass, stiffness, folder):
     yield Fact("loads: the table is written", (folder / "loads.csv").exists())
 
 
-def _refused(call):
+def _refused(text, home):
     try:
         with contextlib.redirect_stderr(io.StringIO()):
-            call()
+            parameters.install(home, parameters.settings([text]))
     except SystemExit:
         return True
     return False
