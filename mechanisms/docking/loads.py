@@ -19,6 +19,6 @@ def run_case(fields, prepare, watched):
     known = {field.name for field in dataclasses.fields(docking.Case)} - {"level"}
     unknown = sorted(fields.keys() - known)
     if unknown or level not in LEVELS:
-        told = f"there is no field `{unknown[0]}`" if unknown else f"there is no level `{level}`"
-        sys.exit(f"case of the docking: {told}; give until, level ({', '.join(LEVELS)}), {', '.join(sorted(known))}")
+        cause = f"there is no field `{unknown[0]}`" if unknown else f"there is no level `{level}`"
+        sys.exit(f"case of the docking: {cause}; give until, level ({', '.join(LEVELS)}), {', '.join(sorted(known))}")
     return docking.run(docking.Case(level=LEVELS[level], **fields), until, prepare=prepare, watched=watched)

@@ -70,9 +70,9 @@ class History:
                     yield (case, body, quantity, unit, 0.0, None, "", "", *(0.0,) * len(QUANTILES))
                     continue
                 peak, step = self.peaks[i, j]
-                told = contacts.hardest(self.states[step], body)
+                contact = contacts.hardest(self.states[step], body)
                 spread = np.quantile(touching, QUANTILES, method="inverted_cdf")
-                yield (case, body, quantity, unit, peak, self.times[step], self.phases[step], told, *map(float, spread))
+                yield (case, body, quantity, unit, peak, self.times[step], self.phases[step], contact, *map(float, spread))
 
 
 class Contacts:

@@ -38,13 +38,13 @@ def read(path):
         return {}, {}
     try:
         with open(path, "rb") as file:
-            told = tomllib.load(file)
+            tables = tomllib.load(file)
     except (OSError, tomllib.TOMLDecodeError) as reason:
         fail(f"loads case {path}: {reason}", "give a TOML file with [parameters] and [cases.NAME]")
-    unknown = sorted(told.keys() - {"parameters", "cases"})
+    unknown = sorted(tables.keys() - {"parameters", "cases"})
     if unknown:
         fail(f"loads case {path}: there is no table `{unknown[0]}`", "it has [parameters] and [cases.NAME]")
-    return told.get("parameters", {}), told.get("cases", {})
+    return tables.get("parameters", {}), tables.get("cases", {})
 
 
 def settings(texts):

@@ -89,17 +89,17 @@ def bounce(thrown, mass, stiffness, folder):
 
     mechanism = SimpleNamespace(LOADED=("ball",), run_case=run_case)
     found = loads.run(mechanism, {"slow": {"speed": 0.5}, "fast": {"speed": 1.0}}, folder)
-    told = {(row[0], row[2]): dict(zip(loads.TABLE, row)) for row in found}
+    peaks = {(row[0], row[2]): dict(zip(loads.TABLE, row)) for row in found}
     rate, step = math.sqrt(stiffness / mass), 1e-3
     for name, speed in (("slow", 0.5), ("fast", 1.0)):
-        one = told[name, "force"]
+        one = peaks[name, "force"]
         yield Row(f"loads, {name}: peak force of a bounce", one["peak"], speed * mass * rate, 2e-3, "N")
         yield Limit(f"loads, {name}: time of the peak off by", abs(one["time"] - 0.5 * math.pi / rate), step, "s")
         yield Fact(f"loads, {name}: the contact", one["contact"] == "ball/ball/shell on ground/ground/floor")
     with open(folder / "fast.csv", newline="", encoding="utf-8") as file:
         history = list(csv.DictReader(file))
     greatest = max(float(row["force.ball"]) for row in history)
-    yield Fact("loads: the history has the peak", greatest == told["fast", "force"]["peak"])
+    yield Fact("loads: the history has the peak", greatest == peaks["fast", "force"]["peak"])
     yield Fact("loads: the table is written", (folder / "loads.csv").exists())
 
 

@@ -107,7 +107,7 @@ def test_effects_of_morris_are_those_of_a_linear_function():
         assert one.deviation == pytest.approx(0.0, abs=1e-12) and one.size_high - one.size_low < 1e-9
 
 
-def test_effects_of_morris_tell_an_interaction():
+def test_effects_of_morris_show_an_interaction():
     dispersions = [campaign.Uniform("a", 0.0, 1.0), campaign.Uniform("b", 0.0, 1.0)]
     plan = {"method": "morris", "samples": 2000, "seed": 1}
     x = campaign.design(dispersions, **plan)
@@ -222,7 +222,7 @@ def test_three_parts_multiply():
     assert (found.input.low, found.input.high, found.median) == (100.0, 200.0, 150.0)
     # What is left at the finest step is 0.02/1.02 of it, taken to both sides.
     assert found.numerical.low == pytest.approx(1.02 / 1.08 - 0.02 / 1.02) and found.numerical.high == pytest.approx(1.0 + 0.02 / 1.02)
-    assert "order 1;" in found.numerical.told and "1.96" not in found.model.told
+    assert "order 1;" in found.numerical.basis and "1.96" not in found.model.basis
     assert (found.model.low, found.model.high) == (pytest.approx(0.9), pytest.approx(1.2))
     assert found.low == pytest.approx(100.0 * found.numerical.low * 0.9)
     assert found.high == pytest.approx(200.0 * found.numerical.high * 1.2)
@@ -239,10 +239,10 @@ def test_runs_that_change_places_are_no_error():
     assert found.numerical.variants[0].single in (0.5, 2.0)
 
 
-def test_steps_that_do_not_converge_are_told():
+def test_steps_that_do_not_converge_are_reported():
     base = np.linspace(100.0, 200.0, 20)
     found = campaign.three_parts("load", base, [base * 1.01, base * 1.05], {})
-    assert "no convergence" in found.numerical.told and found.numerical.high > 1.14
+    assert "no convergence" in found.numerical.basis and found.numerical.high > 1.14
 
 
 def test_values_without_a_load():
@@ -325,7 +325,7 @@ def test_alternatives_that_cannot_be_run(tmp_path, cluster):
     plan = plan_of(tmp_path, runs=4)
     law = campaign.OtherLaws("law", force=60.0)
 
-    def asked(**changes):
+    def interval(**changes):
         given = {"plan": plan, "alternatives": [law], "pairs": 2} | changes
         return lambda: campaign.interval(given.pop("plan"), "peak_force.ball", tmp_path / "out", progress=False, **given)
 
@@ -334,16 +334,16 @@ def test_alternatives_that_cannot_be_run(tmp_path, cluster):
     refused(lambda: campaign.OtherLaws("a", force=1.0, exponent=2.0), "exponent is 2.0; give 1.0 or 1.5")
     refused(lambda: campaign.OtherLaws("a", force=1.0, damping_exponent=1.2), "damping_exponent is 1.2")
     refused(lambda: campaign.OtherLaws("a", friction="Coulomb"), "slip_speed belongs to Coulomb")
-    refused(asked(pairs=5), "pairs: it is 5", "1 to 4")
-    refused(asked(halvings=3), "halvings: it is 3")
-    refused(asked(alternatives=["law"]), "give an OtherLaws")
-    refused(asked(alternatives=[law, law]), "its name is that of a folder, once")
-    refused(asked(alternatives=[campaign.OtherLaws("half_step", force=1.0)]), "give another")
-    refused(asked(plan=plan_of(tmp_path, runs=4, method="latin_hypercube")), "are not independent")
+    refused(interval(pairs=5), "pairs: it is 5", "1 to 4")
+    refused(interval(halvings=3), "halvings: it is 3")
+    refused(interval(alternatives=["law"]), "give an OtherLaws")
+    refused(interval(alternatives=[law, law]), "its name is that of a folder, once")
+    refused(interval(alternatives=[campaign.OtherLaws("half_step", force=1.0)]), "give another")
+    refused(interval(plan=plan_of(tmp_path, runs=4, method="latin_hypercube")), "are not independent")
     stiff = [campaign.Uniform("surface.ball.rubber.stiffness", 1e4, 2e4)]
-    refused(asked(plan=plan_of(tmp_path, runs=4, dispersions=stiff)), "its unit is another", "take it out")
+    refused(interval(plan=plan_of(tmp_path, runs=4, dispersions=stiff)), "its unit is another", "take it out")
     (tmp_path / "ball.ron").write_text(BALL.replace("Linear(damping: 30)", "HuntCrossley(dissipation: 0.1, exponent: 1.0)"))
-    refused(asked(), "no surface of the scene", "leave it out")
+    refused(interval(), "no surface of the scene", "leave it out")
 
 
 def test_other_models_of_a_scene_are_alternatives(tmp_path, cluster):
@@ -360,7 +360,7 @@ def test_other_models_of_a_scene_are_alternatives(tmp_path, cluster):
     soft, hard = found.model.variants
     # The peak force is as the root of the stiffness.
     assert soft.low == pytest.approx(math.sqrt(0.5), rel=0.05) and hard.high == pytest.approx(math.sqrt(2.0), rel=0.05)
-    assert (found.model.low, found.model.high) == (soft.low, hard.high) and found.numerical.told == "no finer step was run"
+    assert (found.model.low, found.model.high) == (soft.low, hard.high) and found.numerical.basis == "no finer step was run"
 
 
 def test_factors_of_a_variant_are_those_of_its_ranks():

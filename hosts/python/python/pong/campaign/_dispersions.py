@@ -187,11 +187,11 @@ def scaled(dispersions, method, shares):
     if method != "morris":
         shares = np.minimum((np.floor(shares * _STEPS) + 0.5) / _STEPS, 1.0 - 0.5**53)
     values = np.empty(shares.shape)
-    for place, dispersion in enumerate(dispersions):
+    for j, dispersion in enumerate(dispersions):
         quantile = dispersion.level if method == "morris" else dispersion.at
-        column = shares[:, place]
+        column = shares[:, j]
         # The quantile function of a uniform distribution takes arrays, that of a normal one single numbers.
-        values[:, place] = quantile(column) if isinstance(dispersion, Uniform) else [quantile(share) for share in column]
+        values[:, j] = quantile(column) if isinstance(dispersion, Uniform) else [quantile(share) for share in column]
     return values
 
 

@@ -67,7 +67,7 @@ class Part:
         `input`, `numerical` or `model`.
     low, high : float
         Ends: of `input` in the unit of the quantity, of the others as factors.
-    told : str
+    basis : str
         Origin of the ends, in words.
     variants : list of Variant
         Variants that show it.
@@ -76,7 +76,7 @@ class Part:
     name: str
     low: float
     high: float
-    told: str
+    basis: str
     variants: list
 
 
@@ -106,9 +106,9 @@ class Interval:
 
     def __str__(self):
         head = f"{self.quantity}: median {self.median:.4g}, from {self.low:.4g} to {self.high:.4g} with all three parts"
-        lines = [head, f"input: from {self.input.low:.4g} to {self.input.high:.4g}; {self.input.told}"]
+        lines = [head, f"input: from {self.input.low:.4g} to {self.input.high:.4g}; {self.input.basis}"]
         for part in (self.numerical, self.model):
-            lines.append(f"{part.name}: {percent(part.low)} to {percent(part.high)}; {part.told}")
+            lines.append(f"{part.name}: {percent(part.low)} to {percent(part.high)}; {part.basis}")
             for one in part.variants:
                 text = f"   {one.name}: {percent(one.low)} to {percent(one.high)} in {one.runs} runs"
                 text += f", a single run up to {percent(one.single)} (run {one.single_run})"
@@ -130,12 +130,12 @@ class Interval:
         """
         unit = f" {unit}" if unit else ""
         rows = [f"| {self.quantity} | from | to | shown by |", "|---|---|---|---|"]
-        rows.append(f"| input | {self.input.low:.4g}{unit} | {self.input.high:.4g}{unit} | {self.input.told} |")
+        rows.append(f"| input | {self.input.low:.4g}{unit} | {self.input.high:.4g}{unit} | {self.input.basis} |")
         for part in (self.numerical, self.model):
-            rows.append(f"| {part.name} | {percent(part.low)} | {percent(part.high)} | {part.told} |")
+            rows.append(f"| {part.name} | {percent(part.low)} | {percent(part.high)} | {part.basis} |")
             for one in part.variants:
-                told = f"{one.runs} runs; a single run up to {percent(one.single)}"
-                rows.append(f"| – {one.name} | {percent(one.low)} | {percent(one.high)} | {told} |")
+                shown = f"{one.runs} runs; a single run up to {percent(one.single)}"
+                rows.append(f"| – {one.name} | {percent(one.low)} | {percent(one.high)} | {shown} |")
         rows.append(f"| **together** | **{self.low:.4g}{unit}** | **{self.high:.4g}{unit}** | median {self.median:.4g}{unit} |")
         return "\n".join(rows)
 
@@ -224,14 +224,14 @@ def three_parts(quantity, base, steps, models, *, coverage=0.95, confidence=0.95
     good = base[np.isfinite(base)]
     low, high, reached = tolerance(good, coverage, confidence)
     share = f"with {100 * confidence:g} % confidence at least {100 * math.floor(1e3 * reached) / 1e3:g} % of all runs are inside"
-    told = f"{len(good)} runs; {share}" + ("" if reached >= coverage else ", which more runs raise")
-    inputs = Part("input", low, high, told, [])
+    basis = f"{len(good)} runs; {share}" + ("" if reached >= coverage else ", which more runs raise")
+    inputs = Part("input", low, high, basis, [])
     names = ("half the step", "a quarter of the step")
     variants = [variant(name, base, values, folders) for name, values in zip(names, steps)]
     numerical = numerical_part(base, steps, variants)
     variants = [variant(name, base, values, folders) for name, values in models.items()]
-    told = f"{len(variants)} alternatives" if variants else "no alternative was run"
-    model = Part("model", *hull(variants), told, variants)
+    basis = f"{len(variants)} alternatives" if variants else "no alternative was run"
+    model = Part("model", *hull(variants), basis, variants)
     ends = (low * numerical.low * model.low, high * numerical.high * model.high)
     return Interval(quantity, float(np.median(good)), *ends, inputs, numerical, model)
 
@@ -247,13 +247,13 @@ def variant(name, base, values, folders):
     floor = NEGLIGIBLE * float(np.median(before))
     if not floor > 0.0:
         raise CampaignError(f"variant `{name}`: half of the values or more are not above zero; take a quantity that is")
-    told = np.sort(before) > floor
-    factors = np.sort(values)[told] / np.sort(before)[told]
+    loaded = np.sort(before) > floor
+    factors = np.sort(values)[loaded] / np.sort(before)[loaded]
     single = values[before > floor] / before[before > floor]
     most = int(np.argmax(np.abs(np.log(np.maximum(single, 1e-300)))))
     run = int(both[before > floor][most])
     ends = float(factors.min()), float(factors.max())
-    return Variant(name, str(folders.get(name, "")), len(both), int((~told).sum()), *ends, float(single[most]), run)
+    return Variant(name, str(folders.get(name, "")), len(both), int((~loaded).sum()), *ends, float(single[most]), run)
 
 
 def hull(variants):
@@ -265,8 +265,8 @@ def numerical_part(base, steps, variants):
     """Factors of the finer steps, and the error that the finest one still has."""
     low, high = hull(variants)
     if len(steps) < 2:
-        told = "half the step" if steps else "no finer step was run"
-        return Part("numerical", low, high, told, variants)
+        basis = "half the step" if steps else "no finer step was run"
+        return Part("numerical", low, high, basis, variants)
     h, half, quarter = (np.sort(values) for values in paired(base, *steps))
     coarse, fine = float(np.abs(half - h).mean()), float(np.abs(quarter - half).mean())
     if fine == 0.0:
@@ -275,8 +275,8 @@ def numerical_part(base, steps, variants):
     used = min(max(order, ORDERS[0]), ORDERS[1])
     left = fine / (2.0**used - 1.0) / float(np.abs(quarter).mean())
     converges = f"order {order:.2g}" if order >= ORDERS[0] else "no convergence at these steps"
-    told = f"step halved twice, {converges}; {100 * left:.2g} % left at the finest step"
-    return Part("numerical", max(low - left, 0.0), high + left, told, variants)
+    basis = f"step halved twice, {converges}; {100 * left:.2g} % left at the finest step"
+    return Part("numerical", max(low - left, 0.0), high + left, basis, variants)
 
 
 def paired(base, *others):
@@ -330,8 +330,8 @@ def interval(plan, quantity, folder, *, alternatives=(), pairs=10, halvings=2, c
     step = plan.step if plan.step is not None else pong.Scene.load(plan.scene).step
     wanted = [("plan", folder / "plan", plan, plan.runs)]
     halved = [("half the step", "half_step"), ("a quarter of the step", "quarter_step")][:halvings]
-    for place, (name, where) in enumerate(halved, 1):
-        wanted.append((name, folder / where, replace(plan, step=step / 2**place), pairs))
+    for halving, (name, where) in enumerate(halved, 1):
+        wanted.append((name, folder / where, replace(plan, step=step / 2**halving), pairs))
     for one in alternatives:
         wanted.append((one.name, folder / one.name, _alternatives.plan_with(plan, one, folder / one.name / "models"), pairs))
     found = {}

@@ -27,7 +27,7 @@ def library(name):
 
 def problem(width):
     """The unit cube, as SALib wants it."""
-    return {"num_vars": width, "names": [str(place) for place in range(width)], "bounds": [[0.0, 1.0]] * width}
+    return {"num_vars": width, "names": [str(column) for column in range(width)], "bounds": [[0.0, 1.0]] * width}
 
 
 def block(method, width):

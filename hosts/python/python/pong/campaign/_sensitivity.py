@@ -106,11 +106,11 @@ class Sensitivity:
             if index.quantity != quantity:
                 quantity = index.quantity
                 lines.append(f"{quantity}")
-            lines.append(f"  {index.parameter:{width}}  {told(index)}")
+            lines.append(f"  {index.parameter:{width}}  {text_of(index)}")
         return "\n".join(lines)
 
 
-def told(index):
+def text_of(index):
     """An index as text."""
     if isinstance(index, SobolIndex):
         first = f"alone {index.first:.3f} ({index.first_low:.3f} to {index.first_high:.3f})"
