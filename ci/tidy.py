@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import circles
+import credibility
 import openings
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -207,10 +208,14 @@ def doc_comments():
     yield from openings.check(ROOT)
 
 
+def counts_of_credibility():
+    yield from credibility.check(ROOT)
+
+
 def main():
     checks = (
         arrows, circles_of_files, unsafe_code, platform_mathematics, file_lengths, dead_links, theory_citations, retired_words,
-        long_lines, units, frames_of_vectors, doc_comments,
+        long_lines, units, frames_of_vectors, doc_comments, counts_of_credibility,
     )
     problems = [problem for check in checks for problem in check()]
     for problem in problems:

@@ -6,6 +6,8 @@
     python3 mechanisms/run.py NAME --log DIR    a response log of the scene that the mechanism shows
     python3 mechanisms/run.py NAME --log DIR --drawn    with bodies that touch nothing, for viewers and films
     python3 mechanisms/run.py NAME --campaign DIR --runs 1000      dispersed runs; rows go to DIR, what is there stays
+    python3 mechanisms/run.py NAME --loads DIR --case FILE         loads of the cases of a file (kit/loads.py)
+    python3 mechanisms/run.py NAME --set CHASER_MASS=13e3 …        any of these with another number (kit/parameters.py)
 
 Needs mujoco, numpy, the wheel pong (docs/python.md) and the plugin (docs/mujoco.md): its file in the variable PLUGIN, or
 the wheel pong_mujoco; for campaigns the wheel pong with [campaign] (docs/campaigns.md).
@@ -34,8 +36,14 @@ def main():
     parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", action="store_true", help="the worst case goes to worst_case.json of the mechanism")
+    parser.add_argument("--case", type=pathlib.Path, metavar="FILE", help="loads-case file: parameters and cases")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="a constant of dimensions.py")
+    parser.add_argument("--loads", type=pathlib.Path, metavar="DIR", help="loads of the cases: checks nothing else")
     given = parser.parse_args()
     sys.path[:0] = [str(HERE / given.name), str(HERE)]
+    cases = take_parameters(given)
+    if given.loads:
+        sys.exit(run_loads(given, cases, parser))
     if given.campaign:
         sys.exit(run_campaign(given, parser))
     import outcome
@@ -57,6 +65,29 @@ def main():
     if off:
         sys.exit(f"{given.name}: {off} of its checks do not hold")
     print(f"{given.name}: all checks hold")
+
+
+def take_parameters(given):
+    """Replaces constants as the loads-case file and the command line say, and returns the cases of the file."""
+    from kit import parameters
+
+    changed, cases = parameters.read(given.case)
+    changed |= parameters.settings(given.set)
+    if changed:
+        parameters.install(HERE / given.name, changed)
+    return cases
+
+
+def run_loads(given, cases, parser):
+    from kit import loads
+
+    if not (HERE / given.name / "loads.py").exists():
+        parser.error(f"{given.name} has no loads: it lacks the file loads.py")
+    import loads as mechanism
+
+    if not hasattr(mechanism, "run_case"):
+        parser.error(f"the loads of {given.name} are a program of their own: mechanisms/{given.name}/loads.py")
+    print("\n".join(loads.shown(loads.run(mechanism, cases, given.loads))))
 
 
 def run_campaign(given, parser):

@@ -63,6 +63,16 @@ HOOK_OPEN = 1.2  # rad from where its arm lies across the axis
 # --- pushers: chosen --------------------------------------------------------------------------------------------------
 PUSHERS, PUSHER_RADIUS, PUSHER_LENGTH, PUSHER_STIFFNESS = 3, 0.730, 0.080, 2e3
 
+# Values of surfaces in model files (kit/parameters.py): file, surface, and the path of the value.
+_ACTIVE = "mechanisms/docking/hard_active.ron"
+ON_SURFACES = {
+    "HARD_PAD_STIFFNESS": [(_ACTIVE, "pad", "stiffness")],
+    "HARD_PAD_DAMPING": [(_ACTIVE, "pad", "normal", "Linear", "damping")],
+    "HOOK_STIFFNESS": [(_ACTIVE, "hook", "stiffness")],
+    "HOOK_DAMPING": [(_ACTIVE, "hook", "normal", "Linear", "damping")],
+    "PUSHER_STIFFNESS": [(_ACTIVE, "pusher", "stiffness")],
+}
+
 # --- retraction -------------------------------------------------------------------------------------------------------
 EXTENDED = IDSS.RING_EXTENSION
 MATED = HARD_FACE  # height of the ring's face when the hard faces meet

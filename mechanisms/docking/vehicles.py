@@ -5,7 +5,7 @@ import math
 import dimensions as d
 import numpy as np
 import stewart
-from kit import mjcf
+from kit import mjcf, parameters
 from kit.machine import Machine
 from kit.mjcf import numbers
 
@@ -81,7 +81,7 @@ def actuators(hard):
 
 def without_pusher():
     """Hard model of the chaser with pusher 0 too short to reach anything."""
-    text = " ".join((d.ROOT / HARD["hard_chaser"]).read_text().split())
+    text = " ".join((d.ROOT / parameters.with_surfaces(HARD, d.ROOT)["hard_chaser"]).read_text().split())
     before, after = text.split('name: "pusher_0"')
     return before + 'name: "pusher_0"' + after.replace(f"length: {d.PUSHER_LENGTH}", "length: 1e-4", 1)
 
@@ -92,7 +92,8 @@ def machine(level, hard=True, drawn=None, assets="", dead_pusher=False, petals=T
     `dead_pusher`: pusher 0 does not push. Without `petals` these, strikers and latches touch nothing.
     `kind`: of machine, for other contacts.
     """
-    objects = {**SOFT, **(HARD if hard else {}), **({"hard_chaser": "text1"} if dead_pusher else {})}
+    objects = parameters.with_surfaces({**SOFT, **(HARD if hard else {})}, d.ROOT)
+    objects |= {"hard_chaser": "text1"} if dead_pusher else {}
     texts = [without_pusher()] if dead_pusher else []
     carried = {"chaser/ring": "ring", **{f"chaser/ring/latch_{i}": f"latch_{i}" for i in LATCHES}}
     carriers = ["chaser", "ring", *[f"latch_{i}" for i in LATCHES], "target"]

@@ -17,6 +17,8 @@ from statistics import NormalDist
 
 import numpy as np
 
+from kit import parameters
+
 CHUNK = 4  # runs that a worker takes at once
 
 
@@ -105,9 +107,12 @@ def read(study, path):
 
 
 def same_plan(study, folder, seed):
-    """Checks that the folder belongs to this campaign: its rows are those of one study and one seed."""
+    """Checks that the folder belongs to this campaign: its rows are those of one study, one seed, and the same parameters."""
     dispersed = {name: repr(spread) for name, spread in study.dispersed.items()}
     plan, path = {"mechanism": study.name, "seed": seed, "dispersed": dispersed}, folder / "plan.json"
+    changed = parameters.installed()[1]
+    if changed:
+        plan["parameters"] = changed
     if path.exists() and json.loads(path.read_text(encoding="utf-8")) != plan:
         sys.exit(f"{folder} has rows of another campaign; name another folder")
     path.write_text(json.dumps(plan, indent=1) + "\n", encoding="utf-8")
@@ -141,5 +146,5 @@ def _computed(job, runs, workers):
     if workers == 1:
         yield from map(job, runs)
         return
-    with multiprocessing.get_context("spawn").Pool(workers) as pool:
+    with multiprocessing.get_context("spawn").Pool(workers, parameters.again, parameters.installed()) as pool:
         yield from pool.imap_unordered(job, runs, CHUNK)

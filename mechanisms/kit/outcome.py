@@ -1,7 +1,7 @@
 """Outcomes of the energy account under each integrator, and their predictions. Run by mechanisms/run.py, as a mechanism
 is."""
 
-from kit import mjcf, ron
+from kit import mjcf, parameters_check, ron
 from kit.machine import Machine
 from kit.rows import Limit, Row
 
@@ -166,3 +166,5 @@ def account(integrator):
 def rows(thorough):
     for integrator in INTEGRATORS:
         yield f"account of energy, {integrator}", account(integrator)
+    thrown = lambda speed: moving(ball("RK4", height=RADIUS), 0.0, -speed)  # noqa: E731
+    yield "loads cases", parameters_check.rows(thrown, MASS, STIFFNESS)

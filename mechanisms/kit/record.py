@@ -16,6 +16,32 @@ STATE = 13  # position, quaternion, velocity of the origin, angular velocity
 SENSED_BEFORE_WRENCHES = 3
 
 
+class World:
+    """A contact world of the wheel `pong` with the Objects and pairs of the plugin's instance, and the states of its bodies."""
+
+    def __init__(self, machine, drawn=()):
+        keys = _keys(machine.text)
+        self.machine = machine
+        self.world = _world(keys, figure.model(machine.model, drawn) if drawn else None)
+        self.bodies = [_body(machine.model, keys, _group(made.name)) for made in self.world.interfaces]
+        self.states = np.zeros((len(self.bodies), STATE))
+
+    def at(self):
+        """The world, evaluated at the present states."""
+        self.move()
+        self.world.evaluate()
+        return self.world
+
+    def move(self):
+        """Sets the present states."""
+        model, data, velocity = self.machine.model, self.machine.data, np.empty(6)
+        for state, body in zip(self.states, self.bodies):
+            mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, velocity, 0)
+            state[:3], state[3:7] = data.xpos[body], data.xquat[body]
+            state[7:10], state[10:] = velocity[3:], velocity[:3]
+        self.world.set_states(self.states)
+
+
 class Recorder:
     """Watcher of every step of a `Machine`; each `every`-th is a row of the log.
 
@@ -24,20 +50,16 @@ class Recorder:
     """
 
     def __init__(self, machine, folder, every=1, drawn=()):
-        keys = _keys(machine.text)
-        self.world = _world(keys, figure.model(machine.model, drawn) if drawn else None)
+        self.beside = World(machine, drawn)
+        self.world = self.beside.at()
         self.machine, self.every, self.steps, self.off = machine, every, 0, 0.0
-        self.bodies = [_body(machine.model, keys, _group(made.name)) for made in self.world.interfaces]
-        self.states = np.zeros((len(self.bodies), STATE))
-        self._move()
-        self.world.evaluate()
         # Created first: the writer creates a folder, but not its parents.
         pathlib.Path(folder).parent.mkdir(parents=True, exist_ok=True)
         self.world.start_log(folder, name=machine.name, step=machine.step, commits_per_frame=every, overwrite=True)
         self.world.log_frame(machine.time)
 
     def __call__(self, machine):
-        self._move()
+        self.beside.move()
         self.world.step()
         self._compare()
         self.steps += 1
@@ -47,14 +69,6 @@ class Recorder:
     def close(self):
         """Closes the log and returns its number of rows."""
         return self.world.stop_log()
-
-    def _move(self):
-        model, data, velocity = self.machine.model, self.machine.data, np.empty(6)
-        for state, body in zip(self.states, self.bodies):
-            mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, velocity, 0)
-            state[:3], state[3:7] = data.xpos[body], data.xquat[body]
-            state[7:10], state[10:] = velocity[3:], velocity[:3]
-        self.world.set_states(self.states)
 
     def _compare(self):
         machine = self.machine

@@ -37,7 +37,7 @@ def build(job):
         raise CampaignError(f"scene `{path}`: {cause}; bring it back, or begin another campaign")
     try:
         simulation = pong.Scene.parse(text, name=path, folder=os.path.dirname(path))
-        simulation = simulation.build(step=job["step"], integrator=job["integrator"])
+        simulation = simulation.build(step=job["step"], integrator=job["integrator"], alternative=job["alternative"])
     except pong.PongError as reason:
         raise CampaignError(f"scene `{path}`: it cannot be built on the worker {where()}: {reason}; {cure}") from None
     if job["scene_hash"] is not None and simulation.scene_hash != job["scene_hash"]:

@@ -1,7 +1,8 @@
 """Dispersions: parameters with their distributions, and the values of every run.
 
 The values of a run depend on the seed, the number of the run and the place of the dispersion in the list; for
-`latin_hypercube` also on how many runs there are. They do not depend on workers or on the order of runs.
+`latin_hypercube`, `sobol` and `morris` also on how many runs there are. They do not depend on workers or on the order of
+runs.
 """
 
 import itertools
@@ -11,6 +12,7 @@ from statistics import NormalDist
 
 import numpy as np
 
+from . import _samplers
 from ._errors import CampaignError
 
 
@@ -27,7 +29,7 @@ def take_numbers(entry, *names):
     for name in names:
         object.__setattr__(entry, name, number(getattr(entry, name)))
 
-METHODS = ("random", "latin_hypercube", "corners")
+METHODS = ("random", "latin_hypercube", "corners", "sobol", "morris")
 
 
 @dataclass(frozen=True)
@@ -73,6 +75,20 @@ class Uniform:
         """Returns the values at the corners: both ends of the interval."""
         return self.low, self.high
 
+    def level(self, share):
+        """Returns the value at a level of the grid of Morris, from the lower end to the upper one.
+
+        Parameters
+        ----------
+        share : float
+            Place on the grid, from 0 to 1.
+
+        Returns
+        -------
+        float
+        """
+        return self.at(share)
+
 
 @dataclass(frozen=True)
 class Normal:
@@ -117,6 +133,20 @@ class Normal:
         """Returns the values at the corners, three standard deviations from the mean."""
         return self.mean - 3 * self.deviation, self.mean + 3 * self.deviation
 
+    def level(self, share):
+        """Returns the value at a level of the grid of Morris, which is that of a uniform distribution of the same deviation.
+
+        Parameters
+        ----------
+        share : float
+            Place on the grid, from 0 to 1.
+
+        Returns
+        -------
+        float
+        """
+        return self.mean + math.sqrt(3.0) * self.deviation * (2.0 * share - 1.0)
+
 
 def kind_of(dispersion):
     return type(dispersion).__name__
@@ -139,6 +169,8 @@ def values(plan):
     if plan.method == "corners":
         ends = [dispersion.ends() for dispersion in plan.dispersions]
         return np.array(list(itertools.product(*ends)), dtype=float).reshape(count, width)
+    if plan.method in ("sobol", "morris"):
+        return scaled(plan.dispersions, plan.method, _samplers.shares(plan.method, width, plan.samples, plan.seed))
     if plan.method == "latin_hypercube":
         shares = np.empty((count, width))
         for place in range(width):
@@ -147,9 +179,20 @@ def values(plan):
             shares[:, place] = (rng.permutation(count) + rng.random(count)) / count
     else:
         shares = np.array([np.random.Generator(np.random.PCG64([plan.seed, run])).random(width) for run in range(count)])
-    shares = (np.floor(shares.reshape(count, width) * _STEPS) + 0.5) / _STEPS
-    shares = np.minimum(shares, 1.0 - 0.5**53)
-    return np.array([[d.at(share) for d, share in zip(plan.dispersions, row)] for row in shares]).reshape(count, width)
+    return scaled(plan.dispersions, plan.method, shares.reshape(count, width))
+
+
+def scaled(dispersions, method, shares):
+    """Values of the dispersions at points of the unit cube."""
+    if method != "morris":
+        shares = np.minimum((np.floor(shares * _STEPS) + 0.5) / _STEPS, 1.0 - 0.5**53)
+    values = np.empty(shares.shape)
+    for j, dispersion in enumerate(dispersions):
+        quantile = dispersion.level if method == "morris" else dispersion.at
+        column = shares[:, j]
+        # The quantile function of a uniform distribution takes arrays, that of a normal one single numbers.
+        values[:, j] = quantile(column) if isinstance(dispersion, Uniform) else [quantile(share) for share in column]
+    return values
 
 
 def corner_count(dispersions):

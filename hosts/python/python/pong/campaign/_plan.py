@@ -5,6 +5,7 @@ import os
 from dataclasses import asdict, dataclass, field
 
 from . import _dispersions as dispersions_of
+from . import _samplers
 from . import _stops as stops_of
 from ._criteria import Within, triple
 from ._errors import CampaignError
@@ -38,11 +39,14 @@ class Plan:
     dispersions : list of Uniform or Normal
         Parameters that differ from run to run.
     runs : int
-        Number of runs; left out for `corners`.
+        Number of runs; left out for `corners`, `sobol` and `morris`.
     seed : int, default 0
         Seed of the values.
-    method : {"random", "latin_hypercube", "corners"}, default "random"
-        Method that draws the values; `corners` takes every combination of both ends.
+    method : {"random", "latin_hypercube", "corners", "sobol", "morris"}, default "random"
+        Method that draws the values; `corners` takes every combination of both ends, `sobol` and `morris` are for
+        sensitivity indices.
+    samples : int, optional
+        Number of base points of `sobol`, a power of two, or of trajectories of `morris`.
     criteria : list of Within, optional
         Criteria of success.
     pivots : dict, optional
@@ -58,6 +62,8 @@ class Plan:
         Conditions that end a run before its duration is over.
     look_every : float, default 0.1
         Interval of their checks, s.
+    alternative : str, optional
+        Name of one of the scene's `alternatives`: other files for some of its models.
 
     Raises
     ------
@@ -77,10 +83,12 @@ class Plan:
     integrator: str | None = None
     stops: list = field(default_factory=list)
     look_every: float = 0.1
+    samples: int = 0
+    alternative: str | None = None
 
     def __post_init__(self):
         # The path is kept as given: the worker resolves symbolic links.
-        dispersions_of.take_numbers(self, "runs", "seed", "duration", "step", "look_every")
+        dispersions_of.take_numbers(self, "runs", "seed", "duration", "step", "look_every", "samples")
         object.__setattr__(self, "scene", os.path.abspath(self.scene))
         kinds = (dispersions_of.Uniform, dispersions_of.Normal)
         object.__setattr__(self, "dispersions", listed("dispersions", kinds, self.dispersions))
@@ -92,6 +100,8 @@ class Plan:
         self._check()
         if self.method == "corners":
             object.__setattr__(self, "runs", dispersions_of.corner_count(self.dispersions))
+        elif self.method in ("sobol", "morris"):
+            object.__setattr__(self, "runs", self.samples * _samplers.block(self.method, len(self.dispersions)))
 
     def _check(self):
         problems = []
@@ -101,8 +111,16 @@ class Plan:
             problems.append(f"method: there is no `{self.method}`; give one of {', '.join(dispersions_of.METHODS)}")
         elif self.method == "corners" and self.runs not in (0, 2 ** len(self.dispersions)):
             problems.append(f"runs: corners of {len(self.dispersions)} dispersions are no {self.runs} runs; leave it out")
+        elif self.method in ("sobol", "morris"):
+            fault = _samplers.fault(self.method, self.samples, len(self.dispersions))
+            if fault:
+                problems.append(f"samples: {fault}")
+            elif self.runs not in (0, self.samples * _samplers.block(self.method, len(self.dispersions))):
+                problems.append(f"runs: they follow from samples for the method `{self.method}`; leave them out")
         elif self.method != "corners" and self.runs < 1:
             problems.append(f"runs: it is {self.runs}; give at least 1")
+        if self.method not in ("sobol", "morris") and self.samples != 0:
+            problems.append(f"samples: the method `{self.method}` has none; leave it out, or give the method sobol or morris")
         if not (isinstance(self.seed, int) and self.seed >= 0):
             problems.append(f"seed: it is {self.seed!r}; give a whole number from 0 up")
         names = [dispersion.parameter for dispersion in self.dispersions]
@@ -136,6 +154,10 @@ class Plan:
         entry = asdict(self)
         entry["dispersions"] = [{"kind": dispersions_of.kind_of(d), **asdict(d)} for d in self.dispersions]
         entry["stops"] = [{"kind": type(stop).__name__, **asdict(stop)} for stop in self.stops]
+        # Plans of earlier versions have neither.
+        for name, value in (("samples", 0), ("alternative", None)):
+            if entry[name] == value:
+                del entry[name]
         # JSON has no infinity.
         for criterion in entry["criteria"]:
             criterion["speed"] = None if math.isinf(criterion["speed"]) else criterion["speed"]
@@ -160,6 +182,6 @@ class Plan:
             Within(**c | {"speed": math.inf if c["speed"] is None else c["speed"]}) for c in entry["criteria"]
         ]
         entry["stops"] = [stops_of.from_json(stop) for stop in entry["stops"]]
-        if entry["method"] == "corners":
+        if entry["method"] in ("corners", "sobol", "morris"):
             entry["runs"] = 0
         return cls(**entry)

@@ -20,7 +20,7 @@ def job_of(plan, digest=None, scene_hash=None):
     """Data of a plan that a worker needs."""
     entry = plan.to_json()
     keys = ("scene", "step", "integrator", "duration", "criteria", "stops", "look_every", "pivots")
-    job = {key: entry[key] for key in keys} | {"parameters": plan.parameters, "scene_hash": scene_hash}
+    job = {key: entry[key] for key in keys} | {"alternative": plan.alternative, "parameters": plan.parameters, "scene_hash": scene_hash}
     try:
         job["digest"] = _case.read(plan.scene)[1] if digest is None else digest
     except (OSError, UnicodeDecodeError) as reason:
@@ -87,29 +87,30 @@ def run(plan, folder, *, workers=None, scheduler=None, runs_per_task=1, progress
     for thing, given in (("workers", 1 if workers is None else workers), ("runs_per_task", runs_per_task)):
         if not (isinstance(given, int) and given >= 1):
             raise CampaignError(f"{thing}: it is {given!r}; give a whole number from 1 up")
-    job = checked(plan)
-    with store.locked():
-        store.begin(plan, job, pong.__version__)
-        finish(store, plan, job, (workers, scheduler), runs_per_task, progress)
+    with contextlib.ExitStack() as stack:
+        perform(plan, store, plan.runs, lambda: stack.enter_context(client(workers, scheduler)), runs_per_task, progress)
     return store.table()
 
 
-def finish(store, plan, job, hands, runs_per_task, progress):
-    """Runs the unfinished runs of a campaign."""
-    values = _dispersions.values(plan)
-    done = store.done()
-    left = [index for index in range(plan.runs) if index not in done]
-    tasks = [left[first : first + runs_per_task] for first in range(0, len(left), runs_per_task)]
-    bar = Progress(plan.runs, len(done), len(store.failures())) if progress else None
-    if tasks:
-        with client(*hands) as connected:
+def perform(plan, store, count, connect, runs_per_task, progress):
+    """Runs the unfinished ones of the first runs of a plan. `connect` returns a client, and is called if there are any."""
+    job = checked(plan)
+    with store.locked():
+        store.begin(plan, job, pong.__version__)
+        values = _dispersions.values(plan)
+        done = store.done()
+        left = [index for index in range(count) if index not in done]
+        tasks = [left[first : first + runs_per_task] for first in range(0, len(left), runs_per_task)]
+        bar = Progress(count, count - len(left), len(store.failures())) if progress else None
+        if tasks:
+            connected = connect()
             refuse_unless_ready(connected, job)
             for rows in finished(connected, job, tasks, values):
                 store.add(rows)
                 if bar:
                     bar.count(rows)
-    if bar:
-        bar.end()
+        if bar:
+            bar.end()
 
 
 @contextlib.contextmanager

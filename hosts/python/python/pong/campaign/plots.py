@@ -3,6 +3,8 @@
 import numpy as np
 
 from ._errors import CampaignError
+from ._sensitivity import SobolIndex
+from ._sensitivity import indices as indices_of_campaign
 from ._store import Store
 from ._summary import QUANTILES, quantile_interval, wilson
 
@@ -116,4 +118,39 @@ def share(folder, parameter, criterion, *, bins=12, confidence=0.95):
             axes.plot([middle, middle], [low, high], color="black", linewidth=1)
             axes.plot(middle, inside.mean(), "o", color="tab:blue", markersize=4)
     axes.set(xlabel=label, ylabel=f"share {criterion}, {100 * confidence:g} % confidence", ylim=(0, 1.02))
+    return figure
+
+
+def indices(folder, quantity, *, confidence=0.95):
+    """Plots the sensitivity indices of a quantity as bars with their intervals, the most important parameter on top.
+
+    Parameters
+    ----------
+    folder : path_like
+        Folder of a campaign with the method `sobol` or `morris`.
+    quantity : str
+        Column of the results.
+    confidence : float, default 0.95
+        Confidence of the intervals.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    found = indices_of_campaign(folder, quantities=[quantity], confidence=confidence).indices
+    if not found:
+        raise CampaignError(f"quantity `{quantity}`: it is the same in all runs; take another")
+    of_variance = isinstance(found[0], SobolIndex)
+    kinds = ("total", "first") if of_variance else ("size",)
+    figure, axes = _figure()
+    places = np.arange(len(found), dtype=float)
+    for number, kind in enumerate(kinds):
+        values, low, high = (np.array([getattr(one, kind + end) for one in found]) for end in ("", "_low", "_high"))
+        height = 0.8 / len(kinds)
+        label = {"total": "in total", "first": "alone", "size": "mean magnitude of the effects"}[kind]
+        axes.barh(places + number * height, values, height, xerr=[values - low, high - values], label=label, capsize=2)
+    axes.set_yticks(places, [one.parameter for one in found])
+    axes.invert_yaxis()
+    axes.set(xlabel=f"share of the variance of {quantity}" if of_variance else f"effect on {quantity}")
+    axes.legend(title=f"{100 * confidence:g} % confidence")
     return figure
