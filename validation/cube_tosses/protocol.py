@@ -25,7 +25,6 @@ class Case:
     number: int
     start: np.ndarray  # 13 numbers
     measured: np.ndarray  # frames × 13, the first one at the start
-    first: int  # first frame whose error counts
 
 
 def first_frame(toss):
@@ -65,12 +64,12 @@ def whole_tosses(tosses, numbers, corrected=False):
     for number in numbers:
         frame = first_frame(tosses[number])
         start = start_state(tosses[number], frame, corrected)
-        cases.append(Case(number, start, tosses[number][frame:], 0))
+        cases.append(Case(number, start, tosses[number][frame:]))
     return cases
 
 
 def after_touch(tosses, numbers, horizon=HORIZON):
-    """Cases that end `horizon` after the touch, with corrected starts; errors count from the touch on."""
+    """Cases that end `horizon` after the touch, with corrected starts."""
     cases = []
     for number in numbers:
         frame = first_frame(tosses[number])
@@ -78,13 +77,13 @@ def after_touch(tosses, numbers, horizon=HORIZON):
         touch = touch_frame(measured)
         if touch is not None:
             end = touch + round(horizon / FRAME) + 1
-            cases.append(Case(number, start_state(tosses[number], frame, True), measured[:end], touch))
+            cases.append(Case(number, start_state(tosses[number], frame, True), measured[:end]))
     return cases
 
 
 @dataclass(frozen=True)
 class Errors:
-    """Errors of one run, means over its frames."""
+    """Errors of one run, means over its frames from the start on."""
 
     e_q: float  # the published metric
     place: float  # of the edge
@@ -93,7 +92,7 @@ class Errors:
 
 def errors(case, poses):
     """Errors of simulated poses (frames × 7) against the measured ones."""
-    measured, poses = case.measured[case.first :, :7], poses[case.first :, :7]
+    measured = case.measured
     away = np.linalg.norm(poses[:, POSITION] - measured[:, POSITION], axis=1)
     turn = rotation.angle_between(measured[:, ORIENTATION], poses[:, ORIENTATION])
     return Errors(
