@@ -97,6 +97,17 @@ def load(path=FOUND):
     return entries
 
 
+def known(engine, body, window, path=FOUND):
+    """Values to begin a search with: of the same engine with the simpler body, else with the same body in the other window."""
+    simpler = {"inertia": "published", "round": "inertia"}.get(body)
+    for place in ((engine, simpler, window), (engine, body, "touch")):
+        for entry in load(path) if Path(path).exists() else []:
+            if (entry.engine, entry.body, entry.window) == place and place != (engine, body, window):
+                own = {"inertia": entry.inertia} if entry.body != "published" else {}
+                return {**entry.values, **own}
+    return None
+
+
 def save(entries, path=FOUND):
     """Writes entries; those of the same engine, body and window replace what is in the file."""
     path = Path(path)

@@ -2,7 +2,9 @@
 
 import atexit
 import contextlib
+import ctypes
 import os
+import sys
 import tempfile
 from pathlib import Path
 
@@ -25,16 +27,18 @@ TABLE = """<robot name="table"><link name="base">
 
 
 def quietly(name, of):
-    """Imports a package that writes to the standard output when it is loaded."""
-    import sys
-
+    """Imports a package that writes to the terminal when it is loaded."""
     sys.stdout.flush()
     with contextlib.ExitStack() as undo:
-        kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+        nowhere = os.open(os.devnull, os.O_WRONLY)
         undo.callback(os.close, nowhere)
-        undo.callback(os.close, kept)
-        undo.callback(os.dup2, kept, 1)
-        os.dup2(nowhere, 1)
+        for stream in (1, 2):
+            kept = os.dup(stream)
+            undo.callback(os.close, kept)
+            undo.callback(os.dup2, kept, stream)
+            os.dup2(nowhere, stream)
+        # Text that C has buffered goes nowhere, too.
+        undo.callback(ctypes.CDLL(None).fflush, None)
         return package(name, of)
 
 
