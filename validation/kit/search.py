@@ -20,7 +20,7 @@ class Free:
 
     def of_unit(self, unit):
         """Value of a number from 0 to 1; numbers beyond count as the bound."""
-        unit = min(max(unit, 0.0), 1.0)
+        unit = min(max(float(unit), 0.0), 1.0)
         if self.low > 0:
             return float(np.exp(np.log(self.low) + unit * (np.log(self.high) - np.log(self.low))))
         return self.low + unit * (self.high - self.low)
