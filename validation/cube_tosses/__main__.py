@@ -100,12 +100,14 @@ def report(tosses, given, chosen):
             cases = identify.WINDOWS[part](tosses, test)
             results, absent, seconds = study.follow_all(list(study.found(part, chosen)) + carried(part, chosen), cases, title)
             missing.update(absent)
-            if results:
-                say(f"## {title}: {len(cases)} test tosses, {seconds:.0f} s\n")
-                say(study.comparison(results))
-                say(study.parameters(results))
-                say(markdown(["engine, law; body", "same face at the end, %"], [[one.title, f"{100 * one.same_face.mean():.0f}"] for one in results]) if part == "whole" else "")
-                groups.append((title, results))
+            say(f"## {title}: {len(cases)} test tosses, {seconds:.0f} s\n")
+            for text, of_body in study.by_body(results):
+                say(f"### {text}\n")
+                say(study.comparison(of_body))
+                say(study.parameters(of_body))
+                groups.append((f"{title}: {text[0].lower()}{text[1:]}", of_body))
+                if part == "whole":
+                    say("same face at the end: " + ", ".join(f"{one.title} {100 * one.same_face.mean():.0f} %" for one in of_body) + "\n")
     if "steps" in parts:
         say("## Steps: distance from a run at 0.017 ms, the first 0.15 s, medians\n")
         say(steps(tosses, test))
@@ -120,7 +122,7 @@ def carried(part, chosen):
     """Parameters of the first 0.15 s, used over whole tosses."""
     if part != "whole":
         return []
-    return [(f"{title} (parameters of the first 0.15 s)", maker, entry) for title, maker, entry in study.found("touch", chosen) if entry.body != "published"]
+    return [one for one in study.found("touch", chosen) if one[2].body != "published"]
 
 
 def steps(tosses, test):
@@ -145,8 +147,7 @@ def write(folder, lines, groups):
     if groups:
         named = [(title, [(one.title, interval(one.e_q)) for one in results]) for title, results in groups]
         drawn = plots.intervals(folder / "errors.svg", named, "e_q, mean of the test tosses with 95 % interval")
-        shown = [one for one in groups[-1][1] if one.entry.body != "published"][:6] or groups[-1][1][:6]
-        drawn = drawn and plots.distributions(folder / "distributions.svg", [(one.title, one.e_q) for one in shown], "e_q of a toss")
+        drawn = drawn and plots.distributions(folder / "distributions.svg", [(one.title, one.e_q) for one in groups[-1][1]], "e_q of a toss")
         if not drawn:
             print("no plots: matplotlib is not installed")
     print(f"{folder}: {', '.join(sorted(path.name for path in folder.iterdir()))}")

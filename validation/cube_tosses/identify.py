@@ -124,7 +124,7 @@ def save(entries, path=FOUND):
 
 
 def _rounded(thing):
-    """The same data with numbers of six significant digits."""
+    """Returns the data with numbers of six significant digits."""
     if isinstance(thing, dict):
         return {name: _rounded(one) for name, one in thing.items()}
     if isinstance(thing, list):

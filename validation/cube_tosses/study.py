@@ -14,7 +14,7 @@ from validation.kit.statistics import interval, paired
 from validation.kit.tables import markdown
 
 PUBLISHED = Path(__file__).with_name("published.json")
-BODY_TEXT = {"published": "published", "inertia": "inertia found", "round": "inertia found, round corners"}
+BODY_TEXT = {"published": "Published body", "inertia": "Inertia found", "round": "Inertia found, round corners, table where the cubes rest"}
 
 
 @dataclass
@@ -75,7 +75,15 @@ def found(window, chosen=None):
     """Engines with found parameters, as (title, maker, entry)."""
     for entry in identify.load():
         if entry.window == window and (not chosen or entry.engine in chosen):
-            yield f"{make(entry.engine).title}; {BODY_TEXT[entry.body]}", entry.made, entry
+            yield make(entry.engine).title, entry.made, entry
+
+
+def by_body(results):
+    """Results with the same body, as (text, results)."""
+    for body, text in BODY_TEXT.items():
+        of_body = [one for one in results if one.entry.body == body]
+        if of_body:
+            yield text, of_body
 
 
 def comparison(results, reference=0):
@@ -87,7 +95,7 @@ def comparison(results, reference=0):
             one.title, interval(one.e_q).text(4), f"{100 * one.place.mean():.2f}", f"{np.degrees(one.turn.mean()):.2f}",
             f"{np.median(one.e_q):.4f}", apart,
         ])
-    head = ["engine, law; body", "e_q", "place, % of the edge", "rotation, °", "median e_q", f"e_q less that of {results[reference].title.split(';')[0]}"]
+    head = ["engine, law", "e_q", "place, % of the edge", "rotation, °", "median e_q", f"e_q less that of {results[reference].title}"]
     return markdown(head, rows)
 
 
@@ -105,5 +113,5 @@ def parameters(results):
         peak = f"{force[0]:.0f} to {force[1]:.0f}" if force else ""
         rows.append([one.title, values, body, ", ".join(entry.at_bound), span, peak])
     return markdown(
-        ["engine, law; body", "parameters", "inertia, kg·m²", "at a bound", "stiffness within one standard error", "median peak force there, N"], rows
+        ["engine, law", "parameters", "inertia, kg·m²", "at a bound", "stiffnesses of the search within one standard error", "their median peak forces, N"], rows
     )

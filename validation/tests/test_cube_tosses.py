@@ -177,8 +177,8 @@ def noisy(poses, generator):
 class Study(unittest.TestCase):
     def test_twenty_tosses_stay_near_the_measurement(self):
         cases = protocol.after_touch(TOSSES, list(protocol.TEST)[:SMOKE])
-        errors = {title: study.run(title, maker(), cases).e_q.mean() for title, maker, entry in study.found("touch", ["pong-linear"])}
-        published, inertia, round_corners = errors.values()
+        errors = {entry.body: study.run(title, maker(), cases).e_q.mean() for title, maker, entry in study.found("touch", ["pong-linear"])}
+        published, inertia, round_corners = (errors[body] for body in identify.BODIES)
         self.assertLess(inertia, 0.035)
         self.assertLess(round_corners, 0.035)
         self.assertLess(inertia, published)
