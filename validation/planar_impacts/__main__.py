@@ -86,7 +86,7 @@ def signs(impacts):
 def grid(impacts):
     """Restitution and friction of the rigid model with the least error on the training impacts."""
     measured = impacts.part(data.training(impacts))
-    pairs = [(e, mu) for e in np.arange(0.35, 0.80, 0.025) for mu in np.arange(0.025, 0.45, 0.025)]
+    pairs = [(e, mu) for e in np.arange(0.45, 0.725, 0.025) for mu in np.arange(0.05, 0.375, 0.025)]
     return min(pairs, key=lambda pair: data.error(measured, rigid.after(measured, *pair)).mean())
 
 
