@@ -106,7 +106,7 @@ def report(tosses, given, chosen):
                 say(study.comparison(of_body))
                 own = [one for one in of_body if one.entry.window == part]
                 say(study.parameters(own) if own else "The parameters are those of the first 0.15 s.\n")
-                groups.append((f"{title}: {text[0].lower()}{text[1:]}", of_body))
+                groups.append((text if len(parts) == 1 else f"{title}: {text[0].lower()}{text[1:]}", of_body))
                 if part == "whole":
                     say("same face at the end: " + ", ".join(f"{one.title} {100 * one.same_face.mean():.0f} %" for one in of_body) + "\n")
     if "steps" in parts:

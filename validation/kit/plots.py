@@ -24,13 +24,13 @@ def save(figure, path):
 
 
 def intervals(path, groups, label):
-    """Means with their intervals, one line for each row of a group: groups are (title, [(name, Interval)])."""
+    """Means with their intervals, one panel for each group on one axis: groups are (title, [(name, Interval)])."""
     pyplot = plotter()
     if pyplot is None:
         return False
     rows = sum(len(rows) for _, rows in groups)
     figure, axes = pyplot.subplots(
-        len(groups), 1, figsize=(7.5, 0.9 + 0.27 * rows + 0.6 * len(groups)), squeeze=False,
+        len(groups), 1, figsize=(7.5, 0.6 + 0.25 * rows + 0.3 * len(groups)), squeeze=False, sharex=True,
         height_ratios=[len(rows) for _, rows in groups], layout="constrained",
     )
     for (title, named), axis in zip(groups, axes[:, 0]):
@@ -39,7 +39,7 @@ def intervals(path, groups, label):
             axis.plot([found.low, found.high], [number, number], color=colour, linewidth=2)
             axis.plot([found.value], [number], "o", color=colour, markersize=4)
         axis.set_yticks(range(len(named)), [name for name, _ in named])
-        axis.invert_yaxis()
+        axis.set_ylim(len(named) - 0.5, -0.5)
         axis.set_xlim(left=0.0)
         axis.set_title(title, loc="left", fontsize=9)
     axes[-1, 0].set_xlabel(label)
