@@ -5,6 +5,10 @@ import numpy as np
 from validation.planar_impacts.data import METRIC
 
 
+# Slip, its end, the end of the approach and the end of the impact, in any order, are fewer.
+PHASES = 8
+
+
 def contact_matrix(impacts):
     """Inverse effective mass of the contacts times the mass, n × 2 × 2: tangential, normal."""
     h, l, k = impacts.tangent, impacts.normal, METRIC[2]
@@ -26,26 +30,23 @@ def _impulse(matrix, slip, approach, restitution, friction):
     """Impulse per mass (tangential, normal) of one impact, phase by phase along the normal impulse."""
     if approach >= 0.0:
         return np.zeros(2)
-    velocity, impulse, until = np.array([slip, approach]), np.zeros(2), np.inf
-    for _ in range(8):
+    velocity, impulse, end = np.array([slip, approach]), np.zeros(2), np.inf
+    for _ in range(PHASES):
         direction = _direction(matrix, velocity[0], friction)
         rate = matrix @ direction
-        ends = []
-        if velocity[0] * rate[0] < 0.0:
-            ends.append(-velocity[0] / rate[0])
-        if until == np.inf and rate[1] > 0.0 and velocity[1] < 0.0:
-            ends.append(-velocity[1] / rate[1])
-        if until < np.inf:
-            ends.append(until - impulse[1])
-        if not ends:
+        # Normal impulses until the contact stops slipping, until it stops approaching, and until the impact ends.
+        stops = -velocity[0] / rate[0] if velocity[0] * rate[0] < 0.0 else np.inf
+        turns = -velocity[1] / rate[1] if end == np.inf and rate[1] > 0.0 else np.inf
+        step = max(min(stops, turns, end - impulse[1]), 0.0)
+        if step == np.inf:
             break
-        step = max(min(ends), 0.0)
         impulse, velocity = impulse + step * direction, velocity + step * rate
-        if step == ends[0] and abs(velocity[0]) < 1e-12 * (1.0 + abs(slip)):
+        if step == stops:
             velocity[0] = 0.0
-        if until == np.inf and velocity[1] >= -1e-12:
-            until = (1.0 + restitution) * impulse[1]
-        if impulse[1] >= until * (1.0 - 1e-12):
+        if step == turns:
+            velocity[1] = 0.0
+            end = (1.0 + restitution) * impulse[1]
+        elif impulse[1] >= end * (1.0 - 1e-12):
             break
     return impulse
 
