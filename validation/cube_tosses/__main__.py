@@ -42,6 +42,8 @@ def main():
     unknown = sorted(set(chosen or ()) - set(ENGINES))
     if unknown:
         parser.error(f"{unknown[0]}: there is no such engine; there are {', '.join(ENGINES)}")
+    if given.tosses is not None and given.tosses < 1:
+        parser.error(f"--tosses {given.tosses}: at least one toss is needed")
     try:
         tosses = data.load(given.data)
         if given.identify:

@@ -35,6 +35,7 @@ def arguments():
 
 def main():
     given = arguments().parse_args()
+    chosen = laws(given)
     try:
         impacts, notes = data.load(given.folder)
     except data.DataError as error:
@@ -42,8 +43,8 @@ def main():
     for note in notes:
         print(f"note: {note}")
     if given.identify:
-        return identify(impacts, given)
-    report(impacts, given)
+        return identify(impacts, chosen, given.evaluations)
+    report(impacts, chosen, given.out)
 
 
 def laws(given):
@@ -55,18 +56,18 @@ def laws(given):
     return [(law, kind) for law in chosen for kind in FRICTIONS]
 
 
-def identify(impacts, given):
+def identify(impacts, chosen, evaluations):
     """Finds the parameters of each law on the training impacts."""
     measured = jacobians.corrected(impacts).part(data.training(impacts))
     found = json.loads(FOUND.read_text()) if FOUND.exists() else {}
-    for law, kind in laws(given):
-        engine, progress = Ellipse(law, kind), Progress(f"{law}, {kind}", given.evaluations)
+    for law, kind in chosen:
+        engine, progress = Ellipse(law, kind), Progress(f"{law}, {kind}", evaluations)
 
         def error(values, engine=engine):
             engine.configure(values)
             return data.error(measured, engine.after(measured)).mean()
 
-        result = minimise(error, engine.free, given.evaluations, lambda values, error: progress.advance(f"{error:.4f}"))
+        result = minimise(error, engine.free, evaluations, lambda values, error: progress.advance(f"{error:.4f}"))
         progress.close()
         values = {name: float(f"{value:.6g}") for name, value in result.values.items()}
         found[engine.title] = {"values": values, "error": round(result.error, 6), "evaluations": result.evaluations, "at_bound": result.at_bound}
@@ -90,7 +91,7 @@ def grid(impacts):
     return min(pairs, key=lambda pair: data.error(measured, rigid.after(measured, *pair)).mean())
 
 
-def report(impacts, given):
+def report(impacts, chosen, out):
     """Prints the tables."""
     lines = [versions(("pong", "numpy")) + "\n"]
 
@@ -108,7 +109,7 @@ def report(impacts, given):
     named = [(name, errors[rows]) for name, errors in named]
     found = json.loads(FOUND.read_text())
     tested = right.part(rows)
-    chosen = [(law, kind) for law, kind in laws(given) if Ellipse(law, kind).title in found]
+    chosen = [(law, kind) for law, kind in chosen if Ellipse(law, kind).title in found]
     progress = Progress("Pong", len(chosen))
     for law, kind in chosen:
         engine = Ellipse(law, kind)
@@ -125,10 +126,10 @@ def report(impacts, given):
         ["law", "parameters", "at a bound"],
         [[name, ", ".join(f"{key} {value:.3g}" for key, value in one["values"].items()), ", ".join(one["at_bound"])] for name, one in found.items()],
     ))
-    if given.out:
-        given.out.mkdir(parents=True, exist_ok=True)
-        (given.out / "tables.md").write_text("\n".join(lines))
-        if not plots.intervals(given.out / "errors.svg", [("Impacts of an ellipse", [(name, interval(errors)) for name, errors in named])], "error, with 95 % interval"):
+    if out:
+        out.mkdir(parents=True, exist_ok=True)
+        (out / "tables.md").write_text("\n".join(lines))
+        if not plots.intervals(out / "errors.svg", [("Impacts of an ellipse", [(name, interval(errors)) for name, errors in named])], "error, with 95 % interval"):
             print("no plot: matplotlib is not installed")
 
 
