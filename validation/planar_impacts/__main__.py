@@ -3,6 +3,7 @@
 import argparse
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -28,7 +29,7 @@ def arguments():
     parser.add_argument("folder", type=Path, help=f"folder with {' and '.join(data.FILES)}")
     parser.add_argument("--out", type=Path, metavar="DIR", help="writes tables.md and errors.svg there")
     parser.add_argument("--identify", action="store_true", help=f"finds the parameters again and writes them to {FOUND.name}")
-    parser.add_argument("--evaluations", type=int, default=EVALUATIONS, help="of --identify, for each law (%(default)s)")
+    parser.add_argument("--evaluations", type=int, default=EVALUATIONS, help="of --identify, for each law, beside those of earlier searches (%(default)s)")
     parser.add_argument("--laws", help=f"only these laws, by comma: {', '.join(LAWS)}")
     return parser
 
@@ -57,7 +58,7 @@ def laws(given):
 
 
 def identify(impacts, chosen, evaluations):
-    """Finds the parameters of each law on the training impacts."""
+    """Finds the parameters of each law on the training impacts; a law with known parameters goes on from them."""
     measured = jacobians.corrected(impacts).part(data.training(impacts))
     found = json.loads(FOUND.read_text()) if FOUND.exists() else {}
     for law, kind in chosen:
@@ -67,10 +68,12 @@ def identify(impacts, chosen, evaluations):
             engine.configure(values)
             return data.error(measured, engine.after(measured)).mean()
 
-        result = minimise(error, engine.free, evaluations, lambda values, error: progress.advance(f"{error:.4f}"))
+        known = found.get(engine.title, {"values": {}, "evaluations": 0})
+        free = {name: replace(one, start=known["values"].get(name, one.start)) for name, one in engine.free.items()}
+        result = minimise(error, free, evaluations, lambda values, error: progress.advance(f"{error:.4f}"))
         progress.close()
         values = {name: float(f"{value:.6g}") for name, value in result.values.items()}
-        found[engine.title] = {"values": values, "error": round(result.error, 6), "evaluations": result.evaluations, "at_bound": result.at_bound}
+        found[engine.title] = {"values": values, "error": round(result.error, 6), "evaluations": known["evaluations"] + result.evaluations, "at_bound": result.at_bound}
         print(f"{engine.title}: {result.error:.4f} of {len(measured)} training impacts, {values}", flush=True)
         FOUND.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n")
 
