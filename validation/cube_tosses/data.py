@@ -43,10 +43,14 @@ def load(path=FILE):
     with np.load(path) as archive:
         missing = {"frames", "states"} - set(archive.files)
         if missing:
-            raise DataError(f"{path}: the array `{sorted(missing)[0]}` is missing; restore {FILE.name} from the repository")
+            raise DataError(
+                f"{path}: the array `{sorted(missing)[0]}` is missing; restore {FILE.name} from the repository"
+            )
         frames, states = archive["frames"], archive["states"].astype(float)
     if states.ndim != 2 or states.shape[1] != 13 or frames.sum() != len(states):
-        raise DataError(f"{path}: {states.shape} states for {frames.sum()} frames of 13 numbers; restore {FILE.name} from the repository")
+        raise DataError(
+            f"{path}: {states.shape} states for {frames.sum()} frames of 13 numbers; restore {FILE.name} from the repository"
+        )
     states[:, ORIENTATION] /= np.linalg.norm(states[:, ORIENTATION], axis=1, keepdims=True)
     return np.split(states, np.cumsum(frames)[:-1])
 
@@ -60,7 +64,9 @@ def lowest_corner(states, half_edge=HALF_EDGE):
 
 def at_rest(toss, speed=0.02, turning=0.2):
     """Frames at the end of a toss in which the cube hardly moves: the longest row of them that reaches the last frame."""
-    moves = (np.linalg.norm(toss[:, VELOCITY], axis=1) > speed) | (np.linalg.norm(toss[:, ANGULAR_VELOCITY], axis=1) > turning)
+    moves = (np.linalg.norm(toss[:, VELOCITY], axis=1) > speed) | (
+        np.linalg.norm(toss[:, ANGULAR_VELOCITY], axis=1) > turning
+    )
     last = np.flatnonzero(moves)
     return toss[last[-1] + 1 :] if len(last) else toss
 

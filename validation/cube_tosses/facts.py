@@ -4,7 +4,15 @@ import numpy as np
 
 from validation.cube_tosses import momentum, protocol
 from validation.cube_tosses.data import (
-    ANGULAR_VELOCITY, FRAME, GRAVITY, HALF_EDGE, ORIENTATION, PUBLISHED_BODY, at_rest, lowest_corner, table_height,
+    ANGULAR_VELOCITY,
+    FRAME,
+    GRAVITY,
+    HALF_EDGE,
+    ORIENTATION,
+    PUBLISHED_BODY,
+    at_rest,
+    lowest_corner,
+    table_height,
 )
 from validation.cube_tosses.engines.with_bullet import Bullet, BulletAsPublished
 from validation.kit import rotation
@@ -20,7 +28,12 @@ def table(tosses):
 def inertia(tosses, height):
     """Inertia from momentum (`momentum.py`): interval by the instrument, the two slopes that are biased, number of touches."""
     rows = np.array([touch.row for touch in momentum.touches(tosses, height)])
-    return interval(rows, momentum.inertia), interval(rows, momentum.inertia_too_low), interval(rows, momentum.inertia_too_high), len(rows)
+    return (
+        interval(rows, momentum.inertia),
+        interval(rows, momentum.inertia_too_low),
+        interval(rows, momentum.inertia_too_high),
+        len(rows),
+    )
 
 
 def axes_of_turning(tosses, count=100, clear=5e-3):
@@ -32,7 +45,9 @@ def axes_of_turning(tosses, count=100, clear=5e-3):
         end = int(free[0]) if len(free) else len(toss)
         if end < 10:
             continue
-        turns = rotation.of_rotation_vector((toss[: end - 1, ANGULAR_VELOCITY] + toss[1:end, ANGULAR_VELOCITY]) / 2 * FRAME)
+        turns = rotation.of_rotation_vector(
+            (toss[: end - 1, ANGULAR_VELOCITY] + toss[1:end, ANGULAR_VELOCITY]) / 2 * FRAME
+        )
         q_own = q_common = toss[0, ORIENTATION]
         for turn in turns:
             q_own, q_common = rotation.product(q_own, turn), rotation.product(turn, q_common)
@@ -86,12 +101,10 @@ def lines(tosses):
     yield f"table: {height.text(2, 1e3)} mm (centre at rest less {1e3 * HALF_EDGE:.1f} mm; {1e3 * spread:.2f} mm from toss to toss)"
     by_instrument, low, high, count = inertia(tosses, height.value)
     yield f"inertia from momentum in {count} touches of one corner, without a law of contact: {by_instrument.text(2, 1e3)} g·m²"
-    yield f"    slopes that errors bias: {low.text(2, 1e3)} (too low), {high.text(2, 1e3)} (too high); published: {1e3 * PUBLISHED_BODY.inertia:.2f}"
+    yield f"slopes of ordinary regressions, which errors bias: {low.text(2, 1e3)} and {high.text(2, 1e3)}; published: {1e3 * PUBLISHED_BODY.inertia:.2f}"
     own, common = axes_of_turning(tosses)
     yield f"free flights integrated: off by {np.degrees(own):.2f}° along the axes of the cube, by {np.degrees(common):.1f}° along the common axes"
     tilt = tilt_at_rest(tosses)
     yield f"tilt of the upper face at rest: {1e3 * tilt[0]:.1f} and {1e3 * tilt[1]:.1f} mrad, standard deviations"
     published, corrected = early_parabola(tosses)
     yield f"vertical velocity at the start, measured less published: {published.text(3)} m/s; g·frame is {GRAVITY * FRAME:.3f} m/s; corrected: {corrected.text(3)} m/s"
-
-

@@ -46,11 +46,15 @@ class Entry:
     def made(self, substeps=protocol.SUBSTEPS):
         """Engine with these parameters."""
         engine = make(self.engine)
-        engine.configure(self.values, Body(inertia=self.inertia, corner_radius=self.corner_radius), self.table, substeps)
+        engine.configure(
+            self.values, Body(inertia=self.inertia, corner_radius=self.corner_radius), self.table, substeps
+        )
         return engine
 
 
-def identify(tosses, engine_name, body_name, window, evaluations=EVALUATIONS, start=None, count=150, note=lambda *_: None):
+def identify(
+    tosses, engine_name, body_name, window, evaluations=EVALUATIONS, start=None, count=150, note=lambda *_: None
+):
     """Searches the parameters of an engine; `start` has values to begin with."""
     extra, table = BODIES[body_name]
     engine = make(engine_name)
@@ -59,7 +63,9 @@ def identify(tosses, engine_name, body_name, window, evaluations=EVALUATIONS, st
     forces, spread = [], []
 
     def error(values):
-        body = Body(inertia=values.get("inertia", PUBLISHED_BODY.inertia), corner_radius=values.get("corner_radius", 0.0))
+        body = Body(
+            inertia=values.get("inertia", PUBLISHED_BODY.inertia), corner_radius=values.get("corner_radius", 0.0)
+        )
         engine.configure({name: values[name] for name in engine.free}, body, table)
         found, peaks = [], []
         for case in cases:
@@ -72,14 +78,25 @@ def identify(tosses, engine_name, body_name, window, evaluations=EVALUATIONS, st
     result = minimise(error, free, evaluations, note)
     best = min(range(len(result.tried)), key=lambda one: result.tried[one][1])
     near = [one for one, (_, value) in enumerate(result.tried) if value <= result.error + spread[best]]
-    within = {name: [min(result.tried[one][0][name] for one in near), max(result.tried[one][0][name] for one in near)] for name in free}
+    within = {
+        name: [min(result.tried[one][0][name] for one in near), max(result.tried[one][0][name] for one in near)]
+        for name in free
+    }
     if forces[best] is not None:
         within["peak_force"] = [min(forces[one] for one in near), max(forces[one] for one in near)]
     values = result.values
     return Entry(
-        engine_name, body_name, window, {name: values[name] for name in engine.free},
-        values.get("inertia", PUBLISHED_BODY.inertia), values.get("corner_radius", 0.0), table,
-        result.error, result.evaluations, result.at_bound, within,
+        engine_name,
+        body_name,
+        window,
+        {name: values[name] for name in engine.free},
+        values.get("inertia", PUBLISHED_BODY.inertia),
+        values.get("corner_radius", 0.0),
+        table,
+        result.error,
+        result.evaluations,
+        result.at_bound,
+        within,
     )
 
 

@@ -49,7 +49,9 @@ class Flight:
     def at(self, time):
         """Place and orientation at an instant."""
         fall = np.array([0.0, 0.0, -GRAVITY / 2 * time**2])
-        return self.place + self.velocity * time + fall, rotation.product(rotation.of_rotation_vector(self.turning * time), self.orientation)
+        return self.place + self.velocity * time + fall, rotation.product(
+            rotation.of_rotation_vector(self.turning * time), self.orientation
+        )
 
     def velocity_at(self, time):
         """Velocity at an instant."""
@@ -107,7 +109,9 @@ def touch_of(number, toss, corner, before, after, zero):
     expected = rotation.turned(first.at(0.0)[1], CORNERS[corner])
     approach = first.velocity[2] + np.cross(first.turning, expected)[2]
     return Touch(
-        number, second.turning - first.turning, np.cross(arm, impulse),
+        number,
+        second.turning - first.turning,
+        np.cross(arm, impulse),
         np.cross(expected, [0.0, 0.0, -approach]),
     )
 

@@ -8,7 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from validation.cube_tosses.data import (
-    ANGULAR_VELOCITY, FRAME, GRAVITY, HALF_EDGE, ORIENTATION, POSITION, VELOCITY, lowest_corner,
+    ANGULAR_VELOCITY,
+    FRAME,
+    GRAVITY,
+    HALF_EDGE,
+    ORIENTATION,
+    POSITION,
+    VELOCITY,
+    lowest_corner,
 )
 from validation.kit import rotation
 
@@ -46,7 +53,9 @@ def start_state(toss, frame, corrected=False):
     state[ANGULAR_VELOCITY] = rotation.rotation_vector(turn) / (frame * FRAME)
     flight = toss[:frame, POSITION]
     time = FRAME * np.arange(frame)
-    _, climb = np.linalg.lstsq(np.stack([np.ones(frame), time], axis=1), flight[:, 2] + GRAVITY / 2 * time**2, rcond=None)[0]
+    _, climb = np.linalg.lstsq(
+        np.stack([np.ones(frame), time], axis=1), flight[:, 2] + GRAVITY / 2 * time**2, rcond=None
+    )[0]
     instant = frame * FRAME if corrected else time[-1]
     state[VELOCITY] = [*(flight[-1, :2] - flight[0, :2]) / time[-1], climb - GRAVITY * instant]
     return state
@@ -96,13 +105,18 @@ def errors(case, poses):
     away = np.linalg.norm(poses[:, POSITION] - measured[:, POSITION], axis=1)
     turn = rotation.angle_between(measured[:, ORIENTATION], poses[:, ORIENTATION])
     return Errors(
-        float(np.mean(away**2) / HALF_EDGE + np.mean(turn**2)), float(np.mean(away) / (2 * HALF_EDGE)), float(np.mean(turn)),
+        float(np.mean(away**2) / HALF_EDGE + np.mean(turn**2)),
+        float(np.mean(away) / (2 * HALF_EDGE)),
+        float(np.mean(turn)),
     )
 
 
 def same_face(case, poses):
     """Tests whether simulation and measurement end on the same face of the cube."""
-    up = [rotation.turned(rotation.inverse(last), np.array([0.0, 0.0, 1.0])) for last in (case.measured[-1, ORIENTATION], poses[-1, ORIENTATION])]
+    up = [
+        rotation.turned(rotation.inverse(last), np.array([0.0, 0.0, 1.0]))
+        for last in (case.measured[-1, ORIENTATION], poses[-1, ORIENTATION])
+    ]
     faces = [(int(np.argmax(np.abs(axis))), bool(axis[np.argmax(np.abs(axis))] > 0)) for axis in up]
     return faces[0] == faces[1]
 

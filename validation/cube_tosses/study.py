@@ -14,7 +14,11 @@ from validation.kit.statistics import interval, paired
 from validation.kit.tables import markdown
 
 PUBLISHED = Path(__file__).with_name("published.json")
-BODY_TEXT = {"published": "Published body", "inertia": "Inertia found", "round": "Inertia found, round corners, table where the cubes rest"}
+BODY_TEXT = {
+    "published": "Published body",
+    "inertia": "Inertia found",
+    "round": "Inertia found, round corners, table where the cubes rest",
+}
 
 
 @dataclass
@@ -41,8 +45,13 @@ def run(title, engine, cases, entry=None, progress=None):
         if progress:
             progress.advance(title)
     return Result(
-        title, entry, np.array([one.e_q for one in errors]), np.array([one.place for one in errors]),
-        np.array([one.turn for one in errors]), np.array(faces), None if None in peaks else np.array(peaks),
+        title,
+        entry,
+        np.array([one.e_q for one in errors]),
+        np.array([one.place for one in errors]),
+        np.array([one.turn for one in errors]),
+        np.array(faces),
+        None if None in peaks else np.array(peaks),
     )
 
 
@@ -91,11 +100,24 @@ def comparison(results, reference=0):
     rows = []
     for number, one in enumerate(results):
         apart = "" if number == reference else paired(one.e_q, results[reference].e_q).text(4, sign=True)
-        rows.append([
-            one.title, interval(one.e_q).text(4), f"{100 * one.place.mean():.2f}", f"{np.degrees(one.turn.mean()):.2f}",
-            f"{np.median(one.e_q):.4f}", apart,
-        ])
-    head = ["engine, law", "e_q", "place, % of the edge", "rotation, °", "median e_q", f"e_q less that of {results[reference].title}"]
+        rows.append(
+            [
+                one.title,
+                interval(one.e_q).text(4),
+                f"{100 * one.place.mean():.2f}",
+                f"{np.degrees(one.turn.mean()):.2f}",
+                f"{np.median(one.e_q):.4f}",
+                apart,
+            ]
+        )
+    head = [
+        "engine, law",
+        "e_q",
+        "place, % of the edge",
+        "rotation, °",
+        "median e_q",
+        f"e_q less that of {results[reference].title}",
+    ]
     return markdown(head, rows)
 
 
@@ -105,13 +127,28 @@ def parameters(results):
     for one in results:
         entry = one.entry
         units = make(entry.engine).units
-        values = ", ".join(f"{name} {value:.4g} {units[name].split(';')[0] if len(units[name]) < 12 else ''}".rstrip() for name, value in entry.values.items())
-        body = f"{entry.inertia:.6f}" + (f", r = {1e3 * entry.corner_radius:.1f} mm, table at {1e3 * entry.table:.2f} mm" if entry.corner_radius else "")
+        values = ", ".join(
+            f"{name} {value:.4g} {units[name].split(';')[0] if len(units[name]) < 12 else ''}".rstrip()
+            for name, value in entry.values.items()
+        )
+        body = f"{entry.inertia:.6f}" + (
+            f", r = {1e3 * entry.corner_radius:.1f} mm, table at {1e3 * entry.table:.2f} mm"
+            if entry.corner_radius
+            else ""
+        )
         near = entry.within_error.get("stiffness", [])
         span = f"{near[0]:.3g} to {near[1]:.3g}" if near else ""
         force = entry.within_error.get("peak_force")
         peak = f"{force[0]:.0f} to {force[1]:.0f}" if force else ""
         rows.append([one.title, values, body, ", ".join(entry.at_bound), span, peak])
     return markdown(
-        ["engine, law", "parameters", "inertia, kg·m²", "at a bound", "stiffnesses of the search within one standard error", "their median peak forces, N"], rows
+        [
+            "engine, law",
+            "parameters",
+            "inertia, kg·m²",
+            "at a bound",
+            "stiffnesses of the search within one standard error",
+            "their median peak forces, N",
+        ],
+        rows,
     )

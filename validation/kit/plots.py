@@ -13,7 +13,9 @@ def plotter():
     from matplotlib import pyplot
 
     # Files of the same figures have the same bytes, and little of them.
-    matplotlib.rcParams.update({"svg.hashsalt": "pong", "svg.fonttype": "none", "font.size": 9, "axes.grid": True, "grid.alpha": 0.3})
+    matplotlib.rcParams.update(
+        {"svg.hashsalt": "pong", "svg.fonttype": "none", "font.size": 9, "axes.grid": True, "grid.alpha": 0.3}
+    )
     return pyplot
 
 
@@ -30,8 +32,13 @@ def intervals(path, groups, label):
         return False
     rows = sum(len(rows) for _, rows in groups)
     figure, axes = pyplot.subplots(
-        len(groups), 1, figsize=(7.5, 0.6 + 0.25 * rows + 0.3 * len(groups)), squeeze=False, sharex=True,
-        height_ratios=[len(rows) for _, rows in groups], layout="constrained",
+        len(groups),
+        1,
+        figsize=(7.5, 0.6 + 0.25 * rows + 0.3 * len(groups)),
+        squeeze=False,
+        sharex=True,
+        height_ratios=[len(rows) for _, rows in groups],
+        layout="constrained",
     )
     for (title, named), axis in zip(groups, axes[:, 0]):
         for number, (name, found) in enumerate(named):

@@ -15,7 +15,11 @@ class Free:
 
     def to_unit(self, value):
         """Number from 0 to 1 of a value within the bounds."""
-        low, high, value = (np.log(number) for number in (self.low, self.high, value)) if self.low > 0 else (self.low, self.high, value)
+        low, high, value = (
+            (np.log(number) for number in (self.low, self.high, value))
+            if self.low > 0
+            else (self.low, self.high, value)
+        )
         return (value - low) / (high - low)
 
     def of_unit(self, unit):
@@ -60,7 +64,9 @@ def minimise(error, free, evaluations, note=lambda values, error: None):
         corner[number] += 0.12 if corner[number] < 0.5 else -0.12
         simplex.append(corner)
     minimize(
-        of_units, start, method="Nelder-Mead",
+        of_units,
+        start,
+        method="Nelder-Mead",
         options={"maxfev": evaluations, "initial_simplex": np.array(simplex), "xatol": 1e-3, "fatol": 1e-7},
     )
     values, least = min(tried, key=lambda one: one[1])

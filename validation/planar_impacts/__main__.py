@@ -28,8 +28,15 @@ def arguments():
     )
     parser.add_argument("folder", type=Path, help=f"folder with {' and '.join(data.FILES)}")
     parser.add_argument("--out", type=Path, metavar="DIR", help="writes tables.md and errors.svg there")
-    parser.add_argument("--identify", action="store_true", help=f"finds the parameters again and writes them to {FOUND.name}")
-    parser.add_argument("--evaluations", type=int, default=EVALUATIONS, help="of --identify, for each law, beside those of earlier searches (%(default)s)")
+    parser.add_argument(
+        "--identify", action="store_true", help=f"finds the parameters again and writes them to {FOUND.name}"
+    )
+    parser.add_argument(
+        "--evaluations",
+        type=int,
+        default=EVALUATIONS,
+        help="of --identify, for each law, beside those of earlier searches (%(default)s)",
+    )
     parser.add_argument("--laws", help=f"only these laws, by comma: {', '.join(LAWS)}")
     return parser
 
@@ -73,7 +80,12 @@ def identify(impacts, chosen, evaluations):
         result = minimise(error, free, evaluations, lambda values, error: progress.advance(f"{error:.4f}"))
         progress.close()
         values = {name: float(f"{value:.6g}") for name, value in result.values.items()}
-        found[engine.title] = {"values": values, "error": round(result.error, 6), "evaluations": known["evaluations"] + result.evaluations, "at_bound": result.at_bound}
+        found[engine.title] = {
+            "values": values,
+            "error": round(result.error, 6),
+            "evaluations": known["evaluations"] + result.evaluations,
+            "at_bound": result.at_bound,
+        }
         print(f"{engine.title}: {result.error:.4f} of {len(measured)} training impacts, {values}", flush=True)
         FOUND.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n")
 
@@ -121,18 +133,33 @@ def report(impacts, chosen, out):
         progress.advance(engine.title)
     progress.close()
     reference = next((errors for name, errors in named if name.startswith("rigid") and name.endswith("corrected")))
-    say(markdown(
-        [f"model, {len(rows)} test impacts", "error", "less that of rigid bodies"],
-        [[name, interval(errors).text(3), paired(errors, reference).text(3, sign=True)] for name, errors in named],
-    ))
-    say(markdown(
-        ["law", "parameters", "at a bound"],
-        [[name, ", ".join(f"{key} {value:.3g}" for key, value in one["values"].items()), ", ".join(one["at_bound"])] for name, one in found.items()],
-    ))
+    say(
+        markdown(
+            [f"model, {len(rows)} test impacts", "error", "less that of rigid bodies"],
+            [[name, interval(errors).text(3), paired(errors, reference).text(3, sign=True)] for name, errors in named],
+        )
+    )
+    say(
+        markdown(
+            ["law", "parameters", "at a bound"],
+            [
+                [
+                    name,
+                    ", ".join(f"{key} {value:.3g}" for key, value in one["values"].items()),
+                    ", ".join(one["at_bound"]),
+                ]
+                for name, one in found.items()
+            ],
+        )
+    )
     if out:
         out.mkdir(parents=True, exist_ok=True)
         (out / "tables.md").write_text("\n".join(lines))
-        if not plots.intervals(out / "errors.svg", [("Impacts of an ellipse", [(name, interval(errors)) for name, errors in named])], "error, with 95 % interval"):
+        if not plots.intervals(
+            out / "errors.svg",
+            [("Impacts of an ellipse", [(name, interval(errors)) for name, errors in named])],
+            "error, with 95 % interval",
+        ):
             print("no plot: matplotlib is not installed")
 
 

@@ -39,7 +39,9 @@ class Impacts:
     def part(self, rows):
         """Impacts of some rows."""
         predicted = {name: velocities[rows] for name, velocities in self.predicted.items()}
-        return Impacts(*(getattr(self, name)[rows] for name in ("angle", "before", "after", "normal", "tangent")), predicted)
+        return Impacts(
+            *(getattr(self, name)[rows] for name in ("angle", "before", "after", "normal", "tangent")), predicted
+        )
 
 
 def load(folder):
@@ -62,13 +64,17 @@ def load(folder):
             raise DataError(f"{path}: not a MATLAB file ({error}); get it again from {ORIGIN}") from error
     try:
         data = read["data_ellipse.mat"]["data"][0, 0]
-        first, last, normal, tangent = (np.asarray(data[name], dtype=float) for name in ("states_i", "states_f", "n", "d"))
+        first, last, normal, tangent = (
+            np.asarray(data[name], dtype=float) for name in ("states_i", "states_f", "n", "d")
+        )
         models = np.asarray(read["v_models.mat"]["v_models"], dtype=float)
     except (KeyError, IndexError, ValueError) as error:
         raise DataError(f"{folder}: the field {error} is missing; get the files again from {ORIGIN}") from error
     shapes = {one.shape for one in (first, last)}, {one.shape for one in (normal, tangent)}
     if shapes != ({(len(first), 6)}, {(len(first), 3)}) or models.shape != (len(first), 18):
-        raise DataError(f"{folder}: arrays of {first.shape}, {normal.shape} and {models.shape}, not n × 6, n × 3 and n × 18; get the files again from {ORIGIN}")
+        raise DataError(
+            f"{folder}: arrays of {first.shape}, {normal.shape} and {models.shape}, not n × 6, n × 3 and n × 18; get the files again from {ORIGIN}"
+        )
     predicted = {name: models[:, 3 * number : 3 * number + 3] for number, name in enumerate(MODELS)}
     return Impacts(first[:, 2], first[:, 3:], last[:, 3:], normal[:, 2], tangent[:, 2], predicted), notes
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from validation.planar_impacts.data import GYRATION, METRIC
 from validation.kit.statistics import interval
+from validation.planar_impacts.data import GYRATION, METRIC
 
 
 @dataclass(frozen=True)

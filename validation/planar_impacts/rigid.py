@@ -4,7 +4,6 @@ import numpy as np
 
 from validation.planar_impacts.data import METRIC
 
-
 # Slip, its end, the end of the approach and the end of the impact, in any order, are fewer.
 PHASES = 8
 

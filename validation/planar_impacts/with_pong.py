@@ -88,9 +88,17 @@ class Ellipse:
         axes = f"({SEMI_AXES[0]!r}, {SEMI_AXES[1]!r}, {SEMI_AXES[1]!r})"
         self.half_period = math.pi * math.sqrt(MASS / STIFFNESS)
         files = {
-            "ellipse.ron": MODEL.format(name="ellipse", surface=surface, primitive=f'Ellipsoid(name: "shell", center: (0, 0, 0), semi_axes: {axes})'),
-            "floor.ron": MODEL.format(name="floor", surface="stiffness: inf", primitive='Plane(name: "top", normal: (0, 0, 1), offset: 0)'),
-            "impact.ron": SCENE.format(mass=MASS, inertia=MASS * GYRATION**2, gravity=-GRAVITY, step=self.half_period / STEPS),
+            "ellipse.ron": MODEL.format(
+                name="ellipse",
+                surface=surface,
+                primitive=f'Ellipsoid(name: "shell", center: (0, 0, 0), semi_axes: {axes})',
+            ),
+            "floor.ron": MODEL.format(
+                name="floor", surface="stiffness: inf", primitive='Plane(name: "top", normal: (0, 0, 1), offset: 0)'
+            ),
+            "impact.ron": SCENE.format(
+                mass=MASS, inertia=MASS * GYRATION**2, gravity=-GRAVITY, step=self.half_period / STEPS
+            ),
         }
         with tempfile.TemporaryDirectory() as folder:
             for name, text in files.items():
@@ -109,7 +117,9 @@ class Ellipse:
             start = np.zeros(13)
             # Turning from x to z is turning about −y.
             start[3], start[5] = np.cos(impacts.angle[number] / 2), -np.sin(impacts.angle[number] / 2)
-            start[2] = np.hypot(SEMI_AXES[0] * np.sin(impacts.angle[number]), SEMI_AXES[1] * np.cos(impacts.angle[number]))
+            start[2] = np.hypot(
+                SEMI_AXES[0] * np.sin(impacts.angle[number]), SEMI_AXES[1] * np.cos(impacts.angle[number])
+            )
             start[7], start[9], start[11] = -x, y, -turning
             state = self._followed(start)
             out[number] = (-state[7], state[9], -state[11])

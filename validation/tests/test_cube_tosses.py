@@ -20,7 +20,9 @@ def flight(frames=30, turning=(1.0, -2.0, 3.0)):
     """Free flight of a cube over a table that it does not reach."""
     time = data.FRAME * np.arange(frames)
     states = np.zeros((frames, 13))
-    states[:, :3] = np.array([0.1, 0.2, 0.6]) + np.outer(time, [1.0, -0.5, 0.3]) - np.outer(time**2, [0, 0, data.GRAVITY / 2])
+    states[:, :3] = (
+        np.array([0.1, 0.2, 0.6]) + np.outer(time, [1.0, -0.5, 0.3]) - np.outer(time**2, [0, 0, data.GRAVITY / 2])
+    )
     states[:, 3:7] = rotation.of_rotation_vector(np.outer(time, turning))
     states[:, 7:10] = np.array([1.0, -0.5, 0.3]) - np.outer(time, [0, 0, data.GRAVITY])
     states[:, 10:] = turning
@@ -33,7 +35,9 @@ class Data(unittest.TestCase):
         self.assertEqual(sum(len(toss) for toss in TOSSES), 58_362)
 
     def test_a_missing_file_is_named_with_the_cure(self):
-        with self.assertRaisesRegex(data.DataError, "nowhere.npz: there is no such file; the tosses come with the repository"):
+        with self.assertRaisesRegex(
+            data.DataError, "nowhere.npz: there is no such file; the tosses come with the repository"
+        ):
             data.load("nowhere.npz")
 
     def test_a_file_of_another_layout_is_refused(self):
@@ -143,7 +147,7 @@ class Momentum(unittest.TestCase):
             rows = np.array([touch.row for touch in momentum.touches(simulated, 0.0)])
             self.assertGreater(len(rows), 40)
             found = interval(rows, momentum.inertia)
-            # Noise as measured; what is left is a touch of some frames that counts as an instant.
+            # What is left is that a touch of some frames counts as an instant.
             self.assertAlmostEqual(found.value, wanted, delta=0.06 * wanted)
 
     def test_measured_touches_give_more_than_the_published_inertia(self):
@@ -170,14 +174,19 @@ def noisy(poses, generator):
     """Poses with the noise of measurement, as states."""
     states = np.zeros((len(poses), 13))
     states[:, :3] = poses[:, :3] + generator.normal(0.0, 3e-4, (len(poses), 3))
-    states[:, 3:7] = rotation.product(rotation.of_rotation_vector(generator.normal(0.0, 3e-3, (len(poses), 3))), poses[:, 3:])
+    states[:, 3:7] = rotation.product(
+        rotation.of_rotation_vector(generator.normal(0.0, 3e-3, (len(poses), 3))), poses[:, 3:]
+    )
     return states
 
 
 class Study(unittest.TestCase):
     def test_twenty_tosses_stay_near_the_measurement(self):
         cases = protocol.after_touch(TOSSES, list(protocol.TEST)[:SMOKE])
-        errors = {entry.body: study.run(title, maker(), cases).e_q.mean() for title, maker, entry in study.found("touch", ["pong-linear"])}
+        errors = {
+            entry.body: study.run(title, maker(), cases).e_q.mean()
+            for title, maker, entry in study.found("touch", ["pong-linear"])
+        }
         published, inertia, round_corners = (errors[body] for body in identify.BODIES)
         self.assertLess(inertia, 0.035)
         self.assertLess(round_corners, 0.035)

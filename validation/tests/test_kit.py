@@ -21,7 +21,9 @@ class Rotations(unittest.TestCase):
     def test_products_turn_one_after_the_other(self):
         a, b = rotation.of_rotation_vector(np.random.default_rng(2).normal(size=(2, 3)))
         x = np.array([1.0, 2.0, 3.0])
-        np.testing.assert_allclose(rotation.turned(rotation.product(a, b), x), rotation.turned(a, rotation.turned(b, x)), atol=1e-12)
+        np.testing.assert_allclose(
+            rotation.turned(rotation.product(a, b), x), rotation.turned(a, rotation.turned(b, x)), atol=1e-12
+        )
         np.testing.assert_allclose(rotation.matrix(a) @ x, rotation.turned(a, x), atol=1e-12)
 
     def test_a_quarter_turn_about_z_takes_x_to_y(self):

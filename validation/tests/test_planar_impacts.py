@@ -22,7 +22,9 @@ def impacts(count=60):
     angle = generator.uniform(-np.pi, np.pi, count)
     a, b = data.SEMI_AXES
     height = np.hypot(a * np.sin(angle), b * np.cos(angle))
-    before = np.column_stack([generator.uniform(-0.8, 0.8, count), generator.uniform(-3.0, -2.2, count), generator.uniform(-8, 8, count)])
+    before = np.column_stack(
+        [generator.uniform(-0.8, 0.8, count), generator.uniform(-3.0, -2.2, count), generator.uniform(-8, 8, count)]
+    )
     one = data.Impacts(angle, before, before, -(a**2 - b**2) * np.sin(angle) * np.cos(angle) / height, -height, {})
     after = rigid.after(one, RESTITUTION, FRICTION)
     return data.Impacts(angle, before, after, one.normal, one.tangent, {name: after for name in data.MODELS})
@@ -35,7 +37,9 @@ def write(folder, one, tangent_sign=-1.0):
     zero, unit = np.zeros(len(one)), np.ones(len(one))
     states = [np.column_stack([zero, zero, one.angle, velocities]) for velocities in (one.before, one.after)]
     fields = {
-        "states_i": states[0], "states_f": states[1], "n": np.column_stack([zero, unit, one.normal]),
+        "states_i": states[0],
+        "states_f": states[1],
+        "n": np.column_stack([zero, unit, one.normal]),
         "d": np.column_stack([unit, zero, tangent_sign * one.tangent]),
     }
     savemat(Path(folder) / "data_ellipse.mat", {"data": fields})
@@ -45,7 +49,10 @@ def write(folder, one, tangent_sign=-1.0):
 class Files(unittest.TestCase):
     def test_a_missing_data_set_is_named_with_sizes_and_place(self):
         with tempfile.TemporaryDirectory() as folder:
-            with self.assertRaisesRegex(data.DataError, r"data_ellipse.mat: there is no such file; the data set has no licence.*182,950 bytes.*mcubelab"):
+            with self.assertRaisesRegex(
+                data.DataError,
+                r"data_ellipse.mat: there is no such file; the data set has no licence.*182,950 bytes.*mcubelab",
+            ):
                 data.load(folder)
 
     def test_a_file_that_is_not_of_matlab_is_refused(self):
@@ -106,7 +113,9 @@ class Physics(unittest.TestCase):
 
     def test_a_central_impact_without_friction_returns_the_restitution(self):
         one = impacts(1).part(slice(0, 1))
-        upright = data.Impacts(np.zeros(1), np.array([[0.0, -2.0, 0.0]]), one.after, np.zeros(1), np.array([-0.025]), {})
+        upright = data.Impacts(
+            np.zeros(1), np.array([[0.0, -2.0, 0.0]]), one.after, np.zeros(1), np.array([-0.025]), {}
+        )
         np.testing.assert_allclose(rigid.after(upright, 0.6, 0.0), [[0.0, 1.2, 0.0]], atol=1e-12)
 
     def test_pong_without_friction_meets_the_rigid_impact_in_every_pose(self):
@@ -125,7 +134,10 @@ class Command(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             write(folder, impacts())
             out = io.StringIO()
-            with mock.patch.object(sys, "argv", ["planar_impacts", folder, "--laws", "linear"]), contextlib.redirect_stdout(out):
+            with (
+                mock.patch.object(sys, "argv", ["planar_impacts", folder, "--laws", "linear"]),
+                contextlib.redirect_stdout(out),
+            ):
                 command.main()
             self.assertIn("the tangential Jacobian has the wrong sign", out.getvalue())
             self.assertIn("rigid (Routh), e 0.6, μ 0.2, sign corrected | 0.000", out.getvalue())

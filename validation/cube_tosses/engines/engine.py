@@ -26,7 +26,9 @@ class Engine(ABC):
         """Takes parameters, body, height of the table (m) and the number of steps in a frame."""
         unknown = set(values) ^ set(self.free)
         if unknown:
-            raise ValueError(f"{self.name}: parameter `{sorted(unknown)[0]}` is missing or unknown; it has {', '.join(self.free)}")
+            raise ValueError(
+                f"{self.name}: parameter `{sorted(unknown)[0]}` is missing or unknown; it has {', '.join(self.free)}"
+            )
         self.values, self.body, self.table = dict(values), body, table
         self.step, self.substeps = STEP * SUBSTEPS / substeps, substeps
         self.build()
@@ -59,4 +61,6 @@ def package(name, of):
     try:
         return importlib.import_module(name)
     except ImportError as error:
-        raise MissingEngine(f"{of}: the Python package `{name}` is not installed; pip install -r validation/peers.txt") from error
+        raise MissingEngine(
+            f"{of}: the Python package `{name}` is not installed; pip install -r validation/peers.txt"
+        ) from error

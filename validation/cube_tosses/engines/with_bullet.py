@@ -70,8 +70,12 @@ class Bullet(Engine):
         self.cube = bullet.loadURDF(str(Path(self.folder.name) / "cube.urdf"), flags=flags, **at)
         table = bullet.loadURDF(str(Path(self.folder.name) / "table.urdf"), useFixedBase=True, **at)
         bullet.changeDynamics(
-            table, -1, lateralFriction=self.values["mu"], contactStiffness=self.values["stiffness"],
-            contactDamping=self.values["damping"], **at,
+            table,
+            -1,
+            lateralFriction=self.values["mu"],
+            contactStiffness=self.values["stiffness"],
+            contactDamping=self.values["damping"],
+            **at,
         )
         bullet.setTimeStep(self.step, **at)
 

@@ -43,7 +43,9 @@ class Drake(Engine):
         properties.AddProperty("material", "coulomb_friction", CoulombFriction(self.values["mu"], self.values["mu"]))
         text = CUBE.format(mass=self.body.mass, inertia=self.body.inertia, edge=2 * HALF_EDGE)
         Parser(self.plant).AddModelsFromString(text, "urdf")
-        self.plant.RegisterCollisionGeometry(self.plant.world_body(), RigidTransform(), HalfSpace(), "table", properties)
+        self.plant.RegisterCollisionGeometry(
+            self.plant.world_body(), RigidTransform(), HalfSpace(), "table", properties
+        )
         self.plant.Finalize()
         self.simulator = Simulator(builder.Build())
 

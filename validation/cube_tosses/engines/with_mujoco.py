@@ -39,8 +39,15 @@ class Mujoco(Engine):
     def build(self):
         self.mujoco = package("mujoco", self.title)
         text = MODEL.format(
-            step=self.step, gravity=-GRAVITY, cone=self.cone, mass=self.body.mass, inertia=self.body.inertia, geoms=self.geoms(),
-            minus_stiffness=-self.values["stiffness"], minus_damping=-self.values["damping"], mu=self.values["mu"],
+            step=self.step,
+            gravity=-GRAVITY,
+            cone=self.cone,
+            mass=self.body.mass,
+            inertia=self.body.inertia,
+            geoms=self.geoms(),
+            minus_stiffness=-self.values["stiffness"],
+            minus_damping=-self.values["damping"],
+            mu=self.values["mu"],
         )
         self.model = self.mujoco.MjModel.from_xml_string(text)
         self.state = self.mujoco.MjData(self.model)

@@ -66,9 +66,14 @@ class Pong(Engine):
             files = {
                 "table.ron": TABLE,
                 "cube.ron": CUBE.format(
-                    stiffness=self.values["stiffness"], normal=self.normal(), friction=self.friction(), corners=", ".join(self.corners()),
+                    stiffness=self.values["stiffness"],
+                    normal=self.normal(),
+                    friction=self.friction(),
+                    corners=", ".join(self.corners()),
                 ),
-                "toss.ron": SCENE.format(mass=self.body.mass, inertia=self.body.inertia, gravity=-GRAVITY, step=self.step),
+                "toss.ron": SCENE.format(
+                    mass=self.body.mass, inertia=self.body.inertia, gravity=-GRAVITY, step=self.step
+                ),
             }
             for name, text in files.items():
                 (Path(folder) / name).write_text(text)
