@@ -7,7 +7,7 @@ below `if TYPE_CHECKING`. An absolute import is looked up beside the file, and i
 import ast
 import subprocess
 
-TREES = ("blender", "bench", "ci", "fuzz", "hosts", "mechanisms", "models", "packaging")
+TREES = ("blender", "bench", "ci", "fuzz", "hosts", "mechanisms", "models", "packaging", "validation")
 
 
 class Tree:

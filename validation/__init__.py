@@ -1,0 +1,1 @@
+"""Pong and other engines against published measurements (README.md)."""
