@@ -159,10 +159,6 @@ impl Bench {
         &self.simulation
     }
 
-    pub fn original(&self) -> &Original {
-        &self.original
-    }
-
     /// Sets parameters and starts, and drops everything that an earlier run has left.
     pub fn prepare(&mut self, case: &Case) -> Result<()> {
         let (values, parameters) = (case.values.len(), self.parameters.len());

@@ -152,11 +152,6 @@ impl Original {
         }
         Ok(())
     }
-
-    /// Start of a body in the scene.
-    pub fn start(&self, body: usize) -> &Start {
-        &self.starts[body]
-    }
 }
 
 /// Displaces the bodies of an Object as one rigid body about the origin of its root: position, rotation
