@@ -285,6 +285,9 @@ fn solve_free(
     dz: &DVector<f64>,
 ) -> DVector<f64> {
     let free: Vec<usize> = (0..held.len()).filter(|place| !held[*place]).collect();
+    if free.is_empty() {
+        return dz.clone();
+    }
     let largest = diagonal.iter().copied().fold(0.0, f64::max);
     let mut block = DMatrix::zeros(free.len(), free.len());
     let mut right = DVector::zeros(free.len());

@@ -38,8 +38,12 @@ fn bounce(times: &[f64], k: f64, c: f64) -> Vec<(f64, f64)> {
         let speed = decay * ((b * omega - damping * delta) * cosine - (delta * omega + damping * b) * sine);
         (0.1 - (now + G / k), -speed)
     };
-    // Negative before the end of a phase: the gap in flight, minus the force in contact.
-    let end = |touching: bool, (z, v): (f64, f64)| if touching { -(k * (0.1 - z) - c * v) } else { 0.1 - z };
+    // Negative before the end of a phase. In contact the force is positive; in flight there is a gap, or, after
+    // the damper has let go, a depth without force.
+    let end = |touching: bool, (z, v): (f64, f64)| {
+        let (depth, force) = (0.1 - z, k * (0.1 - z) - c * v);
+        if touching { -force } else if depth < 0.0 { depth } else { force }
+    };
     let mut result = Vec::new();
     for time in times {
         loop {
@@ -95,7 +99,8 @@ fn stiffness_and_damping_of_a_bouncing_ball_are_found_from_its_closed_form() {
     }
     assert!((0.9..1.1).contains(&fit.test[1].weighted), "{fit:#?}");
     assert!(fit.test[0].weighted > 3.0 * fit.test[1].weighted, "the scene's own values are worse: {fit:#?}");
-    assert!(fit.converged && fit.notes.is_empty(), "{:?}", fit.notes);
+    let only = "turn enough to check the order of the quaternion";
+    assert!(fit.converged && fit.notes.iter().all(|note| note.contains(only)), "{:?}", fit.notes);
 }
 
 #[test]
