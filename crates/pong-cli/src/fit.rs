@@ -92,12 +92,18 @@ fn noise(text: &str) -> Result<(Quantity, f64), String> {
     let (name, number) = text.split_once('=').ok_or("give QUANTITY=NUMBER, such as position=0.0005")?;
     let quantity = quantity(name)?;
     let number = number.trim().parse::<f64>().ok().filter(|number| *number > 0.0 && number.is_finite());
-    number.map(|number| (quantity, number)).ok_or_else(|| format!("give a number above zero, {}", quantity.unit()))
+    number
+        .map(|number| (quantity, number))
+        .ok_or_else(|| format!("give a number above zero, {}", quantity.unit()))
 }
 
 fn share(text: &str) -> Result<f64, String> {
     let (number, unit) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
-    number.trim().parse::<f64>().map(|number| number * unit).map_err(|_| "give a share such as 25% or 0.25".to_owned())
+    number
+        .trim()
+        .parse::<f64>()
+        .map(|number| number * unit)
+        .map_err(|_| "give a share such as 25% or 0.25".to_owned())
 }
 
 pub(crate) fn main(arguments: &Arguments) -> Outcome {

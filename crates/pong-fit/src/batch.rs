@@ -122,8 +122,10 @@ impl Batch {
         } else {
             std::thread::scope(|scope| {
                 let done = &done;
-                let all: Vec<_> =
-                    self.benches[..threads].iter_mut().map(|bench| scope.spawn(move || done(bench))).collect();
+                let all: Vec<_> = self.benches[..threads]
+                    .iter_mut()
+                    .map(|bench| scope.spawn(move || done(bench)))
+                    .collect();
                 all.into_iter().flat_map(|thread| thread.join().expect("no work panics")).collect()
             })
         };

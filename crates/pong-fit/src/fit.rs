@@ -1,7 +1,7 @@
 //! The whole procedure: data checked and split, search from several points, intervals, errors on the test part.
 
 use crate::batch::Batch;
-use crate::data::{Data, Quantity, Record, check};
+use crate::data::{Data, Quantity, Record, check, load};
 use crate::error::{FitError, Result};
 use crate::intervals::{self, Around, Profile};
 use crate::random::Random;
@@ -125,7 +125,8 @@ pub fn fit(scene: &Scene, data: &Data, settings: &Settings, watch: Watch<'_>) ->
         return Err(FitError(checked.faults.join("\n")));
     }
     let mut notes = checked.notes;
-    let scales = settings.free.iter().zip(batch.parameters()).map(|(free, parameter)| Scale::of(free, parameter));
+    let scales =
+        settings.free.iter().zip(batch.parameters()).map(|(free, parameter)| Scale::of(free, parameter));
     let scales = scales.collect::<Result<Vec<Scale>>>()?;
     let noise = noise(data, settings)?;
     let split = split(data, settings, &mut notes)?;
@@ -134,11 +135,12 @@ pub fn fit(scene: &Scene, data: &Data, settings: &Settings, watch: Watch<'_>) ->
         trials.push(Trial::new(record, &batch, settings.starts, counts_from)?);
     }
     let trials = Trials { batch, trials, scales, noise, runs: 0 };
-    let study = Study { settings, trials, train: split.train, test: split.test, in_time: split.in_time, notes };
+    let study =
+        Study { settings, trials, train: split.train, test: split.test, in_time: split.in_time, notes };
     study.run(scene.name(), watch)
 }
 
-/// Reads data and identifies parameters: [`Data::load`], then [`fit`].
+/// Reads data and identifies parameters: [`load`], then [`fit`].
 ///
 /// # Errors
 /// As [`fit`]; a file that cannot be read.
@@ -150,7 +152,7 @@ pub fn fit_file(scene: &Scene, data: &Path, settings: &Settings, watch: Watch<'_
         .filter(|(_, body)| body.mass().is_some())
         .map(|(_, body)| body.name.clone())
         .collect();
-    fit(scene, &Data::load(data, &free)?, settings, watch)
+    fit(scene, &load(data, &free)?, settings, watch)
 }
 
 /// Noise of each quantity that counts.
@@ -162,10 +164,14 @@ fn noise(data: &Data, settings: &Settings) -> Result<[Option<f64>; 6]> {
         let measured = data.records.iter().flat_map(|record| &record.rows).any(|row| row.has(quantity));
         let wanted = settings.of.is_empty() || settings.of.contains(&quantity);
         if settings.of.contains(&quantity) && !measured {
-            faults.push(format!("{}: it counts, but no row has it; measure it, or leave it out", quantity.name()));
+            faults.push(format!(
+                "{}: it counts, but no row has it; measure it, or leave it out",
+                quantity.name()
+            ));
         }
         if measured && wanted {
-            noise[place] = settings.noise[place].or(data.noise[place]).filter(|noise| *noise > 0.0 && noise.is_finite());
+            noise[place] =
+                settings.noise[place].or(data.noise[place]).filter(|noise| *noise > 0.0 && noise.is_finite());
             if noise[place].is_none() {
                 faults.push(format!(
                     "{name}: the noise of its sensor is not known, so that it cannot be weighed against the others; write \
@@ -178,7 +184,10 @@ fn noise(data: &Data, settings: &Settings) -> Result<[Option<f64>; 6]> {
         }
     }
     if faults.is_empty() && noise.iter().all(Option::is_none) {
-        faults.push("data: nothing was measured; give columns of positions, orientations, velocities or wrenches".to_owned());
+        faults.push(
+            "data: nothing was measured; give columns of positions, orientations, velocities or wrenches"
+                .to_owned(),
+        );
     }
     if faults.is_empty() { Ok(noise) } else { Err(FitError(faults.join("\n"))) }
 }
@@ -202,7 +211,11 @@ fn split(data: &Data, settings: &Settings, notes: &mut Vec<String>) -> Result<Sp
         }
     }
     if !short.is_empty() {
-        notes.push(format!("data: {} records have less than two times that count and are left out: {}", short.len(), short.join(", ")));
+        notes.push(format!(
+            "data: {} records have less than two times that count and are left out: {}",
+            short.len(),
+            short.join(", ")
+        ));
     }
     if cut.is_empty() {
         let cure = "give longer records, a later end (`horizon`) or an earlier begin (`from`)";
@@ -249,7 +262,8 @@ struct Study<'a> {
 impl Study<'_> {
     fn run(mut self, scene: &str, watch: Watch<'_>) -> Result<Fit> {
         let scene_values: Vec<f64> = self.trials.batch.parameters().iter().map(|p| p.in_scene).collect();
-        let scene_z: Vec<f64> = self.trials.scales.iter().zip(&scene_values).map(|(scale, x)| scale.to_search(*x)).collect();
+        let scene_z: Vec<f64> =
+            self.trials.scales.iter().zip(&scene_values).map(|(scale, x)| scale.to_search(*x)).collect();
         let (tries, begin) = self.search(&scene_z, watch)?;
         tell(watch, "optimum of all records")?;
         let problem = self.problem(self.train.clone(), None);
@@ -373,7 +387,13 @@ impl Study<'_> {
         let of = |record: &usize| {
             let trial = &self.trials.trials[*record];
             let rows = trial.record.rows.iter().filter(|row| row.time >= trial.counts_from);
-            rows.map(|row| Quantity::ALL.into_iter().filter(|q| self.trials.noise[*q as usize].is_some() && row.has(*q)).count()).sum::<usize>()
+            rows.map(|row| {
+                Quantity::ALL
+                    .into_iter()
+                    .filter(|q| self.trials.noise[*q as usize].is_some() && row.has(*q))
+                    .count()
+            })
+            .sum::<usize>()
         };
         3 * records.iter().map(of).sum::<usize>()
     }
@@ -385,10 +405,16 @@ impl Study<'_> {
             let point = Point { record, z: z.to_vec(), start: vec![0.0; unknowns] };
             if let Some(reason) = self.trials.failure(&point) {
                 let name = &self.trials.trials[record].record.name;
-                return FitError(format!("record `{name}`: its run fails at the values where the search begins: {reason}"));
+                return FitError(format!(
+                    "record `{name}`: its run fails at the values where the search begins: {reason}"
+                ));
             }
         }
-        FitError::new("data", "the differences to the measurements leave the range of numbers", "look at their units")
+        FitError::new(
+            "data",
+            "the differences to the measurements leave the range of numbers",
+            "look at their units",
+        )
     }
 
     /// Errors of some records with these values. Starts that are not given are fitted to the records, the
@@ -404,7 +430,8 @@ impl Study<'_> {
         } else {
             starts.to_vec()
         };
-        let points = records.iter().zip(starts).map(|(record, start)| Point { record: *record, z: z.to_vec(), start });
+        let points =
+            records.iter().zip(starts).map(|(record, start)| Point { record: *record, z: z.to_vec(), start });
         let cases: Vec<crate::Case> = points.map(|point| self.trials.case(&point)).collect();
         let mut sums = [(0.0, 0_usize); 6];
         let (mut weighted, mut count) = (0.0, 0_usize);
@@ -431,7 +458,13 @@ impl Study<'_> {
         intervals::median_peak(&mut self.trials, &self.train, at)
     }
 
-    fn estimates(&mut self, best: &Solution, around: &Around, profiles: &[Profile], peak: f64) -> Vec<Estimate> {
+    fn estimates(
+        &mut self,
+        best: &Solution,
+        around: &Around,
+        profiles: &[Profile],
+        peak: f64,
+    ) -> Vec<Estimate> {
         let bootstrap = around.bootstrap(self.settings.seed, &best.z);
         let mut estimates = Vec::new();
         for (place, parameter) in self.trials.batch.parameters().iter().enumerate() {
@@ -441,7 +474,11 @@ impl Study<'_> {
             let moved = around.moves(place, &scale);
             let half = around.half_width(place);
             let z = best.z[place];
-            let linear = if half.is_finite() && moved { (value(z - half), value(z + half)) } else { (scale.low, scale.high) };
+            let linear = if half.is_finite() && moved {
+                (value(z - half), value(z + half))
+            } else {
+                (scale.low, scale.high)
+            };
             estimates.push(Estimate {
                 name: parameter.name.clone(),
                 unit: parameter.unit,
@@ -460,7 +497,13 @@ impl Study<'_> {
         estimates
     }
 
-    fn tell_shortfalls(&mut self, best: &Solution, parameters: &[Estimate], correlations: &[Vec<f64>], tries: &[Try]) {
+    fn tell_shortfalls(
+        &mut self,
+        best: &Solution,
+        parameters: &[Estimate],
+        correlations: &[Vec<f64>],
+        tries: &[Try],
+    ) {
         if !best.converged {
             let line = "search: it has not converged; allow more iterations, or shorten the horizon, after which motion is chaotic";
             self.notes.push(line.to_owned());

@@ -147,7 +147,9 @@ impl Around {
         let interval = |all: Vec<f64>, best: f64| {
             let mut all = all;
             all.sort_by(f64::total_cmp);
-            let at = |share: f64| all.get((share * (all.len().max(1) - 1) as f64) as usize).copied().unwrap_or(f64::NAN);
+            let at = |share: f64| {
+                all.get((share * (all.len().max(1) - 1) as f64) as usize).copied().unwrap_or(f64::NAN)
+            };
             (best + correction * at(self.tail), best + correction * at(1.0 - self.tail))
         };
         Some(drawn.into_iter().zip(best).map(|(all, best)| interval(all, *best)).collect())
@@ -193,7 +195,11 @@ pub(crate) fn student(share: f64, degrees: f64) -> f64 {
 
 /// Median over records of the largest contact force at a solution, N.
 pub(crate) fn median_peak(trials: &mut Trials, records: &[usize], at: &Solution) -> f64 {
-    let point = |(record, start): (&usize, &Vec<f64>)| Point { record: *record, z: at.z.clone(), start: start.clone() };
+    let point = |(record, start): (&usize, &Vec<f64>)| Point {
+        record: *record,
+        z: at.z.clone(),
+        start: start.clone(),
+    };
     let points: Vec<Point> = records.iter().zip(&at.starts).map(point).collect();
     let mut peaks: Vec<f64> = trials.peaks(&points).into_iter().flatten().collect();
     peaks.sort_by(f64::total_cmp);
@@ -303,7 +309,8 @@ impl Side {
         for point in &self.points {
             if point.1 >= threshold {
                 let root = |rise: f64| rise.max(0.0).sqrt();
-                let share = (threshold.sqrt() - root(before.1)) / (root(point.1) - root(before.1)).max(f64::MIN_POSITIVE);
+                let share = (threshold.sqrt() - root(before.1))
+                    / (root(point.1) - root(before.1)).max(f64::MIN_POSITIVE);
                 return (before.0 + (point.0 - before.0) * share.clamp(0.0, 1.0), false);
             }
             before = *point;
@@ -331,7 +338,10 @@ fn joined(
     let mut peaks = vec![median_peak(trials, &problem.records, best)];
     for (side, end) in inside {
         // The last solution within the range, and the first beyond it, bound the force at its end.
-        let nearest = side.solutions.iter().min_by(|a, b| (a.z[place] - end).abs().total_cmp(&(b.z[place] - end).abs()));
+        let nearest = side
+            .solutions
+            .iter()
+            .min_by(|a, b| (a.z[place] - end).abs().total_cmp(&(b.z[place] - end).abs()));
         peaks.extend(nearest.map(|solution| median_peak(trials, &problem.records, solution)));
     }
     let mut points: Vec<(f64, f64)> = below.points.iter().rev().copied().collect();

@@ -30,7 +30,7 @@ mod trials;
 mod watch;
 
 pub use batch::{Batch, Case, Outcome, Sample};
-pub use data::{Checked, Data, Noise, Quantity, Record, Row, check, parse};
+pub use data::{Checked, Data, Noise, Quantity, Record, Row, check, load, parse};
 pub use error::{FitError, Result};
 pub use fit::{Errors, Estimate, Fit, Try, fit, fit_file};
 pub use intervals::Profile;

@@ -1,4 +1,4 @@
-//! What was found as text: surfaces for a model file, mass properties and poses for a scene.
+//! Texts to paste: surfaces into a model file, mass properties and places into a scene.
 
 use crate::batch::Case;
 use crate::error::Result;
@@ -19,8 +19,13 @@ pub(crate) fn texts(trials: &mut Trials, z: &[f64]) -> Result<Vec<String>> {
     for (parameter, value) in parameters.iter().zip(&case.values) {
         let text = match &parameter.target {
             Target::Surface { model, surface, .. } => {
-                let name = world.scene().models().find(|(id, _)| id == model).map(|(_, held)| held.name.clone());
-                format!("// model {}\n{}", name.unwrap_or_default(), surface_text(world.surface(*model, surface)?))
+                let name =
+                    world.scene().models().find(|(id, _)| id == model).map(|(_, held)| held.name.clone());
+                format!(
+                    "// model {}\n{}",
+                    name.unwrap_or_default(),
+                    surface_text(world.surface(*model, surface)?)
+                )
             }
             Target::Body { body, .. } => {
                 let Some((_, held)) = simulation.bodies().nth(body.index()) else { continue };
@@ -90,11 +95,16 @@ fn surface_text(surface: &Surface) -> String {
                 ("rolling", Some(*rolling).filter(|x| *x != 0.0)),
                 ("spinning", Some(*spinning).filter(|x| *x != 0.0)),
             ];
-            let values = values.iter().filter_map(|(name, value)| Some(format!("{name}: {}", number((*value)?))));
+            let values =
+                values.iter().filter_map(|(name, value)| Some(format!("{name}: {}", number((*value)?))));
             fields.push(format!("friction: Bristle({})", values.collect::<Vec<_>>().join(", ")));
         }
         FrictionLaw::Coulomb { mu, slip_speed } => {
-            fields.push(format!("friction: Coulomb(mu: {}, slip_speed: {})", number(*mu), number(*slip_speed)));
+            fields.push(format!(
+                "friction: Coulomb(mu: {}, slip_speed: {})",
+                number(*mu),
+                number(*slip_speed)
+            ));
         }
         FrictionLaw::Custom { name, .. } => fields.push(format!("friction: Custom({name:?})")),
         FrictionLaw::None | FrictionLaw::Inherited => {}
@@ -111,7 +121,8 @@ fn mass_text(mass: &MassProperties) -> String {
         format!("Diagonal({})", diagonal.join(", "))
     } else {
         let [xx, yy, zz] = diagonal;
-        let off: Vec<String> = off.iter().map(|(name, value)| format!("{name}: {}", number(*value))).collect();
+        let off: Vec<String> =
+            off.iter().map(|(name, value)| format!("{name}: {}", number(*value))).collect();
         format!("Full(xx: {xx}, yy: {yy}, zz: {zz}, {})", off.join(", "))
     };
     let mut text = format!("mass: {}, inertia: {inertia},", number(mass.mass));

@@ -93,9 +93,12 @@ fn errors(fit: &Fit) -> String {
         ("test, values found", &fit.test[1]),
     ];
     let mut rows = Vec::new();
-    let cell = |errors: &Errors, value: Option<f64>| if errors.records == 0 { "–".to_owned() } else { value.map_or("–".to_owned(), number) };
+    let cell = |errors: &Errors, value: Option<f64>| {
+        if errors.records == 0 { "–".to_owned() } else { value.map_or("–".to_owned(), number) }
+    };
     for (quantity, _) in &fit.train[1].of {
-        let of = |errors: &Errors| errors.of.iter().find(|(known, _)| known == quantity).map(|(_, value)| *value);
+        let of =
+            |errors: &Errors| errors.of.iter().find(|(known, _)| known == quantity).map(|(_, value)| *value);
         let mut row = vec![format!("{}, {}", quantity.name(), quantity.unit())];
         row.extend(columns.iter().map(|(_, errors)| cell(errors, of(errors))));
         rows.push(row);
@@ -114,11 +117,16 @@ fn errors(fit: &Fit) -> String {
 fn one_error(fit: &Fit) -> String {
     let row = |one: &Estimate| {
         let none = || "–".to_owned();
-        vec![with_unit(one), one.one_error.map_or_else(none, interval), one.peak_force.map_or_else(none, interval)]
+        vec![
+            with_unit(one),
+            one.one_error.map_or_else(none, interval),
+            one.peak_force.map_or_else(none, interval),
+        ]
     };
     let rows: Vec<Vec<String>> = fit.parameters.iter().map(row).collect();
     let mut text = table::markdown(&["parameter", "range", "peak force, N"], &rows);
-    text += &format!("\nAt the optimum the median of the peak contact forces is {} N.\n", number(fit.peak_force));
+    text +=
+        &format!("\nAt the optimum the median of the peak contact forces is {} N.\n", number(fit.peak_force));
     text
 }
 
@@ -128,7 +136,11 @@ fn correlations(fit: &Fit) -> String {
     heading.extend(labels.iter().map(String::as_str));
     let row = |(place, one): (usize, &Estimate)| {
         let mut row = vec![format!("{} `{}`", place + 1, one.name)];
-        row.extend(fit.correlations[place].iter().map(|c| if c.is_nan() { "–".to_owned() } else { format!("{c:.3}") }));
+        row.extend(
+            fit.correlations[place]
+                .iter()
+                .map(|c| if c.is_nan() { "–".to_owned() } else { format!("{c:.3}") }),
+        );
         row
     };
     table::markdown(&heading, &fit.parameters.iter().enumerate().map(row).collect::<Vec<_>>())
@@ -146,7 +158,8 @@ fn parameters_csv(fit: &Fit) -> String {
                     peak_force_low,peak_force_high,in_scene,bound_low,bound_high,moved\n"
         .to_owned();
     for one in &fit.parameters {
-        let pair = |pair: Option<(f64, f64)>| pair.map_or(",".to_owned(), |(low, high)| format!("{low:?},{high:?}"));
+        let pair =
+            |pair: Option<(f64, f64)>| pair.map_or(",".to_owned(), |(low, high)| format!("{low:?},{high:?}"));
         text += &format!(
             "{},{},{:?},{},{},{},{},{:?},{:?},{:?},{}\n",
             one.name,
@@ -199,14 +212,18 @@ fn panel(picture: &mut Picture, [left, top]: [f64; 2], one: &Estimate, profile: 
     let root = |rise: f64| rise.max(0.0).sqrt();
     let values = || profile.points.iter().map(|(value, _)| *value);
     let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
-    let highest = profile.points.iter().map(|(_, rise)| root(*rise)).fold(root(profile.thresholds.0), f64::max) * 1.05;
+    let highest =
+        profile.points.iter().map(|(_, rise)| root(*rise)).fold(root(profile.thresholds.0), f64::max) * 1.05;
     let (width, height) = (PANEL[0] - 1.5 * MARGIN, PANEL[1] - 2.0 * MARGIN);
     let x = |value: f64| left + MARGIN + width * (value - low) / (high - low).max(f64::MIN_POSITIVE);
     let y = |rise: f64| top + MARGIN + height * (1.0 - root(rise) / highest.max(f64::MIN_POSITIVE));
     let (right, bottom) = (left + MARGIN + width, top + MARGIN + height);
     picture.line([left + MARGIN, bottom, right, bottom], "stroke:#444");
     picture.line([left + MARGIN, top + MARGIN, left + MARGIN, bottom], "stroke:#444");
-    for (threshold, style) in [(profile.thresholds.0, "stroke:#c33;stroke-dasharray:4"), (profile.thresholds.1, "stroke:#39c;stroke-dasharray:2")] {
+    for (threshold, style) in [
+        (profile.thresholds.0, "stroke:#c33;stroke-dasharray:4"),
+        (profile.thresholds.1, "stroke:#39c;stroke-dasharray:2"),
+    ] {
         if root(threshold) <= highest {
             picture.line([left + MARGIN, y(threshold), right, y(threshold)], style);
         }
@@ -215,9 +232,15 @@ fn panel(picture: &mut Picture, [left, top]: [f64; 2], one: &Estimate, profile: 
     let path: Vec<String> = profile.points.iter().map(point).collect();
     picture.path(&format!("M{}", path.join(" L")), "fill:none;stroke:#222");
     for (value, rise) in &profile.points {
-        picture.circle([x(*value), y(*rise)], 2.5, "fill:#222", &format!("{}: rise {}", number(*value), number(*rise)));
+        picture.circle(
+            [x(*value), y(*rise)],
+            2.5,
+            "fill:#222",
+            &format!("{}: rise {}", number(*value), number(*rise)),
+        );
     }
-    let name = one.name.rsplit('.').take(2).collect::<Vec<_>>().into_iter().rev().collect::<Vec<_>>().join(".");
+    let name =
+        one.name.rsplit('.').take(2).collect::<Vec<_>>().into_iter().rev().collect::<Vec<_>>().join(".");
     let title = if one.unit.is_empty() { name } else { format!("{name}, {}", one.unit) };
     picture.text([left + MARGIN + 0.5 * width, top + 0.6 * MARGIN], "middle", &title);
     picture.text([left + MARGIN, bottom + 16.0], "middle", &number(low));

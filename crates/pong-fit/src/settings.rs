@@ -89,30 +89,54 @@ impl Settings {
         let cure = "name at least one, such as surface.MODEL.SURFACE.friction.mu (docs/campaigns.md)";
         fault(self.free.is_empty(), "free parameters", "there are none".to_owned(), cure);
         let test = self.test;
-        fault(!(0.0..=0.9).contains(&test), "test share", format!("it is {test}"), "give a share from 0 to 0.9");
+        fault(
+            !(0.0..=0.9).contains(&test),
+            "test share",
+            format!("it is {test}"),
+            "give a share from 0 to 0.9",
+        );
         let from = self.from;
-        fault(!(from >= 0.0 && from.is_finite()), "from", format!("it is {from} s"), "give a time from zero up, s");
+        fault(
+            !(from >= 0.0 && from.is_finite()),
+            "from",
+            format!("it is {from} s"),
+            "give a time from zero up, s",
+        );
         let horizon = self.horizon.unwrap_or(1.0);
-        fault(!(horizon > 0.0 && horizon.is_finite()), "horizon", format!("it is {horizon} s"), "give a time above zero, s");
+        fault(
+            !(horizon > 0.0 && horizon.is_finite()),
+            "horizon",
+            format!("it is {horizon} s"),
+            "give a time above zero, s",
+        );
         let confidence = self.confidence;
         let wrong = !(0.5..=0.9999).contains(&confidence);
         fault(wrong, "confidence", format!("it is {confidence}"), "give a share from 0.5 to 0.9999");
-        fault(self.tries == 0 || self.tries > 10_000, "tries", format!("it is {}", self.tries), "give 1 to 10000");
+        fault(
+            self.tries == 0 || self.tries > 10_000,
+            "tries",
+            format!("it is {}", self.tries),
+            "give 1 to 10000",
+        );
         fault(self.threads == 0, "threads", "it is 0".to_owned(), "give at least one");
         if faults.is_empty() { Ok(()) } else { Err(FitError(faults.join("\n"))) }
     }
 }
 
-/// Scale of a parameter: the search works on its logarithm where both bounds are above zero.
+/// Scale of a parameter, with its bounds in its unit: the search works on the logarithm of the parameter where both bounds
+/// are above zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Scale {
+    /// Lower bound, in the unit of the parameter.
     pub low: f64,
+    /// Upper bound, in the unit of the parameter.
     pub high: f64,
+    /// True if the search works on the logarithm.
     pub logarithmic: bool,
 }
 
 /// Difference for derivatives on a logarithmic scale.
-const LOG_STEP: f64 = 2e-3;
+const LOG_STEP: f64 = 5e-3;
 
 /// Difference for derivatives on a linear scale, in lengths of the interval between the bounds.
 const LINEAR_STEP: f64 = 1e-3;

@@ -99,7 +99,8 @@ impl Normal {
         let largest = self.ss.diagonal().iter().copied().fold(0.0, f64::max);
         let mut block = self.ss.clone();
         for place in 0..count {
-            block[(place, place)] += damping * self.ss[(place, place)] + UNMOVED * largest + f64::MIN_POSITIVE;
+            block[(place, place)] +=
+                damping * self.ss[(place, place)] + UNMOVED * largest + f64::MIN_POSITIVE;
         }
         block.cholesky().map_or_else(|| DMatrix::zeros(count, count), |factors| factors.inverse())
     }
@@ -171,11 +172,11 @@ pub(crate) fn evaluate(
     z: Vec<f64>,
     starts: Vec<Vec<f64>>,
 ) -> Option<Solution> {
-    let point = |(record, start): (&usize, &Vec<f64>)| Point { record: *record, z: z.clone(), start: start.clone() };
+    let point =
+        |(record, start): (&usize, &Vec<f64>)| Point { record: *record, z: z.clone(), start: start.clone() };
     let points: Vec<Point> = problem.records.iter().zip(&starts).map(point).collect();
-    let squares = |e: Option<Vec<f64>>| {
-        e.map(|e| e.iter().map(|x| x * x).sum::<f64>()).filter(|sum| sum.is_finite())
-    };
+    let squares =
+        |e: Option<Vec<f64>>| e.map(|e| e.iter().map(|x| x * x).sum::<f64>()).filter(|sum| sum.is_finite());
     let costs: Option<Vec<f64>> = residuals.of(&points).into_iter().map(squares).collect();
     costs.map(|costs| Solution { z, starts, costs, converged: false })
 }
@@ -203,7 +204,11 @@ pub(crate) fn linearise(problem: &Problem, residuals: &mut dyn Residuals, at: &S
     }
     let computed = residuals.of(&points);
     let width = 1 + 2 * free.len() + problem.start_steps.len();
-    computed.chunks(width).zip(points.chunks(width)).map(|(e, points)| differences(problem, &free, e, points)).collect()
+    computed
+        .chunks(width)
+        .zip(points.chunks(width))
+        .map(|(e, points)| differences(problem, &free, e, points))
+        .collect()
 }
 
 fn differences(problem: &Problem, free: &[usize], e: &[Option<Vec<f64>>], points: &[Point]) -> Linear {
@@ -211,7 +216,8 @@ fn differences(problem: &Problem, free: &[usize], e: &[Option<Vec<f64>>], points
     let rows = base.len();
     let mut of_z = DMatrix::zeros(rows, points[0].z.len());
     // A run that failed has no part in a difference.
-    let taken = |index: usize| e[index].as_ref().filter(|e| e.len() == rows).map_or((0, &base), |e| (index, e));
+    let taken =
+        |index: usize| e[index].as_ref().filter(|e| e.len() == rows).map_or((0, &base), |e| (index, e));
     for (number, place) in free.iter().enumerate() {
         let ((upper, above), (lower, below)) = (taken(1 + 2 * number), taken(2 + 2 * number));
         let apart = points[upper].z[*place] - points[lower].z[*place];

@@ -15,7 +15,7 @@ const START_NUMBERS: usize = 12;
 const START_SCALES: [f64; 4] = [1e-3, 1e-2, 0.1, 1.0];
 
 /// Difference for derivatives by an unknown of a start, in its scale.
-pub(crate) const START_STEP: f64 = 0.05;
+pub(crate) const START_STEP: f64 = 0.2;
 
 /// A record with what a run of it needs.
 pub(crate) struct Trial {
@@ -37,7 +37,8 @@ impl Trial {
         let names = batch.bodies();
         let place = |name: &String| names.iter().position(|known| known == name).unwrap_or(0);
         let bodies: Vec<usize> = record.rows.iter().map(|row| place(&row.body)).collect();
-        let mut trial = Self { starts: vec![None; names.len()], unknown: Vec::new(), bodies, record, counts_from };
+        let mut trial =
+            Self { starts: vec![None; names.len()], unknown: Vec::new(), bodies, record, counts_from };
         for body in 0..names.len() {
             let rows: Vec<usize> = (0..trial.bodies.len()).filter(|row| trial.bodies[*row] == body).collect();
             if let [first, rest @ ..] = rows.as_slice() {
@@ -47,7 +48,14 @@ impl Trial {
         Ok(trial)
     }
 
-    fn start_of(&mut self, body: usize, name: &str, first: usize, second: Option<usize>, starts: Starts) -> Result<()> {
+    fn start_of(
+        &mut self,
+        body: usize,
+        name: &str,
+        first: usize,
+        second: Option<usize>,
+        starts: Starts,
+    ) -> Result<()> {
         let thing = || format!("record `{}`, body `{name}`", self.record.name);
         let row = &self.record.rows[first];
         let Some((pose, mut twist)) = row.start().filter(|_| row.time == 0) else {
@@ -116,7 +124,8 @@ impl Trials {
                     Vec3::from_column_slice(&change[3 * kind..3 * kind + 3]) * scale
                 };
                 pose.position += part(0);
-                pose.orientation = Quat::new_normalize((Quat::from_scaled_axis(part(1)) * pose.orientation).into_inner());
+                pose.orientation =
+                    Quat::new_normalize((Quat::from_scaled_axis(part(1)) * pose.orientation).into_inner());
                 twist.linear += part(2);
                 twist.angular += part(3);
             }
@@ -183,7 +192,9 @@ impl Residuals for Trials {
 fn difference(quantity: Quantity, row: &crate::data::Row, sample: &Sample) -> Option<Vec3> {
     let computed = match quantity {
         Quantity::Rotation => {
-            return row.orientation.map(|measured| rotation_vector(&(sample.pose.orientation * measured.inverse())));
+            return row
+                .orientation
+                .map(|measured| rotation_vector(&(sample.pose.orientation * measured.inverse())));
         }
         Quantity::Position => sample.pose.position,
         Quantity::Velocity => sample.twist.linear,

@@ -5,7 +5,7 @@
 //! interval the last two must give the change of the first. Contacts disturb few of the intervals, so the
 //! median over all of them judges.
 
-use super::{Data, Record, Row};
+use super::record::{Data, Record, Row};
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Quat, Vec3};
 
@@ -39,12 +39,14 @@ pub struct Checked {
 /// Checks data of a scene with this gravity, m/s².
 pub fn check(data: &Data, gravity: &Vec3) -> Checked {
     let mut checked = Checked::default();
-    let mut bodies: Vec<&str> = data.records.iter().flat_map(|r| &r.rows).map(|row| row.body.as_str()).collect();
+    let mut bodies: Vec<&str> =
+        data.records.iter().flat_map(|r| &r.rows).map(|row| row.body.as_str()).collect();
     bodies.sort_unstable();
     bodies.dedup();
     gaps(data, &mut checked);
     for body in bodies {
-        let pairs: Vec<Interval<'_>> = data.records.iter().flat_map(|record| intervals(record, body)).collect();
+        let pairs: Vec<Interval<'_>> =
+            data.records.iter().flat_map(|record| intervals(record, body)).collect();
         velocity(body, &pairs, &mut checked);
         rotation(body, &pairs, data.along_body, &mut checked);
         falling(body, data, gravity, &mut checked);
@@ -138,7 +140,11 @@ fn rotation(body: &str, pairs: &[Interval<'_>], along_body: bool, checked: &mut 
         both && a.angular_velocity.is_some_and(|w| w.norm() * dt > TURNS) && b.angular_velocity.is_some()
     };
     let turning: Vec<&Interval<'_>> = pairs.iter().filter(turning).collect();
-    let known = [(180.0 / std::f64::consts::PI, "degrees/s"), (std::f64::consts::TAU, "turns/s"), (60.0 / std::f64::consts::TAU, "turns/min")];
+    let known = [
+        (180.0 / std::f64::consts::PI, "degrees/s"),
+        (std::f64::consts::TAU, "turns/s"),
+        (60.0 / std::f64::consts::TAU, "turns/min"),
+    ];
     let ratio = |(a, b, dt): &&Interval<'_>| {
         let turned = rotation_vector(&(b.orientation? * a.orientation?.inverse())).norm();
         let spun = (a.angular_velocity? + b.angular_velocity?).norm() * 0.5 * dt;
@@ -170,11 +176,14 @@ fn rotation(body: &str, pairs: &[Interval<'_>], along_body: bool, checked: &mut 
         let (order, axes) = READINGS[best];
         let mut cures = Vec::new();
         if order {
-            cures.push("the quaternions are in the order x, y, z, w: name the columns qx,qy,qz,qw".to_owned());
+            cures
+                .push("the quaternions are in the order x, y, z, w: name the columns qx,qy,qz,qw".to_owned());
         }
         if axes {
             let axes = if along_body { "common" } else { "body" };
-            cures.push(format!("the angular velocity is along the other axes: write `# angular_velocity = {axes}`"));
+            cures.push(format!(
+                "the angular velocity is along the other axes: write `# angular_velocity = {axes}`"
+            ));
         }
         let degrees = |radians: f64| radians * 180.0 / std::f64::consts::PI;
         checked.faults.push(format!(

@@ -1,13 +1,13 @@
 //! The text of measured data: a line for each body and time, columns by name, settings in lines that begin
 //! with `#` (docs/fit.md).
 
-use super::{Data, Quantity, Record, Row};
+use super::record::{Data, Quantity, Record, Row};
 use crate::error::{FitError, Result};
 use pong_geometry::{Quat, Vec3};
 
 const COLUMNS: [&str; 22] = [
-    "record", "time", "body", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz", "fx", "fy",
-    "fz", "mx", "my", "mz",
+    "record", "time", "body", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz",
+    "fx", "fy", "fz", "mx", "my", "mz",
 ];
 
 /// Groups of columns that belong together.
@@ -31,18 +31,16 @@ const FAULTS_MAX: usize = 20;
 /// # Errors
 /// Every fault of the text, each with its line, cause and cure.
 pub fn parse(text: &str, file: &str, bodies: &[String]) -> Result<Data> {
-    let mut reader = Reader {
-        file,
-        bodies,
-        faults: Vec::new(),
-        data: Data::default(),
-        columns: Vec::new(),
-    };
+    let mut reader = Reader { file, bodies, faults: Vec::new(), data: Data::default(), columns: Vec::new() };
     for (number, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         reader.line(number + 1, line.trim());
     }
     if reader.columns.is_empty() && reader.faults.is_empty() {
-        reader.fault(1, "the file has no line with the names of the columns", format!("begin with {}", COLUMNS.join(",")));
+        reader.fault(
+            1,
+            "the file has no line with the names of the columns",
+            format!("begin with {}", COLUMNS.join(",")),
+        );
     }
     if reader.data.records.is_empty() && reader.faults.is_empty() {
         reader.fault(1, "the file has no measurement", "give a line for each body and time");
@@ -92,18 +90,28 @@ impl Reader<'_> {
 
     /// A setting, `noise.position = 0.0005`. Other lines that begin with `#` are comments.
     fn setting(&mut self, number: usize, text: &str) {
-        let Some((name, value)) = text.split_once('=').map(|(name, value)| (name.trim(), value.trim())) else {
+        let Some((name, value)) = text.split_once('=').map(|(name, value)| (name.trim(), value.trim()))
+        else {
             return;
         };
         if let Some(quantity) = name.strip_prefix("noise.") {
             let Some(known) = Quantity::ALL.into_iter().find(|known| known.name() == quantity) else {
                 let names = Quantity::ALL.map(Quantity::name).join(", ");
-                return self.fault(number, format!("there is no quantity `{quantity}`"), format!("name one of: {names}"));
+                return self.fault(
+                    number,
+                    format!("there is no quantity `{quantity}`"),
+                    format!("name one of: {names}"),
+                );
             };
             match value.parse::<f64>() {
-                Ok(noise) if noise > 0.0 && noise.is_finite() => self.data.noise[known as usize] = Some(noise),
+                Ok(noise) if noise > 0.0 && noise.is_finite() => {
+                    self.data.noise[known as usize] = Some(noise)
+                }
                 _ => {
-                    let cure = format!("give the standard deviation of one axis, a number above zero, {}", known.unit());
+                    let cure = format!(
+                        "give the standard deviation of one axis, a number above zero, {}",
+                        known.unit()
+                    );
                     self.fault(number, format!("the noise of {quantity} is `{value}`"), cure);
                 }
             }
@@ -113,7 +121,11 @@ impl Reader<'_> {
                 "common" => self.data.along_body = false,
                 other => {
                     let cause = format!("the axes of the angular velocity are `{other}`");
-                    self.fault(number, cause, "write body (axes of the body) or common (axes of the common frame)");
+                    self.fault(
+                        number,
+                        cause,
+                        "write body (axes of the body) or common (axes of the common frame)",
+                    );
                 }
             }
         }
@@ -173,7 +185,11 @@ impl Reader<'_> {
             match group {
                 Ok(group) => values.push(group),
                 Err(cause) => {
-                    return self.fault(number, cause, "give finite numbers, or leave all cells of the quantity empty");
+                    return self.fault(
+                        number,
+                        cause,
+                        "give finite numbers, or leave all cells of the quantity empty",
+                    );
                 }
             }
         }
@@ -183,7 +199,8 @@ impl Reader<'_> {
         let body = match body.or_else(|| (self.bodies.len() == 1).then(|| self.bodies[0].clone())) {
             Some(body) if self.bodies.contains(&body) => body,
             named => {
-                let cause = named.map_or("the line names no body".to_owned(), |name| format!("there is no body `{name}`"));
+                let cause = named
+                    .map_or("the line names no body".to_owned(), |name| format!("there is no body `{name}`"));
                 return self.fault(number, cause, format!("name one of: {}", self.bodies.join(", ")));
             }
         };
@@ -191,7 +208,8 @@ impl Reader<'_> {
             Ok(orientation) => orientation,
             Err(()) => return,
         };
-        let vector = |place: usize| values[place].as_ref().map(|numbers: &Vec<f64>| Vec3::from_column_slice(numbers));
+        let vector =
+            |place: usize| values[place].as_ref().map(|numbers: &Vec<f64>| Vec3::from_column_slice(numbers));
         let mut angular_velocity = vector(4);
         if self.data.along_body {
             match (angular_velocity, orientation) {
@@ -220,7 +238,11 @@ impl Reader<'_> {
         let Some(&[w, x, y, z]) = wxyz else { return Ok(None) };
         let norm = (w * w + x * x + y * y + z * z).sqrt();
         if (norm - 1.0).abs() > NORM_ERROR_MAX {
-            self.fault(number, format!("the quaternion has norm {norm:.4}"), "give unit quaternions qw, qx, qy, qz");
+            self.fault(
+                number,
+                format!("the quaternion has norm {norm:.4}"),
+                "give unit quaternions qw, qx, qy, qz",
+            );
             return Err(());
         }
         Ok(Some(pong_geometry::Pose::new(Vec3::zeros(), [w, x, y, z]).orientation))
@@ -239,14 +261,22 @@ impl Reader<'_> {
         let record = records.last_mut().expect("one was pushed");
         match record.times.last() {
             Some(last) if time < *last => {
-                let cause = format!("the time {time} s of record `{name}` is before that of the line above, {last} s");
+                let cause = format!(
+                    "the time {time} s of record `{name}` is before that of the line above, {last} s"
+                );
                 return self.fault(number, cause, "sort the lines by time");
             }
             Some(last) if time == *last => {}
             _ => record.times.push(time),
         }
         let row = Row { time: record.times.len() - 1, ..row };
-        if record.rows.iter().rev().take_while(|other| other.time == row.time).any(|other| other.body == row.body) {
+        if record
+            .rows
+            .iter()
+            .rev()
+            .take_while(|other| other.time == row.time)
+            .any(|other| other.body == row.body)
+        {
             let cause = format!("record `{name}` has body `{}` twice at {time} s", row.body);
             return self.fault(number, cause, "keep one of the lines, or name the record of each");
         }

@@ -34,12 +34,27 @@ pub struct Parameter {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Target {
     /// Displacement of an Object by its first body: quantity by its index in [`MOTIONS`], and axis.
-    Motion { object: usize, quantity: usize, axis: usize },
-    Body { body: BodyId, value: BodyValue },
+    Motion {
+        object: usize,
+        quantity: usize,
+        axis: usize,
+    },
+    Body {
+        body: BodyId,
+        value: BodyValue,
+    },
     /// Quantity by its index in [`SPRINGS`]; without an axis the factor of all six.
-    Spring { number: usize, quantity: usize, axis: Option<usize> },
+    Spring {
+        number: usize,
+        quantity: usize,
+        axis: Option<usize>,
+    },
     Gravity(usize),
-    Surface { model: ModelId, surface: String, value: &'static str },
+    Surface {
+        model: ModelId,
+        surface: String,
+        value: &'static str,
+    },
 }
 
 /// Number among the mass properties of a body. The order is the order of setting: factors act last.
@@ -116,7 +131,8 @@ fn body(rest: &str, scene: &BuiltScene) -> Found {
         ("inertia_factor".to_owned(), BodyValue::InertiaFactor, ""),
     ];
     known.extend(ELEMENTS.map(|(name, i, j)| (format!("inertia.{name}"), BodyValue::Inertia(i, j), "kg·m²")));
-    known.extend((0..3).map(|axis| (format!("mass_center.{}", AXES[axis]), BodyValue::MassCenter(axis), "m")));
+    known
+        .extend((0..3).map(|axis| (format!("mass_center.{}", AXES[axis]), BodyValue::MassCenter(axis), "m")));
     let names: Vec<String> = known.iter().map(|(name, ..)| name.clone()).collect();
     let (name, place) = split(rest, &names, "a body")?;
     let Some((id, held)) = scene.simulation.bodies().find(|(_, body)| body.name == name) else {
@@ -211,7 +227,8 @@ fn of_surface(rest: &str, scene: &BuiltScene) -> Found {
             let values = surface::values_of(surface);
             let Some((name, unit)) = values.iter().find(|(name, _)| *name == value) else {
                 let names: Vec<&str> = values.iter().map(|(name, _)| *name).collect();
-                let cure = format!("it has: {}; to fit another, give the model a value for it", names.join(", "));
+                let cure =
+                    format!("it has: {}; to fit another, give the model a value for it", names.join(", "));
                 return Err((format!("the surface has no value `{value}`"), cure));
             };
             let in_scene = surface::number(&mut surface.clone(), name).map_or(0.0, |number| *number);
@@ -224,7 +241,11 @@ fn of_surface(rest: &str, scene: &BuiltScene) -> Found {
 
 impl Target {
     /// Sets a value in a simulation's spring.
-    pub fn set_in_spring(&self, simulation: &Simulation, value: f64) -> Option<(usize, pong_executive::Spring)> {
+    pub fn set_in_spring(
+        &self,
+        simulation: &Simulation,
+        value: f64,
+    ) -> Option<(usize, pong_executive::Spring)> {
         let Self::Spring { number, quantity, axis } = *self else { return None };
         let mut spring = *simulation.springs().get(number)?;
         let held = match quantity {

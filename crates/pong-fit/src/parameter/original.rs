@@ -66,7 +66,12 @@ impl Original {
         self.set_starts(simulation, parameters, values, starts)
     }
 
-    fn set_surfaces(&self, simulation: &mut Simulation, parameters: &[Parameter], values: &[f64]) -> Result<()> {
+    fn set_surfaces(
+        &self,
+        simulation: &mut Simulation,
+        parameters: &[Parameter],
+        values: &[f64],
+    ) -> Result<()> {
         for (of_model, original) in &self.surfaces {
             let mut wanted = original.clone();
             for (parameter, value) in parameters.iter().zip(values) {
@@ -85,7 +90,12 @@ impl Original {
         Ok(())
     }
 
-    fn set_masses(&self, simulation: &mut Simulation, parameters: &[Parameter], values: &[f64]) -> Result<()> {
+    fn set_masses(
+        &self,
+        simulation: &mut Simulation,
+        parameters: &[Parameter],
+        values: &[f64],
+    ) -> Result<()> {
         let ids: Vec<BodyId> = simulation.bodies().map(|(id, _)| id).collect();
         for (id, original) in ids.into_iter().zip(&self.masses) {
             let Some(mut mass) = *original else { continue };
@@ -104,7 +114,12 @@ impl Original {
         Ok(())
     }
 
-    fn set_springs(&self, simulation: &mut Simulation, parameters: &[Parameter], values: &[f64]) -> Result<()> {
+    fn set_springs(
+        &self,
+        simulation: &mut Simulation,
+        parameters: &[Parameter],
+        values: &[f64],
+    ) -> Result<()> {
         for (number, spring) in self.springs.iter().enumerate() {
             simulation.set_spring(number, *spring)?;
         }

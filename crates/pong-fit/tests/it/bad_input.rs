@@ -54,7 +54,10 @@ fn a_text_is_read_as_written() {
     assert_eq!(data.noise[Quantity::Position as usize], Some(5e-4));
     let row = &data.records[0].rows[0];
     assert_eq!(row.position, Some(Vec3::new(1.0, 2.0, 3.0)));
-    assert!((row.angular_velocity.unwrap() - Vec3::new(-1.0, 0.0, 0.0)).norm() < 1e-15, "half a turn about z");
+    assert!(
+        (row.angular_velocity.unwrap() - Vec3::new(-1.0, 0.0, 0.0)).norm() < 1e-15,
+        "half a turn about z"
+    );
     assert_eq!(data.records[0].rows[1].position, None);
 }
 
@@ -146,7 +149,15 @@ fn settings_and_data_that_cannot_be_used_are_refused() {
     let good = Settings { free: mu(), ..Settings::default() };
     let none = Settings::default();
     assert!(error(&scene, &data, &none).contains("free parameters: there are none"));
-    let wrong = Settings { test: 1.5, horizon: Some(-1.0), tries: 0, threads: 0, confidence: 2.0, from: -1.0, ..good.clone() };
+    let wrong = Settings {
+        test: 1.5,
+        horizon: Some(-1.0),
+        tries: 0,
+        threads: 0,
+        confidence: 2.0,
+        from: -1.0,
+        ..good.clone()
+    };
     assert_eq!(error(&scene, &data, &wrong).lines().count(), 6);
     let unknown = Settings { free: vec![free("surface.cube.acrylic.friction.nu", None)], ..good.clone() };
     assert!(error(&scene, &data, &unknown).contains("it has: stiffness"));
@@ -163,7 +174,10 @@ fn settings_and_data_that_cannot_be_used_are_refused() {
     assert!(error(&scene, &no_start, &good).contains("no whole pose of the body"));
     let still = each(&data, |row| row.velocity = None);
     let as_measured = Settings { starts: Starts::Measured, ..good.clone() };
-    assert!(error(&scene, &still, &as_measured).contains("is not measured; measure them, or let starts be fitted"));
+    assert!(
+        error(&scene, &still, &as_measured)
+            .contains("is not measured; measure them, or let starts be fitted")
+    );
     let short = Settings { horizon: Some(1e-3), ..good.clone() };
     assert!(error(&scene, &data, &short).contains("no record has two times that count"));
     let ended = fit(&scene, &data, &good, &mut |_| ControlFlow::Break(())).unwrap_err();
@@ -195,7 +209,10 @@ fn what_the_data_cannot_tell_is_told() {
 fn parameters_that_move_together_are_told() {
     let (scene, data) = tossed("together");
     let settings = Settings {
-        free: vec![free("body.cube.mass", Some((0.1, 2.0))), free("surface.cube.acrylic.stiffness", Some((2e3, 1e5)))],
+        free: vec![
+            free("body.cube.mass", Some((0.1, 2.0))),
+            free("surface.cube.acrylic.stiffness", Some((2e3, 1e5))),
+        ],
         of: vec![Quantity::Position],
         horizon: Some(0.06),
         tries: 1,

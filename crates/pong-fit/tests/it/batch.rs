@@ -139,9 +139,19 @@ fn cases_that_do_not_fit_are_refused_one_by_one() {
         good,
     ];
     let results = batch.run(&cases);
-    let told: Vec<String> = results.iter().map(|result| result.as_ref().map_or_else(ToString::to_string, |_| String::new())).collect();
+    let told: Vec<String> = results
+        .iter()
+        .map(|result| result.as_ref().map_or_else(ToString::to_string, |_| String::new()))
+        .collect();
     assert!(told[0].is_empty() && told[7].is_empty(), "{told:?}");
-    for (place, part) in [(1, "1 values for 2"), (2, "no times"), (3, "in order"), (4, "far too long"), (5, "stiffness"), (6, "3 starts")] {
+    for (place, part) in [
+        (1, "1 values for 2"),
+        (2, "no times"),
+        (3, "in order"),
+        (4, "far too long"),
+        (5, "stiffness"),
+        (6, "3 starts"),
+    ] {
         assert!(told[place].contains(part), "{told:?}");
     }
     assert_eq!(results[0], results[7], "a refused case leaves nothing behind");
@@ -150,9 +160,15 @@ fn cases_that_do_not_fit_are_refused_one_by_one() {
 #[test]
 fn factors_act_after_values_and_axes_are_independent() {
     let scene = common::tossed("factors");
-    let all = names(&["body.cube.mass_factor", "body.cube.mass", "body.cube.inertia.xx", "body.cube.inertia_factor"]);
+    let all = names(&[
+        "body.cube.mass_factor",
+        "body.cube.mass",
+        "body.cube.inertia.xx",
+        "body.cube.inertia_factor",
+    ]);
     let mut factors = Batch::new(&scene, &all, 1).unwrap();
-    let plain = names(&["body.cube.mass", "body.cube.inertia.xx", "body.cube.inertia.yy", "body.cube.inertia.zz"]);
+    let plain =
+        names(&["body.cube.mass", "body.cube.inertia.xx", "body.cube.inertia.yy", "body.cube.inertia.zz"]);
     let mut plain = Batch::new(&scene, &plain, 1).unwrap();
     let case = |values: &[f64]| Case { values: values.to_vec(), times: times(20, 0.01), starts: Vec::new() };
     let one = run(&mut factors, &[case(&[2.0, 0.25, 8e-4, 0.5])]);

@@ -1,14 +1,6 @@
 //! Scenes that the tests write: a ball on the ground, a block that slides, a cube that is tossed.
 
 use pong_executive::scene::Scene;
-use std::path::PathBuf;
-
-/// Folder of a test, new and empty.
-pub fn folder(test: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("pong_fit_{}_{test}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
-}
 
 const GROUND: &str = r#"(
     format: "pong-model", version: 1, name: "ground",
@@ -32,7 +24,7 @@ fn cube() -> String {
     format!(
         r#"(
     format: "pong-model", version: 1, name: "cube",
-    surfaces: {{ "acrylic": (stiffness: 1e4, normal: Linear(damping: 30), friction: Bristle(mu: 0.3, stiffness: 7e3, damping: 20)) }},
+    surfaces: {{ "acrylic": (stiffness: 1e4, normal: Linear(damping: 30, ramp: 1e-3), friction: Bristle(mu: 0.3, stiffness: 7e3, damping: 20)) }},
     root: (name: "cube", surface: "acrylic", primitives: [{points}]),
 )"#
     )
@@ -54,7 +46,7 @@ fn scene(name: &str, body: &str, head: &str) -> String {
 
 /// Writes a scene with its models and loads it.
 fn written(test: &str, name: &str, model: &str, text: &str) -> Scene {
-    let folder = folder(test);
+    let folder = pong_testkit::scratch(env!("CARGO_TARGET_TMPDIR"), &format!("fit/{test}"));
     std::fs::write(folder.join("ground.ron"), GROUND).unwrap();
     std::fs::write(folder.join(format!("{name}.ron")), model).unwrap();
     std::fs::write(folder.join("scene.ron"), text).unwrap();

@@ -37,8 +37,18 @@ pub fn measured(body: &str, time: usize, pose: &Pose, twist: &Twist, random: &mu
 }
 
 /// Records of the first body at known values, from these starts.
-pub fn records(batch: &mut Batch, values: &[f64], starts: &[(Pose, Twist)], times: &[f64], seed: u64) -> Data {
-    let case = |start: &(Pose, Twist)| Case { values: values.to_vec(), starts: vec![Some(*start)], times: times.to_vec() };
+pub fn records(
+    batch: &mut Batch,
+    values: &[f64],
+    starts: &[(Pose, Twist)],
+    times: &[f64],
+    seed: u64,
+) -> Data {
+    let case = |start: &(Pose, Twist)| Case {
+        values: values.to_vec(),
+        starts: vec![Some(*start)],
+        times: times.to_vec(),
+    };
     let cases: Vec<Case> = starts.iter().map(case).collect();
     let body = batch.bodies()[0].clone();
     let width = batch.bodies().len();
@@ -68,7 +78,10 @@ pub fn tosses(count: u64, seed: u64) -> Vec<(Pose, Twist)> {
         let orientation = [between(0.2, 1.0), between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)];
         let pose = Pose::new(Vec3::new(0.0, 0.0, between(0.1, 0.12)), orientation);
         let linear = Vec3::new(between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, -0.3));
-        (pose, Twist { linear, angular: Vec3::new(between(-6.0, 6.0), between(-6.0, 6.0), between(-6.0, 6.0)) })
+        (
+            pose,
+            Twist { linear, angular: Vec3::new(between(-6.0, 6.0), between(-6.0, 6.0), between(-6.0, 6.0)) },
+        )
     };
     (0..count).map(toss).collect()
 }
