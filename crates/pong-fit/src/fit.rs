@@ -1,7 +1,7 @@
 //! The whole procedure: data checked and split, search from several points, intervals, errors on the test part.
 
 use crate::batch::Batch;
-use crate::data::{Data, Quantity, Record, check, load};
+use crate::data::{Data, Quantity, Record, check, load, parse};
 use crate::error::{FitError, Result};
 use crate::intervals::{self, Around, Profile};
 use crate::random::Random;
@@ -145,14 +145,22 @@ pub fn fit(scene: &Scene, data: &Data, settings: &Settings, watch: Watch<'_>) ->
 /// # Errors
 /// As [`fit`]; a file that cannot be read.
 pub fn fit_file(scene: &Scene, data: &Path, settings: &Settings, watch: Watch<'_>) -> Result<Fit> {
+    fit(scene, &load(data, &free_bodies(scene)?)?, settings, watch)
+}
+
+/// Reads data from the text of a CSV file, which errors call `file`, and identifies parameters.
+///
+/// # Errors
+/// As [`fit`]; every fault of the text.
+pub fn fit_text(scene: &Scene, text: &str, file: &str, settings: &Settings, watch: Watch<'_>) -> Result<Fit> {
+    fit(scene, &parse(text, file, &free_bodies(scene)?)?, settings, watch)
+}
+
+/// Names of the bodies that data may be of.
+fn free_bodies(scene: &Scene) -> Result<Vec<String>> {
     let built = scene.build()?;
-    let free: Vec<String> = built
-        .simulation
-        .bodies()
-        .filter(|(_, body)| body.mass().is_some())
-        .map(|(_, body)| body.name.clone())
-        .collect();
-    fit(scene, &load(data, &free)?, settings, watch)
+    let free = built.simulation.bodies().filter(|(_, body)| body.mass().is_some());
+    Ok(free.map(|(_, body)| body.name.clone()).collect())
 }
 
 /// Noise of each quantity that counts.

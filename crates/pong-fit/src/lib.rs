@@ -32,7 +32,7 @@ mod watch;
 pub use batch::{Batch, Case, Outcome, Sample};
 pub use data::{Checked, Data, Noise, Quantity, Record, Row, check, load, parse};
 pub use error::{FitError, Result};
-pub use fit::{Errors, Estimate, Fit, Try, fit, fit_file};
+pub use fit::{Errors, Estimate, Fit, Try, fit, fit_file, fit_text};
 pub use intervals::Profile;
 pub use parameter::Parameter;
 pub use settings::{Free, Settings, Starts};
