@@ -86,6 +86,15 @@ fn a_batch_gives_the_bits_of_a_simulation() {
 }
 
 #[test]
+fn wrenches_on_their_way_end_with_their_run() {
+    let mut batch = Batch::new(&common::held("held"), &[], 1).unwrap();
+    let case = Case { times: times(40, 5e-4), ..Case::default() };
+    let first = run(&mut batch, std::slice::from_ref(&case));
+    assert!(first[0].peak_force[0] > 1.0, "the run ends in contact");
+    assert_eq!(run(&mut batch, &[case]), first);
+}
+
+#[test]
 fn samples_between_steps_lie_on_the_motion() {
     let scene = common::bouncing("between");
     let mut batch = Batch::new(&scene, &[], 1).unwrap();

@@ -60,6 +60,14 @@ pub fn bouncing(test: &str) -> Scene {
     written(test, "ball", BALL, &scene("ball", body, head))
 }
 
+/// The ball under a host that holds wrenches over a frame, and gets them two frames late.
+pub fn held(test: &str) -> Scene {
+    let body = "motion: Free, mass: 1.0, inertia: Diagonal(4e-3, 4e-3, 4e-3), position: (0, 0, 0.1), linear_velocity: (0.3, 0, 0)";
+    let head =
+        "gravity: (0, 0, -9.81), integrator: ZeroOrderHold(delay_frames: 2), step: 5e-4, duration: 0.4";
+    written(test, "ball", BALL, &scene("ball", body, head))
+}
+
 /// A cube of 0.4 kg that slides on the ground, at its depth of rest.
 pub fn sliding(test: &str) -> Scene {
     let body = "motion: Free, mass: 0.4, inertia: Diagonal(7e-4, 7e-4, 7e-4), position: (0, 0, 0.0499019), linear_velocity: (1.0, 0, 0)";
