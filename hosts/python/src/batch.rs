@@ -133,6 +133,7 @@ impl Batch {
         };
         let cases = self.cases(values, starts, &times, count)?;
         let mut batch = lock("batch", &self.batch, "give each thread a batch of its own")?;
+        let batch: &mut pong_fit::Batch = &mut batch;
         let results = py.detach(|| batch.run(&cases));
         let (rows, bodies) = (times.len(), self.bodies.len());
         let mut failures = std::collections::BTreeMap::new();

@@ -60,6 +60,14 @@ pub fn bouncing(test: &str) -> Scene {
     written(test, "ball", BALL, &scene("ball", body, head))
 }
 
+/// The ball with damping that sets in over a depth, so that its force is continuous.
+pub fn ramped(test: &str) -> Scene {
+    let body = "motion: Free, mass: 1.0, inertia: Diagonal(4e-3, 4e-3, 4e-3), position: (0, 0, 0.105)";
+    let head = "gravity: (0, 0, -9.81), integrator: RungeKutta4, step: 5e-4, duration: 0.4";
+    let ball = BALL.replace("Linear(damping: 20)", "Linear(damping: 20, ramp: 1e-3)");
+    written(test, "ball", &ball, &scene("ball", body, head))
+}
+
 /// The ball under a host that holds wrenches over a frame, and gets them two frames late.
 pub fn held(test: &str) -> Scene {
     let body = "motion: Free, mass: 1.0, inertia: Diagonal(4e-3, 4e-3, 4e-3), position: (0, 0, 0.1), linear_velocity: (0.3, 0, 0)";
