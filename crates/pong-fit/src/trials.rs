@@ -165,7 +165,7 @@ impl Trials {
         outcomes.into_iter().zip(&measured).map(peak).collect()
     }
 
-    /// Sum of squares of a record's first error, or why it cannot be run.
+    /// Reason why the run of a record at a point fails; `None` if it does not fail.
     pub fn failure(&mut self, point: &Point) -> Option<String> {
         let case = self.case(point);
         self.batch.run(&[case]).pop()?.err().map(|error| error.0)
