@@ -22,7 +22,7 @@ impl FitError {
 }
 
 /// Converts errors whose text already has thing, cause and cure.
-macro_rules! told_already {
+macro_rules! complete_text {
     ($($error:ty),*) => {
         $(impl From<$error> for FitError {
             fn from(error: $error) -> Self {
@@ -32,4 +32,4 @@ macro_rules! told_already {
     };
 }
 
-told_already!(EngineError, ExecutiveError, LogError, SceneErrors);
+complete_text!(EngineError, ExecutiveError, LogError, SceneErrors);

@@ -21,7 +21,7 @@ const FOLLOWED: usize = 3;
 /// Least number of records that are split; fewer are split in time.
 const SPLIT: usize = 4;
 
-/// Correlation from which on two parameters are told to move together.
+/// Correlation from which on two parameters are reported as moving together.
 pub(crate) const TOGETHER: f64 = 0.9;
 
 /// A free parameter, identified.

@@ -32,11 +32,21 @@ pub(crate) struct Trial {
 
 impl Trial {
     /// # Errors
-    /// A record that does not tell where its bodies start.
+    /// A record that does not say where its bodies start, or names a body that is not there.
     pub fn new(record: Record, batch: &Batch, starts: Starts, counts_from: usize) -> Result<Self> {
         let names = batch.bodies();
-        let place = |name: &String| names.iter().position(|known| known == name).unwrap_or(0);
-        let bodies: Vec<usize> = record.rows.iter().map(|row| place(&row.body)).collect();
+        let place = |row: &crate::data::Row| {
+            let found = names.iter().position(|known| *known == row.body);
+            found.ok_or_else(|| {
+                let cause = format!("there is no body `{}`", row.body);
+                FitError::new(
+                    format!("record `{}`", record.name),
+                    cause,
+                    format!("name one of: {}", names.join(", ")),
+                )
+            })
+        };
+        let bodies: Vec<usize> = record.rows.iter().map(place).collect::<Result<_>>()?;
         let mut trial =
             Self { starts: vec![None; names.len()], unknown: Vec::new(), bodies, record, counts_from };
         for body in 0..names.len() {

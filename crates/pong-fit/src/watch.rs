@@ -1,4 +1,4 @@
-//! Progress, told to the caller.
+//! Reports of progress to the caller.
 
 use crate::error::{FitError, Result};
 use std::ops::ControlFlow;
@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 /// Called with what is done at present; may end the identification.
 pub type Watch<'a> = &'a mut dyn FnMut(&str) -> ControlFlow<()>;
 
-/// Tells the caller what is done at present.
+/// Reports the present activity to the caller.
 pub(crate) fn tell(watch: Watch<'_>, doing: &str) -> Result<()> {
     match watch(doing) {
         ControlFlow::Continue(()) => Ok(()),

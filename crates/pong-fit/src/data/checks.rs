@@ -9,7 +9,7 @@ use super::record::{Data, Record, Row};
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Quat, Vec3};
 
-/// Interval from which on a gap is told, in median intervals of its record.
+/// Interval from which on a gap is noted, in median intervals of its record.
 const GAP: f64 = 2.5;
 
 /// Relative distance of a ratio from a ratio of units at which the unit counts as found.
@@ -68,13 +68,13 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 fn gaps(data: &Data, checked: &mut Checked) {
-    let mut told = 0;
+    let mut noted = 0;
     for record in &data.records {
         let steps: Vec<f64> = record.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let usual = median(steps.clone());
         for (place, step) in steps.iter().enumerate().filter(|(_, step)| **step > GAP * usual) {
-            told += 1;
-            if told <= 5 {
+            noted += 1;
+            if noted <= 5 {
                 checked.notes.push(format!(
                     "record `{}`: a gap of {step:.4} s after {:.4} s, where the usual interval is {usual:.4} s; nothing is filled \
                      in, and the run goes on through it",
@@ -83,8 +83,8 @@ fn gaps(data: &Data, checked: &mut Checked) {
             }
         }
     }
-    if told > 5 {
-        checked.notes.push(format!("data: {} more gaps", told - 5));
+    if noted > 5 {
+        checked.notes.push(format!("data: {} more gaps", noted - 5));
     }
 }
 

@@ -23,7 +23,7 @@ const GROUPS: [&[&str]; 6] = [
 /// Largest deviation of a quaternion's norm from 1.
 const NORM_ERROR_MAX: f64 = 1e-2;
 
-/// Largest number of faults of a file that are told.
+/// Largest number of faults of a file that are reported.
 const FAULTS_MAX: usize = 20;
 
 /// Reads data from text; errors call it `file`.

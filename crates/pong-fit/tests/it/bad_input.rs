@@ -180,6 +180,8 @@ fn settings_and_data_that_cannot_be_used_are_refused() {
     );
     let short = Settings { horizon: Some(1e-3), ..good.clone() };
     assert!(error(&scene, &data, &short).contains("no record has two times that count"));
+    let strange = each(&data, |row| row.body = "ball".to_owned());
+    assert!(error(&scene, &strange, &good).contains("there is no body `ball`; name one of: cube, ground"));
     let ended = fit(&scene, &data, &good, &mut |_| ControlFlow::Break(())).unwrap_err();
     assert!(ended.to_string().contains("was ended"));
 }
