@@ -25,6 +25,7 @@ ARROWS = {
     "pong-verify": {"pong-testkit", "pong-report", "pong-geometry", "pong-model", "pong-engine", "pong-executive"},
     "pong-report": {"pong-model"},
     "pong-study": {"pong-report", "pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-record"},
+    "pong-fit": {"pong-report", "pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-record"},
     "pong-import": {"pong-geometry", "pong-model"},
     "pong-decompose": {"pong-geometry", "pong-import", "pong-model"},
     "pong-doctor": {"pong-geometry", "pong-threads"},
@@ -37,7 +38,7 @@ ARROWS = {
         "pong-advise", "pong-arena", "pong-fpenv", "pong-geometry", "pong-model", "pong-engine", "pong-record", "pong-threads",
     },
     "pong-cli": {
-        "pong-advise", "pong-decompose", "pong-doctor", "pong-geometry", "pong-import", "pong-invariance", "pong-model", "pong-engine", "pong-executive", "pong-fmu", "pong-record",
+        "pong-advise", "pong-decompose", "pong-doctor", "pong-geometry", "pong-import", "pong-invariance", "pong-model", "pong-engine", "pong-executive", "pong-fit", "pong-fmu", "pong-record",
         "pong-verify", "pong-report", "pong-study", "pong-view",
     },
 }

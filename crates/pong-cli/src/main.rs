@@ -11,6 +11,7 @@ mod advise;
 mod check;
 mod decompose;
 mod doctor;
+mod fit;
 mod fmu;
 mod folders;
 mod import;
@@ -45,6 +46,7 @@ enum Command {
     Check(check::Arguments),
     Decompose(decompose::Arguments),
     Doctor(doctor::Arguments),
+    Fit(fit::Arguments),
     Fmu(fmu::Arguments),
     Import(import::Arguments),
     Join(join::Arguments),
@@ -69,6 +71,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::main(&arguments),
         Command::Decompose(arguments) => decompose::main(&arguments),
         Command::Doctor(arguments) => doctor::main(&arguments),
+        Command::Fit(arguments) => fit::main(&arguments),
         Command::Fmu(arguments) => fmu::main(&arguments),
         Command::Import(arguments) => import::main(&arguments),
         Command::Join(arguments) => join::main(&arguments),

@@ -16,16 +16,19 @@
 //! | `scene.rs`, `simulation.rs`, `run.rs` | scenes in the built-in executive |
 //! | `log.rs` | check of a log before NumPy maps its tables |
 //! | `replay.rs`, `trade.rs`, `tune.rs` | logs compared, speed against accuracy, bounds and leaves |
+//! | `fit.rs`, `batch.rs` | parameters from measured data; many short runs in one call |
 //! | `advice.rs`, `verify.rs` | stiffness and damping for a wanted bounce; cases with known answers |
 
 mod advice;
 mod arrays;
 mod authored;
+mod batch;
 mod builder;
 mod contacts;
 mod distance;
 mod dynamics;
 mod errors;
+mod fit;
 mod frame_report;
 mod ids;
 mod joined;
@@ -75,6 +78,10 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     add_class::<scene::Scene>(module)?;
     add_class::<simulation::Simulation>(module)?;
     add_class::<run::Run>(module)?;
+    add_class::<batch::Batch>(module)?;
+    add_class::<batch::BatchRuns>(module)?;
+    add_class::<fit::Fit>(module)?;
+    add_class::<fit::FitParameter>(module)?;
     add_class::<replay::Replay>(module)?;
     add_class::<trade::Trade>(module)?;
     add_class::<trade::Level>(module)?;
@@ -86,6 +93,7 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(replay::replay, module)?)?;
     module.add_function(wrap_pyfunction!(trade::trade, module)?)?;
     module.add_function(wrap_pyfunction!(tune::tune, module)?)?;
+    module.add_function(wrap_pyfunction!(fit::identify, module)?)?;
     module.add_function(wrap_pyfunction!(log::check_log, module)?)?;
     module.add_function(wrap_pyfunction!(authored::read_authored, module)?)?;
     module.add_function(wrap_pyfunction!(authored::parse_authored, module)?)?;

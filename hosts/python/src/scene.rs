@@ -1,5 +1,6 @@
 //! Scene files (docs/scene_format.md).
 
+use crate::batch::Batch;
 use crate::errors::{bad_value, of_scene};
 use crate::model::extensions;
 use crate::setup::worker_settings;
@@ -167,6 +168,29 @@ impl Scene {
             self.scene.build_varied(&variation)
         });
         Ok(Simulation::new(built.map_err(of_scene)?))
+    }
+
+    /// Builds the scene for many short runs in one call.
+    ///
+    /// Parameters
+    /// ----------
+    /// parameters : sequence of str, optional
+    ///     Names of parameters that each run sets (docs/fit.md).
+    /// threads : int, optional
+    ///     Number of threads; one for each core without it.
+    ///
+    /// Returns
+    /// -------
+    /// Batch
+    ///
+    /// Raises
+    /// ------
+    /// BadValueError
+    ///     The scene cannot be built, or a name leads nowhere.
+    #[pyo3(signature = (parameters = Vec::new(), *, threads = None))]
+    fn batch(&self, parameters: Vec<String>, threads: Option<usize>) -> PyResult<Batch> {
+        let threads = threads.unwrap_or_else(pong_fit::Batch::threads_of_this_machine);
+        Batch::new(&self.scene, parameters, threads)
     }
 
     fn __repr__(&self) -> String {

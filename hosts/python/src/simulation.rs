@@ -232,6 +232,11 @@ impl Simulation {
         Ok(())
     }
 
+    /// Drops the contact history of all bodies: for a new start, after the bodies were moved to other states.
+    fn clear_contact_history(&self) -> PyResult<()> {
+        self.lock()?.simulation.clear_contact_history().map_err(of_executive)
+    }
+
     /// Sets gravity.
     ///
     /// Parameters

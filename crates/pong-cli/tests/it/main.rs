@@ -6,6 +6,7 @@ mod commands;
 mod common;
 mod decompose;
 mod doctor;
+mod fit;
 mod fmu;
 mod import;
 mod join;

@@ -3,6 +3,7 @@
 use super::{Simulation, check_step};
 use crate::body::{BodyId, Motion, RigidBody};
 use crate::error::{ExecutiveError, Result};
+use crate::integrate::Held;
 use crate::load::Load;
 use crate::mass::MassProperties;
 use crate::path::Path;
@@ -141,7 +142,7 @@ impl Simulation {
     }
 
     /// Sets the pose and twist of a free or fixed body. The contact history stays; to drop it call
-    /// [`World::clear_contact_history`](pong_engine::World::clear_contact_history).
+    /// [`clear_contact_history`](Self::clear_contact_history).
     ///
     /// # Errors
     /// A body that does not exist or is on a prescribed path; a pose or twist that is not finite.
@@ -166,6 +167,21 @@ impl Simulation {
                 ));
             }
         }
+        self.disturbed();
+        Ok(())
+    }
+
+    /// Drops the contact history of all bodies, and the wrenches that a zero-order hold still delays: for a new
+    /// start, after the bodies are moved to other states. Time, states, masses and surfaces stay.
+    ///
+    /// # Errors
+    /// None that the caller can cause.
+    pub fn clear_contact_history(&mut self) -> Result<()> {
+        let objects: Vec<_> = self.system.world.scene().objects().collect();
+        for object in objects {
+            self.system.world.clear_contact_history(object)?;
+        }
+        self.held = Held::default();
         self.disturbed();
         Ok(())
     }

@@ -19,10 +19,12 @@ from enum import IntFlag
 from typing import TYPE_CHECKING, Any
 
 from . import model, types
+from ._fit import fit, plot_fit
 from ._log import Log
 from ._pong import (
     CONTACT_DTYPE,
     BadValueError,
+    Batch,
     ContactStateError,
     DuplicateError,
     EngineError,
@@ -54,6 +56,7 @@ from ._pong import (
 __all__ = [
     "CONTACT_DTYPE",
     "BadValueError",
+    "Batch",
     "ContactStateError",
     "DuplicateError",
     "EngineError",
@@ -78,8 +81,10 @@ __all__ = [
     "WorldBuilder",
     "__version__",
     "advise_contact",
+    "fit",
     "load_model",
     "model",
+    "plot_fit",
     "replay",
     "trade",
     "tune",

@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "AddedModel",
     "BadValueError",
+    "Batch",
+    "BatchRuns",
     "CONTACT_DTYPE",
     "Case",
     "ContactChange",
@@ -17,6 +19,8 @@ __all__ = [
     "Distance",
     "DuplicateError",
     "EngineError",
+    "Fit",
+    "FitParameter",
     "FrameReport",
     "Interface",
     "Level",
@@ -50,6 +54,7 @@ __all__ = [
     "check_log",
     "check_polyhedron",
     "check_triangles",
+    "identify",
     "join_models",
     "model_schema",
     "parse_authored",
@@ -332,6 +337,7 @@ class Scene:
     def name(self) -> str: ...
     @property
     def step(self) -> float: ...
+    def batch(self, parameters: Sequence[str] = ..., *, threads: int | None = None) -> Batch: ...
     def build(
         self,
         *,
@@ -381,6 +387,7 @@ class Simulation:
     def time(self) -> float: ...
     @property
     def warnings(self) -> list[str]: ...
+    def clear_contact_history(self) -> None: ...
     def contact_stiffness(self) -> _Array: ...
     def contacts(self) -> NDArray[np.void]: ...
     def energy(self) -> dict[str, float]: ...
@@ -439,6 +446,75 @@ class Run:
     def worst_balance(self) -> float: ...
     @property
     def wrenches(self) -> _Array: ...
+
+@final
+class Batch:
+    @property
+    def bodies(self) -> list[str]: ...
+    @property
+    def parameters(self) -> list[str]: ...
+    def run(self, times: ArrayLike, *, values: ArrayLike | None = None, starts: _Array | None = None) -> BatchRuns: ...
+
+@final
+class BatchRuns:
+    @property
+    def failures(self) -> dict[int, str]: ...
+    @property
+    def peak_force(self) -> _Array: ...
+    @property
+    def states(self) -> _Array: ...
+    @property
+    def wrenches(self) -> _Array: ...
+
+@final
+class Fit:
+    @property
+    def converged(self) -> bool: ...
+    @property
+    def correlations(self) -> list[list[float]]: ...
+    @property
+    def notes(self) -> list[str]: ...
+    @property
+    def page(self) -> str: ...
+    @property
+    def parameters(self) -> list[FitParameter]: ...
+    @property
+    def peak_force(self) -> float: ...
+    @property
+    def runs(self) -> int: ...
+    @property
+    def test(self) -> dict[str, float]: ...
+    @property
+    def test_of_scene(self) -> dict[str, float]: ...
+    @property
+    def to_paste(self) -> list[str]: ...
+    @property
+    def train(self) -> dict[str, float]: ...
+
+@final
+class FitParameter:
+    @property
+    def bootstrap(self) -> tuple[float, float] | None: ...
+    @property
+    def in_scene(self) -> float: ...
+    @property
+    def linear(self) -> tuple[float, float]: ...
+    @property
+    def moved(self) -> bool: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def one_error(self) -> tuple[float, float] | None: ...
+    @property
+    def peak_force(self) -> tuple[float, float] | None: ...
+    @property
+    def profile(self) -> tuple[float, float] | None: ...
+    @property
+    def profile_points(self) -> list[tuple[float, float]]: ...
+    @property
+    def unit(self) -> str: ...
+    @property
+    def value(self) -> float: ...
 
 @final
 class Replay:
@@ -584,6 +660,26 @@ def tune(
     frames: int = 4096,
     allow_files_below: Sequence[_Path] = ...,
 ) -> Tuned: ...
+
+def identify(
+    scene: _Path,
+    data: _Path,
+    text: str | None,
+    free: Sequence[tuple[str, tuple[float, float] | None]],
+    noise: Mapping[str, float],
+    of: Sequence[str],
+    begin: float,
+    horizon: float | None,
+    test: float,
+    confidence: float,
+    measured_starts: bool,
+    profiles: bool,
+    tries: int,
+    seed: int,
+    threads: int,
+    output: _Path | None,
+    allow_files_below: Sequence[_Path],
+) -> Fit: ...
 
 def check_log(folder: _Path) -> tuple[bool, int]: ...
 

@@ -6,14 +6,19 @@
 | `FrameReport`, `ContactChange`, `PairPeaks`, `Distance` | `World`: frames |
 | `Run` | `Simulation.run` |
 | `Replay`, `Trade` with `Level`, `Tuned` | `replay`, `trade`, `tune` |
+| `BatchRuns` | `Batch.run` |
+| `Fit` with `FitParameter` | `fit` |
 | `Case` with `Row` | `verify` |
 """
 
 from ._pong import (
     AddedModel,
+    BatchRuns,
     Case,
     ContactChange,
     Distance,
+    Fit,
+    FitParameter,
     FrameReport,
     Interface,
     Level,
@@ -29,9 +34,12 @@ from ._pong import (
 
 __all__ = [
     "AddedModel",
+    "BatchRuns",
     "Case",
     "ContactChange",
     "Distance",
+    "Fit",
+    "FitParameter",
     "FrameReport",
     "Interface",
     "Level",

@@ -1,0 +1,7 @@
+//! Integration tests of the crate.
+
+mod bad_input;
+mod batch;
+mod common;
+mod recovery;
+mod synthetic;
