@@ -350,13 +350,13 @@ impl Study<'_> {
         let count = self.settings.tries;
         let orders: Vec<Vec<usize>> = scene_z.iter().map(|_| random.order(count)).collect();
         let mut points = vec![scene_z.to_vec()];
-        for number in 1..count {
+        (1..count).for_each(|number| {
             let inside = |(place, scale): (usize, &Scale)| {
                 let (low, high) = scale.bounds();
                 low + (high - low) * (orders[place][number] as f64 + random.unit()) / count as f64
             };
             points.push(self.trials.scales.iter().enumerate().map(inside).collect());
-        }
+        });
         let records: Vec<usize> = self.train.iter().copied().take(RECORDS_OF_A_TRY).collect();
         let problem = self.problem(records, None);
         let starts = vec![vec![0.0; problem.start_steps.len()]; problem.records.len()];

@@ -49,10 +49,10 @@ impl Trial {
         let bodies: Vec<usize> = record.rows.iter().map(place).collect::<Result<_>>()?;
         let mut trial =
             Self { starts: vec![None; names.len()], unknown: Vec::new(), bodies, record, counts_from };
-        for body in 0..names.len() {
+        for (body, name) in names.iter().enumerate() {
             let rows: Vec<usize> = (0..trial.bodies.len()).filter(|row| trial.bodies[*row] == body).collect();
             if let [first, rest @ ..] = rows.as_slice() {
-                trial.start_of(body, &names[body], *first, rest.first().copied(), starts)?;
+                trial.start_of(body, name, *first, rest.first().copied(), starts)?;
             }
         }
         Ok(trial)

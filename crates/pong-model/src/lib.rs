@@ -69,7 +69,7 @@ pub use model::{
 };
 pub use pair_table::pair_entries;
 pub use printable::{printable, printable_lines};
-pub use solid::{Solid, SolidFacet, SolidField, SolidPart};
+pub use solid::{FieldEdge, Solid, SolidFacet, SolidField, SolidPart};
 pub use solid_box::SolidBox;
 pub use solid_tree::{SolidNode, SolidTree};
 pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};

@@ -2,6 +2,7 @@
 
 use crate::solid_box::SolidBox;
 use crate::solid_tree::SolidTree;
+use pong_geometry::Vec3;
 use pong_geometry::overlap::{HalfSpace, Surface};
 use std::ops::Range;
 
@@ -74,6 +75,18 @@ pub struct SolidField {
     pub faces: Vec<HalfSpace>,
     /// Planes of the internal faces.
     pub walls: Vec<HalfSpace>,
+    /// Edges between faces whose normals are far apart, in the order of the faces; only if the field is that of the
+    /// whole solid.
+    pub edges: Vec<FieldEdge>,
+}
+
+/// Edge between two faces of a convex solid, in the group frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FieldEdge {
+    /// Its faces (indices into [`SolidField::faces`]), the lower one first.
+    pub faces: [u32; 2],
+    /// Point of the edge, m.
+    pub point: Vec3,
 }
 
 impl Solid {

@@ -33,7 +33,11 @@ pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: us
     let parts = solids().flat_map(|solid| &solid.parts);
     let facets = parts.map(|part| part.surface.facet_count()).max().unwrap_or(0);
     let fields = solids().flat_map(|solid| &solid.fields);
-    let faces = fields.map(|field| field.faces.len() + field.walls.len()).max().map_or(0, |most| most + 1);
+    // Each edge of a field can get a wall of its own.
+    let faces = fields
+        .map(|field| field.faces.len() + field.walls.len() + field.edges.len())
+        .max()
+        .map_or(0, |most| most + 1);
     // The walls of a region are cut like faces, and a side has a face for each region of its part.
     let regions = solids().flat_map(|solid| &solid.facets).map(|facet| facet.walls.len() + 2).max();
     let in_parts = solids().flat_map(|solid| &solid.parts).map(|part| part.facets.len()).max();

@@ -398,6 +398,37 @@ fn body_that_rolls_on_a_thin_sheet_forgets_its_own_side() {
     }
 }
 
+/// A soft tetrahedron flat on a rigid block: its edges have 70.5°, so the side of entry takes its other faces away. The
+/// bottom carries K·a·δ with its own area a, on a block of any size, and as a potential with the wrench of its walls.
+#[test]
+fn flat_tetrahedron_has_the_area_of_its_face() {
+    let (foundation, edge, delta) = (2e7, 0.1_f64, 1e-6);
+    let (radius, height) = (edge / 3.0_f64.sqrt(), edge * (2.0 / 3.0_f64).sqrt());
+    let corner = |angle: f64| [radius * angle.cos(), radius * angle.sin(), 0.0];
+    let [a, b, c] = [0.0, 2.0, 4.0].map(|third| corner(third * std::f64::consts::FRAC_PI_3));
+    let tuple = |[x, y, z]: [f64; 3]| format!("({x:?}, {y:?}, {z:?})");
+    let vertices = [a, b, c, [0.0, 0.0, height]].map(tuple).join(", ");
+    let faces = "[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]";
+    let primitive = format!("Polyhedron(name: \"tetrahedron\", vertices: [{vertices}], faces: {faces})");
+    let soft = remembering(&solid(SOFT, &primitive));
+    let mut pair = Pair::new(&soft, &remembering(&block(RIGID, [1.0, 1.0, 0.2])));
+    pair.at(&pose([0.0, 0.0, 0.2 + 1e-3], [0.0; 3]));
+    pair.world.commit().unwrap();
+    let (wrench, _) = pair.at(&pose([0.0, 0.0, 0.2 - delta], [0.0; 3]));
+    let expected = foundation * 0.25 * 3.0_f64.sqrt() * edge * edge * delta;
+    assert!((wrench.force.z / expected - 1.0).abs() < 20.0 * delta / edge, "{wrench:?} for {expected}");
+    let here = pose([0.3, -0.2, 0.2 - 0.01], [0.1, -0.2, 0.7]);
+    pair.at(&here);
+    pair.world.commit().unwrap();
+    for along in directions() {
+        let step = |by: f64| Twist { linear: along.linear * by, angular: along.angular * by };
+        let energy = |by: f64, pair: &mut Pair| pair.at(&moved(&here, &step(by))).1;
+        let slope = (energy(1e-6, &mut pair) - energy(-1e-6, &mut pair)) / 2e-6;
+        let (wrench, _) = pair.at(&here);
+        assert!((power(&wrench, &along) + slope).abs() < 1e-6 * wrench.force.norm(), "{along:?}: {wrench:?}");
+    }
+}
+
 /// A tilted block slides on the edge between two of its faces, at the depth D: each face has the damping force
 /// ¾·c·D·L·v, with c per area, of which the sine of the tilt of that face is drag. The force of the trailing face falls
 /// to zero at most.

@@ -88,5 +88,5 @@ pub fn tossed(test: &str) -> Scene {
     let body = "motion: Free, mass: 0.4, inertia: Diagonal(7e-4, 7e-4, 7e-4), position: (0, 0, 0.12), \
                 orientation: (0.9, 0.3, 0.3, 0.1), linear_velocity: (0.8, 0.2, -0.5), angular_velocity: (2, 5, 1)";
     let head = "gravity: (0, 0, -9.81), integrator: RungeKutta4, step: 5e-4, duration: 0.4";
-    written(test, "cube", &cube(), &scene("cube", &body, head))
+    written(test, "cube", &cube(), &scene("cube", body, head))
 }

@@ -2,11 +2,12 @@
 
 use super::facets::Facet;
 use crate::hull::{PLANE_TOLERANCE, Places, area};
-use crate::solid::SolidField;
+use crate::solid::{FieldEdge, SolidField};
 use crate::solid_box::SolidBox;
 use crate::weld::WordMap;
 use pong_geometry::Vec3;
 use pong_geometry::overlap::HalfSpace;
+use std::collections::BTreeMap;
 
 /// Distance of two unit normals above which faces of different pieces are never merged. Two normals within this
 /// distance lie in the same cell or in neighbouring cells of a grid.
@@ -16,6 +17,13 @@ const NORMAL_CELL: f64 = 0.02;
 /// relative to the square of the diameter: moving the outline of a face by [`PLANE_TOLERANCE`] changes its area
 /// by about this much.
 const AREA_TOLERANCE: f64 = 4.0 * PLANE_TOLERANCE;
+
+/// Cosine of two normals up to which the edge of their faces is listed: no direction of entry makes one of two faces push
+/// and takes the other away if their normals are closer than 35°.
+const FAR_APART: f64 = 0.82;
+
+/// Largest number of vertices times faces for which edges are searched, about 0.2 s.
+const MOST_EDGE_TESTS: usize = 1 << 27;
 
 /// Facets in one plane.
 struct Merged {
@@ -126,5 +134,36 @@ pub(super) fn field(
         return None;
     }
     let walls = walls.iter().map(|merged| merged.plane).collect();
-    Some(SolidField { bound: SolidBox::around(vertices), faces, walls })
+    let edges = edges(&faces, vertices, tolerance);
+    Some(SolidField { bound: SolidBox::around(vertices), faces, walls, edges })
+}
+
+/// Edges between faces whose normals have at most the cosine [`FAR_APART`], in the order of the faces.
+fn edges(faces: &[HalfSpace], vertices: &[Vec3], tolerance: f64) -> Vec<FieldEdge> {
+    if faces.len() * vertices.len() > MOST_EDGE_TESTS {
+        return Vec::new();
+    }
+    let mut found: BTreeMap<[u32; 2], Vec<Vec3>> = BTreeMap::new();
+    for vertex in vertices {
+        let on: Vec<usize> =
+            (0..faces.len()).filter(|&face| faces[face].depth(vertex).abs() <= tolerance).collect();
+        for (at, &one) in on.iter().enumerate() {
+            for &other in &on[at + 1..] {
+                if faces[one].normal_b.dot(&faces[other].normal_b) <= FAR_APART {
+                    found.entry([one as u32, other as u32]).or_default().push(*vertex);
+                }
+            }
+        }
+    }
+    found.into_iter().filter_map(|(faces_of, ends)| edge(faces, faces_of, &ends, tolerance)).collect()
+}
+
+/// Edge of two faces with these vertices on both; `None` if they share a single point.
+fn edge(faces: &[HalfSpace], faces_of: [u32; 2], ends: &[Vec3], tolerance: f64) -> Option<FieldEdge> {
+    let [one, other] = faces_of.map(|face| faces[face as usize].normal_b);
+    let direction = one.cross(&other).try_normalize(1e-6)?;
+    let along = |vertex: &Vec3| direction.dot(vertex);
+    let low = ends.iter().map(along).fold(f64::INFINITY, f64::min);
+    let high = ends.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
+    (high - low > 2.0 * tolerance).then(|| FieldEdge { faces: faces_of, point: ends[0] })
 }

@@ -97,5 +97,5 @@ fn field(polyhedron: &Polyhedron) -> SolidField {
         let facets: Vec<Facet> = facets(polyhedron, active).collect();
         convex::planes(&facets, 2.0 * bound.half.norm())
     };
-    SolidField { bound, faces: planes(true), walls: planes(false) }
+    SolidField { bound, faces: planes(true), walls: planes(false), edges: Vec::new() }
 }

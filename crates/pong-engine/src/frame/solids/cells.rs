@@ -2,7 +2,7 @@
 //! and by those of A.
 
 use super::cell_force::CellForce;
-use super::entry::Entry;
+use super::entry::{self, Entry};
 use super::relative::Relative;
 use super::side::{Regions, Side};
 use pong_geometry::overlap::{Cell, Field, HalfSpace, Moments, Overlap};
@@ -29,7 +29,7 @@ pub(crate) struct SolidScratch {
     pub(super) forces: Vec<CellForce>,
 }
 
-/// Faces of a side that push, with their numbers among all faces of the side.
+/// Faces of a side that push, with their numbers among all faces of the side. The edges of its field are counted after them.
 #[derive(Debug, Default)]
 pub(super) struct PushingFaces {
     pub planes: Vec<HalfSpace>,
@@ -51,6 +51,12 @@ impl PushingFaces {
         for (number, face) in (0..).zip(side.faces) {
             if entry.is_none_or(|entry| Entry::pushes(face, entry)) {
                 self.planes.push(*face);
+                self.numbers.push(number);
+            }
+        }
+        for (number, edge) in (side.faces.len() as u32..).zip(side.edges) {
+            if let Some(wall) = entry.and_then(|entry| entry::wall_at(edge, side.faces, entry)) {
+                self.planes.push(wall);
                 self.numbers.push(number);
             }
         }

@@ -7,10 +7,14 @@ use crate::frame::input::PairContext;
 use crate::state::{ContactKey, ContactRecord, SolidContactPart};
 use pong_geometry::overlap::HalfSpace;
 use pong_geometry::{Transform, Vec3};
+use pong_model::FieldEdge;
 
 /// Cosine between the direction of entry and a face below which the face does not push: it is a face
 /// through which the other body would leave at the far side.
 const FAR_SIDE_COSINE: f64 = -0.3;
+
+/// Cosine between the direction of entry and a face above which an edge to a face that is taken away gets a wall.
+const NEAR_SIDE_COSINE: f64 = 0.3;
 
 /// Cosine of the angle up to which the directions in the two frames agree (11°). A side face at a right angle to one of
 /// them then has a cosine of at least -0.2 with the other, so it pushes, and so does one that faces away by up to 6°.
@@ -39,6 +43,21 @@ impl Entry {
     pub fn pushes(face: &HalfSpace, entry: &Vec3) -> bool {
         face.normal_b.dot(entry) >= FAR_SIDE_COSINE
     }
+}
+
+/// Face in place of one that is taken away, at its edge with a face that is turned towards the direction of entry: it
+/// contains the edge and that direction, and pushes like the other faces. `None` at other edges.
+///
+/// Without it the field of a sharp edge would go on beyond the body, along the face that pushes.
+pub(super) fn wall_at(edge: &FieldEdge, faces: &[HalfSpace], entry: &Vec3) -> Option<HalfSpace> {
+    let [one, other] = edge.faces.map(|face| &faces[face as usize]);
+    let (near, removed) = if Entry::pushes(one, entry) { (one, other) } else { (other, one) };
+    let [toward, away] = [near, removed].map(|face| face.normal_b.dot(entry));
+    if toward <= NEAR_SIDE_COSINE || away >= FAR_SIDE_COSINE {
+        return None;
+    }
+    let normal_b = (removed.normal_b * toward - near.normal_b * away).normalize();
+    Some(HalfSpace { normal_b, offset: normal_b.dot(&edge.point) })
 }
 
 /// Key of a part of the contact of two sides.

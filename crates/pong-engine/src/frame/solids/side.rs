@@ -3,7 +3,7 @@
 use super::relative::Relative;
 use pong_geometry::Transform;
 use pong_geometry::overlap::HalfSpace;
-use pong_model::{MovableGroup, Solid, SolidBox, SolidFacet, SolidNode, SolidPart};
+use pong_model::{FieldEdge, MovableGroup, Solid, SolidBox, SolidFacet, SolidNode, SolidPart};
 
 /// One side of a patch: a convex solid with all its parts, one part of another solid, or a plane. A side has
 /// one bristle with each other side.
@@ -14,6 +14,8 @@ pub(super) struct Side<'a> {
     /// Planes of the field: outer faces, and internal faces. Empty without a field.
     pub faces: &'a [HalfSpace],
     pub walls: &'a [HalfSpace],
+    /// Edges between `faces` whose normals are far apart.
+    pub edges: &'a [FieldEdge],
     /// Regions below the facets of a mesh that is not convex, which are its field instead of `faces` and `walls`.
     pub regions: Regions<'a>,
     /// True if the field describes the whole body, which then remembers the side of entry.
@@ -64,6 +66,7 @@ impl<'a> Side<'a> {
             parts,
             faces: field.map_or(&[], |field| &field.faces),
             walls: field.map_or(&[], |field| &field.walls),
+            edges: field.map_or(&[], |field| &field.edges),
             regions,
             is_whole,
             primitive: parts[0].primitive,
@@ -80,6 +83,7 @@ impl<'a> Side<'a> {
             parts: &[],
             faces: plane,
             walls: &[],
+            edges: &[],
             regions: Regions::default(),
             is_whole: true,
             primitive,
