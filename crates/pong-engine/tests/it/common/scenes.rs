@@ -427,6 +427,8 @@ fn round() -> Scene {
         model("targets", &rough(1e6), &targets.join(", ")),
     ];
     let mut scene = Scene::new("round", 200, models);
+    // The length of the state block follows from the capacity.
+    scene.contact_capacity = Some(8601);
     scene.paths = vec![
         Path {
             center: [0.0, 0.0, 0.0],
