@@ -9,7 +9,7 @@ use pong::config::{pong_config, pong_default_config};
 use pong::ids::{pong_model_id, pong_object_id, pong_pair_id};
 use pong::interfaces::pong_list_interfaces;
 use pong::laws::{pong_register_friction_law, pong_register_normal_law};
-use pong::models::{pong_allow_files_below, pong_load_model, pong_load_model_text};
+use pong::models::{pong_allow_files_below, pong_load_joined_models, pong_load_model, pong_load_model_text};
 use pong::objects::pong_create_object;
 use pong::pairs::{pong_filter_groups, pong_pair_by_name, pong_pair_objects};
 use pong::seal::{pong_seal, pong_seal_note, pong_seal_report, pong_seal_warning};
@@ -296,6 +296,19 @@ impl Session<'_> {
         let path = self.text(&["", "/", "missing.ron", "/dev/null", &folder, "/proc/self/mem", "."]);
         let sure = Sure::Wrong.and(known);
         self.call("load", sure, || unsafe { pong_load_model(world, path.pointer(), place.pointer) });
+        let (paths, name) = ([path.pointer(); 2], c"joined");
+        self.call("load joined", sure, || unsafe {
+            let count = paths.len();
+            pong_load_joined_models(
+                world,
+                paths.as_ptr(),
+                std::ptr::null(),
+                count,
+                name.as_ptr(),
+                1,
+                place.pointer,
+            )
+        });
     }
 
     fn create_any_object(&mut self) {

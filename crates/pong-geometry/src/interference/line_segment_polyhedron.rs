@@ -120,7 +120,8 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
     } else {
         assign_exits(segment, polyhedron, &mut inside.ends)
     };
-    let mut search = Search { segment, polyhedron, inside: inside.ends, exits, best: None };
+    let mut search =
+        Search { segment, polyhedron, inside: inside.ends, exits, best: None, least_energy: f64::INFINITY };
     let moderate =
         polyhedron.planes().moderate && is_moderate(&segment.ends[0]) && is_moderate(&segment.ends[1]);
     if polyhedron.planes().blocks.len() > N || !moderate {
@@ -153,7 +154,7 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
 fn along_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts {
     let Some(mut inside) = inside_of_wide_walls(segment, polyhedron) else { return [None, None] };
     let exits = assign_exits(segment, polyhedron, &mut inside);
-    let mut search = Search { segment, polyhedron, inside, exits, best: None };
+    let mut search = Search { segment, polyhedron, inside, exits, best: None, least_energy: f64::INFINITY };
     search.visit_all();
     let contacts = search.contacts();
     [0, 1].map(|end: usize| {
@@ -192,6 +193,8 @@ struct Search<'a> {
     /// Role of the neighbouring pieces at each end.
     exits: [AtWall; 2],
     best: Option<Stored>,
+    /// Energy of `best`, m²; infinite without one.
+    least_energy: f64,
 }
 
 /// Energy stored by one face.
@@ -230,7 +233,7 @@ impl Search<'_> {
                 let face = block * LANES + faces.trailing_zeros() as usize;
                 let is_likeliest = likeliest == Some(face);
                 self.visit(if is_likeliest { at_likeliest } else { self.stored(face) });
-                limit = self.best.map_or(limit, |best| limit.min(best.energy * BEYOND_ROUNDING));
+                limit = limit.min(self.least_energy * BEYOND_ROUNDING);
                 faces &= faces - 1;
             }
         }
@@ -239,10 +242,10 @@ impl Search<'_> {
     #[inline(always)]
     fn visit(&mut self, stored: Option<Stored>) {
         let Some(stored) = stored else { return };
-        let least = self.best.map_or(f64::INFINITY, |best| best.energy);
         // A face with zero energy wins too. The segment then lies in the face or only touches it, and no face
         // pushes.
-        if stored.energy < least * TIE {
+        if stored.energy < self.least_energy * TIE {
+            self.least_energy = stored.energy;
             self.best = Some(stored);
         }
     }
