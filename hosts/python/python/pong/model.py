@@ -160,8 +160,8 @@ def join(
 
     Examples
     --------
-    >>> text = pong.model.join(["slab.ron", ("slab.ron", (1, 0, 0))], name="floor")
-    >>> floor = pong.Model.parse(text)
+    >>> text = pong.model.join(["ball.ron", ("ball.ron", (1, 0, 0))], name="balls")
+    >>> balls = pong.Model.parse(text)
     """
     places = [_placed(*part) if isinstance(part, tuple) else _placed(part) for part in parts]
     return _pong.join_models(places, name, folder, one_surface, list(allow_files_below))
