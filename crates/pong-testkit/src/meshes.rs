@@ -44,6 +44,23 @@ pub fn blocks(cubes: &[[i32; 3]], edge: f64) -> Vec<[Place; 3]> {
     triangles
 }
 
+/// An L: an outline of six corners in x and z, from −0.08 m to 0.08 m along y. Its arm is 0.06 m thick.
+pub fn l_shape() -> Vec<[Place; 3]> {
+    let outline = [[-0.1, -0.06], [0.1, -0.06], [0.1, 0.0], [0.0, 0.0], [0.0, 0.06], [-0.1, 0.06]];
+    let place = |corner: usize, y: f64| [outline[corner][0], y, outline[corner][1]];
+    let mut triangles = Vec::new();
+    for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]] {
+        triangles.push([a, b, c].map(|corner| place(corner, -0.08)));
+        triangles.push([a, c, b].map(|corner| place(corner, 0.08)));
+    }
+    for a in 0..6 {
+        let b = (a + 1) % 6;
+        triangles.push([place(a, -0.08), place(a, 0.08), place(b, 0.08)]);
+        triangles.push([place(a, -0.08), place(b, 0.08), place(b, -0.08)]);
+    }
+    triangles
+}
+
 /// A torus around z: rings of `sides` vertices.
 pub fn torus(radius: f64, thickness: f64, rings: usize, sides: usize) -> Vec<[Place; 3]> {
     let angle = |k: usize, of: usize| std::f64::consts::TAU * (k % of) as f64 / of as f64;

@@ -2,7 +2,7 @@
 
 use crate::common;
 use crate::common::pong;
-use pong_testkit::meshes::{Place, obj};
+use pong_testkit::meshes::{l_shape, obj};
 
 /// Two boxes of 1 m and 2 m, and a mesh of a box of 2 m with a hole through it along z.
 const MODEL: &str = r#"(format: "pong-model", version: 1, name: "parts",
@@ -104,27 +104,10 @@ const MODEL_OF_A_CUBE: &str = r#"(format: "pong-model", version: 1, name: "cube"
             (-0.05, -0.05, 0.05), (0.05, -0.05, 0.05), (-0.05, 0.05, 0.05), (0.05, 0.05, 0.05)],
         faces: [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]])]))"#;
 
-/// An L: an outline of six corners in x and z, from −0.08 m to 0.08 m along y. Its arm is 0.06 m thick.
-fn l_mesh() -> Vec<[Place; 3]> {
-    let outline = [[-0.1, -0.06], [0.1, -0.06], [0.1, 0.0], [0.0, 0.0], [0.0, 0.06], [-0.1, 0.06]];
-    let place = |corner: usize, y: f64| [outline[corner][0], y, outline[corner][1]];
-    let mut triangles = Vec::new();
-    for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]] {
-        triangles.push([a, b, c].map(|corner| place(corner, -0.08)));
-        triangles.push([a, c, b].map(|corner| place(corner, 0.08)));
-    }
-    for a in 0..6 {
-        let b = (a + 1) % 6;
-        triangles.push([place(a, -0.08), place(a, 0.08), place(b, 0.08)]);
-        triangles.push([place(a, -0.08), place(b, 0.08), place(b, -0.08)]);
-    }
-    triangles
-}
-
 /// An L on the upper end of another one: 1 mm deep the run has no warning, 40 mm deep it names the two.
 #[test]
 fn a_mesh_too_deep_in_another_is_named() {
-    let mesh = obj(&l_mesh());
+    let mesh = obj(&l_shape());
     let model = r#"(format: "pong-model", version: 1, name: "l", surfaces: { "s": (stiffness: 1e5) },
     root: (name: "l", surface: "s", contact: Solid, primitives: [TriangleMesh(name: "mesh", file: "l.obj")]))"#;
     let warning = |height: f64| {

@@ -7,7 +7,7 @@ use crate::common::stage::workers;
 use pong_engine::{Config, DeepInMeshReport, StatusBits, WorkerSettings};
 use pong_geometry::{Pose, Quat, Twist, Vec3};
 use pong_testkit::Random;
-use pong_testkit::meshes::{Place, torus};
+use pong_testkit::meshes::{Place, l_shape, torus};
 use pong_testkit::ron::{box_polyhedron, triangle_mesh};
 use pong_testkit::samples::samples;
 
@@ -26,22 +26,8 @@ fn mesh(surface: &str, triangles: &[[Place; 3]]) -> String {
     solid(surface, &triangle_mesh("mesh", &vertices, &corners, ""))
 }
 
-/// An L: an outline of six corners in x and z, from −0.08 m to 0.08 m along y.
 fn l_mesh(surface: &str) -> String {
-    let outline = [[-0.1, -0.06], [0.1, -0.06], [0.1, 0.0], [0.0, 0.0], [0.0, 0.06], [-0.1, 0.06]];
-    let place = |corner: usize, y: f64| [outline[corner][0], y, outline[corner][1]];
-    let mut triangles = Vec::new();
-    for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]] {
-        triangles.push([a, b, c].map(|corner| place(corner, -0.08)));
-        triangles.push([a, c, b].map(|corner| place(corner, 0.08)));
-    }
-    for a in 0..6 {
-        let b = (a + 1) % 6;
-        let [low, high] = [-0.08, 0.08];
-        triangles.push([place(a, low), place(a, high), place(b, high)]);
-        triangles.push([place(a, low), place(b, high), place(b, low)]);
-    }
-    mesh(surface, &triangles)
+    mesh(surface, &l_shape())
 }
 
 /// An L like that of `l_mesh`, as two boxes.

@@ -64,10 +64,14 @@ fn bent(random: &mut Random, is_round: bool) -> Vec<Shape> {
 /// An L as a closed mesh that is not divided into convex pieces: each of its facets has a region of its own.
 fn bent_mesh(random: &mut Random, is_round: bool) -> Vec<Shape> {
     let (low, high) = (solids::extents(random, is_round), solids::extents(random, is_round));
-    let outline =
-        [[-low.x, -low.z], [high.x, -low.z], [high.x, 0.0], [0.0, 0.0], [0.0, high.z], [-low.x, high.z]];
+    vec![l_mesh([-low.x, high.x], [-low.y, low.y], [-low.z, high.z])]
+}
+
+/// A closed mesh of an L between these positions along x, y and z. Its inner corner is at x = z = 0.
+pub fn l_mesh(x: [f64; 2], y: [f64; 2], z: [f64; 2]) -> Shape {
+    let outline = [[x[0], z[0]], [x[1], z[0]], [x[1], 0.0], [0.0, 0.0], [0.0, z[1]], [x[0], z[1]]];
     let ring = |y: f64| outline.map(|[x, z]| Vec3::new(x, y, z));
-    let vertices = ring(-low.y).into_iter().chain(ring(low.y)).collect();
+    let vertices = ring(y[0]).into_iter().chain(ring(y[1])).collect();
     let mut triangles = Vec::new();
     for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]] {
         triangles.extend([[a, b, c], [a + 6, c + 6, b + 6]]);
@@ -76,5 +80,5 @@ fn bent_mesh(random: &mut Random, is_round: bool) -> Vec<Shape> {
         let b = (a + 1) % 6;
         triangles.extend([[a, a + 6, b + 6], [a, b + 6, b]]);
     }
-    vec![Shape::Mesh(Mesh { vertices, triangles, ..Mesh::default() })]
+    Shape::Mesh(Mesh { vertices, triangles, ..Mesh::default() })
 }

@@ -5,7 +5,7 @@ use pong_geometry::{Pose, Quat, Twist, Vec3, Wrench};
 use pong_invariance::cutting::cut_all;
 use pong_invariance::make::{path, solids, volumes};
 use pong_invariance::random::{Random, rotation_about, rotation_between};
-use pong_invariance::scene::{Body, Friction, Mesh, Normal, Shape, Solid, Surface};
+use pong_invariance::scene::{Body, Friction, Normal, Shape, Solid, Surface};
 use pong_invariance::text;
 use pong_model::Extensions;
 use std::sync::Arc;
@@ -173,25 +173,12 @@ fn concave(random: &mut Random, is_round: bool) -> Shapes {
     let vertices = all_vertices(&pieces);
     let extent = |axis: usize| {
         let along = vertices.iter().map(|vertex| vertex[axis]);
-        (along.clone().fold(f64::INFINITY, f64::min), along.fold(f64::NEG_INFINITY, f64::max))
+        [along.clone().fold(f64::INFINITY, f64::min), along.fold(f64::NEG_INFINITY, f64::max)]
     };
-    let (x, y, z) = (extent(0), extent(1), extent(2));
     if random.chance(0.5) {
         return Shapes { whole: pieces.clone(), pieces };
     }
-    // The inner corner of the L is at x = z = 0.
-    let outline = [(x.0, z.0), (x.1, z.0), (x.1, 0.0), (0.0, 0.0), (0.0, z.1), (x.0, z.1)];
-    let ring = |y: f64| outline.map(|(x, z)| Vec3::new(x, y, z));
-    let mut triangles = Vec::new();
-    for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 3, 5], [3, 4, 5]] {
-        triangles.extend([[a, b, c], [a + 6, c + 6, b + 6]]);
-    }
-    for a in 0..6 {
-        let b = (a + 1) % 6;
-        triangles.extend([[a, a + 6, b + 6], [a, b + 6, b]]);
-    }
-    let vertices = ring(y.0).into_iter().chain(ring(y.1)).collect();
-    Shapes { whole: vec![Shape::Mesh(Mesh { vertices, triangles, ..Mesh::default() })], pieces }
+    Shapes { whole: vec![volumes::l_mesh(extent(0), extent(1), extent(2))], pieces }
 }
 
 pub fn all_vertices(shapes: &[Shape]) -> Vec<Vec3> {
