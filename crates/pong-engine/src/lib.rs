@@ -44,6 +44,7 @@ mod runtime;
 mod scene;
 mod seal;
 mod state;
+mod tangent;
 mod world;
 
 pub use builder::{SealError, WorldBuilder};
@@ -68,4 +69,5 @@ pub use report::{
 pub use scene::{Config, Scene, State, SurfaceMotion, WorkerSettings};
 pub use seal::{MetIn, SealReport, SetupNote, SetupWarning};
 pub use state::StateError;
+pub use tangent::{ContactTangent, PairTangent, TangentMatrix};
 pub use world::{Continuation, GroupDistance, NearestPrimitive, World};

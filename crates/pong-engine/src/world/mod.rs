@@ -9,6 +9,7 @@
 //! | `distance.rs` | distance of two movable groups |
 //! | `energy.rs` | energies of the last commit |
 //! | `contact_state.rs` | the contact state as a block of bytes |
+//! | `tangent.rs` | derivatives of the wrenches of the last frame |
 //! | `standing.rs` | poses that contradict velocities |
 //! | `workers.rs` | workers, and the times of a frame |
 //! | `clone.rs` | clones of a world |
@@ -24,6 +25,7 @@ mod frame;
 mod pair_wrench;
 mod results;
 mod standing;
+mod tangent;
 mod workers;
 
 pub use continuation::Continuation;

@@ -1,0 +1,201 @@
+//! Tangent of the last frame: derivatives of the wrenches of every two movable groups that touch with respect to
+//! their poses and twists (docs/theory.md, 10). Computed on request; a frame pays nothing for it.
+//!
+//! | file | step |
+//! |---|---|
+//! | `shape.rs` | radii of curvature of both surfaces at a contact |
+//! | `moves.rs` | derivatives of depth, normal and contact point with the relative pose |
+//! | `sharing.rs` | derivatives of the weights of contacts that share a spring |
+//! | `friction.rs`, `contact.rs` | derivatives of the force of one contact |
+//! | `blocks.rs` | sum over the contacts of two groups; common axes |
+
+mod blocks;
+mod contact;
+mod friction;
+mod moves;
+mod shape;
+mod sharing;
+
+pub use blocks::{PairTangent, TangentMatrix};
+
+use crate::frame::input::{EvaluationInput, PairContext, WorkerInput};
+use crate::frame::forces::contact_ref::ContactRef;
+use crate::frame::input::relative::Motions;
+use crate::frame::{FrameContact, FrameResults};
+use crate::law::{FrictionProps, NormalProps, NormalTangent};
+use crate::seal::Direction;
+use crate::state::ContactRole;
+use blocks::DirectionSlopes;
+use contact::Moving;
+use moves::{Moves, Touch};
+use nalgebra::RowVector6;
+use pong_geometry::primitive::PrimitiveKind;
+use shape::{AtContact, Shape};
+
+/// Stiffness and damping that act in one contact of the last frame, weights included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactTangent {
+    /// Normal stiffness ∂F/∂δ, N/m, and damping ∂F/∂δ', N·s/m; zero where the force is cut at zero.
+    pub normal: NormalTangent,
+    /// Stiffness, N/m, and damping, N·s/m, of the bristle while it sticks; zero while it slips, and for friction
+    /// without a bristle.
+    pub tangential: NormalTangent,
+}
+
+/// Why a contact has no tangent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Missing {
+    /// A law of the host's.
+    HostLaw,
+    /// Two solids.
+    Solids,
+    /// Rolling or spinning resistance.
+    Resistance,
+    /// A surface that moves along itself.
+    MovingSurface,
+    /// Shapes whose contact has no unique derivative.
+    Shapes,
+}
+
+/// A contact without a tangent: the pair of groups, the primitives' kinds, and why.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Unknown {
+    pub direction: Direction,
+    pub kinds: [PrimitiveKind; 2],
+    pub why: Missing,
+}
+
+/// Tangents of all pairs of groups that touch in a frame. `input` is that of the frame.
+pub(crate) fn of_frame(
+    given: &EvaluationInput<'_>,
+    motions: &Motions<'_>,
+    input: &WorkerInput,
+    results: &FrameResults<'_>,
+) -> Result<Vec<PairTangent>, Unknown> {
+    let mut tangents = Vec::new();
+    let pair_of = |reference: &ContactRef| reference.direction().group_pair;
+    for refs in results.contacts.order.chunk_by(|a, b| pair_of(a) == pair_of(b)) {
+        let mut tangent = PairTangent::new(given, pair_of(&refs[0]));
+        for refs in refs.chunk_by(|a, b| a.direction() == b.direction()) {
+            let direction = refs[0].direction();
+            let motion = motions.known(input, direction);
+            let context = PairContext::new(&given.round(input), direction, &motion);
+            let slopes = Frame { context: &context, results, direction }.slopes(refs)?;
+            tangent.add(&slopes, &context, motions, given.sealed.bodies_of(direction));
+        }
+        if tangent.touches {
+            tangents.push(tangent);
+        }
+    }
+    Ok(tangents)
+}
+
+/// One direction of a pair of groups in the last frame.
+struct Frame<'a> {
+    context: &'a PairContext<'a>,
+    results: &'a FrameResults<'a>,
+    direction: Direction,
+}
+
+impl<'a> Frame<'a> {
+    /// Sum over the contacts, surface by surface.
+    fn slopes(&self, refs: &[ContactRef]) -> Result<DirectionSlopes, Unknown> {
+        let mut sum = DirectionSlopes::default();
+        let contact = |reference: &ContactRef| self.results.contacts.found.contact(reference);
+        let surface = |reference: &ContactRef| {
+            let key = &contact(reference).found.key;
+            (key.head(), key.shell_b)
+        };
+        for refs in refs.chunk_by(|a, b| surface(a) == surface(b)) {
+            let mut contacts = Vec::new();
+            for reference in refs.iter().filter(|reference| reference.pushes()) {
+                let contact = contact(reference);
+                if contact.found.role == ContactRole::Active {
+                    contacts.push(self.moving(reference, contact)?);
+                }
+            }
+            if contacts.is_empty() {
+                continue;
+            }
+            let unknown = |of: &Moving<'_>, why| self.unknown(of.contact, why);
+            let kind_a = contacts[0].kind_a;
+            if sharing::weigh(kind_a, &mut contacts).is_none() {
+                return Err(unknown(&contacts[0], Missing::Shapes));
+            }
+            sharing::share_bristles(&mut contacts);
+            for moving in &contacts {
+                let slopes =
+                    moving.slopes(self.context).ok_or_else(|| unknown(moving, Missing::HostLaw))?;
+                sum.add(&slopes, moving.contact);
+            }
+        }
+        Ok(sum)
+    }
+
+    fn unknown(&self, contact: &FrameContact, why: Missing) -> Unknown {
+        let found = &contact.found;
+        Unknown { direction: self.direction, kinds: [self.kind_a(contact), found.kind_b], why }
+    }
+
+    fn kind_a(&self, contact: &FrameContact) -> PrimitiveKind {
+        self.context.body_a.primitives[contact.found.key.primitive_a as usize].kind
+    }
+
+    /// A contact with the derivatives of its geometry.
+    fn moving(&self, reference: &ContactRef, contact: &'a FrameContact) -> Result<Moving<'a>, Unknown> {
+        let unknown = |why| Err(self.unknown(contact, why));
+        let props = self.context.props(&contact.found);
+        if !contact.found.key.is_tested() {
+            return unknown(if props.has_resistance() { Missing::Resistance } else { Missing::Solids });
+        }
+        if props.has_resistance() {
+            return unknown(Missing::Resistance);
+        }
+        if self.context.surfaces.motions().is_some() {
+            return unknown(Missing::MovingSurface);
+        }
+        if matches!(props.normal, NormalProps::Custom { .. })
+            || matches!(props.friction, FrictionProps::Custom { .. })
+        {
+            return unknown(Missing::HostLaw);
+        }
+        let Some(moves) = self.moves(contact) else { return unknown(Missing::Shapes) };
+        Ok(Moving {
+            contact,
+            kind_a: self.kind_a(contact),
+            record: reference.continues().map(|index| &self.context.memory.records[index]),
+            moves,
+            weight: RowVector6::zeros(),
+            share: 0.0,
+            share_slope: RowVector6::zeros(),
+        })
+    }
+
+    fn moves(&self, contact: &FrameContact) -> Option<Moves> {
+        let (context, found) = (self.context, &contact.found);
+        let normal = found.normal_b;
+        let touch = Touch {
+            normal,
+            depth: found.depth,
+            deepest: found.deepest_b,
+            reference: contact.point_b,
+        };
+        let of_b = AtContact {
+            element: context.body_b.element(found.kind_b, found.element_b),
+            place: found.deepest_b + normal * found.depth,
+            outward: normal,
+        };
+        let kind_a = self.kind_a(contact);
+        let x_ba = &context.motion.x_ba;
+        let x_ab = x_ba.inverse();
+        let element_a = context.body_a.element(kind_a, found.element_a);
+        if kind_a == PrimitiveKind::Ray {
+            return None;
+        }
+        let on_edge = !found.feature.is_face();
+        let of_a =
+            AtContact { element: element_a, place: x_ab.point(&found.deepest_b), outward: -x_ab.vector(&normal) };
+        let shape_a: Shape = of_a.shape_of_a(on_edge)?.rotated(&x_ba.rotation);
+        touch.moves(&shape_a, &of_b.shape_of_b(found.feature)?)
+    }
+}

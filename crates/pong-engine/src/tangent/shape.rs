@@ -1,0 +1,201 @@
+//! Local shape of a primitive at a contact: how its contact point moves when the normal turns.
+//!
+//! A convex primitive has one point farthest along each direction. If the direction turns by dm, that point moves
+//! by H·dm, where H holds the radii of curvature. A corner has H = 0. Along an edge or a generator the point is
+//! not determined: there the normal cannot turn instead. On a face the normal cannot turn at all.
+
+use pong_geometry::extension::PrimitiveRef;
+use pong_geometry::interference::triangle_features::TriangleView;
+use pong_geometry::interference::{Feature, FeatureKind};
+use pong_geometry::primitive::{Bore, Ellipsoid, Frustum, PolyhedronEdge, Polyhedron, TriangleSet};
+use pong_geometry::{Mat3, Vec3};
+
+/// Local shape at a contact. All vectors are in one frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Shape {
+    /// Corner or curved surface: matrix H of the radii of curvature, m, symmetric, zero along the normal.
+    Round(Mat3),
+    /// Edge or generator: unit vector along it, and the radius of curvature across it, m.
+    Straight { along: Vec3, radius: f64 },
+    /// Flat face.
+    Flat,
+}
+
+impl Shape {
+    /// Corner of no extent.
+    pub const CORNER: Self = Self::Round(Mat3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0));
+
+    /// The same shape in a frame that is turned by a rotation matrix.
+    pub fn rotated(&self, rotation: &Mat3) -> Self {
+        match self {
+            Self::Round(radii) => Self::Round(rotation * radii * rotation.transpose()),
+            Self::Straight { along, radius } => Self::Straight { along: rotation * along, radius: *radius },
+            Self::Flat => Self::Flat,
+        }
+    }
+
+    /// Shape of a ball.
+    fn ball(radius: f64, outward: &Vec3) -> Self {
+        Self::Round((Mat3::identity() - outward * outward.transpose()) * radius)
+    }
+
+    /// Shape of an ellipsoid where its outward normal is `outward`: the support point is A²·m/√(mᵀA²m).
+    fn of_ellipsoid(ellipsoid: &Ellipsoid, outward: &Vec3) -> Self {
+        let squares = ellipsoid.semi_axes.component_mul(&ellipsoid.semi_axes);
+        let matrix = ellipsoid.axes * Mat3::from_diagonal(&squares) * ellipsoid.axes.transpose();
+        let pole = matrix * outward;
+        let reach = outward.dot(&pole).sqrt();
+        Self::Round(matrix / reach - pole * pole.transpose() / reach.powi(3))
+    }
+
+    /// Shape of the rim of a disc, or of the mouth of a hole, at a point of the circle. `outward` is the outward
+    /// normal of the contact.
+    fn of_rim(center: &Vec3, axis: &Vec3, place: &Vec3, outward: &Vec3) -> Option<Self> {
+        let arm = place - center;
+        let arm = arm - axis * axis.dot(&arm);
+        let radius = arm.norm();
+        if radius < f64::MIN_POSITIVE {
+            return Some(Self::CORNER);
+        }
+        let away = arm / radius;
+        let lean = outward.dot(&away);
+        // Where the normal is along the axis, the whole rim touches.
+        if lean.abs() < 1e-9 {
+            return None;
+        }
+        let along = axis.cross(&away);
+        Some(Self::Round(along * along.transpose() * (radius / lean)))
+    }
+
+    /// Shape of the side of a round solid, or of the wall of a hole, at a point of its surface.
+    fn of_side(frustum: &Frustum, place: &Vec3, outward: &Vec3) -> Option<Self> {
+        let arm = place - frustum.ends[0];
+        let arm = arm - frustum.axis * frustum.axis.dot(&arm);
+        let lean = outward - frustum.axis * frustum.axis.dot(outward);
+        let square = lean.norm_squared();
+        // Distance of the point from the axis along the normal.
+        (square > 1e-18).then(|| {
+            let away = outward.cross(&frustum.axis).normalize();
+            Self::Straight { along: away.cross(outward).normalize(), radius: arm.dot(&lean) / square }
+        })
+    }
+}
+
+/// A primitive at a contact, in the frame in which the contact is given.
+pub(super) struct AtContact<'a> {
+    pub element: PrimitiveRef<'a>,
+    /// Contact point on the surface of the primitive, m.
+    pub place: Vec3,
+    /// Outward unit normal of the primitive.
+    pub outward: Vec3,
+}
+
+/// Fraction of an axis from its end within which a point counts as the end.
+const AT_END: f64 = 1e-9;
+
+impl AtContact<'_> {
+    /// Shape of the primitive as A. `on_edge` is true if an edge of B pushes. `None` for kinds without a known
+    /// shape, and where the shape is not unique.
+    pub fn shape_of_a(&self, on_edge: bool) -> Option<Shape> {
+        match self.element {
+            PrimitiveRef::Point(_) | PrimitiveRef::Ray(_) => Some(Shape::CORNER),
+            PrimitiveRef::Sphere(sphere) => Some(Shape::ball(sphere.radius, &self.outward)),
+            PrimitiveRef::Ellipsoid(ellipsoid) => Some(Shape::of_ellipsoid(ellipsoid, &self.outward)),
+            PrimitiveRef::LineSegment(segment) => Some(self.of_axis(&segment.ends, 0.0)),
+            PrimitiveRef::Capsule(capsule) => Some(self.of_axis(&capsule.ends, capsule.radius)),
+            PrimitiveRef::Cylinder(frustum) | PrimitiveRef::Cone(frustum) => {
+                match on_edge && is_between(&self.place, &frustum.ends) {
+                    true => Shape::of_side(frustum, &self.place, &self.outward),
+                    false => self.of_end_disc(frustum),
+                }
+            }
+            _ => None,
+        }
+    }
+
+    /// Shape of a segment, or of a capsule, whose axis has these ends.
+    fn of_axis(&self, ends: &[Vec3; 2], radius: f64) -> Shape {
+        match is_between(&(self.place - self.outward * radius), ends) {
+            true => Shape::Straight { along: (ends[1] - ends[0]).normalize(), radius },
+            false => Shape::ball(radius, &self.outward),
+        }
+    }
+
+    fn of_end_disc(&self, frustum: &Frustum) -> Option<Shape> {
+        let end = usize::from(fraction(&self.place, &frustum.ends) > 0.5);
+        Shape::of_rim(&frustum.ends[end], &frustum.axis, &self.place, &self.outward)
+    }
+
+    /// Shape of the primitive as B, whose `feature` pushes.
+    pub fn shape_of_b(&self, feature: Feature) -> Option<Shape> {
+        match self.element {
+            PrimitiveRef::Plane(_) => Some(Shape::Flat),
+            PrimitiveRef::Sphere(sphere) => Some(Shape::ball(sphere.radius, &self.outward)),
+            PrimitiveRef::Ellipsoid(ellipsoid) => Some(Shape::of_ellipsoid(ellipsoid, &self.outward)),
+            PrimitiveRef::Capsule(capsule) => Some(self.of_axis(&capsule.ends, capsule.radius)),
+            PrimitiveRef::Cylinder(frustum) | PrimitiveRef::Cone(frustum) => self.of_frustum(frustum, feature),
+            PrimitiveRef::Bore(bore) => self.of_bore(bore, feature),
+            PrimitiveRef::Triangle(set, _) => Some(of_triangles(set, feature)),
+            PrimitiveRef::Polyhedron(polyhedron) => Some(of_polyhedron(polyhedron, feature)),
+            _ => None,
+        }
+    }
+
+    /// Features of a frustum: face 0 is its side, faces 1 and 2 its ends, edges 0 and 1 its rims.
+    fn of_frustum(&self, frustum: &Frustum, feature: Feature) -> Option<Shape> {
+        if self.outward.dot(&frustum.axis).abs() > 1.0 - 1e-14 {
+            return Some(Shape::Flat);
+        }
+        match (feature.kind(), feature.index()) {
+            (FeatureKind::Face, 0) => Shape::of_side(frustum, &self.place, &self.outward),
+            (FeatureKind::Face, _) => Some(Shape::Flat),
+            (_, end) => Shape::of_rim(&frustum.ends[end], &frustum.axis, &self.place, &self.outward),
+        }
+    }
+
+    /// Features of a bore: its wall, and as edges its two mouths.
+    fn of_bore(&self, bore: &Bore, feature: Feature) -> Option<Shape> {
+        if self.outward.dot(&bore.hole.axis).abs() > 1.0 - 1e-14 {
+            return Some(Shape::Flat);
+        }
+        match feature.kind() {
+            FeatureKind::Face => Shape::of_side(&bore.hole, &self.place, &self.outward),
+            _ => Shape::of_rim(&bore.hole.ends[feature.index()], &bore.hole.axis, &self.place, &self.outward),
+        }
+    }
+}
+
+/// Position of a point along an axis: 0 at its first end, 1 at its second.
+fn fraction(place: &Vec3, ends: &[Vec3; 2]) -> f64 {
+    let axis = ends[1] - ends[0];
+    (place - ends[0]).dot(&axis) / axis.norm_squared()
+}
+
+/// True if a point lies between the ends of an axis, at neither of them.
+fn is_between(place: &Vec3, ends: &[Vec3; 2]) -> bool {
+    let fraction = fraction(place, ends);
+    AT_END < fraction && fraction < 1.0 - AT_END
+}
+
+fn of_triangles(set: &TriangleSet, feature: Feature) -> Shape {
+    let index = feature.index();
+    match feature.kind() {
+        FeatureKind::Face => Shape::Flat,
+        FeatureKind::Edge => {
+            let [start, end] = TriangleView::new(set, (index / 3) as u32).edge_ends(index % 3);
+            Shape::Straight { along: (end - start).normalize(), radius: 0.0 }
+        }
+        FeatureKind::Vertex => Shape::CORNER,
+    }
+}
+
+fn of_polyhedron(polyhedron: &Polyhedron, feature: Feature) -> Shape {
+    match feature.kind() {
+        FeatureKind::Face => Shape::Flat,
+        FeatureKind::Edge => {
+            let PolyhedronEdge { direction, .. } = polyhedron.edges[feature.index()];
+            Shape::Straight { along: direction, radius: 0.0 }
+        }
+        FeatureKind::Vertex => Shape::CORNER,
+    }
+}
