@@ -144,10 +144,10 @@ impl<'a> Frame<'a> {
     /// A contact with the derivatives of its geometry.
     fn moving(&self, reference: &ContactRef, contact: &'a FrameContact) -> Result<Moving<'a>, Unknown> {
         let unknown = |why| Err(self.unknown(contact, why));
-        let props = self.context.props(&contact.found);
-        if !contact.found.key.is_tested() {
-            return unknown(if props.has_resistance() { Missing::Resistance } else { Missing::Solids });
+        if contact.found.key.is_of_solids() {
+            return unknown(Missing::Solids);
         }
+        let props = self.context.props(&contact.found);
         if props.has_resistance() {
             return unknown(Missing::Resistance);
         }

@@ -86,6 +86,7 @@ fn by_differences(
         false => (1e-3 * least).clamp(1e-7 * scene.size, 1e-4 * scene.size),
         true => (1e-4 * fastest(states, scene.size)).max(1e-6 * scene.size),
     };
+    let here = rows(answer, scene.size);
     let mut table = [[0.0; COLUMNS]; 12];
     for column in 0..COLUMNS {
         let mut slopes = |width: f64| {
@@ -97,13 +98,19 @@ fn by_differences(
                 (branches(&found) == branches(answer)).then(|| rows(&found, scene.size))
             };
             let (ahead, behind) = (side(1.0)?, side(-1.0)?);
-            Some(std::array::from_fn::<_, 12, _>(|row| -(ahead[row] - behind[row]) / (2.0 * width)))
+            let bend = |row: usize| (ahead[row] + behind[row] - 2.0 * here[row]).abs() / width;
+            let bend = (0..12).map(bend).fold(0.0, f64::max);
+            Some((std::array::from_fn::<_, 12, _>(|row| -(ahead[row] - behind[row]) / (2.0 * width)), bend))
         };
-        let (wide, narrow) = (slopes(width)?, slopes(0.5 * width)?);
+        let ((wide, bend), (narrow, less)) = (slopes(width)?, slopes(0.5 * width)?);
         for row in 0..12 {
             table[row][column] = (4.0 * narrow[row] - wide[row]) / 3.0;
         }
         let largest = wide.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        // The two one-sided differences approach each other with the width, except at a kink.
+        if less > 0.75 * bend + 1e-7 * largest {
+            return None;
+        }
         if wide.iter().zip(&narrow).any(|(wide, narrow)| (wide - narrow).abs() > 1e-3 * largest) {
             return None;
         }

@@ -12,6 +12,6 @@ fn every_family() {
         let survey = Survey::run(&order, &|_| ());
         let t = survey.tallies.get("tangent").cloned().unwrap_or_default();
         println!("{family:<18} compared {:>6} differ {:>6} worst {:.1e}", t.compared, t.differ, t.worst);
-        if only.is_some() { for f in &survey.found { println!("{}\n{}", f.finding.says, f.again); println!("{:#?}", f.scene); } print!("{}", survey.list()); }
+        if only.is_some() { for f in &survey.found { println!("{}\n{}", f.finding.says, f.again); println!("{}", pong_invariance::text::scene(&f.whole)); } print!("{}", survey.list()); }
     }
 }
