@@ -57,11 +57,11 @@ impl DirectionSlopes {
         self.touches = true;
     }
 
-    /// Adds three rows, whose variables belong to the contact point: a rotation about the origin moves this point.
+    /// Adds three rows. An angular velocity moves the contact point, to which the velocity belongs.
     fn add_rows(&mut self, first: usize, rows: &SMatrix<f64, 3, VARIABLES>, point: &Vec3) {
         let lever = -point.cross_matrix();
         let part = |column: usize| rows.fixed_columns::<3>(column).into_owned();
-        let columns = [part(0), part(3) + part(0) * lever, part(6), part(6) * lever];
+        let columns = [part(0), part(3), part(6), part(6) * lever];
         for (index, column) in columns.into_iter().enumerate() {
             let mut sum = self.slopes.fixed_view_mut::<3, 3>(first, 3 * index);
             sum += column;

@@ -11,8 +11,8 @@ use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Mat3, Vec3};
 
-/// Variables of a contact: u (3), φ (3) and the relative velocity at the contact point (3), in B's frame. They
-/// belong to the point of B's frame at which the contact is.
+/// Variables of a contact, in B's frame: u and φ of the relative pose (3 and 3, at B's origin), and the relative
+/// velocity at the contact point (3).
 pub(super) const VARIABLES: usize = 9;
 type Row = SMatrix<f64, 1, VARIABLES>;
 type Rows3 = SMatrix<f64, 3, VARIABLES>;
@@ -138,7 +138,7 @@ impl Moving<'_> {
         let element = context.body_a.element(self.kind_a, found.element_a);
         let reference = element.reference_point(found.key.end);
         let (before, now) = (since.x_ba.point(&reference), context.motion.x_ba.point(&reference));
-        let of_now = displacement(&now, &contact.point_b);
+        let of_now = displacement(&now);
         let present = contact.point_b - now;
         let half = if self.record.is_some() { 0.5 } else { 1.0 };
         let lever = self.record.map_or(present, |record| ((record.point_b - before) + present) * 0.5);

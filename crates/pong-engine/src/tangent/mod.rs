@@ -178,7 +178,6 @@ impl<'a> Frame<'a> {
             normal,
             depth: found.depth,
             deepest: found.deepest_b,
-            reference: contact.point_b,
         };
         let of_b = AtContact {
             element: context.body_b.element(found.kind_b, found.element_b),

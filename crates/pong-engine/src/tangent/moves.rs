@@ -1,7 +1,7 @@
 //! Motion of a contact with the relative pose of its two bodies: depth, normal and deepest point.
 //!
-//! A moves relative to B by a small translation u of the material point of A at the contact point, and by a small
-//! rotation φ; all in B's frame, in which B is at rest. A's deepest point a and B's point b = a + δ·n follow the
+//! A moves relative to B by a small translation u of the material point of A at B's origin, and by a small rotation
+//! φ; all in B's frame, in which B is at rest. A's deepest point a and B's point b = a + δ·n follow the
 //! normal as the shapes of the two surfaces tell ([`Shape`]):
 //!
 //! ```text
@@ -32,15 +32,13 @@ pub(super) struct Touch {
     pub depth: f64,
     /// Deepest point of A, m.
     pub deepest: Vec3,
-    /// Point to which u belongs, m.
-    pub reference: Vec3,
 }
 
-/// Displacement of the material point of A at `place`, by (u, φ) at `reference`.
-pub(super) fn displacement(place: &Vec3, reference: &Vec3) -> Matrix3x6<f64> {
+/// Displacement u + φ × place of the material point of A at `place`.
+pub(super) fn displacement(place: &Vec3) -> Matrix3x6<f64> {
     let mut moved = Matrix3x6::zeros();
     moved.fixed_view_mut::<3, 3>(0, 0).copy_from(&Mat3::identity());
-    moved.fixed_view_mut::<3, 3>(0, 3).copy_from(&-(place - reference).cross_matrix());
+    moved.fixed_view_mut::<3, 3>(0, 3).copy_from(&-place.cross_matrix());
     moved
 }
 
@@ -54,7 +52,7 @@ pub(super) fn turn(vector: &Vec3) -> Matrix3x6<f64> {
 impl Touch {
     /// Moves of the contact; `None` where the shapes determine none: A is flat, or both are straight and parallel.
     pub fn moves(&self, a: &Shape, b: &Shape) -> Option<Moves> {
-        let moved = displacement(&self.deepest, &self.reference);
+        let moved = displacement(&self.deepest);
         let depth = -(self.normal.transpose() * moved);
         let turned = turn(&self.normal);
         let (normal, deepest) = match (a, b) {
@@ -146,4 +144,52 @@ fn inverse(number: f64) -> Option<f64> {
 fn well_inverted(matrix: &Matrix2<f64>) -> Option<Matrix2<f64>> {
     let [first, second] = [0, 1].map(|row| Vector2::new(matrix[(row, 0)], matrix[(row, 1)]).norm());
     (matrix.determinant().abs() > 1e-9 * first * second).then(|| matrix.try_inverse()).flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tangent::shape::AtContact;
+    use pong_geometry::extension::PrimitiveRef;
+    use pong_geometry::interference::Interference;
+    use pong_geometry::interference::two_ended_round::capsule_capsule;
+    use pong_geometry::primitive::Capsule;
+    use pong_geometry::{Quat, Transform};
+
+    /// Moves of each contact of two capsules against central differences of the tester.
+    #[test]
+    fn moves_of_two_capsules() {
+        let a = Capsule { ends: [Vec3::new(-0.73, 0.35, 0.015), Vec3::new(0.73, -0.35, -0.015)], radius: 0.15 };
+        let b = Capsule { ends: [Vec3::new(-0.1, -0.4, 0.3), Vec3::new(0.1, 0.4, -0.3)], radius: 0.5 };
+        let pose = pong_geometry::Pose::new(Vec3::new(0.4, 0.009, 0.5), [0.5553, -0.01437, 0.25434, 0.79166]);
+        let x = pose.transform();
+        let found = |x: &Transform| capsule_capsule(&a.carried(x), &b).map(|c| c.map(|c| c.interference));
+        for end in 0..3 {
+            let Some(contact) = found(&x)[end] else { continue };
+            let Interference { depth, normal_b, deepest_b, feature } = contact;
+            let carried = a.carried(&x);
+            let of_a = AtContact { element: PrimitiveRef::Capsule(&carried), place: deepest_b, outward: -normal_b };
+            let of_b = AtContact { element: PrimitiveRef::Capsule(&b), place: deepest_b + normal_b * depth, outward: normal_b };
+            let (sa, sb) = (of_a.shape_of_a(false).unwrap(), of_b.shape_of_b(feature).unwrap());
+            let touch = Touch { normal: normal_b, depth, deepest: deepest_b };
+            let moves = touch.moves(&sa, &sb).unwrap();
+            for k in 0..6 {
+                let h = 1e-6;
+                let at = |s: f64| {
+                    let mut t = Vec3::zeros();
+                    t[k % 3] = s;
+                    let turn = if k < 3 { Quat::identity() } else { Quat::from_scaled_axis(t) };
+                    let shift = if k < 3 { t } else { Vec3::zeros() };
+                    let rotation = turn.to_rotation_matrix().into_inner();
+                    let moved = Transform { rotation: rotation * x.rotation, translation: rotation * x.translation + shift };
+                    found(&moved)[end].unwrap()
+                };
+                let (up, down) = (at(h), at(-h));
+                let seen = (up.depth - down.depth, up.normal_b - down.normal_b, up.deepest_b - down.deepest_b);
+                assert!((moves.depth[k] - seen.0 / (2.0 * h)).abs() < 1e-8, "depth of end {end}, variable {k}");
+                assert!((moves.normal.column(k) - seen.1 / (2.0 * h)).norm() < 1e-7, "normal of end {end}, variable {k}");
+                assert!((moves.deepest.column(k) - seen.2 / (2.0 * h)).norm() < 1e-7, "point of end {end}, variable {k}");
+            }
+        }
+    }
 }

@@ -12,6 +12,9 @@ fn every_family() {
         let survey = Survey::run(&order, &|_| ());
         let t = survey.tallies.get("tangent").cloned().unwrap_or_default();
         println!("{family:<18} compared {:>6} differ {:>6} worst {:.1e}", t.compared, t.differ, t.worst);
-        if only.is_some() { for f in &survey.found { println!("{}\n{}", f.finding.says, f.again); println!("{}", pong_invariance::text::scene(&f.whole)); } print!("{}", survey.list()); }
+        if only.is_some() { for f in &survey.found { println!("{}\n{}", f.finding.says, f.again); println!("{}", pong_invariance::text::scene(&f.scene));
+            let mut base = pong_invariance::base::Base::new(f.scene.clone()).unwrap();
+            for (i, a) in base.answers.iter().enumerate() { println!("-- frame {i}"); for c in &a.contacts { println!("{c:?}"); } }
+            let _ = &mut base; } print!("{}", survey.list()); }
     }
 }
