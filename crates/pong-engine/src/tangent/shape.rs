@@ -7,7 +7,7 @@
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::triangle_features::TriangleView;
 use pong_geometry::interference::{Feature, FeatureKind};
-use pong_geometry::primitive::{Bore, Ellipsoid, Frustum, PolyhedronEdge, Polyhedron, TriangleSet};
+use pong_geometry::primitive::{Bore, Ellipsoid, Frustum, Polyhedron, TriangleSet};
 use pong_geometry::{Mat3, Vec3};
 
 /// Local shape at a contact. All vectors are in one frame.
@@ -93,6 +93,9 @@ pub(super) struct AtContact<'a> {
 /// Fraction of an axis from its end within which a point counts as the end.
 const AT_END: f64 = 1e-9;
 
+/// Rounding of the product of two unit vectors.
+const NORMAL_ROUNDING: f64 = 1e-9;
+
 impl AtContact<'_> {
     /// Shape of the primitive as A. `on_edge` is true if an edge of B pushes. `None` for kinds without a known
     /// shape, and where the shape is not unique.
@@ -133,23 +136,23 @@ impl AtContact<'_> {
             PrimitiveRef::Sphere(sphere) => Some(Shape::ball(sphere.radius, &self.outward)),
             PrimitiveRef::Ellipsoid(ellipsoid) => Some(Shape::of_ellipsoid(ellipsoid, &self.outward)),
             PrimitiveRef::Capsule(capsule) => Some(self.of_axis(&capsule.ends, capsule.radius)),
-            PrimitiveRef::Cylinder(frustum) | PrimitiveRef::Cone(frustum) => self.of_frustum(frustum, feature),
+            PrimitiveRef::Cylinder(frustum) | PrimitiveRef::Cone(frustum) => self.of_frustum(frustum),
             PrimitiveRef::Bore(bore) => self.of_bore(bore, feature),
-            PrimitiveRef::Triangle(set, _) => Some(of_triangles(set, feature)),
-            PrimitiveRef::Polyhedron(polyhedron) => Some(of_polyhedron(polyhedron, feature)),
+            PrimitiveRef::Triangle(set, _) => Some(self.of_triangles(set, feature)),
+            PrimitiveRef::Polyhedron(polyhedron) => Some(self.of_polyhedron(polyhedron, feature)),
             _ => None,
         }
     }
 
-    /// Features of a frustum: face 0 is its side, faces 1 and 2 its ends, edges 0 and 1 its rims.
-    fn of_frustum(&self, frustum: &Frustum, feature: Feature) -> Option<Shape> {
-        if self.outward.dot(&frustum.axis).abs() > 1.0 - 1e-14 {
+    /// End, side or rim of a round solid, by the direction of the normal.
+    fn of_frustum(&self, frustum: &Frustum) -> Option<Shape> {
+        let along = self.outward.dot(&frustum.axis);
+        if along.abs() > 1.0 - 1e-14 {
             return Some(Shape::Flat);
         }
-        match (feature.kind(), feature.index()) {
-            (FeatureKind::Face, 0) => Shape::of_side(frustum, &self.place, &self.outward),
-            (FeatureKind::Face, _) => Some(Shape::Flat),
-            (_, end) => Shape::of_rim(&frustum.ends[end], &frustum.axis, &self.place, &self.outward),
+        match (along - frustum.wall[0]).abs() < NORMAL_ROUNDING {
+            true => Shape::of_side(frustum, &self.place, &self.outward),
+            false => self.of_end_disc(frustum),
         }
     }
 
@@ -161,6 +164,34 @@ impl AtContact<'_> {
         match feature.kind() {
             FeatureKind::Face => Shape::of_side(&bore.hole, &self.place, &self.outward),
             _ => Shape::of_rim(&bore.hole.ends[feature.index()], &bore.hole.axis, &self.place, &self.outward),
+        }
+    }
+
+    fn of_triangles(&self, set: &TriangleSet, feature: Feature) -> Shape {
+        let index = feature.index();
+        match feature.kind() {
+            FeatureKind::Face => Shape::Flat,
+            FeatureKind::Edge => {
+                let [start, end] = TriangleView::new(set, (index / 3) as u32).edge_ends(index % 3);
+                self.of_edge((end - start).normalize())
+            }
+            FeatureKind::Vertex => Shape::CORNER,
+        }
+    }
+
+    fn of_polyhedron(&self, polyhedron: &Polyhedron, feature: Feature) -> Shape {
+        match feature.kind() {
+            FeatureKind::Face => Shape::Flat,
+            FeatureKind::Edge => self.of_edge(polyhedron.edges[feature.index()].direction),
+            FeatureKind::Vertex => Shape::CORNER,
+        }
+    }
+
+    /// Shape of an edge. A normal that is not perpendicular to it is that of a corner, an end of the edge.
+    fn of_edge(&self, along: Vec3) -> Shape {
+        match self.outward.dot(&along).abs() < NORMAL_ROUNDING {
+            true => Shape::Straight { along, radius: 0.0 },
+            false => Shape::CORNER,
         }
     }
 }
@@ -175,27 +206,4 @@ fn fraction(place: &Vec3, ends: &[Vec3; 2]) -> f64 {
 fn is_between(place: &Vec3, ends: &[Vec3; 2]) -> bool {
     let fraction = fraction(place, ends);
     AT_END < fraction && fraction < 1.0 - AT_END
-}
-
-fn of_triangles(set: &TriangleSet, feature: Feature) -> Shape {
-    let index = feature.index();
-    match feature.kind() {
-        FeatureKind::Face => Shape::Flat,
-        FeatureKind::Edge => {
-            let [start, end] = TriangleView::new(set, (index / 3) as u32).edge_ends(index % 3);
-            Shape::Straight { along: (end - start).normalize(), radius: 0.0 }
-        }
-        FeatureKind::Vertex => Shape::CORNER,
-    }
-}
-
-fn of_polyhedron(polyhedron: &Polyhedron, feature: Feature) -> Shape {
-    match feature.kind() {
-        FeatureKind::Face => Shape::Flat,
-        FeatureKind::Edge => {
-            let PolyhedronEdge { direction, .. } = polyhedron.edges[feature.index()];
-            Shape::Straight { along: direction, radius: 0.0 }
-        }
-        FeatureKind::Vertex => Shape::CORNER,
-    }
 }

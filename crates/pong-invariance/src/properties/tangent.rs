@@ -81,6 +81,11 @@ fn by_differences(
     states: &[State; 2],
     (is_twist, answer): (bool, &Answer),
 ) -> Option<Table> {
+    let weakest = answer.contacts.iter().map(|touch| touch.normal_force).filter(|force| *force > 0.0);
+    // The friction of a contact without load is cut within any width.
+    if weakest.fold(f64::INFINITY, f64::min) < 1e-6 * answer.largest {
+        return None;
+    }
     let least = answer.contacts.iter().map(|touch| touch.depth).fold(f64::INFINITY, f64::min);
     let width = match is_twist {
         false => (1e-3 * least).clamp(1e-7 * scene.size, 1e-4 * scene.size),
