@@ -54,7 +54,7 @@ impl Shape {
         let arm = place - center;
         let arm = arm - axis * axis.dot(&arm);
         let radius = arm.norm();
-        if radius < f64::MIN_POSITIVE {
+        if radius < AT_END * arm.amax().max(place.amax()).max(center.amax()) {
             return Some(Self::CORNER);
         }
         let away = arm / radius;
@@ -103,7 +103,10 @@ impl AtContact<'_> {
         match self.element {
             PrimitiveRef::Point(_) | PrimitiveRef::Ray(_) => Some(Shape::CORNER),
             PrimitiveRef::Sphere(sphere) => Some(Shape::ball(sphere.radius, &self.outward)),
-            PrimitiveRef::Ellipsoid(ellipsoid) => Some(Shape::of_ellipsoid(ellipsoid, &self.outward)),
+            PrimitiveRef::Ellipsoid(ellipsoid) => {
+                let is_pole = self.is_at(&ellipsoid.support(&self.outward));
+                is_pole.then(|| Shape::of_ellipsoid(ellipsoid, &self.outward))
+            }
             PrimitiveRef::LineSegment(segment) => Some(self.of_axis(&segment.ends, 0.0)),
             PrimitiveRef::Capsule(capsule) => Some(self.of_axis(&capsule.ends, capsule.radius)),
             PrimitiveRef::Cylinder(frustum) | PrimitiveRef::Cone(frustum) => {
@@ -138,8 +141,8 @@ impl AtContact<'_> {
             PrimitiveRef::Capsule(capsule) => Some(self.of_axis(&capsule.ends, capsule.radius)),
             PrimitiveRef::Cylinder(frustum) | PrimitiveRef::Cone(frustum) => self.of_frustum(frustum),
             PrimitiveRef::Bore(bore) => self.of_bore(bore, feature),
-            PrimitiveRef::Triangle(set, _) => Some(self.of_triangles(set, feature)),
-            PrimitiveRef::Polyhedron(polyhedron) => Some(self.of_polyhedron(polyhedron, feature)),
+            PrimitiveRef::Triangle(set, _) => self.of_triangles(set, feature),
+            PrimitiveRef::Polyhedron(polyhedron) => self.of_polyhedron(polyhedron, feature),
             _ => None,
         }
     }
@@ -167,32 +170,41 @@ impl AtContact<'_> {
         }
     }
 
-    fn of_triangles(&self, set: &TriangleSet, feature: Feature) -> Shape {
+    fn of_triangles(&self, set: &TriangleSet, feature: Feature) -> Option<Shape> {
         let index = feature.index();
         match feature.kind() {
-            FeatureKind::Face => Shape::Flat,
-            FeatureKind::Edge => {
-                let [start, end] = TriangleView::new(set, (index / 3) as u32).edge_ends(index % 3);
-                self.of_edge((end - start).normalize())
-            }
-            FeatureKind::Vertex => Shape::CORNER,
+            FeatureKind::Face => Some(Shape::Flat),
+            FeatureKind::Edge => self.of_edge(TriangleView::new(set, (index / 3) as u32).edge_ends(index % 3)),
+            FeatureKind::Vertex => Some(Shape::CORNER),
         }
     }
 
-    fn of_polyhedron(&self, polyhedron: &Polyhedron, feature: Feature) -> Shape {
+    fn of_polyhedron(&self, polyhedron: &Polyhedron, feature: Feature) -> Option<Shape> {
         match feature.kind() {
-            FeatureKind::Face => Shape::Flat,
-            FeatureKind::Edge => self.of_edge(polyhedron.edges[feature.index()].direction),
-            FeatureKind::Vertex => Shape::CORNER,
+            FeatureKind::Face => Some(Shape::Flat),
+            FeatureKind::Edge => {
+                let ends = polyhedron.edges[feature.index()].vertices;
+                self.of_edge(ends.map(|vertex| polyhedron.vertices[vertex as usize].position))
+            }
+            FeatureKind::Vertex => Some(Shape::CORNER),
         }
     }
 
-    /// Shape of an edge. A normal that is not perpendicular to it is that of a corner, an end of the edge.
-    fn of_edge(&self, along: Vec3) -> Shape {
-        match self.outward.dot(&along).abs() < NORMAL_ROUNDING {
-            true => Shape::Straight { along, radius: 0.0 },
-            false => Shape::CORNER,
+    /// Shape of an edge, or of one of its ends. `None` if the contact is not on the edge.
+    fn of_edge(&self, ends: [Vec3; 2]) -> Option<Shape> {
+        if ends.iter().any(|end| self.is_at(end)) {
+            return Some(Shape::CORNER);
         }
+        let along = (ends[1] - ends[0]).normalize();
+        let arm = self.place - ends[0];
+        let is_across = self.outward.dot(&along).abs() < NORMAL_ROUNDING;
+        (is_across && self.is_at(&(ends[0] + along * along.dot(&arm))))
+            .then_some(Shape::Straight { along, radius: 0.0 })
+    }
+
+    /// True if the contact is at a point, to rounding.
+    fn is_at(&self, point: &Vec3) -> bool {
+        (self.place - point).amax() <= NORMAL_ROUNDING * self.place.amax().max(point.amax())
     }
 }
 

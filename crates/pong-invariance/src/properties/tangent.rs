@@ -14,6 +14,9 @@ const TOLERANCE: f64 = 1e-6;
 /// Columns: translation and rotation, or velocity and angular velocity, of both groups.
 const COLUMNS: usize = 12;
 
+/// Part of the difference of the two widths that the extrapolated derivative may be off.
+const OF_WIDTHS: f64 = 0.1;
+
 /// Derivatives of both wrenches, by row (force and moment over the size, of A and of B) and column (a translation,
 /// or a rotation times the size).
 type Table = [[f64; COLUMNS]; 12];
@@ -73,14 +76,14 @@ fn scale(index: usize, size: f64) -> f64 {
     if index % 6 < 3 { 1.0 } else { 1.0 / size }
 }
 
-/// Minus the derivatives of both wrenches by central differences of two widths, extrapolated. `None` if a contact
+/// Minus the derivatives of both wrenches by central differences of two widths, extrapolated, and their errors. `None` if a contact
 /// begins, ends or changes its branch within the widths, or the two widths disagree.
 fn by_differences(
     stage: &mut Stage,
     scene: &Scene,
     states: &[State; 2],
     (is_twist, answer): (bool, &Answer),
-) -> Option<Table> {
+) -> Option<[Table; 2]> {
     let weakest = answer.contacts.iter().map(|touch| touch.normal_force).filter(|force| *force > 0.0);
     // The friction of a contact without load is cut within any width.
     if weakest.fold(f64::INFINITY, f64::min) < 1e-6 * answer.largest {
@@ -92,7 +95,7 @@ fn by_differences(
         true => (1e-4 * fastest(states, scene.size)).max(1e-6 * scene.size),
     };
     let here = rows(answer, scene.size);
-    let mut table = [[0.0; COLUMNS]; 12];
+    let mut tables = [[[0.0; COLUMNS]; 12]; 2];
     for column in 0..COLUMNS {
         let mut slopes = |width: f64| {
             let mut side = |sign: f64| {
@@ -109,7 +112,8 @@ fn by_differences(
         };
         let ((wide, bend), (narrow, less)) = (slopes(width)?, slopes(0.5 * width)?);
         for row in 0..12 {
-            table[row][column] = (4.0 * narrow[row] - wide[row]) / 3.0;
+            tables[0][row][column] = (4.0 * narrow[row] - wide[row]) / 3.0;
+            tables[1][row][column] = OF_WIDTHS * (wide[row] - narrow[row]).abs();
         }
         let largest = wide.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         // The two one-sided differences approach each other with the width, except at a kink.
@@ -120,7 +124,7 @@ fn by_differences(
             return None;
         }
     }
-    Some(table)
+    Some(tables)
 }
 
 fn fastest(states: &[State; 2], size: f64) -> f64 {
@@ -161,10 +165,12 @@ fn rows(answer: &Answer, size: f64) -> [f64; 12] {
     })
 }
 
-fn compare(exact: &Table, differences: &Table, what: &str) -> Option<(f64, String)> {
+fn compare(exact: &Table, [differences, errors]: &[Table; 2], what: &str) -> Option<(f64, String)> {
     let entries = || (0..12).flat_map(|row| (0..COLUMNS).map(move |column| (row, column)));
     let largest = entries().map(|(r, c)| exact[r][c].abs().max(differences[r][c].abs())).fold(0.0, f64::max);
-    let apart = |&(row, column): &(usize, usize)| (exact[row][column] - differences[row][column]).abs();
+    let apart = |&(row, column): &(usize, usize)| {
+        (exact[row][column] - differences[row][column]).abs() - errors[row][column]
+    };
     let worst = entries().max_by(|a, b| apart(a).total_cmp(&apart(b)))?;
     let relative = apart(&worst) / largest.max(f64::MIN_POSITIVE);
     (apart(&worst) > TOLERANCE * largest).then(|| {
